@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Where the surfaces of a scene are. A room (an object with `inside`) is everything but its hollow as a solid, so the
+// bounds here are those of the shape itself.
+
+#include <glm/vec3.hpp>
+
+#include <radiosity/scene.hpp>
+#include <raycast/box.hpp>
+
+namespace apps {
+
+// Bounds of the eight placed corners of the shape's own bounds: not tight for a rotated shape. NaN gives an empty or
+// infinite box, never a finite one that is too small.
+[[nodiscard]] inline raycast::Box placed_bounds(const raycast::Object& shape, const raycast::Placement& placement) {
+  const raycast::Box own = shape.bounds();
+  raycast::Box result;
+  for (unsigned i = 0; i < 8; ++i) {
+    const glm::dvec3 corner((i & 1U) != 0 ? own.hi.x : own.lo.x, (i & 2U) != 0 ? own.hi.y : own.lo.y, (i & 4U) != 0 ? own.hi.z : own.lo.z);
+    result.extend(placement.linear * corner + placement.translation);
+  }
+  return result;
+}
+
+[[nodiscard]] inline raycast::Box scene_bounds(const radiosity::Scene& scene) {
+  raycast::Box result;
+  for (const radiosity::SceneObject& object : scene.objects) {
+    const raycast::Box box = placed_bounds(*object.shape, object.placement);
+    result.extend(box.lo);
+    result.extend(box.hi);
+  }
+  return result;
+}
+
+}  // namespace apps

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "apps/commands/info.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+
+#include "apps/bounds.hpp"
+#include "apps/commands/common.hpp"
+
+namespace apps {
+namespace {
+
+std::string number(double x) {
+  char text[40] = "";
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+std::string triple(const glm::dvec3& v) { return number(v.x) + " " + number(v.y) + " " + number(v.z); }
+
+std::string color(const radiosity::Color& c) { return radiosity::is_grey(c) ? number(c.x) : triple(c); }
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size() + 2, width), ' ');
+  return text;
+}
+
+constexpr std::size_t most = 200;  // lines of a list
+
+std::string and_more(std::size_t count) { return count > most ? "  ... and " + std::to_string(count - most) + " more\n" : std::string(); }
+
+std::string materials(const radiosity::Scene& scene) {
+  std::string out = "materials: " + std::to_string(scene.materials.size()) + "\n";
+  for (std::size_t i = 0; i < scene.materials.size() && i < most; ++i) {
+    const radiosity::Material& m = scene.materials[i];
+    out += "  " + padded(m.name, 18) + "reflectance " + color(m.reflectance);
+    out += (radiosity::is_black(m.emission) ? "" : "   emission " + color(m.emission) + " W/m2") + "\n";
+  }
+  return out + and_more(scene.materials.size());
+}
+
+std::string objects(const SceneFile& file) {
+  const radiosity::Scene& scene = file.scene;
+  std::string out =
+      "objects: " + std::to_string(scene.objects.size()) + " with " + std::to_string(radiosity::surfaces(scene).size()) + " surfaces\n";
+  for (std::size_t i = 0; i < scene.objects.size() && i < most; ++i) {
+    const radiosity::SceneObject& o = scene.objects[i];
+    const auto first = o.material.front();
+    const bool one = std::all_of(o.material.begin(), o.material.end(), [&](auto m) { return m == first; });
+    out += "  " + padded(o.name, 18) + padded(std::string(file.origins[i].kind), 10);
+    out += one ? scene.materials[first].name : "materials by sheet";
+    out += std::string(o.placement.inside ? ", seen from inside" : o.shape->solid() ? "" : ", one-sided") + "\n";
+  }
+  return out + and_more(scene.objects.size());
+}
+
+std::string cameras(const SceneFile& file) {
+  std::string out =
+      "cameras: " + std::to_string(file.cameras.size()) + (file.cameras.empty() ? " (render uses an automatic view)\n" : "\n");
+  for (std::size_t i = 0; i < file.cameras.size() && i < most; ++i) {
+    const Camera& camera = file.cameras[i];
+    out += "  " + padded(camera.name, 18) + "eye " + triple(camera.eye) + "   look " + triple(camera.forward) + "   fov " +
+           number(camera.field_of_view) + "\n";
+  }
+  return out + and_more(file.cameras.size());
+}
+
+// What is plain from the materials; the solver's own plan says more once it has the geometry.
+std::string omissions(const radiosity::Scene& scene) {
+  const auto all = [&](auto&& law) { return std::all_of(scene.materials.begin(), scene.materials.end(), law); };
+  std::string out;
+  if (all([](const auto& m) { return radiosity::is_black(m.emission); })) { out += "  everything: nothing emits light\n"; }
+  if (all([](const auto& m) { return radiosity::is_black(m.reflectance); })) { out += "  the solver: nothing reflects light\n"; }
+  if (all([](const auto& m) { return radiosity::is_grey(m.emission) && radiosity::is_grey(m.reflectance); })) {
+    out += "  two of three channels: every material is grey\n";
+  }
+  return "left out when rendered, as far as known without solving:\n" + (out.empty() ? "  nothing\n" : out);
+}
+
+}  // namespace
+
+std::string summary(const SceneFile& file, const std::string& name) {
+  const raycast::Box bounds = scene_bounds(file.scene);
+  return name + "\n" + "bounds: " + triple(bounds.lo) + "  to  " + triple(bounds.hi) + "\n" + materials(file.scene) + objects(file) +
+         cameras(file) + omissions(file.scene);
+}
+
+void describe(CLI::App& command, InfoOptions& options) {
+  command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
+}
+
+ExitCode run(const InfoOptions& options) {
+  ExitCode code = ExitCode::ok;
+  const auto file = load_scene(options.scene, code);
+  if (!file) { return code; }
+  std::fputs(summary(*file, options.scene).c_str(), stdout);
+  return std::fflush(stdout) == 0 ? ExitCode::ok : ExitCode::failure;
+}
+
+}  // namespace apps

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// halflight info SCENE: what is in a scene, without solving it.
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/exit_code.hpp"
+#include "apps/scene_file.hpp"
+
+namespace apps {
+
+struct InfoOptions {
+  std::string scene;
+};
+
+void describe(CLI::App& command, InfoOptions& options);
+
+[[nodiscard]] ExitCode run(const InfoOptions& options);
+
+// What `info` prints.
+[[nodiscard]] std::string summary(const SceneFile& file, const std::string& name);
+
+}  // namespace apps

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include "apps/commands/render.hpp"
+
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <map>
+#include <utility>
+
+#include <radiosity/radiosity.hpp>
+
+#include "apps/commands/common.hpp"
+#include "apps/files.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/picture.hpp"
+#include "apps/ply.hpp"
+#include "apps/png.hpp"
+#include "apps/progress.hpp"
+#include "apps/report.hpp"
+
+namespace apps {
+namespace {
+
+enum class Format { png, ply };
+
+std::optional<Format> format_of(const std::string& path) {
+  if (path.size() > 4 && path.ends_with(".png")) { return Format::png; }
+  if (path.size() > 4 && path.ends_with(".ply")) { return Format::ply; }
+  return std::nullopt;
+}
+
+bool has_picture(const RenderOptions& options) {
+  for (const std::string& output : options.outputs) {
+    if (format_of(output) == Format::png) { return true; }
+  }
+  return false;
+}
+
+// WxH, each side from 1 to max_picture_side.
+std::optional<PictureSize> parse_size(const std::string& text) {
+  PictureSize size;
+  const char* const end = text.data() + text.size();
+  const auto [cross, width_code] = std::from_chars(text.data(), end, size.width);
+  if (width_code != std::errc() || cross == end || *cross != 'x') { return std::nullopt; }
+  const auto [rest, height_code] = std::from_chars(cross + 1, end, size.height);
+  if (height_code != std::errc() || rest != end) { return std::nullopt; }
+  const auto fits = [](std::uint32_t side) { return side >= 1 && side <= max_picture_side; };
+  return fits(size.width) && fits(size.height) ? std::optional(size) : std::nullopt;
+}
+
+// A number in (0, most]; NaN is refused, too.
+CLI::Validator above_zero(double most) {
+  return CLI::Validator(
+      [most](std::string& text) {
+        double value = 0.0;
+        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool good = code == std::errc() && end == text.data() + text.size() && value > 0.0 && value <= most;
+        return good ? std::string() : "expected a number above 0 and at most " + CLI::detail::to_string(most) + ", found '" + text + "'";
+      },
+      "NUMBER");
+}
+
+std::optional<Camera> choose_camera(const SceneFile& file, const std::string& name) {
+  if (name.empty()) { return file.cameras.empty() ? automatic_camera(file.scene) : file.cameras.front(); }
+  std::string known;
+  for (const Camera& camera : file.cameras) {
+    if (camera.name == name) { return camera; }
+    known += (known.empty() ? "" : ", ") + camera.name;
+  }
+  complain("there is no camera '" + name + "' in the scene; " + (known.empty() ? "it has none" : "it has: " + known));
+  return std::nullopt;
+}
+
+// Outputs that cannot become files are refused before any work.
+ExitCode check_outputs(const RenderOptions& options) {
+  std::map<std::string, int> seen;
+  std::vector<std::string> paths = options.outputs;
+  for (const std::string& path : paths) {
+    if (!format_of(path)) {
+      complain("--output " + path + ": expected a name that ends with .png or .ply");
+      return ExitCode::usage;
+    }
+  }
+  if (!options.json.empty()) { paths.push_back(options.json); }
+  for (const std::string& path : paths) {
+    if (++seen[path] > 1 || path == options.scene) {
+      complain(path + (path == options.scene ? " is the scene itself" : " is named twice") + "; each output needs a file of its own");
+      return ExitCode::usage;
+    }
+    if (const auto fault = check_writable(path)) {
+      complain(*fault);
+      return ExitCode::failure;
+    }
+  }
+  return ExitCode::ok;
+}
+
+ExitCode report_failure(const radiosity::Failure& failure, const std::string& scene) {
+  if (failure.kind == radiosity::Failure::Kind::cancelled) {
+    complain("interrupted; nothing was written");
+    return ExitCode::failure;
+  }
+  for (const std::string& sentence : failure.sentences) { std::fprintf(stderr, "%s: error: %s\n", scene.c_str(), sentence.c_str()); }
+  return ExitCode::invalid_input;
+}
+
+class Stopwatch {
+ public:
+  [[nodiscard]] radiosity::StageTime stop(std::string name) const {
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_;
+    return {std::move(name), wall.count(), static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC};
+  }
+
+ private:
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_ = std::clock();
+};
+
+struct Output {
+  std::string path;
+  std::string bytes;
+};
+
+// Everything that is to be written, in memory. Nothing when interrupted.
+std::optional<std::vector<Output>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera,
+                                          const radiosity::Mesh& mesh, const std::atomic<bool>& cancel, Report& report) {
+  std::vector<Output> outputs;
+  std::string png;
+  if (has_picture(options)) {
+    const Stopwatch watch;
+    const PictureSize size = options.size.value_or(camera.size.value_or(PictureSize{}));
+    const auto picture = draw(mesh, make_view(camera, size), report.exposure, 4, &cancel);
+    if (!picture) { return std::nullopt; }
+    png = to_png(*picture);
+    report.picture = PictureReport{camera.name, size.width, size.height};
+    report.picture_time = watch.stop("picture");
+  }
+  for (const std::string& path : options.outputs) {
+    const bool is_png = format_of(path) == Format::png;
+    outputs.push_back({path, is_png ? png : to_ply(mesh, radiosity::surfaces(file.scene), report.exposure)});
+    report.files.push_back(path);
+  }
+  if (!options.json.empty()) {
+    report.files.push_back(options.json);
+    outputs.push_back({options.json, to_json(report)});
+  }
+  if (cancel.load()) { return std::nullopt; }
+  return outputs;
+}
+
+ExitCode write_all(const std::vector<Output>& outputs) {
+  for (const Output& output : outputs) {
+    if (const auto fault = write_file(output.path, output.bytes)) {
+      complain(*fault);
+      return ExitCode::failure;
+    }
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void describe(CLI::App& command, RenderOptions& options) {
+  radiosity::Options& solver = options.solver;
+  command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
+  command.add_option("-o,--output", options.outputs, "what to write: a picture (.png) or a mesh (.ply); repeat for more")
+      ->required()
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  auto* error =
+      command.add_option("--error", solver.error, "refine until the measured relative L2 error is at most this")->check(above_zero(1.0));
+  command.add_option("--epsilon", solver.epsilon, "largest form factor of a link (default " + CLI::detail::to_string(solver.epsilon) + ")")
+      ->check(above_zero(1.0))
+      ->excludes(error);
+  command.add_option("--min-area", solver.min_area, "smallest patch, relative to the area of the scene")
+      ->check(above_zero(1.0))
+      ->excludes(error);
+  command.add_option("--camera", options.camera, "camera of the scene (default: the first; without any, an automatic view)");
+  command
+      .add_option_function<std::string>(
+          "--size", [&options](const std::string& text) { options.size = parse_size(text); },
+          "picture size in pixels (default: the camera's, else 800x600)")
+      ->type_name("WxH")
+      ->check([](const std::string& text) {
+        return parse_size(text) ? std::string()
+                                : "expected WIDTHxHEIGHT, each 1 to " + std::to_string(max_picture_side) + ", found '" + text + "'";
+      });
+  command.add_option("--exposure", options.exposure, "factor from radiance to picture (default: automatic)")->check(above_zero(max_number));
+  command.add_option("--threads", solver.threads, "threads (default: all); results do not depend on it")->check(CLI::Range(1U, 1024U));
+  command.add_option("--seed", solver.seed, "seed of all random choices");
+  command.add_option("--audit", solver.audit_points, "points at which the error is measured; 0: none")->check(CLI::Range(0U, 100'000'000U));
+  command.add_option("--solver", solver.solver, "cg or jacobi")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, radiosity::Solver>{{"cg", radiosity::Solver::conjugate_gradients}, {"jacobi", radiosity::Solver::jacobi}}));
+  command.add_option("--reconstruction", solver.reconstruction, "weighted or simple (paper fig. 5)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, radiosity::Reconstruction>{
+          {"weighted", radiosity::Reconstruction::weighted}, {"simple", radiosity::Reconstruction::simple}}));
+  command.add_option("--json", options.json, "write the report as JSON, too")->type_name("FILE");
+  command.add_flag("--quiet", options.quiet, "no narration and no progress bar");
+}
+
+ExitCode run(const RenderOptions& options) {
+  if (options.solver.error && options.solver.audit_points == 0) {
+    complain("--error needs the audit as its witness; leave --audit 0 out");
+    return ExitCode::usage;
+  }
+  if (const ExitCode code = check_outputs(options); code != ExitCode::ok) { return code; }
+  ExitCode code = ExitCode::ok;
+  const auto file = load_scene(options.scene, code);
+  if (!file) { return code; }
+  const auto camera = choose_camera(*file, options.camera);
+  if (!camera) { return ExitCode::usage; }
+
+  const std::atomic<bool>& cancel = watch_interrupts();
+  Progress progress(options.quiet);
+  radiosity::Control control;
+  control.cancel = &cancel;
+  control.progress = [&](std::string_view stage, double part) { progress.report(stage, part); };
+  const radiosity::Outcome outcome = radiosity::solve(file->scene, options.solver, control);
+  progress.done();
+  if (!outcome.solution) { return report_failure(outcome.failure, options.scene); }
+
+  const radiosity::Solution& solution = *outcome.solution;
+  Report report;
+  report.scene = options.scene;
+  report.options = options.solver;
+  report.audit = solution.audit;
+  report.automatic_exposure = !options.exposure;
+  report.exposure = options.exposure ? *options.exposure : automatic_exposure(solution.mesh, file->scene);
+  const auto outputs = encode(options, *file, *camera, solution.mesh, cancel, report);
+  if (!outputs) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
+  if (code = write_all(*outputs); code != ExitCode::ok) { return code; }
+  std::fputs(to_text(report).c_str(), stdout);
+  if (std::fflush(stdout) != 0) {
+    complain("cannot write the report to standard output");
+    return ExitCode::failure;
+  }
+  if (solution.audit.converged) { return ExitCode::ok; }
+  complain("not converged: the outputs show what was reached");
+  return ExitCode::not_converged;
+}
+
+}  // namespace apps

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// halflight render SCENE -o OUT.png [-o OUT.ply] ...: solves a scene, writes pictures and meshes, prints the report.
+//
+// What can be known to fail is refused before the solver starts: extensions, folders, the camera's name. Outputs are
+// encoded in memory and then replace their files one by one, each whole (files.hpp).
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <radiosity/options.hpp>
+
+#include "apps/exit_code.hpp"
+#include "apps/scene_file.hpp"
+
+namespace apps {
+
+struct RenderOptions {
+  std::string scene;
+  std::vector<std::string> outputs;  // *.png, *.ply
+  std::string json;                  // empty: none
+  std::string camera;                // empty: the first of the file, or the automatic one
+  std::optional<PictureSize> size;
+  std::optional<double> exposure;
+  bool quiet = false;
+  radiosity::Options solver;
+};
+
+// Adds the command's arguments; `options` must outlive the parsing.
+void describe(CLI::App& command, RenderOptions& options);
+
+[[nodiscard]] ExitCode run(const RenderOptions& options);
+
+}  // namespace apps

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The halflight program: reads the command line, runs one command, ends with its exit code.
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/commands/common.hpp"
+#include "apps/commands/info.hpp"
+#include "apps/commands/render.hpp"
+#include "apps/version.hpp"
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app("Radiosity for scenes of diffuse surfaces: every run says how wrong it is and how long it took.", "halflight");
+  app.set_version_flag("--version", std::string("halflight ") + apps::version);
+  app.footer("Exit codes: 0 done, 1 failure, 2 wrong usage, 3 invalid scene, 4 not converged.");
+  app.require_subcommand(1);
+  apps::RenderOptions render;
+  apps::InfoOptions info;
+  CLI::App* const render_command = app.add_subcommand("render", "solve a scene; write a picture or a mesh and the report");
+  CLI::App* const info_command = app.add_subcommand("info", "say what is in a scene without solving it");
+  apps::describe(*render_command, render);
+  apps::describe(*info_command, info);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : static_cast<int>(apps::ExitCode::usage); }
+  return static_cast<int>(render_command->parsed() ? apps::run(render) : apps::run(info));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    apps::complain("out of memory; a larger --epsilon or --min-area needs less");
+  } catch (const std::exception& error) { apps::complain(std::string("failed: ") + error.what()); }
+  return static_cast<int>(apps::ExitCode::failure);
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The solution as a binary little-endian PLY file (Turk 1994) that mesh viewers show as it is.
+//
+//   vertex  float x y z, uchar red green blue: half-edge colours under the exposure, sRGB. A vertex is doubled only
+//           where the faces around it show it in different bytes.
+//   face    list uchar int vertex_indices (3 or 4, counter-clockwise from the bright side),
+//           float radiosity_r radiosity_g radiosity_b: of the leaf, W/m2, linear and without exposure,
+//           int surface: number of the input surface; comment lines give the names: "comment surface 0 floor".
+
+#include <string>
+#include <vector>
+
+#include <radiosity/mesh.hpp>
+#include <radiosity/scene.hpp>
+
+namespace apps {
+
+[[nodiscard]] std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, double exposure);
+
+}  // namespace apps

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#include "apps/report.hpp"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <string_view>
+
+#include "apps/json.hpp"
+#include "apps/version.hpp"
+
+namespace apps {
+namespace {
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 1, 2)))
+#endif
+std::string
+format(const char* pattern, ...) {
+  std::va_list arguments;
+  va_start(arguments, pattern);
+  char text[160] = "";
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::string percent(double part) { return format("%.3g %%", 100.0 * part); }
+
+std::string bytes(std::uint64_t count) {
+  constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB"};
+  double value = static_cast<double>(count);
+  int unit = 0;
+  while (value >= 1000.0 && unit < 4) {
+    value /= 1000.0;
+    ++unit;
+  }
+  return format(unit == 0 ? "%.0f %s" : "%.1f %s", value, units[unit]);
+}
+
+// 1234567 as "1 234 567".
+std::string grouped(std::uint64_t count) {
+  std::string digits = std::to_string(count);
+  for (std::size_t at = digits.size(); at > 3;) {
+    at -= 3;
+    digits.insert(at, " ");
+  }
+  return digits;
+}
+
+std::string color(const radiosity::Color& c) {
+  return c.x == c.y && c.y == c.z ? format("%.5g", c.x) : format("%.5g %.5g %.5g", c.x, c.y, c.z);
+}
+
+void row(std::string& out, std::string_view label, const std::string& value) {
+  out += "  ";
+  out += label;
+  out.append(label.size() < 24 ? 24 - label.size() : 1, ' ');
+  out += value + "\n";
+}
+
+std::string error_text(const std::optional<radiosity::ErrorEstimate>& error) {
+  if (!error) { return "not measured"; }
+  return percent(error->relative_l2) + "  +- " + percent(error->standard_error);
+}
+
+void error_and_time(std::string& out, const Report& report) {
+  const radiosity::Audit& audit = report.audit;
+  out += "error (RMS, relative to the RMS of the reflected radiosity)\n";
+  row(out, "picture", error_text(audit.picture_error));
+  row(out, "leaf constants", error_text(audit.leaf_error));
+  if (audit.picture_error) { row(out, "path-traced points", grouped(audit.audit_points) + ", " + grouped(audit.audit_rays) + " rays"); }
+  out += "time (s)                      wall       CPU\n";
+  const auto time = [&](const std::string& name, double wall, double cpu) { row(out, name, format("%10.3f%10.3f", wall, cpu)); };
+  for (const radiosity::StageTime& stage : audit.stages) {
+    if (stage.name != "audit") { time(stage.name, stage.wall_seconds, stage.cpu_seconds); }
+  }
+  time("total", audit.wall_seconds, audit.cpu_seconds);
+  for (const radiosity::StageTime& stage : audit.stages) {
+    if (stage.name == "audit") { time("audit (apart)", stage.wall_seconds, stage.cpu_seconds); }
+  }
+  if (report.picture_time) { time("picture (apart)", report.picture_time->wall_seconds, report.picture_time->cpu_seconds); }
+}
+
+void sizes_and_checks(std::string& out, const Report& report) {
+  const radiosity::Audit& audit = report.audit;
+  out += "size\n";
+  row(out, "nodes, leaves", grouped(audit.nodes) + ", " + grouped(audit.leaves));
+  row(out, "links", grouped(audit.links));
+  row(out, "rays", grouped(audit.rays));
+  row(out, "memory", bytes(audit.bytes));
+  out += "checks\n";
+  const auto range = [](const radiosity::Audit::Range& r) { return format("%.6f to %.6f, mean %.6f", r.min, r.max, r.mean); };
+  row(out, "row sums", range(audit.row_sum));
+  if (audit.closure) {
+    row(out, "  as computed", range(audit.computed_row_sum));
+    row(out, "  correction", percent(*audit.closure) + " RMS: the scene is proven closed, so each row must sum to 1");
+  }
+  row(out, "energy balance", percent(audit.energy_balance) + " amiss, " + percent(audit.escaped) + " escaped");
+  row(out, "residual",
+      format("%.2e after %u iterations%s", audit.residual, static_cast<unsigned>(audit.iterations),
+             audit.converged ? "" : " - NOT CONVERGED"));
+  out += "settings\n";
+  row(out, "epsilon, min area", format("%.3g, %.3g", audit.epsilon, audit.min_area));
+  row(out, "channels, threads, seed", format("%u, %u, %llu", audit.channels, audit.threads, static_cast<unsigned long long>(audit.seed)));
+  row(out, "exposure", format("%.5g%s", report.exposure, report.automatic_exposure ? " (automatic)" : ""));
+  if (report.picture) {
+    row(out, "picture", format("%u x %u, camera ", report.picture->width, report.picture->height) + report.picture->camera);
+  }
+}
+
+void left_out_and_surfaces(std::string& out, const Report& report) {
+  const radiosity::Audit& audit = report.audit;
+  out += "left out\n";
+  if (audit.left_out.empty()) { out += "  nothing\n"; }
+  for (const radiosity::LeftOut& item : audit.left_out) {
+    out += "  " + item.what + ": " + item.why + (item.saved.empty() ? "" : "; saved " + item.saved) + "\n";
+  }
+  constexpr std::size_t most = 40;
+  out += "mean radiosity (W/m2)         area (m2)   R G B\n";
+  for (std::size_t i = 0; i < audit.surfaces.size() && i < most; ++i) {
+    const radiosity::SurfaceMean& surface = audit.surfaces[i];
+    row(out, surface.name, format("%13.5g   ", surface.area) + color(surface.radiosity));
+  }
+  if (audit.surfaces.size() > most) { out += "  ... and " + std::to_string(audit.surfaces.size() - most) + " more; --json has all\n"; }
+}
+
+void write_error(JsonWriter& json, const radiosity::ErrorEstimate& error) {
+  json.key("relative_l2").number(error.relative_l2);
+  json.key("standard_error").number(error.standard_error);
+}
+
+void write_errors(JsonWriter& json, const radiosity::Audit& audit) {
+  json.key("error");
+  if (!audit.picture_error) {
+    json.null();
+    return;
+  }
+  json.open_object();
+  write_error(json, *audit.picture_error);
+  json.key("points").count(audit.audit_points);
+  json.key("rays").count(audit.audit_rays);
+  json.key("leaf");
+  if (audit.leaf_error) {
+    json.open_object();
+    write_error(json, *audit.leaf_error);
+    json.close();
+  } else {
+    json.null();
+  }
+  json.close();
+}
+
+// Stages of one name (a run that was repeated to meet its error target) are added up.
+void write_times(JsonWriter& json, const char* key, const Report& report, double radiosity::StageTime::*member, double total) {
+  std::vector<std::pair<std::string, double>> times;
+  const auto add = [&](const radiosity::StageTime& stage) {
+    std::string name = stage.name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    const auto same = std::find_if(times.begin(), times.end(), [&](const auto& time) { return time.first == name; });
+    if (same == times.end()) {
+      times.emplace_back(std::move(name), stage.*member);
+    } else {
+      same->second += stage.*member;
+    }
+  };
+  for (const radiosity::StageTime& stage : report.audit.stages) { add(stage); }
+  if (report.picture_time) { add(*report.picture_time); }
+  json.key(key).open_object();
+  for (const auto& [name, seconds] : times) { json.key(name).number(seconds); }
+  json.key("total").number(total);
+  json.close();
+}
+
+void write_color(JsonWriter& json, const radiosity::Color& color) {
+  json.open_array();
+  for (int c = 0; c < 3; ++c) { json.number(color[c]); }
+  json.close();
+}
+
+void write_range(JsonWriter& json, const char* key, const radiosity::Audit::Range& range) {
+  json.key(key).open_object();
+  json.key("min").number(range.min).key("mean").number(range.mean).key("max").number(range.max);
+  json.close();
+}
+
+void write_lists(JsonWriter& json, const Report& report) {
+  json.key("left_out").open_array();
+  for (const radiosity::LeftOut& item : report.audit.left_out) {
+    json.open_object();
+    json.key("what").string(item.what).key("why").string(item.why).key("saved").string(item.saved);
+    json.close();
+  }
+  json.close();
+  json.key("surfaces").open_array();
+  for (const radiosity::SurfaceMean& surface : report.audit.surfaces) {
+    json.open_object();
+    json.key("name").string(surface.name).key("area").number(surface.area).key("radiosity");
+    write_color(json, surface.radiosity);
+    json.close();
+  }
+  json.close();
+  json.key("files").open_array();
+  for (const std::string& file : report.files) { json.string(file); }
+  json.close();
+}
+
+void write_settings(JsonWriter& json, const Report& report) {
+  const radiosity::Audit& audit = report.audit;
+  json.key("settings").open_object();
+  json.key("epsilon").number(audit.epsilon).key("min_area").number(audit.min_area);
+  json.key("error_target");
+  if (report.options.error) {
+    json.number(*report.options.error);
+  } else {
+    json.null();
+  }
+  json.key("solver").string(report.options.solver == radiosity::Solver::jacobi ? "jacobi" : "cg");
+  json.key("reconstruction").string(report.options.reconstruction == radiosity::Reconstruction::simple ? "simple" : "weighted");
+  json.key("channels").count(audit.channels).key("threads").count(audit.threads).key("seed").count(audit.seed);
+  json.close();
+  json.key("picture");
+  if (!report.picture) {
+    json.null();
+    return;
+  }
+  json.open_object();
+  json.key("camera").string(report.picture->camera);
+  json.key("width").count(report.picture->width).key("height").count(report.picture->height);
+  json.close();
+}
+
+}  // namespace
+
+std::string to_text(const Report& report) {
+  std::string out = report.scene + "\n";
+  error_and_time(out, report);
+  sizes_and_checks(out, report);
+  left_out_and_surfaces(out, report);
+  for (const std::string& file : report.files) { out += "written: " + file + "\n"; }
+  return out;
+}
+
+std::string to_json(const Report& report) {
+  const radiosity::Audit& audit = report.audit;
+  JsonWriter json;
+  json.open_object();
+  json.key("program").string("halflight").key("version").string(version);
+  json.key("scene").string(report.scene);
+  write_errors(json, audit);
+  write_times(json, "cpu_seconds", report, &radiosity::StageTime::cpu_seconds, audit.cpu_seconds);
+  write_times(json, "wall_seconds", report, &radiosity::StageTime::wall_seconds, audit.wall_seconds);
+  json.key("nodes").count(audit.nodes).key("leaves").count(audit.leaves).key("links").count(audit.links);
+  json.key("rays").count(audit.rays).key("bytes").count(audit.bytes);
+  write_range(json, "row_sum", audit.row_sum);
+  write_range(json, "computed_row_sum", audit.computed_row_sum);
+  json.key("closure");
+  if (audit.closure) {
+    json.number(*audit.closure);
+  } else {
+    json.null();
+  }
+  json.key("energy_balance").number(audit.energy_balance).key("escaped").number(audit.escaped);
+  json.key("residual").number(audit.residual).key("iterations").count(audit.iterations);
+  json.key("converged").boolean(audit.converged);
+  json.key("exposure").number(report.exposure).key("exposure_automatic").boolean(report.automatic_exposure);
+  write_settings(json, report);
+  write_lists(json, report);
+  json.close();
+  return json.text();
+}
+
+}  // namespace apps

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a run says about itself: how wrong it is, how long it took, what it left out. Once as text for people, once as
+// JSON whose keys are documented in examples/scenes/README.md ("Report keys") and stay as they are.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <radiosity/audit.hpp>
+#include <radiosity/options.hpp>
+
+namespace apps {
+
+struct PictureReport {
+  std::string camera;
+  unsigned width = 0;
+  unsigned height = 0;
+};
+
+struct Report {
+  std::string scene;  // the file's name as it was given
+  radiosity::Options options;
+  radiosity::Audit audit;
+  double exposure = 1.0;
+  bool automatic_exposure = true;
+  std::optional<PictureReport> picture;
+  std::optional<radiosity::StageTime> picture_time;  // drawing and encoding; not part of the total
+  std::vector<std::string> files;                    // what was written
+};
+
+[[nodiscard]] std::string to_text(const Report& report);
+[[nodiscard]] std::string to_json(const Report& report);
+
+}  // namespace apps

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include "apps/scene_file/build.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+
+#include <glm/geometric.hpp>
+
+#include "apps/bounds.hpp"
+#include "apps/scene_file/groups.hpp"
+#include "apps/scene_file/shapes.hpp"
+#include "apps/scene_file/words.hpp"
+
+namespace apps::scene_file {
+namespace {
+
+// An object with its shape and materials, made once however often its group is used.
+struct Made {
+  std::shared_ptr<const raycast::Object> shape;
+  std::vector<std::uint32_t> material;
+};
+
+using SheetNames = std::unordered_map<std::string_view, std::uint32_t>;
+
+class Builder {
+ public:
+  Builder(const SceneSyntax& syntax, Errors& errors) : syntax_(syntax), errors_(errors) {}
+  SceneFile build();
+
+ private:
+  void materials();
+  void cameras();
+  void unique_names(const std::vector<Item>& items);
+  void make(const std::vector<Item>& items);
+  std::optional<std::uint32_t> material_index(const Name& name);
+  std::vector<std::uint32_t> sheet_materials(const ObjectSyntax& object, const raycast::Object& shape);
+  std::uint32_t sheet_index(const Name& sheet, const raycast::Object& shape, const SheetNames& names);
+  void place(const Groups& groups);
+  void place(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at);
+
+  const SceneSyntax& syntax_;
+  Errors& errors_;
+  SceneFile file_;
+  std::unordered_map<std::string_view, std::uint32_t> material_index_;
+  std::vector<std::string_view> material_names_;
+  std::unordered_map<const ObjectSyntax*, Made> made_;
+};
+
+SceneFile Builder::build() {
+  materials();
+  cameras();
+  unique_names(syntax_.items);
+  make(syntax_.items);
+  for (const GroupSyntax& group : syntax_.groups) {
+    unique_names(group.items);
+    make(group.items);
+  }
+  const Groups groups(syntax_, errors_);
+  if (errors_.count() == 0) { place(groups); }
+  if (errors_.count() == 0 && file_.scene.objects.empty()) {
+    errors_.add({1, 1}, "the scene is empty; expected at least one object (polygon, box, sphere, cylinder, mesh or use)");
+  }
+  return std::move(file_);
+}
+
+void Builder::materials() {
+  for (const MaterialSyntax& material : syntax_.materials) {
+    const auto index = static_cast<std::uint32_t>(file_.scene.materials.size());
+    const auto [earlier, is_new] = material_index_.emplace(material.name.text, index);
+    if (!is_new) {
+      errors_.add(material.name.place, "the material " + quoted(material.name.text) + " is given twice; the first one stands at " +
+                                           to_string(syntax_.materials[earlier->second].name.place));
+    }
+    if (material_names_.size() < 1000) { material_names_.push_back(material.name.text); }
+    file_.scene.materials.push_back({material.name.text, material.reflectance, material.emission});
+  }
+}
+
+void Builder::cameras() {
+  std::unordered_map<std::string_view, Place> names;
+  for (const CameraSyntax& syntax : syntax_.cameras) {
+    Camera camera = syntax.camera;
+    const std::string who = "camera " + quoted(camera.name) + ": ";
+    const auto [earlier, is_new] = names.emplace(syntax.camera.name, syntax.place);
+    if (!is_new) { errors_.add(syntax.place, who + "its name is taken; the first one stands at " + to_string(earlier->second)); }
+    if (!syntax.sound) { continue; }
+    const auto parallel = [&](const glm::dvec3& up) {
+      return glm::length(glm::cross(camera.forward, up)) <= 1e-9 * glm::length(camera.forward) * glm::length(up);
+    };
+    if (!(glm::length(camera.forward) > 0.0)) {
+      errors_.add(syntax.place, who + "it looks nowhere; 'target' differs from 'eye', 'look' is not 0 0 0");
+    } else if (camera.up == glm::dvec3(0.0)) {
+      camera.up = parallel({0.0, 0.0, 1.0}) ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
+    } else if (parallel(camera.up)) {
+      errors_.add(syntax.place, who + "'up' points along the view");
+    }
+    file_.cameras.push_back(std::move(camera));
+  }
+}
+
+void Builder::unique_names(const std::vector<Item>& items) {
+  std::unordered_map<std::string_view, Place> names;
+  for (const Item& item : items) {
+    const Name& name = std::visit([](const auto& it) -> const Name& { return it.name; }, item);
+    const auto [earlier, is_new] = names.emplace(name.text, name.place);
+    if (!is_new) {
+      errors_.add(name.place, "the name " + quoted(name.text) + " is taken; the first one stands at " + to_string(earlier->second));
+    }
+  }
+}
+
+void Builder::make(const std::vector<Item>& items) {
+  for (const Item& item : items) {
+    const auto* object = std::get_if<ObjectSyntax>(&item);
+    if (object == nullptr || !object->sound || errors_.full()) { continue; }
+    Made made{make_shape(*object, errors_), {}};
+    if (made.shape == nullptr) { continue; }
+    if (object->inside && !made.shape->solid()) {
+      errors_.add(*object->inside, "'inside' needs a closed solid; " + quoted(object->name.text) + " has no inside");
+    }
+    made.material = sheet_materials(*object, *made.shape);
+    made_.emplace(object, std::move(made));
+  }
+}
+
+std::optional<std::uint32_t> Builder::material_index(const Name& name) {
+  const auto found = material_index_.find(name.text);
+  if (found != material_index_.end()) { return found->second; }
+  if (syntax_.complete) { errors_.add(name.place, "there is no material " + quoted(name.text) + suggestion(name.text, material_names_)); }
+  return std::nullopt;
+}
+
+// Sheets by name; where the sheets of a shape have no names of their own, numbers alone serve.
+SheetNames sheet_names(const raycast::Object& shape) {
+  SheetNames names;
+  for (std::uint32_t i = 0; i < shape.sheet_count(); ++i) { names.emplace(shape.sheet_name(i), i); }
+  return names;
+}
+
+// The sheet by its name or number; sheet_count() after an error.
+std::uint32_t Builder::sheet_index(const Name& sheet, const raycast::Object& shape, const SheetNames& names) {
+  const std::uint32_t count = shape.sheet_count();
+  const std::string_view text = sheet.text;
+  if (const auto found = names.find(text); found != names.end()) { return found->second; }
+  std::uint32_t number = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (code == std::errc() && end == text.data() + text.size() && number < count) { return number; }
+  std::vector<std::string_view> known;
+  for (std::uint32_t i = 0; i < std::min(count, 100U); ++i) { known.push_back(shape.sheet_name(i)); }
+  errors_.add(sheet.place,
+              "there is no sheet " + quoted(text) + "; expected " + (count == 1 ? "none: the object has one sheet" : list_of(known)));
+  return count;
+}
+
+std::vector<std::uint32_t> Builder::sheet_materials(const ObjectSyntax& object, const raycast::Object& shape) {
+  constexpr std::uint32_t none = 0xffffffff;
+  const std::uint32_t whole = object.material ? material_index(*object.material).value_or(0) : none;
+  if (object.sheets.empty()) { return {whole}; }
+  std::vector<std::uint32_t> result(shape.sheet_count(), whole);
+  const SheetNames names = sheet_names(shape);
+  std::vector<bool> given(shape.sheet_count(), false);
+  for (const SheetSyntax& sheet : object.sheets) {
+    const std::uint32_t material = material_index(sheet.material).value_or(0);
+    const std::uint32_t index = sheet_index(sheet.sheet, shape, names);
+    if (index == result.size()) { continue; }
+    if (given[index]) { errors_.add(sheet.sheet.place, "the sheet " + quoted(sheet.sheet.text) + " is given twice"); }
+    given[index] = true;
+    result[index] = material;
+  }
+  const auto bare = std::find(result.begin(), result.end(), none);
+  if (bare != result.end()) {
+    const auto index = static_cast<std::uint32_t>(bare - result.begin());
+    errors_.add(object.name.place, quoted(object.name.text) + " has no material for its sheet " + quoted(shape.sheet_name(index)));
+  }
+  return result;
+}
+
+// Walks the uses with its own stack, in the order of the file.
+void Builder::place(const Groups& groups) {
+  struct Level {
+    const std::vector<Item>* items;
+    std::size_t next;
+    std::string prefix;
+    raycast::Placement placement;
+  };
+  std::size_t placed = 0;
+  Place at;
+  std::vector<Level> levels;
+  levels.push_back({&syntax_.items, 0, {}, {}});
+  while (!levels.empty() && errors_.count() == 0) {
+    Level& level = levels.back();
+    if (level.next == level.items->size()) {
+      levels.pop_back();
+      continue;
+    }
+    const Item& item = (*level.items)[level.next++];
+    const auto* use = std::get_if<UseSyntax>(&item);
+    if (levels.size() == 1) {
+      at = std::visit([](const auto& it) { return it.name.place; }, item);
+      placed += use == nullptr ? 1 : groups.size(*groups.find(*use));
+      if (placed > max_objects) {
+        errors_.add(at, "the scene grows beyond " + std::to_string(max_objects) + " objects here");
+        return;
+      }
+    }
+    if (use == nullptr) {
+      place(std::get<ObjectSyntax>(item), level.prefix, level.placement, at);
+    } else {
+      levels.push_back(
+          {&groups.find(*use)->items, 0, level.prefix + use->name.text + ".", raycast::compose(level.placement, use->placement)});
+    }
+  }
+}
+
+void Builder::place(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at) {
+  const Made& made = made_.at(&object);
+  raycast::Placement placement = raycast::compose(outer, object.placement);
+  placement.inside = object.inside.has_value();
+  std::string name = prefix + object.name.text;
+  if (const auto sentence = raycast::check(placement)) {
+    errors_.add(at, quoted(name) + ": " + std::string(*sentence));
+    return;
+  }
+  if (!(placed_bounds(*made.shape, placement).magnitude() <= max_number)) {
+    errors_.add(at, quoted(name) + " reaches beyond 1e30 after its placement");
+    return;
+  }
+  file_.scene.objects.push_back({std::move(name), made.shape, placement, made.material});
+  file_.origins.push_back({to_string(object.kind), object.name.place});
+}
+
+}  // namespace
+
+SceneFile build(const SceneSyntax& syntax, Errors& errors) { return Builder(syntax, errors).build(); }
+
+}  // namespace apps::scene_file

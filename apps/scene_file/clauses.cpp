@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// The clauses of statements: what may follow each keyword, and the checks that need one clause alone.
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "apps/scene_file/parser.hpp"
+#include "apps/scene_file/words.hpp"
+
+namespace apps::scene_file {
+namespace {
+
+// `after` applied to what `placement` gives.
+void append(raycast::Placement& placement, const glm::dmat3& after) {
+  placement.linear = after * placement.linear;
+  placement.translation = after * placement.translation;
+}
+
+// Rodrigues' rotation about a unit axis, counter-clockwise seen against the axis. Quarter turns are exact.
+glm::dmat3 rotation(const glm::dvec3& axis, double degrees) {
+  const double turn = std::remainder(degrees, 360.0);
+  const double angle = turn * std::numbers::pi / 180.0;
+  double c = std::cos(angle);
+  double s = std::sin(angle);
+  if (std::fmod(turn, 90.0) == 0.0) {
+    c = std::round(c);
+    s = std::round(s);
+  }
+  glm::dmat3 result(0.0);
+  for (int column = 0; column < 3; ++column) {
+    glm::dvec3 unit(0.0);
+    unit[column] = 1.0;
+    result[column] = c * unit + s * glm::cross(axis, unit) + (1.0 - c) * glm::dot(axis, unit) * axis;
+  }
+  return result;
+}
+
+}  // namespace
+
+// One number for all three channels, or three.
+void Parser::color_clause(const Token& keyword, radiosity::Color& out, double most, std::string_view law) {
+  int count = 0;
+  while (at(Token::Kind::number) && count < 3) {
+    const Token found = token_;
+    double value = 0.0;
+    if (number(keyword.text, value) && (value < 0.0 || value > most)) {
+      error(found.place, std::string(keyword.text) + " " + quoted(found.text) + " " + std::string(law));
+    }
+    out[count++] = value;
+  }
+  if (count == 1) { out = radiosity::Color(out[0]); }
+  if (count == 0 || count == 2) {
+    error(token_.place, "'" + std::string(keyword.text) +
+                            "' takes one number or three (red green blue); expected "
+                            "number " +
+                            std::to_string(count + 1) + ", found " + describe(token_));
+  } else {
+    no_more_numbers(keyword.text, "one number or three (red green blue)");
+  }
+}
+
+void Parser::material_clause(const Token& keyword, MaterialSyntax& out) {
+  if (keyword.text == "reflectance") {
+    color_clause(keyword, out.reflectance, 1.0, "lies outside 0 to 1; a surface reflects at most what it receives");
+  } else {
+    color_clause(keyword, out.emission, max_number, "is negative; expected an exitance in W/m2");
+  }
+}
+
+void Parser::camera_clause(const Token& keyword, CameraSyntax& out) {
+  Camera& camera = out.camera;
+  const Place place = token_.place;
+  if (keyword.text == "eye") {
+    vector(keyword, camera.eye);
+  } else if (keyword.text == "target" || keyword.text == "look") {
+    vector(keyword, camera.forward);
+  } else if (keyword.text == "up") {
+    if (vector(keyword, camera.up) && camera.up == glm::dvec3(0.0)) { error(place, "'up' has no direction"); }
+  } else if (keyword.text == "fov") {
+    double& fov = camera.field_of_view;
+    if (numbers(keyword, std::span(&fov, 1)) && !(fov >= 0.001 && fov <= 179.0)) {
+      error(place, "expected a horizontal field of view from 0.001 to 179 degrees, found " + std::to_string(fov));
+    }
+  } else {
+    PictureSize size;
+    const bool read = whole_number("size", max_picture_side, size.width) && whole_number("size", max_picture_side, size.height);
+    if (read && (size.width == 0 || size.height == 0)) { error(place, "'size' needs at least 1 pixel each way"); }
+    camera.size = size;
+  }
+}
+
+bool Parser::placement_clause(const Token& keyword, raycast::Placement& out) {
+  if (keyword.text == "move") {
+    glm::dvec3 by{0.0};
+    if (vector(keyword, by)) { out.translation += by; }
+  } else if (keyword.text == "rotate") {
+    rotate_clause(keyword, out);
+  } else if (keyword.text == "scale") {
+    scale_clause(keyword, out);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void Parser::rotate_clause(const Token& keyword, raycast::Placement& out) {
+  const Place place = token_.place;
+  double values[4] = {0.0, 0.0, 0.0, 0.0};
+  if (!numbers(keyword, values)) { return; }
+  const glm::dvec3 axis(values[0], values[1], values[2]);
+  const double length = glm::length(axis);
+  if (!(length > 0.0)) { return error(place, "'rotate' needs an axis that is not 0 0 0 (expected: rotate X Y Z DEGREES)"); }
+  append(out, rotation(axis / length, values[3]));
+}
+
+void Parser::scale_clause(const Token& keyword, raycast::Placement& out) {
+  glm::dvec3 by(1.0);
+  int count = 0;
+  while (at(Token::Kind::number) && count < 3) {
+    const Token found = token_;
+    if (!number(keyword.text, by[count])) {
+      by[count] = 1.0;
+    } else if (std::abs(by[count]) < 1.0 / max_number) {
+      error(found.place, "'scale' by " + quoted(found.text) + " leaves nothing of the object");
+      by[count] = 1.0;
+    }
+    ++count;
+  }
+  if (count == 1) { by = glm::dvec3(by[0]); }
+  if (count == 0 || count == 2) {
+    return error(token_.place,
+                 "'scale' takes one number or three (x y z); expected number " + std::to_string(count + 1) + ", found " + describe(token_));
+  }
+  no_more_numbers(keyword.text, "one number or three (x y z)");
+  glm::dmat3 matrix(1.0);
+  for (int i = 0; i < 3; ++i) { matrix[i][i] = by[i]; }
+  append(out, matrix);
+}
+
+void Parser::sheet_clause(ObjectSyntax& out) {
+  SheetSyntax syntax;
+  if (at(Token::Kind::number)) {
+    syntax.sheet = {std::string(token_.text), token_.place};
+    next();
+  } else if (!name("sheet", syntax.sheet)) {
+    return skip_rest();
+  }
+  if (!at_word("material")) {
+    error(token_.place,
+          "expected 'material' and its name after 'sheet " + syntax.sheet.text.substr(0, 40) + "', found " + describe(token_));
+    return skip_rest();
+  }
+  next();
+  if (name("material", syntax.material)) { out.sheets.push_back(std::move(syntax)); }
+}
+
+void Parser::face_clause(const Token& keyword, ObjectSyntax& out) {
+  FaceSyntax face{static_cast<std::uint32_t>(out.corners.size()), 0, keyword.place};
+  while (at(Token::Kind::number)) {
+    std::uint32_t index = 0;
+    if (!whole_number("face", 0xfffffffe, index)) { continue; }
+    out.corners.push_back(index);
+    ++face.count;
+  }
+  if (face.count < 3) { return error(token_.place, "'face' takes at least 3 vertex numbers, found " + std::to_string(face.count)); }
+  out.faces.push_back(face);
+}
+
+void Parser::object_clause(const Token& keyword, ObjectSyntax& out) {
+  const std::string_view word = keyword.text;
+  if (placement_clause(keyword, out.placement)) { return; }
+  if (word == "from") {
+    vector(keyword, out.from);
+  } else if (word == "to") {
+    vector(keyword, out.to);
+  } else if (word == "center") {
+    vector(keyword, out.center);
+  } else if (word == "base") {
+    vector(keyword, out.base);
+  } else if (word == "axis") {
+    vector(keyword, out.axis);
+  } else if (word == "sheet") {
+    sheet_clause(out);
+  } else if (word == "face") {
+    face_clause(keyword, out);
+  } else if (word == "inside") {
+    out.inside = keyword.place;
+  } else if (word == "vertex") {
+    glm::dvec3 position{0.0};
+    if (vector(keyword, position)) { out.vertices.push_back({position, keyword.place}); }
+  } else if (word == "radius") {
+    const Place place = token_.place;
+    double value = 0.0;
+    if (!numbers(keyword, std::span(&value, 1))) { return; }
+    if (!(value >= 1.0 / max_number)) { return error(place, "expected a radius above 0, found " + std::to_string(value)); }
+    out.radius = Placed<double>{value, place};
+  } else if (word == "material") {
+    Name given;
+    if (!name("material", given)) { return skip_rest(); }
+    out.material = std::move(given);
+  }
+}
+
+}  // namespace apps::scene_file

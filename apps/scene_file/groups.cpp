@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "apps/scene_file/groups.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "apps/scene_file/words.hpp"
+
+namespace apps::scene_file {
+
+Groups::Groups(const SceneSyntax& syntax, Errors& errors) : syntax_(&syntax), entries_(syntax.groups.size()) {
+  for (std::size_t i = 0; i < syntax.groups.size(); ++i) {
+    const Name& name = syntax.groups[i].name;
+    const auto [earlier, is_new] = index_.emplace(name.text, i);
+    if (!is_new) {
+      errors.add(name.place, "the group " + quoted(name.text) + " is defined twice; the first one stands at " +
+                                 to_string(syntax.groups[earlier->second].name.place));
+    }
+    if (syntax.groups[i].items.empty()) {
+      errors.add(name.place, "the group " + quoted(name.text) + " is empty; expected objects between '{' and '}'");
+    }
+  }
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (entries_[i].state == State::unseen) { visit(i, errors); }
+  }
+  for (const Item& item : syntax.items) {
+    const auto* use = std::get_if<UseSyntax>(&item);
+    if (use != nullptr && find(*use) == nullptr) { report_unknown(*use, errors); }
+  }
+}
+
+const GroupSyntax* Groups::find(const UseSyntax& use) const {
+  const auto found = index_.find(use.group.text);
+  return found == index_.end() ? nullptr : &syntax_->groups[found->second];
+}
+
+std::size_t Groups::size(const GroupSyntax& group) const {
+  return entries_[static_cast<std::size_t>(&group - syntax_->groups.data())].size;
+}
+
+void Groups::report_unknown(const UseSyntax& use, Errors& errors) const {
+  std::vector<std::string_view> known;
+  for (const GroupSyntax& group : syntax_->groups) {
+    if (known.size() < 1000) { known.push_back(group.name.text); }
+  }
+  errors.add(use.group.place, "there is no group " + quoted(use.group.text) + suggestion(use.group.text, known));
+}
+
+// Depth-first with its own stack; a group is done after all that it uses.
+void Groups::visit(std::size_t root, Errors& errors) {
+  struct Step {
+    std::size_t group;
+    std::size_t item;
+  };
+  std::vector<Step> path{{root, 0}};
+  entries_[root].state = State::open;
+  const auto report_cycle = [&](const UseSyntax& use, std::size_t target) {
+    std::string names;
+    const auto begin = std::find_if(path.begin(), path.end(), [&](const Step& s) { return s.group == target; });
+    for (auto step = begin; step != path.end() && step - begin < 5; ++step) {
+      names += quoted(syntax_->groups[step->group].name.text) + " uses ";
+    }
+    names += path.end() - begin > 5 ? "... uses " : "";
+    errors.add(use.group.place, "cyclic use: " + names + quoted(use.group.text));
+  };
+  while (!path.empty()) {
+    Step& step = path.back();
+    Entry& entry = entries_[step.group];
+    const std::vector<Item>& items = syntax_->groups[step.group].items;
+    if (step.item == items.size()) {
+      entry.state = State::done;
+      path.pop_back();
+      continue;
+    }
+    const auto* use = std::get_if<UseSyntax>(&items[step.item]);
+    const auto found = use == nullptr ? index_.end() : index_.find(use->group.text);
+    if (found != index_.end() && entries_[found->second].state == State::unseen) {
+      entries_[found->second].state = State::open;
+      path.push_back({found->second, 0});  // comes back to this item afterwards
+      continue;
+    }
+    ++step.item;
+    std::size_t inner = 1;
+    if (found != index_.end()) {
+      const Entry& used = entries_[found->second];
+      inner = used.size;
+      if (used.state == State::open) { report_cycle(*use, found->second); }
+      entry.depth = std::max(entry.depth, used.depth + 1);
+      if (used.depth == max_use_depth) { errors.add(use->group.place, "groups are nested deeper than " + std::to_string(max_use_depth)); }
+    } else if (use != nullptr) {
+      report_unknown(*use, errors);
+    }
+    entry.size = std::min(entry.size + inner, max_objects + 1);
+  }
+}
+
+}  // namespace apps::scene_file

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "apps/scene_file/lexer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+namespace apps::scene_file {
+namespace {
+
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
+constexpr bool ends_line(char c) { return c == '\n' || c == '\r'; }
+constexpr bool ends_token(char c) { return is_blank(c) || ends_line(c) || c == '#' || c == '{' || c == '}'; }
+constexpr bool begins_number(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.'; }
+
+// Length in bytes of the character that begins at text[at]; 0 when it is not text. Overlong forms, surrogates and
+// code points beyond U+10FFFF are refused (Unicode 15, table 3-7).
+std::size_t character_length(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t i) {
+    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : static_cast<unsigned char>(0);
+  };
+  const auto follows = [&](std::size_t i, unsigned low = 0x80, unsigned high = 0xbf) { return byte(i) >= low && byte(i) <= high; };
+  const unsigned first = byte(0);
+  if (first < 0x80) { return first == '\t' || first == '\n' || first == '\r' || (first >= 0x20 && first != 0x7f) ? 1 : 0; }
+  if (first >= 0xc2 && first <= 0xdf) { return follows(1) ? 2 : 0; }
+  if (first >= 0xe0 && first <= 0xef) {
+    const bool second = follows(1, first == 0xe0 ? 0xa0 : 0x80, first == 0xed ? 0x9f : 0xbf);
+    return second && follows(2) ? 3 : 0;
+  }
+  if (first >= 0xf0 && first <= 0xf4) {
+    const bool second = follows(1, first == 0xf0 ? 0x90 : 0x80, first == 0xf4 ? 0x8f : 0xbf);
+    return second && follows(2) && follows(3) ? 4 : 0;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void Errors::add(Place place, std::string sentence) {
+  if (list_.size() < max_errors) {
+    list_.push_back({place, std::move(sentence)});
+  } else {
+    full_ = true;
+  }
+}
+
+bool Errors::just_reported(Place place) const {
+  return !list_.empty() && list_.back().place.line == place.line && list_.back().place.column == place.column;
+}
+
+std::vector<SceneError> Errors::take_sorted() {
+  std::stable_sort(list_.begin(), list_.end(), [](const SceneError& a, const SceneError& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
+  return std::move(list_);
+}
+
+Lexer::Lexer(std::string_view text, Errors& errors) : text_(text), errors_(errors) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (text_.substr(0, 3) == byte_order_mark) { text_.remove_prefix(3); }
+}
+
+// Steps over one character, or ends the text when there is none.
+void Lexer::advance() {
+  const std::size_t length = character_length(text_, at_);
+  if (length == 0) {
+    std::array<char, 80> sentence{};
+    std::snprintf(sentence.data(), sentence.size(), "expected text, found the byte 0x%02x; is this a binary file?",
+                  static_cast<unsigned>(static_cast<unsigned char>(text_[at_])));
+    errors_.add(place_, sentence.data());
+    broken_ = true;
+    text_ = text_.substr(0, at_);
+    return;
+  }
+  at_ += length;
+  ++place_.column;
+}
+
+void Lexer::skip_blank() {
+  while (!at_end() && is_blank(text_[at_])) { advance(); }
+  if (at_end() || text_[at_] != '#') { return; }
+  while (!at_end() && !ends_line(text_[at_])) { advance(); }
+}
+
+Token Lexer::single(Token::Kind kind, std::size_t bytes) {
+  const Token token{kind, text_.substr(at_, bytes), place_};
+  at_ += bytes;
+  place_.column += 1;
+  return token;
+}
+
+Token Lexer::next() {
+  skip_blank();
+  if (at_end()) { return {Token::Kind::end_of_file, {}, place_}; }
+  const char c = text_[at_];
+  if (c == '{') { return single(Token::Kind::open, 1); }
+  if (c == '}') { return single(Token::Kind::close, 1); }
+  if (ends_line(c)) {
+    const bool two = text_.substr(at_, 2) == "\r\n";
+    const Token token = single(Token::Kind::end_of_line, two ? 2 : 1);
+    place_ = {place_.line + 1, 1};
+    return token;
+  }
+  const std::size_t begin = at_;
+  const Place place = place_;
+  while (!at_end() && !ends_token(text_[at_])) { advance(); }
+  if (at_ == begin) { return {Token::Kind::end_of_file, {}, place}; }
+  return {begins_number(c) ? Token::Kind::number : Token::Kind::word, text_.substr(begin, at_ - begin), place};
+}
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  if (text.size() <= longest) { return "'" + std::string(text) + "'"; }
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) { --end; }
+  return "'" + std::string(text.substr(0, end)) + "...'";
+}
+
+std::string describe(const Token& token) {
+  switch (token.kind) {
+    case Token::Kind::end_of_line:
+      return "the end of the line";
+    case Token::Kind::end_of_file:
+      return "the end of the file";
+    default:
+      return quoted(token.text);
+  }
+}
+
+std::string to_string(Place place) { return std::to_string(place.line) + ":" + std::to_string(place.column); }
+
+}  // namespace apps::scene_file

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Cuts scene text into tokens. Spaces and tabs separate; '#' begins a comment that runs to the end of the line;
+// lines end with LF, CR LF or CR. Text is UTF-8; a byte that cannot be text (NUL and other control characters,
+// broken UTF-8) is reported once, and the text ends there: what follows would be noise.
+//
+// A token that begins with a digit, sign or point is a number for the parser to read; any other one is a word.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/scene_file.hpp"
+
+namespace apps::scene_file {
+
+// The errors of one file. Never holds more than max_errors; then full() is true and reading stops.
+class Errors {
+ public:
+  void add(Place place, std::string sentence);
+  [[nodiscard]] std::size_t count() const { return list_.size(); }
+  [[nodiscard]] bool full() const { return full_; }
+  // The last error lies there, so that what stands there need not be blamed twice.
+  [[nodiscard]] bool just_reported(Place place) const;
+  [[nodiscard]] std::vector<SceneError> take_sorted();
+
+ private:
+  std::vector<SceneError> list_;
+  bool full_ = false;
+};
+
+struct Token {
+  enum class Kind { word, number, open, close, end_of_line, end_of_file };
+  Kind kind = Kind::end_of_file;
+  std::string_view text;
+  Place place;
+};
+
+class Lexer {
+ public:
+  Lexer(std::string_view text, Errors& errors);
+
+  [[nodiscard]] Token next();
+  // The text was given up at a byte that is not text; the error has been reported.
+  [[nodiscard]] bool broken() const { return broken_; }
+
+ private:
+  void skip_blank();
+  void advance();
+  [[nodiscard]] bool at_end() const { return at_ >= text_.size(); }
+  [[nodiscard]] Token single(Token::Kind kind, std::size_t bytes);
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  Place place_;
+  Errors& errors_;
+  bool broken_ = false;
+};
+
+// The text in quotes for a message; at most 40 characters of it.
+[[nodiscard]] std::string quoted(std::string_view text);
+
+// What a token is, for "found ...": 'reflectence', the number 3, the end of the line.
+[[nodiscard]] std::string describe(const Token& token);
+
+[[nodiscard]] std::string to_string(Place place);
+
+}  // namespace apps::scene_file

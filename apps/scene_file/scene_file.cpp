@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "apps/scene_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include "apps/scene_file/build.hpp"
+#include "apps/scene_file/parser.hpp"
+
+namespace apps {
+
+SceneResult parse_scene(std::string_view text) {
+  scene_file::Errors errors;
+  const scene_file::SceneSyntax syntax = scene_file::Parser(text, errors).scene();
+  SceneResult result;
+  SceneFile file = scene_file::build(syntax, errors);
+  result.more_errors = errors.full();
+  result.errors = errors.take_sorted();
+  if (result.errors.empty()) { result.file = std::move(file); }
+  return result;
+}
+
+std::optional<std::string> read_text(const std::string& path, std::string& fault) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    fault = "is a folder; expected a scene file";
+    return std::nullopt;
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (file == nullptr) {
+    fault = std::string("cannot be opened: ") + std::strerror(errno);
+    return std::nullopt;
+  }
+  std::string text;
+  std::size_t size = 0;
+  constexpr std::size_t step = 1 << 16;
+  while (true) {
+    text.resize(size + std::min(step + size, max_file_bytes + 1 - size));
+    const std::size_t got = std::fread(text.data() + size, 1, text.size() - size, file.get());
+    size += got;
+    if (size > max_file_bytes) {
+      fault = "is larger than " + std::to_string(max_file_bytes >> 20) + " MiB; that is no scene made for people";
+      return std::nullopt;
+    }
+    if (got == 0 || std::feof(file.get()) != 0) { break; }
+  }
+  if (std::ferror(file.get()) != 0) {
+    fault = std::string("cannot be read: ") + std::strerror(errno);
+    return std::nullopt;
+  }
+  text.resize(size);
+  return text;
+}
+
+std::string to_text(const SceneResult& result, std::string_view name) {
+  std::string text;
+  const auto line = [&](Place place, const std::string& sentence) {
+    text.append(name).append(":").append(scene_file::to_string(place)).append(": error: ").append(sentence).append("\n");
+  };
+  for (const SceneError& error : result.errors) { line(error.place, error.sentence); }
+  if (result.more_errors) {
+    text.append(name).append(": given up after ").append(std::to_string(result.errors.size())).append(" errors\n");
+  }
+  return text;
+}
+
+}  // namespace apps

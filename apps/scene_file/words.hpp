@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Helps with words that are not known: which known word was probably meant.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace apps::scene_file {
+
+// The known word that is fewest edits away (Damerau 1964, Levenshtein 1966), when those are at most a third of its
+// letters; else empty. Ties go to the word that is listed first. Words beyond 40 letters have no neighbour.
+[[nodiscard]] std::string_view nearest(std::string_view word, std::span<const std::string_view> known);
+
+// "; did you mean 'x'?" or nothing.
+[[nodiscard]] std::string suggestion(std::string_view word, std::span<const std::string_view> known);
+
+// "a, b or c"; long lists end with "...".
+[[nodiscard]] std::string list_of(std::span<const std::string_view> words);
+
+}  // namespace apps::scene_file

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "apps/view.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "apps/bounds.hpp"
+
+namespace apps {
+
+glm::dvec3 View::to_view(const glm::dvec3& world) const {
+  const glm::dvec3 p = world - eye;
+  return {glm::dot(p, right), glm::dot(p, down), glm::dot(p, forward)};
+}
+
+View make_view(const Camera& camera, const PictureSize& size) {
+  View view;
+  view.eye = camera.eye;
+  view.forward = glm::normalize(camera.forward);
+  view.right = glm::normalize(glm::cross(view.forward, glm::normalize(camera.up)));
+  view.down = glm::cross(view.forward, view.right);
+  view.half_width = std::tan(0.5 * camera.field_of_view * std::numbers::pi / 180.0);
+  view.size = size;
+  return view;
+}
+
+Camera automatic_camera(const radiosity::Scene& scene) {
+  const raycast::Box bounds = scene_bounds(scene);
+  Camera camera;
+  camera.name = "automatic";
+  camera.field_of_view = 40.0;
+  camera.forward = glm::normalize(glm::dvec3(0.45, 1.0, -0.4));
+  // The bounding sphere touches the sides of the narrower, vertical opening of a 4:3 picture.
+  const double vertical = std::atan(0.75 * std::tan(0.5 * camera.field_of_view * std::numbers::pi / 180.0));
+  const double radius = 0.5 * bounds.diameter();
+  camera.eye = bounds.centre() - camera.forward * (radius / std::sin(vertical));
+  return camera;
+}
+
+}  // namespace apps

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The picture's view: a pinhole camera whose field of view is given horizontally; pixels are square.
+//
+// View space: x to the right, y down, z forward; a point (x, y, z) falls on the image at (x/z, y/z), and the image
+// spans -half_width..half_width and -half_height..half_height.
+
+#include <glm/vec3.hpp>
+
+#include "apps/scene_file.hpp"
+
+namespace apps {
+
+struct View {
+  glm::dvec3 eye{0.0};
+  glm::dvec3 right{1.0, 0.0, 0.0};
+  glm::dvec3 down{0.0, 0.0, -1.0};
+  glm::dvec3 forward{0.0, 1.0, 0.0};  // the three are orthonormal
+  double half_width = 1.0;
+  PictureSize size;
+
+  [[nodiscard]] double half_height() const { return half_width * size.height / size.width; }
+  [[nodiscard]] glm::dvec3 to_view(const glm::dvec3& world) const;
+};
+
+// `camera` is sound: forward is not zero and up not parallel to it.
+[[nodiscard]] View make_view(const Camera& camera, const PictureSize& size);
+
+// Looks at the whole scene from outside, slightly from above (z is up). Back faces are not drawn, so this looks into a
+// room as into a doll's house. Depends on nothing but the bounds of the scene.
+[[nodiscard]] Camera automatic_camera(const radiosity::Scene& scene);
+
+}  // namespace apps

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A planar polygon seen in its own plane: where may it be cut by a diagonal, and which diagonal is the best?
+//
+// Used by the face splits of split.hpp and t_vertices.hpp. Coordinates are relative to the first corner; an area counts as
+// zero up to 1e-14 times the square of the polygon's extent, some ten times the rounding error of the test.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <brep/polygon.hpp>
+#include <brep/small_list.hpp>
+
+namespace brep {
+
+class Outline {
+ public:
+  using Diagonal = std::pair<std::size_t, std::size_t>;
+
+  // Projects p along its normal; it runs counter-clockwise in the result. Without area all points coincide.
+  explicit Outline(Polygon p) {
+    const glm::dvec3 n = normal(p);
+    const glm::dvec3 across = std::abs(n.x) < 0.6 ? glm::dvec3{1.0, 0.0, 0.0} : glm::dvec3{0.0, 1.0, 0.0};
+    const glm::dvec3 v = glm::cross(n, across), u = glm::cross(v, n);
+    const double unit = glm::length(v) > 0.0 ? 1.0 / glm::length(v) : 0.0;
+    for (const glm::dvec3& x : p) points_.push_back(unit * glm::dvec2{glm::dot(x - p[0], u), glm::dot(x - p[0], v)});
+    const double size = extent(p);
+    tolerance_ = 1e-14 * size * size;
+  }
+
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+  [[nodiscard]] const glm::dvec2& operator[](std::size_t i) const { return points_[i]; }
+  [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < size() ? i + 1 : 0; }
+  [[nodiscard]] std::size_t prev(std::size_t i) const { return i > 0 ? i - 1 : size() - 1; }
+
+  // 1 when c lies left of the line a -> b, -1 when it lies right, 0 when on it within rounding.
+  [[nodiscard]] int side(std::size_t a, std::size_t b, std::size_t c) const {
+    const double twice_area = cross(points_[b] - points_[a], points_[c] - points_[a]);
+    return twice_area > tolerance_ ? 1 : twice_area < -tolerance_ ? -1 : 0;
+  }
+
+  // How far the outline turns left at corner i, in (-pi, pi]: negative at a non-convex corner, 0 where it is straight.
+  [[nodiscard]] double turn(std::size_t i) const {
+    const glm::dvec2 in = points_[i] - points_[prev(i)], out = points_[next(i)] - points_[i];
+    return std::atan2(cross(in, out), glm::dot(in, out));
+  }
+
+  // Does the segment from corner i to corner j lie inside, touch the outline nowhere else, and cut two areas that are not zero?
+  [[nodiscard]] bool inner_diagonal(std::size_t i, std::size_t j) const {
+    if (i == j || next(i) == j || next(j) == i || !in_cone(i, j) || !in_cone(j, i)) return false;
+    for (std::size_t k = 0; k < size(); ++k) {
+      const std::size_t l = next(k);
+      if (k != i && k != j && l != i && l != j && touch(i, j, k, l)) return false;
+    }
+    return true;
+  }
+
+  // Do two edges touch that are not neighbours, or does the outline turn back on itself? Then one of the corners.
+  // O(n log n) for reasonable outlines (sweep along x), O(n^2) at worst.
+  [[nodiscard]] std::optional<std::size_t> self_contact() const {
+    std::vector<std::size_t> order(size());
+    for (std::size_t k = 0; k < size(); ++k) {
+      order[k] = k;
+      const glm::dvec2 in = points_[k] - points_[prev(k)], out = points_[next(k)] - points_[k];
+      if (out == glm::dvec2{0.0} || (side(prev(k), k, next(k)) == 0 && glm::dot(in, out) < 0.0)) return k;
+    }
+    const auto lo = [&](std::size_t k) { return std::min(points_[k].x, points_[next(k)].x); };
+    const auto hi = [&](std::size_t k) { return std::max(points_[k].x, points_[next(k)].x); };
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return lo(a) < lo(b); });
+    for (std::size_t a = 0; a < size(); ++a) {
+      for (std::size_t b = a + 1; b < size() && lo(order[b]) <= hi(order[a]); ++b) {
+        const std::size_t k = order[a], l = order[b];
+        if (next(k) != l && next(l) != k && touch(k, next(k), l, next(l))) return k;
+      }
+    }
+    return std::nullopt;
+  }
+
+  // The inner diagonal whose worse part is best proportioned, among those that start at `from`, or among all without it.
+  // Proportion is measured by 4 pi area / perimeter^2, which needs no more than running sums.
+  [[nodiscard]] std::optional<Diagonal> best_diagonal(std::optional<std::size_t> from = std::nullopt) const {
+    std::vector<double> area(size() + 1, 0.0), length(size() + 1, 0.0);
+    for (std::size_t k = 0; k < size(); ++k) {
+      area[k + 1] = area[k] + 0.5 * cross(points_[k], points_[next(k)]);
+      length[k + 1] = length[k] + glm::distance(points_[k], points_[next(k)]);
+    }
+    struct Candidate {
+      double score;
+      Diagonal diagonal;
+    };
+    std::vector<Candidate> candidates;
+    const auto add = [&](std::size_t i, std::size_t j) {  // i < j
+      const double chord = glm::distance(points_[i], points_[j]);
+      const double first = area[j] - area[i] + 0.5 * cross(points_[j], points_[i]), second = area[size()] - first;
+      const double a = length[j] - length[i] + chord, b = length[size()] - length[j] + length[i] + chord;
+      const double score = std::min(first / (a * a), second / (b * b));
+      if (score > 0.0) candidates.push_back({score, {i, j}});
+    };
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (from && i != *from) {
+        add(std::min(i, *from), std::max(i, *from));
+      } else if (!from) {
+        for (std::size_t j = i + 2; j < size(); ++j) add(i, j);
+      }
+    }
+    const auto worse = [](const Candidate& a, const Candidate& b) {
+      return a.score != b.score ? a.score < b.score : a.diagonal > b.diagonal;
+    };
+    std::make_heap(candidates.begin(), candidates.end(), worse);
+    while (!candidates.empty()) {
+      std::pop_heap(candidates.begin(), candidates.end(), worse);
+      const Diagonal best = candidates.back().diagonal;
+      if (inner_diagonal(best.first, best.second)) return best;
+      candidates.pop_back();
+    }
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] static double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+  // Does corner j lie strictly inside the angle of the polygon at corner i?
+  [[nodiscard]] bool in_cone(std::size_t i, std::size_t j) const {
+    const int after = side(i, next(i), j), before = side(prev(i), i, j);
+    return side(prev(i), i, next(i)) >= 0 ? after > 0 && before > 0 : after > 0 || before > 0;
+  }
+  // Do the segments a-b and c-d have a point in common?
+  [[nodiscard]] bool touch(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const {
+    const int c_side = side(a, b, c), d_side = side(a, b, d), a_side = side(c, d, a), b_side = side(c, d, b);
+    if (c_side == 0 && d_side == 0) {  // on one line: compare along it
+      const glm::dvec2 along = points_[b] - points_[a];
+      const double end = glm::dot(along, along);
+      const double s = glm::dot(points_[c] - points_[a], along), t = glm::dot(points_[d] - points_[a], along);
+      return std::max(s, t) >= 0.0 && std::min(s, t) <= end;
+    }
+    return c_side * d_side <= 0 && a_side * b_side <= 0;
+  }
+
+  SmallList<glm::dvec2> points_;
+  double tolerance_ = 0.0;
+};
+
+}  // namespace brep

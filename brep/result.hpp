@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What an operator answers: a value, or a refusal that says why nothing was changed.
+//
+// Errors are values; nothing here throws. A refusal is a code and up to two handles, so making one costs no allocation;
+// the sentence is written when somebody asks for it. Reading the value of a refused result is a programming error
+// (asserted in debug builds).
+
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include <brep/handles.hpp>
+
+namespace brep {
+
+enum class Code : std::uint8_t {
+  none,                // not refused
+  dead,                // the handle names no living element
+  different_faces,     // split_face: the two corners lie on different faces
+  different_vertices,  // split_vertex: the two half-edges leave different vertices
+  same_face,           // join_faces: both sides of the edge are one face
+  same_vertex,         // join_vertices: the edge is a loop
+  last_edge,           // the operator would leave a shell without edges
+  not_a_segment,       // kill_segment: the shell has more than one edge
+  full,                // 2^31 half-edges: no handle is left
+  few_corners,         // the face has fewer than three corners
+  level_limit,         // refine: level 255 is reached
+  irregular_levels,    // refine: no vertex of level l + 1 between two corners although they are not adjacent
+  degenerate_polygon,  // zero area or a coordinate that is not finite
+  not_planar,          // the vertices do not lie in one plane
+  not_simple,          // the boundary crosses or touches itself
+};
+
+struct Refusal {
+  Code code = Code::none;
+  std::array<Element, 2> elements{};
+
+  // One sentence: what was asked, what stands against it, and where it helps, what to do instead.
+  [[nodiscard]] std::string sentence() const {
+    const std::string x = to_string(elements[0]);
+    const std::string y = to_string(elements[1]);
+    switch (code) {
+      case Code::none: return "nothing was refused";
+      case Code::dead: return x + " does not exist: it was never made or is already killed";
+      case Code::different_faces: return "split_face: " + x + " and " + y + " lie on different faces";
+      case Code::different_vertices: return "split_vertex: " + x + " and " + y + " leave different vertices";
+      case Code::same_face: return "join_faces: both sides of " + x + " are the face " + y + ", there is nothing to join";
+      case Code::same_vertex: return "join_vertices: " + x + " is a loop, both its ends are the vertex " + y;
+      case Code::last_edge: return x + " is the only edge of its shell, and a shell without edges does not exist";
+      case Code::not_a_segment: return "kill_segment: the shell of " + x + " has more than one edge";
+      case Code::full: return "no handle is left: a BRep holds at most 2^31 half-edges";
+      case Code::few_corners: return x + " has fewer than three corners";
+      case Code::level_limit: return "refine: " + x + " has already the last level, 255";
+      case Code::irregular_levels:
+        return "refine: between the corner " + x + " of " + y + " and the next corner lie vertices, but none of the next level";
+      case Code::degenerate_polygon: return x + " has no area, or a coordinate that is not finite";
+      case Code::not_planar: return x + " is not planar";
+      case Code::not_simple: return "the boundary of " + x + " crosses or touches itself at " + y;
+    }
+    return {};
+  }
+};
+
+template <class T>
+class Result {
+ public:
+  Result(T value) : value_(std::move(value)) {}       // implicit: return value;
+  Result(Refusal refusal) : refusal_(refusal) {}      // implicit: return Refusal{...};
+
+  [[nodiscard]] bool has_value() const { return refusal_.code == Code::none; }
+  explicit operator bool() const { return has_value(); }
+  [[nodiscard]] const Refusal& refusal() const { return refusal_; }
+
+  T& operator*() { return assert(has_value()), value_; }
+  const T& operator*() const { return assert(has_value()), value_; }
+  T* operator->() { return assert(has_value()), &value_; }
+  const T* operator->() const { return assert(has_value()), &value_; }
+
+ private:
+  T value_{};
+  Refusal refusal_{};
+};
+
+}  // namespace brep

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What every run says about itself: how wrong it is, how long it took, what it left out.
+//
+// The error is measured, not guessed. At N random surface points two independent path-traced estimates b1, b2 of the true
+// radiosity are made; the mean of (b1 - B)(b2 - B) is an unbiased estimate of the mean squared error of B, because
+// the noise of b1 and b2 is independent. It is given relative to the RMS of the reflected radiosity B - E (a lamp is exact
+// by definition and must not flatter the figure), estimated without bias in the same way.
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <radiosity/mesh.hpp>
+#include <radiosity/options.hpp>
+#include <radiosity/parallel.hpp>
+#include <radiosity/plan.hpp>
+#include <radiosity/reference.hpp>
+
+namespace radiosity {
+
+struct StageTime {
+  std::string name;
+  double wall_seconds = 0.0;
+  double cpu_seconds = 0.0;  // of all threads
+};
+
+struct ErrorEstimate {
+  double relative_l2 = 0.0;     // RMS error / RMS reflected radiosity; area-weighted, all channels together
+  double standard_error = 0.0;  // of relative_l2
+};
+
+struct SurfaceMean {
+  std::string name;
+  double area = 0.0;     // exposed, in the scene's squared unit
+  Color radiosity{0.0};  // area-weighted mean, W/m2
+};
+
+struct Audit {
+  // time
+  std::vector<StageTime> stages;
+  double wall_seconds = 0.0, cpu_seconds = 0.0;  // of all stages but the audit
+  // size
+  std::uint64_t nodes = 0, leaves = 0, links = 0, rays = 0;
+  std::uint64_t audit_rays = 0;
+  std::uint64_t bytes = 0;  // held by the result: BReps, hierarchy, links, compiled objects
+  // the linear system
+  struct Range {
+    double min = 0.0, mean = 0.0, max = 0.0;
+  };
+  Range row_sum;                  // of the form factors of a leaf, area-weighted mean; of the system that was solved
+  Range computed_row_sum;         // the same before a closed scene was corrected
+  std::optional<double> closure;  // RMS correction that made all row sums of a closed scene 1
+  double energy_balance = 0.0;    // |emitted - absorbed - escaped| / emitted
+  double escaped = 0.0;           // fraction of the emitted power that leaves an open scene
+  double residual = 0.0;
+  std::uint32_t iterations = 0;
+  bool converged = true;  // solver below its residual and, when asked for, error below its target
+  // error
+  std::uint32_t audit_points = 0;
+  std::optional<ErrorEstimate> leaf_error;     // of the constant on each leaf
+  std::optional<ErrorEstimate> picture_error;  // of the reconstructed radiosity that the picture shows
+  // what was done
+  std::vector<LeftOut> left_out;
+  std::vector<SurfaceMean> surfaces;
+  double epsilon = 0.0, min_area = 0.0;  // as used
+  unsigned threads = 1, channels = 3;
+  std::uint64_t seed = 0;
+};
+
+// Sums over the points of the audit.
+struct ErrorSums {
+  std::vector<double> square, reference;  // one entry a point: (b1 - B)(b2 - B) and (b1 - E)(b2 - E)
+
+  [[nodiscard]] std::optional<ErrorEstimate> estimate() const {
+    const auto n = static_cast<double>(square.size());
+    if (square.size() < 2) { return std::nullopt; }
+    double error = 0.0;
+    double signal = 0.0;
+    for (std::size_t i = 0; i < square.size(); ++i) {
+      error += square[i] / n;
+      signal += reference[i] / n;
+    }
+    if (!(signal > 0.0)) { return ErrorEstimate{}; }  // nothing is reflected: B = E exactly
+    double variance = 0.0;
+    for (const double s : square) { variance += (s - error) * (s - error) / (n - 1.0); }
+    const double noise = std::sqrt(variance / n);  // standard error of the mean squared error
+    const double root = std::sqrt(std::max(0.0, error));
+    // d sqrt(x) = dx / (2 sqrt(x)); where the error is lost in the noise, the noise itself bounds it.
+    const double root_noise = error > noise ? 0.5 * noise / root : std::sqrt(noise);
+    return ErrorEstimate{root / std::sqrt(signal), root_noise / std::sqrt(signal)};
+  }
+};
+
+struct MeasuredError {
+  std::optional<ErrorEstimate> leaf, picture;
+  std::uint32_t points = 0;
+  std::uint64_t rays = 0;
+};
+
+// Compares the mesh (in the frame) with `points` path-traced points, spread evenly over its area.
+[[nodiscard]] inline MeasuredError measure_error(const Scene& scene, const raycast::Scene& objects, const std::vector<Surface>& surfaces,
+                                                 const Exposure& exposure, const Mesh& mesh, std::uint32_t points, unsigned threads,
+                                                 std::uint64_t seed, const Control& control = {}) {
+  constexpr int paths = 64;  // averaged in each of the two estimates
+  struct Triangle {
+    std::uint32_t face, first, second;  // corners face.first, first, second
+    double cumulative_area;
+  };
+  std::vector<Triangle> triangles;
+  double total = 0.0;
+  const auto corner = [&](std::uint32_t c) -> const glm::dvec3& { return mesh.positions[mesh.corners[c].vertex]; };
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const MeshFace& face = mesh.faces[f];
+    for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
+      const std::uint32_t a = face.first_corner;
+      total += 0.5 * glm::length(glm::cross(corner(a + k) - corner(a), corner(a + k + 1) - corner(a)));
+      triangles.push_back({f, a + k, a + k + 1, total});
+    }
+  }
+  MeasuredError measured;
+  if (points == 0 || !(total > 0.0)) { return measured; }
+
+  const std::vector<InputSurface> inputs = radiosity::surfaces(scene);
+  const PathTracer tracer{scene, objects, surfaces};
+  struct Sample {
+    double leaf = 0.0, picture = 0.0, reference = 0.0;
+    std::uint64_t rays = 0;
+    bool valid = false;
+  };
+  std::vector<Sample> samples(points);
+  const auto measure = [&](std::size_t i) {
+    Random random{seed, i, 0x6175646974ull};
+    const double at = (static_cast<double>(i) + random.uniform()) / points * total;
+    auto triangle =
+        std::upper_bound(triangles.begin(), triangles.end(), at, [](double a, const Triangle& t) { return a < t.cumulative_area; });
+    if (triangle == triangles.end()) { --triangle; }
+    const MeshFace& face = mesh.faces[triangle->face];
+    const double root = std::sqrt(random.uniform());
+    const double v = random.uniform();
+    const double w0 = 1.0 - root;
+    const double w1 = root * (1.0 - v);
+    const double w2 = root * v;
+    const std::uint32_t a = face.first_corner;
+    const glm::dvec3 chord = w0 * corner(a) + w1 * corner(triangle->first) + w2 * corner(triangle->second);
+    const Color shown =
+        w0 * mesh.corners[a].radiosity + w1 * mesh.corners[triangle->first].radiosity + w2 * mesh.corners[triangle->second].radiosity;
+    const InputSurface& input = inputs[face.surface];
+    if (exposure.partly_buried[face.node] && buried(objects, input.object, input.sheet, chord)) { return; }
+    const raycast::SurfacePoint point = objects.object(input.object).project(input.sheet, chord);
+
+    Sample& sample = samples[i];
+    Color mean[2] = {Color{0.0}, Color{0.0}};
+    for (Color& b : mean) {
+      for (int k = 0; k < paths; ++k) {
+        b += tracer.radiosity(point.position, point.normal, input.object, input.sheet, random, sample.rays) / static_cast<double>(paths);
+      }
+    }
+    const Color& emission = scene.materials[input.material].emission;
+    sample.leaf = glm::dot(mean[0] - face.radiosity, mean[1] - face.radiosity);
+    sample.picture = glm::dot(mean[0] - shown, mean[1] - shown);
+    sample.reference = glm::dot(mean[0] - emission, mean[1] - emission);
+    sample.valid = true;
+  };
+  constexpr std::size_t batch = 512;  // between two looks at the cancel flag
+  for (std::size_t first = 0; first < points && !control.cancelled(); first += batch) {
+    parallel_for(std::min<std::size_t>(batch, points - first), threads, [&](std::size_t offset) { measure(first + offset); });
+    control.report("audit", static_cast<double>(std::min<std::size_t>(first + batch, points)) / points);
+  }
+
+  ErrorSums leaf;
+  ErrorSums picture;
+  for (const Sample& sample : samples) {
+    measured.rays += sample.rays;
+    if (!sample.valid) { continue; }
+    ++measured.points;
+    leaf.square.push_back(sample.leaf);
+    leaf.reference.push_back(sample.reference);
+    picture.square.push_back(sample.picture);
+    picture.reference.push_back(sample.reference);
+  }
+  measured.leaf = leaf.estimate();
+  measured.picture = picture.estimate();
+  return measured;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The exchange between two planar patches, G = A_i F_ij = A_j F_ji, without occlusion. One number serves both
+// directions, so reciprocity holds exactly; the links store it.
+//
+//   far    product Gauss quadrature of the kernel cos cos / (pi r^2)
+//   near   both contours: G = 1/(2 pi) closed integral over both contours of ln r dx_i . dx_j (Lambert 1760,
+//          in the form of Sparrow 1963). It has no singular kernel: touching patches are as exact as distant ones.
+//
+// Patches that reach below each other's horizon are clipped first. Error: below 1e-6 of G for planar patches; see
+// the bound at each rule.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <radiosity/patch.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// Integral of ln |x - p| over the points x of the segment from a to b, with respect to its length.
+// Exact but for rounding; p may lie on the segment.
+[[nodiscard]] inline double log_potential(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& direction, double length) {
+  const glm::dvec3 d = a - p;
+  const double t0 = glm::dot(d, direction);
+  const double t1 = t0 + length;
+  const double h2 = std::max(0.0, glm::dot(d, d) - t0 * t0);
+  const double h = std::sqrt(h2);
+  const auto term = [](double t, double square) { return square > 0.0 ? 0.5 * t * std::log(square) : 0.0; };
+  const double angle = h > 0.0 ? h * std::atan2(h * length, h2 + t0 * t1) : 0.0;
+  return term(t1, t1 * t1 + h2) - term(t0, t0 * t0 + h2) - length + angle;
+}
+
+// Second antiderivative of ln sqrt(x^2 + h^2): the closed form for two parallel edges at distance h.
+[[nodiscard]] inline double parallel_potential(double x, double h) {
+  const double square = x * x + h * h;
+  if (!(square > 0.0)) { return 0.0; }
+  const double angle = h > 0.0 ? h * x * std::atan2(x, h) : 0.0;
+  return 0.25 * (x * x - h * h) * std::log(square) - 0.75 * x * x + angle;
+}
+
+struct Edge {
+  glm::dvec3 start{0.0};
+  glm::dvec3 direction{0.0};
+  double length = 0.0;
+};
+
+// Six-point Gauss rule over part [s0, s1] of edge `outer` of the potential of edge `inner`.
+[[nodiscard]] inline double gauss_edge(const Edge& outer, const Edge& inner, double s0, double s1) {
+  constexpr double x[3] = {0.23861918608319690863, 0.66120938646626451366, 0.93246951420315202781};
+  constexpr double w[3] = {0.46791393457269104739, 0.36076157304813860757, 0.17132449237917034504};
+  const double middle = 0.5 * (s0 + s1);
+  const double half = 0.5 * (s1 - s0);
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    for (const double s : {middle - half * x[i], middle + half * x[i]}) {
+      sum += w[i] * log_potential(outer.start + s * outer.direction, inner.start, inner.direction, inner.length);
+    }
+  }
+  return half * sum;
+}
+
+// The same integral to a tolerance. The integrand is analytic except where the edges meet; there the interval is bisected
+// until its halves agree with the whole, whose value is given.
+[[nodiscard]] inline double integrate_edge(const Edge& outer, const Edge& inner, double s0, double s1, double whole, double tolerance,
+                                           int depth) {
+  const double middle = 0.5 * (s0 + s1);
+  const double left = gauss_edge(outer, inner, s0, middle);
+  const double right = gauss_edge(outer, inner, middle, s1);
+  if (depth == 0 || std::abs(left + right - whole) <= tolerance) { return left + right; }
+  return integrate_edge(outer, inner, s0, middle, left, 0.5 * tolerance, depth - 1) +
+         integrate_edge(outer, inner, middle, s1, right, 0.5 * tolerance, depth - 1);
+}
+
+// Integral of ln r over both edges.
+[[nodiscard]] inline double edge_pair(const Edge& a, const Edge& b, double tolerance) {
+  // Parallel within rounding, seen over the length of both edges: closed form.
+  const glm::dvec3 across = glm::cross(a.direction, b.direction);
+  if (glm::dot(across, across) < 1e-24) {
+    const glm::dvec3 d = b.start - a.start;
+    const double t0 = glm::dot(d, a.direction);
+    const double t1 = t0 + b.length * glm::dot(a.direction, b.direction);
+    const double h = glm::length(d - t0 * a.direction);
+    const double from = std::min(t0, t1);
+    const double to = std::max(t0, t1);
+    return parallel_potential(a.length - from, h) - parallel_potential(-from, h) - parallel_potential(a.length - to, h) +
+           parallel_potential(-to, h);
+  }
+  const Edge& outer = a.length <= b.length ? a : b;
+  const Edge& inner = &outer == &a ? b : a;
+  const double whole = gauss_edge(outer, inner, 0.0, outer.length);
+  // At half a length of clear distance the six-point rule errs by less than 3.7^-12 of a length.
+  const glm::dvec3 apart = inner.start + 0.5 * inner.length * inner.direction - outer.start - 0.5 * outer.length * outer.direction;
+  if (glm::length(apart) - 0.5 * (a.length + b.length) >= 0.5 * outer.length) { return whole; }
+  return integrate_edge(outer, inner, 0.0, outer.length, whole, tolerance, 24);
+}
+
+// Edges of a contour, those of no length left out. At most `capacity` of them are written.
+inline std::vector<Edge> edges_of(std::span<const glm::dvec3> contour) {
+  std::vector<Edge> edges;
+  edges.reserve(contour.size());
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const glm::dvec3 d = contour[(i + 1) % contour.size()] - contour[i];
+    const double length = glm::length(d);
+    if (length > 0.0) { edges.push_back({contour[i], d / length, length}); }
+  }
+  return edges;
+}
+
+// Near rule. `tolerance` is relative to the smaller area.
+[[nodiscard]] inline double contour_exchange(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double scale, double tolerance) {
+  const std::vector<Edge> a = edges_of(p);
+  const std::vector<Edge> b = edges_of(q);
+  double sum = 0.0;
+  for (const Edge& e : a) {
+    for (const Edge& f : b) {
+      const double cosine = glm::dot(e.direction, f.direction);
+      if (std::abs(cosine) < 1e-15) { continue; }
+      // The unit of length falls out of the closed integrals; measuring in units of the pair keeps ln r small.
+      const Edge es{(e.start - p[0]) / scale, e.direction, e.length / scale};
+      const Edge fs{(f.start - p[0]) / scale, f.direction, f.length / scale};
+      sum += cosine * edge_pair(es, fs, tolerance);
+    }
+  }
+  return sum * scale * scale / (2.0 * std::numbers::pi);
+}
+
+// Far rule: sum over both rules of weight weight cos cos / (pi r^2).
+[[nodiscard]] inline double kernel_exchange(std::span<const QuadraturePoint> p, const glm::dvec3& n, std::span<const QuadraturePoint> q,
+                                            const glm::dvec3& m) {
+  double sum = 0.0;
+  for (const QuadraturePoint& a : p) {
+    double row = 0.0;
+    for (const QuadraturePoint& b : q) {
+      const glm::dvec3 d = b.position - a.position;
+      const double r2 = glm::dot(d, d);
+      row += b.weight * glm::dot(n, d) * -glm::dot(m, d) / (r2 * r2);
+    }
+    sum += a.weight * row;
+  }
+  return std::max(0.0, sum / std::numbers::pi);
+}
+
+}  // namespace detail
+
+// Is any part of `q` above the plane of `p`? 1 all of it, 0 some, -1 none. Parts within `slack` of it count as on it.
+[[nodiscard]] inline int above_horizon(const Patch& p, const Patch& q) {
+  const double slack = 1e-12 * (p.radius + q.radius + glm::length(q.centre - p.centre));
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const glm::dvec3& x : q.contour) {
+    const double height = glm::dot(p.normal, x - p.centre);
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  return high <= slack ? -1 : low >= -slack ? 1 : 0;
+}
+
+// How the light between two patches changes across each of them, to first order: relative change per length, a vector in the
+// plane of the patch. It is the linear function that has the same first moments as the kernel at the Gauss points, and is
+// limited so that it stays positive on the patch.
+struct Slopes {
+  glm::dvec3 p{0.0};
+  glm::dvec3 q{0.0};
+};
+
+[[nodiscard]] inline Slopes slopes(const Patch& p, const Patch& q) {
+  double sum = 0.0;
+  glm::dvec3 moment_p{0.0};
+  glm::dvec3 moment_q{0.0};
+  for (const QuadraturePoint& a : p.rule3) {
+    for (const QuadraturePoint& b : q.rule3) {
+      const glm::dvec3 d = b.position - a.position;
+      const double r2 = glm::dot(d, d);
+      const double cosines = std::max(0.0, glm::dot(p.normal, d)) * std::max(0.0, -glm::dot(q.normal, d));
+      const double light = a.weight * b.weight * cosines / (r2 * r2);
+      sum += light;
+      moment_p += light * (a.position - p.centroid);
+      moment_q += light * (b.position - q.centroid);
+    }
+  }
+  if (!(sum > 0.0)) { return {}; }
+  const auto slope = [sum](const Patch& patch, const glm::dvec3& moment) {
+    glm::dvec3 result = patch.inverse_inertia * (moment / sum);
+    double steepest = 0.0;
+    for (const glm::dvec3& x : patch.contour) { steepest = std::max(steepest, -glm::dot(result, x - patch.centroid)); }
+    return steepest > 1.0 ? result / steepest : result;
+  };
+  return {slope(p, moment_p), slope(q, moment_q)};
+}
+
+// G = A_p F_pq in the unit of the squared coordinates; 0 when the patches do not face each other.
+[[nodiscard]] inline double exchange(const Patch& p, const Patch& q) {
+  const int q_side = above_horizon(p, q);
+  const int p_side = above_horizon(q, p);
+  if (p_side < 0 || q_side < 0 || !(p.area > 0.0) || !(q.area > 0.0)) { return 0.0; }
+  if (p_side == 0 || q_side == 0) {
+    Polygon upper_p;
+    Polygon upper_q;
+    clip_to_horizon(p.contour, q.centre, q.normal, upper_p);
+    clip_to_horizon(q.contour, p.centre, p.normal, upper_q);
+    if (upper_p.size() < 3 || upper_q.size() < 3) { return 0.0; }
+    Patch cut_p = make_patch(std::move(upper_p));
+    Patch cut_q = make_patch(std::move(upper_q));
+    if (!(cut_p.area > 0.0) || !(cut_q.area > 0.0)) { return 0.0; }
+    if (above_horizon(cut_p, cut_q) != 1 || above_horizon(cut_q, cut_p) != 1) { return 0.0; }
+    return exchange(cut_p, cut_q);
+  }
+  // Extent over distance. Gauss rules of 2, 3, 4 points a side err by less than 6 (ratio/3)^4, 4 (ratio/3)^6, 3 (ratio/3)^8.
+  const double distance = glm::length(q.centre - p.centre);
+  const double extent = p.radius + q.radius;
+  if (extent < 0.1 * distance) { return detail::kernel_exchange(p.rule2, p.normal, q.rule2, q.normal); }
+  if (extent < 0.35 * distance) { return detail::kernel_exchange(p.rule3, p.normal, q.rule3, q.normal); }
+  if (extent < 0.65 * distance) { return detail::kernel_exchange(p.rule4, p.normal, q.rule4, q.normal); }
+  const double scale = extent + distance;
+  const double tolerance = 1e-8 * std::min(p.area, q.area) / (scale * scale);
+  return std::max(0.0, detail::contour_exchange(p.contour, q.contour, scale, tolerance));
+}
+
+}  // namespace radiosity

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a surface does with light. Every surface is an ideal diffuse (Lambertian) reflector, as in the
+// paper (section 3): it is described by its reflectance rho in [0,1] and its own emission E, per channel.
+//
+// Units: emission and radiosity are exitances in W/m2. Radiance of a diffuse surface is B / pi.
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <glm/vec3.hpp>
+
+namespace radiosity {
+
+// One number per channel: red, green, blue.
+using Color = glm::dvec3;
+
+struct Material {
+  std::string name;
+  Color reflectance{0.0};  // rho, each channel in [0,1]
+  Color emission{0.0};     // E, W/m2, each channel >= 0
+};
+
+// A sentence that says what is wrong with the material, or nothing when it is sound.
+[[nodiscard]] inline std::optional<std::string> fault(const Material& material) {
+  for (int c = 0; c < 3; ++c) {
+    const double rho = material.reflectance[c];
+    const double emission = material.emission[c];
+    if (!(rho >= 0.0 && rho <= 1.0)) {
+      return "material '" + material.name + "': reflectance " + std::to_string(rho) +
+             " lies outside [0, 1]; a surface cannot reflect more than it receives";
+    }
+    if (!(emission >= 0.0) || !std::isfinite(emission)) {
+      return "material '" + material.name + "': emission " + std::to_string(emission) + " is not a finite number >= 0";
+    }
+  }
+  return std::nullopt;
+}
+
+[[nodiscard]] inline bool is_grey(const Color& c) { return c.x == c.y && c.y == c.z; }
+
+[[nodiscard]] inline bool is_black(const Color& c) { return c.x == 0.0 && c.y == 0.0 && c.z == 0.0; }
+
+}  // namespace radiosity

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The result as a picture or a file wants it: positions, faces of three or four corners, a colour at every corner (the half-edge colours of paper 4.5) and the radiosity of the leaf that the face belongs to.
+// Buried leaves are left out.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <radiosity/exposure.hpp>
+#include <radiosity/surface.hpp>
+
+namespace radiosity {
+
+struct MeshCorner {
+  std::uint32_t vertex = 0;  // the half-edge's origin
+  Color radiosity{0.0};      // W/m2, as seen from this face
+};
+
+struct MeshFace {
+  std::uint32_t first_corner = 0;
+  std::uint32_t corner_count = 0;  // 3 or 4; for shading, a quadrilateral is the triangles 0 1 2 and 0 2 3
+  std::uint32_t surface = 0;       // index of the input surface
+  std::uint32_t node = no_node;    // hierarchy leaf
+  Color radiosity{0.0};            // of the leaf
+};
+
+struct Mesh {
+  std::vector<glm::dvec3> positions;
+  std::vector<MeshCorner> corners;
+  std::vector<MeshFace> faces;  // counter-clockwise from the bright side
+};
+
+// Positions are in the frame.
+[[nodiscard]] inline Mesh make_mesh(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const Exposure& exposure,
+                                    const std::vector<Color>& radiosity) {
+  Mesh mesh;
+  for (const Surface& surface : surfaces) {
+    const SurfaceBRep& brep = surface.brep;
+    std::vector<std::uint32_t> index;
+    for (const brep::VertexId v : brep::vertices(brep)) {
+      if (v.index >= index.size()) { index.resize(v.index + 1, 0); }
+      index[v.index] = static_cast<std::uint32_t>(mesh.positions.size());
+      mesh.positions.push_back(brep.data(v).position);
+    }
+    for (const brep::FaceId f : brep::faces(brep)) {
+      const std::uint32_t node = brep.data(f).node;
+      if (node == no_node || !(exposure.area[node] > 0.0)) { continue; }
+      // Four corners at most; T-vertex elimination leaves no others, the rest would be cut as a fan.
+      std::vector<brep::HalfedgeId> loop;
+      for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) { loop.push_back(h); }
+      const auto add = [&](std::initializer_list<std::size_t> corners) {
+        mesh.faces.push_back({static_cast<std::uint32_t>(mesh.corners.size()), static_cast<std::uint32_t>(corners.size()),
+                              hierarchy[node].surface, node, radiosity[node]});
+        for (const std::size_t k : corners) { mesh.corners.push_back({index[brep.vertex(loop[k]).index], brep.data(loop[k]).radiosity}); }
+      };
+      if (loop.size() == 4) {
+        add({0, 1, 2, 3});
+      } else {
+        for (std::size_t k = 1; k + 1 < loop.size(); ++k) { add({0, k, k + 1}); }
+      }
+    }
+  }
+  return mesh;
+}
+
+}  // namespace radiosity

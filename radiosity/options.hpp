@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a run may be told. Every number is dimensionless: a scene that is scaled or moved gives the same result.
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace radiosity {
+
+struct Surface;
+
+enum class Solver { conjugate_gradients, jacobi };
+enum class Reconstruction { weighted, simple };  // paper fig. 5; simple ignores the normals (figs. 6-8)
+
+struct Options {
+  // F-refinement (paper 4.4): a pair is linked when its estimated form factor is at most epsilon,
+  double epsilon = 0.005;
+  // or when both patches are no larger than min_area, relative to the total area of the scene.
+  double min_area = 3e-5;
+  // Accuracy target: epsilon and min_area are tightened until the audited relative L2 error is at most this.
+  std::optional<double> error;
+
+  Solver solver = Solver::conjugate_gradients;
+  double residual = 1e-8;  // relative to the residual of B = 0
+  std::uint32_t max_iterations = 1000;
+  Reconstruction reconstruction = Reconstruction::weighted;
+
+  std::uint32_t audit_points = 2000;  // 0: no error estimate
+  unsigned threads = 0;               // 0: as many as the machine has; results do not depend on it
+  std::uint64_t seed = 1;
+};
+
+// How the caller watches and stops a run. `progress` is called from the thread that called solve().
+struct Control {
+  const std::atomic<bool>* cancel = nullptr;
+  std::function<void(std::string_view stage, double fraction)> progress;
+  // Called with the valid BReps of all objects after each generation of refinement.
+  std::function<void(const std::vector<Surface>&)> after_generation;
+
+  [[nodiscard]] bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
+  void report(std::string_view stage, double fraction) const {
+    if (progress) { progress(stage, fraction); }
+  }
+};
+
+}  // namespace radiosity

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The oracle: may this pair of patches be linked here, or must one of them be split first (paper 4.3, 4.4)?
+// It looks at centre, normal and area alone. F-oracle: the form factor estimate must not exceed a threshold.
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include <radiosity/form_factor.hpp>
+#include <radiosity/hierarchy.hpp>
+
+namespace radiosity {
+
+enum class Decision : unsigned char {
+  drop,     // proven: the patches cannot face each other
+  link,     // exchange light at this level
+  split_p,  // too much light for one link: split the first,
+  split_q,  // or the second patch
+};
+
+// Greatest height of patch q above the plane of p: its centre's height plus the reach of its disk along p's normal.
+[[nodiscard]] inline double reach_above(const Node& p, const Node& q) {
+  const double cosine = glm::dot(p.normal, q.normal);
+  return glm::dot(p.normal, q.centre - p.centre) + q.radius * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+}
+
+// The larger of both estimates F_pq and F_qp. Where a patch reaches over the other's horizon while its centre
+// lies below, the cosine of its highest point stands for that of its centre.
+[[nodiscard]] inline double form_factor_estimate(const Node& p, const Node& q) {
+  const double r = glm::length(q.centre - p.centre);
+  const double area = std::max(p.area, q.area);
+  if (!(r > 0.0)) { return 1.0; }
+  const auto cosine = [&](const Node& from, const Node& to) {
+    const double centre = glm::dot(from.normal, to.centre - from.centre);
+    return std::clamp((centre > 0.0 ? centre : reach_above(from, to)) / r, 0.0, 1.0);
+  };
+  return cosine(p, q) * cosine(q, p) * area / (std::numbers::pi * r * r + area);
+}
+
+// F-oracle. `min_area` in the unit of the node areas. The larger patch is split; patches of equal size within
+// one part in a million count as equal, so that rounding never decides.
+[[nodiscard]] inline Decision f_oracle(const Node& p, const Node& q, double epsilon, double min_area) {
+  const double slack = 1e-9 * (p.radius + q.radius + glm::length(q.centre - p.centre));
+  if (reach_above(p, q) <= slack || reach_above(q, p) <= slack) { return Decision::drop; }
+  if (form_factor_estimate(p, q) <= epsilon) { return Decision::link; }
+  if (std::max(p.area, q.area) <= min_area) { return Decision::link; }
+  return q.area > p.area * (1.0 + 0x1p-20) ? Decision::split_q : Decision::split_p;
+}
+
+}  // namespace radiosity

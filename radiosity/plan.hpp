@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What this scene does not need. The plan is made before work begins, from proofs about the objects alone; what
+// it leaves out cannot change the result. Each omission says what, why and, after the run, what it saved.
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/scene.hpp>
+
+#include <radiosity/scene.hpp>
+#include <radiosity/surface.hpp>
+
+namespace radiosity {
+
+struct LeftOut {
+  std::string what;
+  std::string why;
+  std::string saved;
+};
+
+// An object that can stand between two patches.
+struct Occluder {
+  raycast::Box bounds;
+  std::uint32_t object = 0;
+  bool convex = false;  // cannot stand between its own patch and another that faces it
+};
+
+struct Plan {
+  bool lit = false;       // something emits
+  bool reflects = false;  // something reflects
+  unsigned channels = 3;  // 1 when every material is grey
+  bool closed = false;    // proven: no light leaves the scene
+  std::vector<Occluder> occluders;
+  std::vector<LeftOut> left_out;
+};
+
+namespace detail {
+
+// Does everything in the scene lie on one side of every face of this flat object? Then no segment between two
+// points of the scene can pass through it. Slack: 1e-9 of the scene.
+inline bool on_the_hull(const std::vector<Surface>& surfaces, std::uint32_t object) {
+  const SurfaceBRep& own = surfaces[object].brep;
+  for (const brep::FaceId f : brep::faces(own)) {
+    if (own.data(f).sheet == brep::no_sheet) { continue; }
+    const Polygon polygon = corner_polygon(own, f);
+    const glm::dvec3 area = vector_area(polygon);
+    if (!(glm::length(area) > 0.0)) { return false; }
+    const glm::dvec3 normal = glm::normalize(area);
+    double low = 0.0;
+    double high = 0.0;
+    const auto extend = [&](const glm::dvec3& p) {
+      low = std::min(low, glm::dot(normal, p - polygon[0]));
+      high = std::max(high, glm::dot(normal, p - polygon[0]));
+    };
+    for (const Surface& surface : surfaces) {
+      if (surface.object->flat()) {
+        for (const brep::VertexId v : brep::vertices(surface.brep)) { extend(surface.brep.data(v).position); }
+      } else {
+        const raycast::Box box = surface.object->bounds();
+        for (int corner = 0; corner < 8; ++corner) {
+          extend({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z});
+        }
+      }
+    }
+    if (low < -1e-9 && high > 1e-9) { return false; }
+  }
+  return true;
+}
+
+// Does every vertex of a flat surface lie on the boundary of a room? Slack: 1e-9 of the scene.
+inline bool lies_on_room(const Surface& surface, const raycast::PlacedObject& room) {
+  for (const brep::VertexId v : brep::vertices(surface.brep)) {
+    const glm::dvec3 p = surface.brep.data(v).position;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t s = 0; s < room.sheet_count(); ++s) { nearest = std::min(nearest, glm::length(room.project(s, p).position - p)); }
+    if (nearest > 1e-9) { return false; }
+  }
+  return true;
+}
+
+}  // namespace detail
+
+// `surfaces` are the unrefined boundaries of the compiled objects, one an object, in the frame.
+[[nodiscard]] inline Plan make_plan(const Scene& scene, const std::vector<Surface>& surfaces) {
+  Plan plan;
+  bool grey = true;
+  for (const InputSurface& s : radiosity::surfaces(scene)) {
+    const Material& material = scene.materials[s.material];
+    plan.lit = plan.lit || !is_black(material.emission);
+    plan.reflects = plan.reflects || !is_black(material.reflectance);
+    grey = grey && is_grey(material.emission) && is_grey(material.reflectance);
+  }
+  if (grey) {
+    plan.channels = 1;
+    plan.left_out.push_back({"two colour channels", "every material is grey", "two thirds of the solver's arithmetic"});
+  }
+
+  const Surface* room = nullptr;
+  bool holes = false;
+  std::uint32_t hull = 0;
+  std::vector<std::uint32_t> sheets;  // flat surfaces that block no segment
+  for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
+    const raycast::PlacedObject& object = *surfaces[o].object;
+    if (object.inside() && room == nullptr) { room = &surfaces[o]; }
+    if (object.inside() && object.convex()) { continue; }  // nobody sees through the wall of a convex room
+    const bool on_hull = object.flat() && !object.solid() && detail::on_the_hull(surfaces, o);
+    if (on_hull) {
+      ++hull;
+      sheets.push_back(o);
+      continue;
+    }
+    holes = holes || !object.solid();
+    plan.occluders.push_back({object.bounds(), o, object.convex()});
+  }
+  plan.closed = room != nullptr && !holes && std::all_of(sheets.begin(), sheets.end(), [&](std::uint32_t o) {
+                  return detail::lies_on_room(surfaces[o], *room->object);
+                });
+  if (hull > 0) {
+    plan.left_out.push_back({"occlusion by " + std::to_string(hull) + " outer surface" + (hull > 1 ? "s" : ""),
+                             "the whole scene lies on one side of each", ""});
+  }
+  return plan;
+}
+
+// Can anything stand between a patch of object p and one of object q, both inside `hull`?
+[[nodiscard]] inline bool may_block(const Plan& plan, std::uint32_t p, std::uint32_t q, const raycast::Box& hull) {
+  for (const Occluder& occluder : plan.occluders) {
+    const bool owner = occluder.object == p || occluder.object == q;
+    if (owner && occluder.convex) { continue; }
+    const raycast::Box& box = occluder.bounds;
+    if (glm::all(glm::lessThanEqual(box.lo, hull.hi)) && glm::all(glm::lessThanEqual(hull.lo, box.hi))) { return true; }
+  }
+  return false;
+}
+
+}  // namespace radiosity

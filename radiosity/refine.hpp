@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// F-refinement (paper 4.4): every pair of input faces is linked where the oracle allows, and patches are split where
+// it does not; where a light shines, the light oracle is asked as well. The work goes generation by generation: the oracle answers for all open pairs in parallel, then
+// links and splits are carried out in the order of the pairs and of the nodes. So the result is the same for any
+// number of threads, and a split asked for by many pairs happens once.
+//
+// Invariant: after each generation every BRep is valid and every unordered pair of leaves that can face each other is
+// covered by exactly one link or open pair between ancestors (or the leaves themselves).
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <radiosity/hierarchy.hpp>
+#include <radiosity/light_oracle.hpp>
+#include <radiosity/links.hpp>
+#include <radiosity/options.hpp>
+#include <radiosity/oracle.hpp>
+#include <radiosity/parallel.hpp>
+#include <radiosity/plan.hpp>
+#include <radiosity/surface.hpp>
+
+namespace radiosity {
+
+struct RefineResult {
+  Links links;                      // without their exchange
+  std::uint64_t pairs_tested = 0;   // questions to the oracle
+  std::uint64_t pairs_dropped = 0;  // proven to face away from each other
+  std::uint64_t pairs_convex = 0;   // never asked: faces of one flat sheet or one convex solid cannot see each other
+  std::uint64_t rays = 0;           // segments cast to find shadow boundaries
+  std::uint32_t generations = 0;
+  bool cancelled = false;
+};
+
+namespace detail {
+
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+// All pairs of roots that may face each other, and in `inner` the roots whose own parts may.
+inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& roots, std::vector<Pair>& pairs,
+                       std::vector<std::uint32_t>& inner, std::uint64_t& convex) {
+  const auto count = static_cast<std::uint32_t>(roots.size());
+  for (std::uint32_t p = 0; p < count; ++p) {
+    const raycast::PlacedObject& object = *surfaces[roots[p].object].object;
+    const bool sees_itself = object.inside() || !object.convex();
+    if (sees_itself && !object.flat()) { inner.push_back(p); }
+    for (std::uint32_t q = p + 1; q < count; ++q) {
+      const bool same_object = roots[p].object == roots[q].object;
+      const bool same_flat_sheet = object.flat() && roots[p].surface == roots[q].surface;
+      if (same_object && (!sees_itself || same_flat_sheet)) {
+        ++convex;
+      } else {
+        pairs.emplace_back(p, q);
+      }
+    }
+  }
+}
+
+}  // namespace detail
+
+// Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots.
+[[nodiscard]] inline RefineResult refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
+                                         std::vector<Surface>& surfaces, Hierarchy& hierarchy, double epsilon, double min_area,
+                                         unsigned threads, std::uint64_t seed, const Control& control = {}) {
+  RefineResult result;
+  const LightOracle light{scene, objects, plan, surfaces, hierarchy, epsilon, seed};
+  min_area *= light.scene_area();
+  std::vector<std::uint32_t> rays;
+
+  std::vector<detail::Pair> pairs;
+  std::vector<std::uint32_t> inner;  // leaves of concave curved objects: their children will see each other
+  detail::root_pairs(surfaces, hierarchy, pairs, inner, result.pairs_convex);
+
+  std::vector<Decision> decisions;
+  std::vector<std::uint32_t> wanted;  // leaves to split in this generation
+  std::vector<bool> stuck;            // leaves that the BRep refused to split
+  while (!pairs.empty()) {
+    if (control.cancelled()) {
+      result.cancelled = true;
+      return result;
+    }
+    decisions.assign(pairs.size(), Decision::drop);
+    rays.assign(pairs.size(), 0);
+    parallel_for(pairs.size(), threads, [&](std::size_t i) {
+      const auto& [p, q] = pairs[i];
+      decisions[i] = f_oracle(hierarchy[p], hierarchy[q], epsilon, min_area);
+      if (decisions[i] != Decision::link) { return; }
+      const std::uint32_t split = light.wants_split(p, q, rays[i]);
+      if (split != no_node && hierarchy[split].area > min_area) { decisions[i] = split == p ? Decision::split_p : Decision::split_q; }
+    });
+    for (const std::uint32_t r : rays) { result.rays += r; }
+    result.pairs_tested += pairs.size();
+
+    // Leaves are split in the order of their index.
+    std::vector<bool> asked(hierarchy.size(), false);
+    stuck.resize(hierarchy.size(), false);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (decisions[i] == Decision::split_p) { asked[pairs[i].first] = true; }
+      if (decisions[i] == Decision::split_q) { asked[pairs[i].second] = true; }
+    }
+    const auto before = static_cast<std::uint32_t>(hierarchy.size());
+    for (std::uint32_t i = 0; i < before; ++i) {
+      if (asked[i] && hierarchy[i].leaf() && !subdivide(surfaces, hierarchy, i)) { stuck[i] = true; }
+    }
+
+    std::vector<detail::Pair> next;
+    const auto descend = [&](std::uint32_t split, std::uint32_t other) {
+      for (std::uint32_t k = 0; k < hierarchy[split].child_count; ++k) { next.emplace_back(hierarchy[split].first_child + k, other); }
+    };
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const auto [p, q] = pairs[i];
+      switch (decisions[i]) {
+        case Decision::drop:
+          ++result.pairs_dropped;
+          break;
+        case Decision::link:
+          result.links.push_back({p, q});
+          break;
+        case Decision::split_p:
+          stuck[p] ? result.links.push_back({p, q}) : descend(p, q);
+          break;
+        case Decision::split_q:
+          stuck[q] ? result.links.push_back({p, q}) : descend(q, p);
+          break;
+      }
+    }
+    std::vector<std::uint32_t> still_inner;
+    for (const std::uint32_t p : inner) {
+      if (hierarchy[p].leaf()) {
+        still_inner.push_back(p);
+        continue;
+      }
+      const std::uint32_t first = hierarchy[p].first_child;
+      const std::uint32_t last = first + hierarchy[p].child_count;
+      for (std::uint32_t a = first; a < last; ++a) {
+        still_inner.push_back(a);
+        for (std::uint32_t b = a + 1; b < last; ++b) { next.emplace_back(a, b); }
+      }
+    }
+    inner = std::move(still_inner);
+    pairs = std::move(next);
+    ++result.generations;
+    if (control.after_generation) { control.after_generation(surfaces); }
+    control.report("refine", pairs.empty() ? 1.0 : 1.0 - 1.0 / (1.0 + result.generations));
+  }
+  return result;
+}
+
+}  // namespace radiosity

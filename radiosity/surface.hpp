@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The boundary of one object as the solver needs it: a BRep whose vertices, half-edges and faces carry derived
+// attributes (paper 2.2, 4.2). Vertices and faces carry level tags; faces know their sheet and their hierarchy
+// leaf; half-edges carry the normal and the colour of their origin as seen from their face (paper 4.5).
+//
+// A vertex that refinement inserts is placed on the object by Object::project, so the mesh follows the true shape
+// as it gets finer; on an edge between two sheets it is placed on both.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/brep.hpp>
+#include <brep/builder.hpp>
+#include <brep/circulators.hpp>
+#include <brep/geometry.hpp>
+#include <brep/refine.hpp>
+#include <brep/split.hpp>
+#include <brep/tag.hpp>
+#include <raycast/scene.hpp>
+
+#include <radiosity/form_factor.hpp>
+#include <radiosity/hierarchy.hpp>
+#include <radiosity/material.hpp>
+#include <radiosity/patch.hpp>
+
+namespace radiosity {
+
+struct SurfaceVertex : brep::Tag {
+  glm::dvec3 position{0.0};
+};
+
+struct SurfaceHalfedge {
+  glm::dvec3 normal{0.0};
+  Color radiosity{0.0};
+};
+
+struct SurfaceFace : brep::Tag {
+  std::uint32_t sheet = brep::no_sheet;
+  std::uint32_t node = no_node;  // the hierarchy leaf that stands on this face
+};
+
+using SurfaceBRep = brep::BRep<SurfaceVertex, SurfaceHalfedge, SurfaceFace>;
+
+struct Surface {
+  const raycast::PlacedObject* object = nullptr;
+  std::uint32_t first_surface = 0;  // input surface of sheet 0
+  SurfaceBRep brep;
+};
+
+// The approximation of a placed object with convex faces, or a sentence that says why there is none.
+struct SurfaceResult {
+  std::optional<Surface> surface;
+  std::string fault;
+};
+
+// Chord error of the first approximation, relative to the size of the object. Refinement goes on from there.
+inline constexpr double first_chord_error = 0.01;
+
+[[nodiscard]] inline SurfaceResult make_surface(const raycast::PlacedObject& object, std::uint32_t first_surface) {
+  const raycast::Box box = object.bounds();
+  brep::Builder builder;
+  object.approximate(first_chord_error * glm::length(box.hi - box.lo), builder);
+  auto closed = brep::close<SurfaceBRep>(builder);
+  if (!closed.brep) {
+    std::string sentence = "its approximation is not a closed boundary";
+    for (const auto& defect : closed.defects) { sentence += "; " + defect.sentence; }
+    return {std::nullopt, std::move(sentence)};
+  }
+  Surface surface{&object, first_surface, std::move(*closed.brep)};
+  std::vector<brep::FaceId> concave;
+  for (const brep::FaceId f : brep::faces(surface.brep)) {
+    if (surface.brep.data(f).sheet != brep::no_sheet && !brep::is_convex(surface.brep, f)) { concave.push_back(f); }
+  }
+  for (const brep::FaceId f : concave) {
+    const auto parts = brep::split_until_convex(surface.brep, f);
+    if (!parts) { return {std::nullopt, parts.refusal().sentence()}; }
+  }
+  return {std::move(surface), {}};
+}
+
+// Moves a vertex to the sheets of the faces around it: onto the surface, or onto the curve where two sheets meet.
+inline void place_on_object(const raycast::PlacedObject& object, SurfaceBRep& brep, brep::VertexId v) {
+  if (object.flat()) { return; }
+  glm::dvec3& position = brep.data(v).position;
+  for (int round = 0; round < 8; ++round) {
+    const glm::dvec3 before = position;
+    for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) {
+      const std::uint32_t sheet = brep.data(brep.face(h)).sheet;
+      if (sheet != brep::no_sheet) { position = object.project(sheet, position).position; }
+    }
+    if (position == before) { return; }
+  }
+}
+
+// Corner positions of a face, corner 0 first, T-vertices left out.
+[[nodiscard]] inline Polygon corner_polygon(const SurfaceBRep& brep, brep::FaceId f) {
+  Polygon polygon;
+  for (const brep::HalfedgeId h : brep::corners(brep, f)) { polygon.push_back(brep.data(brep.vertex(h)).position); }
+  return polygon;
+}
+
+// Makes the leaf node of a face and enters it in the face.
+inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, std::uint32_t parent, std::uint32_t index) {
+  const Polygon polygon = corner_polygon(surface.brep, f);
+  Node node;
+  const glm::dvec3 area = vector_area(polygon);
+  node.area = glm::length(area);
+  node.normal = node.area > 0.0 ? area / node.area : glm::dvec3{0.0};
+  for (const glm::dvec3& p : polygon) { node.centre += p / static_cast<double>(polygon.size()); }
+  for (const glm::dvec3& p : polygon) { node.radius = std::max(node.radius, glm::length(p - node.centre)); }
+  node.parent = parent;
+  node.object = object;
+  node.surface = surface.first_surface + surface.brep.data(f).sheet;
+  node.corners = static_cast<std::uint32_t>(polygon.size());
+  node.face = f;
+  surface.brep.data(f).node = index;
+  return node;
+}
+
+// One root for each face of each surface (paper 4.2), holes and backs left out.
+[[nodiscard]] inline Hierarchy make_roots(std::vector<Surface>& surfaces) {
+  Hierarchy hierarchy;
+  for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
+    for (const brep::FaceId f : brep::faces(surfaces[o].brep)) {
+      if (surfaces[o].brep.data(f).sheet == brep::no_sheet) { continue; }
+      hierarchy.push_back(make_leaf(surfaces[o], o, f, no_node, static_cast<std::uint32_t>(hierarchy.size())));
+    }
+  }
+  return hierarchy;
+}
+
+// Splits a leaf: its face is refined by Euler operators and the new faces become its children. False when the
+// BRep refuses (the level tag is full); then nothing has changed.
+[[nodiscard]] inline bool subdivide(std::vector<Surface>& surfaces, Hierarchy& hierarchy, std::uint32_t index) {
+  const std::uint32_t object = hierarchy[index].object;
+  Surface& surface = surfaces[object];
+  const auto place = [&](SurfaceBRep& brep, brep::VertexId v) { place_on_object(*surface.object, brep, v); };
+  const auto faces = brep::refine(surface.brep, hierarchy[index].face, place);
+  if (!faces) { return false; }
+  const auto first = static_cast<std::uint32_t>(hierarchy.size());
+  for (const brep::FaceId f : *faces) {
+    hierarchy.push_back(make_leaf(surface, object, f, index, static_cast<std::uint32_t>(hierarchy.size())));
+  }
+  hierarchy[index].first_child = first;
+  hierarchy[index].child_count = static_cast<std::uint32_t>(faces->size());
+  hierarchy[index].face = brep::FaceId{};
+  return true;
+}
+
+// The corners of any node: those of its face when it is a leaf, else corner 0 of its first children.
+[[nodiscard]] inline Polygon contour(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, std::uint32_t index) {
+  const auto corner0 = [&](std::uint32_t i) {
+    while (!hierarchy[i].leaf()) { i = hierarchy[i].first_child; }
+    const SurfaceBRep& brep = surfaces[hierarchy[i].object].brep;
+    return brep.data(brep.vertex(brep::corners(brep, hierarchy[i].face)[0])).position;
+  };
+  const Node& node = hierarchy[index];
+  if (node.leaf()) { return corner_polygon(surfaces[node.object].brep, node.face); }
+  Polygon polygon;
+  for (std::uint32_t k = 0; k < node.corners; ++k) { polygon.push_back(corner0(node.first_child + k)); }
+  return polygon;
+}
+
+}  // namespace radiosity

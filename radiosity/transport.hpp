@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The transport of light as one symmetric operator M on leaf radiosities: (M B)_i is the power that arrives at leaf i
+// per W/m2 sent, so the irradiance of leaf i is (M B)_i / A_i. One application pulls radiosity up to the nodes as area
+// averages and first moments, carries it over every link both ways, and pushes what arrived down to the leaves
+// (Hanrahan 1991; here with the slopes of links.hpp).
+//
+// In matrix form M = D P' G P D with P the pull, G the symmetric links, P' the transpose of P, and a diagonal D that is
+// 1 unless the scene is closed: there D makes every row sum exactly what a closed scene demands.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <radiosity/exposure.hpp>
+#include <radiosity/hierarchy.hpp>
+#include <radiosity/links.hpp>
+
+namespace radiosity {
+
+class Transport {
+ public:
+  // The references must outlive the operator.
+  Transport(const Hierarchy& hierarchy, const Links& links, const Exposure& exposure)
+      : hierarchy_{&hierarchy}, links_{&links}, exposure_{&exposure}, scale_(hierarchy.size(), 1.0) {}
+
+  // y = M x. Both have one value a node; x is read and y written at the leaves, the rest of y is scratch.
+  void apply(const std::vector<double>& x, std::vector<double>& y) const {
+    const std::vector<double>& area = exposure_->area;
+    const std::vector<glm::dvec3>& centroid = exposure_->centroid;
+    std::vector<Moments> sent(x.size());        // power of the radiosity: integral of B, and of B (x - c)
+    std::vector<Moments> arrived(x.size());     // irradiance: value at the centroid, and gradient
+    for (std::size_t i = x.size(); i-- > 0;) {  // pull
+      const Node& node = (*hierarchy_)[i];
+      Moments& own = sent[i];
+      if (node.leaf()) { own.value = area[i] * x[i] * scale_[i]; }
+      for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
+        own.value += sent[c].value;
+        own.slope += sent[c].slope + sent[c].value * (centroid[c] - centroid[i]);
+      }
+    }
+    for (const Link& link : *links_) {  // gather
+      const double density = static_cast<double>(link.exchange) / (area[link.p] * area[link.q]);
+      const glm::dvec3 slope_p{link.slope_p};
+      const glm::dvec3 slope_q{link.slope_q};
+      const Moments& p = sent[link.p];
+      const Moments& q = sent[link.q];
+      arrived[link.p].value += density * (q.value + glm::dot(slope_q, q.slope));
+      arrived[link.p].slope += density * q.value * slope_p;
+      arrived[link.q].value += density * (p.value + glm::dot(slope_p, p.slope));
+      arrived[link.q].slope += density * p.value * slope_q;
+    }
+    y.assign(x.size(), 0.0);
+    for (std::size_t i = 0; i < x.size(); ++i) {  // push
+      const Node& node = (*hierarchy_)[i];
+      const Moments& own = arrived[i];
+      if (node.leaf()) { y[i] = own.value * area[i] * scale_[i]; }
+      for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
+        arrived[c].value += own.value + glm::dot(own.slope, centroid[c] - centroid[i]);
+        arrived[c].slope += own.slope;
+      }
+    }
+  }
+
+  // What each leaf sees of the scene: the sum of its form factors. 1 in a closed scene. Inner nodes hold 0.
+  [[nodiscard]] std::vector<double> row_sums() const {
+    std::vector<double> y;
+    apply(std::vector<double>(hierarchy_->size(), 1.0), y);
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      const bool counts = (*hierarchy_)[i].leaf() && exposure_->area[i] > 0.0;
+      y[i] = counts ? y[i] / exposure_->area[i] : 0.0;
+    }
+    return y;
+  }
+
+  // Closes a scene that is proven closed: finds D with all row sums 1 (symmetric scaling, van Leersum 1989), so that
+  // what quadrature and sampled visibility got wrong in the rows does not grow by rho / (1 - rho) in the solution.
+  // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS of D - 1, or nothing, and no D, when that
+  // is beyond `limit`: then something other than quadrature and sampling is wrong.
+  std::optional<double> close(double limit) {
+    const std::vector<double>& area = exposure_->area;
+    for (int round = 0; round < 400; ++round) {
+      const std::vector<double> rows = row_sums();
+      double worst = 0.0;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!(rows[i] > 0.0)) { continue; }
+        worst = std::max(worst, std::abs(rows[i] - 1.0));
+        scale_[i] /= std::sqrt(rows[i]);
+      }
+      if (worst < 1e-12) { break; }
+    }
+    double square = 0.0;
+    double total = 0.0;
+    for (std::size_t i = 0; i < scale_.size(); ++i) {
+      if (!(*hierarchy_)[i].leaf()) { continue; }
+      square += area[i] * (scale_[i] - 1.0) * (scale_[i] - 1.0);
+      total += area[i];
+    }
+    const double rms = total > 0.0 ? std::sqrt(square / total) : 0.0;
+    if (rms <= limit) { return rms; }
+    std::fill(scale_.begin(), scale_.end(), 1.0);
+    return std::nullopt;
+  }
+
+ private:
+  struct Moments {
+    double value = 0.0;
+    glm::dvec3 slope{0.0};
+  };
+
+  const Hierarchy* hierarchy_;
+  const Links* links_;
+  const Exposure* exposure_;
+  std::vector<double> scale_;  // D, at the leaves
+};
+
+}  // namespace radiosity

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Axis-aligned bounds, and the slab test of a line against them.
+//
+// The slab test must never miss a box that the line meets (Ize 2013, "Robust BVH Ray Traversal"): each slab parameter is a product of a
+// rounded difference and a rounded reciprocal, so it is exact up to a factor 1 +- 3u/(1-3u); entry and exit are therefore compared
+// with a relative slack of 8u. A direction component of +-0 gives +-inf, and 0 * inf = NaN when the origin lies on the slab's plane;
+// comparisons are written so that a NaN leaves the interval as it is, which counts the plane as inside.
+
+#include "ray.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace raycast {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double unit_roundoff = 0.5 * std::numeric_limits<double>::epsilon();
+
+struct Box {
+  glm::dvec3 lo{infinity}, hi{-infinity};   // the default is the empty box
+
+  [[nodiscard]] bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
+  [[nodiscard]] glm::dvec3 centre() const { return 0.5 * lo + 0.5 * hi; }
+  [[nodiscard]] glm::dvec3 size() const { return empty() ? glm::dvec3{0.0} : hi - lo; }
+  [[nodiscard]] double diameter() const { return glm::length(size()); }
+  [[nodiscard]] double half_area() const {
+    const glm::dvec3 s = size();
+    return s.x * s.y + s.y * s.z + s.z * s.x;
+  }
+  // The largest absolute coordinate: what rounding errors of positions are relative to.
+  [[nodiscard]] double magnitude() const {
+    double m = 0.0;
+    if (!empty())
+      for (int k = 0; k < 3; ++k) m = std::max({m, std::abs(lo[k]), std::abs(hi[k])});
+    return m;
+  }
+  [[nodiscard]] bool contains(const glm::dvec3& p, double margin = 0.0) const {
+    return p.x >= lo.x - margin && p.x <= hi.x + margin && p.y >= lo.y - margin && p.y <= hi.y + margin && p.z >= lo.z - margin &&
+           p.z <= hi.z + margin;
+  }
+  void extend(const glm::dvec3& p) {
+    lo = glm::dvec3{std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+    hi = glm::dvec3{std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+  }
+  void extend(const Box& b) {
+    lo = glm::dvec3{std::min(lo.x, b.lo.x), std::min(lo.y, b.lo.y), std::min(lo.z, b.lo.z)};
+    hi = glm::dvec3{std::max(hi.x, b.hi.x), std::max(hi.y, b.hi.y), std::max(hi.z, b.hi.z)};
+  }
+  [[nodiscard]] Box grown(double margin) const { return empty() ? *this : Box{lo - margin, hi + margin}; }
+};
+
+// A line prepared for many slab tests.
+class SlabTest {
+ public:
+  explicit SlabTest(const Segment& line)
+      : origin_(line.origin), inverse_(1.0 / line.direction.x, 1.0 / line.direction.y, 1.0 / line.direction.z) {
+    // From the reciprocal, not from the direction: -0.0 must choose the side that its -inf belongs to.
+    for (int k = 0; k < 3; ++k) backward_[k] = std::signbit(inverse_[k]);
+  }
+
+  // Does the line meet the box within [t0, t1]? `entry` becomes the (rounded) parameter where it does, at least t0.
+  [[nodiscard]] bool operator()(const Box& box, double t0, double t1, double& entry) const {
+    double in = t0, out = t1;
+    axis(box.lo.x, box.hi.x, origin_.x, inverse_.x, backward_[0], in, out);
+    axis(box.lo.y, box.hi.y, origin_.y, inverse_.y, backward_[1], in, out);
+    axis(box.lo.z, box.hi.z, origin_.z, inverse_.z, backward_[2], in, out);
+    entry = in;
+    return in <= out || in - out <= 8.0 * unit_roundoff * std::min(std::abs(in), std::abs(out));
+  }
+
+ private:
+  static void axis(double lo, double hi, double origin, double inverse, bool backward, double& in, double& out) {
+    const double near = ((backward ? hi : lo) - origin) * inverse;
+    const double far = ((backward ? lo : hi) - origin) * inverse;
+    in = near > in ? near : in;   // false for NaN
+    out = far < out ? far : out;
+  }
+
+  glm::dvec3 origin_{0.0}, inverse_{0.0};
+  bool backward_[3] = {};
+};
+
+}  // namespace raycast

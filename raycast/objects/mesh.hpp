@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A polyhedral surface: indexed planar polygons, counter-clockwise seen from the air, each face its own sheet f0 f1 ...
+// A closed mesh is a solid, an open one a surface whose back is black.
+//
+// Crossings come from the watertight line test of planar.hpp. Entries and exits are told apart by the sign of the winding number, not
+// by a dot product, and there are equally many of both on every line through a closed mesh. The k-th entry belongs to the k-th exit:
+// in an embedded surface they alternate, and where rounding swaps an exit and the next entry (a line over an edge), two overlapping
+// spans merge and a span of negative length is dropped, so no gap opens. That a closed mesh does not intersect itself is not checked.
+
+#include "../bvh.hpp"
+#include "../planar.hpp"
+#include "../traverse.hpp"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace raycast {
+
+class Mesh final : public Object {
+ public:
+  // Corners of the faces are indices into positions. Positions without a face are left out.
+  // Refused, with the number of the face or vertex (counted from 0): an index out of range, a face that polygon_fault refuses, a surface
+  // that is not a manifold with consistent orientation, a closed mesh that is inside out (its volume is not positive).
+  static Made<Mesh> make(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces) {
+    std::shared_ptr<Mesh> mesh(new Mesh);
+    if (std::string refusal = mesh->take(positions, faces); !refusal.empty()) return refusal;
+    if (std::string refusal = mesh->close_borders(); !refusal.empty()) return refusal;
+    if (mesh->borders_.empty() && !(mesh->volume() > 0.0))
+      return "the mesh is closed and inside out: list the corners of its faces counter-clockwise seen from outside";
+    mesh->prepare();
+    return std::shared_ptr<const Mesh>(std::move(mesh));
+  }
+
+  [[nodiscard]] Box bounds() const override { return box_; }
+  [[nodiscard]] bool convex() const override { return convex_; }
+  [[nodiscard]] bool flat() const override { return true; }
+  [[nodiscard]] bool solid() const override { return borders_.empty(); }
+  [[nodiscard]] double slack() const override { return slack_; }
+  [[nodiscard]] std::uint32_t sheet_count() const override { return static_cast<std::uint32_t>(planes_.size()); }
+  [[nodiscard]] std::string_view sheet_name(std::uint32_t sheet) const override { return names_[sheet]; }
+
+  void spans(const Segment& line, Spans& out) const override {
+    // Seen from the middle of the mesh, rounding is relative to its size and not to the distance of the ray's origin.
+    const double shift = nearest_parameter(line, box_.centre());
+    const Segment near{line.at(shift), line.direction};
+    const RayFrame frame(near);
+    InlineVector<Crossing, 16> in, leave;
+    const auto visit = [&](std::uint32_t f) {
+      const std::span<const std::uint32_t> face = corners(f);
+      const int w = frame.winding(face.size(), [&](std::size_t i) -> const glm::dvec3& { return positions_[face[i]]; });
+      if (w != 0) (w < 0 ? in : leave).push(Crossing{shift + crossing(near, f), f});
+      return false;
+    };
+    if (bvh_.empty()) {
+      for (std::uint32_t f = 0; f < planes_.size(); ++f) visit(f);
+    } else {
+      static_cast<void>(any(bvh_, SlabTest(near), -infinity, infinity, visit));
+    }
+    const auto earlier = [](const Crossing& a, const Crossing& b) { return a.t < b.t || (a.t == b.t && a.sheet < b.sheet); };
+    if (!solid())
+      for (const Crossing& c : leave) in.push(c);
+    std::sort(in.begin(), in.end(), earlier);
+    std::sort(leave.begin(), leave.end(), earlier);
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      if (!solid()) out.push(Span{in[i], in[i]});
+      else if (i < leave.size()) out.push(Span{in[i], leave[i]});
+    }
+  }
+
+  // The mesh itself, whatever the tolerance; each border loop is closed by one face of brep::no_sheet.
+  void approximate(double, brep::Builder& out) const override {
+    std::vector<std::uint32_t> loop;
+    const std::uint32_t first = positions_.empty() ? 0 : out.vertex(positions_[0]);
+    for (std::size_t i = 1; i < positions_.size(); ++i) out.vertex(positions_[i]);
+    const auto face = [&](std::span<const std::uint32_t> from, std::uint32_t sheet) {
+      loop.assign(from.begin(), from.end());
+      for (std::uint32_t& v : loop) v += first;
+      out.face(std::span<const std::uint32_t>(loop), sheet);
+    };
+    for (std::uint32_t f = 0; f < planes_.size(); ++f) face(corners(f), f);
+    for (const std::vector<std::uint32_t>& border : borders_) face(border, brep::no_sheet);
+  }
+
+  [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override {
+    const Plane& plane = planes_[sheet];
+    return {p - glm::dot(p - plane.point, plane.normal) * plane.normal, plane.normal};
+  }
+
+ private:
+  Mesh() = default;
+  [[nodiscard]] std::span<const std::uint32_t> corners(std::uint32_t f) const {
+    return std::span<const std::uint32_t>(corners_).subspan(first_corner_[f], first_corner_[f + 1] - first_corner_[f]);
+  }
+  // Where the line meets the plane of face f; kept within the face's own extent along the line, because the quotient is unbounded when
+  // the face is seen edge-on.
+  [[nodiscard]] double crossing(const Segment& line, std::uint32_t f) const {
+    const double dd = glm::dot(line.direction, line.direction);
+    double lowest = infinity, highest = -infinity;
+    for (const std::uint32_t v : corners(f)) {
+      const double t = glm::dot(positions_[v] - line.origin, line.direction) / dd;
+      lowest = std::min(lowest, t);
+      highest = std::max(highest, t);
+    }
+    const Plane& plane = planes_[f];
+    const double t = glm::dot(plane.normal, plane.point - line.origin) / glm::dot(plane.normal, line.direction);
+    return t >= lowest ? std::min(t, highest) : lowest;   // NaN gives lowest
+  }
+  [[nodiscard]] double volume() const {
+    double six = 0.0;
+    for (std::uint32_t f = 0; f < planes_.size(); ++f) {
+      const auto face = corners(f);
+      for (std::size_t i = 2; i < face.size(); ++i)
+        six += glm::dot(positions_[face[0]] - positions_[0],
+                        glm::cross(positions_[face[i - 1]] - positions_[0], positions_[face[i]] - positions_[0]));
+    }
+    return six / 6.0;
+  }
+
+  std::string take(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces) {
+    if (faces.empty()) return "the mesh has no faces";
+    std::vector<std::uint32_t> renamed(positions.size(), brep::no_sheet);   // keeps the order, closes the gaps
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      for (const std::uint32_t v : faces[f]) {
+        if (v >= positions.size())
+          return "face " + std::to_string(f) + " names vertex " + std::to_string(v) + ", but there are " + std::to_string(positions.size());
+        renamed[v] = 0;
+      }
+    for (std::size_t v = 0; v < positions.size(); ++v)
+      if (renamed[v] == 0) {
+        renamed[v] = static_cast<std::uint32_t>(positions_.size());
+        positions_.push_back(positions[v]);
+      }
+    std::vector<glm::dvec3> polygon;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      polygon.clear();
+      for (const std::uint32_t v : faces[f]) {
+        corners_.push_back(renamed[v]);
+        polygon.push_back(positions[v]);
+      }
+      if (std::optional<std::string> fault = polygon_fault(polygon)) return "face " + std::to_string(f) + " " + *fault;
+      first_corner_.push_back(static_cast<std::uint32_t>(corners_.size()));
+      planes_.push_back(plane_of(polygon));
+      slack_ = std::max(slack_, planes_.back().slack);
+      names_.push_back("f" + std::to_string(f));
+    }
+    return {};
+  }
+
+  // Finds the border loops, and lets brep::close judge the whole: the mesh must be a manifold.
+  std::string close_borders() {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;   // directed
+    for (std::uint32_t f = 0; f < planes_.size(); ++f) {
+      const auto face = corners(f);
+      for (std::size_t i = 0; i < face.size(); ++i) edges.push_back({face[i], face[(i + 1) % face.size()]});
+    }
+    std::sort(edges.begin(), edges.end());
+    std::map<std::uint32_t, std::uint32_t> next;   // along the border, which runs against its faces
+    for (const auto& [a, b] : edges)
+      if (!std::binary_search(edges.begin(), edges.end(), std::pair(b, a)) && !next.emplace(b, a).second)
+        return "the mesh is not a manifold: two borders meet at the vertex at (" + place(b) + "), or an edge has more than two faces";
+    while (!next.empty()) {
+      borders_.emplace_back();
+      for (auto at = next.begin(); at != next.end(); at = next.find(borders_.back().back())) {
+        if (borders_.back().empty()) borders_.back().push_back(at->first);
+        borders_.back().push_back(at->second);
+        next.erase(at);
+      }
+      if (borders_.back().front() != borders_.back().back()) return "the mesh is not a manifold: a border does not close";
+      borders_.back().pop_back();
+    }
+    brep::Builder builder;
+    approximate(0.0, builder);
+    const auto closed = brep::close<brep::BRep<>>(builder);
+    if (!closed.defects.empty()) return "the mesh is not a manifold: " + closed.defects.front().sentence;
+    return {};
+  }
+  [[nodiscard]] std::string place(std::uint32_t v) const {
+    const glm::dvec3& p = positions_[v];
+    return std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z);
+  }
+
+  void prepare() {
+    for (const glm::dvec3& p : positions_) box_.extend(p);
+    if (planes_.size() > 8) {
+      // Grown by what the line test rounds: projections of vertices seen from the middle are exact to 8 u of the distances.
+      const double margin = 16 * unit_roundoff * (box_.magnitude() + box_.diameter()) + slack_;
+      std::vector<Box> boxes(planes_.size());
+      for (std::uint32_t f = 0; f < planes_.size(); ++f) {
+        for (const std::uint32_t v : corners(f)) boxes[f].extend(positions_[v]);
+        boxes[f] = boxes[f].grown(margin);
+      }
+      bvh_ = Bvh(boxes);
+    }
+    // Convex: every vertex behind every plane, to 1e-12 of the size. Not worth the time for meshes of many faces, which rarely are.
+    convex_ = solid() && planes_.size() <= 1000;
+    for (std::size_t f = 0; f < planes_.size() && convex_; ++f)
+      for (const glm::dvec3& p : positions_)
+        if (glm::dot(p - planes_[f].point, planes_[f].normal) > 1e-12 * box_.diameter() + slack_) convex_ = false;
+  }
+
+  std::vector<glm::dvec3> positions_;
+  std::vector<std::uint32_t> corners_, first_corner_{0};
+  std::vector<Plane> planes_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<std::uint32_t>> borders_;
+  Bvh bvh_;
+  Box box_;
+  double slack_ = 0.0;
+  bool convex_ = false;
+};
+
+}  // namespace raycast

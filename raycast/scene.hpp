@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// All objects of a scene, compiled for rays: polygons as arrays in world coordinates, everything else behind its bounds.
+//
+// The ends of a visibility segment lie on surfaces, up to rounding, or on chord patches inside convex ones (paper 4.3). Instead of an
+// epsilon along the ray, spans decide (notes/raycaster.md R3):
+//   - of an end's owner, the span that contains the end is dropped: a ray that leaves a solid is never stopped by its own skin, while a
+//     concave solid still shadows itself further on. A polygon that is an owner is left out, and so is a convex object that owns both ends;
+//   - of every other object, a span is dropped when the end only touches it: it is no deeper behind the crossed surface than a skin.
+// A depth is measured across the surface, |t_crossing - t_end| |n.d|, so it does not depend on the angle of the ray. For a convex solid
+// it bounds how deep any point of the dropped part lies inside.
+//
+// Skins. `rounding` = 64 u M, M the largest coordinate of the scene: an interpolated point is off its surface by at most 8 u M, an
+// affine map adds 12 u M, a plane distance 12 u M, a crossing of sphere or cylinder 32 u M (notes/raycaster.md 3). To it comes what
+// the two surfaces are known to be non-planar by, and, between two objects, 1e-9 of the smaller one's diameter: so closely a lamp
+// must fit the ceiling to count as lying on it. The same skin decides in covered(), so what is coincident there is so here too.
+//
+// All queries are const, thread-safe, and use no heap (a line that crosses a mesh more than eight times excepted).
+
+#include "planar.hpp"
+#include "transform.hpp"
+#include "traverse.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace raycast {
+
+inline constexpr std::uint32_t no_object = 0xffffffff;
+
+struct Hit {
+  double t;
+  std::uint32_t object, sheet;
+  bool front;   // the ray meets the air side; false: the back of a polygon or of an open mesh
+};
+
+class Scene {
+ public:
+  explicit Scene(std::vector<PlacedObject> objects);
+
+  [[nodiscard]] const PlacedObject& object(std::uint32_t i) const { return objects_[i]; }
+  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(objects_.size()); }
+  [[nodiscard]] const Box& bounds() const { return bounds_; }
+  [[nodiscard]] double diameter() const { return bounds_.diameter(); }
+  [[nodiscard]] std::size_t bytes() const {   // of the compiled scene, without the objects themselves
+    return objects_.capacity() * sizeof(PlacedObject) + records_.capacity() * sizeof(Record) + corners_.capacity() * sizeof(glm::dvec3) +
+           (rooms_.capacity() + bounded_.capacity()) * sizeof(std::uint32_t) + bvh_.bytes();
+  }
+
+  // Does anything stand between the two ends, t in (0, 1)? The owners are the objects on which the ends lie. Symmetric: exchanging ends
+  // and owners gives the same answer (up to the rounding of grazing rays). A segment of no length is never occluded.
+  [[nodiscard]] bool occluded(const Segment& segment, std::uint32_t source_owner = no_object, std::uint32_t target_owner = no_object) const;
+
+  // The first surface met at t > 0, without upper limit: where a span of any object begins. Of surfaces that coincide the one that
+  // covers is met: the later object when they face the same way, the back when they face against each other.
+  [[nodiscard]] std::optional<Hit> closest(const Segment& ray, std::uint32_t source_owner = no_object) const;
+
+  // Is the point p with air normal n (unit) of an object's surface buried: does another object fill the air just in front of p (p is
+  // inside it, or it stands on p), or does another surface coincide? Coincident surfaces that face against each other cover each other;
+  // if they face the same way the later object covers the earlier.
+  [[nodiscard]] bool covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const;
+
+ private:
+  struct Record {   // what a query needs to know of an object
+    glm::dvec3 normal{0.0}, point{0.0};                  // of a polygon
+    std::uint32_t first_corner = 0, corner_count = 0;   // 0 corners: not a polygon
+    double touch = 0.0;                                  // 1e-9 of its diameter
+    double slack = 0.0;
+  };
+  struct End {   // of a segment
+    std::uint32_t owner;
+    double touch = 0.0, base;
+  };
+  struct Line {
+    const Segment& segment;
+    RayFrame frame;
+    SlabTest slabs;
+    explicit Line(const Segment& s) : segment(s), frame(s), slabs(s) {}
+  };
+  struct Nearest {
+    Hit hit{infinity, no_object, 0, true};
+    double limit = infinity;
+  };
+
+  [[nodiscard]] End end_at(std::uint32_t owner) const {
+    if (owner == no_object) return {owner, 0.0, rounding_};
+    return {owner, records_[owner].touch, rounding_ + records_[owner].slack};
+  }
+  [[nodiscard]] double skin(const End& end, std::uint32_t i) const {
+    return end.base + records_[i].slack + (end.owner == i ? 0.0 : std::min(end.touch, records_[i].touch));
+  }
+  // How far the point `dt` further on lies from the plane of the surface at the crossing.
+  [[nodiscard]] double depth(std::uint32_t i, const Segment& s, const Crossing& at, double dt) const {
+    return dt < infinity ? dt * std::abs(along(i, s, at)) : infinity;
+  }
+  [[nodiscard]] double along(std::uint32_t i, const Segment& s, const Crossing& at) const {
+    const Record& r = records_[i];
+    return glm::dot(r.corner_count ? r.normal : objects_[i].project(at.sheet, s.at(at.t)).normal, s.direction);
+  }
+  [[nodiscard]] bool passes(const Line& line, const Record& polygon) const {
+    return line.frame.winding(std::span(corners_).subspan(polygon.first_corner, polygon.corner_count)) != 0;
+  }
+  [[nodiscard]] bool blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const;
+  [[nodiscard]] bool blocks_by_spans(const Line& line, const End& a, const End& b, std::uint32_t i) const;
+  void approach(const Line& line, const End& a, std::uint32_t i, Nearest& nearest) const;
+  void offer(const Line& line, const Hit& hit, Nearest& nearest) const;
+
+  std::vector<PlacedObject> objects_;
+  std::vector<Record> records_;
+  std::vector<glm::dvec3> corners_;
+  std::vector<std::uint32_t> rooms_, bounded_;   // objects turned inside out have no bounds; the others are found by a loop or the tree
+  Bvh bvh_;                                      // of bounded_; empty when they are few
+  Box bounds_;
+  double rounding_ = 0.0, slack_ = 0.0;   // slack_: the largest of all objects
+};
+
+inline Scene::Scene(std::vector<PlacedObject> objects) : objects_(std::move(objects)) {
+  // Up to here a loop over all is as fast as the tree. (17 polygons of the Cornell box: 5.4 against 5.8 million segments a second,
+  // tests/raycast/speed_test.cpp.)
+  constexpr std::size_t loop_limit = 8;
+  for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+    const PlacedObject& object = objects_[i];
+    Record record;
+    const std::vector<glm::dvec3> outline = object.outline();
+    if (!outline.empty()) {
+      const Plane plane = plane_of(outline);
+      record.normal = plane.normal;
+      record.point = plane.point;
+      record.first_corner = static_cast<std::uint32_t>(corners_.size());
+      record.corner_count = static_cast<std::uint32_t>(outline.size());
+      corners_.insert(corners_.end(), outline.begin(), outline.end());
+    }
+    record.touch = 1e-9 * object.bounds().diameter();
+    record.slack = object.slack();
+    slack_ = std::max(slack_, record.slack);
+    records_.push_back(record);
+    bounds_.extend(object.bounds());
+    (object.inside() ? rooms_ : bounded_).push_back(i);
+  }
+  rounding_ = 64 * unit_roundoff * bounds_.magnitude();
+  if (bounded_.size() > loop_limit) {
+    std::vector<Box> boxes;
+    for (const std::uint32_t i : bounded_) boxes.push_back(objects_[i].bounds().grown(rounding_ + records_[i].slack));
+    bvh_ = Bvh(boxes, 2.0);
+  }
+}
+
+inline bool Scene::occluded(const Segment& segment, std::uint32_t source_owner, std::uint32_t target_owner) const {
+  if (!has_line(segment)) return false;
+  const Line line(segment);
+  const End a = end_at(source_owner), b = end_at(target_owner);
+  if (!bvh_.empty()) {
+    if (any(bvh_, line.slabs, 0.0, 1.0, [&](std::uint32_t k) { return blocks(line, a, b, bounded_[k]); })) return true;
+  } else {
+    for (const std::uint32_t i : bounded_)
+      if (blocks(line, a, b, i)) return true;
+  }
+  for (const std::uint32_t i : rooms_)
+    if (blocks(line, a, b, i)) return true;
+  return false;
+}
+
+inline bool Scene::blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const {
+  const Record& r = records_[i];
+  if (r.corner_count) {   // a polygon: the ends lie on different sides of its plane, both out of the skin
+    if (i == a.owner || i == b.owner) return false;
+    const double from = glm::dot(r.normal, line.segment.origin - r.point);
+    const double to = from + glm::dot(r.normal, line.segment.direction);
+    if ((from > 0.0) == (to > 0.0)) return false;
+    if (!(std::abs(from) > skin(a, i)) || !(std::abs(to) > skin(b, i))) return false;
+    return passes(line, r);
+  }
+  const PlacedObject& object = objects_[i];
+  if (i == a.owner && i == b.owner && object.convex()) return false;
+  double entry = 0.0;
+  if (!object.inside() && !line.slabs(object.bounds(), 0.0, 1.0, entry)) return false;
+  return blocks_by_spans(line, a, b, i);
+}
+
+inline bool Scene::blocks_by_spans(const Line& line, const End& a, const End& b, std::uint32_t i) const {
+  const PlacedObject& object = objects_[i];
+  const Segment& s = line.segment;
+  Spans spans;
+  object.spans(s, spans);
+  if (spans.empty()) return false;
+  const double skin_a = skin(a, i), skin_b = skin(b, i);
+  // An end out of the bounds, skin included, cannot touch: the common case, decided without normals.
+  const bool near_a = object.inside() || object.bounds().contains(s.origin, skin_a);
+  const bool near_b = object.inside() || object.bounds().contains(s.at(1.0), skin_b);
+  for (const Span& span : spans) {
+    const Crossing &in = span.in, &out = span.out;
+    if (out.t <= 0.0) continue;
+    if (in.t >= 1.0) break;
+    if (i == a.owner && in.t <= 0.0) continue;
+    if (i == b.owner && out.t >= 1.0) continue;
+    if (near_a && depth(i, s, out, out.t) <= skin_a) continue;
+    if (near_b && depth(i, s, in, 1.0 - in.t) <= skin_b) continue;
+    // The owner's own span that begins in the skin of the source (a corner of a box, by rounding), and likewise at the target.
+    if (near_a && i == a.owner && depth(i, s, in, in.t) <= skin_a) continue;
+    if (near_b && i == b.owner && depth(i, s, out, 1.0 - out.t) <= skin_b) continue;
+    return true;
+  }
+  return false;
+}
+
+inline std::optional<Hit> Scene::closest(const Segment& ray, std::uint32_t source_owner) const {
+  if (!has_line(ray)) return std::nullopt;
+  const Line line(ray);
+  const End a = end_at(source_owner);
+  Nearest nearest;
+  for (const std::uint32_t i : rooms_) approach(line, a, i, nearest);
+  if (!bvh_.empty()) {
+    raycast::closest(bvh_, line.slabs, 0.0, nearest.limit, [&](std::uint32_t k) { approach(line, a, bounded_[k], nearest); });
+  } else {
+    for (const std::uint32_t i : bounded_) approach(line, a, i, nearest);
+  }
+  if (nearest.hit.object == no_object) return std::nullopt;
+  return nearest.hit;
+}
+
+inline void Scene::approach(const Line& line, const End& a, std::uint32_t i, Nearest& nearest) const {
+  const Record& r = records_[i];
+  const Segment& s = line.segment;
+  if (r.corner_count) {
+    if (i == a.owner) return;
+    const double from = glm::dot(r.normal, s.origin - r.point), step = glm::dot(r.normal, s.direction);
+    if (step == 0.0 || (from > 0.0) == (step > 0.0) || !(std::abs(from) > skin(a, i))) return;
+    const double t = -from / step;
+    if (t <= nearest.limit && passes(line, r)) offer(line, Hit{t, i, 0, step < 0.0}, nearest);
+    return;
+  }
+  const PlacedObject& object = objects_[i];
+  double entry = 0.0;
+  if (!object.inside() && !line.slabs(object.bounds(), 0.0, nearest.limit, entry)) return;
+  Spans spans;
+  object.spans(s, spans);
+  const double skin_a = skin(a, i);
+  const bool near_a = object.inside() || object.bounds().contains(s.origin, skin_a);
+  for (const Span& span : spans) {
+    if (!(span.in.t > 0.0)) continue;
+    if (near_a && depth(i, s, span.out, span.out.t) <= skin_a) continue;
+    if (near_a && i == a.owner && depth(i, s, span.in, span.in.t) <= skin_a) continue;
+    if (span.in.t <= nearest.limit)
+      offer(line, Hit{span.in.t, i, span.in.sheet, object.solid() || along(i, s, span.in) < 0.0}, nearest);
+    return;
+  }
+}
+
+// Takes the hit if it is nearer, or as near as rounding can tell and covering. Ties are looked for within 1000 skins along the ray: beyond
+// that the ray grazes at less than a thousandth of a right angle, and the nearer parameter decides.
+inline void Scene::offer(const Line& line, const Hit& hit, Nearest& nearest) const {
+  const double length = glm::length(line.segment.direction);
+  Hit& best = nearest.hit;
+  bool take = best.object == no_object || hit.t < best.t;
+  if (best.object != no_object) {
+    const End other = end_at(best.object);
+    const double tolerance = skin(other, hit.object), gap = std::abs(hit.t - best.t);
+    if (gap * length <= 1000 * tolerance && gap * std::abs(along(hit.object, line.segment, {hit.t, hit.sheet})) <= tolerance)
+      take = hit.front != best.front ? !hit.front : hit.object > best.object;
+  }
+  if (!take) return;
+  best = hit;
+  const Record& r = records_[hit.object];
+  nearest.limit = hit.t + 1000 * (rounding_ + r.slack + slack_ + r.touch) / length;
+}
+
+inline bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const {
+  const Segment out_of_p{p, n};   // t is a length
+  const Line line(out_of_p);
+  const End end = end_at(owner);
+  const auto covers = [&](std::uint32_t i) {
+    if (i == owner) return false;
+    const PlacedObject& object = objects_[i];
+    const Record& r = records_[i];
+    const double near = skin(end, i);
+    if (!object.inside() && !object.bounds().contains(p, near)) return false;
+    // A coincident surface of object i, its normal at a cosine to n: parallel within 2.5 degrees counts as the same direction.
+    const auto coincides = [&](double cosine) { return cosine < -0.999 || (cosine > 0.999 && i > owner); };
+    if (r.corner_count)
+      return std::abs(glm::dot(r.normal, p - r.point)) <= near && coincides(glm::dot(r.normal, n)) && passes(line, r);
+    Spans spans;
+    object.spans(out_of_p, spans);
+    for (const Span& span : spans) {
+      if (object.solid() && span.in.t <= near && span.out.t > near) return true;
+      if (std::abs(span.out.t) <= near && coincides(along(i, out_of_p, span.out))) return true;
+    }
+    return false;
+  };
+  for (const std::uint32_t i : rooms_)
+    if (covers(i)) return true;
+  if (!bvh_.empty()) {
+    const double near = end.base + slack_ + end.touch;   // at least every skin
+    return any(bvh_, line.slabs, -near, near, [&](std::uint32_t k) { return covers(bounded_[k]); });
+  }
+  return std::any_of(bounded_.begin(), bounded_.end(), covers);
+}
+
+}  // namespace raycast

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include "catch.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "apps/picture.hpp"
+#include "apps/png.hpp"
+#include "small_mesh.hpp"
+
+namespace {
+
+using radiosity::Color;
+constexpr double pi = std::numbers::pi;
+
+// Looks along -z from (0, 0, 1): at z = 0 the picture shows x and y from -1 to 1, y upwards.
+apps::View view(std::uint32_t pixels) {
+  apps::Camera camera;
+  camera.eye = {0.0, 0.0, 1.0};
+  camera.forward = {0.0, 0.0, -1.0};
+  camera.up = {0.0, 1.0, 0.0};
+  camera.field_of_view = 90.0;
+  return apps::make_view(camera, {pixels, pixels});
+}
+
+apps::Picture picture(const radiosity::Mesh& mesh, std::uint32_t pixels, unsigned samples = 1, double exposure = 1.0) {
+  return apps::draw(mesh, view(pixels), exposure, samples).value();
+}
+
+// A quadrilateral in the plane z = 0 that faces the camera.
+void add_rectangle(radiosity::Mesh& mesh, double x0, double y0, double x1, double y1, const Color& color, std::uint32_t surface = 0) {
+  add_face(mesh, {{{x0, y0, 0.0}, color}, {{x1, y0, 0.0}, color}, {{x1, y1, 0.0}, color}, {{x0, y1, 0.0}, color}}, surface);
+}
+
+}  // namespace
+
+TEST_CASE("a rectangle covers exactly its pixels, the right way up") {
+  radiosity::Mesh mesh;
+  add_rectangle(mesh, -0.5, 0.0, 0.25, 0.75, Color(pi));  // columns 2 to 4, rows 1 to 3 of 8
+  const apps::Picture p = picture(mesh, 8);
+  for (std::uint32_t y = 0; y < 8; ++y) {
+    for (std::uint32_t x = 0; x < 8; ++x) {
+      const bool inside = x >= 2 && x < 5 && y >= 1 && y < 4;
+      CHECK(int{p.pixel(x, y)[0]} == (inside ? 255 : 0));
+    }
+  }
+}
+
+TEST_CASE("back faces are not drawn") {
+  radiosity::Mesh mesh;
+  add_face(mesh, {{{-1.0, -1.0, 0.0}, Color(pi)}, {{-1.0, 1.0, 0.0}, Color(pi)}, {{1.0, 1.0, 0.0}, Color(pi)}});
+  for (const std::uint8_t byte : picture(mesh, 16).rgb) { CHECK(int{byte} == 0); }
+}
+
+// Every sample of a fan of triangles belongs to exactly one of them: each alone covers its share, together they
+// leave no gap, and the shares add up, so none is covered twice. Corners lie on samples and off them.
+TEST_CASE("triangles that share edges leave no gap and no double pixel") {
+  constexpr std::uint32_t n = 32;
+  std::mt19937 random(7);
+  INFO("seed 7");
+  for (int run = 0; run < 50; ++run) {
+    const bool on_samples = run % 2 == 0;
+    const auto coordinate = [&](double range) {
+      const double x = range * (2.0 * static_cast<double>(random()) / 4294967295.0 - 1.0);
+      return on_samples ? (std::round(x * n / 2) + 0.5) / (n / 2.0) : x;
+    };
+    const glm::dvec3 centre(coordinate(0.5), coordinate(0.5), 0.0);
+    const std::array<glm::dvec3, 4> corner = {glm::dvec3(-1.5, -1.5, 0.0), glm::dvec3(1.5, -1.5, 0.0), glm::dvec3(1.5, 1.5, 0.0),
+                                              glm::dvec3(-1.5, 1.5, 0.0)};
+    std::vector<int> count(n * n, 0);
+    radiosity::Mesh all;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const glm::dvec3 middle = 0.5 * (corner[i] + corner[(i + 1) % 4]) + glm::dvec3(coordinate(0.3), coordinate(0.3), 0.0);
+      for (int half = 0; half < 2; ++half) {
+        const glm::dvec3& a = half == 0 ? corner[i] : middle;
+        const glm::dvec3& b = half == 0 ? middle : corner[(i + 1) % 4];
+        radiosity::Mesh one;
+        add_face(one, {{centre, Color(pi)}, {a, Color(pi)}, {b, Color(pi)}});
+        add_face(all, {{centre, Color(pi)}, {a, Color(pi)}, {b, Color(pi)}});
+        const apps::Picture p = picture(one, n);
+        for (std::size_t k = 0; k < n * n; ++k) { count[k] += p.rgb[3 * k] / 255; }
+      }
+    }
+    const apps::Picture together = picture(all, n);
+    std::size_t wrong = 0;
+    for (std::size_t k = 0; k < n * n; ++k) { wrong += count[k] == 1 && together.rgb[3 * k] == 255 ? 0 : 1; }
+    // The outer border may be pulled inwards by `middle`, but never as far as the picture (1.5 - 0.3 > 1).
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("the nearer face hides the farther one, and of coplanar ones the later surface is seen") {
+  radiosity::Mesh mesh;
+  const Color red(pi, 0.0, 0.0);
+  const Color green(0.0, pi, 0.0);
+  add_face(mesh, {{{-1.0, -1.0, 0.5}, green}, {{0.0, -1.0, 0.5}, green}, {{0.0, 1.0, 0.5}, green}, {{-1.0, 1.0, 0.5}, green}}, 1);
+  add_rectangle(mesh, -1.0, -1.0, 1.0, 1.0, red, 2);
+  const apps::Picture p = picture(mesh, 8);
+  CHECK(p.pixel(1, 4) == apps::Rgb8{0, 255, 0});
+  CHECK(p.pixel(6, 4) == apps::Rgb8{255, 0, 0});
+
+  // A lamp in a ceiling that is cut differently, seen at a grazing angle.
+  radiosity::Mesh ceiling;
+  add_rectangle(ceiling, 0.1, 0.1, 0.7, 0.8, green, 5);
+  for (int i = -7; i < 7; ++i) {
+    for (int j = -7; j < 7; ++j) { add_rectangle(ceiling, i / 7.0, j / 7.0, (i + 1) / 7.0, (j + 1) / 7.0, red, 4); }
+  }
+  apps::Camera camera;
+  camera.eye = {-3.0, 0.3, 0.11};
+  camera.forward = {3.0, 0.1, -0.11};
+  camera.field_of_view = 30.0;
+  const apps::Picture grazing = apps::draw(ceiling, apps::make_view(camera, {300, 100}), 1.0, 1).value();
+  std::size_t green_seen = 0;
+  for (std::size_t k = 0; k < grazing.rgb.size(); k += 3) {
+    CHECK(grazing.rgb[k] + grazing.rgb[k + 1] <= 255);
+    green_seen += grazing.rgb[k + 1] == 255 ? 1 : 0;
+  }
+  radiosity::Mesh lamp;
+  add_rectangle(lamp, 0.1, 0.1, 0.7, 0.8, green, 5);
+  const apps::Picture alone = apps::draw(lamp, apps::make_view(camera, {300, 100}), 1.0, 1).value();
+  std::size_t expected = 0;
+  for (std::size_t k = 0; k < alone.rgb.size(); k += 3) { expected += alone.rgb[k + 1] == 255 ? 1 : 0; }
+  CHECK(green_seen == expected);
+  CHECK(expected > 50);
+}
+
+TEST_CASE("radiosity is linear in space, not on the screen") {
+  // A strip that runs from distance 1 to distance 3 along the line of sight; its radiosity falls from pi to 0.
+  radiosity::Mesh mesh;
+  const Color bright(pi);
+  const Color dark(0.0);
+  add_face(mesh, {{{-9.0, -0.5, -2.0}, dark}, {{-9.0, -0.5, 0.0}, bright}, {{9.0, -0.5, 0.0}, bright}, {{9.0, -0.5, -2.0}, dark}});
+  const apps::Picture p = picture(mesh, 512);
+  // A ray through image height -h meets y = -0.5 at distance 0.5 / h.
+  for (const double distance : {1.1, 1.5, 2.0, 2.7}) {
+    const double row = 256.0 * (1.0 + 0.5 / distance);
+    const double seen = 0.5 / ((std::floor(row) + 0.5) / 256.0 - 1.0);  // at the pixel's own centre
+    const double linear = 1.0 - (seen - 1.0) / 2.0;
+    CHECK(std::abs(int{p.pixel(256, static_cast<std::uint32_t>(row))[0]} - int{apps::to_byte(linear)}) <= 1);
+  }
+}
+
+TEST_CASE("a face that passes the camera is cut at the near plane") {
+  radiosity::Mesh mesh;  // a floor under the camera that reaches far behind it
+  add_face(mesh, {{{-50.0, -0.5, 50.0}, Color(pi)},
+                  {{50.0, -0.5, 50.0}, Color(pi)},
+                  {{50.0, -0.5, -50.0}, Color(pi)},
+                  {{-50.0, -0.5, -50.0}, Color(pi)}});
+  const apps::Picture p = picture(mesh, 64);
+  for (std::uint32_t x = 0; x < 64; ++x) {
+    CHECK(int{p.pixel(x, 20)[0]} == 0);
+    CHECK(int{p.pixel(x, 40)[0]} == 255);
+    CHECK(int{p.pixel(x, 63)[0]} == 255);
+  }
+}
+
+TEST_CASE("exposure is linear in light, pixels are sRGB") {
+  // IEC 61966-2-1: linear 0.5 is 188, 0.18 is 118, 0.001 is 3.
+  CHECK(int{apps::to_byte(0.5)} == 188);
+  CHECK(int{apps::to_byte(0.18)} == 118);
+  CHECK(int{apps::to_byte(0.001)} == 3);
+  CHECK(int{apps::to_byte(0.0)} == 0);
+  CHECK(int{apps::to_byte(1.0)} == 255);
+  radiosity::Mesh mesh;
+  add_rectangle(mesh, -1.0, -1.0, 1.0, 1.0, Color(0.25 * pi, 0.05 * pi, 40.0));
+  CHECK(picture(mesh, 4, 1, 2.0).pixel(1, 1) == apps::Rgb8{apps::to_byte(0.5), apps::to_byte(0.1), 255});
+  CHECK(picture(mesh, 4, 4, 0.5).pixel(1, 1)[0] == apps::to_byte(0.125));
+}
+
+TEST_CASE("samples are clamped before they are averaged: the edge of a bright lamp stays smooth") {
+  radiosity::Mesh mesh;
+  add_rectangle(mesh, -1.0, -1.0, 0.125, 1.0, Color(1000.0 * pi));  // half of column 4 of 8
+  const apps::Picture p = picture(mesh, 8, 4);
+  CHECK(int{p.pixel(3, 3)[0]} == 255);
+  CHECK(int{p.pixel(4, 3)[0]} == int{apps::to_byte(0.5)});
+  CHECK(int{p.pixel(5, 3)[0]} == 0);
+}
+
+TEST_CASE("the picture does not depend on its bands and stops when asked to") {
+  radiosity::Mesh mesh;
+  add_face(mesh,
+           {{{-0.9, -0.8, 0.0}, Color(pi, 0.0, 0.0)}, {{0.9, -0.3, 0.0}, Color(0.0, pi, 0.0)}, {{-0.2, 0.9, 0.0}, Color(0.0, 0.0, pi)}});
+  // 1600 x 1600 at 4 x 4 samples takes many bands; every 2 x 2 block averages to the picture at half the size, whose
+  // samples are every second one of it only up to colour, so compare coverage alone.
+  const apps::Picture large = picture(mesh, 1600, 1);
+  const apps::Picture small = picture(mesh, 400, 4);
+  std::size_t wrong = 0;
+  for (std::uint32_t y = 0; y < 400; ++y) {
+    for (std::uint32_t x = 0; x < 400; ++x) {
+      bool any = false;
+      for (std::uint32_t k = 0; k < 16; ++k) {
+        const apps::Rgb8 rgb = large.pixel(4 * x + k % 4, 4 * y + k / 4);
+        any = any || rgb != apps::Rgb8{0, 0, 0};
+      }
+      wrong += any == (small.pixel(x, y) != apps::Rgb8{0, 0, 0}) ? 0 : 1;
+    }
+  }
+  CHECK(wrong == 0);
+  const std::atomic<bool> cancel = true;
+  CHECK_FALSE(apps::draw(mesh, view(64), 1.0, 4, &cancel));
+  CHECK(apps::draw(radiosity::Mesh{}, view(4), 1.0));
+}
+
+TEST_CASE("automatic exposure scales with the light and ignores the lamp") {
+  radiosity::Scene scene;
+  scene.materials = {{"wall", Color(0.5), Color(0.0)}, {"lamp", Color(0.0), Color(1000.0)}};
+  const auto exposure = [&](double light, bool lamp) {
+    scene.objects.clear();
+    apps::SceneResult result = apps::parse_scene(
+        "material wall reflectance 0.5\nmaterial lamp emission 1000\n"
+        "sphere a center 0 0 0 radius 1 material wall\nsphere b center 9 0 0 radius 1 material lamp\n");
+    radiosity::Mesh mesh;
+    add_rectangle(mesh, 0.0, 0.0, 1.0, 1.0, Color(light, 0.5 * light, 0.0), 0);
+    if (lamp) { add_rectangle(mesh, 0.0, 0.0, 1.0, 1.0, Color(1000.0), 1); }
+    return apps::automatic_exposure(mesh, result.file->scene);
+  };
+  CHECK(exposure(1.0, false) == test::Approx(0.55 * pi));
+  CHECK(exposure(2.0, true) == test::Approx(0.5 * 0.55 * pi));
+  CHECK(exposure(0.0, true) == test::Approx(pi / 1000.0));
+}
+
+TEST_CASE("the automatic view shows the whole scene") {
+  const auto result = apps::parse_scene("material m reflectance 0.5\nbox b from 100 -5 3 to 104 1 9 material m\n");
+  const apps::View v = apps::make_view(apps::automatic_camera(result.file->scene), {});
+  for (unsigned i = 0; i < 8; ++i) {
+    const glm::dvec3 p = v.to_view({(i & 1U) != 0 ? 104.0 : 100.0, (i & 2U) != 0 ? 1.0 : -5.0, (i & 4U) != 0 ? 9.0 : 3.0});
+    CHECK(p.z > 0.0);
+    CHECK(std::abs(p.x) < v.half_width * p.z);
+    CHECK(std::abs(p.y) < v.half_height() * p.z);
+  }
+}
+
+TEST_CASE("a PNG has its signature and its size") {
+  radiosity::Mesh mesh;
+  const std::string png = apps::to_png(apps::draw(mesh, apps::make_view(apps::Camera{}, {300, 2}), 1.0).value());
+  REQUIRE(png.size() > 40);
+  CHECK(png.substr(0, 8) == "\x89PNG\r\n\x1a\n");
+  CHECK(png.substr(16, 8) == std::string("\0\0\x01\x2c\0\0\0\x02", 8));
+}

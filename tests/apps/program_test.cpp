@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// The program as its user meets it: exit codes, streams, files.
+#include "catch.hpp"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <sys/wait.h>
+
+#include "json.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Run {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// A folder of the test's own; the program runs in it.
+class Place {
+ public:
+  Place() {
+    std::string name = (fs::temp_directory_path() / "halflight-run-XXXXXX").string();
+    REQUIRE(::mkdtemp(name.data()) != nullptr);
+    path_ = name;
+  }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+  ~Place() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+
+  Run run(const std::string& arguments, const std::string& prefix = "") const {
+    const std::string command =
+        "cd '" + path_.string() + "' && " + prefix + "'" HALFLIGHT_PROGRAM "' " + arguments + " >stdout.log 2>stderr.log";
+    const int status = std::system(command.c_str());
+    Run result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(path_ / "stdout.log"), content(path_ / "stderr.log")};
+    fs::remove(path_ / "stdout.log");
+    fs::remove(path_ / "stderr.log");
+    return result;
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
+  [[nodiscard]] bool has(const std::string& name) const { return fs::exists(path_ / name); }
+  [[nodiscard]] std::string read(const std::string& name) const { return content(path_ / name); }
+  [[nodiscard]] std::size_t entries() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
+  }
+
+ private:
+  fs::path path_;
+};
+
+std::string scene(const std::string& name) { return "'" HALFLIGHT_SCENES "/" + name + ".scene'"; }
+
+}  // namespace
+
+TEST_CASE("render writes its files and the report, exit code 0") {
+  const Place place;
+  const Run run =
+      place.run("render " + scene("two_plates") + " -o a.png -o a.ply --json a.json --size 64x48 --audit 50 --epsilon 0.05 --threads 1");
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(place.entries() == 3);
+  CHECK(place.read("a.png").substr(1, 3) == "PNG");
+  CHECK(place.read("a.ply").substr(0, 4) == "ply\n");
+  CHECK(run.out.find("row sums") != std::string::npos);
+  CHECK(run.out.find("written: a.png") != std::string::npos);
+  CHECK(run.err.find("row sums") == std::string::npos);
+  CHECK(run.err.find('\r') == std::string::npos);  // no bar: stderr is no terminal
+  const json::Value report = json::parse(place.read("a.json"));
+  CHECK(report["picture"]["width"].number() == 64);
+  CHECK(report["settings"]["epsilon"].number() == 0.05);
+  CHECK(report["surfaces"].size() == 2);
+}
+
+TEST_CASE("quiet is quiet on stderr, the report stays") {
+  const Place place;
+  const Run run = place.run("render " + scene("two_plates") + " -o a.ply --audit 0 --quiet --solver jacobi --reconstruction simple");
+  CHECK(run.code == 0);
+  CHECK(run.err.empty());
+  CHECK(run.out.find("not measured") != std::string::npos);
+}
+
+TEST_CASE("info says what is in a scene") {
+  const Place place;
+  const Run run = place.run("info " + scene("room"));
+  CHECK(run.code == 0);
+  CHECK(run.out.find("objects: 4 with 11 surfaces") != std::string::npos);
+  CHECK(run.out.find("cameras: 2") != std::string::npos);
+}
+
+TEST_CASE("wrong usage is exit code 2 and writes nothing") {
+  const Place place;
+  for (const std::string& arguments :
+       {std::string(), std::string("--foo"), std::string("draw x"), std::string("render"), "render " + scene("room"),
+        "render " + scene("room") + " -o a.jpg", "render " + scene("room") + " -o a.png -o a.png",
+        "render " + scene("room") + " -o a.png --size 0x5", "render " + scene("room") + " -o a.png --size 5",
+        "render " + scene("room") + " -o a.png --epsilon nan", "render " + scene("room") + " -o a.png --epsilon 0",
+        "render " + scene("room") + " -o a.png --error 0.1 --epsilon 0.1", "render " + scene("room") + " -o a.png --error 0.1 --audit 0",
+        "render " + scene("room") + " -o a.png --camera none", "render " + scene("room") + " -o a.png --threads 0",
+        "render " + scene("room") + " -o a.png --exposure -1", "render " + scene("room") + " -o a.png --solver magic"}) {
+    const Run run = place.run(arguments);
+    INFO(arguments << "\n" << run.err);
+    CHECK(run.code == 2);
+    CHECK(run.err.size() > 10);
+    CHECK(run.out.empty());
+  }
+  CHECK(place.entries() == 0);
+}
+
+TEST_CASE("an invalid scene is exit code 3 with file, line and column") {
+  const Place place;
+  place.write("bad.scene", "material a reflectance 2\nfoo\n");
+  const Run run = place.run("render bad.scene -o a.png");
+  CHECK(run.code == 3);
+  CHECK(run.err.find("bad.scene:1:24: error: ") == 0);
+  CHECK(run.err.find("\nbad.scene:2:1: error: ") != std::string::npos);
+  CHECK_FALSE(place.has("a.png"));
+  CHECK(place.run("info bad.scene").code == 3);
+  CHECK(place.run("info none.scene").code == 3);
+  CHECK(place.run("info /dev/zero").code == 3);
+}
+
+TEST_CASE("a target that cannot be written is exit code 1 before the work, and the old file stays") {
+  const Place place;
+  CHECK(place.run("render " + scene("room") + " -o none/a.png").code == 1);
+  place.write("a.ply", "old");
+  const Run run = place.run("render " + scene("two_plates") + " -o a.ply --audit 0 --epsilon 0.001", "ulimit -f 1; trap '' XFSZ; ");
+  CHECK(run.code != 0);
+  CHECK(place.read("a.ply") == "old");
+  CHECK(place.entries() == 1);
+}
+
+TEST_CASE("a run that does not converge is exit code 4, and what was reached is written") {
+  const Place place;
+  // Jacobi shrinks the error by the reflectance in each iteration: 1000 of them are far from enough here.
+  place.write("hard.scene", "material white reflectance 0.9999 emission 1\nbox b from 0 0 0 to 1 1 1 inside material white\n");
+  const Run run = place.run("render hard.scene -o a.ply --audit 0 --solver jacobi --epsilon 0.1");
+  INFO(run.out << run.err);
+  CHECK(run.code == 4);
+  CHECK(run.err.find("not converged") != std::string::npos);
+  CHECK(run.out.find("NOT CONVERGED") != std::string::npos);
+  CHECK(place.has("a.ply"));
+}
+
+TEST_CASE("interrupted, the program leaves no file and says so") {
+  const Place place;
+  const Run run = place.run("render " + scene("room") + " -o a.png --epsilon 0.0005 --min-area 1e-7 --quiet", "timeout -s INT 1 ");
+  INFO(run.err);
+  // timeout itself gives 124; the program's own sentence shows that it ended by itself.
+  CHECK(run.code == 124);
+  CHECK(run.err.find("interrupted; nothing was written") != std::string::npos);
+  CHECK(place.entries() == 0);
+}
+
+TEST_CASE("help and version are exit code 0") {
+  const Place place;
+  CHECK(place.run("--help").code == 0);
+  CHECK(place.run("render --help").out.find("--reconstruction") != std::string::npos);
+  CHECK(place.run("--version").out.find("halflight ") == 0);
+}

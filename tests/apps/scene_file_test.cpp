@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// What a scene file says is what the scene holds: every statement and every clause.
+#include "catch.hpp"
+
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "apps/bounds.hpp"
+#include "apps/scene_file.hpp"
+
+namespace {
+
+apps::SceneFile parsed(const std::string& text) {
+  apps::SceneResult result = apps::parse_scene(text);
+  INFO(apps::to_text(result, "test"));
+  REQUIRE(result.file);
+  return std::move(*result.file);
+}
+
+const std::string grey = "material grey reflectance 0.5\n";
+
+void require_near(const glm::dvec3& a, const glm::dvec3& b) {
+  for (int i = 0; i < 3; ++i) { CHECK(a[i] == test::Approx(b[i]).margin(1e-15)); }
+}
+
+}  // namespace
+
+TEST_CASE("a material has one number or three, and black defaults") {
+  const auto file = parsed(
+      "material a reflectance 0.25\n"
+      "material b emission 1 2 3 reflectance 0.1 .2 3e-1 # comment\n"
+      "material c {\n  # nothing\n  reflectance +1\n\n  emission 17\n}\n"
+      "material d\n"
+      "sphere s center 0 0 0 radius 1 material a\n");
+  const auto& m = file.scene.materials;
+  REQUIRE(m.size() == 4);
+  CHECK(m[0].reflectance == glm::dvec3(0.25));
+  CHECK(m[0].emission == glm::dvec3(0.0));
+  CHECK(m[1].reflectance == glm::dvec3(0.1, 0.2, 0.3));
+  CHECK(m[1].emission == glm::dvec3(1.0, 2.0, 3.0));
+  CHECK(m[2].reflectance == glm::dvec3(1.0));
+  CHECK(m[2].emission == glm::dvec3(17.0));
+  CHECK(m[3].reflectance == glm::dvec3(0.0));
+}
+
+TEST_CASE("every kind of object is made with its bounds, and says where it came from") {
+  const auto file = parsed(grey +
+                           "box b from 1 1 1 to 0 0 0 material grey\n"
+                           "sphere s center 1 2 3 radius 0.5 material grey inside\n"
+                           "cylinder c base 0 0 0 axis 0 0 2 radius 1 material grey\n"
+                           "polygon p material grey { vertex 0 0 0 vertex 1 0 0\n vertex 0 1 0 }\n"
+                           "mesh m material grey {\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1 0\n vertex 0 0 1\n"
+                           " face 0 2 1\n face 0 1 3\n face 0 3 2\n face 1 2 3\n}\n");
+  const auto& objects = file.scene.objects;
+  REQUIRE(objects.size() == 5);
+  CHECK(objects[0].shape->bounds().hi == glm::dvec3(1.0));
+  require_near(objects[1].shape->bounds().lo, {0.5, 1.5, 2.5});
+  CHECK(objects[1].placement.inside);
+  CHECK(objects[2].shape->sheet_count() == 3);
+  CHECK_FALSE(objects[3].shape->solid());
+  CHECK(objects[4].shape->solid());
+  CHECK(objects[4].shape->sheet_count() == 4);
+  CHECK(file.origins[2].kind == "cylinder");
+  CHECK(file.origins[2].place.line == 4);
+  CHECK(file.origins[2].place.column == 10);
+}
+
+TEST_CASE("sheets have materials of their own, by name or by number, given before or after the object") {
+  const auto file = parsed(
+      "box b from 0 0 0 to 1 1 1 inside material grey { sheet x0 material red\n sheet 5 material red }\n"
+      "cylinder c base 0 0 0 axis 0 0 1 radius 1 sheet side material red sheet bottom material grey sheet top material grey\n" +
+      grey + "material red reflectance 0.6 0 0\n");
+  CHECK(file.scene.objects[0].material == std::vector<std::uint32_t>{1, 0, 0, 0, 0, 1});
+  const auto& cylinder = file.scene.objects[1];
+  for (std::uint32_t i = 0; i < 3; ++i) { CHECK(cylinder.material[i] == (cylinder.shape->sheet_name(i) == "side" ? 1U : 0U)); }
+}
+
+TEST_CASE("placement clauses act in the order of the file, about the origin of the scene") {
+  const auto file = parsed(grey +
+                           "box a from 0 0 0 to 1 1 1 material grey move 2 0 0 rotate 0 0 1 90 scale 1 2 3\n"
+                           "box b from 0 0 0 to 1 1 1 material grey scale 2 move 1 1 1\n"
+                           "box c from 0 0 0 to 1 1 1 material grey rotate 1 1 1 120\n"
+                           "box d from 0 0 0 to 1 2 3 material grey scale -1 1 1\n");
+  const auto at = [&](std::size_t i, const glm::dvec3& p) {
+    const auto& placement = file.scene.objects[i].placement;
+    return placement.linear * p + placement.translation;
+  };
+  // (1,0,0) moved to (3,0,0), turned to (0,3,0), scaled to (0,6,0). Quarter turns are exact.
+  CHECK(at(0, {1.0, 0.0, 0.0}) == glm::dvec3(0.0, 6.0, 0.0));
+  CHECK(at(1, {1.0, 0.0, 0.0}) == glm::dvec3(3.0, 1.0, 1.0));
+  // A third of a turn about the diagonal sends x to y to z.
+  require_near(at(2, {1.0, 0.0, 0.0}), {0.0, 1.0, 0.0});
+  require_near(at(2, {0.0, 1.0, 0.0}), {0.0, 0.0, 1.0});
+  CHECK(at(3, {1.0, 2.0, 3.0}) == glm::dvec3(-1.0, 2.0, 3.0));
+}
+
+TEST_CASE("a group is placed as often as it is used, in groups too, and shares its shapes") {
+  const auto file = parsed(grey +
+                           "use chair as front move 0 -1 0\n"
+                           "define row {\n  use chair as left\n  use chair as right move 2 0 0\n}\n"
+                           "define chair {\n  box seat from 0 0 0 to 1 1 1 material grey {\n    inside\n  }\n"
+                           "  box back from 0 0 1 to 1 0.5 2 material grey scale 2\n}\n"
+                           "use row as back rotate 0 0 1 90 move 0 0 5\n");
+  const auto& objects = file.scene.objects;
+  REQUIRE(objects.size() == 6);
+  CHECK(objects[0].name == "front.seat");
+  CHECK(objects[2].name == "back.left.seat");
+  CHECK(objects[5].name == "back.right.back");
+  CHECK(objects[0].shape == objects[4].shape);
+  CHECK(objects[4].placement.inside);
+  // Own placement first (scale 2), then the group's (move 2 0 0), then the row's (quarter turn, move 0 0 5).
+  const auto& last = objects[5].placement;
+  CHECK(last.linear * glm::dvec3(1.0, 0.5, 2.0) + last.translation == glm::dvec3(-1.0, 4.0, 9.0));
+}
+
+TEST_CASE("a camera has its clauses and sensible defaults") {
+  const auto file = parsed(grey +
+                           "sphere s center 0 0 0 radius 1 material grey\n"
+                           "camera a target 1 2 3 eye 1 0 3\n"
+                           "camera b eye 0 0 9 look 0 0 -2\n"
+                           "camera c eye 0 0 9 look 0 0 -2 up 1 0 0 fov 39.3 size 640 480\n");
+  REQUIRE(file.cameras.size() == 3);
+  CHECK(file.cameras[0].forward == glm::dvec3(0.0, 2.0, 0.0));
+  CHECK(file.cameras[0].up == glm::dvec3(0.0, 0.0, 1.0));
+  CHECK(file.cameras[0].field_of_view == 50.0);
+  CHECK_FALSE(file.cameras[0].size);
+  CHECK(file.cameras[1].up == glm::dvec3(0.0, 1.0, 0.0));  // z is the view, so y is up
+  CHECK(file.cameras[2].name == "c");
+  CHECK(file.cameras[2].field_of_view == 39.3);
+  CHECK(file.cameras[2].size->width == 640);
+}
+
+TEST_CASE("line ends of every system, byte order mark, tabs, UTF-8 names and no last line end") {
+  const std::string unix_text =
+      "# Würfel\nmaterial gr\xc3\xbcn\treflectance 0.5\nbox w\xc3\xbcrfel from 0 0 0 to 1 1 1 material gr\xc3\xbcn";
+  for (const char* const end : {"\n", "\r\n", "\r"}) {
+    std::string text = "\xef\xbb\xbf";
+    for (const char c : unix_text) { text += c == '\n' ? std::string(end) : std::string(1, c); }
+    const auto file = parsed(text);
+    CHECK(file.scene.objects[0].name == "w\xc3\xbcrfel");
+    CHECK(file.origins[0].place.line == 3);
+  }
+}
+
+TEST_CASE("all scenes of examples/scenes are sound") {
+  for (const char* const name : {"cornell", "room", "furnace", "white_sphere", "two_plates", "emitting_wall"}) {
+    std::string fault;
+    const auto text = apps::read_text(std::string(HALFLIGHT_SCENES) + "/" + name + ".scene", fault);
+    INFO(name << " " << fault);
+    REQUIRE(text);
+    const auto file = parsed(*text);
+    CHECK(radiosity::faults(file.scene).empty());
+  }
+}
+
+TEST_CASE("the example in the README of the scenes is sound") {
+  std::string fault;
+  const std::string readme = apps::read_text(std::string(HALFLIGHT_SCENES) + "/README.md", fault).value();
+  const std::size_t begin = readme.find("    material white");
+  const std::size_t end = readme.find("## Grammar");
+  REQUIRE(begin < end);
+  const auto file = parsed(readme.substr(begin, end - begin));
+  CHECK(file.scene.objects.size() == 9);
+  CHECK(file.scene.objects.back().name == "second.back");
+}

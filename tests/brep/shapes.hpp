@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the tests of brep/ share: attribute types, small solids, and a picture of all records to compare before and after.
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <brep/builder.hpp>
+#include <brep/circulators.hpp>
+#include <brep/geometry.hpp>
+#include <brep/tag.hpp>
+#include <brep/validate.hpp>
+
+#include "catch.hpp"
+
+namespace shapes {
+
+struct Vertex : brep::Tag {
+  glm::dvec3 position{0.0};
+};
+struct Face : brep::Tag {
+  std::uint32_t sheet = 77;
+};
+using Mesh = brep::BRep<Vertex, brep::NoData, Face>;
+
+constexpr double pi = 3.14159265358979323846;
+
+inline brep::Builder cube_builder() {
+  brep::Builder b;
+  for (unsigned i = 0; i < 8; ++i) b.vertex({i & 1, i >> 1 & 1, i >> 2 & 1});
+  b.face({0, 2, 3, 1}, 0);
+  b.face({4, 5, 7, 6}, 1);
+  b.face({0, 1, 5, 4}, 2);
+  b.face({2, 6, 7, 3}, 3);
+  b.face({0, 4, 6, 2}, 4);
+  b.face({1, 3, 7, 5}, 5);
+  return b;
+}
+inline brep::Builder tetrahedron_builder() {
+  brep::Builder b;
+  b.vertex({0, 0, 0});
+  b.vertex({1, 0, 0});
+  b.vertex({0, 1, 0});
+  b.vertex({0, 0, 1});
+  b.face({0, 2, 1}, 0);
+  b.face({0, 1, 3}, 1);
+  b.face({1, 2, 3}, 2);
+  b.face({2, 0, 3}, 3);
+  return b;
+}
+// A regular n-gon of circumscribed radius 1 and height 1: two n-gons and n quadrilaterals.
+inline brep::Builder prism_builder(std::uint32_t n) {
+  brep::Builder b;
+  std::vector<std::uint32_t> bottom, top;
+  for (std::uint32_t i = 0; i < 2 * n; ++i) {
+    const double angle = 2.0 * pi * (i % n) / n;
+    b.vertex({std::cos(angle), std::sin(angle), i < n ? 0.0 : 1.0});
+    if (i < n) bottom.insert(bottom.begin(), i);
+    else top.push_back(i);
+  }
+  b.face(bottom, 0);
+  b.face(top, 1);
+  for (std::uint32_t i = 0; i < n; ++i) b.face({i, (i + 1) % n, n + (i + 1) % n, n + i}, 2);
+  return b;
+}
+// A polygon in the plane z = 0 and its back.
+inline brep::Builder pillow_builder(const std::vector<glm::dvec2>& outline) {
+  brep::Builder b;
+  std::vector<std::uint32_t> front, back;
+  for (const glm::dvec2& p : outline) {
+    front.push_back(b.vertex({p.x, p.y, 0.0}));
+    back.insert(back.begin(), front.back());
+  }
+  b.face(front, 0);
+  b.face(back, brep::no_sheet);
+  return b;
+}
+// m x n quadrilaterals on a torus.
+inline brep::Builder torus_builder(std::uint32_t m, std::uint32_t n) {
+  brep::Builder b;
+  for (std::uint32_t i = 0; i < m * n; ++i) {
+    const double u = 2.0 * pi * (i % m) / m, w = 2.0 * pi * (i / m) / n;
+    b.vertex({(2.0 + std::cos(w)) * std::cos(u), (2.0 + std::cos(w)) * std::sin(u), std::sin(w)});
+  }
+  for (std::uint32_t y = 0; y < n; ++y) {
+    for (std::uint32_t x = 0; x < m; ++x) {
+      b.face({y * m + x, y * m + (x + 1) % m, (y + 1) % n * m + (x + 1) % m, (y + 1) % n * m + x}, 0);
+    }
+  }
+  return b;
+}
+
+template <class B = Mesh>
+B build(const brep::Builder& builder) {
+  brep::BuildResult<B> result = brep::close<B>(builder);
+  for (const brep::Defect& defect : result.defects) UNSCOPED_INFO(defect.sentence);
+  REQUIRE(result.brep.has_value());
+  return std::move(*result.brep);
+}
+
+// The sentences of all faults, empty for a valid BRep: CHECK(faults(mesh) == "").
+template <class B>
+std::string faults(const B& mesh) {
+  std::string all;
+  for (const brep::Fault& fault : brep::validate(mesh)) all += fault.sentence + '\n';
+  return all;
+}
+
+// Every record of every living element, and the counts.
+template <class B>
+std::vector<std::uint32_t> records(const B& mesh) {
+  using brep::detail::Raw;
+  std::vector<std::uint32_t> all;
+  for (brep::EdgeId e : brep::edges(mesh)) {
+    for (brep::HalfedgeId h : {brep::halfedge(e), brep::twin(brep::halfedge(e))}) {
+      const auto& r = Raw::at(mesh, h);
+      all.insert(all.end(), {h.index, r.next.index, r.prev.index, r.vertex.index, r.face.index});
+    }
+  }
+  for (brep::VertexId v : brep::vertices(mesh)) all.insert(all.end(), {v.index, mesh.halfedge(v).index});
+  for (brep::FaceId f : brep::faces(mesh)) all.insert(all.end(), {f.index, mesh.halfedge(f).index});
+  for (std::size_t count : {mesh.vertex_count(), mesh.edge_count(), mesh.face_count()}) all.push_back(static_cast<std::uint32_t>(count));
+  return all;
+}
+
+template <class B>
+std::vector<brep::HalfedgeId> all_halfedges(const B& mesh) {
+  std::vector<brep::HalfedgeId> all;
+  for (brep::EdgeId e : brep::edges(mesh)) {
+    all.push_back(brep::halfedge(e));
+    all.push_back(brep::twin(brep::halfedge(e)));
+  }
+  return all;
+}
+
+template <class B>
+double total_area(const B& mesh) {
+  double sum = 0.0;
+  for (brep::FaceId f : brep::faces(mesh)) sum += brep::area(mesh, f);
+  return sum;
+}
+
+// A generator whose seed is printed when a check of the test fails.
+class Random {
+ public:
+  explicit Random(std::uint32_t seed) : engine_(seed) {}
+  std::uint32_t below(std::size_t n) { return static_cast<std::uint32_t>(engine_() % n); }
+  double unit() { return static_cast<double>(engine_()) / 4294967296.0; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+}  // namespace shapes

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+
+// The audit tells the truth: the path tracer is unbiased, the error estimate recovers errors that were put in, the plan
+// leaves out only what it has a proof for.
+
+#include <radiosity/radiosity.hpp>
+
+#include "catch.hpp"
+#include "scenes.hpp"
+
+using radiosity::Options;
+using radiosity::Scene;
+using radiosity::Solution;
+
+namespace {
+
+// The stages before refinement.
+struct Prepared {
+  Scene scene;
+  radiosity::Frame frame;
+  raycast::Scene objects;
+  std::vector<radiosity::Surface> surfaces;
+
+  explicit Prepared(Scene input)
+      : scene(std::move(input)), frame(*radiosity::make_frame(scene)), objects(radiosity::compile(scene, frame)) {
+    for (std::uint32_t o = 0, first = 0; o < objects.size(); ++o) {
+      auto made = radiosity::make_surface(objects.object(o), first);
+      REQUIRE(made.surface);
+      surfaces.push_back(std::move(*made.surface));
+      first += objects.object(o).sheet_count();
+    }
+  }
+};
+
+// Mean and standard error of path-traced radiosity, first channel, over points spread over one sheet's faces.
+std::pair<double, double> traced(const Prepared& p, std::uint32_t object, std::uint32_t sheet, int count, std::uint64_t seed) {
+  const radiosity::PathTracer tracer{p.scene, p.objects, p.surfaces};
+  std::vector<radiosity::Patch> patches;
+  double area = 0.0;
+  for (const brep::FaceId f : brep::faces(p.surfaces[object].brep)) {
+    if (p.surfaces[object].brep.data(f).sheet != sheet) { continue; }
+    patches.push_back(radiosity::make_patch(radiosity::corner_polygon(p.surfaces[object].brep, f)));
+    area += patches.back().area;
+  }
+  double sum = 0.0;
+  double square = 0.0;
+  std::uint64_t rays = 0;
+  for (int i = 0; i < count; ++i) {
+    radiosity::Random random{seed, static_cast<std::uint64_t>(i)};
+    double rest = random.uniform() * area;
+    std::size_t k = 0;
+    while (k + 1 < patches.size() && rest > patches[k].area) { rest -= patches[k++].area; }
+    const double u = random.uniform();
+    const auto point = p.objects.object(object).project(sheet, radiosity::sample(patches[k], u, random.uniform()));
+    const double b = tracer.radiosity(point.position, point.normal, object, sheet, random, rays).x;
+    sum += b;
+    square += b * b;
+  }
+  const double mean = sum / count;
+  return {mean, std::sqrt((square / count - mean * mean) / count)};
+}
+
+}  // namespace
+
+TEST_CASE("path tracing is unbiased: furnaces glow at 1, an emitting wall lights its neighbours as the reference says") {
+  INFO("seed 5");
+  const auto check = [](std::pair<double, double> estimate, double expected) {
+    CAPTURE(estimate.first, estimate.second, expected);
+    CHECK(std::abs(estimate.first - expected) < 4.0 * estimate.second + 1e-12);  // a false alarm in 16 000
+  };
+  check(traced(Prepared{scenes::furnace_with_things(0.8)}, 0, 4, 20000, 5), 1.0);  // floor
+  check(traced(Prepared{scenes::furnace_with_things(0.8)}, 2, 0, 20000, 5), 1.0);  // sphere
+  check(traced(Prepared{scenes::furnace_sphere(0.9)}, 0, 0, 20000, 5), 1.0);
+
+  Scene wall = scenes::furnace_cube(0.5);  // the floor emits, the rest reflects one half; finite-element reference
+  wall.materials = {{"wall", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.5}, radiosity::Color{1.0}}};
+  wall.objects[0].material = {0, 0, 0, 0, 1, 0};
+  check(traced(Prepared{wall}, 0, 0, 100000, 5), 0.18110555822851843);
+}
+
+TEST_CASE("next event estimation and plain paths agree") {
+  // The same small lamp once as a polygon (sampled directly) and once as a thin box (flat too), and a sphere lamp (found by paths alone)
+  // against a room whose energy balance is known: closed, so the absorbed power equals the emitted power.
+  const Prepared p{scenes::room_with_box()};
+  const Options options = [] {
+    Options o;
+    o.audit_points = 0;
+    return o;
+  }();
+  const auto outcome = radiosity::solve(p.scene, options);
+  REQUIRE(outcome.solution);
+  const auto [mean, error] = traced(p, 0, 0, 100000, 9);  // wall x0
+  CAPTURE(mean, error);
+  CHECK(std::abs(outcome.solution->audit.surfaces[0].radiosity.x - mean) < 4.0 * error + 0.01 * mean);
+}
+
+TEST_CASE("the error estimate is unbiased: it recovers an error that was put in") {
+  std::uint64_t state = 77;
+  INFO("seed 77");
+  for (const double error : {0.0, 0.02, 0.2}) {
+    radiosity::ErrorSums sums;
+    radiosity::Random random{state++, 0};
+    for (int i = 0; i < 20000; ++i) {
+      // Truth 1, solution 1 + error, two estimates with independent noise of +-0.5.
+      const double b1 = 0.5 + random.uniform();
+      const double b2 = 0.5 + random.uniform();
+      sums.square.push_back((b1 - 1.0 - error) * (b2 - 1.0 - error));
+      sums.reference.push_back(b1 * b2);
+    }
+    const auto estimate = sums.estimate();
+    REQUIRE(estimate);
+    CAPTURE(error, estimate->relative_l2, estimate->standard_error);
+    CHECK(std::abs(estimate->relative_l2 - error) < 4.0 * estimate->standard_error);
+  }
+}
+
+TEST_CASE("a solution that is 5 % too bright is found to be 5 % too bright") {
+  const Prepared p{scenes::furnace_with_things(0.5)};
+  Options options;
+  options.epsilon = 0.02;
+  options.min_area = 1e-4;
+  options.audit_points = 0;
+  auto outcome = radiosity::solve(p.scene, options);
+  REQUIRE(outcome.solution);
+  REQUIRE(outcome.solution->audit.closure);  // so B = 1 exactly
+  radiosity::Mesh mesh = outcome.solution->mesh;
+  for (auto& x : mesh.positions) { x = (x - p.frame.centre) * p.frame.scale; }
+  for (auto& corner : mesh.corners) { corner.radiosity *= 1.05; }
+  radiosity::Exposure exposure;
+  exposure.partly_buried.assign(outcome.solution->hierarchy.size(), true);
+  const auto measured = radiosity::measure_error(p.scene, p.objects, p.surfaces, exposure, mesh, 2000, 2, 1);
+  REQUIRE(measured.picture);
+  // Reflected radiosity is 0.5, so an error of 0.05 is 10 % of it.
+  CAPTURE(measured.picture->relative_l2, measured.picture->standard_error);
+  CHECK(std::abs(measured.picture->relative_l2 - 0.1) < 4.0 * measured.picture->standard_error);
+  CHECK(measured.leaf->relative_l2 < 0.05);
+}
+
+TEST_CASE("plan: a lamp flush with the ceiling of a room leaves it closed; a lamp below it does not") {
+  CHECK(radiosity::make_plan(scenes::room_with_box(), Prepared{scenes::room_with_box()}.surfaces).closed);
+  Scene lowered = scenes::room_with_box();
+  lowered.objects[2].placement.translation.z = -0.1;
+  CHECK_FALSE(radiosity::make_plan(lowered, Prepared{lowered}.surfaces).closed);
+  CHECK_FALSE(radiosity::make_plan(scenes::two_plates(0.5), Prepared{scenes::two_plates(0.5)}.surfaces).closed);
+}
+
+TEST_CASE("plan: what cannot occlude is left out, what can is kept") {
+  const auto occluders = [](const Scene& scene) { return radiosity::make_plan(scene, Prepared{scene}.surfaces).occluders.size(); };
+  CHECK(occluders(scenes::furnace_cube(0.5)) == 0);
+  CHECK(occluders(scenes::two_plates(0.5)) == 0);
+  CHECK(occluders(scenes::room_with_box()) == 1);  // the box; not the lamp in the ceiling
+  CHECK(occluders(scenes::furnace_with_things(0.5)) == 3);
+  Scene between = scenes::two_plates(0.5);
+  between.objects.push_back(scenes::object("blocker", scenes::polygon({{0, 0, 0.5}, {1, 0, 0.5}, {1, 1, 0.5}, {0, 1, 0.5}}), 1));
+  CHECK(occluders(between) == 1);
+}
+
+TEST_CASE("a plate between two plates stops all light between them") {
+  Scene scene = scenes::two_plates(0.5);
+  scene.objects.push_back(scenes::object("blocker", scenes::polygon({{-3, -3, 0.5}, {-3, 3, 0.5}, {3, 3, 0.5}, {3, -3, 0.5}}), 1));
+  Options options;
+  options.audit_points = 0;
+  const auto outcome = radiosity::solve(scene, options);
+  REQUIRE(outcome.solution);
+  CHECK(outcome.solution->audit.surfaces[1].radiosity == radiosity::Color{0.0});  // the upper plate
+  CHECK(outcome.solution->audit.surfaces[2].radiosity.x > 0.01);                  // the blocker, lit from below on 1/36 of its area
+}
+
+TEST_CASE("ground under a box is buried: it takes no part, and the ground beside it keeps its brightness") {
+  Options options;
+  options.audit_points = 0;
+  const auto outcome = radiosity::solve(scenes::room_with_box(), options);
+  REQUIRE(outcome.solution);
+  const Solution& solution = *outcome.solution;
+  double floor_area = 0.0;
+  for (const auto& mean : solution.audit.surfaces) {
+    if (mean.name == "room.z0") { floor_area = mean.area; }
+    if (mean.name == "box.z0") { CHECK(mean.area == 0.0); }
+  }
+  // 1 - 0.09 exposed. Sampling error: 1/32 of a leaf at each of the leaves along the outline of the box.
+  CHECK(floor_area == test::Approx(0.91).margin(2e-3));
+}

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+
+// The whole path against answers that are known: furnaces, exchange between plates, energy, invariance, determinism.
+
+#include <radiosity/radiosity.hpp>
+
+#include <brep/validate.hpp>
+
+#include "catch.hpp"
+#include "scenes.hpp"
+
+using radiosity::Options;
+using radiosity::Outcome;
+using radiosity::Scene;
+using radiosity::Solution;
+
+namespace {
+
+// Fast options: coarse refinement and no audit.
+Options coarse() {
+  Options options;
+  options.epsilon = 0.03;
+  options.min_area = 1e-4;
+  options.audit_points = 0;
+  return options;
+}
+
+Solution solved(const Scene& scene, const Options& options, const radiosity::Control& control = {}) {
+  Outcome outcome = radiosity::solve(scene, options, control);
+  for (const std::string& sentence : outcome.failure.sentences) { UNSCOPED_INFO(sentence); }
+  REQUIRE(outcome.solution);
+  return std::move(*outcome.solution);
+}
+
+// Largest |B - 1| over all corners and all exposed leaves.
+double furnace_error(const Solution& solution) {
+  double worst = 0.0;
+  for (const auto& corner : solution.mesh.corners) { worst = std::max(worst, std::abs(corner.radiosity.x - 1.0)); }
+  for (const auto& face : solution.mesh.faces) { worst = std::max(worst, std::abs(face.radiosity.x - 1.0)); }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("furnace cube: B = 1 everywhere and every row sums to 1") {
+  for (const double rho : {0.1, 0.5, 0.9, 0.99}) {
+    CAPTURE(rho);
+    const Solution solution = solved(scenes::furnace_cube(rho), coarse());
+    CHECK(furnace_error(solution) < 1e-3);
+    CHECK(solution.audit.row_sum.min > 1.0 - 1e-3);
+    CHECK(solution.audit.row_sum.max < 1.0 + 1e-3);
+    CHECK(solution.audit.rays == 0);  // nothing stands inside a convex room
+    CHECK(solution.audit.iterations <= 20);
+    CHECK(solution.audit.channels == 1);
+  }
+}
+
+TEST_CASE("furnace sphere from inside: B = 1 everywhere and every row sums to 1") {
+  for (const double rho : {0.1, 0.5, 0.9, 0.99}) {
+    CAPTURE(rho);
+    const Solution solution = solved(scenes::furnace_sphere(rho), coarse());
+    CHECK(furnace_error(solution) < 1e-3);
+    CHECK(solution.audit.row_sum.min > 1.0 - 1e-3);
+    CHECK(solution.audit.row_sum.max < 1.0 + 1e-3);
+    CHECK(solution.audit.rays == 0);
+  }
+}
+
+TEST_CASE("furnace with things in it: B = 1 whatever stands in the room") {
+  const Solution solution = solved(scenes::furnace_with_things(0.9), coarse());
+  CHECK(furnace_error(solution) < 1e-3);
+  CHECK(solution.audit.rays > 0);
+  REQUIRE(solution.audit.closure);
+}
+
+TEST_CASE("two plates: the exchange between them is the analytic form factor") {
+  const double rho = 0.5;
+  const Solution solution = solved(scenes::two_plates(rho), coarse());
+  double exchange = 0.0;
+  for (const radiosity::Link& link : solution.links) { exchange += static_cast<double>(link.exchange); }
+  const double area = 1.0 * solution.frame.scale * solution.frame.scale;
+  CHECK(exchange / area == test::Approx(0.1998248956983874).epsilon(1e-6));
+  CHECK(solution.audit.rays == 0);
+}
+
+TEST_CASE("energy: what is emitted is absorbed or escapes") {
+  for (const Scene& scene : {scenes::furnace_cube(0.9), scenes::room_with_box(), scenes::two_plates(0.8)}) {
+    const Solution solution = solved(scene, coarse());
+    CHECK(solution.audit.energy_balance < 1e-6);  // the residual is 1e-8, amplified by at most 1 / (1 - rho)
+  }
+  CHECK(solved(scenes::two_plates(0.0), coarse()).audit.links == 0);
+  CHECK(std::abs(solved(scenes::room_with_box(), coarse()).audit.escaped) < 1e-9);
+  CHECK(solved(scenes::two_plates(0.8), coarse()).audit.escaped > 0.5);
+}
+
+TEST_CASE("every BRep is valid after every generation of refinement, and v - e + f = 2 (s - h)") {
+  for (const Scene& scene : {scenes::furnace_cube(0.5), scenes::furnace_sphere(0.5), scenes::furnace_with_things(0.5),
+                             scenes::room_with_box(), scenes::two_plates(0.5)}) {
+    radiosity::Control control;
+    int generations = 0;
+    control.after_generation = [&](const std::vector<radiosity::Surface>& surfaces) {
+      ++generations;
+      for (const radiosity::Surface& surface : surfaces) {
+        const auto faults = brep::validate(surface.brep);
+        for (const auto& fault : faults) { UNSCOPED_INFO(fault.sentence); }
+        REQUIRE(faults.empty());
+        const auto euler = static_cast<long>(surface.brep.vertex_count()) - static_cast<long>(surface.brep.edge_count()) +
+                           static_cast<long>(surface.brep.face_count());
+        REQUIRE(euler == 2 * (static_cast<long>(brep::shell_count(surface.brep)) - brep::genus(surface.brep)));
+      }
+    };
+    solved(scene, coarse(), control);
+    CHECK(generations >= 1);
+  }
+}
+
+TEST_CASE("scaling by a power of two gives the same bits") {
+  const Solution one = solved(scenes::furnace_with_things(0.7), coarse());
+  for (const double scale : {0x1p-20, 0x1p20}) {
+    const Solution other = solved(scenes::moved(scenes::furnace_with_things(0.7), scale, glm::dvec3{0.0}), coarse());
+    REQUIRE(other.links.size() == one.links.size());
+    CHECK((other.radiosity == one.radiosity));
+    CHECK((other.row_sum == one.row_sum));
+    for (std::size_t i = 0; i < one.links.size(); ++i) { REQUIRE(other.links[i].exchange == one.links[i].exchange); }
+    for (std::size_t i = 0; i < one.mesh.positions.size(); ++i) { REQUIRE(other.mesh.positions[i] == one.mesh.positions[i] * scale); }
+  }
+}
+
+TEST_CASE("moving by 1e5 sizes changes results by less than 1e-6") {
+  const Solution one = solved(scenes::room_with_box(), coarse());
+  const Solution other = solved(scenes::moved(scenes::room_with_box(), 1.0, {1e5, -3e4, 7e4}), coarse());
+  REQUIRE(other.radiosity.size() == one.radiosity.size());
+  double square = 0.0;
+  double size = 0.0;
+  for (std::size_t i = 0; i < one.radiosity.size(); ++i) {
+    square += one.area[i] * (other.radiosity[i].x - one.radiosity[i].x) * (other.radiosity[i].x - one.radiosity[i].x);
+    size += one.area[i] * one.radiosity[i].x * one.radiosity[i].x;
+  }
+  CHECK(std::sqrt(square / size) < 1e-6);
+}
+
+TEST_CASE("the same bits with 1, 2 and 5 threads, and from run to run") {
+  Options options = coarse();
+  options.audit_points = 100;
+  options.threads = 1;
+  const Solution one = solved(scenes::room_with_box(), options);
+  for (const unsigned threads : {1u, 2u, 5u}) {
+    options.threads = threads;
+    const Solution other = solved(scenes::room_with_box(), options);
+    CHECK((other.radiosity == one.radiosity));
+    CHECK(other.audit.rays == one.audit.rays);
+    REQUIRE(other.audit.picture_error);
+    CHECK(other.audit.picture_error->relative_l2 == one.audit.picture_error->relative_l2);
+    REQUIRE(other.mesh.corners.size() == one.mesh.corners.size());
+    for (std::size_t i = 0; i < one.mesh.corners.size(); ++i) { REQUIRE(other.mesh.corners[i].radiosity == one.mesh.corners[i].radiosity); }
+  }
+}
+
+TEST_CASE("another seed gives another estimate of the same radiosity") {
+  Options options = coarse();
+  const Solution one = solved(scenes::room_with_box(), options);
+  options.seed = 2;
+  const Solution other = solved(scenes::room_with_box(), options);
+  CHECK((one.radiosity != other.radiosity));
+  CHECK(one.audit.surfaces[0].radiosity.x == test::Approx(other.audit.surfaces[0].radiosity.x).epsilon(0.02));
+}
+
+TEST_CASE("a room that emits on one wall: the solution converges to the finite-element value") {
+  // Unit cube, rho .5, floor emits 1: mean of each side wall .181105558, of the ceiling between them (reference data, 1e-6).
+  Scene scene;
+  scene.materials = {{"wall", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.5}, radiosity::Color{1.0}}};
+  scene.objects = {scenes::object("room", scenes::box({0, 0, 0}, {1, 1, 1}), 0, true)};
+  scene.objects[0].material = {0, 0, 0, 0, 1, 0};  // x0 x1 y0 y1 z0 z1
+  for (const double epsilon : {0.1, 0.03, 0.01}) {
+    Options options = coarse();
+    options.epsilon = epsilon;
+    options.min_area = 1e-3 * epsilon;
+    const Solution solution = solved(scene, options);
+    const double error = std::abs(solution.audit.surfaces[0].radiosity.x / 0.18110555822851843 - 1.0);
+    CAPTURE(epsilon, error);
+    CHECK(error < 0.05 * epsilon);
+  }
+}
+
+TEST_CASE("no light: nothing is refined, linked or solved, and B = 0") {
+  Scene scene = scenes::furnace_cube(0.5);
+  scene.materials[0].emission = radiosity::Color{0.0};
+  const Solution solution = solved(scene, coarse());
+  CHECK(solution.audit.links == 0);
+  CHECK(solution.audit.rays == 0);
+  CHECK(solution.audit.nodes == 6);
+  for (const auto& b : solution.radiosity) { CHECK(b == radiosity::Color{0.0}); }
+}
+
+TEST_CASE("all black: B = E without links") {
+  Scene scene = scenes::furnace_cube(0.0);
+  const Solution solution = solved(scene, coarse());
+  CHECK(solution.audit.links == 0);
+  for (const auto& b : solution.radiosity) { CHECK(b == radiosity::Color{1.0}); }
+}
+
+TEST_CASE("a closed scene of reflectance 1 with a light has no steady state, and the run says so") {
+  Scene scene = scenes::furnace_cube(1.0);
+  scene.materials[0].emission = radiosity::Color{1.0};
+  const Solution solution = solved(scene, coarse());
+  CHECK_FALSE(solution.audit.converged);
+}
+
+TEST_CASE("faulty scenes are refused with a sentence for every fault") {
+  Scene scene = scenes::furnace_cube(0.5);
+  scene.materials[0].reflectance.y = 1.5;
+  scene.objects[0].material = {0, 0};
+  scene.objects.push_back(scenes::object("flat", scenes::polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), 7, true));
+  const Outcome outcome = radiosity::solve(scene, coarse());
+  CHECK_FALSE(outcome.solution);
+  CHECK(outcome.failure.kind == radiosity::Failure::Kind::invalid_scene);
+  CHECK(outcome.failure.sentences.size() == 4);  // reflectance, two materials for six sheets, no inside, no such material
+}
+
+TEST_CASE("a cancelled run gives no solution") {
+  const std::atomic<bool> cancel{true};
+  radiosity::Control control;
+  control.cancel = &cancel;
+  const Outcome outcome = radiosity::solve(scenes::room_with_box(), coarse(), control);
+  CHECK_FALSE(outcome.solution);
+  CHECK(outcome.failure.kind == radiosity::Failure::Kind::cancelled);
+}

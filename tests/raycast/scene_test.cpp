@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// The compiled scene: the laws that tie occluded, closest and brute force together, and watertight rooms.
+
+#include "support.hpp"
+
+using namespace raycast;
+using namespace test;
+
+namespace {
+
+// Objects of every kind strewn through [-1,1]^3 times scale; enough of them to make the tree.
+std::vector<PlacedObject> clutter(Random& random, int count, double scale) {
+  std::vector<PlacedObject> objects;
+  for (int i = 0; i < count; ++i) {
+    const dvec3 at = scale * random.in_cube();
+    const double size = 0.15 * scale;
+    const Placement placement{random.rotation() * (size * random.uniform(0.5, 1)), at, false};
+    switch (random.below(5)) {
+      case 0: objects.push_back(placed(Sphere::make(at, size))); break;
+      case 1: objects.push_back(placed(BoxObject::make({-1, -0.5, -0.1}, {1, 0.5, 0.1}), placement)); break;
+      case 2: objects.push_back(placed(Cylinder::make({0, 0, 0}, {0, 0, 1}, 0.5), placement)); break;
+      case 3: objects.push_back(placed(Polygon::make(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 1, 0})), placement)); break;
+      default: objects.push_back(placed(l_block(), placement)); break;
+    }
+  }
+  return objects;
+}
+// Does any span of any object overlap the open segment?
+bool brute_force(const std::vector<PlacedObject>& objects, const Segment& s) {
+  for (const PlacedObject& object : objects)
+    for (const Span& span : spans(object, s))
+      if (span.out.t > 0.0 && span.in.t < 1.0) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("occluded = brute force = occluded backwards, and = closest < 1 where the source is in the air") {
+  SEEDED(random);
+  for (const int count : {1, 5, 30, 300})
+    for (const double scale : {1e-8, 1.0, 1e8}) {
+      const std::vector<PlacedObject> objects = clutter(random, count, scale);
+      const Scene scene(objects);
+      int blocked = 0;
+      for (int i = 0; i < 4000; ++i) {
+        const dvec3 a = 1.2 * scale * random.in_cube(), b = 1.2 * scale * random.in_cube();
+        const Segment s = between(a, b);
+        const bool answer = scene.occluded(s);
+        blocked += answer;
+        REQUIRE(answer == brute_force(objects, s));
+        REQUIRE(answer == scene.occluded(between(b, a)));
+        bool buried = false;
+        for (const PlacedObject& object : objects)
+          for (const Span& span : spans(object, s)) buried = buried || (span.in.t <= 0.0 && span.out.t >= 0.0);
+        if (buried) continue;
+        const auto hit = scene.closest(s);
+        REQUIRE(answer == (hit && hit->t < 1.0));
+        // Splitting: a segment is free exactly when both its parts are.
+        const double t = random.uniform();
+        REQUIRE(answer == (scene.occluded(between(a, s.at(t))) || scene.occluded(between(s.at(t), b))));
+        if (hit) {
+          for (const PlacedObject& object : objects)
+            for (const Span& span : spans(object, s))
+              if (span.in.t > 0.0) REQUIRE(hit->t <= span.in.t + 1e-12);   // the scene keeps polygons in world coordinates: other roundings
+          const dvec3 normal = scene.object(hit->object).project(hit->sheet, s.at(hit->t)).normal;
+          REQUIRE(hit->front == (glm::dot(normal, s.direction) < 0.0));
+        }
+      }
+      if (count >= 30) CHECK(blocked > 100);
+    }
+}
+
+TEST_CASE("scaling the scene by powers of two leaves every t bit-identical") {
+  SEEDED(random);
+  const auto build = [](std::uint64_t seed, double factor) {
+    std::mt19937_64 engine(seed);
+    const auto next = [&] { return std::ldexp(static_cast<double>(engine() >> 11), -52) - 1.0; };
+    std::vector<PlacedObject> objects;
+    for (int i = 0; i < 60; ++i) {
+      const dvec3 at{next(), next(), next()}, a{0.2 * next(), 0.2 * next(), 0.2 * next()}, b{0.2 * next(), 0.2 * next(), 0.2 * next()};
+      if (i % 4 == 0) objects.push_back(placed(Sphere::make(factor * at, factor * 0.1)));
+      if (i % 4 == 1) objects.push_back(placed(BoxObject::make(factor * at, factor * (at + 0.1))));
+      if (i % 4 == 2) objects.push_back(placed(Cylinder::make(factor * at, factor * a, factor * 0.1)));
+      if (i % 4 == 3) objects.push_back(placed(Polygon::make({factor * at, factor * (at + a), factor * (at + b)})));
+    }
+    Placement inside = room(glm::dmat3(factor));   // through the placement's map
+    objects.push_back(placed(mesh_of(*BoxObject::make({-2, -2, -2}, {2, 2, 2}), 0.0), inside));
+    return Scene(objects);
+  };
+  const Scene one = build(random.seed(), 1.0), small = build(random.seed(), 0x1p-20), big = build(random.seed(), 0x1p20);
+  for (int i = 0; i < 5000; ++i) {
+    const Segment s{random.in_cube(), random.direction()};
+    for (const auto& [scene, factor] : {std::pair(&small, 0x1p-20), std::pair(&big, 0x1p20)}) {
+      const Segment scaled{factor * s.origin, factor * s.direction};
+      const auto a = one.closest(s), b = scene->closest(scaled);
+      REQUIRE(a);
+      REQUIRE(b);
+      REQUIRE(a->t == b->t);
+      REQUIRE(a->object == b->object);
+      REQUIRE(a->sheet == b->sheet);
+      REQUIRE(one.occluded(s) == scene->occluded(scaled));
+    }
+  }
+}
+
+TEST_CASE("no ray escapes from a closed room: through faces, edges and vertices") {
+  SEEDED(random);
+  const auto ball = mesh_of(*Sphere::make({0.1, 0.2, 0.3}, 1.0), 0.03);   // triangles
+  const auto cube = mesh_of(*BoxObject::make({-1, -1, -1}, {1, 1, 1}), 0.0);
+  brep::Builder corners;
+  ball->approximate(0.0, corners);
+  std::vector<PlacedObject> walls;   // six polygons that look inwards, sharing edges and vertices
+  for (Corners face : faces_of({-1, -1, -1}, {1, 1, 1})) {
+    std::reverse(face.begin(), face.end());
+    walls.push_back(placed(Polygon::make(face)));
+  }
+  const Placement turned = room(random.rotation() * 2.0, {0.3, 0.2, 0.1});
+  const std::vector<Scene> rooms{Scene({placed(BoxObject::make({-1, -1, -1}, {1, 1, 1}), room())}), Scene({placed(cube, room())}), Scene(walls),
+                                 Scene({placed(ball, room())}), Scene({placed(ball, turned)}), Scene({placed(BoxObject::make({-1, -1, -1}, {1, 1, 1}), turned)})};
+  for (std::size_t which = 0; which < rooms.size(); ++which) {
+    const Scene& scene = rooms[which];
+    const int rays = which < 3 ? 200000 : 100000;   // a million altogether, with the aimed ones
+    int escaped = 0;
+    for (int i = 0; i < rays; ++i) {
+      const dvec3 from = 0.3 * random.in_cube() + dvec3(0.1, 0.2, 0.3);
+      dvec3 d = random.direction();
+      if (i % 2 && which < 3) {   // at an edge or a vertex, exactly or within rounding
+        dvec3 at{random.uniform(-1, 1), 1, -1};
+        if (i % 4 == 1) at.x = random.below(2) ? 1.0 : -1.0;
+        if (i % 3 == 0) std::swap(at.x, at.y);
+        d = (at - from) * (i % 8 < 4 ? 1.0 : random.uniform(0.01, 100));
+      } else if (i % 2 && which == 3) {
+        const dvec3 a = corners.position(random.below(corners.vertex_count()));
+        const std::uint32_t f = random.below(corners.face_count());
+        const dvec3 b = corners.position(corners.corners(f)[0]), c = corners.position(corners.corners(f)[1]);
+        d = (i % 4 == 1 ? a : b + random.uniform() * (c - b)) - from;
+      }
+      escaped += !scene.closest(Segment{from, d}).has_value();
+      escaped += !scene.occluded(Segment{from, 20.0 * d / glm::length(d)});
+    }
+    INFO("room " << which);
+    CHECK(escaped == 0);
+  }
+}
+
+TEST_CASE("zero-length and non-finite rays meet nothing; an empty scene is empty") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Scene scene({placed(Sphere::make({0, 0, 0}, 1)), placed(BoxObject::make({-3, -3, -3}, {3, 3, 3}), room())});
+  for (const dvec3& d : {dvec3(0), dvec3(-0.0), dvec3(1e-320, 0, 0), dvec3(nan, 0, 1), dvec3(infinity, 0, 0)}) {
+    CHECK_FALSE(scene.occluded(Segment{{0.5, 0, 0}, d}));
+    CHECK_FALSE(scene.closest(Segment{{0.5, 0, 0}, d}));
+  }
+  const Scene nothing({});
+  CHECK_FALSE(nothing.occluded(between({0, 0, 0}, {1, 1, 1})));
+  CHECK_FALSE(nothing.closest(between({0, 0, 0}, {1, 1, 1})));
+  CHECK_FALSE(nothing.covered({0, 0, 0}, {0, 0, 1}, no_object));
+  CHECK(nothing.diameter() == 0.0);
+}
+
+TEST_CASE("far away: a scene moved by 1e5 sizes answers as at home") {
+  SEEDED(random);
+  const dvec3 shift{1e5, -2e5, 1.5e5};
+  const auto build = [&](const dvec3& offset) {
+    return Scene({placed(BoxObject::make(offset, offset + dvec3(1, 1, 1)), room()), placed(BoxObject::make(offset + dvec3(0.25, 0.25, 0), offset + dvec3(0.5, 0.5, 0.5))),
+                  placed(Sphere::make(offset + dvec3(0.7, 0.7, 0.25), 0.25)), placed(Polygon::make(rectangle(offset + dvec3(0.4, 0.4, 1), {0, 0.2, 0}, {0.2, 0, 0})))});
+  };
+  const Scene home = build(dvec3(0)), away = build(shift);
+  int differ = 0;
+  for (int i = 0; i < 20000; ++i) {
+    dvec3 a = 0.5 * random.in_cube() + 0.5, b = 0.5 * random.in_cube() + 0.5;
+    a.z = 0, b.z = i % 2 ? 1 : b.z;
+    const bool to_room = i % 2;
+    differ += home.occluded(between(a, b), 0, to_room ? 0 : no_object) != away.occluded(between(a + shift, b + shift), 0, to_room ? 0 : no_object);
+  }
+  CHECK(differ == 0);
+}
