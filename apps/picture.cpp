@@ -305,7 +305,7 @@ double automatic_exposure(const radiosity::Mesh& mesh, const radiosity::Scene& s
   double below = 0.0;
   for (const auto& [value, area] : reflected) {
     below += area;
-    if (below >= 0.98 * total) { return 0.55 * std::numbers::pi / value; }
+    if (below >= 0.98 * total) { return 0.65 * std::numbers::pi / value; }
   }
   return emitted > 0.0 ? std::numbers::pi / emitted : 1.0;
 }

@@ -41,7 +41,7 @@ struct Picture {
 [[nodiscard]] std::optional<Picture> draw(const radiosity::Mesh& mesh, const View& view, double exposure, unsigned samples = 4,
                                           const std::atomic<bool>* cancel = nullptr);
 
-// The exposure that shows the 98th percentile (by area) of the reflected radiosity, largest channel, as 0.55 in linear
+// The exposure that shows the 98th percentile (by area) of the reflected radiosity, largest channel, as 0.65 in linear
 // light: lit walls are bright, and there is room above for what lies close to a lamp. Where nothing reflects, the
 // brightest emission becomes 1; where nothing shines, 1. Depends on the solution alone, not on the view.
 [[nodiscard]] double automatic_exposure(const radiosity::Mesh& mesh, const radiosity::Scene& scene);

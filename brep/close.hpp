@@ -73,6 +73,7 @@ class Matching {
       if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
       add(DefectKind::bad_position, {VertexId{v}}, name(v) + " has a coordinate that is not a finite number");
     }
+    bad_.assign(builder_.face_count(), false);
     degree_.assign(n, 0);
     excused_.assign(n, false);
     std::vector<std::uint32_t> seen(n, none);
@@ -98,6 +99,7 @@ class Matching {
         seen[v] = f;
       }
       if (!bad) continue;
+      bad_[f] = true;
       for (std::uint32_t v : corners) {
         if (v < n) excused_[v] = true;
       }
@@ -114,14 +116,15 @@ class Matching {
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
       const auto corners = builder_.corners(f);
       const std::uint32_t first = corner;
+      if (bad_[f]) {  // already reported
+        corner += static_cast<std::uint32_t>(corners.size());
+        matched_ += corners.size();
+        continue;
+      }
       for (std::size_t k = 0; k < corners.size(); ++k, ++corner) {
         const bool last = k + 1 == corners.size();
         next_corner_[corner] = last ? first : corner + 1;
         const std::uint32_t u = corners[k], w = last ? corners[0] : corners[k + 1];
-        if (u >= n || w >= n || u == w) {
-          ++matched_;  // already reported
-          continue;
-        }
         std::uint32_t& head = chain[degree_[u] < degree_[w] || (degree_[u] == degree_[w] && u < w) ? u : w];
         std::uint32_t e = head;
         while (e != none && !(edges_[e].origin == w && edges_[e].target == u) &&
@@ -303,6 +306,7 @@ class Matching {
 
   const Builder& builder_;
   std::vector<std::uint32_t> degree_;       // corners at a vertex
+  std::vector<bool> bad_;                   // faces that cannot be used
   std::vector<bool> excused_;               // a corner of a bad face: what is missing here has been reported
   std::vector<std::uint32_t> next_corner_;  // on the same face
   std::vector<Edge> edges_;

@@ -133,7 +133,7 @@ Result<std::vector<FaceId>> refine(B& brep, FaceId f, Place&& place) {
     brep.set_anchor(children[3], h);
   } else {
     HalfedgeId spoke = unchecked::split_edge(brep, h);  // centre -> mid-edge point
-    detail::put(brep, brep.vertex(spoke), centroid(outline), level + 1, place);
+    detail::put(brep, brep.vertex(spoke), centroid(Polygon{outline.data(), outline.size()}), level + 1, place);
     for (std::size_t k = 2; k < n; ++k) spoke = detail::cut_child(brep, spoke, middle[k], children);
   }
   for (std::size_t k = 0; k < n; ++k) brep.set_anchor(children[k], corner[k]);

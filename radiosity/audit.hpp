@@ -105,7 +105,7 @@ struct MeasuredError {
 [[nodiscard]] inline MeasuredError measure_error(const Scene& scene, const raycast::Scene& objects, const std::vector<Surface>& surfaces,
                                                  const Exposure& exposure, const Mesh& mesh, std::uint32_t points, unsigned threads,
                                                  std::uint64_t seed, const Control& control = {}) {
-  constexpr int paths = 64;  // averaged in each of the two estimates
+  constexpr int paths = 256;  // averaged in each of the two estimates
   struct Triangle {
     std::uint32_t face, first, second;  // corners face.first, first, second
     double cumulative_area;

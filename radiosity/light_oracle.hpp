@@ -3,9 +3,9 @@
 
 // The second opinion of F-refinement where a light shines. A criterion of form factors alone knows nothing of shadow
 // boundaries (paper 4.4) nor of what a strong small lamp does to a large wall. Emission is known before anything is
-// solved; so a patch that a light may be linked to is split while the light varies across it by more than epsilon:
+// solved; so a patch that a light may be linked to is split while the light varies too much across it:
 //
-//     E * RMS variation of F V over the patch * sqrt(area of the patch / area of the scene)  >  epsilon * mean emission
+//     E * RMS variation of F V over the patch * sqrt(area of the patch / area of the scene)  >  share * epsilon * mean emission
 //
 // the patch's share of the relative L2 error, dimensionless. F varies as the disk estimate does between the corners
 // (linear between extremes: RMS = difference / sqrt 12); V is all or nothing at a point: RMS = sqrt(V (1 - V)).
@@ -33,7 +33,7 @@ class LightOracle {
   // The references must outlive the oracle; the hierarchy holds the roots when it is made, and may grow.
   LightOracle(const Scene& scene, const raycast::Scene& objects, const Plan& plan, const std::vector<Surface>& surfaces,
               const Hierarchy& hierarchy, double epsilon, std::uint64_t seed)
-      : objects_{&objects}, plan_{&plan}, surfaces_{&surfaces}, hierarchy_{&hierarchy}, epsilon_{epsilon}, seed_{seed} {
+      : objects_{&objects}, plan_{&plan}, surfaces_{&surfaces}, hierarchy_{&hierarchy}, epsilon_{share * epsilon}, seed_{seed} {
     for (const InputSurface& input : radiosity::surfaces(scene)) {
       const Color& emission = scene.materials[input.material].emission;
       emission_.push_back(std::max({emission.x, emission.y, emission.z}));
@@ -56,7 +56,11 @@ class LightOracle {
     const std::uint32_t receiver = q_shines ? p : q;
     const Node& to = nodes[receiver];
     const Node& from = nodes[q_shines ? q : p];
-    const double weight = emission_[from.surface] * std::sqrt(to.area / scene_area_);
+    // A light that was split into k parts has k links here, whose variations add up to between sqrt k and k of one.
+    std::uint32_t root = q_shines ? q : p;
+    while (nodes[root].parent != no_node) { root = nodes[root].parent; }
+    const double parts = nodes[root].area / from.area;
+    const double weight = emission_[from.surface] * std::sqrt(parts * to.area / scene_area_);
     if (!(weight > epsilon_)) { return no_node; }
 
     const Patch patch = make_patch(contour(*surfaces_, nodes, receiver));
@@ -79,6 +83,10 @@ class LightOracle {
   }
 
  private:
+  // Most of the L2 error comes from the lights. Measured on the reference scenes, a quarter halves the error of share = 1 for
+  // 15 to 30 % more time; less brings little.
+  static constexpr double share = 0.25;
+
   const raycast::Scene* objects_;
   const Plan* plan_;
   const std::vector<Surface>* surfaces_;

@@ -22,7 +22,7 @@ struct Options {
   double epsilon = 0.005;
   // or when both patches are no larger than min_area, relative to the total area of the scene.
   double min_area = 3e-5;
-  // Accuracy target: epsilon and min_area are tightened until the audited relative L2 error is at most this.
+  // Accuracy target: epsilon and min_area are chosen anew until the audited relative L2 error of the picture is at most this.
   std::optional<double> error;
 
   Solver solver = Solver::conjugate_gradients;

@@ -21,11 +21,12 @@
 #include <radiosity/frame.hpp>
 #include <radiosity/mesh.hpp>
 #include <radiosity/options.hpp>
-#include <radiosity/plan.hpp>
+#include <radiosity/prepare.hpp>
 #include <radiosity/reconstruct.hpp>
 #include <radiosity/refine.hpp>
 #include <radiosity/scene.hpp>
 #include <radiosity/solve.hpp>
+#include <radiosity/summary.hpp>
 #include <radiosity/transport.hpp>
 
 namespace radiosity {
@@ -44,7 +45,7 @@ struct Solution {
 };
 
 struct Failure {
-  enum class Kind { invalid_scene, cancelled };
+  enum class Kind { invalid_scene, invalid_options, cancelled };
   Kind kind = Kind::invalid_scene;
   std::vector<std::string> sentences;
 };
@@ -77,65 +78,32 @@ class Stopwatch {
   std::clock_t cpu_ = std::clock();
 };
 
+// Adds the times of one round to those of the rounds before it, stage by stage.
+inline void add_times(std::vector<StageTime>& total, const std::vector<StageTime>& round) {
+  for (const StageTime& stage : round) {
+    auto same = std::find_if(total.begin(), total.end(), [&](const StageTime& t) { return t.name == stage.name; });
+    if (same == total.end()) { same = total.insert(same, {stage.name, 0.0, 0.0}); }
+    same->wall_seconds += stage.wall_seconds;
+    same->cpu_seconds += stage.cpu_seconds;
+  }
+}
+
+// The total, of which the audit is no part.
+inline void sum_times(Audit& audit) {
+  audit.wall_seconds = 0.0;
+  audit.cpu_seconds = 0.0;
+  for (const StageTime& stage : audit.stages) {
+    if (stage.name == "audit") { continue; }
+    audit.wall_seconds += stage.wall_seconds;
+    audit.cpu_seconds += stage.cpu_seconds;
+  }
+}
+
 inline Outcome failed(Failure::Kind kind, std::vector<std::string> sentences) { return {std::nullopt, {kind, std::move(sentences)}}; }
-
-// Emitted = absorbed + escaped, summed over the channels (notes: closed and open scenes alike).
-inline void balance_energy(Audit& audit, const Scene& scene, const std::vector<InputSurface>& inputs, const Hierarchy& hierarchy,
-                           const Transport& transport, const std::vector<double>& area, const std::vector<Color>& radiosity) {
-  const std::vector<double> rows = transport.row_sums();
-  double emitted = 0.0;
-  double absorbed = 0.0;
-  double escaped = 0.0;
-  for (int c = 0; c < 3; ++c) {
-    std::vector<double> channel;
-    std::vector<double> arrived;
-    for (const Color& b : radiosity) { channel.push_back(b[c]); }
-    transport.apply(channel, arrived);
-    for (std::size_t i = 0; i < hierarchy.size(); ++i) {
-      if (!hierarchy[i].leaf() || !(area[i] > 0.0)) { continue; }
-      const Material& material = scene.materials[inputs[hierarchy[i].surface].material];
-      emitted += area[i] * material.emission[c];
-      absorbed += (1.0 - material.reflectance[c]) * arrived[i];
-      escaped += area[i] * radiosity[i][c] * (1.0 - rows[i]);
-    }
-  }
-  if (emitted > 0.0) {
-    audit.energy_balance = std::abs(emitted - absorbed - escaped) / emitted;
-    audit.escaped = escaped / emitted;
-  }
-}
-
-inline Audit::Range summarise_rows(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<double>& rows) {
-  Audit::Range range{std::numeric_limits<double>::infinity(), 0.0, 0.0};
-  double total = 0.0;
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
-    if (!hierarchy[i].leaf() || !(area[i] > 0.0)) { continue; }
-    range.min = std::min(range.min, rows[i]);
-    range.max = std::max(range.max, rows[i]);
-    range.mean += area[i] * rows[i];
-    total += area[i];
-  }
-  return total > 0.0 ? Audit::Range{range.min, range.mean / total, range.max} : Audit::Range{};
-}
-
-inline void summarise_surfaces(Audit& audit, const std::vector<InputSurface>& inputs, const Frame& frame, const Hierarchy& hierarchy,
-                               const std::vector<double>& area, const std::vector<Color>& radiosity) {
-  for (const InputSurface& input : inputs) { audit.surfaces.push_back({input.name, 0.0, Color{0.0}}); }
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
-    if (!hierarchy[i].leaf()) { continue; }
-    SurfaceMean& mean = audit.surfaces[hierarchy[i].surface];
-    mean.area += area[i];
-    mean.radiosity += area[i] * radiosity[i];
-  }
-  for (SurfaceMean& mean : audit.surfaces) {
-    if (mean.area > 0.0) { mean.radiosity /= mean.area; }
-    mean.area = frame.to_scene_area(mean.area);
-  }
-}
 
 // Solves each channel; a grey scene has one. Fills the radiosity of every node.
 inline std::vector<Color> solve_channels(Audit& audit, const Scene& scene, const std::vector<InputSurface>& inputs, const Plan& plan,
-                                         const Hierarchy& hierarchy, const Transport& transport, const std::vector<double>& area,
+                                         const Hierarchy& hierarchy, Transport& transport, const std::vector<double>& area,
                                          const Options& options) {
   std::vector<Color> radiosity(hierarchy.size(), Color{0.0});
   for (int c = 0; c < static_cast<int>(plan.channels); ++c) {
@@ -157,62 +125,26 @@ inline std::vector<Color> solve_channels(Audit& audit, const Scene& scene, const
   return radiosity;
 }
 
-// What the run left out, beyond what the plan had proven before it.
-inline void report_left_out(Audit& audit, const Plan& plan, const RefineResult& refined, const EvaluateResult& evaluated,
-                            const Exposure& exposure, const Options& options) {
-  audit.left_out = plan.left_out;
-  const auto add = [&](std::string what, std::string why, std::string saved) {
-    audit.left_out.push_back({std::move(what), std::move(why), std::move(saved)});
-  };
-  if (!plan.lit) {
-    add("refinement, links and solver", "nothing emits light: B = 0", "the whole solve");
-    return;
-  }
-  if (!plan.reflects) {
-    add("links and solver", "nothing reflects: B = E", "the whole solve");
-    return;
-  }
-  if (evaluated.proven_clear > 0) {
-    add("visibility of " + std::to_string(evaluated.proven_clear) + " links", "no object can stand between the patches",
-        "at least " + std::to_string(evaluated.proven_clear * segments_per_round) + " rays");
-  }
-  if (refined.pairs_convex > 0) {
-    add(std::to_string(refined.pairs_convex) + " pairs of input faces", "faces of one plane or of one convex solid do not see each other",
-        std::to_string(refined.pairs_convex) + " questions to the oracle");
-  }
-  if (refined.pairs_dropped > 0) {
-    add(std::to_string(refined.pairs_dropped) + " pairs of patches", "proven to face away from each other",
-        std::to_string(refined.pairs_dropped) + " links");
-  }
-  if (exposure.buried_leaves > 0) { add(std::to_string(exposure.buried_leaves) + " leaves", "buried under another object", "their links"); }
-  if (options.audit_points == 0) { add("the error estimate", "not asked for (audit of 0 points)", "the time of the audit"); }
-}
-
 // One run at a given fineness.
-inline Outcome solve_at(const Scene& scene, const Options& options, double epsilon, double min_area, const Control& control) {
+inline Outcome solve_at(const Scene& scene, const Options& options, const Control& control) {
   Solution solution;
   Audit& audit = solution.audit;
   Stopwatch watch{audit.stages};
   const unsigned threads = thread_count(options.threads);
-  audit.epsilon = epsilon;
-  audit.min_area = min_area;
+  audit.epsilon = options.epsilon;
+  audit.min_area = options.min_area;
   audit.threads = threads;
   audit.seed = options.seed;
   const auto cancelled = [] { return failed(Failure::Kind::cancelled, {"the run was interrupted; nothing has been written"}); };
 
-  const auto frame = make_frame(scene);
-  if (!frame) { return failed(Failure::Kind::invalid_scene, {"the scene has no finite size"}); }
-  solution.frame = *frame;
+  PrepareResult preparation = prepare(scene);
+  if (!preparation.prepared) { return failed(Failure::Kind::invalid_scene, std::move(preparation.faults)); }
+  const Frame frame = preparation.prepared->frame;
+  const raycast::Scene& objects = preparation.prepared->objects;
+  std::vector<Surface>& boundary = preparation.prepared->surfaces;
+  const Plan& plan = preparation.prepared->plan;
   const std::vector<InputSurface> inputs = surfaces(scene);
-  const raycast::Scene objects = compile(scene, *frame);
-  std::vector<Surface> boundary;
-  for (std::uint32_t o = 0, first = 0; o < objects.size(); ++o) {
-    SurfaceResult made = make_surface(objects.object(o), first);
-    if (!made.surface) { return failed(Failure::Kind::invalid_scene, {"object '" + scene.objects[o].name + "': " + made.fault}); }
-    first += objects.object(o).sheet_count();
-    boundary.push_back(std::move(*made.surface));
-  }
-  const Plan plan = make_plan(scene, boundary);
+  solution.frame = frame;
   audit.channels = plan.channels;
   Hierarchy& hierarchy = solution.hierarchy;
   hierarchy = make_roots(boundary);
@@ -221,7 +153,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, double epsil
   // Without light, or without reflection, B = E on the input faces.
   RefineResult refined;
   if (plan.lit && plan.reflects) {
-    refined = refine(scene, objects, plan, boundary, hierarchy, epsilon, min_area, threads, options.seed, control);
+    refined = refine(scene, objects, plan, boundary, hierarchy, options.epsilon, options.min_area, threads, options.seed, control);
     if (refined.cancelled) { return cancelled(); }
   }
   solution.links = std::move(refined.links);
@@ -249,17 +181,13 @@ inline Outcome solve_at(const Scene& scene, const Options& options, double epsil
   audit.row_sum = summarise_rows(hierarchy, exposure.area, solution.row_sum);
   solution.radiosity = solve_channels(audit, scene, inputs, plan, hierarchy, transport, exposure.area, options);
   balance_energy(audit, scene, inputs, hierarchy, transport, exposure.area, solution.radiosity);
-  summarise_surfaces(audit, inputs, *frame, hierarchy, exposure.area, solution.radiosity);
+  summarise_surfaces(audit, inputs, frame, hierarchy, exposure.area, solution.radiosity);
   watch.lap("solve");
 
   eliminate_t_vertices(boundary);
   reconstruct(boundary, hierarchy, exposure, solution.radiosity, materials, options.reconstruction);
   solution.mesh = make_mesh(boundary, hierarchy, exposure, solution.radiosity);
   watch.lap("reconstruct");
-  for (const StageTime& stage : audit.stages) {
-    audit.wall_seconds += stage.wall_seconds;
-    audit.cpu_seconds += stage.cpu_seconds;
-  }
 
   audit.nodes = hierarchy.size();
   audit.leaves = static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.leaf(); }));
@@ -268,7 +196,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, double epsil
   audit.bytes = hierarchy.capacity() * sizeof(Node) + solution.links.capacity() * sizeof(Link) + objects.bytes();
   for (const Surface& surface : boundary) { audit.bytes += surface.brep.bytes(); }
   report_left_out(audit, plan, refined, evaluated, exposure, options);
-  if (options.audit_points > 0) {
+  if (!plan.lit || !plan.reflects) {
+    audit.leaf_error = audit.picture_error = ErrorEstimate{};  // B = E is exact
+  } else if (options.audit_points > 0) {
     const MeasuredError measured =
         measure_error(scene, objects, boundary, exposure, solution.mesh, options.audit_points, threads, options.seed, control);
     if (control.cancelled()) { return cancelled(); }
@@ -278,41 +208,45 @@ inline Outcome solve_at(const Scene& scene, const Options& options, double epsil
     audit.audit_rays = measured.rays;
     watch.lap("audit");
   }
-  for (glm::dvec3& p : solution.mesh.positions) { p = frame->to_scene(p); }
+  sum_times(audit);
+  for (glm::dvec3& p : solution.mesh.positions) { p = frame.to_scene(p); }
   solution.area = exposure.area;
   return {std::move(solution), {}};
 }
 
 }  // namespace detail
 
-// Solves the scene. With an error target, epsilon and min_area are halved until the audit of the picture meets it; a run
-// whose error stays above says so by audit.converged.
+// Solves the scene. With an error target the run starts coarse and halves epsilon and min_area until the audit of the picture
+// witnesses the target, its standard error included; times are those of all rounds together. A run whose error stays above
+// says so by audit.converged; it gives up before it would need more than 20 million links (720 MB).
 [[nodiscard]] inline Outcome solve(const Scene& scene, const Options& options = {}, const Control& control = {}) {
-  std::vector<std::string> sentences = faults(scene);
-  if (options.error && options.audit_points == 0) {
-    sentences.emplace_back("an error target needs the audit as its witness; give it some points");
+  if (!options.error) { return detail::solve_at(scene, options, control); }
+  if (options.audit_points == 0) {
+    return detail::failed(Failure::Kind::invalid_options, {"an error target needs the audit as its witness; give it some points"});
   }
-  if (!sentences.empty()) { return detail::failed(Failure::Kind::invalid_scene, std::move(sentences)); }
-  double epsilon = options.epsilon;
-  double min_area = options.min_area;
-  constexpr std::uint64_t link_limit = 30'000'000;  // 360 MB of links
-  double wall_seconds = 0.0;
-  double cpu_seconds = 0.0;
+  Options round = options;
+  round.epsilon = 0.04;
+  round.min_area = 2.4e-4;
+  std::vector<StageTime> stages;
   for (;;) {
-    Outcome outcome = detail::solve_at(scene, options, epsilon, min_area, control);
-    if (!outcome.solution || !options.error) { return outcome; }
+    Outcome outcome = detail::solve_at(scene, round, control);
+    if (!outcome.solution) { return outcome; }
     Audit& audit = outcome.solution->audit;
-    wall_seconds += audit.wall_seconds;
-    cpu_seconds += audit.cpu_seconds;
-    const bool met = audit.picture_error && audit.picture_error->relative_l2 <= *options.error;
-    if (met || 4 * audit.links > link_limit) {
+    detail::add_times(stages, audit.stages);
+    const ErrorEstimate error = audit.picture_error.value_or(ErrorEstimate{});
+    const bool met = error.relative_l2 + error.standard_error <= *options.error;
+    if (met || 4 * audit.links > 20'000'000) {
       audit.converged = audit.converged && met;
-      audit.wall_seconds = wall_seconds;
-      audit.cpu_seconds = cpu_seconds;
+      audit.stages = std::move(stages);
+      detail::sum_times(audit);
       return outcome;
     }
-    epsilon *= 0.5;
-    min_area *= 0.5;
+    // An error estimate that drowns in its own noise needs more points rather than a finer mesh.
+    if (error.standard_error > 0.5 * *options.error && round.audit_points < 200'000) { round.audit_points *= 4; }
+    if (error.relative_l2 > 0.5 * *options.error) {
+      round.epsilon *= 0.5;
+      round.min_area *= 0.5;
+    }
   }
 }
 

@@ -5,7 +5,7 @@
 // solver but the scene: no mesh, no form factors, no links.
 //
 // B(x) = E(x) + rho(x) * mean of B(y) over the points y seen from x in cosine-distributed directions. Paths end by Russian
-// roulette with the largest channel of rho. When the lights are flat and small they are sampled directly (next event),
+// roulette with the largest channel of rho (at most 0.99). When the lights are flat and small they are sampled directly (next event),
 // and paths that run into them do not count their emission twice.
 
 #include <algorithm>
@@ -42,7 +42,7 @@ class PathTracer {
     Color throughput{1.0};
     for (;;) {
       const Color& rho = material->reflectance;
-      const double survival = std::min(1.0, std::max({rho.x, rho.y, rho.z}));
+      const double survival = std::min(longest, std::max({rho.x, rho.y, rho.z}));
       throughput *= rho;
       if (survival > 0.0 && light_area_ > 0.0) { result += throughput * direct(x, n, object, random, rays); }
       if (!(random.uniform() < survival)) { return result; }
@@ -64,6 +64,8 @@ class PathTracer {
   }
 
  private:
+  static constexpr double longest = 0.99;  // so that a path ends where nothing absorbs
+
   struct Light {
     glm::dvec3 a{0.0}, ab{0.0}, ac{0.0}, normal{0.0};
     double cumulative_area = 0.0;

@@ -33,7 +33,7 @@ namespace detail {
 // One channel of the problem: leaves with exposed area only.
 struct Channel {
   const Hierarchy* hierarchy = nullptr;
-  const Transport* transport = nullptr;
+  Transport* transport = nullptr;
   const std::vector<double>* area = nullptr;
   std::vector<double> reflectance, emission;  // one a node; leaves count
 
@@ -153,7 +153,7 @@ inline LinearSolution conjugate_gradients(const Channel& channel, double wanted,
 }  // namespace detail
 
 // `reflectance` and `emission`: one number for each input surface.
-[[nodiscard]] inline LinearSolution solve_channel(const Hierarchy& hierarchy, const Transport& transport, const std::vector<double>& area,
+[[nodiscard]] inline LinearSolution solve_channel(const Hierarchy& hierarchy, Transport& transport, const std::vector<double>& area,
                                                   const std::vector<double>& reflectance, const std::vector<double>& emission,
                                                   Solver solver, double residual, std::uint32_t max_iterations) {
   detail::Channel channel{&hierarchy, &transport, &area, {}, {}};

@@ -28,11 +28,13 @@ class Transport {
       : hierarchy_{&hierarchy}, links_{&links}, exposure_{&exposure}, scale_(hierarchy.size(), 1.0) {}
 
   // y = M x. Both have one value a node; x is read and y written at the leaves, the rest of y is scratch.
-  void apply(const std::vector<double>& x, std::vector<double>& y) const {
+  void apply(const std::vector<double>& x, std::vector<double>& y) {
     const std::vector<double>& area = exposure_->area;
     const std::vector<glm::dvec3>& centroid = exposure_->centroid;
-    std::vector<Moments> sent(x.size());        // power of the radiosity: integral of B, and of B (x - c)
-    std::vector<Moments> arrived(x.size());     // irradiance: value at the centroid, and gradient
+    std::vector<Moments>& sent = sent_;
+    std::vector<Moments>& arrived = arrived_;
+    sent.assign(x.size(), {});
+    arrived.assign(x.size(), {});
     for (std::size_t i = x.size(); i-- > 0;) {  // pull
       const Node& node = (*hierarchy_)[i];
       Moments& own = sent[i];
@@ -66,7 +68,7 @@ class Transport {
   }
 
   // What each leaf sees of the scene: the sum of its form factors. 1 in a closed scene. Inner nodes hold 0.
-  [[nodiscard]] std::vector<double> row_sums() const {
+  [[nodiscard]] std::vector<double> row_sums() {
     std::vector<double> y;
     apply(std::vector<double>(hierarchy_->size(), 1.0), y);
     for (std::size_t i = 0; i < y.size(); ++i) {
@@ -115,6 +117,9 @@ class Transport {
   const Links* links_;
   const Exposure* exposure_;
   std::vector<double> scale_;  // D, at the leaves
+  // Scratch of apply(), one a node, kept because it is asked for many times:
+  std::vector<Moments> sent_;     // integrals of B and of B (x - c)
+  std::vector<Moments> arrived_;  // irradiance: value at the centroid, and gradient
 };
 
 }  // namespace radiosity

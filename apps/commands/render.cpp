@@ -201,6 +201,7 @@ void describe(CLI::App& command, RenderOptions& options) {
 }
 
 ExitCode run(const RenderOptions& options) {
+  const std::atomic<bool>& cancel = watch_interrupts();
   if (options.solver.error && options.solver.audit_points == 0) {
     complain("--error needs the audit as its witness; leave --audit 0 out");
     return ExitCode::usage;
@@ -212,7 +213,6 @@ ExitCode run(const RenderOptions& options) {
   const auto camera = choose_camera(*file, options.camera);
   if (!camera) { return ExitCode::usage; }
 
-  const std::atomic<bool>& cancel = watch_interrupts();
   Progress progress(options.quiet);
   radiosity::Control control;
   control.cancel = &cancel;

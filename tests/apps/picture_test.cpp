@@ -217,8 +217,8 @@ TEST_CASE("automatic exposure scales with the light and ignores the lamp") {
     if (lamp) { add_rectangle(mesh, 0.0, 0.0, 1.0, 1.0, Color(1000.0), 1); }
     return apps::automatic_exposure(mesh, result.file->scene);
   };
-  CHECK(exposure(1.0, false) == test::Approx(0.55 * pi));
-  CHECK(exposure(2.0, true) == test::Approx(0.5 * 0.55 * pi));
+  CHECK(exposure(1.0, false) == test::Approx(0.65 * pi));
+  CHECK(exposure(2.0, true) == test::Approx(0.5 * 0.65 * pi));
   CHECK(exposure(0.0, true) == test::Approx(pi / 1000.0));
 }
 

@@ -159,7 +159,7 @@ TEST_CASE("a run that does not converge is exit code 4, and what was reached is 
 
 TEST_CASE("interrupted, the program leaves no file and says so") {
   const Place place;
-  const Run run = place.run("render " + scene("room") + " -o a.png --epsilon 0.0005 --min-area 1e-7 --quiet", "timeout -s INT 1 ");
+  const Run run = place.run("render " + scene("room") + " -o a.png --epsilon 0.0005 --min-area 1e-7 --quiet", "timeout -s INT 2 ");
   INFO(run.err);
   // timeout itself gives 124; the program's own sentence shows that it ended by itself.
   CHECK(run.code == 124);

@@ -14,27 +14,16 @@ using radiosity::Solution;
 
 namespace {
 
-// The stages before refinement.
-struct Prepared {
-  Scene scene;
-  radiosity::Frame frame;
-  raycast::Scene objects;
-  std::vector<radiosity::Surface> surfaces;
-
-  explicit Prepared(Scene input)
-      : scene(std::move(input)), frame(*radiosity::make_frame(scene)), objects(radiosity::compile(scene, frame)) {
-    for (std::uint32_t o = 0, first = 0; o < objects.size(); ++o) {
-      auto made = radiosity::make_surface(objects.object(o), first);
-      REQUIRE(made.surface);
-      surfaces.push_back(std::move(*made.surface));
-      first += objects.object(o).sheet_count();
-    }
-  }
-};
+radiosity::Prepared prepared(const Scene& scene) {
+  auto result = radiosity::prepare(scene);
+  REQUIRE(result.prepared);
+  return std::move(*result.prepared);
+}
 
 // Mean and standard error of path-traced radiosity, first channel, over points spread over one sheet's faces.
-std::pair<double, double> traced(const Prepared& p, std::uint32_t object, std::uint32_t sheet, int count, std::uint64_t seed) {
-  const radiosity::PathTracer tracer{p.scene, p.objects, p.surfaces};
+std::pair<double, double> traced(const Scene& scene, std::uint32_t object, std::uint32_t sheet, int count, std::uint64_t seed) {
+  const radiosity::Prepared p = prepared(scene);
+  const radiosity::PathTracer tracer{scene, p.objects, p.surfaces};
   std::vector<radiosity::Patch> patches;
   double area = 0.0;
   for (const brep::FaceId f : brep::faces(p.surfaces[object].brep)) {
@@ -68,28 +57,28 @@ TEST_CASE("path tracing is unbiased: furnaces glow at 1, an emitting wall lights
     CAPTURE(estimate.first, estimate.second, expected);
     CHECK(std::abs(estimate.first - expected) < 4.0 * estimate.second + 1e-12);  // a false alarm in 16 000
   };
-  check(traced(Prepared{scenes::furnace_with_things(0.8)}, 0, 4, 20000, 5), 1.0);  // floor
-  check(traced(Prepared{scenes::furnace_with_things(0.8)}, 2, 0, 20000, 5), 1.0);  // sphere
-  check(traced(Prepared{scenes::furnace_sphere(0.9)}, 0, 0, 20000, 5), 1.0);
+  check(traced(scenes::furnace_with_things(0.8), 0, 4, 20000, 5), 1.0);  // floor
+  check(traced(scenes::furnace_with_things(0.8), 2, 0, 20000, 5), 1.0);  // sphere
+  check(traced(scenes::furnace_sphere(0.9), 0, 0, 20000, 5), 1.0);
 
   Scene wall = scenes::furnace_cube(0.5);  // the floor emits, the rest reflects one half; finite-element reference
   wall.materials = {{"wall", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.5}, radiosity::Color{1.0}}};
   wall.objects[0].material = {0, 0, 0, 0, 1, 0};
-  check(traced(Prepared{wall}, 0, 0, 100000, 5), 0.18110555822851843);
+  check(traced(wall, 0, 0, 100000, 5), 0.18110555822851843);
 }
 
 TEST_CASE("next event estimation and plain paths agree") {
   // The same small lamp once as a polygon (sampled directly) and once as a thin box (flat too), and a sphere lamp (found by paths alone)
   // against a room whose energy balance is known: closed, so the absorbed power equals the emitted power.
-  const Prepared p{scenes::room_with_box()};
+  const Scene scene = scenes::room_with_box();
   const Options options = [] {
     Options o;
     o.audit_points = 0;
     return o;
   }();
-  const auto outcome = radiosity::solve(p.scene, options);
+  const auto outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
-  const auto [mean, error] = traced(p, 0, 0, 100000, 9);  // wall x0
+  const auto [mean, error] = traced(scene, 0, 0, 100000, 9);  // wall x0
   CAPTURE(mean, error);
   CHECK(std::abs(outcome.solution->audit.surfaces[0].radiosity.x - mean) < 4.0 * error + 0.01 * mean);
 }
@@ -115,12 +104,13 @@ TEST_CASE("the error estimate is unbiased: it recovers an error that was put in"
 }
 
 TEST_CASE("a solution that is 5 % too bright is found to be 5 % too bright") {
-  const Prepared p{scenes::furnace_with_things(0.5)};
+  const Scene scene = scenes::furnace_with_things(0.5);
+  const radiosity::Prepared p = prepared(scene);
   Options options;
   options.epsilon = 0.02;
   options.min_area = 1e-4;
   options.audit_points = 0;
-  auto outcome = radiosity::solve(p.scene, options);
+  auto outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   REQUIRE(outcome.solution->audit.closure);  // so B = 1 exactly
   radiosity::Mesh mesh = outcome.solution->mesh;
@@ -128,7 +118,7 @@ TEST_CASE("a solution that is 5 % too bright is found to be 5 % too bright") {
   for (auto& corner : mesh.corners) { corner.radiosity *= 1.05; }
   radiosity::Exposure exposure;
   exposure.partly_buried.assign(outcome.solution->hierarchy.size(), true);
-  const auto measured = radiosity::measure_error(p.scene, p.objects, p.surfaces, exposure, mesh, 2000, 2, 1);
+  const auto measured = radiosity::measure_error(scene, p.objects, p.surfaces, exposure, mesh, 2000, 2, 1);
   REQUIRE(measured.picture);
   // Reflected radiosity is 0.5, so an error of 0.05 is 10 % of it.
   CAPTURE(measured.picture->relative_l2, measured.picture->standard_error);
@@ -137,15 +127,15 @@ TEST_CASE("a solution that is 5 % too bright is found to be 5 % too bright") {
 }
 
 TEST_CASE("plan: a lamp flush with the ceiling of a room leaves it closed; a lamp below it does not") {
-  CHECK(radiosity::make_plan(scenes::room_with_box(), Prepared{scenes::room_with_box()}.surfaces).closed);
+  CHECK(prepared(scenes::room_with_box()).plan.closed);
   Scene lowered = scenes::room_with_box();
   lowered.objects[2].placement.translation.z = -0.1;
-  CHECK_FALSE(radiosity::make_plan(lowered, Prepared{lowered}.surfaces).closed);
-  CHECK_FALSE(radiosity::make_plan(scenes::two_plates(0.5), Prepared{scenes::two_plates(0.5)}.surfaces).closed);
+  CHECK_FALSE(prepared(lowered).plan.closed);
+  CHECK_FALSE(prepared(scenes::two_plates(0.5)).plan.closed);
 }
 
 TEST_CASE("plan: what cannot occlude is left out, what can is kept") {
-  const auto occluders = [](const Scene& scene) { return radiosity::make_plan(scene, Prepared{scene}.surfaces).occluders.size(); };
+  const auto occluders = [](const Scene& scene) { return prepared(scene).plan.occluders.size(); };
   CHECK(occluders(scenes::furnace_cube(0.5)) == 0);
   CHECK(occluders(scenes::two_plates(0.5)) == 0);
   CHECK(occluders(scenes::room_with_box()) == 1);  // the box; not the lamp in the ceiling
@@ -179,4 +169,24 @@ TEST_CASE("ground under a box is buried: it takes no part, and the ground beside
   }
   // 1 - 0.09 exposed. Sampling error: 1/32 of a leaf at each of the leaves along the outline of the box.
   CHECK(floor_area == test::Approx(0.91).margin(2e-3));
+}
+
+TEST_CASE("an error target is met, and a tighter one takes more links") {
+  std::uint64_t links = 0;
+  for (const double target : {0.1, 0.03}) {
+    Options options;
+    options.error = target;
+    const auto outcome = radiosity::solve(scenes::room_with_box(), options);
+    REQUIRE(outcome.solution);
+    const radiosity::Audit& audit = outcome.solution->audit;
+    CHECK(audit.converged);
+    REQUIRE(audit.picture_error);
+    CHECK(audit.picture_error->relative_l2 <= target);
+    CHECK(audit.links > links);
+    links = audit.links;
+  }
+  Options blind;
+  blind.error = 0.1;
+  blind.audit_points = 0;
+  CHECK_FALSE(radiosity::solve(scenes::room_with_box(), blind).solution);
 }

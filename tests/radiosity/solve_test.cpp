@@ -53,7 +53,7 @@ struct Problem {
     }
   }
 
-  [[nodiscard]] radiosity::LinearSolution solve(const Transport& transport, double rho, Solver solver, double residual = 1e-12) const {
+  [[nodiscard]] radiosity::LinearSolution solve(Transport& transport, double rho, Solver solver, double residual = 1e-12) const {
     std::vector<double> reflectance(hierarchy.size(), rho);
     std::vector<double> emission(hierarchy.size(), 0.0);
     reflectance[1] = 0.0;  // a black surface among them
@@ -67,7 +67,7 @@ struct Problem {
 
 TEST_CASE("transport is symmetric: x . M y = y . M x") {
   const Problem problem{6, 0.9, 3};
-  const Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
   std::mt19937 engine{17};
   INFO("seed 17");
   std::normal_distribution<double> normal;
@@ -143,7 +143,7 @@ TEST_CASE("a link between roots carries the same as its sixteen leaf links in pr
 
 TEST_CASE("conjugate gradients and Jacobi agree, and leave B = E on a black surface") {
   const Problem problem{8, 0.8, 11};
-  const Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
   for (const double rho : {0.1, 0.5, 0.9}) {
     const auto cg = problem.solve(transport, rho, Solver::conjugate_gradients);
     const auto jacobi = problem.solve(transport, rho, Solver::jacobi);
@@ -200,7 +200,7 @@ TEST_CASE("a scene without steady state is not reported as solved") {
 
 TEST_CASE("no light, no radiosity, no iteration") {
   const Problem problem{4, 0.9, 37};
-  const Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
   const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, std::vector<double>(4, 0.5),
                                                std::vector<double>(4, 0.0), Solver::conjugate_gradients, 1e-8, 100);
   CHECK(solved.converged);

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Sums up a run for its audit: row sums, energy, means of the input surfaces, what was left out.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <radiosity/audit.hpp>
+#include <radiosity/evaluate.hpp>
+#include <radiosity/exposure.hpp>
+#include <radiosity/frame.hpp>
+#include <radiosity/hierarchy.hpp>
+#include <radiosity/options.hpp>
+#include <radiosity/plan.hpp>
+#include <radiosity/refine.hpp>
+#include <radiosity/scene.hpp>
+#include <radiosity/transport.hpp>
+
+namespace radiosity {
+
+// Emitted = absorbed + escaped, summed over the channels (in closed scenes nothing escapes).
+inline void balance_energy(Audit& audit, const Scene& scene, const std::vector<InputSurface>& inputs, const Hierarchy& hierarchy,
+                           Transport& transport, const std::vector<double>& area, const std::vector<Color>& radiosity) {
+  const std::vector<double> rows = transport.row_sums();
+  double emitted = 0.0;
+  double absorbed = 0.0;
+  double escaped = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    std::vector<double> channel;
+    std::vector<double> arrived;
+    for (const Color& b : radiosity) { channel.push_back(b[c]); }
+    transport.apply(channel, arrived);
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+      if (!hierarchy[i].leaf() || !(area[i] > 0.0)) { continue; }
+      const Material& material = scene.materials[inputs[hierarchy[i].surface].material];
+      emitted += area[i] * material.emission[c];
+      absorbed += (1.0 - material.reflectance[c]) * arrived[i];
+      escaped += area[i] * radiosity[i][c] * (1.0 - rows[i]);
+    }
+  }
+  if (emitted > 0.0) {
+    audit.energy_balance = std::abs(emitted - absorbed - escaped) / emitted;
+    audit.escaped = escaped / emitted;
+  }
+}
+
+inline Audit::Range summarise_rows(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<double>& rows) {
+  Audit::Range range{std::numeric_limits<double>::infinity(), 0.0, 0.0};
+  double total = 0.0;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (!hierarchy[i].leaf() || !(area[i] > 0.0)) { continue; }
+    range.min = std::min(range.min, rows[i]);
+    range.max = std::max(range.max, rows[i]);
+    range.mean += area[i] * rows[i];
+    total += area[i];
+  }
+  return total > 0.0 ? Audit::Range{range.min, range.mean / total, range.max} : Audit::Range{};
+}
+
+inline void summarise_surfaces(Audit& audit, const std::vector<InputSurface>& inputs, const Frame& frame, const Hierarchy& hierarchy,
+                               const std::vector<double>& area, const std::vector<Color>& radiosity) {
+  for (const InputSurface& input : inputs) { audit.surfaces.push_back({input.name, 0.0, Color{0.0}}); }
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (!hierarchy[i].leaf()) { continue; }
+    SurfaceMean& mean = audit.surfaces[hierarchy[i].surface];
+    mean.area += area[i];
+    mean.radiosity += area[i] * radiosity[i];
+  }
+  for (SurfaceMean& mean : audit.surfaces) {
+    if (mean.area > 0.0) { mean.radiosity /= mean.area; }
+    mean.area = frame.to_scene_area(mean.area);
+  }
+}
+
+// What the run left out, beyond what the plan had proven before it.
+inline void report_left_out(Audit& audit, const Plan& plan, const RefineResult& refined, const EvaluateResult& evaluated,
+                            const Exposure& exposure, const Options& options) {
+  audit.left_out = plan.left_out;
+  const auto add = [&](std::string what, std::string why, std::string saved) {
+    audit.left_out.push_back({std::move(what), std::move(why), std::move(saved)});
+  };
+  if (!plan.lit) {
+    add("refinement, links and solver", "nothing emits light: B = 0 is exact", "the whole solve and the error estimate");
+    return;
+  }
+  if (!plan.reflects) {
+    add("links and solver", "nothing reflects: B = E is exact", "the whole solve and the error estimate");
+    return;
+  }
+  if (evaluated.proven_clear > 0) {
+    add("visibility of " + std::to_string(evaluated.proven_clear) + " links", "no object can stand between the patches",
+        "at least " + std::to_string(evaluated.proven_clear * segments_per_round) + " rays");
+  }
+  if (refined.pairs_convex > 0) {
+    add(std::to_string(refined.pairs_convex) + " pairs of input faces", "faces of one plane or of one convex solid do not see each other",
+        std::to_string(refined.pairs_convex) + " questions to the oracle");
+  }
+  if (refined.pairs_dropped > 0) {
+    add(std::to_string(refined.pairs_dropped) + " pairs of patches", "proven to face away from each other",
+        std::to_string(refined.pairs_dropped) + " links");
+  }
+  if (exposure.buried_leaves > 0) { add(std::to_string(exposure.buried_leaves) + " leaves", "buried under another object", "their links"); }
+  if (options.audit_points == 0) { add("the error estimate", "not asked for (audit of 0 points)", "the time of the audit"); }
+}
+
+}  // namespace radiosity
