@@ -14,74 +14,19 @@
 //
 // Time: O(v + sum of the lower degree over the edges), linear for every surface of bounded genus; about 30 ns a quadrilateral.
 
+#include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <span>
-#include <string>
+#include <utility>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include <brep/brep.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/diagnosis.hpp>
+#include <brep/match.hpp>
 
 namespace brep {
-
-// The face belongs to no surface of the object: the back of a polygon, a closed hole.
-inline constexpr std::uint32_t no_sheet = 0xffffffff;
-
-class Builder {
- public:
-  // The number of the new vertex: 0, 1, 2 ...
-  std::uint32_t vertex(const glm::dvec3& position) {
-    positions_.push_back(position);
-    return static_cast<std::uint32_t>(positions_.size() - 1);
-  }
-  // The number of the new face: 0, 1, 2 ... The corners are numbers of vertices, which may be made later.
-  std::uint32_t face(std::span<const std::uint32_t> corners, std::uint32_t sheet) {
-    corners_.insert(corners_.end(), corners.begin(), corners.end());
-    first_corner_.push_back(static_cast<std::uint32_t>(corners_.size()));
-    sheets_.push_back(sheet);
-    return static_cast<std::uint32_t>(sheets_.size() - 1);
-  }
-  std::uint32_t face(std::initializer_list<std::uint32_t> corners, std::uint32_t sheet) {
-    return face(std::span<const std::uint32_t>(corners.begin(), corners.size()), sheet);
-  }
-
-  [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions_.size()); }
-  [[nodiscard]] std::uint32_t face_count() const { return static_cast<std::uint32_t>(sheets_.size()); }
-  [[nodiscard]] std::uint32_t corner_count() const { return static_cast<std::uint32_t>(corners_.size()); }
-  [[nodiscard]] const glm::dvec3& position(std::uint32_t vertex) const { return positions_[vertex]; }
-  [[nodiscard]] std::span<const std::uint32_t> corners(std::uint32_t face) const {
-    return std::span(corners_).subspan(first_corner_[face], first_corner_[face + 1] - first_corner_[face]);
-  }
-  [[nodiscard]] std::uint32_t first_corner(std::uint32_t face) const { return first_corner_[face]; }
-  [[nodiscard]] std::uint32_t sheet(std::uint32_t face) const { return sheets_[face]; }
-
- private:
-  std::vector<glm::dvec3> positions_;
-  std::vector<std::uint32_t> corners_;  // of all faces, one after the other
-  std::vector<std::uint32_t> first_corner_{0};
-  std::vector<std::uint32_t> sheets_;
-};
-
-enum class DefectKind : std::uint8_t {
-  bad_index,        // a corner names a vertex that does not exist
-  bad_position,     // a coordinate is not finite
-  few_corners,      // fewer than three corners
-  repeated_corner,  // a face visits a vertex twice
-  doubled_edge,     // two faces run along an edge in the same direction
-  flipped_face,     // all edges of a face run the same way as in its neighbours
-  open_border,      // edges with a face on one side only: one defect for each chain of them
-  several_fans,     // the faces around a vertex form more than one fan
-  unused_vertex     // no face has the vertex as a corner
-};
-
-struct Defect {
-  DefectKind kind;
-  std::vector<Element> elements;  // in the order in which the sentence names them
-  std::string sentence;
-};
 
 template <class B>
 struct BuildResult {
@@ -89,6 +34,42 @@ struct BuildResult {
   std::vector<Defect> defects;
 };
 
-}  // namespace brep
+// Builds the BRep, or reports every defect. Vertex data get `.position`, face data get `.sheet`, if they have such members.
+// A defect that is only the consequence of a reported one (the border around a face with a bad index) is not reported.
+template <class B>
+[[nodiscard]] BuildResult<B> close(const Builder& builder) {
+  using detail::Raw;
+  detail::Matching matching(builder);
+  detail::Diagnosis(builder, matching).run();
+  BuildResult<B> result;
+  result.defects = std::move(matching.defects);
+  if (!result.defects.empty()) return result;
 
-#include <brep/close.hpp>
+  B& brep = result.brep.emplace();
+  for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) {
+    [[maybe_unused]] auto& data = brep.data(Raw::new_vertex(brep));
+    if constexpr (requires { data.position = builder.position(v); }) data.position = builder.position(v);
+  }
+  for (std::size_t e = 0; e < matching.edges.size(); ++e) (void)Raw::new_edge(brep);
+  std::uint32_t corner = 0;
+  for (std::uint32_t i = 0; i < builder.face_count(); ++i) {
+    const FaceId f = Raw::new_face(brep);
+    [[maybe_unused]] auto& data = brep.data(f);
+    if constexpr (requires { data.sheet = builder.sheet(i); }) data.sheet = builder.sheet(i);
+    const std::span<const std::uint32_t> corners = builder.corners(i);
+    const HalfedgeId first{matching.halfedge[corner]};
+    HalfedgeId prev{matching.halfedge[corner + corners.size() - 1]}, h = first;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const HalfedgeId next = k + 1 < corners.size() ? HalfedgeId{matching.halfedge[corner + k + 1]} : first;
+      Raw::at(brep, h) = {next, prev, VertexId{corners[k]}, f};
+      Raw::at(brep, VertexId{corners[k]}).halfedge = h;
+      prev = h;
+      h = next;
+    }
+    Raw::at(brep, f).halfedge = first;
+    corner += static_cast<std::uint32_t>(corners.size());
+  }
+  return result;
+}
+
+}  // namespace brep

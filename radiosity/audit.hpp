@@ -149,6 +149,7 @@ struct MeasuredError {
     const Color shown =
         w0 * mesh.corners[a].radiosity + w1 * mesh.corners[triangle->first].radiosity + w2 * mesh.corners[triangle->second].radiosity;
     const InputSurface& input = inputs[face.surface];
+    if (!(exposure.area[face.node] > 0.0)) { return; }
     if (exposure.partly_buried[face.node] && buried(objects, input.object, input.sheet, chord)) { return; }
     const raycast::SurfacePoint point = objects.object(input.object).project(input.sheet, chord);
 

@@ -28,6 +28,29 @@ struct EvaluateResult {
   bool cancelled = false;
 };
 
+// What the exposed part of a patch exchanges with `other`, over what the whole patch would: its share of the area, unless the
+// other's horizon cuts the patch. Then the object that buries the rest is often the one that draws the horizon (the wall of a
+// post and the floor around it), and the share is that of the part above the horizon.
+[[nodiscard]] inline double exposed_share(const raycast::Scene& scene, const PatchEnd& end, double exposed_area, const Patch& other,
+                                          Random random) {
+  const Patch& patch = *end.patch;
+  const double share = exposed_area / patch.area;
+  if (!end.partly_buried || above_horizon(other, patch) != 0) { return share; }
+  Polygon upper;
+  clip_to_horizon(patch.contour, other.centre, other.normal, upper);
+  const double upper_area = upper.size() < 3 ? 0.0 : glm::length(vector_area(upper));
+  if (!(upper_area > 0.0)) { return share; }
+  int drawn = 0;
+  int above = 0;
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    glm::dvec3 x{0.0};
+    if (!draw_exposed(scene, end, i % 16, random, x)) { continue; }
+    ++drawn;
+    above += glm::dot(other.normal, x - other.centre) > 0.0 ? 1 : 0;
+  }
+  return drawn == 0 ? share : std::min(1.0, share * above / drawn * patch.area / upper_area);
+}
+
 // Sets the exchange of every link and removes those that carry nothing. `emits` tells for each input surface whether
 // it is a light: its links make the shadows and get four times the segments where they are partly blocked.
 [[nodiscard]] inline EvaluateResult evaluate(const raycast::Scene& scene, const Plan& plan, const std::vector<Surface>& surfaces,
@@ -58,9 +81,12 @@ struct EvaluateResult {
       if (!(unoccluded > 0.0)) { return; }
       const bool light = emits[hierarchy[link.p].surface] || emits[hierarchy[link.q].surface];
       const std::uint64_t key = (std::uint64_t{link.p} << 32) | link.q;
-      const VisibilityEstimate seen = visibility(scene, plan, end(link.p), end(link.q), light ? 16 : 4, Random{seed, key});
-      // The exposed part of a patch, and on curved objects the finer shape of its leaves, keeps the patch's kernel.
-      const double shape = exposure.area[link.p] / p.area * (exposure.area[link.q] / q.area);
+      const PatchEnd end_p = end(link.p);
+      const PatchEnd end_q = end(link.q);
+      const VisibilityEstimate seen = visibility(scene, plan, end_p, end_q, light ? 16 : 4, Random{seed, key});
+      // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
+      const double shape = exposed_share(scene, end_p, exposure.area[link.p], q, Random{seed, key, 1}) *
+                           exposed_share(scene, end_q, exposure.area[link.q], p, Random{seed, key, 2});
       link.exchange = static_cast<float>(unoccluded * seen.fraction * shape);
       rays[first + offset] = seen.rays;
       if (!hierarchy[link.p].leaf() || !hierarchy[link.q].leaf()) {

@@ -2,7 +2,8 @@
 #pragma once
 
 // The result as a picture or a file wants it: positions, faces of three or four corners, a colour at every corner (the half-edge colours of paper 4.5) and the radiosity of the leaf that the face belongs to.
-// Buried leaves are left out.
+// Buried leaves are left out, but for those that touch an exposed one: a curved object stands in front of its chords, and what
+// shows between the two must not be a hole.
 
 #include <cstdint>
 #include <vector>
@@ -24,7 +25,7 @@ struct MeshFace {
   std::uint32_t corner_count = 0;  // 3 or 4; for shading, a quadrilateral is the triangles 0 1 2 and 0 2 3
   std::uint32_t surface = 0;       // index of the input surface
   std::uint32_t node = no_node;    // hierarchy leaf
-  Color radiosity{0.0};            // of the leaf
+  Color radiosity{0.0};            // of the leaf; of a buried one, the mean of its corners
 };
 
 struct Mesh {
@@ -32,6 +33,22 @@ struct Mesh {
   std::vector<MeshCorner> corners;
   std::vector<MeshFace> faces;  // counter-clockwise from the bright side
 };
+
+namespace detail {
+
+// Does a face of the same sheet with exposed area share a vertex with this one?
+[[nodiscard]] inline bool touches_exposed(const SurfaceBRep& brep, brep::FaceId f, const Exposure& exposure) {
+  const std::uint32_t sheet = brep.data(f).sheet;
+  for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
+    for (const brep::HalfedgeId l : brep::halfedges_from(brep, brep.vertex(h))) {
+      const SurfaceFace& face = brep.data(brep.face(l));
+      if (face.sheet == sheet && exposure.area[face.node] > 0.0) { return true; }
+    }
+  }
+  return false;
+}
+
+}  // namespace detail
 
 // Positions are in the frame.
 [[nodiscard]] inline Mesh make_mesh(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const Exposure& exposure,
@@ -47,14 +64,21 @@ struct Mesh {
     }
     for (const brep::FaceId f : brep::faces(brep)) {
       const std::uint32_t node = brep.data(f).node;
-      if (node == no_node || !(exposure.area[node] > 0.0)) { continue; }
+      if (node == no_node) { continue; }
+      const bool buried = !(exposure.area[node] > 0.0);
+      if (buried && !detail::touches_exposed(brep, f, exposure)) { continue; }
       // Four corners at most; T-vertex elimination leaves no others, the rest would be cut as a fan.
       std::vector<brep::HalfedgeId> loop;
       for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) { loop.push_back(h); }
       const auto add = [&](std::initializer_list<std::size_t> corners) {
-        mesh.faces.push_back({static_cast<std::uint32_t>(mesh.corners.size()), static_cast<std::uint32_t>(corners.size()),
-                              hierarchy[node].surface, node, radiosity[node]});
-        for (const std::size_t k : corners) { mesh.corners.push_back({index[brep.vertex(loop[k]).index], brep.data(loop[k]).radiosity}); }
+        const auto first = static_cast<std::uint32_t>(mesh.corners.size());
+        Color mean{0.0};
+        for (const std::size_t k : corners) {
+          mesh.corners.push_back({index[brep.vertex(loop[k]).index], brep.data(loop[k]).radiosity});
+          mean += brep.data(loop[k]).radiosity / static_cast<double>(corners.size());
+        }
+        mesh.faces.push_back(
+            {first, static_cast<std::uint32_t>(corners.size()), hierarchy[node].surface, node, buried ? mean : radiosity[node]});
       };
       if (loop.size() == 4) {
         add({0, 1, 2, 3});

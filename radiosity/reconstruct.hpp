@@ -11,7 +11,7 @@
 //             the edge of a box. N is the normal of the true surface there, stored in the half-edge.
 //
 // The angle makes the average independent of how a T-vertex was connected. Faces of another material, and faces that
-// are buried under another object, do not count.
+// are buried under another object, do not count; a corner with buried faces alone takes the mean of its face's others.
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +78,9 @@ inline void reconstruct(std::vector<Surface>& surfaces, const Hierarchy& hierarc
     for (const brep::FaceId f : brep::faces(brep)) {
       const std::uint32_t own = brep.data(f).node;
       if (own == no_node) { continue; }
+      Color face_sum{0.0};  // over the corners that have a colour
+      int coloured = 0;
+      std::vector<brep::HalfedgeId> bare;
       for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) {
         Color sum{0.0};
         double weights = 0.0;
@@ -89,7 +92,16 @@ inline void reconstruct(std::vector<Surface>& surfaces, const Hierarchy& hierarc
           sum += weight * radiosity[node];
           weights += weight;
         }
-        brep.data(e).radiosity = weights > 0.0 ? sum / weights : radiosity[own];
+        if (!(weights > 0.0)) {
+          bare.push_back(e);
+          continue;
+        }
+        brep.data(e).radiosity = sum / weights;
+        face_sum += sum / weights;
+        ++coloured;
+      }
+      for (const brep::HalfedgeId e : bare) {
+        brep.data(e).radiosity = coloured > 0 ? face_sum / static_cast<double>(coloured) : radiosity[own];
       }
     }
   }

@@ -51,6 +51,18 @@ struct PatchEnd {
   bool partly_buried = false;
 };
 
+// Draws a point of the exposed part of the end; the first attempt lies in cell 0...15 of a 4 x 4 grid. False when none is found.
+[[nodiscard]] inline bool draw_exposed(const raycast::Scene& scene, const PatchEnd& end, std::uint32_t cell, Random& random,
+                                       glm::dvec3& x) {
+  for (int attempt = 0; attempt < 16; ++attempt) {
+    const double u = attempt == 0 ? (cell % 4 + random.uniform()) / 4.0 : random.uniform();
+    const double v = attempt == 0 ? (cell / 4 + random.uniform()) / 4.0 : random.uniform();
+    x = sample(*end.patch, u, v);
+    if (!end.partly_buried || !buried(scene, end.object, end.sheet, x)) { return true; }
+  }
+  return false;
+}
+
 struct VisibilityEstimate {
   double fraction = 1.0;
   std::uint32_t rays = 0;
@@ -71,16 +83,6 @@ inline constexpr std::uint32_t segments_per_round = 16;
   }
   if (!may_block(plan, p.object, q.object, hull)) { return {}; }
 
-  const auto draw = [&](const PatchEnd& end, std::uint32_t cell, glm::dvec3& x) {
-    for (int attempt = 0; attempt < 16; ++attempt) {
-      const double u = attempt == 0 ? (cell % 4 + random.uniform()) / 4.0 : random.uniform();
-      const double v = attempt == 0 ? (cell / 4 + random.uniform()) / 4.0 : random.uniform();
-      x = sample(*end.patch, u, v);
-      if (!end.partly_buried || !buried(scene, end.object, end.sheet, x)) { return true; }
-    }
-    return false;
-  };
-
   VisibilityEstimate estimate;
   const double softening = 0.01 * std::min(p.patch->area, q.patch->area);  // bounds the weight of touching points
   double total = 0.0;
@@ -92,7 +94,7 @@ inline constexpr std::uint32_t segments_per_round = 16;
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
       glm::dvec3 x{0.0};
       glm::dvec3 y{0.0};
-      if (!draw(p, i, x) || !draw(q, (i * 5u ^ shift) & 15u, y)) { continue; }
+      if (!draw_exposed(scene, p, i, random, x) || !draw_exposed(scene, q, (i * 5u ^ shift) & 15u, random, y)) { continue; }
       const glm::dvec3 d = y - x;
       const double r2 = glm::dot(d, d) + softening;
       const double weight = std::max(0.0, glm::dot(p.patch->normal, d)) * std::max(0.0, -glm::dot(q.patch->normal, d)) / (r2 * r2);
