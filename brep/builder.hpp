@@ -12,7 +12,8 @@
 // the builder gave; they are the handles of the finished BRep too: vertex i is VertexId{i}, face i is FaceId{i}, anchored at
 // its first corner.
 //
-// Time: O(v + sum of the lower degree over the edges), linear for every surface of bounded genus; about 30 ns a quadrilateral.
+// Time: O(v + sum of the lower degree over the edges), linear for every surface of bounded genus; about 100 ns a quadrilateral
+// (2-core EPYC), of which some 40 are the first touch of its memory.
 
 #include <cstddef>
 #include <cstdint>

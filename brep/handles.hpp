@@ -53,7 +53,9 @@ struct Element {
 
 [[nodiscard]] inline std::string to_string(Element e) {
   if (e.letter == 0) return "nothing";
-  return e.letter + (e.index == invalid_index ? std::string("?") : std::to_string(e.index));
+  std::string text(1, e.letter);
+  text += e.index == invalid_index ? std::string("?") : std::to_string(e.index);
+  return text;
 }
 template <char Letter>
 [[nodiscard]] std::string to_string(Id<Letter> id) {

@@ -27,15 +27,17 @@ enum class Decision : unsigned char {
   return glm::dot(p.normal, q.centre - p.centre) + q.radius * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
 }
 
-// The larger of both estimates F_pq and F_qp. Where a patch reaches over the other's horizon while its centre
-// lies below, the cosine of its highest point stands for that of its centre.
+// The larger of both estimates F_pq and F_qp. Where a patch crosses the other's horizon the light changes from some
+// to none across it, and the cosine of its highest point stands for that of its centre.
 [[nodiscard]] inline double form_factor_estimate(const Node& p, const Node& q) {
   const double r = glm::length(q.centre - p.centre);
   const double area = std::max(p.area, q.area);
   if (!(r > 0.0)) { return 1.0; }
   const auto cosine = [&](const Node& from, const Node& to) {
     const double centre = glm::dot(from.normal, to.centre - from.centre);
-    return std::clamp((centre > 0.0 ? centre : reach_above(from, to)) / r, 0.0, 1.0);
+    const double highest = reach_above(from, to);
+    const bool crosses = 2.0 * centre < highest;  // the lowest point lies as far below the centre as the highest above
+    return std::clamp((crosses ? highest : centre) / r, 0.0, 1.0);
   };
   return cosine(p, q) * cosine(q, p) * area / (std::numbers::pi * r * r + area);
 }

@@ -98,6 +98,11 @@ inline bool lies_on_room(const Surface& surface, const raycast::PlacedObject& ro
     plan.reflects = plan.reflects || !is_black(material.reflectance);
     grey = grey && is_grey(material.emission) && is_grey(material.reflectance);
   }
+  if (!plan.lit) {
+    plan.left_out.push_back({"refinement, links, solver and error estimate", "nothing emits light: B = 0 is exact", "the whole solve"});
+  } else if (!plan.reflects) {
+    plan.left_out.push_back({"refinement, links, solver and error estimate", "nothing reflects: B = E is exact", "the whole solve"});
+  }
   if (grey) {
     plan.channels = 1;
     plan.left_out.push_back({"two colour channels", "every material is grey", "two thirds of the solver's arithmetic"});

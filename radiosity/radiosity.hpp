@@ -155,6 +155,10 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   if (plan.lit && plan.reflects) {
     refined = refine(scene, objects, plan, boundary, hierarchy, options.epsilon, options.min_area, threads, options.seed, control);
     if (refined.cancelled) { return cancelled(); }
+    if (refined.too_many) {
+      return failed(Failure::Kind::invalid_options, {"epsilon and min_area ask for more than " + std::to_string(link_limit / 1'000'000) +
+                                                     " million links; a larger epsilon or min_area, or an error target, needs fewer"});
+    }
   }
   solution.links = std::move(refined.links);
   watch.lap("refine");

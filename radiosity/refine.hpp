@@ -32,7 +32,11 @@ struct RefineResult {
   std::uint64_t rays = 0;           // segments cast to find shadow boundaries
   std::uint32_t generations = 0;
   bool cancelled = false;
+  bool too_many = false;  // more links than `link_limit` would be needed
 };
+
+// 100 million links are 3.6 GB; a scene that asks for more is refused rather than left to exhaust the memory.
+inline constexpr std::size_t link_limit = 100'000'000;
 
 namespace detail {
 
@@ -79,6 +83,10 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
   while (!pairs.empty()) {
     if (control.cancelled()) {
       result.cancelled = true;
+      return result;
+    }
+    if (result.links.size() + pairs.size() > link_limit) {
+      result.too_many = true;
       return result;
     }
     decisions.assign(pairs.size(), Decision::drop);

@@ -83,14 +83,7 @@ inline void report_left_out(Audit& audit, const Plan& plan, const RefineResult& 
   const auto add = [&](std::string what, std::string why, std::string saved) {
     audit.left_out.push_back({std::move(what), std::move(why), std::move(saved)});
   };
-  if (!plan.lit) {
-    add("refinement, links and solver", "nothing emits light: B = 0 is exact", "the whole solve and the error estimate");
-    return;
-  }
-  if (!plan.reflects) {
-    add("links and solver", "nothing reflects: B = E is exact", "the whole solve and the error estimate");
-    return;
-  }
+  if (!plan.lit || !plan.reflects) { return; }
   if (evaluated.proven_clear > 0) {
     add("visibility of " + std::to_string(evaluated.proven_clear) + " links", "no object can stand between the patches",
         "at least " + std::to_string(evaluated.proven_clear * segments_per_round) + " rays");

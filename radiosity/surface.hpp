@@ -124,6 +124,13 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   return node;
 }
 
+// Faces that belong to a sheet: those that give and receive light.
+[[nodiscard]] inline std::size_t radiating_faces(const Surface& surface) {
+  std::size_t count = 0;
+  for (const brep::FaceId f : brep::faces(surface.brep)) { count += surface.brep.data(f).sheet != brep::no_sheet ? 1 : 0; }
+  return count;
+}
+
 // One root for each face of each surface (paper 4.2), holes and backs left out.
 [[nodiscard]] inline Hierarchy make_roots(std::vector<Surface>& surfaces) {
   Hierarchy hierarchy;

@@ -8,6 +8,8 @@
 #include "apps/bounds.hpp"
 #include "apps/commands/common.hpp"
 
+#include <radiosity/prepare.hpp>
+
 namespace apps {
 namespace {
 
@@ -66,25 +68,27 @@ std::string cameras(const SceneFile& file) {
   return out + and_more(file.cameras.size());
 }
 
-// What is plain from the materials; the solver's own plan says more once it has the geometry.
-std::string omissions(const radiosity::Scene& scene) {
-  const auto all = [&](auto&& law) { return std::all_of(scene.materials.begin(), scene.materials.end(), law); };
-  std::string out;
-  if (all([](const auto& m) { return radiosity::is_black(m.emission); })) { out += "  everything: nothing emits light\n"; }
-  if (all([](const auto& m) { return radiosity::is_black(m.reflectance); })) { out += "  the solver: nothing reflects light\n"; }
-  if (all([](const auto& m) { return radiosity::is_grey(m.emission) && radiosity::is_grey(m.reflectance); })) {
-    out += "  two of three channels: every material is grey\n";
-  }
-  return "left out when rendered, as far as known without solving:\n" + (out.empty() ? "  nothing\n" : out);
+// The plan of a run, before any light.
+std::string plan(const radiosity::Prepared& prepared) {
+  const radiosity::Plan& plan = prepared.plan;
+  std::size_t faces = 0;
+  for (const radiosity::Surface& surface : prepared.surfaces) { faces += radiosity::radiating_faces(surface); }
+  std::string out = "input faces: " + std::to_string(faces) + "\n";
+  out += std::string("closed: ") + (plan.closed ? "proven, no light leaves the scene\n" : "not proven\n");
+  out += "can stand between two others: " + std::to_string(plan.occluders.size()) + " of " + std::to_string(prepared.surfaces.size()) +
+         " objects\n";
+  out += "left out when rendered, as far as known without solving:\n";
+  for (const radiosity::LeftOut& item : plan.left_out) { out += "  " + item.what + ": " + item.why + "\n"; }
+  return out + (plan.left_out.empty() ? "  nothing\n" : "");
+}
+
+std::string summary(const SceneFile& file, const radiosity::Prepared& prepared, const std::string& name) {
+  const raycast::Box bounds = scene_bounds(file.scene);
+  return name + "\n" + "bounds: " + triple(bounds.lo) + "  to  " + triple(bounds.hi) + "\n" + materials(file.scene) + objects(file) +
+         cameras(file) + plan(prepared);
 }
 
 }  // namespace
-
-std::string summary(const SceneFile& file, const std::string& name) {
-  const raycast::Box bounds = scene_bounds(file.scene);
-  return name + "\n" + "bounds: " + triple(bounds.lo) + "  to  " + triple(bounds.hi) + "\n" + materials(file.scene) + objects(file) +
-         cameras(file) + omissions(file.scene);
-}
 
 void describe(CLI::App& command, InfoOptions& options) {
   command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
@@ -94,7 +98,12 @@ ExitCode run(const InfoOptions& options) {
   ExitCode code = ExitCode::ok;
   const auto file = load_scene(options.scene, code);
   if (!file) { return code; }
-  std::fputs(summary(*file, options.scene).c_str(), stdout);
+  const radiosity::PrepareResult preparation = radiosity::prepare(file->scene);
+  if (!preparation.prepared) {
+    for (const std::string& fault : preparation.faults) { std::fprintf(stderr, "%s: error: %s\n", options.scene.c_str(), fault.c_str()); }
+    return ExitCode::invalid_input;
+  }
+  std::fputs(summary(*file, *preparation.prepared, options.scene).c_str(), stdout);
   return std::fflush(stdout) == 0 ? ExitCode::ok : ExitCode::failure;
 }
 

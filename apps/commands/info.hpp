@@ -20,7 +20,4 @@ void describe(CLI::App& command, InfoOptions& options);
 
 [[nodiscard]] ExitCode run(const InfoOptions& options);
 
-// What `info` prints.
-[[nodiscard]] std::string summary(const SceneFile& file, const std::string& name);
-
 }  // namespace apps

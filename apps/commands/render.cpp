@@ -101,6 +101,10 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
     complain("interrupted; nothing was written");
     return ExitCode::failure;
   }
+  if (failure.kind == radiosity::Failure::Kind::invalid_options) {
+    for (const std::string& sentence : failure.sentences) { complain(sentence); }
+    return ExitCode::usage;
+  }
   for (const std::string& sentence : failure.sentences) { std::fprintf(stderr, "%s: error: %s\n", scene.c_str(), sentence.c_str()); }
   return ExitCode::invalid_input;
 }

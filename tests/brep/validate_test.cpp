@@ -40,7 +40,7 @@ Bare mixed(shapes::Random& random) {
 std::set<int> rules(const Bare& m) {
   std::set<int> found;
   for (const Fault& fault : validate(m)) {
-    CHECK(fault.sentence.find("R" + std::to_string(fault.rule) + ": ") == 0);
+    CHECK(fault.sentence.substr(0, 3) == std::string{'R', static_cast<char>('0' + fault.rule), ':'});
     found.insert(fault.rule);
   }
   return found;

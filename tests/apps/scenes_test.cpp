@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// The scenes that come with the project: they parse, every BRep stays valid while it is refined, and the solved
+// radiosities agree with our own path tracing.
+#include "catch.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <brep/validate.hpp>
+#include <radiosity/radiosity.hpp>
+
+#include "apps/scene_file.hpp"
+
+namespace {
+
+radiosity::Scene scene(const std::string& name) {
+  std::ifstream file{std::string{HALFLIGHT_SCENES} + "/" + name};
+  std::ostringstream text;
+  text << file.rdbuf();
+  apps::SceneResult result = apps::parse_scene(text.str());
+  INFO(apps::to_text(result, name));
+  REQUIRE(result.file);
+  return std::move(result.file->scene);
+}
+
+std::vector<std::string> all_scenes() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator{HALFLIGHT_SCENES}) {
+    if (entry.path().extension() == ".scene") { names.push_back(entry.path().filename().string()); }
+  }
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("every scene: valid BReps after every generation, v - e + f = 2 (s - h), converged, energy conserved") {
+  REQUIRE(all_scenes().size() >= 6);
+  for (const std::string& name : all_scenes()) {
+    CAPTURE(name);
+    radiosity::Options options;
+    options.epsilon = 0.02;
+    options.min_area = 1e-4;
+    options.audit_points = 0;
+    radiosity::Control control;
+    int generations = 0;
+    control.after_generation = [&](const std::vector<radiosity::Surface>& surfaces) {
+      ++generations;
+      for (const radiosity::Surface& surface : surfaces) {
+        const auto faults = brep::validate(surface.brep);
+        for (const auto& fault : faults) { UNSCOPED_INFO(fault.sentence); }
+        REQUIRE(faults.empty());
+        const auto euler = static_cast<long>(surface.brep.vertex_count()) - static_cast<long>(surface.brep.edge_count()) +
+                           static_cast<long>(surface.brep.face_count());
+        REQUIRE(euler == 2 * (static_cast<long>(brep::shell_count(surface.brep)) - brep::genus(surface.brep)));
+      }
+    };
+    const auto outcome = radiosity::solve(scene(name), options, control);
+    REQUIRE(outcome.solution);
+    CHECK(generations > 0);
+    CHECK(outcome.solution->audit.converged);
+    CHECK(outcome.solution->audit.energy_balance < 1e-5);
+  }
+}
+
+TEST_CASE("Cornell box and room agree with path tracing surface by surface", "[slow]") {
+  // Mean radiosities by our own path tracer (as traced() in tests/radiosity/audit_test.cpp), 400 000 paths a surface; standard errors
+  // below 0.5 %, 0.75 % on the darkest (short_block.f2). Tolerance: 2 % and two standard errors.
+  const std::map<std::string, std::vector<std::pair<std::string, radiosity::Color>>> traced{
+      {"cornell.scene",
+       {
+           {"floor", {0.13449, 0.089464, 0.024262}},
+           {"ceiling", {0.10111, 0.060164, 0.01417}},
+           {"back_wall", {0.16725, 0.10994, 0.029689}},
+           {"right_wall", {0.035007, 0.075859, 0.0045729}},
+           {"left_wall.f0", {0.11917, 0.0073371, 0.0016848}},
+           {"left_wall.f1", {0.16029, 0.011276, 0.0026004}},
+           {"short_block.f0", {0.31418, 0.22016, 0.064717}},
+           {"short_block.f1", {0.10632, 0.053466, 0.015275}},
+           {"short_block.f2", {0.013413, 0.0058692, 0.0015818}},
+           {"short_block.f3", {0.017806, 0.031614, 0.0025491}},
+           {"short_block.f4", {0.097342, 0.082451, 0.017448}},
+           {"tall_block.f0", {0.721, 0.47693, 0.14862}},
+           {"tall_block.f1", {0.083864, 0.0081358, 0.0020059}},
+           {"tall_block.f2", {0.097986, 0.047297, 0.012376}},
+           {"tall_block.f3", {0.091454, 0.081654, 0.016276}},
+           {"tall_block.f4", {0.078521, 0.048831, 0.013119}},
+       }},
+      {"room.scene",
+       {
+           {"room.x0", {0.15081, 0.016771, 0.010812}},
+           {"room.x1", {0.024884, 0.081294, 0.021522}},
+           {"room.y0", {0.15124, 0.086117, 0.044894}},
+           {"room.y1", {0.153, 0.084871, 0.045701}},
+           {"room.z0", {0.19227, 0.1123, 0.062437}},
+           {"room.z1", {0.10249, 0.049107, 0.021937}},
+           {"ball", {0.21126, 0.064706, 0.021204}},
+           {"post.side", {0.05196, 0.036747, 0.053906}},
+           {"post.top", {0.16741, 0.13116, 0.2464}},
+       }},
+  };
+  for (const auto& [name, means] : traced) {
+    radiosity::Options options;
+    options.audit_points = 0;
+    const auto outcome = radiosity::solve(scene(name), options);
+    REQUIRE(outcome.solution);
+    std::map<std::string, radiosity::Color> solved;
+    for (const auto& mean : outcome.solution->audit.surfaces) { solved[mean.name] = mean.radiosity; }
+    for (const auto& [surface, expected] : means) {
+      for (int c = 0; c < 3; ++c) {
+        CAPTURE(name, surface, c);
+        CHECK(solved.at(surface)[c] == test::Approx(expected[c]).epsilon(0.03));
+      }
+    }
+  }
+}
