@@ -71,9 +71,9 @@ class BRep {
 
   [[nodiscard]] HalfedgeId next(HalfedgeId h) const { return halfedges_[h.index].next; }
   [[nodiscard]] HalfedgeId prev(HalfedgeId h) const { return halfedges_[h.index].prev; }
-  [[nodiscard]] VertexId vertex(HalfedgeId h) const { return halfedges_[h.index].vertex; }  // where h starts
-  [[nodiscard]] VertexId target(HalfedgeId h) const { return vertex(twin(h)); }             // where h ends
-  [[nodiscard]] FaceId face(HalfedgeId h) const { return halfedges_[h.index].face; }        // on its left
+  [[nodiscard]] VertexId vertex(HalfedgeId h) const { return halfedges_[h.index].vertex; }     // where h starts
+  [[nodiscard]] VertexId target(HalfedgeId h) const { return vertex(twin(h)); }                // where h ends
+  [[nodiscard]] FaceId face(HalfedgeId h) const { return halfedges_[h.index].face; }           // on its left
   [[nodiscard]] HalfedgeId halfedge(VertexId v) const { return vertices_[v.index].halfedge; }  // one that leaves v
   [[nodiscard]] HalfedgeId halfedge(FaceId f) const { return faces_[f.index].halfedge; }       // the anchor of its loop
 
@@ -89,9 +89,7 @@ class BRep {
   [[nodiscard]] FaceT& data(FaceId f) { return faces_[f.index].data; }
   [[nodiscard]] const FaceT& data(FaceId f) const { return faces_[f.index].data; }
   [[nodiscard]] HalfedgeT& data(HalfedgeId h) requires(!std::is_empty_v<HalfedgeT>) { return halfedge_data_[h.index]; }
-  [[nodiscard]] const HalfedgeT& data(HalfedgeId h) const requires(!std::is_empty_v<HalfedgeT>) {
-    return halfedge_data_[h.index];
-  }
+  [[nodiscard]] const HalfedgeT& data(HalfedgeId h) const requires(!std::is_empty_v<HalfedgeT>) { return halfedge_data_[h.index]; }
 
   [[nodiscard]] std::size_t vertex_count() const { return vertices_.count(); }
   [[nodiscard]] std::size_t edge_count() const { return halfedges_.count(); }
@@ -132,18 +130,30 @@ namespace detail {
 // Whoever writes here answers for the invariant.
 struct Raw {
   template <class B>
-  static auto& halfedges(B& brep) { return brep.halfedges_; }
+  static auto& halfedges(B& brep) {
+    return brep.halfedges_;
+  }
   template <class B>
-  static auto& vertices(B& brep) { return brep.vertices_; }
+  static auto& vertices(B& brep) {
+    return brep.vertices_;
+  }
   template <class B>
-  static auto& faces(B& brep) { return brep.faces_; }
+  static auto& faces(B& brep) {
+    return brep.faces_;
+  }
 
   template <class B>
-  static auto& at(B& brep, HalfedgeId h) { return brep.halfedges_[h.index]; }
+  static auto& at(B& brep, HalfedgeId h) {
+    return brep.halfedges_[h.index];
+  }
   template <class B>
-  static auto& at(B& brep, VertexId v) { return brep.vertices_[v.index]; }
+  static auto& at(B& brep, VertexId v) {
+    return brep.vertices_[v.index];
+  }
   template <class B>
-  static auto& at(B& brep, FaceId f) { return brep.faces_[f.index]; }
+  static auto& at(B& brep, FaceId f) {
+    return brep.faces_[f.index];
+  }
 
   // The first half of a new edge, both halves with default data.
   template <class B>

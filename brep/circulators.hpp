@@ -22,11 +22,15 @@ namespace detail {
 
 struct AroundFace {
   template <class B>
-  static HalfedgeId step(const B& brep, HalfedgeId h) { return brep.next(h); }
+  static HalfedgeId step(const B& brep, HalfedgeId h) {
+    return brep.next(h);
+  }
 };
 struct AroundVertex {
   template <class B>
-  static HalfedgeId step(const B& brep, HalfedgeId h) { return brep.next(twin(h)); }
+  static HalfedgeId step(const B& brep, HalfedgeId h) {
+    return brep.next(twin(h));
+  }
 };
 
 // A closed walk: steps until the first half-edge comes back.
@@ -72,9 +76,12 @@ class Circle {
 
 template <class IdType, class B>
 std::uint32_t index_end(const B& brep) {
-  if constexpr (std::is_same_v<IdType, VertexId>) return brep.vertex_end();
-  else if constexpr (std::is_same_v<IdType, EdgeId>) return brep.edge_end();
-  else return brep.face_end();
+  if constexpr (std::is_same_v<IdType, VertexId>)
+    return brep.vertex_end();
+  else if constexpr (std::is_same_v<IdType, EdgeId>)
+    return brep.edge_end();
+  else
+    return brep.face_end();
 }
 
 // All living elements of one kind.
@@ -133,11 +140,17 @@ template <class B>
   return {brep, brep.halfedge(v)};
 }
 template <class B>
-[[nodiscard]] auto vertices(const B& brep) { return detail::All<B, VertexId>(brep); }
+[[nodiscard]] auto vertices(const B& brep) {
+  return detail::All<B, VertexId>(brep);
+}
 template <class B>
-[[nodiscard]] auto edges(const B& brep) { return detail::All<B, EdgeId>(brep); }
+[[nodiscard]] auto edges(const B& brep) {
+  return detail::All<B, EdgeId>(brep);
+}
 template <class B>
-[[nodiscard]] auto faces(const B& brep) { return detail::All<B, FaceId>(brep); }
+[[nodiscard]] auto faces(const B& brep) {
+  return detail::All<B, FaceId>(brep);
+}
 
 // Number of half-edges on the loop of f.
 template <class B>
@@ -182,8 +195,7 @@ template <class B>
 // The number h of handles of all shells together, from v - e + f = 2(s - h): 0 for a sphere, 1 for a torus. O(e).
 template <class B>
 [[nodiscard]] long genus(const B& brep) {
-  const long euler = static_cast<long>(brep.vertex_count()) - static_cast<long>(brep.edge_count()) +
-                     static_cast<long>(brep.face_count());
+  const long euler = static_cast<long>(brep.vertex_count()) - static_cast<long>(brep.edge_count()) + static_cast<long>(brep.face_count());
   return static_cast<long>(shell_count(brep)) - euler / 2;
 }
 

@@ -72,7 +72,7 @@ class Diagnosis {
       if (!flipped) continue;
       for (std::uint32_t c = begin; c < begin + count; ++c) explained[m_.halfedge[c] / 2] = true;
       m_.add(DefectKind::flipped_face, {FaceId{f}},
-          to_string(FaceId{f}) + " is flipped: all its edges run the same way as in the neighbouring faces");
+             to_string(FaceId{f}) + " is flipped: all its edges run the same way as in the neighbouring faces");
     }
     for (std::size_t i = 0; i < m_.extras.size();) {
       const std::uint32_t h = m_.extras[i].halfedge;
@@ -86,8 +86,8 @@ class Diagnosis {
       }
       if (explained[h / 2]) continue;
       m_.add(DefectKind::doubled_edge, std::move(elements),
-          "the edge from " + Matching::name(u) + " to " + Matching::name(w) + " is used in this direction by more than one face: " + faces +
-              "; one of them is flipped, or entered twice, or more than two faces meet here");
+             "the edge from " + Matching::name(u) + " to " + Matching::name(w) + " is used in this direction by more than one face: " +
+                 faces + "; one of them is flipped, or entered twice, or more than two faces meet here");
     }
   }
 
@@ -102,7 +102,8 @@ class Diagnosis {
       open.push_back(e);
       ++enters[m_.edges[e].target];
     }
-    std::sort(open.begin(), open.end(), [&](std::uint32_t a, std::uint32_t b) { return std::pair(m_.edges[a].origin, a) < std::pair(m_.edges[b].origin, b); });
+    std::sort(open.begin(), open.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return std::pair(m_.edges[a].origin, a) < std::pair(m_.edges[b].origin, b); });
     std::vector<std::uint32_t> cursor(m_.degree.size() + 1, 0);  // open edges by origin: those not yet taken begin here
     for (std::uint32_t e : open) ++cursor[m_.edges[e].origin + 1];
     for (std::size_t v = 1; v < cursor.size(); ++v) cursor[v] += cursor[v - 1];
@@ -133,8 +134,8 @@ class Diagnosis {
     }
     if (chain.size() > 12) faces += " ...";
     m_.add(DefectKind::open_border, std::move(elements),
-        "open border of " + std::to_string(chain.size()) + (chain.size() == 1 ? " edge" : " edges") + " along" + path +
-            ": nothing lies on the other side of" + faces + "; a face is missing");
+           "open border of " + std::to_string(chain.size()) + (chain.size() == 1 ? " edge" : " edges") + " along" + path +
+               ": nothing lies on the other side of" + faces + "; a face is missing");
   }
 
   std::vector<bool>::reference at_defect(std::uint32_t v) {
@@ -143,7 +144,8 @@ class Diagnosis {
   }
 
   void report_fans() {
-    for (const Matching::Extra& extra : m_.extras) at_defect(m_.edges[extra.halfedge / 2].origin) = at_defect(m_.edges[extra.halfedge / 2].target) = true;
+    for (const Matching::Extra& extra : m_.extras)
+      at_defect(m_.edges[extra.halfedge / 2].origin) = at_defect(m_.edges[extra.halfedge / 2].target) = true;
     for (std::uint32_t v = 0; v < m_.excused.size(); ++v) {
       if (m_.excused[v]) at_defect(v) = true;
     }

@@ -24,18 +24,32 @@ template <class B>
 }
 
 template <class B>
-[[nodiscard]] glm::dvec3 vector_area(const B& brep, FaceId f) { return vector_area(Polygon(positions(brep, f))); }
+[[nodiscard]] glm::dvec3 vector_area(const B& brep, FaceId f) {
+  return vector_area(Polygon(positions(brep, f)));
+}
 template <class B>
-[[nodiscard]] double area(const B& brep, FaceId f) { return area(Polygon(positions(brep, f))); }
+[[nodiscard]] double area(const B& brep, FaceId f) {
+  return area(Polygon(positions(brep, f)));
+}
 template <class B>
-[[nodiscard]] glm::dvec3 normal(const B& brep, FaceId f) { return normal(Polygon(positions(brep, f))); }
+[[nodiscard]] glm::dvec3 normal(const B& brep, FaceId f) {
+  return normal(Polygon(positions(brep, f)));
+}
 template <class B>
-[[nodiscard]] glm::dvec3 centroid(const B& brep, FaceId f) { return centroid(Polygon(positions(brep, f))); }
+[[nodiscard]] glm::dvec3 centroid(const B& brep, FaceId f) {
+  return centroid(Polygon(positions(brep, f)));
+}
 template <class B>
-[[nodiscard]] double planarity(const B& brep, FaceId f) { return planarity(Polygon(positions(brep, f))); }
+[[nodiscard]] double planarity(const B& brep, FaceId f) {
+  return planarity(Polygon(positions(brep, f)));
+}
 template <class B>
-[[nodiscard]] bool is_convex(const B& brep, FaceId f) { return is_convex(Polygon(positions(brep, f))); }
+[[nodiscard]] bool is_convex(const B& brep, FaceId f) {
+  return is_convex(Polygon(positions(brep, f)));
+}
 template <class B>
-[[nodiscard]] double proportion(const B& brep, FaceId f) { return proportion(Polygon(positions(brep, f))); }
+[[nodiscard]] double proportion(const B& brep, FaceId f) {
+  return proportion(Polygon(positions(brep, f)));
+}
 
 }  // namespace brep

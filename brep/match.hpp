@@ -34,10 +34,10 @@ struct Matching {
   std::vector<std::uint32_t> next_corner;  // on the same face
   std::vector<Edge> edges;
   std::vector<Extra> extras;
-  std::size_t matched = 0;                 // corners that have a twin, or were reported
-  std::vector<std::uint32_t> degree;       // corners at a vertex
-  std::vector<bool> bad;                   // faces that cannot be used
-  std::vector<bool> excused;               // vertices at such a face: what is missing there has been reported
+  std::size_t matched = 0;            // corners that have a twin, or were reported
+  std::vector<std::uint32_t> degree;  // corners at a vertex
+  std::vector<bool> bad;              // faces that cannot be used
+  std::vector<bool> excused;          // vertices at such a face: what is missing there has been reported
   std::vector<Defect> defects;
 
   explicit Matching(const Builder& builder) {

@@ -97,8 +97,10 @@ using Polygon = std::span<const glm::dvec3>;
     const double length = glm::length(side);
     if (!(length > 0.0)) continue;
     const glm::dvec3 direction = side / length;
-    if (before == glm::dvec3{0.0}) first = direction;
-    else if (!turn(before, direction)) return false;
+    if (before == glm::dvec3{0.0})
+      first = direction;
+    else if (!turn(before, direction))
+      return false;
     before = direction;
   }
   return turn(before, first) && turning < 9.0;  // 2 pi for once around, 4 pi for a pentagram

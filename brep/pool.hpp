@@ -30,9 +30,7 @@ template <class T, unsigned Shift>
 class Pages {
  public:
   Pages() = default;
-  Pages(Pages&& other) noexcept : pages_(std::move(other.pages_)), size_(std::exchange(other.size_, 0)) {
-    other.pages_.clear();
-  }
+  Pages(Pages&& other) noexcept : pages_(std::move(other.pages_)), size_(std::exchange(other.size_, 0)) { other.pages_.clear(); }
   Pages(const Pages& other) {
     for (std::uint32_t i = 0; i < other.size_; ++i) push_back(other[i]);
   }
@@ -63,9 +61,7 @@ class Pages {
     ++size_;
   }
   [[nodiscard]] std::uint32_t size() const { return size_; }
-  [[nodiscard]] std::size_t bytes() const {
-    return pages_.size() * page_size * sizeof(T) + pages_.capacity() * sizeof(T*);
-  }
+  [[nodiscard]] std::size_t bytes() const { return pages_.size() * page_size * sizeof(T) + pages_.capacity() * sizeof(T*); }
 
  private:
   static constexpr std::uint32_t page_size = std::uint32_t{1} << Shift;
@@ -84,9 +80,7 @@ class Pool {
   Pool(const Pool&) = default;
   Pool& operator=(const Pool&) = default;
   Pool(Pool&& other) noexcept
-      : records_(std::move(other.records_)),
-        count_(std::exchange(other.count_, 0)),
-        free_(std::exchange(other.free_, end_of_list)) {}
+      : records_(std::move(other.records_)), count_(std::exchange(other.count_, 0)), free_(std::exchange(other.free_, end_of_list)) {}
   Pool& operator=(Pool&& other) noexcept {
     records_ = std::move(other.records_);
     count_ = std::exchange(other.count_, 0);
@@ -119,14 +113,12 @@ class Pool {
     free_ = i;
     --count_;
   }
-  [[nodiscard]] bool alive(std::uint32_t i) const {
-    return i < records_.size() && (link(records_[i - i % Group]) & dead_bit) == 0;
-  }
+  [[nodiscard]] bool alive(std::uint32_t i) const { return i < records_.size() && (link(records_[i - i % Group]) & dead_bit) == 0; }
   [[nodiscard]] bool full() const { return free_ == end_of_list && records_.size() >= end_of_list - Group; }
 
-  [[nodiscard]] std::uint32_t size() const { return records_.size(); }    // records, dead ones included
-  [[nodiscard]] std::uint32_t count() const { return count_; }            // live slots
-  [[nodiscard]] std::uint32_t first_free() const { return free_; }        // for the validator
+  [[nodiscard]] std::uint32_t size() const { return records_.size(); }  // records, dead ones included
+  [[nodiscard]] std::uint32_t count() const { return count_; }          // live slots
+  [[nodiscard]] std::uint32_t first_free() const { return free_; }      // for the validator
   [[nodiscard]] std::size_t bytes() const { return records_.bytes(); }
 
  private:

@@ -78,9 +78,7 @@ struct Circle2 {
   double radius = -1.0;
   [[nodiscard]] bool holds(const glm::dvec2& x) const { return glm::distance(centre, x) <= radius * (1.0 + 1e-12); }
 };
-inline Circle2 circle_through(const glm::dvec2& a, const glm::dvec2& b) {
-  return {0.5 * (a + b), 0.5 * glm::distance(a, b)};
-}
+inline Circle2 circle_through(const glm::dvec2& a, const glm::dvec2& b) { return {0.5 * (a + b), 0.5 * glm::distance(a, b)}; }
 inline Circle2 circle_through(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   const glm::dvec2 u = b - a, v = c - a;
   const double det = 2.0 * cross2(u, v);

@@ -44,22 +44,36 @@ struct Refusal {
     const std::string x = to_string(elements[0]);
     const std::string y = to_string(elements[1]);
     switch (code) {
-      case Code::none: return "nothing was refused";
-      case Code::dead: return x + " does not exist: it was never made or is already killed";
-      case Code::different_faces: return "split_face: " + x + " and " + y + " lie on different faces";
-      case Code::different_vertices: return "split_vertex: " + x + " and " + y + " leave different vertices";
-      case Code::same_face: return "join_faces: both sides of " + x + " are the face " + y + ", there is nothing to join";
-      case Code::same_vertex: return "join_vertices: " + x + " is a loop, both its ends are the vertex " + y;
-      case Code::last_edge: return x + " is the only edge of its shell, and a shell without edges does not exist";
-      case Code::not_a_segment: return "kill_segment: the shell of " + x + " has more than one edge";
-      case Code::full: return "no handle is left: a BRep holds at most 2^31 half-edges";
-      case Code::few_corners: return x + " has fewer than three corners";
-      case Code::level_limit: return "refine: " + x + " has already the last level, 255";
+      case Code::none:
+        return "nothing was refused";
+      case Code::dead:
+        return x + " does not exist: it was never made or is already killed";
+      case Code::different_faces:
+        return "split_face: " + x + " and " + y + " lie on different faces";
+      case Code::different_vertices:
+        return "split_vertex: " + x + " and " + y + " leave different vertices";
+      case Code::same_face:
+        return "join_faces: both sides of " + x + " are the face " + y + ", there is nothing to join";
+      case Code::same_vertex:
+        return "join_vertices: " + x + " is a loop, both its ends are the vertex " + y;
+      case Code::last_edge:
+        return x + " is the only edge of its shell, and a shell without edges does not exist";
+      case Code::not_a_segment:
+        return "kill_segment: the shell of " + x + " has more than one edge";
+      case Code::full:
+        return "no handle is left: a BRep holds at most 2^31 half-edges";
+      case Code::few_corners:
+        return x + " has fewer than three corners";
+      case Code::level_limit:
+        return "refine: " + x + " has already the last level, 255";
       case Code::irregular_levels:
         return "refine: between the corner " + x + " of " + y + " and the next corner lie vertices, but none of the next level";
-      case Code::degenerate_polygon: return x + " has no area, or a coordinate that is not finite";
-      case Code::not_planar: return x + " is not planar";
-      case Code::not_simple: return "the boundary of " + x + " crosses or touches itself at " + y;
+      case Code::degenerate_polygon:
+        return x + " has no area, or a coordinate that is not finite";
+      case Code::not_planar:
+        return x + " is not planar";
+      case Code::not_simple:
+        return "the boundary of " + x + " crosses or touches itself at " + y;
     }
     return {};
   }
@@ -68,8 +82,8 @@ struct Refusal {
 template <class T>
 class Result {
  public:
-  Result(T value) : value_(std::move(value)) {}       // implicit: return value;
-  Result(Refusal refusal) : refusal_(refusal) {}      // implicit: return Refusal{...};
+  Result(T value) : value_(std::move(value)) {}   // implicit: return value;
+  Result(Refusal refusal) : refusal_(refusal) {}  // implicit: return Refusal{...};
 
   [[nodiscard]] bool has_value() const { return refusal_.code == Code::none; }
   explicit operator bool() const { return has_value(); }

@@ -38,14 +38,18 @@ template <class B>
 // Condition object: the face is convex (polygon.hpp says with which tolerance).
 struct Convex {
   template <class B>
-  bool operator()(const B& brep, FaceId f) const { return is_convex(brep, f); }
+  bool operator()(const B& brep, FaceId f) const {
+    return is_convex(brep, f);
+  }
 };
 
 // Condition object: the face has at most `edges` edges.
 struct AtMost {
   std::size_t edges = 4;
   template <class B>
-  bool operator()(const B& brep, FaceId f) const { return degree(brep, f) <= edges; }
+  bool operator()(const B& brep, FaceId f) const {
+    return degree(brep, f) <= edges;
+  }
 };
 
 // Split object: the best proportioned inner diagonal from the corner that turns right the most.

@@ -102,8 +102,10 @@ class Validation {
     }
     std::uint32_t live = 0;
     for (std::uint32_t i = 0; i < pool.size(); i += step) {
-      if (pool.alive(i)) ++live;
-      else if (!listed[i]) add(7, {name(i)}, to_string(name(i)) + " is dead but not in the free list: its handle can never be used again");
+      if (pool.alive(i))
+        ++live;
+      else if (!listed[i])
+        add(7, {name(i)}, to_string(name(i)) + " is dead but not in the free list: its handle can never be used again");
     }
     if (live != pool.count()) {
       add(8, {}, std::to_string(live) + " slots of a pool are alive, but " + std::to_string(pool.count()) + " are counted");
@@ -113,7 +115,8 @@ class Validation {
   template <char Letter>
   void check_handle(Element owner, const char* field, Id<Letter> id) {
     if (brep_.alive(id)) return;
-    add(1, {owner, id}, to_string(owner) + " has the " + field + " " + to_string(id) + ", which is not alive; usually a handle kept over a kill");
+    add(1, {owner, id},
+        to_string(owner) + " has the " + field + " " + to_string(id) + ", which is not alive; usually a handle kept over a kill");
   }
   void check_handles() {
     each_halfedge([&](HalfedgeId h) {
@@ -136,20 +139,23 @@ class Validation {
       const HalfedgeRecord& after = Raw::at(brep_, r.next);
       if (after.prev != h) {
         loops_are_closed_ = orbits_are_closed_ = false;
-        add(3, {h, r.next, after.prev}, "next(" + to_string(h) + ") is " + to_string(r.next) + ", but prev(" + to_string(r.next) + ") is " +
-                                            to_string(after.prev) + "; one of the two links was not set");
+        add(3, {h, r.next, after.prev},
+            "next(" + to_string(h) + ") is " + to_string(r.next) + ", but prev(" + to_string(r.next) + ") is " + to_string(after.prev) +
+                "; one of the two links was not set");
       }
       const HalfedgeId back = Raw::at(brep_, r.prev).next;
       if (back != h) {
         loops_are_closed_ = orbits_are_closed_ = false;
-        add(3, {h, r.prev, back}, "prev(" + to_string(h) + ") is " + to_string(r.prev) + ", but next(" + to_string(r.prev) + ") is " +
-                                      to_string(back) + "; one of the two links was not set");
+        add(3, {h, r.prev, back},
+            "prev(" + to_string(h) + ") is " + to_string(r.prev) + ", but next(" + to_string(r.prev) + ") is " + to_string(back) +
+                "; one of the two links was not set");
       }
       const VertexId end = Raw::at(brep_, twin(h)).vertex;
       if (after.vertex != end) {
         orbits_are_closed_ = false;
-        add(2, {h, end, r.next, after.vertex}, to_string(h) + " ends at " + to_string(end) + ", but its next, " + to_string(r.next) +
-                                                   ", starts at " + to_string(after.vertex));
+        add(2, {h, end, r.next, after.vertex},
+            to_string(h) + " ends at " + to_string(end) + ", but its next, " + to_string(r.next) + ", starts at " +
+                to_string(after.vertex));
       }
       if (after.face != r.face) loops_are_closed_ = false;
     });
@@ -163,18 +169,20 @@ class Validation {
       const HalfedgeId first = brep_.halfedge(id);
       if (owner(first) != id) return false;
       HalfedgeId h = first;
-      do {
-        h = step(h);
-      } while (++sum <= all && h != first);
+      do { h = step(h); } while (++sum <= all && h != first);
       return sum <= all;
     };
     if (around_faces) {
       for (FaceId f : faces(brep_)) {
-        if (!walk(f, [&](HalfedgeId h) { return brep_.face(h); }, [&](HalfedgeId h) { return brep_.next(h); })) return false;
+        if (!walk(
+                f, [&](HalfedgeId h) { return brep_.face(h); }, [&](HalfedgeId h) { return brep_.next(h); }))
+          return false;
       }
     } else {
       for (VertexId v : vertices(brep_)) {
-        if (!walk(v, [&](HalfedgeId h) { return brep_.vertex(h); }, [&](HalfedgeId h) { return brep_.next(twin(h)); })) return false;
+        if (!walk(
+                v, [&](HalfedgeId h) { return brep_.vertex(h); }, [&](HalfedgeId h) { return brep_.next(twin(h)); }))
+          return false;
       }
     }
     return sum == all;
@@ -193,8 +201,9 @@ class Validation {
       while (!seen[h.index]) {
         seen[h.index] = true;
         if (owner(h) != id) {
-          add(rule, {h, id, owner(h)}, to_string(h) + " names " + to_string(owner(h)) + ", but the walk " + walk + " from " +
-                                           to_string(brep_.halfedge(id)) + ", the anchor of " + to_string(id) + ", passes it");
+          add(rule, {h, id, owner(h)},
+              to_string(h) + " names " + to_string(owner(h)) + ", but the walk " + walk + " from " + to_string(brep_.halfedge(id)) +
+                  ", the anchor of " + to_string(id) + ", passes it");
         }
         h = step(h);
       }
@@ -202,22 +211,26 @@ class Validation {
     each_halfedge([&](HalfedgeId h) {
       if (seen[h.index]) return;
       const IdType id = owner(h);
-      add(rule, {id, h}, to_string(id) + " is also named by " + to_string(h) + ", which the walk " + walk + " from its anchor " +
-                             to_string(brep_.halfedge(id)) + " never reaches: " + cause);
+      add(rule, {id, h},
+          to_string(id) + " is also named by " + to_string(h) + ", which the walk " + walk + " from its anchor " +
+              to_string(brep_.halfedge(id)) + " never reaches: " + cause);
       for (HalfedgeId x = h; !seen[x.index]; x = step(x)) seen[x.index] = true;  // one sentence for each further walk
     });
   }
   void explain_loops() {
-    explain<FaceId>(faces(brep_), [&](HalfedgeId h) { return brep_.face(h); }, [&](HalfedgeId h) { return brep_.next(h); }, 4, "by next",
-                    "the face has two loops, or lies on edges of another; usually a half-edge that was not relabelled");
+    explain<FaceId>(
+        faces(brep_), [&](HalfedgeId h) { return brep_.face(h); }, [&](HalfedgeId h) { return brep_.next(h); }, 4, "by next",
+        "the face has two loops, or lies on edges of another; usually a half-edge that was not relabelled");
   }
   void explain_orbits() {
-    explain<VertexId>(vertices(brep_), [&](HalfedgeId h) { return brep_.vertex(h); }, [&](HalfedgeId h) { return brep_.next(twin(h)); }, 5,
-                      "by next(twin)", "the vertex has two fans; usually a join over an edge whose ends meet twice");
+    explain<VertexId>(
+        vertices(brep_), [&](HalfedgeId h) { return brep_.vertex(h); }, [&](HalfedgeId h) { return brep_.next(twin(h)); }, 5,
+        "by next(twin)", "the vertex has two fans; usually a join over an edge whose ends meet twice");
   }
 
   void check_euler() {
-    const long v = static_cast<long>(brep_.vertex_count()), e = static_cast<long>(brep_.edge_count()), f = static_cast<long>(brep_.face_count());
+    const long v = static_cast<long>(brep_.vertex_count()), e = static_cast<long>(brep_.edge_count()),
+               f = static_cast<long>(brep_.face_count());
     if ((v - e + f) % 2 == 0) return;
     add(8, {}, "v - e + f = " + std::to_string(v) + " - " + std::to_string(e) + " + " + std::to_string(f) + " is odd");
   }

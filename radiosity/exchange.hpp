@@ -75,7 +75,8 @@ struct Edge {
   const double middle = 0.5 * (s0 + s1);
   const double left = gauss_edge(outer, inner, s0, middle);
   const double right = gauss_edge(outer, inner, middle, s1);
-  if (depth == 0 || std::abs(left + right - whole) <= tolerance) { return left + right; }
+  const double rounding = 1e-13 * (s1 - s0);  // the logarithms reach 30, in units of the pair
+  if (depth == 0 || std::abs(left + right - whole) <= std::max(tolerance, rounding)) { return left + right; }
   return integrate_edge(outer, inner, s0, middle, left, 0.5 * tolerance, depth - 1) +
          integrate_edge(outer, inner, middle, s1, right, 0.5 * tolerance, depth - 1);
 }

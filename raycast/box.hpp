@@ -20,7 +20,7 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double unit_roundoff = 0.5 * std::numeric_limits<double>::epsilon();
 
 struct Box {
-  glm::dvec3 lo{infinity}, hi{-infinity};   // the default is the empty box
+  glm::dvec3 lo{infinity}, hi{-infinity};  // the default is the empty box
 
   [[nodiscard]] bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
   [[nodiscard]] glm::dvec3 centre() const { return 0.5 * lo + 0.5 * hi; }
@@ -75,7 +75,7 @@ class SlabTest {
   static void axis(double lo, double hi, double origin, double inverse, bool backward, double& in, double& out) {
     const double near = ((backward ? hi : lo) - origin) * inverse;
     const double far = ((backward ? lo : hi) - origin) * inverse;
-    in = near > in ? near : in;   // false for NaN
+    in = near > in ? near : in;  // false for NaN
     out = far < out ? far : out;
   }
 

@@ -20,12 +20,12 @@ namespace raycast {
 
 class Bvh {
  public:
-  static constexpr std::uint32_t depth_limit = 88;   // of any tree: heuristic splits to depth 56, then halves (2^32 items at most)
+  static constexpr std::uint32_t depth_limit = 88;  // of any tree: heuristic splits to depth 56, then halves (2^32 items at most)
 
   struct Node {
     Box box;
-    std::uint32_t first;   // leaf: items first .. first + count; inner node: children first and first + 1
-    std::uint32_t count;   // 0 for an inner node
+    std::uint32_t first;  // leaf: items first .. first + count; inner node: children first and first + 1
+    std::uint32_t count;  // 0 for an inner node
   };
 
   Bvh() = default;
@@ -39,7 +39,7 @@ class Bvh {
     Box all;
     for (const Box& b : boxes) all.extend(b);
     nodes_.push_back(Node{all, 0, static_cast<std::uint32_t>(boxes.size())});
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> todo{{0, 0}};   // node, depth
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> todo{{0, 0}};  // node, depth
     while (!todo.empty()) {
       const auto [node, depth] = todo.back();
       todo.pop_back();
@@ -88,7 +88,7 @@ class Bvh {
         bin.box.extend(boxes[*i]);
         ++bin.count;
       }
-      std::array<double, bin_count> above{};   // cost of bins k, k+1, ...
+      std::array<double, bin_count> above{};  // cost of bins k, k+1, ...
       Bin sum;
       for (std::size_t k = bin_count; k-- > 1;) {
         sum.box.extend(bins[k].box);
@@ -105,7 +105,7 @@ class Bvh {
     }
     const double area = node.box.half_area();
     if (node.count <= 4 && !(2.0 * area + item_cost * best < item_cost * area * node.count)) return false;
-    auto middle = begin + node.count / 2;   // equal centres, or too deep: halves
+    auto middle = begin + node.count / 2;  // equal centres, or too deep: halves
     if (best_axis >= 0)
       middle = std::partition(begin, end, [&](std::uint32_t i) { return bin_of(boxes[i], centres, best_axis) < best_bin; });
 

@@ -30,7 +30,7 @@ namespace raycast {
 
 struct SurfacePoint {
   glm::dvec3 position{0.0};
-  glm::dvec3 normal{0.0};   // unit length, out of the solid = into the air
+  glm::dvec3 normal{0.0};  // unit length, out of the solid = into the air
 };
 
 class Object {
@@ -56,9 +56,9 @@ class Object {
   [[nodiscard]] virtual SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const = 0;
 
   // Traits with safe defaults.
-  [[nodiscard]] virtual bool convex() const { return false; }   // the solid, or the flat polygon, is a convex set
-  [[nodiscard]] virtual bool flat() const { return false; }     // every sheet is a plane: the approximation is exact
-  [[nodiscard]] virtual bool solid() const { return true; }     // false: a surface without inside, whose back is black
+  [[nodiscard]] virtual bool convex() const { return false; }  // the solid, or the flat polygon, is a convex set
+  [[nodiscard]] virtual bool flat() const { return false; }    // every sheet is a plane: the approximation is exact
+  [[nodiscard]] virtual bool solid() const { return true; }    // false: a surface without inside, whose back is black
   [[nodiscard]] virtual std::uint32_t sheet_count() const { return 1; }
   [[nodiscard]] virtual std::string_view sheet_name(std::uint32_t) const { return {}; }
 
@@ -82,8 +82,8 @@ struct Made {
   Made(std::string sentence) : refusal(std::move(sentence)) {}
   Made(const char* sentence) : refusal(sentence) {}
   template <class U>
-    requires std::is_convertible_v<const U*, const T*>
-  Made(Made<U> other) : object(std::move(other.object)), refusal(std::move(other.refusal)) {}
+  requires std::is_convertible_v<const U*, const T*> Made(Made<U> other)
+      : object(std::move(other.object)), refusal(std::move(other.refusal)) {}
 
   explicit operator bool() const { return object != nullptr; }
   const T& operator*() const { return *object; }

@@ -40,7 +40,7 @@ class RayFrame {
 
   // How often the closed outline runs around the line, counted so that +1 is a line that leaves through the polygon's front (it runs
   // along the polygon's normal) and -1 one that meets the front. 0: the line passes beside it.
-  template <class Corner>   // Corner(i) -> const glm::dvec3&
+  template <class Corner>  // Corner(i) -> const glm::dvec3&
   [[nodiscard]] int winding(std::size_t count, Corner&& corner) const {
     int w = 0;
     glm::dvec3 r = corner(count - 1) - origin_;
@@ -48,9 +48,9 @@ class RayFrame {
     for (std::size_t i = 0; i < count; ++i) {
       r = corner(i) - origin_;
       const double xb = glm::dot(r, x_), yb = glm::dot(r, y_);
-      const bool up = ya < 0.0, straddles = up != (yb < 0.0);   // half-open: a corner at y = 0 counts as above
+      const bool up = ya < 0.0, straddles = up != (yb < 0.0);  // half-open: a corner at y = 0 counts as above
       const double side = (up ? xa : xb) * (up ? yb : ya) - (up ? xb : xa) * (up ? ya : yb);
-      w += static_cast<int>(straddles && side > 0.0) * (up ? 1 : -1);   // the edge passes on the positive x side
+      w += static_cast<int>(straddles && side > 0.0) * (up ? 1 : -1);  // the edge passes on the positive x side
       xa = xb;
       ya = yb;
     }
@@ -91,7 +91,7 @@ struct Plane {
 
 namespace detail {
 
-using Flat = std::array<double, 2>;   // a corner without the coordinate in which the polygon is thinnest
+using Flat = std::array<double, 2>;  // a corner without the coordinate in which the polygon is thinnest
 
 // +1: c lies left of a -> b; 0: on it within the rounding of the determinant.
 inline int side_of(const Flat& a, const Flat& b, const Flat& c) {
@@ -116,7 +116,7 @@ inline bool meet(const Flat& a, const Flat& b, const Flat& c, const Flat& d) {
 // Straight corners are allowed. Corners may leave the mean plane by 1e-6 of the polygon's extent. O(n^2) for n corners.
 [[nodiscard]] inline std::optional<std::string> polygon_fault(std::span<const glm::dvec3> corners) {
   const std::size_t n = corners.size();
-  const auto name = [](std::size_t i) { return std::to_string(i + 1); };   // people count from one
+  const auto name = [](std::size_t i) { return std::to_string(i + 1); };  // people count from one
   if (n < 3) return "has " + std::to_string(n) + " corners; it needs at least 3";
   for (std::size_t i = 0; i < n; ++i)
     if (!usable(corners[i])) return "has a corner (number " + name(i) + ") that is not finite (or beyond 1e60)";
@@ -125,7 +125,8 @@ inline bool meet(const Flat& a, const Flat& b, const Flat& c, const Flat& d) {
   const double extent = brep::extent(corners);
   if (!usable_length(extent, box.magnitude())) return "has no size (all corners coincide, compared with their coordinates)";
   for (std::size_t i = 0; i < n; ++i)
-    if (corners[i] == corners[(i + 1) % n]) return "has two equal corners in succession (numbers " + name(i) + " and " + name((i + 1) % n) + ")";
+    if (corners[i] == corners[(i + 1) % n])
+      return "has two equal corners in succession (numbers " + name(i) + " and " + name((i + 1) % n) + ")";
   const glm::dvec3 area = brep::vector_area(corners);
   if (!(glm::length(area) > 1e-12 * extent * extent)) return "has no area: its corners lie on a line, or it crosses itself";
   const Plane plane = plane_of(corners);

@@ -33,7 +33,7 @@ inline constexpr std::uint32_t no_object = 0xffffffff;
 struct Hit {
   double t;
   std::uint32_t object, sheet;
-  bool front;   // the ray meets the air side; false: the back of a polygon or of an open mesh
+  bool front;  // the ray meets the air side; false: the back of a polygon or of an open mesh
 };
 
 class Scene {
@@ -44,7 +44,7 @@ class Scene {
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(objects_.size()); }
   [[nodiscard]] const Box& bounds() const { return bounds_; }
   [[nodiscard]] double diameter() const { return bounds_.diameter(); }
-  [[nodiscard]] std::size_t bytes() const {   // of the compiled scene, without the objects themselves
+  [[nodiscard]] std::size_t bytes() const {  // of the compiled scene, without the objects themselves
     return objects_.capacity() * sizeof(PlacedObject) + records_.capacity() * sizeof(Record) + corners_.capacity() * sizeof(glm::dvec3) +
            (rooms_.capacity() + bounded_.capacity()) * sizeof(std::uint32_t) + bvh_.bytes();
   }
@@ -63,13 +63,13 @@ class Scene {
   [[nodiscard]] bool covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const;
 
  private:
-  struct Record {   // what a query needs to know of an object
-    glm::dvec3 normal{0.0}, point{0.0};                  // of a polygon
-    std::uint32_t first_corner = 0, corner_count = 0;   // 0 corners: not a polygon
-    double touch = 0.0;                                  // 1e-9 of its diameter
+  struct Record {                                      // what a query needs to know of an object
+    glm::dvec3 normal{0.0}, point{0.0};                // of a polygon
+    std::uint32_t first_corner = 0, corner_count = 0;  // 0 corners: not a polygon
+    double touch = 0.0;                                // 1e-9 of its diameter
     double slack = 0.0;
   };
-  struct End {   // of a segment
+  struct End {  // of a segment
     std::uint32_t owner;
     double touch = 0.0, base;
   };
@@ -110,10 +110,10 @@ class Scene {
   std::vector<PlacedObject> objects_;
   std::vector<Record> records_;
   std::vector<glm::dvec3> corners_;
-  std::vector<std::uint32_t> rooms_, bounded_;   // objects turned inside out have no bounds; the others are found by a loop or the tree
-  Bvh bvh_;                                      // of bounded_; empty when they are few
+  std::vector<std::uint32_t> rooms_, bounded_;  // objects turned inside out have no bounds; the others are found by a loop or the tree
+  Bvh bvh_;                                     // of bounded_; empty when they are few
   Box bounds_;
-  double rounding_ = 0.0, slack_ = 0.0;   // slack_: the largest of all objects
+  double rounding_ = 0.0, slack_ = 0.0;  // slack_: the largest of all objects
 };
 
 inline Scene::Scene(std::vector<PlacedObject> objects) : objects_(std::move(objects)) {
@@ -164,7 +164,7 @@ inline bool Scene::occluded(const Segment& segment, std::uint32_t source_owner, 
 
 inline bool Scene::blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const {
   const Record& r = records_[i];
-  if (r.corner_count) {   // a polygon: the ends lie on different sides of its plane, both out of the skin
+  if (r.corner_count) {  // a polygon: the ends lie on different sides of its plane, both out of the skin
     if (i == a.owner || i == b.owner) return false;
     const double from = glm::dot(r.normal, line.segment.origin - r.point);
     const double to = from + glm::dot(r.normal, line.segment.direction);
@@ -242,8 +242,7 @@ inline void Scene::approach(const Line& line, const End& a, std::uint32_t i, Nea
     if (!(span.in.t > 0.0)) continue;
     if (near_a && depth(i, s, span.out, span.out.t) <= skin_a) continue;
     if (near_a && i == a.owner && depth(i, s, span.in, span.in.t) <= skin_a) continue;
-    if (span.in.t <= nearest.limit)
-      offer(line, Hit{span.in.t, i, span.in.sheet, object.solid() || along(i, s, span.in) < 0.0}, nearest);
+    if (span.in.t <= nearest.limit) offer(line, Hit{span.in.t, i, span.in.sheet, object.solid() || along(i, s, span.in) < 0.0}, nearest);
     return;
   }
 }
@@ -267,7 +266,7 @@ inline void Scene::offer(const Line& line, const Hit& hit, Nearest& nearest) con
 }
 
 inline bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const {
-  const Segment out_of_p{p, n};   // t is a length
+  const Segment out_of_p{p, n};  // t is a length
   const Line line(out_of_p);
   const End end = end_at(owner);
   const auto covers = [&](std::uint32_t i) {
@@ -278,8 +277,7 @@ inline bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32
     if (!object.inside() && !object.bounds().contains(p, near)) return false;
     // A coincident surface of object i, its normal at a cosine to n: parallel within 2.5 degrees counts as the same direction.
     const auto coincides = [&](double cosine) { return cosine < -0.999 || (cosine > 0.999 && i > owner); };
-    if (r.corner_count)
-      return std::abs(glm::dot(r.normal, p - r.point)) <= near && coincides(glm::dot(r.normal, n)) && passes(line, r);
+    if (r.corner_count) return std::abs(glm::dot(r.normal, p - r.point)) <= near && coincides(glm::dot(r.normal, n)) && passes(line, r);
     Spans spans;
     object.spans(out_of_p, spans);
     for (const Span& span : spans) {
@@ -291,7 +289,7 @@ inline bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32
   for (const std::uint32_t i : rooms_)
     if (covers(i)) return true;
   if (!bvh_.empty()) {
-    const double near = end.base + slack_ + end.touch;   // at least every skin
+    const double near = end.base + slack_ + end.touch;  // at least every skin
     return any(bvh_, line.slabs, -near, near, [&](std::uint32_t k) { return covers(bounded_[k]); });
   }
   return std::any_of(bounded_.begin(), bounded_.end(), covers);

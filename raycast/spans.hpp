@@ -17,7 +17,7 @@
 
 namespace raycast {
 
-inline constexpr std::uint32_t no_crossing_sheet = 0xffffffff;   // of the ends at infinity
+inline constexpr std::uint32_t no_crossing_sheet = 0xffffffff;  // of the ends at infinity
 
 struct Crossing {
   double t;
@@ -34,7 +34,7 @@ class InlineVector {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  InlineVector() {}   // not "= default": value-initialisation must not clear the storage
+  InlineVector() {}  // not "= default": value-initialisation must not clear the storage
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] T* begin() { return heap_.empty() ? inline_.data() : heap_.data(); }
@@ -62,7 +62,7 @@ class InlineVector {
  private:
   std::size_t size_ = 0;
   std::array<T, N> inline_;
-  std::vector<T> heap_;   // empty, or holds all elements
+  std::vector<T> heap_;  // empty, or holds all elements
 };
 
 class Spans {

@@ -35,10 +35,12 @@ struct Placement {
 // to be so when the determinant is below 1e-12 of the product of the columns' lengths.
 [[nodiscard]] inline std::optional<std::string> check(const Placement& placement) {
   const glm::dmat3& m = placement.linear;
-  if (!usable(m[0]) || !usable(m[1]) || !usable(m[2]) || !usable(placement.translation)) return "the placement is not finite (or beyond 1e60)";
+  if (!usable(m[0]) || !usable(m[1]) || !usable(m[2]) || !usable(placement.translation))
+    return "the placement is not finite (or beyond 1e60)";
   double product = 1.0;
   for (int k = 0; k < 3; ++k) product *= glm::length(m[k]);
-  if (!(product > 1e-180) || !(std::abs(glm::determinant(m)) > 1e-12 * product)) return "the placement flattens the object: its determinant is zero";
+  if (!(product > 1e-180) || !(std::abs(glm::determinant(m)) > 1e-12 * product))
+    return "the placement flattens the object: its determinant is zero";
   return std::nullopt;
 }
 [[nodiscard]] inline std::optional<std::string> check(const Object& object, const Placement& placement) {
@@ -120,7 +122,7 @@ class PlacedObject {
     for (std::uint32_t f = 0; f < local.face_count(); ++f) {
       corners.assign(local.corners(f).begin(), local.corners(f).end());
       for (std::uint32_t& v : corners) v += first;
-      if (mirrored() != placement_.inside) std::reverse(corners.begin() + 1, corners.end());   // corner 0 stays first
+      if (mirrored() != placement_.inside) std::reverse(corners.begin() + 1, corners.end());  // corner 0 stays first
       out.face(std::span<const std::uint32_t>(corners), local.sheet(f));
     }
   }

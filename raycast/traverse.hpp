@@ -25,7 +25,7 @@ template <class Visit>
       continue;
     }
     if (slabs(nodes[node.first + 1].box, t0, t1, entry)) stack[top++] = node.first + 1;
-    if (slabs(nodes[node.first].box, t0, t1, entry)) stack[top++] = node.first;   // the larger one is looked at next
+    if (slabs(nodes[node.first].box, t0, t1, entry)) stack[top++] = node.first;  // the larger one is looked at next
   }
   return false;
 }

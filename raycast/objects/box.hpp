@@ -36,11 +36,11 @@ class BoxObject final : public Object {
     if (!clip(0, box_.lo.x, box_.hi.x, line.origin.x, line.direction.x, span)) return;
     if (!clip(2, box_.lo.y, box_.hi.y, line.origin.y, line.direction.y, span)) return;
     if (!clip(4, box_.lo.z, box_.hi.z, line.origin.z, line.direction.z, span)) return;
-    out.push(span);   // drops an empty span
+    out.push(span);  // drops an empty span
   }
 
   void approximate(double, brep::Builder& out) const override {
-    std::uint32_t v[8] = {};   // bit k of the index: upper end along axis k
+    std::uint32_t v[8] = {};  // bit k of the index: upper end along axis k
     for (unsigned i = 0; i < 8; ++i)
       v[i] = out.vertex({i & 1u ? box_.hi.x : box_.lo.x, i & 2u ? box_.hi.y : box_.lo.y, i & 4u ? box_.hi.z : box_.lo.z});
     out.face({v[0], v[4], v[6], v[2]}, 0);

@@ -73,7 +73,7 @@ class Cylinder final : public Object {
       if (in.t > span.in.t) span.in = in;
       if (leave.t < span.out.t) span.out = leave;
     }
-    out.push(span);   // drops an empty span
+    out.push(span);  // drops an empty span
   }
 
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override {
@@ -92,7 +92,7 @@ class Cylinder final : public Object {
     const int n = columns(tolerance / radius_);
     const double width = 2 * radius_ * std::sin(std::numbers::pi / n);
     const int m = static_cast<int>(std::clamp(std::round(height_ / width), 1.0, 64.0));
-    std::vector<std::uint32_t> ring;   // row by row, counter-clockwise about the axis
+    std::vector<std::uint32_t> ring;  // row by row, counter-clockwise about the axis
     for (int row = 0; row <= m; ++row)
       for (int i = 0; i < n; ++i) {
         // Exact quarter turns of the first quadrant keep opposite vertices exact mirrors.
@@ -115,7 +115,7 @@ class Cylinder final : public Object {
  private:
   Cylinder(const glm::dvec3& base, const glm::dvec3& axis, double radius)
       : base_(base), w_(glm::normalize(axis)), height_(glm::length(axis)), radius_(radius) {
-    int smallest = 0;   // the coordinate axis that is most across w
+    int smallest = 0;  // the coordinate axis that is most across w
     for (int k = 1; k < 3; ++k)
       if (std::abs(w_[k]) < std::abs(w_[smallest])) smallest = k;
     glm::dvec3 across{0.0};
@@ -132,7 +132,7 @@ class Cylinder final : public Object {
   }
 
   glm::dvec3 base_{0.0}, w_{0.0};
-  glm::dvec3 u_{0.0}, v_{0.0};   // with w a right-handed frame
+  glm::dvec3 u_{0.0}, v_{0.0};  // with w a right-handed frame
   double height_ = 0.0, radius_ = 0.0;
 };
 

@@ -65,8 +65,10 @@ class Mesh final : public Object {
     std::sort(in.begin(), in.end(), earlier);
     std::sort(leave.begin(), leave.end(), earlier);
     for (std::size_t i = 0; i < in.size(); ++i) {
-      if (!solid()) out.push(Span{in[i], in[i]});
-      else if (i < leave.size()) out.push(Span{in[i], leave[i]});
+      if (!solid())
+        out.push(Span{in[i], in[i]});
+      else if (i < leave.size())
+        out.push(Span{in[i], leave[i]});
     }
   }
 
@@ -106,7 +108,7 @@ class Mesh final : public Object {
     }
     const Plane& plane = planes_[f];
     const double t = glm::dot(plane.normal, plane.point - line.origin) / glm::dot(plane.normal, line.direction);
-    return t >= lowest ? std::min(t, highest) : lowest;   // NaN gives lowest
+    return t >= lowest ? std::min(t, highest) : lowest;  // NaN gives lowest
   }
   [[nodiscard]] double volume() const {
     double six = 0.0;
@@ -121,7 +123,7 @@ class Mesh final : public Object {
 
   std::string take(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces) {
     if (faces.empty()) return "the mesh has no faces";
-    std::vector<std::uint32_t> renamed(positions.size(), brep::no_sheet);   // keeps the order, closes the gaps
+    std::vector<std::uint32_t> renamed(positions.size(), brep::no_sheet);  // keeps the order, closes the gaps
     for (std::size_t f = 0; f < faces.size(); ++f)
       for (const std::uint32_t v : faces[f]) {
         if (v >= positions.size())
@@ -151,13 +153,13 @@ class Mesh final : public Object {
 
   // Finds the border loops, and lets brep::close judge the whole: the mesh must be a manifold.
   std::string close_borders() {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;   // directed
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  // directed
     for (std::uint32_t f = 0; f < planes_.size(); ++f) {
       const auto face = corners(f);
       for (std::size_t i = 0; i < face.size(); ++i) edges.push_back({face[i], face[(i + 1) % face.size()]});
     }
     std::sort(edges.begin(), edges.end());
-    std::map<std::uint32_t, std::uint32_t> next;   // along the border, which runs against its faces
+    std::map<std::uint32_t, std::uint32_t> next;  // along the border, which runs against its faces
     for (const auto& [a, b] : edges)
       if (!std::binary_search(edges.begin(), edges.end(), std::pair(b, a)) && !next.emplace(b, a).second)
         return "the mesh is not a manifold: two borders meet at the vertex at (" + place(b) + "), or an edge has more than two faces";

@@ -57,7 +57,7 @@ class Sphere final : public Object {
   // (a chord error of 2e-5 radii).
   void approximate(double tolerance, brep::Builder& out) const override {
     const int n = subdivisions(tolerance / radius_);
-    std::map<std::array<int, 3>, std::uint32_t> made;   // by integer position on the cube [0,n]^3: sides share their edges
+    std::map<std::array<int, 3>, std::uint32_t> made;  // by integer position on the cube [0,n]^3: sides share their edges
     const auto vertex = [&](const std::array<int, 3>& at) {
       const auto [place, fresh] = made.try_emplace(at, 0u);
       if (fresh) place->second = out.vertex(centre_ + radius_ * direction(at, n));

@@ -68,7 +68,8 @@ TEST_CASE("the order of the faces and their first corners do not matter") {
 }
 
 TEST_CASE("a missing face is reported as one open border around it") {
-  for (const Builder& solid : {shapes::cube_builder(), shapes::tetrahedron_builder(), shapes::prism_builder(5), shapes::torus_builder(4, 4)}) {
+  for (const Builder& solid :
+       {shapes::cube_builder(), shapes::tetrahedron_builder(), shapes::prism_builder(5), shapes::torus_builder(4, 4)}) {
     for (std::size_t f = 0; f < solid.face_count(); ++f) {
       Faces faces = faces_of(solid);
       const auto missing = faces[f];

@@ -73,8 +73,10 @@ std::vector<Bare> try_everything(const Bare& start) {
         CHECK(m.target(*h) == start.vertex(b));
         CHECK(m.face(*h) == start.face(b));
         CHECK(m.face(twin(*h)) != start.face(a));
-        if (a == b) CHECK(m.next(twin(*h)) == twin(*h));
-        else CHECK((m.next(*h) == b && m.next(twin(*h)) == a));
+        if (a == b)
+          CHECK(m.next(twin(*h)) == twin(*h));
+        else
+          CHECK((m.next(*h) == b && m.next(twin(*h)) == a));
         grown.push_back(m);
         CHECK(join_faces(m, *h).has_value());
         CHECK(records(m) == before);
@@ -234,15 +236,39 @@ TEST_CASE("random sequences of all operators: always valid, v - e + f = 2(s - h)
       const auto before = records(m);
       bool done = false;
       switch (random.below(grow ? 10 : 6) + (grow ? 0 : 10)) {
-        case 0: done = make_segment(m).has_value(); break;
-        case 1: case 2: case 3: done = split_face(m, a, same_face).has_value(); break;
-        case 4: case 5: case 6: done = split_vertex(m, a, same_vertex).has_value(); break;
-        case 7: done = split_face(m, a, all[random.below(all.size())]).has_value(); break;
-        case 8: done = split_vertex(m, a, all[random.below(all.size())]).has_value(); break;
-        case 9: done = split_edge(m, a).has_value(); break;
-        case 10: case 11: done = join_faces(m, a).has_value(); break;
-        case 12: case 13: done = join_vertices(m, a).has_value(); break;
-        default: done = kill_segment(m, a).has_value(); break;
+        case 0:
+          done = make_segment(m).has_value();
+          break;
+        case 1:
+        case 2:
+        case 3:
+          done = split_face(m, a, same_face).has_value();
+          break;
+        case 4:
+        case 5:
+        case 6:
+          done = split_vertex(m, a, same_vertex).has_value();
+          break;
+        case 7:
+          done = split_face(m, a, all[random.below(all.size())]).has_value();
+          break;
+        case 8:
+          done = split_vertex(m, a, all[random.below(all.size())]).has_value();
+          break;
+        case 9:
+          done = split_edge(m, a).has_value();
+          break;
+        case 10:
+        case 11:
+          done = join_faces(m, a).has_value();
+          break;
+        case 12:
+        case 13:
+          done = join_vertices(m, a).has_value();
+          break;
+        default:
+          done = kill_segment(m, a).has_value();
+          break;
       }
       if (!done) {
         ++refused;

@@ -33,8 +33,8 @@ Mesh refined_at_random(const Builder& solid, std::uint32_t seed, int steps) {
   return m;
 }
 const std::vector<Builder>& solids() {
-  static const std::vector<Builder> all{shapes::cube_builder(), shapes::tetrahedron_builder(), shapes::prism_builder(3), shapes::prism_builder(5),
-                                        shapes::prism_builder(12)};
+  static const std::vector<Builder> all{shapes::cube_builder(), shapes::tetrahedron_builder(), shapes::prism_builder(3),
+                                        shapes::prism_builder(5), shapes::prism_builder(12)};
   return all;
 }
 

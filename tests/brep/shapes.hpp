@@ -59,8 +59,10 @@ inline brep::Builder prism_builder(std::uint32_t n) {
   for (std::uint32_t i = 0; i < 2 * n; ++i) {
     const double angle = 2.0 * pi * (i % n) / n;
     b.vertex({std::cos(angle), std::sin(angle), i < n ? 0.0 : 1.0});
-    if (i < n) bottom.insert(bottom.begin(), i);
-    else top.push_back(i);
+    if (i < n)
+      bottom.insert(bottom.begin(), i);
+    else
+      top.push_back(i);
   }
   b.face(bottom, 0);
   b.face(top, 1);

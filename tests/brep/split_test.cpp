@@ -125,9 +125,9 @@ TEST_CASE("random star-shaped polygons at any scale fall into convex parts") {
 }
 
 TEST_CASE("self-crossing, touching, bent and degenerate polygons are refused and nothing changes") {
-  CHECK(refused({{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 1, 0}}) == Code::not_simple);                                   // a bow tie
-  CHECK(refused({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}}) == Code::not_simple);                        // a corner touches an edge
-  CHECK(refused({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, -1, 0}, {0, 4, 0}}) == Code::not_simple);                       // it goes through
+  CHECK(refused({{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 1, 0}}) == Code::not_simple);              // a bow tie
+  CHECK(refused({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}}) == Code::not_simple);   // a corner touches an edge
+  CHECK(refused({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, -1, 0}, {0, 4, 0}}) == Code::not_simple);  // it goes through
   CHECK(refused({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {3, 4, 0}, {3, 5, 0}, {3, 4, 0}, {0, 4, 0}}) == Code::not_simple);  // a spike
   CHECK(refused({{0, 0, 0}, {2, 0, 0}, {2, 1, 1}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}) == Code::not_planar);
   CHECK(refused({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1.5, 0, 0}}) == Code::degenerate_polygon);

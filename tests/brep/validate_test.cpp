@@ -27,11 +27,22 @@ Bare mixed(shapes::Random& random) {
     const HalfedgeId a = all[random.below(all.size())];
     const bool shrink = i >= 30;
     switch (random.below(3) + (shrink ? 3 : 0)) {
-      case 0: (void)split_face(m, a, random.below(3) == 0 ? a : m.next(m.next(a))); break;
-      case 1: (void)split_vertex(m, a, random.below(3) == 0 ? a : m.next(twin(a))); break;
-      case 2: (void)split_edge(m, a); break;
-      case 3: case 4: (void)join_faces(m, a); break;
-      default: (void)join_vertices(m, a); break;
+      case 0:
+        (void)split_face(m, a, random.below(3) == 0 ? a : m.next(m.next(a)));
+        break;
+      case 1:
+        (void)split_vertex(m, a, random.below(3) == 0 ? a : m.next(twin(a)));
+        break;
+      case 2:
+        (void)split_edge(m, a);
+        break;
+      case 3:
+      case 4:
+        (void)join_faces(m, a);
+        break;
+      default:
+        (void)join_vertices(m, a);
+        break;
     }
   }
   return m;
@@ -52,7 +63,9 @@ bool any_of(const std::set<int>& found, std::initializer_list<int> expected) {
   return false;
 }
 template <class IdType>
-IdType pick(const std::vector<IdType>& list, shapes::Random& random) { return list[random.below(list.size())]; }
+IdType pick(const std::vector<IdType>& list, shapes::Random& random) {
+  return list[random.below(list.size())];
+}
 
 }  // namespace
 
@@ -83,14 +96,18 @@ TEST_CASE("every flip of one field of one record is caught, by the right rule") 
         const VertexId value{random.below(m.vertex_end() + 2)};
         if (value == Raw::at(m, h).vertex) continue;
         Raw::at(m, h).vertex = value;
-        if (sound.alive(value)) CHECK(any_of(rules(m), {2, 5, 6}));
-        else CHECK(any_of(rules(m), {1}));
+        if (sound.alive(value))
+          CHECK(any_of(rules(m), {2, 5, 6}));
+        else
+          CHECK(any_of(rules(m), {1}));
       } else if (field == 3) {
         const FaceId value{random.below(m.face_end() + 2)};
         if (value == Raw::at(m, h).face) continue;
         Raw::at(m, h).face = value;
-        if (sound.alive(value)) CHECK(any_of(rules(m), {4, 6}));
-        else CHECK(any_of(rules(m), {1}));
+        if (sound.alive(value))
+          CHECK(any_of(rules(m), {4, 6}));
+        else
+          CHECK(any_of(rules(m), {1}));
       } else {
         const HalfedgeId value{random.below(m.halfedge_end() + 2)};
         bool legal = false;  // another half-edge of the same loop or fan is as good an anchor
@@ -103,8 +120,10 @@ TEST_CASE("every flip of one field of one record is caught, by the right rule") 
           legal = sound.alive(value) && sound.face(value) == f;
           Raw::at(m, f).halfedge = value;
         }
-        if (legal) CHECK(shapes::faults(m) == "");
-        else CHECK(any_of(rules(m), {sound.alive(value) ? 6 : 1}));
+        if (legal)
+          CHECK(shapes::faults(m) == "");
+        else
+          CHECK(any_of(rules(m), {sound.alive(value) ? 6 : 1}));
       }
       ++flips;
     }
@@ -187,10 +206,18 @@ TEST_CASE("random garbage in many records neither crashes nor hangs the validato
       auto& r = Raw::at(m, pick(all, random));
       const std::uint32_t value = random.below(3) == 0 ? random.below(0xffffffff) : random.below(m.halfedge_end());
       switch (random.below(4)) {
-        case 0: r.next.index = value; break;
-        case 1: r.prev.index = value; break;
-        case 2: r.vertex.index = value; break;
-        default: r.face.index = value; break;
+        case 0:
+          r.next.index = value;
+          break;
+        case 1:
+          r.prev.index = value;
+          break;
+        case 2:
+          r.vertex.index = value;
+          break;
+        default:
+          r.face.index = value;
+          break;
       }
     }
     CHECK_FALSE(validate(m).empty());

@@ -173,3 +173,17 @@ TEST_CASE("degenerate patches exchange nothing") {
   CHECK(exchange(line, wall) == 0.0);
   CHECK(exchange(wall, line) == 0.0);
 }
+
+TEST_CASE("needles: patches of any aspect exchange at most their area, in bounded time") {
+  for (const double width : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    CAPTURE(width);
+    const glm::dvec3 tilted = glm::normalize(glm::dvec3{1.0, 0.2, 0.3});
+    const Patch needle = make_patch(rectangle(O, Y, width * tilted));
+    const Patch wall = make_patch(rectangle({0.0, 0.0, -0.5}, 2.0 * Y, X));
+    const double there = exchange(needle, wall);
+    const double back = exchange(wall, needle);
+    CHECK(there >= 0.0);
+    CHECK(there <= needle.area);
+    CHECK(std::abs(there - back) <= 1e-3 * needle.area);
+  }
+}

@@ -34,7 +34,11 @@ std::vector<std::pair<std::string, Made<Object>>> shapes() {
 
 TEST_CASE("an approximation closes without defects, lies on the surface, and its chords keep the tolerance") {
   SEEDED(random);
-  const Placement placements[] = {{}, {random.rotation() * 3.0, {5, 6, 7}, false}, {glm::dmat3(-1, 0, 0, 0, 2, 0, 0, 0.5, 1), {0, 0, 1}, false}, room(), room(glm::dmat3(1, 0, 0, 0, 0, 1, 0, 1, 0))};
+  const Placement placements[] = {{},
+                                  {random.rotation() * 3.0, {5, 6, 7}, false},
+                                  {glm::dmat3(-1, 0, 0, 0, 2, 0, 0, 0.5, 1), {0, 0, 1}, false},
+                                  room(),
+                                  room(glm::dmat3(1, 0, 0, 0, 0, 1, 0, 1, 0))};
   for (const auto& [name, shape] : shapes())
     for (const Placement& placement : placements)
       for (const double tolerance : {1.0, 0.05, 0.002}) {
@@ -60,7 +64,8 @@ TEST_CASE("an approximation closes without defects, lies on the surface, and its
           REQUIRE(sheet < object.sheet_count());
           const auto corners = brep::positions(shell, f);
           const dvec3 normal = brep::normal(brep::Polygon(corners)), middle = brep::centroid(brep::Polygon(corners));
-          for (const dvec3& p : corners) CHECK(glm::length(object.project(sheet, p).position - p) <= 1e-14 * (size + object.bounds().magnitude()));
+          for (const dvec3& p : corners)
+            CHECK(glm::length(object.project(sheet, p).position - p) <= 1e-14 * (size + object.bounds().magnitude()));
           // Counter-clockwise from the air. Quadrilaterals of a coarse cube sphere tilt by up to 45 degrees.
           wrong_side = std::min(wrong_side, glm::dot(normal, object.project(sheet, middle).normal));
           for (std::size_t i = 2; i < corners.size(); ++i)

@@ -35,7 +35,7 @@ void crossings_lie_on(const Object& object, const Segment& line, double bound, D
     CHECK(std::abs(distance(line.at(s.out.t))) <= bound);
     CHECK(distance(line.at(0.5 * (s.in.t + s.out.t))) <= bound);
     const SurfacePoint in = object.project(s.in.sheet, line.at(s.in.t)), out = object.project(s.out.sheet, line.at(s.out.t));
-    CHECK(glm::length(in.position - line.at(s.in.t)) <= bound);   // the sheet is the right one
+    CHECK(glm::length(in.position - line.at(s.in.t)) <= bound);  // the sheet is the right one
     CHECK(glm::dot(in.normal, line.direction) <= 1e-6 * glm::length(line.direction));
     CHECK(glm::dot(out.normal, line.direction) >= -1e-6 * glm::length(line.direction));
   }
@@ -61,7 +61,8 @@ TEST_CASE("crossings lie on the surface, over scales and distances of 10^+-8") {
     crossings_lie_on(*box, line, bound, [&](const dvec3& p) { return box_distance(box->bounds(), p); });
     const dvec3 axis = size * random.uniform(0.1, 10) * random.direction();
     const auto cylinder = Cylinder::make(centre, axis, size);
-    crossings_lie_on(*cylinder, line, bound + 400 * u * glm::length(axis), [&](const dvec3& p) { return cylinder_distance(centre, axis, size, p); });
+    crossings_lie_on(*cylinder, line, bound + 400 * u * glm::length(axis),
+                     [&](const dvec3& p) { return cylinder_distance(centre, axis, size, p); });
     met += static_cast<int>(spans(placed(sphere), line).size());
   }
   CHECK(met > 10000);
@@ -70,8 +71,10 @@ TEST_CASE("crossings lie on the surface, over scales and distances of 10^+-8") {
 TEST_CASE("a crossing lies within the bounds, and a line that misses the bounds has none") {
   SEEDED(random);
   for (int i = 0; i < 3000; ++i) {
-    const Placement placement{random.rotation() * glm::dmat3(random.uniform(0.1, 3), 0.2, 0, 0, random.uniform(0.1, 3), 0, 0.1, 0, 1), random.in_cube(5), false};
-    const PlacedObject objects[] = {placed(Sphere::make(random.in_cube(), 0.7), placement), placed(BoxObject::make({0, 0, 0}, {1, 2, 3}), placement),
+    const Placement placement{random.rotation() * glm::dmat3(random.uniform(0.1, 3), 0.2, 0, 0, random.uniform(0.1, 3), 0, 0.1, 0, 1),
+                              random.in_cube(5), false};
+    const PlacedObject objects[] = {placed(Sphere::make(random.in_cube(), 0.7), placement),
+                                    placed(BoxObject::make({0, 0, 0}, {1, 2, 3}), placement),
                                     placed(Cylinder::make({1, 0, 0}, random.direction(), 0.3), placement), placed(l_block(), placement)};
     for (const PlacedObject& object : objects) {
       const Segment line{random.in_cube(8), random.direction()};
@@ -92,7 +95,7 @@ TEST_CASE("a sphere is met exactly when the line passes nearer than its radius: 
   for (int i = 0; i < 200000; ++i) {
     const double distance = std::pow(10.0, random.uniform(0.1, 6));
     const dvec3 toward = random.direction(), across = glm::normalize(glm::cross(toward, random.direction()));
-    const double impact = 1.0 + std::pow(10.0, random.uniform(-12, -1)) * (random.below(2) ? 1 : -1);   // grazing
+    const double impact = 1.0 + std::pow(10.0, random.uniform(-12, -1)) * (random.below(2) ? 1 : -1);  // grazing
     const dvec3 origin = -distance * toward;
     const Segment line{origin, impact * across - origin};
     using Real = long double;
@@ -173,10 +176,13 @@ TEST_CASE("entries and exits of a concave mesh alternate, and the line is inside
 TEST_CASE("spans of a placed object: an affine map changes no parameter") {
   SEEDED(random);
   for (int i = 0; i < 20000; ++i) {
-    glm::dmat3 linear = random.rotation() * glm::dmat3(random.uniform(0.1, 4), 0, 0, 0, random.uniform(0.1, 4), 0, 0, 0, random.uniform(0.1, 4)) * random.rotation();
-    if (i % 2) linear[0] = -linear[0];   // a mirror
+    glm::dmat3 linear = random.rotation() *
+                        glm::dmat3(random.uniform(0.1, 4), 0, 0, 0, random.uniform(0.1, 4), 0, 0, 0, random.uniform(0.1, 4)) *
+                        random.rotation();
+    if (i % 2) linear[0] = -linear[0];  // a mirror
     const Placement placement{linear, random.in_cube(10), i % 3 == 0};
-    const Made<Object> shapes[] = {Sphere::make(random.in_cube(), 0.5), BoxObject::make({0, 0, 0}, {1, 1, 1}), Cylinder::make({0, 0, 0}, {0, 1, 2}, 0.5), l_block()};
+    const Made<Object> shapes[] = {Sphere::make(random.in_cube(), 0.5), BoxObject::make({0, 0, 0}, {1, 1, 1}),
+                                   Cylinder::make({0, 0, 0}, {0, 1, 2}, 0.5), l_block()};
     for (const auto& shape : shapes) {
       const Segment line{random.in_cube(3), 4.0 * random.direction()};
       const Segment image{linear * line.origin + placement.translation, linear * line.direction};
@@ -202,7 +208,8 @@ TEST_CASE("project is idempotent, its normal a unit vector, and nearest") {
     const double size = random.magnitude(6);
     const bool inside = i % 2;
     const Placement placement{random.rotation() * size, size * random.in_cube(3), inside};
-    const Made<Object> shapes[] = {Sphere::make(random.in_cube(), 0.5), BoxObject::make({0, 0, 0}, {1, 1, 1}), Cylinder::make({0, 0, 0}, {0, 1, 2}, 0.5), l_block()};
+    const Made<Object> shapes[] = {Sphere::make(random.in_cube(), 0.5), BoxObject::make({0, 0, 0}, {1, 1, 1}),
+                                   Cylinder::make({0, 0, 0}, {0, 1, 2}, 0.5), l_block()};
     for (const auto& shape : shapes) {
       const PlacedObject object = placed(shape, placement);
       for (std::uint32_t sheet = 0; sheet < object.sheet_count(); ++sheet) {
@@ -221,7 +228,8 @@ TEST_CASE("project is idempotent, its normal a unit vector, and nearest") {
 TEST_CASE("axis-parallel lines, zeros of both signs and denormal components") {
   const double zeros[] = {0.0, -0.0, 1e-310, -1e-310, std::numeric_limits<double>::denorm_min()};
   const PlacedObject objects[] = {placed(Sphere::make({0, 0, 0}, 1.0)), placed(BoxObject::make({-1, -1, -1}, {1, 1, 1})),
-                                  placed(Cylinder::make({0, 0, -1}, {0, 0, 2}, 1.0)), placed(mesh_of(*BoxObject::make({-1, -1, -1}, {1, 1, 1}), 0.0))};
+                                  placed(Cylinder::make({0, 0, -1}, {0, 0, 2}, 1.0)),
+                                  placed(mesh_of(*BoxObject::make({-1, -1, -1}, {1, 1, 1}), 0.0))};
   for (const PlacedObject& object : objects)
     for (int axis = 0; axis < 3; ++axis)
       for (const double sign : {1.0, -1.0})
@@ -238,10 +246,10 @@ TEST_CASE("axis-parallel lines, zeros of both signs and denormal components") {
             CHECK(through[0].in.t < through[0].out.t);
             CHECK(through[0].in.t > 1.9);
             CHECK(through[0].out.t < 4.1);
-            o[(axis + 1) % 3] = 1.5;   // beside it
+            o[(axis + 1) % 3] = 1.5;  // beside it
             CHECK(spans(object, Segment{o, d}).empty());
             double entry = 0.0;
-            for (const double on : {1.0, -1.0}) {   // in a plane of the bounds: never a false miss
+            for (const double on : {1.0, -1.0}) {  // in a plane of the bounds: never a false miss
               o[(axis + 1) % 3] = on;
               CHECK(SlabTest(Segment{o, d})(object.bounds(), 0.0, 10.0, entry));
             }
@@ -250,14 +258,13 @@ TEST_CASE("axis-parallel lines, zeros of both signs and denormal components") {
 
 TEST_CASE("polygons of every simple shape: a line meets them where the crossing number is odd") {
   SEEDED(random);
-  std::vector<std::vector<std::array<double, 2>>> outlines{
-      {{0, 0}, {1, 0}, {0, 1}},
-      {{0, 0}, {2, 0}, {2, 1}, {0, 1}},
-      {{0, 0}, {1, 0}, {2, 0}, {2, 0.5}, {2, 1}, {0, 1}},           // straight corners
-      {{0, 0}, {2, 0}, {2, 2}, {1, 0.5}},                             // concave
-      {{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}};   // a U
+  std::vector<std::vector<std::array<double, 2>>> outlines{{{0, 0}, {1, 0}, {0, 1}},
+                                                           {{0, 0}, {2, 0}, {2, 1}, {0, 1}},
+                                                           {{0, 0}, {1, 0}, {2, 0}, {2, 0.5}, {2, 1}, {0, 1}},  // straight corners
+                                                           {{0, 0}, {2, 0}, {2, 2}, {1, 0.5}},                  // concave
+                                                           {{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}};  // a U
   outlines.emplace_back();
-  for (int i = 0; i < 14; ++i) {   // a star
+  for (int i = 0; i < 14; ++i) {  // a star
     const double r = i % 2 ? 0.3 : 1.0, a = 3.14159265358979 * i / 7;
     outlines.back().push_back({r * std::cos(a), r * std::sin(a)});
   }

@@ -11,7 +11,8 @@ TEST_CASE("a ray that leaves a convex solid never meets it again") {
   for (int i = 0; i < 20000; ++i) {
     const double scale = random.magnitude(8);
     const Placement placement{random.rotation() * scale, scale * std::pow(10.0, random.uniform(-2, 3)) * random.in_cube(), false};
-    const Made<Object> shapes[] = {Sphere::make({0, 0, 0}, 1.0), BoxObject::make({-1, -1, -1}, {1, 2, 1}), Cylinder::make({0, 0, 0}, {0, 0, 1}, 0.7), mesh_of(*BoxObject::make({-1, -1, -1}, {1, 1, 1}), 0.0)};
+    const Made<Object> shapes[] = {Sphere::make({0, 0, 0}, 1.0), BoxObject::make({-1, -1, -1}, {1, 2, 1}),
+                                   Cylinder::make({0, 0, 0}, {0, 0, 1}, 0.7), mesh_of(*BoxObject::make({-1, -1, -1}, {1, 1, 1}), 0.0)};
     const auto& shape = shapes[i % 4];
     const PlacedObject object = placed(shape, placement);
     const Scene alone({object});
@@ -47,11 +48,11 @@ TEST_CASE("a concave owner drops the span at the end and keeps the later ones") 
     CHECK_FALSE(scene.occluded(between(step, riser), 0, 0));
     CHECK_FALSE(scene.occluded(between(riser, step), 0, 0));
     CHECK(scene.occluded(between(step, {2, y, 1.9}), 0, no_object));
-    CHECK(scene.occluded(between(step, {3, y, 1.5}), 0));     // leaves the step, is stopped by the riser
+    CHECK(scene.occluded(between(step, {3, y, 1.5}), 0));  // leaves the step, is stopped by the riser
     CHECK(scene.occluded(between({3, y, 1.5}, step), no_object, 0));
     CHECK_FALSE(scene.occluded(between(step, {-3, y, 1.5}), 0));
     CHECK_FALSE(scene.occluded(between(top, {-3, y, 2.5}), 0));
-    CHECK(scene.occluded(between({-1, y, 0.2}, riser), no_object, 0));   // through the step block first
+    CHECK(scene.occluded(between({-1, y, 0.2}, riser), no_object, 0));  // through the step block first
     CHECK(scene.occluded(between(riser, {-1, y, 0.2}), 0));
     const auto hit = scene.closest(between(step, riser), 0);
     REQUIRE(hit);
@@ -61,7 +62,7 @@ TEST_CASE("a concave owner drops the span at the end and keeps the later ones") 
 }
 
 TEST_CASE("a concave room hides what lies around its corner") {
-  const Scene scene({placed(l_block(), room())});   // the air is the L: z in [0,1], and up to 2 where x > 1
+  const Scene scene({placed(l_block(), room())});  // the air is the L: z in [0,1], and up to 2 where x > 1
   const dvec3 high{0, 0.5, 0.9}, low{0, 0.5, 0.1}, ceiling{1.2, 0.5, 2}, wall{2, 0.5, 1.5};
   CHECK(scene.occluded(between(high, ceiling), 0, 0));
   CHECK(scene.occluded(between(ceiling, high), 0, 0));
@@ -85,7 +86,7 @@ TEST_CASE("chord points inside a convex solid see what their surface sees") {
   int free = 0, blocked = 0;
   for (int i = 0; i < 20000; ++i) {
     const std::uint32_t f = random.below(cylinder_faces), g = cylinder_faces + random.below(chords.face_count() - cylinder_faces);
-    if (chords.sheet(f) == 1) continue;   // it stands on the floor
+    if (chords.sheet(f) == 1) continue;  // it stands on the floor
     const auto middle = [&](std::uint32_t face, dvec3& p, dvec3& n) {
       Corners corners;
       for (const std::uint32_t v : chords.corners(face)) corners.push_back(chords.position(v));
@@ -106,7 +107,7 @@ TEST_CASE("chord points inside a convex solid see what their surface sees") {
       CHECK(scene.occluded(between(behind, q), no_object, 1));
       ++blocked;
     }
-    CHECK_FALSE(scene.occluded(between(p, {p.x + 2 * np.x, p.y + 2 * np.y, 4}), 0, 2));   // to the ceiling
+    CHECK_FALSE(scene.occluded(between(p, {p.x + 2 * np.x, p.y + 2 * np.y, 4}), 0, 2));  // to the ceiling
   }
   CHECK(free > 500);
   CHECK(blocked > 500);
@@ -114,7 +115,7 @@ TEST_CASE("chord points inside a convex solid see what their surface sees") {
 
 TEST_CASE("a convex room never hides its walls from each other, nor a lamp that lies on them") {
   SEEDED(random);
-  const Corners lamp_corners = rectangle({-0.2, -0.2, 1}, {0, 0.4, 0}, {0.4, 0, 0});   // faces down, coplanar with the ceiling
+  const Corners lamp_corners = rectangle({-0.2, -0.2, 1}, {0, 0.4, 0}, {0.4, 0, 0});  // faces down, coplanar with the ceiling
   for (int turn = 0; turn < 20; ++turn) {
     const double scale = random.magnitude(8);
     const Placement at{turn ? random.rotation() * scale : glm::dmat3(scale), turn % 2 ? scale * 1e5 * random.in_cube() : dvec3(0), false};
@@ -146,7 +147,7 @@ TEST_CASE("a convex room never hides its walls from each other, nor a lamp that 
 }
 
 TEST_CASE("polygon owners are left out, and their backs stop light") {
-  const auto square = Polygon::make(rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));   // faces +z
+  const auto square = Polygon::make(rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));  // faces +z
   const Scene scene({placed(square), placed(Polygon::make(rectangle({0, 0, 1}, {0, 1, 0}, {1, 0, 0})))});
   const dvec3 low{0.5, 0.5, 0}, high{0.5, 0.4, 1};
   CHECK_FALSE(scene.occluded(between(low, high), 0, 1));
@@ -186,37 +187,42 @@ TEST_CASE("covered: what lies flush on, in or behind other surfaces") {
     const auto down = [](double x0, double y0, double z, double size) { return rectangle({x0, y0, z}, {0, size, 0}, {size, 0, 0}); };
     const auto up = [](double x0, double y0, double z, double size) { return rectangle({x0, y0, z}, {size, 0, 0}, {0, size, 0}); };
     enum : std::uint32_t { hall, block, lamp, post, floor_tile, low_lamp, wedge, panel, other_panel };
-    std::vector<PlacedObject> objects{placed(BoxObject::make({0, 0, 0}, {10, 10, 3}), inside), placed(BoxObject::make({1, 1, 0}, {2, 2, 1}), at),
-                                      placed(Polygon::make(down(4, 4, 3, 1)), at),             placed(Cylinder::make({7, 7, -1}, {0, 0, 2}, 0.5), at),
-                                      placed(Polygon::make(up(1.2, 1.2, 1, 0.5)), at),          placed(Polygon::make(down(6, 2, 2.999, 1)), at),
+    std::vector<PlacedObject> objects{placed(BoxObject::make({0, 0, 0}, {10, 10, 3}), inside),
+                                      placed(BoxObject::make({1, 1, 0}, {2, 2, 1}), at),
+                                      placed(Polygon::make(down(4, 4, 3, 1)), at),
+                                      placed(Cylinder::make({7, 7, -1}, {0, 0, 2}, 0.5), at),
+                                      placed(Polygon::make(up(1.2, 1.2, 1, 0.5)), at),
+                                      placed(Polygon::make(down(6, 2, 2.999, 1)), at),
                                       placed(l_block(), Placement{at.linear, at.linear * dvec3(3, 7, 0) + at.translation, false}),
-                                      placed(Polygon::make(up(8, 1, 1, 1)), at),                placed(Polygon::make(down(8, 1, 1, 1)), at)};
-    for (int extra = 0; extra < (turn % 3 ? 0 : 30); ++extra) objects.push_back(placed(Sphere::make({20.0 + extra, 0, 0}, 0.3), at));   // makes the tree
+                                      placed(Polygon::make(up(8, 1, 1, 1)), at),
+                                      placed(Polygon::make(down(8, 1, 1, 1)), at)};
+    for (int extra = 0; extra < (turn % 3 ? 0 : 30); ++extra)
+      objects.push_back(placed(Sphere::make({20.0 + extra, 0, 0}, 0.3), at));  // makes the tree
     const Scene scene(objects);
     const auto covered = [&](const dvec3& p, const dvec3& n, std::uint32_t owner) {
       return scene.covered(at.linear * p + at.translation, glm::normalize(at.linear * n), owner);
     };
     const dvec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-    CHECK(covered({1.5, 1.6, 0}, z, hall));           // floor under the block
-    CHECK_FALSE(covered({2.5, 1.6, 0}, z, hall));     // floor beside it
-    CHECK(covered({1.5, 1.6, 0}, -z, block));         // bottom of the block
-    CHECK_FALSE(covered({1.5, 1.0, 0.5}, -y, block));   // side of the block
-    CHECK(covered({4.5, 4.4, 3}, -z, hall));          // ceiling behind the lamp
-    CHECK_FALSE(covered({5.5, 4.4, 3}, -z, hall));    // ceiling beside it
-    CHECK_FALSE(covered({4.5, 4.4, 3}, -z, lamp));    // the lamp itself
-    CHECK(covered({7.5, 7, -0.5}, x, post));          // the post below the floor: outside the room
+    CHECK(covered({1.5, 1.6, 0}, z, hall));            // floor under the block
+    CHECK_FALSE(covered({2.5, 1.6, 0}, z, hall));      // floor beside it
+    CHECK(covered({1.5, 1.6, 0}, -z, block));          // bottom of the block
+    CHECK_FALSE(covered({1.5, 1.0, 0.5}, -y, block));  // side of the block
+    CHECK(covered({4.5, 4.4, 3}, -z, hall));           // ceiling behind the lamp
+    CHECK_FALSE(covered({5.5, 4.4, 3}, -z, hall));     // ceiling beside it
+    CHECK_FALSE(covered({4.5, 4.4, 3}, -z, lamp));     // the lamp itself
+    CHECK(covered({7.5, 7, -0.5}, x, post));           // the post below the floor: outside the room
     CHECK_FALSE(covered({7.5, 7, 0.5}, x, post));
     CHECK(covered({7, 7, -1}, -z, post));
-    CHECK(covered({7.1, 7.2, 0}, z, hall));           // floor inside the post
-    CHECK(covered({1.5, 1.5, 1}, z, block));          // top of the block under the tile, declared later
+    CHECK(covered({7.1, 7.2, 0}, z, hall));   // floor inside the post
+    CHECK(covered({1.5, 1.5, 1}, z, block));  // top of the block under the tile, declared later
     CHECK_FALSE(covered({1.5, 1.5, 1}, z, floor_tile));
     CHECK_FALSE(covered({1.9, 1.9, 1}, z, block));
-    CHECK_FALSE(covered({6.5, 2.5, 3}, -z, hall));    // 1 mm above a lamp that hangs free
+    CHECK_FALSE(covered({6.5, 2.5, 3}, -z, hall));  // 1 mm above a lamp that hangs free
     CHECK_FALSE(covered({6.5, 2.5, 2.999}, -z, low_lamp));
-    CHECK_FALSE(covered({4.5, 4.5, 2.999}, -z, block));   // 1 mm under the lamp
-    CHECK(covered({3.5, 7.5, 0}, z, hall));           // floor under the concave block
-    CHECK_FALSE(covered({3.5, 7.5, 1}, z, wedge));    // its step
-    CHECK(covered({8.5, 1.5, 1}, z, panel));          // two panels face to face
+    CHECK_FALSE(covered({4.5, 4.5, 2.999}, -z, block));  // 1 mm under the lamp
+    CHECK(covered({3.5, 7.5, 0}, z, hall));              // floor under the concave block
+    CHECK_FALSE(covered({3.5, 7.5, 1}, z, wedge));       // its step
+    CHECK(covered({8.5, 1.5, 1}, z, panel));             // two panels face to face
     CHECK(covered({8.5, 1.5, 1}, -z, other_panel));
   }
 }

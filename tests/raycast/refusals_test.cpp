@@ -26,9 +26,9 @@ TEST_CASE("factories refuse with a sentence what is no object") {
   refused(Polygon::make({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}}), "equal corners");
   refused(Polygon::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0.01}, {0, 1, 0}}), "not planar");
   refused(Polygon::make({{0, 0, 0}, {3, 0, 0}, {0, 1, 0}, {2, 2, 0}}), "intersects itself");
-  refused(Polygon::make({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 0, 0}, {0, 2, 0}}), "intersects itself");   // a corner on another edge
+  refused(Polygon::make({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 0, 0}, {0, 2, 0}}), "intersects itself");  // a corner on another edge
   refused(Polygon::make({{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, 2, 0}}), "turns back");
-  CHECK(Polygon::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 1e-7}, {0, 1, 0}}));   // within 1e-6
+  CHECK(Polygon::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 1e-7}, {0, 1, 0}}));  // within 1e-6
   refused(BoxObject::make({0, 0, 0}, {1, 0, 1}), "along y");
   refused(BoxObject::make({0, 0, 2}, {1, 1, 1}), "along z");
   refused(BoxObject::make({0, 0, nan}, {1, 1, 1}), "finite");
@@ -43,7 +43,7 @@ TEST_CASE("factories refuse with a sentence what is no object") {
   refused(Mesh::make({}, {}), "no faces");
   refused(Mesh::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 3}}), "face 0 names vertex 3");
   refused(Mesh::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1}}), "face 0");
-  refused(Mesh::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 2, 3}}), "manifold");   // opposite orientations
+  refused(Mesh::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 2, 3}}), "manifold");  // opposite orientations
   refused(Mesh::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}), "manifold");
   refused(Mesh::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}}), "inside out");
 
@@ -53,7 +53,7 @@ TEST_CASE("factories refuse with a sentence what is no object") {
   CHECK(check(placement)->find("flattens") != std::string::npos);
   placement.linear = glm::dmat3(0.0);
   CHECK(check(placement));
-  placement.linear = glm::dmat3(1e-6);   // small is not singular
+  placement.linear = glm::dmat3(1e-6);  // small is not singular
   CHECK_FALSE(check(placement));
   placement.translation.y = nan;
   CHECK(check(placement)->find("not finite") != std::string::npos);

@@ -16,11 +16,21 @@ std::vector<PlacedObject> clutter(Random& random, int count, double scale) {
     const double size = 0.15 * scale;
     const Placement placement{random.rotation() * (size * random.uniform(0.5, 1)), at, false};
     switch (random.below(5)) {
-      case 0: objects.push_back(placed(Sphere::make(at, size))); break;
-      case 1: objects.push_back(placed(BoxObject::make({-1, -0.5, -0.1}, {1, 0.5, 0.1}), placement)); break;
-      case 2: objects.push_back(placed(Cylinder::make({0, 0, 0}, {0, 0, 1}, 0.5), placement)); break;
-      case 3: objects.push_back(placed(Polygon::make(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 1, 0})), placement)); break;
-      default: objects.push_back(placed(l_block(), placement)); break;
+      case 0:
+        objects.push_back(placed(Sphere::make(at, size)));
+        break;
+      case 1:
+        objects.push_back(placed(BoxObject::make({-1, -0.5, -0.1}, {1, 0.5, 0.1}), placement));
+        break;
+      case 2:
+        objects.push_back(placed(Cylinder::make({0, 0, 0}, {0, 0, 1}, 0.5), placement));
+        break;
+      case 3:
+        objects.push_back(placed(Polygon::make(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 1, 0})), placement));
+        break;
+      default:
+        objects.push_back(placed(l_block(), placement));
+        break;
     }
   }
   return objects;
@@ -61,7 +71,7 @@ TEST_CASE("occluded = brute force = occluded backwards, and = closest < 1 where 
         if (hit) {
           for (const PlacedObject& object : objects)
             for (const Span& span : spans(object, s))
-              if (span.in.t > 0.0) REQUIRE(hit->t <= span.in.t + 1e-12);   // the scene keeps polygons in world coordinates: other roundings
+              if (span.in.t > 0.0) REQUIRE(hit->t <= span.in.t + 1e-12);  // the scene keeps polygons in world coordinates: other roundings
           const dvec3 normal = scene.object(hit->object).project(hit->sheet, s.at(hit->t)).normal;
           REQUIRE(hit->front == (glm::dot(normal, s.direction) < 0.0));
         }
@@ -83,7 +93,7 @@ TEST_CASE("scaling the scene by powers of two leaves every t bit-identical") {
       if (i % 4 == 2) objects.push_back(placed(Cylinder::make(factor * at, factor * a, factor * 0.1)));
       if (i % 4 == 3) objects.push_back(placed(Polygon::make({factor * at, factor * (at + a), factor * (at + b)})));
     }
-    Placement inside = room(glm::dmat3(factor));   // through the placement's map
+    Placement inside = room(glm::dmat3(factor));  // through the placement's map
     objects.push_back(placed(mesh_of(*BoxObject::make({-2, -2, -2}, {2, 2, 2}), 0.0), inside));
     return Scene(objects);
   };
@@ -105,26 +115,30 @@ TEST_CASE("scaling the scene by powers of two leaves every t bit-identical") {
 
 TEST_CASE("no ray escapes from a closed room: through faces, edges and vertices") {
   SEEDED(random);
-  const auto ball = mesh_of(*Sphere::make({0.1, 0.2, 0.3}, 1.0), 0.03);   // triangles
+  const auto ball = mesh_of(*Sphere::make({0.1, 0.2, 0.3}, 1.0), 0.03);  // triangles
   const auto cube = mesh_of(*BoxObject::make({-1, -1, -1}, {1, 1, 1}), 0.0);
   brep::Builder corners;
   ball->approximate(0.0, corners);
-  std::vector<PlacedObject> walls;   // six polygons that look inwards, sharing edges and vertices
+  std::vector<PlacedObject> walls;  // six polygons that look inwards, sharing edges and vertices
   for (Corners face : faces_of({-1, -1, -1}, {1, 1, 1})) {
     std::reverse(face.begin(), face.end());
     walls.push_back(placed(Polygon::make(face)));
   }
   const Placement turned = room(random.rotation() * 2.0, {0.3, 0.2, 0.1});
-  const std::vector<Scene> rooms{Scene({placed(BoxObject::make({-1, -1, -1}, {1, 1, 1}), room())}), Scene({placed(cube, room())}), Scene(walls),
-                                 Scene({placed(ball, room())}), Scene({placed(ball, turned)}), Scene({placed(BoxObject::make({-1, -1, -1}, {1, 1, 1}), turned)})};
+  const std::vector<Scene> rooms{Scene({placed(BoxObject::make({-1, -1, -1}, {1, 1, 1}), room())}),
+                                 Scene({placed(cube, room())}),
+                                 Scene(walls),
+                                 Scene({placed(ball, room())}),
+                                 Scene({placed(ball, turned)}),
+                                 Scene({placed(BoxObject::make({-1, -1, -1}, {1, 1, 1}), turned)})};
   for (std::size_t which = 0; which < rooms.size(); ++which) {
     const Scene& scene = rooms[which];
-    const int rays = which < 3 ? 200000 : 100000;   // a million altogether, with the aimed ones
+    const int rays = which < 3 ? 200000 : 100000;  // a million altogether, with the aimed ones
     int escaped = 0;
     for (int i = 0; i < rays; ++i) {
       const dvec3 from = 0.3 * random.in_cube() + dvec3(0.1, 0.2, 0.3);
       dvec3 d = random.direction();
-      if (i % 2 && which < 3) {   // at an edge or a vertex, exactly or within rounding
+      if (i % 2 && which < 3) {  // at an edge or a vertex, exactly or within rounding
         dvec3 at{random.uniform(-1, 1), 1, -1};
         if (i % 4 == 1) at.x = random.below(2) ? 1.0 : -1.0;
         if (i % 3 == 0) std::swap(at.x, at.y);
@@ -161,8 +175,10 @@ TEST_CASE("far away: a scene moved by 1e5 sizes answers as at home") {
   SEEDED(random);
   const dvec3 shift{1e5, -2e5, 1.5e5};
   const auto build = [&](const dvec3& offset) {
-    return Scene({placed(BoxObject::make(offset, offset + dvec3(1, 1, 1)), room()), placed(BoxObject::make(offset + dvec3(0.25, 0.25, 0), offset + dvec3(0.5, 0.5, 0.5))),
-                  placed(Sphere::make(offset + dvec3(0.7, 0.7, 0.25), 0.25)), placed(Polygon::make(rectangle(offset + dvec3(0.4, 0.4, 1), {0, 0.2, 0}, {0.2, 0, 0})))});
+    return Scene({placed(BoxObject::make(offset, offset + dvec3(1, 1, 1)), room()),
+                  placed(BoxObject::make(offset + dvec3(0.25, 0.25, 0), offset + dvec3(0.5, 0.5, 0.5))),
+                  placed(Sphere::make(offset + dvec3(0.7, 0.7, 0.25), 0.25)),
+                  placed(Polygon::make(rectangle(offset + dvec3(0.4, 0.4, 1), {0, 0.2, 0}, {0.2, 0, 0})))});
   };
   const Scene home = build(dvec3(0)), away = build(shift);
   int differ = 0;
@@ -170,7 +186,8 @@ TEST_CASE("far away: a scene moved by 1e5 sizes answers as at home") {
     dvec3 a = 0.5 * random.in_cube() + 0.5, b = 0.5 * random.in_cube() + 0.5;
     a.z = 0, b.z = i % 2 ? 1 : b.z;
     const bool to_room = i % 2;
-    differ += home.occluded(between(a, b), 0, to_room ? 0 : no_object) != away.occluded(between(a + shift, b + shift), 0, to_room ? 0 : no_object);
+    differ += home.occluded(between(a, b), 0, to_room ? 0 : no_object) !=
+              away.occluded(between(a + shift, b + shift), 0, to_room ? 0 : no_object);
   }
   CHECK(differ == 0);
 }

@@ -72,9 +72,11 @@ TEST_CASE("speed: occlusion segments through the Cornell box and through spheres
   };
   std::vector<Query> queries;
   while (queries.size() < 200000) {
-    const std::uint32_t i = random.below(static_cast<std::uint32_t>(faces.size())), j = random.below(static_cast<std::uint32_t>(faces.size()));
+    const std::uint32_t i = random.below(static_cast<std::uint32_t>(faces.size())),
+                        j = random.below(static_cast<std::uint32_t>(faces.size()));
     const dvec3 p = on(i), q = on(j);
-    if (i != j && glm::dot(plane_of(faces[i]).normal, q - p) > 0 && glm::dot(plane_of(faces[j]).normal, p - q) > 0) queries.push_back({between(p, q), i, j});
+    if (i != j && glm::dot(plane_of(faces[i]).normal, q - p) > 0 && glm::dot(plane_of(faces[j]).normal, p - q) > 0)
+      queries.push_back({between(p, q), i, j});
   }
   report("Cornell box, 17 polygons, between facing surfaces", Scene(objects), queries);
   for (const int count : {8, 64, 10000}) {

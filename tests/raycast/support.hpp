@@ -40,7 +40,7 @@ class Random {
       if (length > 0.1 && length <= 1.0) return v / length;
     }
   }
-  double magnitude(double decades) { return std::pow(10.0, uniform(-decades, decades)); }   // of lengths over 10^+-decades
+  double magnitude(double decades) { return std::pow(10.0, uniform(-decades, decades)); }  // of lengths over 10^+-decades
   glm::dmat3 rotation() {
     const dvec3 x = direction(), z = glm::normalize(glm::cross(x, direction()));
     return {x, glm::cross(z, x), z};
@@ -99,7 +99,7 @@ inline raycast::Made<raycast::Mesh> mesh_of(const raycast::Object& object, doubl
 }
 // An L-shaped block: the smallest solid that shadows itself. Floor z in [0,1], a riser at x = 1 up to z = 2, y in [0,1].
 inline raycast::Made<raycast::Mesh> l_block() {
-  const double profile[6][2] = {{0, 0}, {2, 0}, {2, 2}, {1, 2}, {1, 1}, {0, 1}};   // x, z
+  const double profile[6][2] = {{0, 0}, {2, 0}, {2, 2}, {1, 2}, {1, 1}, {0, 1}};  // x, z
   Corners positions;
   for (int y = 0; y < 2; ++y)
     for (const auto& p : profile) positions.push_back({p[0], y, p[1]});
