@@ -61,6 +61,9 @@ void row(std::string& out, std::string_view label, const std::string& value) {
 
 std::string error_text(const std::optional<radiosity::ErrorEstimate>& error) {
   if (!error) { return "not measured"; }
+  if (error->relative_l2 < error->standard_error) {  // lost in the noise of path tracing
+    return "below " + percent(error->relative_l2 + 2.0 * error->standard_error) + " (noise " + percent(error->standard_error) + ")";
+  }
   return percent(error->relative_l2) + "  +- " + percent(error->standard_error);
 }
 

@@ -8,6 +8,7 @@
 // the noise of b1 and b2 is independent. It is given relative to the RMS of the reflected radiosity B - E (a lamp is exact
 // by definition and must not flatter the figure), estimated without bias in the same way.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -19,6 +20,7 @@
 #include <radiosity/parallel.hpp>
 #include <radiosity/plan.hpp>
 #include <radiosity/reference.hpp>
+#include <radiosity/visibility.hpp>
 
 namespace radiosity {
 
@@ -84,7 +86,7 @@ struct ErrorSums {
       error += square[i] / n;
       signal += reference[i] / n;
     }
-    if (!(signal > 0.0)) { return ErrorEstimate{}; }  // nothing is reflected: B = E exactly
+    if (!(signal > 0.0)) { return std::nullopt; }  // too few points see light
     double variance = 0.0;
     for (const double s : square) { variance += (s - error) * (s - error) / (n - 1.0); }
     const double noise = std::sqrt(variance / n);  // standard error of the mean squared error
@@ -105,7 +107,6 @@ struct MeasuredError {
 [[nodiscard]] inline MeasuredError measure_error(const Scene& scene, const raycast::Scene& objects, const std::vector<Surface>& surfaces,
                                                  const Exposure& exposure, const Mesh& mesh, std::uint32_t points, unsigned threads,
                                                  std::uint64_t seed, const Control& control = {}) {
-  constexpr int paths = 256;  // averaged in each of the two estimates
   struct Triangle {
     std::uint32_t face, first, second;  // corners face.first, first, second
     double cumulative_area;
@@ -126,6 +127,8 @@ struct MeasuredError {
 
   const std::vector<InputSurface> inputs = radiosity::surfaces(scene);
   const PathTracer tracer{scene, objects, surfaces};
+  // Averaged in each of the two estimates; fewer where paths are long.
+  const int paths = std::clamp(static_cast<int>(1024.0 * (1.0 - tracer.brightest())), 2, 256);
   struct Sample {
     double leaf = 0.0, picture = 0.0, reference = 0.0;
     std::uint64_t rays = 0;
@@ -133,6 +136,7 @@ struct MeasuredError {
   };
   std::vector<Sample> samples(points);
   const auto measure = [&](std::size_t i) {
+    if (control.cancelled()) { return; }
     Random random{seed, i, 0x6175646974ull};
     const double at = (static_cast<double>(i) + random.uniform()) / points * total;
     auto triangle =

@@ -73,6 +73,7 @@ struct EvaluateResult {
       return result;
     }
     parallel_for(std::min(batch, links.size() - first), threads, [&](std::size_t offset) {
+      if (control.cancelled()) { return; }
       Link& link = links[first + offset];
       const Patch& p = patches[link.p];
       const Patch& q = patches[link.q];
@@ -98,6 +99,10 @@ struct EvaluateResult {
     control.report("link", static_cast<double>(std::min(first + batch, links.size())) / static_cast<double>(links.size()));
   }
 
+  if (control.cancelled()) {
+    result.cancelled = true;
+    return result;
+  }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < links.size(); ++i) {
     result.rays += rays[i];

@@ -7,6 +7,7 @@
 //
 // Invariant: the area of an inner node is the sum of the areas of its children, bit by bit.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct Exposure {
   std::vector<double> area;          // exposed area of each node, in the frame
   std::vector<glm::dvec3> centroid;  // of the exposed area of each node: area-weighted mean over its leaves
   std::vector<bool> partly_buried;   // some of the node is hidden, but not all
-  double buried_area = 0.0;
+  bool all_buried = false;
   std::uint32_t buried_leaves = 0;  // leaves of which nothing is exposed
 };
 
@@ -67,10 +68,10 @@ struct Exposure {
     }
     if (!node.leaf()) { centroid[i] = exposed[i] > 0.0 ? centroid[i] / exposed[i] : node.centre; }
     if (node.leaf() && exposed[i] == 0.0) { ++exposure.buried_leaves; }
-    if (node.parent == no_node) { exposure.buried_area += area[i] - exposed[i]; }
   }
   exposure.partly_buried.resize(hierarchy.size());
   for (std::size_t i = 0; i < hierarchy.size(); ++i) { exposure.partly_buried[i] = exposed[i] > 0.0 && exposed[i] < area[i]; }
+  exposure.all_buried = std::none_of(exposed.begin(), exposed.end(), [](double a) { return a > 0.0; });
   exposure.area = std::move(exposed);
   exposure.centroid = std::move(centroid);
   return exposure;

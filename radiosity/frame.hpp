@@ -5,8 +5,10 @@
 // an exact power of two, so a scene scaled by a power of two gives the same bits, and a scene far from the
 // origin loses no more than its input had lost already.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>

@@ -21,7 +21,8 @@ struct Node {
   glm::dvec3 centre{0.0};
   glm::dvec3 normal{0.0};
   double area = 0.0;
-  double radius = 0.0;  // greatest distance of a corner from the centre
+  double radius = 0.0;     // greatest distance of a corner from the centre
+  double deviation = 0.0;  // sine of the largest angle to the true normals at the corners; 0 on planes
   std::uint32_t parent = no_node;
   std::uint32_t surface = 0;      // index of the input surface
   std::uint32_t object = 0;       // index of the object and of its Surface

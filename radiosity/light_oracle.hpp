@@ -7,7 +7,8 @@
 //
 //     E * RMS variation of F V over the patch * sqrt(area of the patch / area of the scene)  >  share * epsilon * mean emission
 //
-// the patch's share of the relative L2 error, dimensionless. F varies as the disk estimate does between the corners
+// the patch's share of the relative L2 error, dimensionless. F varies as the disk estimate does between the corners and the
+// point nearest to the light
 // (linear between extremes: RMS = difference / sqrt 12); V is all or nothing at a point: RMS = sqrt(V (1 - V)).
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 
 #include <radiosity/form_factor.hpp>
 #include <radiosity/hierarchy.hpp>
+#include <radiosity/oracle.hpp>
 #include <radiosity/patch.hpp>
 #include <radiosity/plan.hpp>
 #include <radiosity/random.hpp>
@@ -66,11 +68,13 @@ class LightOracle {
     const Patch patch = make_patch(contour(*surfaces_, nodes, receiver));
     double low = 1.0;
     double high = 0.0;
-    for (const glm::dvec3& x : patch.contour) {
+    const auto look = [&](const glm::dvec3& x) {
       const double f = disk_estimate(x, to.normal, from.centre, from.normal, from.area);
       low = std::min(low, f);
       high = std::max(high, f);
-    }
+    };
+    for (const glm::dvec3& x : patch.contour) { look(x); }
+    look(nearest_point(to, from.centre));
     if (weight * (high - low) > std::sqrt(12.0) * epsilon_) { return receiver; }
     if (!(weight * high * 0.5 > epsilon_)) { return no_node; }  // sqrt(V (1 - V)) is at most one half
 

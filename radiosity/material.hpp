@@ -32,8 +32,8 @@ struct Material {
       return "material '" + material.name + "': reflectance " + std::to_string(rho) +
              " lies outside [0, 1]; a surface cannot reflect more than it receives";
     }
-    if (!(emission >= 0.0) || !std::isfinite(emission)) {
-      return "material '" + material.name + "': emission " + std::to_string(emission) + " is not a finite number >= 0";
+    if (!(emission >= 0.0 && emission <= 1e60)) {
+      return "material '" + material.name + "': emission " + std::to_string(emission) + " is not a number from 0 to 1e60";
     }
   }
   return std::nullopt;

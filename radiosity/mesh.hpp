@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The result as a picture or a file wants it: positions, faces of three or four corners, a colour at every corner (the half-edge colours of paper 4.5) and the radiosity of the leaf that the face belongs to.
+// The result as a picture or a file wants it: positions, faces of three or four corners, a colour at every corner (the half-edge
+// colours of paper 4.5) and the radiosity of the leaf that the face belongs to.
 // Buried leaves are left out, but for those that touch an exposed one: a curved object stands in front of its chords, and what
 // shows between the two must not be a hole.
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,6 +35,22 @@ struct Options {
   unsigned threads = 0;               // 0: as many as the machine has; results do not depend on it
   std::uint64_t seed = 1;
 };
+
+// A sentence for every option that makes no sense; empty when a run can begin.
+[[nodiscard]] inline std::vector<std::string> faults(const Options& options) {
+  std::vector<std::string> sentences;
+  const auto check = [&](const char* name, double value, bool sound, const char* range) {
+    if (!sound) { sentences.push_back(std::string{name} + " is " + std::to_string(value) + "; it must be " + range); }
+  };
+  check("epsilon", options.epsilon, options.epsilon > 0.0, "above 0");
+  check("min_area", options.min_area, options.min_area >= 0.0, "0 or more");
+  check("residual", options.residual, options.residual > 0.0, "above 0");
+  if (options.error) {
+    check("error", *options.error, *options.error > 0.0, "above 0");
+    if (options.audit_points == 0) { sentences.emplace_back("an error target needs the audit as its witness; give it some points"); }
+  }
+  return sentences;
+}
 
 // How the caller watches and stops a run. `progress` is called from the thread that called solve().
 struct Control {

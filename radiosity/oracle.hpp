@@ -21,17 +21,31 @@ enum class Decision : unsigned char {
   split_q,  // or the second patch
 };
 
-// Greatest height of patch q above the plane of p: its centre's height plus the reach of its disk along p's normal.
-[[nodiscard]] inline double reach_above(const Node& p, const Node& q) {
-  const double cosine = glm::dot(p.normal, q.normal);
-  return glm::dot(p.normal, q.centre - p.centre) + q.radius * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+// The point of the disk around a patch that is nearest to x.
+[[nodiscard]] inline glm::dvec3 nearest_point(const Node& patch, const glm::dvec3& x) {
+  const glm::dvec3 d = x - patch.centre;
+  const glm::dvec3 in_plane = d - glm::dot(d, patch.normal) * patch.normal;
+  const double length = glm::length(in_plane);
+  return patch.centre + (length > patch.radius ? patch.radius / length : 1.0) * in_plane;
 }
 
-// The larger of both estimates F_pq and F_qp. Where a patch crosses the other's horizon the light changes from some
-// to none across it, and the cosine of its highest point stands for that of its centre.
+// Greatest height of patch q, or of any finer part of it, above the plane of p or of any finer part of p: the height of q's centre
+// plus the reach of its disk along p's normal. On curved objects finer parts bulge and tilt by the deviation of their normals.
+[[nodiscard]] inline double reach_above(const Node& p, const Node& q) {
+  const glm::dvec3 d = q.centre - p.centre;
+  const double cosine = glm::dot(p.normal, q.normal);
+  const double flat = glm::dot(p.normal, d) + q.radius * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  if (p.deviation == 0.0 && q.deviation == 0.0) { return flat; }
+  return flat + q.radius * q.deviation + p.deviation * (glm::length(d) + q.radius);
+}
+
+// The larger of both disk estimates F_pq and F_qp. Where a patch crosses the other's horizon the light changes from some to none
+// across it, and the cosine of its highest point stands for that of its centre. Where the disks are closer than
+// their size, the point of the larger one that is nearest to the smaller is looked at as well: a small lamp just above a large
+// floor is far from its centre.
 [[nodiscard]] inline double form_factor_estimate(const Node& p, const Node& q) {
-  const double r = glm::length(q.centre - p.centre);
-  const double area = std::max(p.area, q.area);
+  const glm::dvec3 d = q.centre - p.centre;
+  const double r = glm::length(d);
   if (!(r > 0.0)) { return 1.0; }
   const auto cosine = [&](const Node& from, const Node& to) {
     const double centre = glm::dot(from.normal, to.centre - from.centre);
@@ -39,7 +53,12 @@ enum class Decision : unsigned char {
     const bool crosses = 2.0 * centre < highest;  // the lowest point lies as far below the centre as the highest above
     return std::clamp((crosses ? highest : centre) / r, 0.0, 1.0);
   };
-  return cosine(p, q) * cosine(q, p) * area / (std::numbers::pi * r * r + area);
+  const double area = std::max(p.area, q.area);
+  const double estimate = cosine(p, q) * cosine(q, p) * area / (std::numbers::pi * r * r + area);
+  if (r >= 2.0 * (p.radius + q.radius)) { return estimate; }
+  const Node& large = p.radius >= q.radius ? p : q;
+  const Node& small = &large == &p ? q : p;
+  return std::max(estimate, disk_estimate(small.centre, small.normal, nearest_point(large, small.centre), large.normal, large.area));
 }
 
 // F-oracle. `min_area` in the unit of the node areas. The larger patch is split; patches of equal size within

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What this scene does not need. The plan is made before work begins, from proofs about the objects alone; what
-// it leaves out cannot change the result. Each omission says what, why and, after the run, what it saved.
+// What this scene does not need. The plan is made before work begins, from proofs about the objects alone, up to the slack
+// that each names; what it leaves out cannot change the result. Each omission says what, why and, after the run, what it saved.
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include <raycast/box.hpp>
 #include <raycast/scene.hpp>
 
+#include <radiosity/reference.hpp>
 #include <radiosity/scene.hpp>
 #include <radiosity/surface.hpp>
 
@@ -38,6 +40,8 @@ struct Plan {
   bool reflects = false;  // something reflects
   unsigned channels = 3;  // 1 when every material is grey
   bool closed = false;    // proven: no light leaves the scene
+  bool traceable = true;  // paths end soon enough to measure the error
+  bool lossless = false;  // closed, lit, and nothing absorbs in some channel that is lit: no steady state
   std::vector<Occluder> occluders;
   std::vector<LeftOut> left_out;
 };
@@ -75,13 +79,21 @@ inline bool on_the_hull(const std::vector<Surface>& surfaces, std::uint32_t obje
   return true;
 }
 
-// Does every vertex of a flat surface lie on the boundary of a room? Slack: 1e-9 of the scene.
+// Does a flat surface lie on one plane of a room and face into it, so that its black back is never seen? Slack: 1e-9 of the scene.
 inline bool lies_on_room(const Surface& surface, const raycast::PlacedObject& room) {
-  for (const brep::VertexId v : brep::vertices(surface.brep)) {
-    const glm::dvec3 p = surface.brep.data(v).position;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::uint32_t s = 0; s < room.sheet_count(); ++s) { nearest = std::min(nearest, glm::length(room.project(s, p).position - p)); }
-    if (nearest > 1e-9) { return false; }
+  if (!room.flat()) { return false; }
+  for (const brep::FaceId f : brep::faces(surface.brep)) {
+    if (surface.brep.data(f).sheet == brep::no_sheet) { continue; }
+    const Polygon polygon = corner_polygon(surface.brep, f);
+    const glm::dvec3 normal = glm::normalize(vector_area(polygon));
+    bool on_a_sheet = false;
+    for (std::uint32_t s = 0; s < room.sheet_count() && !on_a_sheet; ++s) {
+      on_a_sheet = std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) {
+        const raycast::SurfacePoint wall = room.project(s, p);
+        return glm::length(wall.position - p) <= 1e-9 && glm::dot(wall.normal, normal) > 0.999;
+      });
+    }
+    if (!on_a_sheet) { return false; }
   }
   return true;
 }
@@ -128,6 +140,23 @@ inline bool lies_on_room(const Surface& surface, const raycast::PlacedObject& ro
   plan.closed = room != nullptr && !holes && std::all_of(sheets.begin(), sheets.end(), [&](std::uint32_t o) {
                   return detail::lies_on_room(surfaces[o], *room->object);
                 });
+  for (const Material& material : scene.materials) {
+    const Color& rho = material.reflectance;
+    plan.traceable = plan.traceable && (!plan.closed || std::max({rho.x, rho.y, rho.z}) <= 1.0 - 1.0 / most_bounces);
+  }
+  if (!plan.traceable) {
+    plan.left_out.push_back(
+        {"the error estimate", "closed and nearly lossless: paths would need thousands of bounces", "minutes of path tracing"});
+  }
+  for (int c = 0; c < 3; ++c) {
+    bool emits = false;
+    bool absorbs = false;
+    for (const InputSurface& input : radiosity::surfaces(scene)) {
+      emits = emits || scene.materials[input.material].emission[c] > 0.0;
+      absorbs = absorbs || scene.materials[input.material].reflectance[c] < 1.0;
+    }
+    plan.lossless = plan.lossless || (plan.closed && emits && !absorbs);
+  }
   if (hull > 0) {
     plan.left_out.push_back({"occlusion by " + std::to_string(hull) + " outer surface" + (hull > 1 ? "s" : ""),
                              "the whole scene lies on one side of each", ""});

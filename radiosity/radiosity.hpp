@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -125,6 +126,9 @@ inline std::vector<Color> solve_channels(Audit& audit, const Scene& scene, const
   return radiosity;
 }
 
+// A closed scene whose rows need a larger RMS correction is too coarse for it.
+inline constexpr double closing_limit = 0.1;
+
 // One run at a given fineness.
 inline Outcome solve_at(const Scene& scene, const Options& options, const Control& control) {
   Solution solution;
@@ -148,6 +152,10 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.channels = plan.channels;
   Hierarchy& hierarchy = solution.hierarchy;
   hierarchy = make_roots(boundary);
+  if (plan.lossless) {
+    return failed(Failure::Kind::invalid_scene, {"the scene is closed and nothing in it absorbs light in some channel in which it emits: "
+                                                 "the light would grow without end; give some surface a reflectance below 1"});
+  }
   watch.lap("build");
 
   // Without light, or without reflection, B = E on the input faces.
@@ -164,6 +172,11 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   watch.lap("refine");
 
   const Exposure exposure = measure_exposure(objects, boundary, hierarchy, threads, options.seed);
+  if (exposure.all_buried) {
+    return failed(Failure::Kind::invalid_scene,
+                  {"every surface is buried under another object: nothing can be seen. Two rooms made by 'inside' "
+                   "that do not overlap bury each other, for beyond its walls a room is solid"});
+  }
   watch.lap("expose");
 
   std::vector<bool> emits;
@@ -180,7 +193,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   Transport transport{hierarchy, solution.links, exposure};
   solution.row_sum = transport.row_sums();
   audit.computed_row_sum = summarise_rows(hierarchy, exposure.area, solution.row_sum);
-  if (plan.closed && !solution.links.empty()) { audit.closure = transport.close(0.1); }
+  if (plan.closed && !solution.links.empty()) { audit.closure = transport.close(closing_limit); }
   solution.row_sum = transport.row_sums();
   audit.row_sum = summarise_rows(hierarchy, exposure.area, solution.row_sum);
   solution.radiosity = solve_channels(audit, scene, inputs, plan, hierarchy, transport, exposure.area, options);
@@ -200,9 +213,12 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.bytes = hierarchy.capacity() * sizeof(Node) + solution.links.capacity() * sizeof(Link) + objects.bytes();
   for (const Surface& surface : boundary) { audit.bytes += surface.brep.bytes(); }
   report_left_out(audit, plan, refined, evaluated, exposure, options);
+  if (plan.closed && !solution.links.empty() && !audit.closure) {
+    audit.left_out.push_back({"closing the scene", "its row sums would need a correction beyond 10 % RMS; refine more", ""});
+  }
   if (!plan.lit || !plan.reflects) {
     audit.leaf_error = audit.picture_error = ErrorEstimate{};  // B = E is exact
-  } else if (options.audit_points > 0) {
+  } else if (options.audit_points > 0 && plan.traceable) {
     const MeasuredError measured =
         measure_error(scene, objects, boundary, exposure, solution.mesh, options.audit_points, threads, options.seed, control);
     if (control.cancelled()) { return cancelled(); }
@@ -224,10 +240,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
 // witnesses the target, its standard error included; times are those of all rounds together. A run whose error stays above
 // says so by audit.converged; it gives up before it would need more than 20 million links (720 MB).
 [[nodiscard]] inline Outcome solve(const Scene& scene, const Options& options = {}, const Control& control = {}) {
+  std::vector<std::string> sentences = faults(options);
+  if (!sentences.empty()) { return detail::failed(Failure::Kind::invalid_options, std::move(sentences)); }
   if (!options.error) { return detail::solve_at(scene, options, control); }
-  if (options.audit_points == 0) {
-    return detail::failed(Failure::Kind::invalid_options, {"an error target needs the audit as its witness; give it some points"});
-  }
   Options round = options;
   round.epsilon = 0.04;
   round.min_area = 2.4e-4;
@@ -237,19 +252,21 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     if (!outcome.solution) { return outcome; }
     Audit& audit = outcome.solution->audit;
     detail::add_times(stages, audit.stages);
-    const ErrorEstimate error = audit.picture_error.value_or(ErrorEstimate{});
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    const ErrorEstimate error = audit.picture_error.value_or(ErrorEstimate{unknown, unknown});
     const bool met = error.relative_l2 + error.standard_error <= *options.error;
-    if (met || 4 * audit.links > 20'000'000) {
+    // An estimate that drowns in its own noise needs more points; else, and in any case where noise is not to blame, a finer mesh.
+    const bool noisy = error.standard_error > 0.5 * *options.error && round.audit_points < 200'000;
+    if (noisy) { round.audit_points *= 4; }
+    if (!noisy || error.relative_l2 > 0.5 * *options.error) {
+      round.epsilon *= 0.5;
+      round.min_area *= 0.5;
+    }
+    if (met || 4 * audit.links > 20'000'000 || round.epsilon < 1e-5) {
       audit.converged = audit.converged && met;
       audit.stages = std::move(stages);
       detail::sum_times(audit);
       return outcome;
-    }
-    // An error estimate that drowns in its own noise needs more points rather than a finer mesh.
-    if (error.standard_error > 0.5 * *options.error && round.audit_points < 200'000) { round.audit_points *= 4; }
-    if (error.relative_l2 > 0.5 * *options.error) {
-      round.epsilon *= 0.5;
-      round.min_area *= 0.5;
     }
   }
 }

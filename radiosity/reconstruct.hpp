@@ -27,7 +27,6 @@
 #include <radiosity/hierarchy.hpp>
 #include <radiosity/material.hpp>
 #include <radiosity/options.hpp>
-#include <radiosity/parallel.hpp>
 #include <radiosity/surface.hpp>
 
 namespace radiosity {

@@ -5,7 +5,7 @@
 // solver but the scene: no mesh, no form factors, no links.
 //
 // B(x) = E(x) + rho(x) * mean of B(y) over the points y seen from x in cosine-distributed directions. Paths end by Russian
-// roulette with the largest channel of rho (at most 0.99). When the lights are flat and small they are sampled directly (next event),
+// roulette with the largest channel of rho, so they take 1 / (1 - rho) bounces on average: see most_bounces. When the lights are flat and small they are sampled directly (next event),
 // and paths that run into them do not count their emission twice.
 
 #include <algorithm>
@@ -21,18 +21,28 @@
 #include <radiosity/random.hpp>
 #include <radiosity/scene.hpp>
 #include <radiosity/surface.hpp>
-#include <radiosity/visibility.hpp>
 
 namespace radiosity {
+
+// A closed scene with a reflectance above 1 - 1 / most_bounces is not path-traced: it would take too long, and to end paths earlier
+// would make their variance infinite.
+inline constexpr double most_bounces = 1000.0;
 
 class PathTracer {
  public:
   // `surfaces` are boundaries of the compiled objects (refined or not) in the frame.
   PathTracer(const Scene& scene, const raycast::Scene& objects, const std::vector<Surface>& surfaces) : objects_{&objects} {
     for (const InputSurface& s : radiosity::surfaces(scene)) { materials_.push_back(&scene.materials[s.material]); }
+    for (const Material& material : scene.materials) {
+      const Color& rho = material.reflectance;
+      brightest_ = std::max({brightest_, rho.x, rho.y, rho.z});
+    }
     for (const Surface& surface : surfaces) { first_surface_.push_back(surface.first_surface); }
     collect_lights(surfaces);
   }
+
+  // Largest reflectance of the scene.
+  [[nodiscard]] double brightest() const { return brightest_; }
 
   // One independent estimate of B at the point x of a surface with unit normal n (into the air).
   [[nodiscard]] Color radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Random& random,
@@ -42,7 +52,7 @@ class PathTracer {
     Color throughput{1.0};
     for (;;) {
       const Color& rho = material->reflectance;
-      const double survival = std::min(longest, std::max({rho.x, rho.y, rho.z}));
+      const double survival = std::max({rho.x, rho.y, rho.z});
       throughput *= rho;
       if (survival > 0.0 && light_area_ > 0.0) { result += throughput * direct(x, n, object, random, rays); }
       if (!(random.uniform() < survival)) { return result; }
@@ -64,8 +74,6 @@ class PathTracer {
   }
 
  private:
-  static constexpr double longest = 0.99;  // so that a path ends where nothing absorbs
-
   struct Light {
     glm::dvec3 a{0.0}, ab{0.0}, ac{0.0}, normal{0.0};
     double cumulative_area = 0.0;
@@ -129,6 +137,7 @@ class PathTracer {
     if (!(glm::dot(n, d) > 0.0) || !(cosines > 0.0)) { return Color{0.0}; }
     ++rays;
     if (objects_->occluded({x, d}, object, light->object)) { return Color{0.0}; }
+    if (objects_->covered(y, light->normal, light->object)) { return Color{0.0}; }  // this part of the lamp is buried
     return light->emission * (cosines / (r2 * r2) * light_area_ / std::numbers::pi);
   }
 
@@ -138,6 +147,7 @@ class PathTracer {
   std::vector<Light> lights_;
   std::vector<bool> sampled_;  // one a surface: its emission is found by direct()
   double light_area_ = 0.0;
+  double brightest_ = 0.0;
 };
 
 }  // namespace radiosity

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// F-refinement (paper 4.4): every pair of input faces is linked where the oracle allows, and patches are split where
-// it does not; where a light shines, the light oracle is asked as well. The work goes generation by generation: the oracle answers for all open pairs in parallel, then
-// links and splits are carried out in the order of the pairs and of the nodes. So the result is the same for any
-// number of threads, and a split asked for by many pairs happens once.
+// F-refinement (paper 4.4): every pair of input faces is linked where the oracle allows, and patches are split where it does
+// not; where a light shines, the light oracle is asked as well. The work goes generation by generation: the oracles answer
+// for all open pairs in parallel, then links and splits are carried out in the order of the pairs and of the nodes. So the
+// result is the same for any number of threads, and a split asked for by many pairs happens once.
 //
 // Invariant: after each generation every BRep is valid and every unordered pair of leaves that can face each other is
 // covered by exactly one link or open pair between ancestors (or the leaves themselves).
@@ -73,6 +73,10 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
   min_area *= light.scene_area();
   std::vector<std::uint32_t> rays;
 
+  if (hierarchy.size() * hierarchy.size() / 2 > link_limit) {
+    result.too_many = true;
+    return result;
+  }
   std::vector<detail::Pair> pairs;
   std::vector<std::uint32_t> inner;  // leaves of concave curved objects: their children will see each other
   detail::root_pairs(surfaces, hierarchy, pairs, inner, result.pairs_convex);

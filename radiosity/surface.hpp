@@ -115,6 +115,13 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   node.normal = node.area > 0.0 ? area / node.area : glm::dvec3{0.0};
   for (const glm::dvec3& p : polygon) { node.centre += p / static_cast<double>(polygon.size()); }
   for (const glm::dvec3& p : polygon) { node.radius = std::max(node.radius, glm::length(p - node.centre)); }
+  if (!surface.object->flat()) {
+    const std::uint32_t sheet = surface.brep.data(f).sheet;
+    for (const glm::dvec3& p : polygon) {
+      const glm::dvec3 true_normal = surface.object->project(sheet, p).normal;
+      node.deviation = std::max(node.deviation, std::min(1.0, glm::length(glm::cross(node.normal, true_normal))));
+    }
+  }
   node.parent = parent;
   node.object = object;
   node.surface = surface.first_surface + surface.brep.data(f).sheet;

@@ -54,12 +54,12 @@ class Scene {
   [[nodiscard]] bool occluded(const Segment& segment, std::uint32_t source_owner = no_object, std::uint32_t target_owner = no_object) const;
 
   // The first surface met at t > 0, without upper limit: where a span of any object begins. Of surfaces that coincide the one that
-  // covers is met: the later object when they face the same way, the back when they face against each other.
+  // covers is met: the later object when they face the same way, the front when they stand back to back.
   [[nodiscard]] std::optional<Hit> closest(const Segment& ray, std::uint32_t source_owner = no_object) const;
 
   // Is the point p with air normal n (unit) of an object's surface buried: does another object fill the air just in front of p (p is
-  // inside it, or it stands on p), or does another surface coincide? Coincident surfaces that face against each other cover each other;
-  // if they face the same way the later object covers the earlier.
+  // inside it, or it stands on p), or does a later object's surface coincide and face the same way? Surfaces without thickness
+  // that stand back to back (a sheet with two sides) do not bury each other.
   [[nodiscard]] bool covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const;
 
  private:
@@ -257,7 +257,7 @@ inline void Scene::offer(const Line& line, const Hit& hit, Nearest& nearest) con
     const End other = end_at(best.object);
     const double tolerance = skin(other, hit.object), gap = std::abs(hit.t - best.t);
     if (gap * length <= 1000 * tolerance && gap * std::abs(along(hit.object, line.segment, {hit.t, hit.sheet})) <= tolerance)
-      take = hit.front != best.front ? !hit.front : hit.object > best.object;
+      take = hit.front != best.front ? hit.front : hit.object > best.object;
   }
   if (!take) return;
   best = hit;
@@ -276,7 +276,7 @@ inline bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32
     const double near = skin(end, i);
     if (!object.inside() && !object.bounds().contains(p, near)) return false;
     // A coincident surface of object i, its normal at a cosine to n: parallel within 2.5 degrees counts as the same direction.
-    const auto coincides = [&](double cosine) { return cosine < -0.999 || (cosine > 0.999 && i > owner); };
+    const auto coincides = [&](double cosine) { return cosine > 0.999 && i > owner; };
     if (r.corner_count) return std::abs(glm::dot(r.normal, p - r.point)) <= near && coincides(glm::dot(r.normal, n)) && passes(line, r);
     Spans spans;
     object.spans(out_of_p, spans);

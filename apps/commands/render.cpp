@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <map>
 #include <utility>
 
@@ -72,6 +73,13 @@ std::optional<Camera> choose_camera(const SceneFile& file, const std::string& na
   return std::nullopt;
 }
 
+// One name for one file, however it was written: through '.', '..' and symbolic links.
+std::string resolved(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  return error ? path : canonical.string();
+}
+
 // Outputs that cannot become files are refused before any work.
 ExitCode check_outputs(const RenderOptions& options) {
   std::map<std::string, int> seen;
@@ -84,8 +92,9 @@ ExitCode check_outputs(const RenderOptions& options) {
   }
   if (!options.json.empty()) { paths.push_back(options.json); }
   for (const std::string& path : paths) {
-    if (++seen[path] > 1 || path == options.scene) {
-      complain(path + (path == options.scene ? " is the scene itself" : " is named twice") + "; each output needs a file of its own");
+    const bool scene_itself = resolved(path) == resolved(options.scene);
+    if (++seen[resolved(path)] > 1 || scene_itself) {
+      complain(path + (scene_itself ? " is the scene itself" : " is named twice") + "; each output needs a file of its own");
       return ExitCode::usage;
     }
     if (const auto fault = check_writable(path)) {

@@ -213,11 +213,13 @@ TEST_CASE("all black: B = E without links") {
   for (const auto& b : solution.radiosity) { CHECK(b == radiosity::Color{1.0}); }
 }
 
-TEST_CASE("a closed scene of reflectance 1 with a light has no steady state, and the run says so") {
+TEST_CASE("a closed scene of reflectance 1 with a light has no steady state and is refused") {
   Scene scene = scenes::furnace_cube(1.0);
   scene.materials[0].emission = radiosity::Color{1.0};
-  const Solution solution = solved(scene, coarse());
-  CHECK_FALSE(solution.audit.converged);
+  const Outcome outcome = radiosity::solve(scene, coarse());
+  CHECK_FALSE(outcome.solution);
+  REQUIRE(outcome.failure.sentences.size() == 1);
+  CHECK(outcome.failure.sentences[0].find("grow without end") != std::string::npos);
 }
 
 TEST_CASE("faulty scenes are refused with a sentence for every fault") {

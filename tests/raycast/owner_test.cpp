@@ -222,7 +222,7 @@ TEST_CASE("covered: what lies flush on, in or behind other surfaces") {
     CHECK_FALSE(covered({4.5, 4.5, 2.999}, -z, block));  // 1 mm under the lamp
     CHECK(covered({3.5, 7.5, 0}, z, hall));              // floor under the concave block
     CHECK_FALSE(covered({3.5, 7.5, 1}, z, wedge));       // its step
-    CHECK(covered({8.5, 1.5, 1}, z, panel));             // two panels face to face
-    CHECK(covered({8.5, 1.5, 1}, -z, other_panel));
+    CHECK_FALSE(covered({8.5, 1.5, 1}, z, panel));       // two panels back to back: a sheet with two sides
+    CHECK_FALSE(covered({8.5, 1.5, 1}, -z, other_panel));
   }
 }
