@@ -25,7 +25,8 @@
 namespace radiosity {
 
 // A closed scene with a reflectance above 1 - 1 / most_bounces is not path-traced: it would take too long, and to end paths earlier
-// would make their variance infinite.
+// would make their variance infinite. In a scene not proven closed paths leave; those that do not are ended at this length
+// on average, so that a white room pieced together from polygons ends too.
 inline constexpr double most_bounces = 1000.0;
 
 class PathTracer {
@@ -52,7 +53,7 @@ class PathTracer {
     Color throughput{1.0};
     for (;;) {
       const Color& rho = material->reflectance;
-      const double survival = std::max({rho.x, rho.y, rho.z});
+      const double survival = std::min(1.0 - 1.0 / most_bounces, std::max({rho.x, rho.y, rho.z}));
       throughput *= rho;
       if (survival > 0.0 && light_area_ > 0.0) { result += throughput * direct(x, n, object, random, rays); }
       if (!(random.uniform() < survival)) { return result; }
