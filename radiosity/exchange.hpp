@@ -10,7 +10,7 @@
 //          in the form of Sparrow 1963). It has no singular kernel: touching patches are as exact as distant ones.
 //
 // Patches that reach below each other's horizon are clipped first. Error for planar patches: below 2e-5 of G by the far rules
-// (see exchange()), below 1e-6 by the near rule.
+// (see exchange()), below 1e-6 by the near rule; by the small rule that of three Gauss points a side on the small patch.
 
 #include <algorithm>
 #include <cmath>

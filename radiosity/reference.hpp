@@ -5,7 +5,8 @@
 // solver but the scene: no mesh, no form factors, no links.
 //
 // B(x) = E(x) + rho(x) * mean of B(y) over the points y seen from x in cosine-distributed directions. Paths end by Russian
-// roulette with the largest channel of rho, so they take 1 / (1 - rho) bounces on average: see most_bounces. When the lights are flat and small they are sampled directly (next event),
+// roulette with the largest channel of rho, so they take 1 / (1 - rho) bounces on average: see most_bounces. When the
+// lights are flat and small they are sampled directly (next event),
 // and paths that run into them do not count their emission twice.
 
 #include <algorithm>
