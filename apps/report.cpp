@@ -108,7 +108,10 @@ void sizes_and_checks(std::string& out, const Report& report) {
   row(out, "channels, threads, seed", format("%u, %u, %llu", audit.channels, audit.threads, static_cast<unsigned long long>(audit.seed)));
   row(out, "exposure", format("%.5g%s", report.exposure, report.automatic_exposure ? " (automatic)" : ""));
   if (report.picture) {
-    row(out, "picture", format("%u x %u, camera ", report.picture->width, report.picture->height) + report.picture->camera);
+    row(out, "picture",
+        format("%u x %u, of the %s, camera ", report.picture->width, report.picture->height,
+               report.picture->method == PictureMethod::mesh ? "mesh" : "objects (raycast)") +
+            report.picture->camera);
   }
 }
 
@@ -230,6 +233,7 @@ void write_settings(JsonWriter& json, const Report& report) {
   json.open_object();
   json.key("camera").string(report.picture->camera);
   json.key("width").count(report.picture->width).key("height").count(report.picture->height);
+  json.key("method").string(report.picture->method == PictureMethod::mesh ? "mesh" : "raycast");
   json.close();
 }
 
