@@ -91,7 +91,7 @@ inline Lookup::Lookup(const Scene& scene, const Mesh& mesh, const Frame& frame)
     for (const Triangle& triangle : sheets_[i].triangles) {
       boxes.push_back(region(triangle, objects_.object(inputs[i].object), inputs[i].sheet));
     }
-    sheets_[i].tree = raycast::Bvh(boxes);
+    sheets_[i].tree = raycast::Bvh(boxes, 8.0);  // Newton's method takes as long as several boxes
   }
 }
 
