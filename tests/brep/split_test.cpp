@@ -137,13 +137,15 @@ TEST_CASE("self-crossing, touching, bent and degenerate polygons are refused and
   CHECK(split_until_convex(m, FaceId{7}).refusal().code == Code::dead);
 }
 
-TEST_CASE("split and condition objects combine: at most four edges by nice splits") {
+TEST_CASE("split and condition objects combine: at most four edges by nice splits, and rejoin takes all back") {
   Mesh m = shapes::build(shapes::prism_builder(40));
-  std::vector<HalfedgeId> cuts;
-  const auto parts = split_recursively(m, FaceId{1}, NiceSplit{}, AtMost{4}, cuts);
-  CHECK(cuts.size() + 1 == parts.size());
-  for (FaceId f : parts) CHECK((degree(m, f) <= 4 && is_convex(m, f)));
+  const auto before = shapes::records(m);
+  const auto parts = split_recursively(m, FaceId{1}, NiceSplit{}, quadrangles);
+  REQUIRE(parts);
+  CHECK(parts->unfinished.empty());
+  CHECK(parts->steps.size() + 1 == parts->faces.size());
+  for (FaceId f : parts->faces) CHECK((degree(m, f) <= 4 && is_convex(m, f)));
   CHECK(faults(m) == "");
-  for (std::size_t i = cuts.size(); i-- > 0;) REQUIRE(join_faces(m, cuts[i]));
-  CHECK(degree(m, FaceId{1}) == 40);
+  rejoin(m, *parts);
+  CHECK(shapes::records(m) == before);
 }
