@@ -45,9 +45,9 @@ enum class Code : std::uint8_t {
   not_on_edge,         // a split object answered with a point outside its half-edge
   vertex_limit,        // split_recursively: the split objects asked for more new vertices than the limit allows
   link_condition,      // collapse_edge: the ends have a common neighbour that is not the third corner of a triangle
-  one_edge_face,       // the face has one edge only
-  equal_faces,         // two different faces are needed
-  different_degrees,   // the two faces have different numbers of edges
+  cannot_flip,         // flip_edge: the sides are one face, or one of them has this edge alone
+  equal_faces,         // glue_faces, punch_hole: both half-edges lie on one face
+  different_degrees,   // glue_faces, punch_hole: the two faces have different numbers of edges
 };
 
 struct Refusal {
@@ -113,8 +113,8 @@ struct Refusal {
         return "the split object goes on to insert vertices into " + x + ": the limit is reached before the condition holds";
       case Code::link_condition:
         return "collapse_edge: both ends of " + x + " have the neighbour " + y + ", two edges between the same vertices would arise";
-      case Code::one_edge_face:
-        return x + " has one edge only";
+      case Code::cannot_flip:
+        return "flip_edge: " + x + " does not lie between two faces that have a further edge each: see " + y;
       case Code::equal_faces:
         return x + " and " + y + " lie on the same face, two faces are needed";
       case Code::different_degrees:

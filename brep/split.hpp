@@ -60,6 +60,7 @@ class FaceSplit {
  public:
   FaceSplit(B& brep, std::span<const FaceId> given, std::size_t vertex_limit) : brep_(brep), vertices_left_(vertex_limit) {
     parts_.faces.assign(given.begin(), given.end());
+    if constexpr (B::logs) start_ = mark(brep);
   }
 
   template <class Split, class Condition>
@@ -80,7 +81,7 @@ class FaceSplit {
           continue;
         }
         if (const Refusal refusal = apply(part, cut); refusal.code != Code::none) {
-          rejoin(brep_, parts_);
+          take_back();
           return refusal;
         }
         again = again || cut.on_a > 0.0 || cut.on_b > 0.0;
@@ -129,8 +130,16 @@ class FaceSplit {
     return {};
   }
 
+  void take_back() {
+    if constexpr (B::logs)
+      undo_to(brep_, start_);
+    else
+      rejoin(brep_, parts_);
+  }
+
   B& brep_;
   std::size_t vertices_left_;
+  std::size_t start_ = 0;  // in the log
   Parts parts_;
 };
 
