@@ -6,11 +6,12 @@
 // A split object (split_objects.hpp) is the geometric decision where a face is cut, a condition object (conditions.hpp) decides whether
 // a face is finished; user lambdas will do for both. split_recursively cuts until each part is finished or has no place for a cut.
 //
-// It ends, whatever the two answer. Let p be the sum of (edges - 3) over the parts of more than three edges. A cut from corner to corner that are neither equal
-// nor adjacent makes p smaller by exactly one, since the two parts of a face of n edges have n + 2 edges together; any other
-// cut is refused. A new vertex adds at most one to p for each side of its edge; hence at most  p(start) + 2 vertex_limit  cuts are made. A condition that
-// diagonals cannot reach (AreaBelow) ends when no diagonal is left: the parts that miss it are reported as unfinished. AlongPlane
-// inserts at most as many vertices as the face has edges. Refused is a split object that would insert beyond the limit.
+// It ends, whatever the two answer. Let p be the sum of (edges - 3) over the parts of more than three edges. A cut between corners
+// that are neither equal nor adjacent makes p smaller by exactly one, since the two parts of a face of n edges have n + 2 edges
+// together; any other cut is refused. A new vertex adds at most one to p for each side of its edge. Hence at most
+// p(start) + 2 vertex_limit cuts are made. A condition that diagonals cannot reach (AreaBelow) ends when no diagonal is left: the parts
+// that miss it are reported as unfinished. AlongPlane inserts at most as many vertices as the face has edges. A split object that
+// would insert vertices beyond the limit is refused.
 //
 // Every cut is one split_face, asked for such that the shorter side is relabelled: the largest part keeps its FaceId as a rule. The data of
 // the parts follow the rule of split_face; a new vertex has default data, and its `position`, if there is one, on the edge.
@@ -151,8 +152,9 @@ template <class C, class B>
 concept ConditionFor = std::is_invocable_r_v<bool, C&, const B&, FaceId>;
 
 // Cuts the faces until finished(brep, part) holds for every part, or split(brep, part) finds no place in it.
-// Refused (nothing changes): a face is dead; the answer of the split object is not on its part (dead, not_on_face, not_on_edge), joins equal
-// or adjacent corners (no_progress), or asks for more than `vertex_limit` new vertices in all; no handle is left.
+// Refused (nothing changes): a face is dead; the answer of the split object is not on its part (dead, not_on_face, not_on_edge),
+// joins equal or adjacent corners (no_progress), or asks for more than `vertex_limit` new vertices in all; no handle is left.
+// With a log the cuts that were taken back could be redone.
 // Inverse: rejoin. Time: one call of both objects for each cut and part.
 template <class B, SplitObjectFor<B> Split, ConditionFor<B> Condition>
 [[nodiscard]] Result<Parts> split_recursively(B& brep, std::span<const FaceId> faces, Split&& split, Condition&& finished,

@@ -59,7 +59,7 @@ TEST_CASE("dual(dual(m)) is m with every half-edge in the place of its twin; gen
 
 TEST_CASE("the dual of an operator is the dual operator on the dual: split_face and split_vertex, bridge and weld, joins, cut and unweld") {
   std::size_t done = 0;
-  for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 25; ++seed) {
     INFO("seed " << seed);
     Random random(seed);
     const Bare m = shapes::random_map<Bare>(random, 20);
@@ -70,8 +70,6 @@ TEST_CASE("the dual of an operator is the dual operator on the dual: split_face 
       ++done;
       REQUIRE(canonical(dual(x)) == canonical(y));
     };
-    // The corner before a half-edge h on its face is the corner of the dual vertex before the dual of h, seen from the other side: the
-    // dual of h leaves face(h); the corner between prev(h) and h lies between their duals, which leave one dual vertex.
     for (HalfedgeId a : shapes::all_halfedges(m)) {
       for (HalfedgeId b : shapes::all_halfedges(m)) {
         Bare x = m, y = d;
@@ -91,5 +89,5 @@ TEST_CASE("the dual of an operator is the dual operator on the dual: split_face 
       same(x, cut_done, y, unweld(y, a).has_value());
     }
   }
-  CHECK(done > 5000);
+  CHECK(done > 2000);
 }
