@@ -5,8 +5,8 @@
 //
 // A sentence says what is wrong, where, how it can be seen, and the usual cause. The rules are those of validate.hpp and are
 // looked at in the order R7 (which slots live), R1 (which handles may be followed), R3, R2 (single steps), R6, R4, R5
-// (walks), R8 (shells). A walk stops at a handle that is not alive. What a broken link makes unreachable is not called a
-// second loop: such sentences are only written where all links are sound. Linear time and memory.
+// (walks), R8 (shells). A walk stops at a link that has its sentence already. What lies beyond is not called a second
+// loop: such sentences are only written where all links are sound. Linear time and memory.
 
 #include <cstddef>
 #include <cstdint>
@@ -129,7 +129,7 @@ class Explanation {
                   "; usually one of the two links was not set");
         }
         const VertexId end = brep_.target(h);
-        if (after.vertex != end) {
+        if (after.vertex != end && brep_.alive(after.vertex) && brep_.alive(end)) {
           add(2, {h, end, r.next, after.vertex},
               to_string(h) + " ends at " + to_string(end) + ", but its next, " + to_string(r.next) + ", starts at " +
                   to_string(after.vertex) + "; usually a vertex that was changed at a part of its half-edges");
@@ -148,8 +148,9 @@ class Explanation {
   }
 
   // Marks the walk from each anchor, then looks at every half-edge that was not met.
-  template <class IdType, class Range, class Owner, class Step>
-  void check_walks(Range&& range, Owner&& owner, Step&& step, bool complete, int rule, const char* walk, const char* cause) {
+  // A step leads from h to next(from(h)).
+  template <class IdType, class Range, class Owner, class From>
+  void check_walks(Range&& range, Owner&& owner, From&& from, bool complete, int rule, const char* walk, const char* cause) {
     std::vector<bool> seen(brep_.halfedge_end(), false);
     bool anchored = true;
     for (IdType id : range) {
@@ -162,14 +163,16 @@ class Explanation {
                 "; usually an anchor kept while its half-edge went to another element");
         continue;
       }
-      while (brep_.alive(h) && !seen[h.index]) {
+      while (!seen[h.index]) {
         seen[h.index] = true;
         if (owner(h) != id && brep_.alive(owner(h))) {
           add(rule, {h, id, owner(h)},
               to_string(h) + " names " + to_string(owner(h)) + ", but the walk " + walk + " from " + to_string(brep_.halfedge(id)) +
                   ", the anchor of " + to_string(id) + ", passes it; usually a half-edge that was not relabelled");
         }
-        h = step(h);
+        const HalfedgeId after = brep_.next(from(h));
+        if (!brep_.alive(after) || brep_.prev(after) != from(h)) break;  // R1, R3
+        h = after;
       }
     }
     if (!complete || !anchored) return;  // what was not met may be beyond a fault that has its sentence already
@@ -179,18 +182,17 @@ class Explanation {
       add(rule, {id, h},
           to_string(id) + " is also named by " + to_string(h) + ", which the walk " + walk + " from its anchor " +
               to_string(brep_.halfedge(id)) + " never reaches: " + cause);
-      for (HalfedgeId x = h; !seen[x.index]; x = step(x)) seen[x.index] = true;  // one sentence for each further walk
+      for (HalfedgeId x = h; !seen[x.index]; x = brep_.next(from(x))) seen[x.index] = true;  // one sentence for each further walk
     });
   }
   void check_loops() {
     check_walks<FaceId>(
-        faces(brep_), [&](HalfedgeId h) { return brep_.face(h); }, [&](HalfedgeId h) { return brep_.next(h); },
-        links_are_sound_ && faces_are_alive_, 4, "by next",
-        "the face has two loops; usually a split without a new face, or a join of faces that share no edge");
+        faces(brep_), [&](HalfedgeId h) { return brep_.face(h); }, [](HalfedgeId h) { return h; }, links_are_sound_ && faces_are_alive_, 4,
+        "by next", "the face has two loops; usually a split without a new face, or a join of faces that share no edge");
   }
   void check_orbits() {
     check_walks<VertexId>(
-        vertices(brep_), [&](HalfedgeId h) { return brep_.vertex(h); }, [&](HalfedgeId h) { return brep_.next(twin(h)); },
+        vertices(brep_), [&](HalfedgeId h) { return brep_.vertex(h); }, [](HalfedgeId h) { return twin(h); },
         links_are_sound_ && vertices_are_alive_, 5, "by next(twin)",
         "the vertex has two fans; usually a join over an edge whose ends meet twice");
   }
