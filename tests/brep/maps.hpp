@@ -99,7 +99,8 @@ inline std::vector<Level> all_maps(std::size_t limit) {
   std::vector<Level> levels(limit + 1);
   for (const Bare& first : {segment, loop}) levels[1].emplace(canonical(first).word, first);
   for (std::size_t n = 1; n < limit; ++n) {
-    for (const auto& [word, mesh] : levels[n]) {
+    for (const auto& entry : levels[n]) {
+      const Bare& mesh = entry.second;
       for (HalfedgeId a : shapes::all_halfedges(mesh)) {
         for (HalfedgeId b : shapes::all_halfedges(mesh)) {
           const auto keep = [&](auto&& grow) {
