@@ -10,7 +10,7 @@
 // Faces are counter-clockwise seen from the air. close() either gives the BRep - closed, oriented, one fan at each vertex -
 // or all defects at once, each with the elements that take part and a sentence. In defects v3 and f2 are the numbers that
 // the builder gave; they are the handles of the finished BRep too: vertex i is VertexId{i}, face i is FaceId{i}, anchored at
-// its first corner.
+// its first corner. What can be repaired, repair.hpp repairs on request.
 //
 // Time: O(v + sum of the lower degree over the edges), linear for every surface of bounded genus; about 100 ns a quadrilateral
 // (2-core EPYC), of which some 40 are the first touch of its memory.
@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include <brep/assemble.hpp>
 #include <brep/brep.hpp>
 #include <brep/builder_input.hpp>
 #include <brep/diagnosis.hpp>
@@ -35,16 +36,32 @@ struct BuildResult {
   std::vector<Defect> defects;
 };
 
+namespace detail {
+template <class B>
+BuildResult<B> close_corners(const Builder& builder, const Assembly* assembly);
+}
+
 // Builds the BRep, or reports every defect. Vertex data get `.position`, face data get `.sheet`, if they have such members.
 // A defect that is only the consequence of a reported one (the border around a face with a bad index) is not reported.
 template <class B>
 [[nodiscard]] BuildResult<B> close(const Builder& builder) {
-  using detail::Raw;
-  detail::Matching matching(builder);
-  detail::Diagnosis(builder, matching).run();
+  if (builder.edges().empty()) return detail::close_corners<B>(builder, nullptr);
+  const detail::Assembly assembly = detail::Assembler(builder).run();
+  return detail::close_corners<B>(assembly.builder, &assembly);
+}
+
+}  // namespace brep
+
+namespace brep::detail {
+
+template <class B>
+BuildResult<B> close_corners(const Builder& builder, const Assembly* assembly) {
+  const Matching matching(builder);
   BuildResult<B> result;
-  result.defects = std::move(matching.defects);
-  if (!result.defects.empty()) return result;
+  if (!matching.sound(builder) || (assembly != nullptr && !assembly->defects.empty())) {
+    result.defects = Diagnosis(builder, matching, assembly).run();
+    return result;
+  }
 
   B& brep = result.brep.emplace();
   for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) {
@@ -73,4 +90,4 @@ template <class B>
   return result;
 }
 
-}  // namespace brep
+}  // namespace brep::detail
