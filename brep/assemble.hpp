@@ -73,7 +73,8 @@ class Assembler {
     if (corners.empty()) {
       std::vector<Half> by_origin = halves;
       std::sort(by_origin.begin(), by_origin.end(), [](const Half& a, const Half& b) { return a.from < b.from; });
-      for (std::uint32_t v = halves[0].from; corners.size() < halves.size();) {
+      std::uint32_t v = halves[0].from;
+      do {
         corners.push_back(v);
         const auto next =
             std::lower_bound(by_origin.begin(), by_origin.end(), v, [](const Half& h, std::uint32_t at) { return h.from < at; });
@@ -82,8 +83,8 @@ class Assembler {
           return broken(f, {v}, ": two of them leave " + to_string(VertexId{v}), halves);
         }
         v = next->to;
-        if (v == corners[0]) break;
-      }
+      } while (v != corners[0] && corners.size() < halves.size());
+      if (v != corners[0]) return broken(f, corners, ": they meet " + to_string(VertexId{v}) + " twice", halves);
       if (corners.size() == halves.size()) return corners;
       return broken(f, corners, ": a loop closes at " + to_string(VertexId{corners[0]}) + " and does not meet them all", halves);
     }

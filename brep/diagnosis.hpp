@@ -131,10 +131,10 @@ class Diagnosis {
             "the edge from " + ends() + " is used in this direction by two faces, " + to_string(FaceId{f}) + " and " + to_string(g) +
                 ", and flipping cannot help: their surface has one side only, as a Moebius strip");
       } else if (all.size() > 2) {
-        std::vector<Element> elements{VertexId{u}, VertexId{w}};
+        std::vector<Element> elements{VertexId{all[0].lo}, VertexId{all[0].hi}};
         for (const EdgeUses::Use& use : all) elements.push_back(FaceId{uses.face(use.corner)});
-        std::string sentence = "at the edge from " + ends() + ' ' + std::to_string(all.size()) +
-                               " faces meet, an edge has two:" + name_list(elements, 2) +
+        std::string sentence = "the edge between " + to_string(elements[0]) + " and " + to_string(elements[1]) + " has " +
+                               std::to_string(all.size()) + " faces, an edge has two:" + name_list(elements, 2) +
                                "; take the surplus faces away, or give each pair of faces an edge of its own";
         add(DefectKind::nonmanifold_edge, std::move(elements), std::move(sentence));
       }
