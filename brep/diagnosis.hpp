@@ -134,8 +134,7 @@ class Diagnosis {
         std::vector<Element> elements{VertexId{all[0].lo}, VertexId{all[0].hi}};
         for (const EdgeUses::Use& use : all) elements.push_back(FaceId{uses.face(use.corner)});
         std::string sentence = "the edge between " + to_string(elements[0]) + " and " + to_string(elements[1]) + " has " +
-                               std::to_string(all.size()) + " faces, an edge has two:" + name_list(elements, 2) +
-                               "; take the surplus faces away, or give each pair of faces an edge of its own";
+                               std::to_string(all.size()) + " faces:" + name_list(elements, 2) + "; an edge of a surface has two";
         add(DefectKind::nonmanifold_edge, std::move(elements), std::move(sentence));
       }
     }

@@ -90,7 +90,7 @@ class StatisticsOf {
     bool first = true;
     for (std::uint32_t v = 0; v < used.size(); ++v) {
       const glm::dvec3& p = builder_.position(v);
-      if (!std::isfinite(p.x + p.y + p.z)) continue;
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
       positions.push_back(p);
       if (!used[v]) continue;
       result_.lo = first ? p : glm::min(result_.lo, p);
@@ -169,25 +169,30 @@ class StatisticsOf {
   }
 
   // Divergence theorem over triangles from the first corner of each face; relative to a corner of the component, so that its
-  // distance from the origin costs no digits.
+  // distance from the origin costs no digits. What rounding may have made of nothing is nothing: a sheet and its back are flat.
   void measure_volumes() {
-    for (Component& c : result_.components) {
-      if (c.closed() && c.oriented) c.volume = 0.0;
-    }
+    struct Sum {
+      double terms = 0.0, sizes = 0.0, count = 0.0;
+    };
+    std::vector<Sum> sums(result_.components.size());
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
       if (skip_[f]) continue;
-      Component& c = result_.components[component_[f]];
-      if (!c.volume) continue;
-      const glm::dvec3 origin = builder_.position(builder_.corners(c.first.index)[0]);
+      Sum& sum = sums[component_[f]];
+      const glm::dvec3 origin = builder_.position(builder_.corners(result_.components[component_[f]].first.index)[0]);
       const auto corners = builder_.corners(f);
       const glm::dvec3 a = builder_.position(corners[0]) - origin;
       for (std::size_t k = 2; k < corners.size(); ++k) {
         const glm::dvec3 b = builder_.position(corners[k - 1]) - origin, d = builder_.position(corners[k]) - origin;
-        *c.volume += glm::dot(a, glm::cross(b, d));
+        sum.terms += glm::dot(a, glm::cross(b, d));
+        sum.sizes += glm::length(a) * glm::length(b) * glm::length(d);
+        sum.count += 1.0;
       }
     }
-    for (Component& c : result_.components) {
-      if (c.volume) *c.volume /= 6.0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      // Each term is wrong by less than 2^-49 of its product of lengths, each of the n sums by 2^-53 of the sum of all sizes.
+      const double bound = (0x1p-49 + sums[i].count * 0x1p-53) * sums[i].sizes;
+      Component& c = result_.components[i];
+      if (c.closed() && c.oriented) c.volume = std::abs(sums[i].terms) <= bound ? 0.0 : sums[i].terms / 6.0;
     }
   }
 
