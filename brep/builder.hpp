@@ -38,32 +38,34 @@ struct BuildResult {
 
 namespace detail {
 template <class B>
-BuildResult<B> close_corners(const Builder& builder, const Assembly* assembly);
+bool stitch(const Builder& builder, std::optional<B>& result);
 }
 
 // Builds the BRep, or reports every defect. Vertex data get `.position`, face data get `.sheet`, if they have such members.
 // A defect that is only the consequence of a reported one (the border around a face with a bad index) is not reported.
 template <class B>
 [[nodiscard]] BuildResult<B> close(const Builder& builder) {
-  if (builder.edges().empty()) return detail::close_corners<B>(builder, nullptr);
-  const detail::Assembly assembly = detail::Assembler(builder).run();
-  return detail::close_corners<B>(assembly.builder, &assembly);
+  BuildResult<B> result;
+  if (builder.edges().empty()) {
+    if (detail::stitch(builder, result.brep)) return result;
+  } else {
+    const detail::Assembly assembly = detail::Assembler(builder).run();
+    if (assembly.defects.empty() && detail::stitch(assembly.builder, result.brep)) return result;
+  }
+  result.defects = diagnose(builder);
+  return result;
 }
 
 }  // namespace brep
 
 namespace brep::detail {
 
+// Makes the BRep of a builder of corners, if nothing is wrong with it.
 template <class B>
-BuildResult<B> close_corners(const Builder& builder, const Assembly* assembly) {
+bool stitch(const Builder& builder, std::optional<B>& result) {
   const Matching matching(builder);
-  BuildResult<B> result;
-  if (!matching.sound(builder) || (assembly != nullptr && !assembly->defects.empty())) {
-    result.defects = Diagnosis(builder, matching, assembly).run();
-    return result;
-  }
-
-  B& brep = result.brep.emplace();
+  if (!matching.sound(builder)) return false;
+  B& brep = result.emplace();
   for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) {
     [[maybe_unused]] auto& data = brep.data(Raw::new_vertex(brep));
     if constexpr (requires { data.position = builder.position(v); }) data.position = builder.position(v);
@@ -87,7 +89,7 @@ BuildResult<B> close_corners(const Builder& builder, const Assembly* assembly) {
     Raw::at(brep, f).halfedge = first;
     corner += static_cast<std::uint32_t>(corners.size());
   }
-  return result;
+  return true;
 }
 
 }  // namespace brep::detail

@@ -8,6 +8,7 @@
 // of flipped faces, the fans at a vertex on a border that a face in the hole would join.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -18,7 +19,6 @@
 #include <brep/borders.hpp>
 #include <brep/builder_input.hpp>
 #include <brep/edge_uses.hpp>
-#include <brep/match.hpp>
 #include <brep/orientation.hpp>
 
 namespace brep::detail {
@@ -75,9 +75,11 @@ namespace brep::detail {
 
 class Diagnosis {
  public:
-  // `builder` holds corners only; the defects of its matching and of its inserted edges are taken over.
-  Diagnosis(const Builder& builder, const Matching& matching, const Assembly* assembly)
-      : builder_(builder), excused_(matching.excused), found_(matching.defects), skip_(unusable(builder)) {
+  // `builder` holds corners only; the defects of its inserted edges are taken over.
+  Diagnosis(const Builder& builder, const Assembly* assembly)
+      : builder_(builder), excused_(builder.vertex_count(), false), skip_(unusable(builder)) {
+    report_vertices();
+    report_corners();
     if (assembly == nullptr) return;
     std::erase_if(found_, [&](const Defect& d) {  // the mark of a broken face was reported as what it is
       return !d.elements.empty() && d.elements[0].letter == 'f' && assembly->broken[d.elements[0].index];
@@ -118,6 +120,39 @@ class Diagnosis {
  private:
   void add(DefectKind kind, std::vector<Element> elements, std::string sentence) {
     found_.push_back({kind, std::move(elements), std::move(sentence)});
+  }
+
+  void report_vertices() {
+    for (std::uint32_t v = 0; v < builder_.vertex_count(); ++v) {
+      const glm::dvec3& p = builder_.position(v);
+      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+      add(DefectKind::bad_position, {VertexId{v}}, to_string(VertexId{v}) + " has a coordinate that is not a finite number");
+    }
+  }
+
+  // What is missing around a face that cannot be used has been reported with it.
+  void report_corners() {
+    const std::uint32_t n = builder_.vertex_count();
+    std::vector<std::uint32_t> seen(n, invalid_index);
+    for (std::uint32_t i = 0; i < builder_.face_count(); ++i) {
+      if (!skip_[i]) continue;
+      const FaceId f{i};
+      const auto corners = builder_.corners(i);
+      if (corners.size() < 3) {
+        add(DefectKind::few_corners, {f}, to_string(f) + " has " + std::to_string(corners.size()) + " corners, a face needs three");
+      }
+      for (std::uint32_t v : corners) {
+        const std::string name = to_string(VertexId{v});
+        if (v >= n) {
+          add(DefectKind::bad_index, {f, VertexId{v}},
+              to_string(f) + " has the corner " + name + ", but there are only " + std::to_string(n) + " vertices");
+          continue;
+        }
+        if (seen[v] == i) add(DefectKind::repeated_corner, {f, VertexId{v}}, to_string(f) + " visits " + name + " twice");
+        seen[v] = i;
+        excused_[v] = true;
+      }
+    }
   }
 
   void report_edges(const EdgeUses& uses, const Orientation& orientation) {
@@ -216,13 +251,9 @@ namespace brep {
 
 // All defects of the builder; none exactly when close() gives a BRep.
 [[nodiscard]] inline std::vector<Defect> diagnose(const Builder& builder) {
-  if (builder.edges().empty()) {
-    const detail::Matching matching(builder);
-    return detail::Diagnosis(builder, matching, nullptr).run();
-  }
+  if (builder.edges().empty()) return detail::Diagnosis(builder, nullptr).run();
   const detail::Assembly assembly = detail::Assembler(builder).run();
-  const detail::Matching matching(assembly.builder);
-  return detail::Diagnosis(assembly.builder, matching, &assembly).run();
+  return detail::Diagnosis(assembly.builder, &assembly).run();
 }
 
 }  // namespace brep

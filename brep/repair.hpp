@@ -53,7 +53,7 @@ class Repairer {
  public:
   explicit Repairer(const Builder& input) : assembly_(Assembler(input).run()) {
     const Builder& b = assembly_.builder;
-    unreadable_ = Diagnosis(b, Matching(b), &assembly_).run();
+    unreadable_ = Diagnosis(b, &assembly_).run();
     std::erase_if(unreadable_, [](const Defect& d) { return d.kind != DefectKind::bad_index; });
     for (std::uint32_t v = 0; v < b.vertex_count(); ++v) place_.push_back(v);
     for (std::uint32_t f = 0; f < b.face_count(); ++f) {
@@ -217,7 +217,7 @@ class Repairer {
   void find_remaining(const std::vector<bool>& used) {
     const Builder now = snapshot();
     assembly_.broken.resize(faces_.size(), false);
-    result_.remaining = Diagnosis(now, Matching(now), &assembly_).run();
+    result_.remaining = Diagnosis(now, &assembly_).run();
     std::vector<Defect>& found = result_.remaining;
     std::erase_if(found, [&](const Defect& d) {  // what was taken away is no defect any more
       const Element& e = d.elements[0];

@@ -85,6 +85,14 @@ std::optional<MeshFormat> mesh_format(std::string_view path) {
 
 MeshResult read_mesh(std::string_view bytes, MeshFormat format) {
   mesh_file::Output out;
+  if (const std::size_t at = bytes.find('\0'); format != MeshFormat::ply && at != std::string_view::npos) {
+    const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    const std::size_t before = bytes.substr(0, at).rfind('\n');
+    const std::size_t column = before == std::string_view::npos ? at + 1 : at - before;
+    out.error({static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(column)},
+              "expected text, found a zero byte; is this a binary file?");
+    return out.take();
+  }
   switch (format) {
     case MeshFormat::obj:
       mesh_file::read_obj(bytes, out);

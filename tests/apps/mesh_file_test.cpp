@@ -192,6 +192,7 @@ TEST_CASE("errors say where they lie, what was expected and what was found") {
   CHECK(begins(error(replaced(cube_obj, "v 1 1 1", "v 1 1"), MeshFormat::obj),
                ":9:6: error: expected a coordinate, found the end of the line"));
   CHECK(begins(error("\x7f\x45LF\x01\n", MeshFormat::obj), ":1:1: error: expected a statement such as v, f or vn, found '?ELF?'"));
+  CHECK(begins(error(std::string("v 0 0 0\nv \0", 11), MeshFormat::obj), ":2:3: error: expected text, found a zero byte"));
   CHECK(begins(error("# \xc3\xa4\xc3\xb6\nv \xc3\xa4 x 0\n", MeshFormat::obj), ":2:3: error:"));
 
   const std::string off = apps::write_mesh(cube(), MeshFormat::off);
@@ -225,7 +226,8 @@ TEST_CASE("errors say where they lie, what was expected and what was found") {
   CHECK(begins(error(head + replaced(body, "3 0 1 2", "-3 0 1 2"), MeshFormat::ply), ":13:1: error: expected the length of a list"));
   CHECK(begins(error(head + replaced(body, "1 0 0", "1 0 0 0"), MeshFormat::ply),
                ":11:7: error: the line of vertex 2 of 3 has too many values"));
-  CHECK(begins(error(replaced(head, "vertex 3", "vertex 999999999999") + body, MeshFormat::ply), ":13:7: error: the line of vertex 4 of 999999999999 has too many values"));
+  CHECK(begins(error(replaced(head, "vertex 3", "vertex 999999999999") + body, MeshFormat::ply),
+               ":13:7: error: the line of vertex 4 of 999999999999 has too many values"));
 }
 
 TEST_CASE("a binary file that ends too early, or whose counts lie, is an error at its byte and costs nothing") {
