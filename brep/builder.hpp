@@ -10,7 +10,7 @@
 // Faces are counter-clockwise seen from the air. close() either gives the BRep - closed, oriented, one fan at each vertex -
 // or all defects at once, each with the elements that take part and a sentence. In defects v3 and f2 are the numbers that
 // the builder gave; they are the handles of the finished BRep too: vertex i is VertexId{i}, face i is FaceId{i}, anchored at
-// its first corner.
+// its first corner. What can be repaired, repair.hpp repairs on request.
 //
 // Time: O(v + sum of the lower degree over the edges), linear for every surface of bounded genus; about 100 ns a quadrilateral
 // (2-core EPYC), of which some 40 are the first touch of its memory.
@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include <brep/assemble.hpp>
 #include <brep/brep.hpp>
 #include <brep/builder_input.hpp>
 #include <brep/diagnosis.hpp>
@@ -35,18 +36,36 @@ struct BuildResult {
   std::vector<Defect> defects;
 };
 
+namespace detail {
+template <class B>
+bool stitch(const Builder& builder, std::optional<B>& result);
+}
+
 // Builds the BRep, or reports every defect. Vertex data get `.position`, face data get `.sheet`, if they have such members.
 // A defect that is only the consequence of a reported one (the border around a face with a bad index) is not reported.
 template <class B>
 [[nodiscard]] BuildResult<B> close(const Builder& builder) {
-  using detail::Raw;
-  detail::Matching matching(builder);
-  detail::Diagnosis(builder, matching).run();
   BuildResult<B> result;
-  result.defects = std::move(matching.defects);
-  if (!result.defects.empty()) return result;
+  if (builder.edges().empty()) {
+    if (detail::stitch(builder, result.brep)) return result;
+  } else {
+    const detail::Assembly assembly = detail::Assembler(builder).run();
+    if (assembly.defects.empty() && detail::stitch(assembly.builder, result.brep)) return result;
+  }
+  result.defects = diagnose(builder);
+  return result;
+}
 
-  B& brep = result.brep.emplace();
+}  // namespace brep
+
+namespace brep::detail {
+
+// Makes the BRep of a builder of corners, if nothing is wrong with it.
+template <class B>
+bool stitch(const Builder& builder, std::optional<B>& result) {
+  const Matching matching(builder);
+  if (!matching.sound(builder)) return false;
+  B& brep = result.emplace();
   for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) {
     [[maybe_unused]] auto& data = brep.data(Raw::new_vertex(brep));
     if constexpr (requires { data.position = builder.position(v); }) data.position = builder.position(v);
@@ -70,7 +89,7 @@ template <class B>
     Raw::at(brep, f).halfedge = first;
     corner += static_cast<std::uint32_t>(corners.size());
   }
-  return result;
+  return true;
 }
 
-}  // namespace brep
+}  // namespace brep::detail

@@ -46,12 +46,40 @@ struct Matching {
     match(builder);
   }
 
+  // Nothing is left over: every corner has a twin, every vertex one fan of faces.
+  [[nodiscard]] bool sound(const Builder& builder) const {
+    if (!defects.empty() || !extras.empty() || matched != halfedge.size()) return false;
+    std::vector<bool> seen(degree.size(), false);
+    std::uint32_t corner = 0, met = 0;
+    for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
+      for (std::uint32_t v : builder.corners(f)) {
+        const std::uint32_t c = corner++;
+        if (seen[v]) continue;
+        seen[v] = true;
+        ++met;
+        if (fan_size(c) != degree[v]) return false;
+      }
+    }
+    return met == degree.size();
+  }
+
   static std::string name(std::uint32_t v) { return to_string(VertexId{v}); }
   void add(DefectKind kind, std::vector<Element> elements, std::string sentence) {
     defects.push_back({kind, std::move(elements), std::move(sentence)});
   }
 
  private:
+  // The number of corners in the fan of this one; every edge at its vertex has both halves.
+  [[nodiscard]] std::uint32_t fan_size(std::uint32_t first) const {
+    std::uint32_t count = 0, c = first;
+    do {
+      ++count;
+      const std::uint32_t h = halfedge[c];
+      c = next_corner[edges[h / 2].corner[1 - h % 2]];
+    } while (c != first);
+    return count;
+  }
+
   void check_vertices(const Builder& builder) {
     for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) {
       const glm::dvec3& p = builder.position(v);
