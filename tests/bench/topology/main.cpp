@@ -99,8 +99,8 @@ double median(std::vector<double> values) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  mallopt(M_MMAP_THRESHOLD, 1 << 30);
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  if (!std::getenv("COLD")) mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  if (!std::getenv("COLD")) mallopt(M_TRIM_THRESHOLD, 1 << 30);
   const std::uint32_t n = count > 1 ? static_cast<std::uint32_t>(std::atoi(arguments[1])) : 316;
   const int repetitions = count > 2 ? std::atoi(arguments[2]) : 9;
   if (n < 3 || n > 4000 || repetitions < 1) {
