@@ -15,8 +15,8 @@
 //   vertex(h) ---h---> target(h)
 //
 // VertexT, HalfedgeT and FaceT are the user's own types, default-constructible and movable; derive Tag into them where
-// levels are needed. Empty types cost nothing. FaceT is copied to the new face when a face is split (default-constructed if
-// it cannot be copied); new vertices and half-edges start with default data. `B&` algorithms are free functions.
+// levels are needed. Empty types cost nothing; inherit.hpp says what the data of a new element are. LogT is NoLog, or EulerLog
+// (euler_log.hpp) for a BRep that can undo. Algorithms are free functions on any `B&`.
 
 #include <array>
 #include <cassert>
@@ -24,7 +24,9 @@
 #include <type_traits>
 
 #include <brep/handles.hpp>
+#include <brep/inherit.hpp>
 #include <brep/pool.hpp>
+#include <brep/step.hpp>
 
 namespace brep {
 
@@ -62,9 +64,10 @@ struct Raw;
 
 }  // namespace detail
 
-template <class VertexT = NoData, class HalfedgeT = NoData, class FaceT = NoData>
+template <class VertexT = NoData, class HalfedgeT = NoData, class FaceT = NoData, class LogT = NoLog>
 class BRep {
  public:
+  static constexpr bool logs = !std::is_same_v<LogT, NoLog>;
   using vertex_type = VertexT;
   using halfedge_type = HalfedgeT;
   using face_type = FaceT;
@@ -80,6 +83,7 @@ class BRep {
   // The loop of f is walked from its anchor. `h` must lie on the loop of f.
   void set_anchor(FaceId f, HalfedgeId h) {
     assert(alive(h) && face(h) == f);
+    if constexpr (logs) log_.record({Operator::set_anchor, false, h, halfedge(f), {}, {}, {}, {}, {}});
     faces_[f.index].halfedge = h;
   }
 
@@ -122,6 +126,7 @@ class BRep {
   Pool<detail::ElementRecord<VertexT>> vertices_;
   Pool<detail::ElementRecord<FaceT>> faces_;
   [[no_unique_address]] HalfedgeData halfedge_data_;  // same indices as halfedges_
+  [[no_unique_address]] typename LogT::template For<VertexT, HalfedgeT, FaceT> log_;
 };
 
 namespace detail {
@@ -155,6 +160,25 @@ struct Raw {
     return brep.faces_[f.index];
   }
 
+  template <class B>
+  static auto& log(B& brep) {
+    return brep.log_;
+  }
+  // Writes an operator that is about to be applied into the log, if there is one. `h` is invalid for the edge to be made.
+  template <class B>
+  static void note([[maybe_unused]] B& brep, [[maybe_unused]] Operator op, [[maybe_unused]] HalfedgeId h, [[maybe_unused]] HalfedgeId a,
+                   [[maybe_unused]] HalfedgeId b, [[maybe_unused]] bool alone = false) {
+    if constexpr (B::logs) {
+      const HalfedgeId p = h.valid() ? h : a, q = h.valid() ? twin(h) : b;
+      Step step{op, alone, h.valid() ? h : HalfedgeId{brep.halfedges_.next_allocated()}, a, b, {}, {}, {}, {}};
+      if (p.valid()) {
+        step.face_a = brep.halfedge(brep.face(p)), step.face_b = brep.halfedge(brep.face(q));
+        step.vertex_a = brep.halfedge(brep.vertex(p)), step.vertex_b = brep.halfedge(brep.vertex(q));
+      }
+      brep.log_.record(step);
+    }
+  }
+
   // The first half of a new edge, both halves with default data.
   template <class B>
   static HalfedgeId new_edge(B& brep) {
@@ -164,56 +188,78 @@ struct Raw {
       if (brep.halfedge_data_.size() < brep.halfedges_.size()) {
         brep.halfedge_data_.push_back();
         brep.halfedge_data_.push_back();
-      } else if constexpr (std::is_trivially_destructible_v<Data>) {  // the others were reset by kill
-        brep.data(h) = Data{};
-        brep.data(twin(h)) = Data{};
+      } else {
+        reset(brep.data(h));
+        reset(brep.data(twin(h)));
+      }
+      if constexpr (B::logs) {
+        brep.log_.give_back(brep.data(twin(h)));
+        brep.log_.give_back(brep.data(h));
       }
     }
     return h;
   }
   template <class B>
   static VertexId new_vertex(B& brep) {
-    using Data = typename B::vertex_type;
     const VertexId v{brep.vertices_.allocate()};
-    if constexpr (std::is_trivially_destructible_v<Data> && !std::is_empty_v<Data>) brep.data(v) = Data{};
+    reset(brep.data(v));
+    if constexpr (B::logs) brep.log_.give_back(brep.data(v));
+    return v;
+  }
+  template <class B>
+  static VertexId new_vertex(B& brep, VertexId parent) {
+    const VertexId v{brep.vertices_.allocate()};
+    reset(brep.data(v));
+    inherit_vertex(brep.data(v), brep.data(parent));
+    if constexpr (B::logs) brep.log_.give_back(brep.data(v));
     return v;
   }
   template <class B>
   static FaceId new_face(B& brep) {
-    using Data = typename B::face_type;
     const FaceId f{brep.faces_.allocate()};
-    if constexpr (std::is_trivially_destructible_v<Data> && !std::is_empty_v<Data>) brep.data(f) = Data{};
+    reset(brep.data(f));
+    if constexpr (B::logs) brep.log_.give_back(brep.data(f));
     return f;
   }
   template <class B>
   static FaceId new_face(B& brep, FaceId parent) {
-    using Data = typename B::face_type;
-    const FaceId f = new_face(brep);
-    if constexpr (std::is_copy_assignable_v<Data> && !std::is_empty_v<Data>) brep.data(f) = brep.data(parent);
+    const FaceId f{brep.faces_.allocate()};
+    reset(brep.data(f));
+    inherit_face(brep.data(f), brep.data(parent));
+    if constexpr (B::logs) brep.log_.give_back(brep.data(f));
     return f;
   }
 
-  // Data that own something let it go at once.
   template <class B>
   static void kill(B& brep, EdgeId e) {
-    using Data = typename B::halfedge_type;
-    if constexpr (!std::is_trivially_destructible_v<Data>) {
-      brep.data(brep::halfedge(e)) = Data{};
-      brep.data(twin(brep::halfedge(e))) = Data{};
+    const HalfedgeId h = brep::halfedge(e);
+    if constexpr (!std::is_empty_v<typename B::halfedge_type>) {
+      retire(brep, brep.data(h));
+      retire(brep, brep.data(twin(h)));
     }
-    brep.halfedges_.release(brep::halfedge(e).index);
+    brep.halfedges_.release(h.index);
   }
   template <class B>
   static void kill(B& brep, VertexId v) {
-    using Data = typename B::vertex_type;
-    if constexpr (!std::is_trivially_destructible_v<Data>) brep.data(v) = Data{};
+    retire(brep, brep.data(v));
     brep.vertices_.release(v.index);
   }
   template <class B>
   static void kill(B& brep, FaceId f) {
-    using Data = typename B::face_type;
-    if constexpr (!std::is_trivially_destructible_v<Data>) brep.data(f) = Data{};
+    retire(brep, brep.data(f));
     brep.faces_.release(f.index);
+  }
+
+ private:
+  // Data that own something let it go when they are killed, the others are overwritten when their slot is used again.
+  template <class Data>
+  static void reset([[maybe_unused]] Data& data) {
+    if constexpr (std::is_trivially_destructible_v<Data> && !std::is_empty_v<Data>) data = Data{};
+  }
+  template <class B, class Data>
+  static void retire([[maybe_unused]] B& brep, [[maybe_unused]] Data& data) {
+    if constexpr (B::logs) brep.log_.keep(data);
+    if constexpr (!std::is_trivially_destructible_v<Data>) data = Data{};
   }
 };
 

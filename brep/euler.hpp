@@ -3,180 +3,28 @@
 
 // Euler operators: the only changes of topology (paper 2.1; Baumgart 1974; Mäntylä 1988, ch. 9).
 //
-// Each keeps the invariant of brep.hpp and v - e + f = 2(s - h); everything else is written with them. split_face and
-// split_vertex are each other's dual: exchange the words face and vertex, "on the loop of" and "leaving". An impossible
-// request is refused with a reason and changes nothing; the same functions in `unchecked::` trust the caller.
-// New half-edges have default data, a new face gets a copy of the data of the face that was split, a new vertex default data.
+// Each keeps the invariant of brep.hpp and v - e + f = 2(s - h); everything else is written with them. An impossible request is
+// refused with a reason and changes nothing; the same functions in `unchecked::` trust the caller. Dual are split_face and split_vertex,
+// join_faces and join_vertices, bridge and weld, cut and unweld: exchange the words face and vertex, "on the loop of" and "leaving".
 //
-// The new edge always takes h = its first half, so h is even. An operator followed by its inverse restores every record,
-// anchors and free lists included. Anchors are kept where possible; when the anchor of a split face (vertex) falls to the
-// new one, it stays the anchor there and h becomes the anchor of the old one.
-// Time: each operator is O(1) plus a relabelling of the half-edges of the new (killed) face or vertex; first_side_is_shorter
-// finds in the time of the shorter side which way round to ask. No operator allocates while free slots are left.
+//                    v   e   f    2(s - h)              inverse
+//   make_segment    +2  +1  +1   s + 1                  kill_segment
+//   split_face          +1  +1   the same               join_faces
+//   split_vertex    +1  +1       the same               join_vertices       (split_edge is a special case)
+//   bridge              +1  -1   s - 1 or h + 1         cut
+//   weld            -1  +1       s - 1 or h + 1         unweld
+//
+// The new edge always takes h = its first half, so h is even. An operator that adds an edge to a face or vertex, followed by its inverse,
+// restores every record. What a killed face or vertex had as anchor and data only a log knows (euler_log.hpp);
+// inherit.hpp says what the data of new elements are.
+// Time: O(1) plus a renaming of the half-edges of the new (killed) face or vertex; first_side_is_shorter finds in the time of the shorter side
+// which way round to ask. No operator allocates while free slots are left.
 
 #include <brep/brep.hpp>
 #include <brep/result.hpp>
+#include <brep/unchecked.hpp>
 
 namespace brep {
-
-namespace unchecked {
-
-using detail::Raw;
-
-template <class B>
-HalfedgeId make_segment(B& brep) {
-  const HalfedgeId h = Raw::new_edge(brep), t = twin(h);
-  const VertexId v = Raw::new_vertex(brep), w = Raw::new_vertex(brep);
-  const FaceId f = Raw::new_face(brep);
-  Raw::at(brep, h) = {t, t, v, f};
-  Raw::at(brep, t) = {h, h, w, f};
-  Raw::at(brep, v).halfedge = h;
-  Raw::at(brep, w).halfedge = t;
-  Raw::at(brep, f).halfedge = h;
-  return h;
-}
-
-template <class B>
-void kill_segment(B& brep, HalfedgeId h) {
-  const VertexId v = brep.vertex(h), w = brep.target(h);
-  Raw::kill(brep, brep.face(h));
-  Raw::kill(brep, w);
-  Raw::kill(brep, v);
-  Raw::kill(brep, edge(h));
-}
-
-template <class B>
-HalfedgeId split_face(B& brep, HalfedgeId a, HalfedgeId b) {
-  const HalfedgeId h = Raw::new_edge(brep), t = twin(h);
-  const FaceId f = brep.face(a), g = Raw::new_face(brep, f);
-  const VertexId v = brep.vertex(a), w = brep.vertex(b);
-  const HalfedgeId before_a = brep.prev(a), before_b = brep.prev(b);
-  if (a == b) {
-    Raw::at(brep, h) = {a, before_a, v, f};
-    Raw::at(brep, t) = {t, t, v, g};
-    Raw::at(brep, before_a).next = h;
-    Raw::at(brep, a).prev = h;
-    Raw::at(brep, g).halfedge = t;
-    return h;
-  }
-  Raw::at(brep, h) = {b, before_a, v, f};
-  Raw::at(brep, t) = {a, before_b, w, g};
-  Raw::at(brep, before_a).next = h;
-  Raw::at(brep, before_b).next = t;
-  Raw::at(brep, a).prev = t;
-  Raw::at(brep, b).prev = h;
-  const HalfedgeId anchor = brep.halfedge(f);
-  HalfedgeId anchor_of_g = t;
-  for (HalfedgeId x = a; x != t; x = brep.next(x)) {
-    if (x == anchor) anchor_of_g = x;
-    Raw::at(brep, x).face = g;
-  }
-  Raw::at(brep, g).halfedge = anchor_of_g;
-  if (anchor_of_g != t) Raw::at(brep, f).halfedge = h;
-  return h;
-}
-
-template <class B>
-FaceId join_faces(B& brep, HalfedgeId h) {
-  const HalfedgeId t = twin(h);
-  const FaceId f = brep.face(h), g = brep.face(t);
-  const HalfedgeId before_h = brep.prev(h), after_h = brep.next(h);
-  const HalfedgeId before_t = brep.prev(t), after_t = brep.next(t);
-  for (HalfedgeId x = after_t; x != t; x = brep.next(x)) Raw::at(brep, x).face = f;
-  const bool h_alone = after_h == h, t_alone = after_t == t;  // a one-edge face; never both
-  const HalfedgeId from_v = t_alone ? after_h : after_t;      // leaves vertex(h) and stays
-  const HalfedgeId from_w = h_alone ? after_t : after_h;      // leaves target(h) and stays
-  const HalfedgeId to_v = h_alone ? before_t : before_h;
-  const HalfedgeId to_w = t_alone ? before_h : before_t;
-  Raw::at(brep, to_v).next = from_v;
-  Raw::at(brep, from_v).prev = to_v;
-  Raw::at(brep, to_w).next = from_w;
-  Raw::at(brep, from_w).prev = to_w;
-  if (brep.halfedge(brep.vertex(h)) == h) Raw::at(brep, brep.vertex(h)).halfedge = from_v;
-  if (brep.halfedge(brep.vertex(t)) == t) Raw::at(brep, brep.vertex(t)).halfedge = from_w;
-  if (brep.halfedge(f) == h) {
-    const HalfedgeId other = brep.halfedge(g);
-    Raw::at(brep, f).halfedge = other != t ? other : from_w;
-  }
-  Raw::kill(brep, g);
-  Raw::kill(brep, edge(h));
-  return f;
-}
-
-template <class B>
-HalfedgeId split_vertex(B& brep, HalfedgeId a, HalfedgeId b) {
-  const HalfedgeId h = Raw::new_edge(brep), t = twin(h);
-  const VertexId v = brep.vertex(a), w = Raw::new_vertex(brep);
-  const HalfedgeId before_a = brep.prev(a), before_b = brep.prev(b);
-  if (a == b) {
-    Raw::at(brep, h) = {t, before_a, v, brep.face(a)};
-    Raw::at(brep, t) = {a, h, w, brep.face(a)};
-    Raw::at(brep, before_a).next = h;
-    Raw::at(brep, a).prev = t;
-    Raw::at(brep, w).halfedge = t;
-    return h;
-  }
-  const HalfedgeId anchor = brep.halfedge(v);
-  HalfedgeId anchor_of_w = t;
-  for (HalfedgeId x = a; x != b; x = brep.next(twin(x))) {
-    if (x == anchor) anchor_of_w = x;
-    Raw::at(brep, x).vertex = w;
-  }
-  Raw::at(brep, h) = {a, before_a, v, brep.face(a)};
-  Raw::at(brep, t) = {b, before_b, w, brep.face(b)};
-  Raw::at(brep, before_a).next = h;
-  Raw::at(brep, before_b).next = t;
-  Raw::at(brep, a).prev = h;
-  Raw::at(brep, b).prev = t;
-  Raw::at(brep, w).halfedge = anchor_of_w;
-  if (anchor_of_w != t) Raw::at(brep, v).halfedge = h;
-  return h;
-}
-
-template <class B>
-VertexId join_vertices(B& brep, HalfedgeId h) {
-  const HalfedgeId t = twin(h);
-  const VertexId v = brep.vertex(h), w = brep.vertex(t);
-  for (HalfedgeId x = brep.next(h); x != t; x = brep.next(twin(x))) Raw::at(brep, x).vertex = v;
-  // Where the walk goes on when h and t are taken out; a spur has h and t behind one another.
-  const HalfedgeId after_h = brep.next(h) == t ? brep.next(t) : brep.next(h);
-  const HalfedgeId after_t = brep.next(t) == h ? brep.next(h) : brep.next(t);
-  for (HalfedgeId x : {h, t}) {
-    const HalfedgeId before = brep.prev(x), after = brep.next(x);
-    Raw::at(brep, before).next = after;
-    Raw::at(brep, after).prev = before;
-  }
-  if (brep.halfedge(brep.face(h)) == h) Raw::at(brep, brep.face(h)).halfedge = after_h;
-  if (brep.halfedge(brep.face(t)) == t) Raw::at(brep, brep.face(t)).halfedge = after_t;
-  if (brep.halfedge(v) == h) {
-    const HalfedgeId other = brep.halfedge(w);
-    Raw::at(brep, v).halfedge = other != t ? other : after_t;
-  }
-  Raw::kill(brep, w);
-  Raw::kill(brep, edge(h));
-  return v;
-}
-
-template <class B>
-HalfedgeId split_edge(B& brep, HalfedgeId h) {
-  const HalfedgeId t = twin(h), back = Raw::new_edge(brep), n = twin(back);
-  const VertexId b = brep.vertex(t), m = Raw::new_vertex(brep);
-  const HalfedgeId after_h = brep.next(h);
-  Raw::at(brep, n) = {after_h, h, m, brep.face(h)};
-  Raw::at(brep, h).next = n;
-  Raw::at(brep, after_h).prev = n;
-  const HalfedgeId before_t = brep.prev(t);  // n itself when b was the end of a spur
-  Raw::at(brep, back) = {t, before_t, b, brep.face(t)};
-  Raw::at(brep, before_t).next = back;
-  Raw::at(brep, t).prev = back;
-  Raw::at(brep, t).vertex = m;
-  const bool anchored = brep.halfedge(b) == t;
-  Raw::at(brep, m).halfedge = anchored ? t : n;
-  if (anchored) Raw::at(brep, b).halfedge = back;
-  return n;
-}
-
-}  // namespace unchecked
 
 // Makes a new shell: two vertices, one edge, one face on both sides of it.                 counts: v+2 e+1 f+1 (s+1)
 //
@@ -282,6 +130,75 @@ Result<HalfedgeId> split_edge(B& brep, HalfedgeId h) {
   if (!brep.alive(h)) return Refusal{Code::dead, {h}};
   if (detail::Raw::halfedges(brep).full()) return Refusal{Code::full, {}};
   return unchecked::split_edge(brep, h);
+}
+
+// Inserts the edge a.vertex - b.vertex between two faces, which become one face with one loop.   counts: e+1 f-1 (s-1 or h+1)
+//
+//      *-------*    *-------*         *-------*    *-------*
+//      |       |    |       |         |       |    |       |      new edge h runs a.vertex -> b.vertex: next(h) = b,
+//      |   f   a    b   g   |   ==>   |       *-h->*       |      next(twin(h)) = a; face(a) stays, face(b) is killed.
+//      *-------*    *-------*         *-------*    *-------*      (The faces are the outsides of what is drawn.)
+//
+// Faces of two shells: the shells become one. Faces of one shell: the shell gets a handle.
+// Refused (nothing changes): a or b is dead; they lie on the same face.     Inverse: cut(h).     Time: the edges of face(b).
+template <class B>
+Result<HalfedgeId> bridge(B& brep, HalfedgeId a, HalfedgeId b) {
+  if (!brep.alive(a)) return Refusal{Code::dead, {a}};
+  if (!brep.alive(b)) return Refusal{Code::dead, {b}};
+  if (brep.face(a) == brep.face(b)) return Refusal{Code::one_face, {a, b}};
+  if (detail::Raw::halfedges(brep).full()) return Refusal{Code::full, {}};
+  return unchecked::bridge(brep, a, b);
+}
+
+// Removes an edge that has the same face on both sides; its loop falls into two, and each becomes a face.   counts: e-1 f+1
+// The loop at vertex(h) keeps the face, the loop at target(h) gets the new face, which is returned. Either the shell falls into two or
+// it loses a handle (drawing: bridge, read backwards).
+//
+// Refused (nothing changes): h is dead; its sides are different faces; an end of h is the end of a spur, so that nothing would be left there.
+// Inverse: bridge(next(twin(h)), next(h)), read before.     Time: the edges of the new face.
+template <class B>
+Result<FaceId> cut(B& brep, HalfedgeId h) {
+  const HalfedgeId t = twin(h);
+  if (!brep.alive(h)) return Refusal{Code::dead, {h}};
+  if (brep.face(h) != brep.face(t)) return Refusal{Code::two_faces, {h}};
+  if (brep.next(h) == t) return Refusal{Code::spur, {h, brep.vertex(t)}};
+  if (brep.next(t) == h) return Refusal{Code::spur, {h, brep.vertex(h)}};
+  return unchecked::cut(brep, h);
+}
+
+// Unites two vertices by a new loop edge, the dual of bridge.                                       counts: v-1 e+1 (s-1 or h+1)
+//
+//      --*           *--          --*    .-h-.
+//         \         /                 \  /  *-- \      new loop edge h at v = vertex(a): next(h) = a, next(twin(h)) = b.
+//          v       w        ==>        v---<      )     v stays; w = vertex(b) is killed and what left it leaves v,
+//         / a     b \                / a\  *-- /      inside the loop; face(a) and face(b) get one edge more.
+//      --*           *--          --*    '---'
+//
+// Vertices of two shells: the shells become one. Vertices of one shell: the shell gets a handle.
+// Refused (nothing changes): a or b is dead; they leave the same vertex.     Inverse: unweld(h).     Time: the edges of vertex(b).
+template <class B>
+Result<HalfedgeId> weld(B& brep, HalfedgeId a, HalfedgeId b) {
+  if (!brep.alive(a)) return Refusal{Code::dead, {a}};
+  if (!brep.alive(b)) return Refusal{Code::dead, {b}};
+  if (brep.vertex(a) == brep.vertex(b)) return Refusal{Code::one_vertex, {a, b}};
+  if (detail::Raw::halfedges(brep).full()) return Refusal{Code::full, {}};
+  return unchecked::weld(brep, a, b);
+}
+
+// Contracts a loop edge; its vertex falls into two.                                                 counts: v+1 e-1 (s+1 or h-1)
+// The half-edges from next(h) up to twin(h), clockwise, keep the vertex; those from next(twin(h)) up to h leave the new vertex,
+// which is returned (drawing: weld, read backwards).
+//
+// Refused (nothing changes): h is dead; its ends differ; one of its sides is a face with this edge alone.
+// Inverse: weld(next(h), next(twin(h))), read before.     Time: the half-edges of the new vertex.
+template <class B>
+Result<VertexId> unweld(B& brep, HalfedgeId h) {
+  const HalfedgeId t = twin(h);
+  if (!brep.alive(h)) return Refusal{Code::dead, {h}};
+  if (brep.vertex(h) != brep.vertex(t)) return Refusal{Code::two_vertices, {h}};
+  if (brep.next(h) == h) return Refusal{Code::one_edge_face, {h, brep.face(h)}};
+  if (brep.next(t) == t) return Refusal{Code::one_edge_face, {h, brep.face(t)}};
+  return unchecked::unweld(brep, h);
 }
 
 // For two half-edges of one loop: is the way a -> b no longer than the way b -> a? Walks both at once, so it costs the

@@ -92,6 +92,8 @@ class Pool {
   [[nodiscard]] Record& operator[](std::uint32_t i) { return records_[i]; }
   [[nodiscard]] const Record& operator[](std::uint32_t i) const { return records_[i]; }
 
+  // What the next allocate() will return.
+  [[nodiscard]] std::uint32_t next_allocated() const { return free_ != end_of_list ? free_ : records_.size(); }
   // Index of the first record of a slot; its records hold whatever they held when the slot was released.
   [[nodiscard]] std::uint32_t allocate() {
     ++count_;

@@ -24,6 +24,13 @@ enum class Code : std::uint8_t {
   different_vertices,  // split_vertex: the two half-edges leave different vertices
   same_face,           // join_faces: both sides of the edge are one face
   same_vertex,         // join_vertices: the edge is a loop
+  one_face,            // bridge: both half-edges lie on one face
+  two_faces,           // cut: the sides of the edge are different faces
+  spur,                // cut: an end of the edge has no other edge
+  one_vertex,          // weld: both half-edges leave one vertex
+  two_vertices,        // unweld: the edge is no loop
+  one_edge_face,       // unweld: a side of the edge is a face with this edge alone
+  other_handle,        // replay: the step makes another handle than before
   last_edge,           // the operator would leave a shell without edges
   not_a_segment,       // kill_segment: the shell has more than one edge
   full,                // 2^31 half-edges: no handle is left
@@ -56,6 +63,20 @@ struct Refusal {
         return "join_faces: both sides of " + x + " are the face " + y + ", there is nothing to join";
       case Code::same_vertex:
         return "join_vertices: " + x + " is a loop, both its ends are the vertex " + y;
+      case Code::one_face:
+        return "bridge: " + x + " and " + y + " lie on the same face; split_face connects them";
+      case Code::two_faces:
+        return "cut: the sides of " + x + " are different faces; join_faces removes it";
+      case Code::spur:
+        return "cut: " + y + " would be left without an edge; join_vertices removes " + x;
+      case Code::one_vertex:
+        return "weld: " + x + " and " + y + " leave the same vertex; split_vertex puts an edge between them";
+      case Code::two_vertices:
+        return "unweld: the ends of " + x + " are different vertices; join_vertices contracts it";
+      case Code::one_edge_face:
+        return "unweld: " + y + " has no edge but " + x + " and would be left without; join_faces removes it";
+      case Code::other_handle:
+        return "replay: this step made " + x + " before and makes " + y + " now; the BRep is not what the log started from";
       case Code::last_edge:
         return x + " is the only edge of its shell, and a shell without edges does not exist";
       case Code::not_a_segment:

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The four changes of links below the Euler operators, and the two walks that rename.
+//
+// An edge can be inserted between two corners of faces or deleted, and it can grow between two half-edges of vertices or be
+// contracted. The links do not know whether that splits a loop or merges two: insert_edge does both split_face and bridge, delete_edge
+// join_faces and cut, expand_edge split_vertex and weld, contract_edge join_vertices and unweld. What differs is who is renamed.
+// Records of faces and vertices, anchors and labels are the caller's affair.
+
+#include <brep/brep.hpp>
+
+namespace brep::detail {
+
+// h runs from vertex(a) to vertex(b), in the corners before a and before b.  before_a -> h -> b,  before_b -> twin(h) -> a.
+// For a == b twin(h) is alone on its loop. Labels of h: of a's vertex, of b's face; of twin(h): of b's vertex, face g.
+template <class B>
+void insert_edge(B& brep, HalfedgeId h, HalfedgeId a, HalfedgeId b, FaceId g) {
+  const HalfedgeId t = twin(h), before_a = brep.prev(a), before_b = brep.prev(b);
+  const VertexId v = brep.vertex(a), w = brep.vertex(b);
+  const FaceId f = brep.face(b);
+  Raw::at(brep, before_a).next = h;
+  if (a == b) {
+    Raw::at(brep, h) = {a, before_a, v, f};
+    Raw::at(brep, t) = {t, t, v, g};
+    Raw::at(brep, a).prev = h;
+    return;
+  }
+  Raw::at(brep, h) = {b, before_a, v, f};
+  Raw::at(brep, t) = {a, before_b, w, g};
+  Raw::at(brep, before_b).next = t;
+  Raw::at(brep, a).prev = t;
+  Raw::at(brep, b).prev = h;
+}
+
+// What delete_edge links anew: the half-edges that follow at the two ends.
+struct Ends {
+  HalfedgeId at_origin, at_target;
+};
+
+// Takes h and its twin out of their loops; neither end is the end of a spur, and not both are alone.
+// insert_edge(h, at_origin, at_target) is the inverse; where h was alone, with twin(h) in place of h.
+template <class B>
+Ends delete_edge(B& brep, HalfedgeId h) {
+  const HalfedgeId t = twin(h);
+  const HalfedgeId before_h = brep.prev(h), after_h = brep.next(h), before_t = brep.prev(t), after_t = brep.next(t);
+  const bool h_alone = after_h == h, t_alone = after_t == t;
+  const Ends ends{t_alone ? after_h : after_t, h_alone ? after_t : after_h};
+  const HalfedgeId to_origin = h_alone ? before_t : before_h, to_target = t_alone ? before_h : before_t;
+  Raw::at(brep, to_origin).next = ends.at_origin;
+  Raw::at(brep, ends.at_origin).prev = to_origin;
+  Raw::at(brep, to_target).next = ends.at_target;
+  Raw::at(brep, ends.at_target).prev = to_target;
+  return ends;
+}
+
+// h grows before a and its twin before b: before_a -> h -> a,  before_b -> twin(h) -> b.
+// For a == b they make a spur before a: before_a -> h -> twin(h) -> a. Labels of h: of b's vertex, of a's face; of twin(h): of b's face,
+// vertex w.
+template <class B>
+void expand_edge(B& brep, HalfedgeId h, HalfedgeId a, HalfedgeId b, VertexId w) {
+  const HalfedgeId t = twin(h), before_a = brep.prev(a), before_b = brep.prev(b);
+  const VertexId v = brep.vertex(b);
+  const FaceId f = brep.face(a), g = brep.face(b);
+  Raw::at(brep, before_a).next = h;
+  if (a == b) {
+    Raw::at(brep, h) = {t, before_a, v, f};
+    Raw::at(brep, t) = {a, h, w, f};
+    Raw::at(brep, a).prev = t;
+    return;
+  }
+  Raw::at(brep, h) = {a, before_a, v, f};
+  Raw::at(brep, t) = {b, before_b, w, g};
+  Raw::at(brep, before_b).next = t;
+  Raw::at(brep, a).prev = h;
+  Raw::at(brep, b).prev = t;
+}
+
+// Takes h and its twin out of the loops of their faces; neither is alone on its loop, and the edge is no segment.
+// expand_edge(h, next(h), next(twin(h))) is the inverse; for a spur with the one of the two that stays, twice.
+template <class B>
+void contract_edge(B& brep, HalfedgeId h) {
+  for (HalfedgeId x : {h, twin(h)}) {
+    const HalfedgeId before = brep.prev(x), after = brep.next(x);
+    Raw::at(brep, before).next = after;
+    Raw::at(brep, after).prev = before;
+  }
+}
+
+// Names f as the face of all half-edges from `first` up to `last`, which is not renamed; first == last renames the whole loop.
+// Tells whether `watched` was among them.
+template <class B>
+bool rename_loop(B& brep, HalfedgeId first, HalfedgeId last, FaceId f, HalfedgeId watched = {}) {
+  bool met = false;
+  HalfedgeId x = first;
+  do {
+    met = met || x == watched;
+    auto& record = Raw::at(brep, x);
+    record.face = f;
+    x = record.next;
+  } while (x != last);
+  return met;
+}
+
+// The same around a vertex, clockwise.
+template <class B>
+bool rename_orbit(B& brep, HalfedgeId first, HalfedgeId last, VertexId v, HalfedgeId watched = {}) {
+  bool met = false;
+  HalfedgeId x = first;
+  do {
+    met = met || x == watched;
+    Raw::at(brep, x).vertex = v;
+    x = brep.next(twin(x));
+  } while (x != last);
+  return met;
+}
+
+}  // namespace brep::detail
