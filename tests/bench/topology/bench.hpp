@@ -111,7 +111,8 @@ class CourseOf : public Course {
       }
     });
     expect(*mesh, 4, "refinement");
-    rows_[Row::bytes_refined] = static_cast<double>(live_bytes() - before - halves.capacity() * sizeof(halves[0]) - loops.capacity() * sizeof(loops[0])) / (4 * f);
+    rows_[Row::bytes_refined] =
+        static_cast<double>(live_bytes() - before - halves.capacity() * sizeof(halves[0]) - loops.capacity() * sizeof(loops[0])) / (4 * f);
     walks(*mesh, Row::walk_faces_refined, Row::walk_vertices_refined);
     mesh.reset();
     if constexpr (requires { K::refine_by_level(torus_); }) rows_[Row::refine_by_level] = K::refine_by_level(torus_);

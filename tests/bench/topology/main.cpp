@@ -13,26 +13,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <new>
 
 #include "bench.hpp"
 
 namespace {
-std::size_t live = 0;
 volatile std::uint64_t sink = 0;
 }  // namespace
-
-void* operator new(std::size_t size) {
-  void* p = std::malloc(size == 0 ? 1 : size);
-  if (p == nullptr) std::abort();
-  live += malloc_usable_size(p);
-  return p;
-}
-void operator delete(void* p) noexcept {
-  if (p != nullptr) live -= malloc_usable_size(p);
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept { operator delete(p); }
 
 namespace bench {
 
@@ -41,7 +27,10 @@ double thread_seconds() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
-std::size_t live_bytes() { return live; }
+std::size_t live_bytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
 void fail(const std::string& kernel, const std::string& what) {
   std::fprintf(stderr, "%s: wrong %s\n", kernel.c_str(), what.c_str());
   std::exit(1);
@@ -99,8 +88,8 @@ double median(std::vector<double> values) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (!std::getenv("COLD")) mallopt(M_MMAP_THRESHOLD, 1 << 30);
-  if (!std::getenv("COLD")) mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
   const std::uint32_t n = count > 1 ? static_cast<std::uint32_t>(std::atoi(arguments[1])) : 316;
   const int repetitions = count > 2 ? std::atoi(arguments[2]) : 9;
   if (n < 3 || n > 4000 || repetitions < 1) {
