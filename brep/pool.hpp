@@ -106,7 +106,7 @@ class Array {
     assert(i < size_);
     return data_[i];
   }
-  void reserve(std::size_t capacity) {
+  [[gnu::noinline]] void reserve(std::size_t capacity) {
     if (capacity <= capacity_) return;
     void* block = nullptr;
     while ((block = std::realloc(static_cast<void*>(data_), capacity * sizeof(T))) == nullptr)
@@ -155,9 +155,9 @@ class Pool {
   Pool(const Pool&) = default;
   Pool& operator=(const Pool&) = default;
   Pool(Pool&& other) noexcept
-      : records_(std::move(other.records_)),
+      : free_(std::exchange(other.free_, end_of_list)),
+        records_(std::move(other.records_)),
         count_(std::exchange(other.count_, 0)),
-        free_(std::exchange(other.free_, end_of_list)),
         data_(std::move(other.data_)) {}
   Pool& operator=(Pool&& other) noexcept {
     records_ = std::move(other.records_);
@@ -175,11 +175,7 @@ class Pool {
 
   // Index of the first record of a slot; its records hold whatever they held when the slot was released.
   [[nodiscard]] std::uint32_t allocate() {
-    if (free_ == end_of_list) {
-      const std::uint32_t i = append(1);
-      link(records_[i]) = 0;
-      return i;
-    }
+    if (free_ == end_of_list) return first_use();
     ++count_;
     const std::uint32_t i = free_;
     free_ = link(records_[i]) & ~dead_bit;
@@ -216,15 +212,20 @@ class Pool {
   [[nodiscard]] std::size_t bytes() const { return records_.bytes() + data_.bytes(); }
 
  private:
+  [[gnu::noinline]] std::uint32_t first_use() {  // apart, to keep the operators small
+    const std::uint32_t i = append(1);
+    link(records_[i]) = 0;
+    return i;
+  }
   void reset(std::uint32_t i) {
     if constexpr (!std::is_empty_v<Data>) {
       for (std::uint32_t k = 0; k < Group; ++k) data_[i + k] = Data{};
     }
   }
 
-  Array<Record> records_;
-  std::uint32_t count_ = 0;
   std::uint32_t free_ = end_of_list;
+  Array<Record> records_;
+  std::uint32_t count_ = 0;  // not beside free_: the compiler would join the two stores, and the next load of free_ wait for both
   [[no_unique_address]] std::conditional_t<std::is_empty_v<Data>, NoPages<Data>, Pages<Data, page_shift + Group - 1>> data_;
 };
 

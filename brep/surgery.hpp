@@ -41,7 +41,7 @@ struct Ends {
 // Takes h and its twin out of their loops; neither end is the end of a spur, and not both are alone.
 // insert_edge(h, at_origin, at_target) is the inverse; where h was alone, with twin(h) in place of h.
 template <class B>
-Ends delete_edge(B& brep, HalfedgeId h) {
+[[gnu::always_inline]] inline Ends delete_edge(B& brep, HalfedgeId h) {
   const HalfedgeId t = twin(h);
   const HalfedgeId before_h = brep.prev(h), after_h = brep.next(h), before_t = brep.prev(t), after_t = brep.next(t);
   const bool h_alone = after_h == h, t_alone = after_t == t;
