@@ -4,6 +4,7 @@
 // What goes into close() and what comes out when it cannot be done: the polygons collected by a Builder, and the defects.
 // builder.hpp tells the whole story; an object that only emits its approximation needs no more than this file.
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
@@ -21,6 +22,13 @@ inline constexpr std::uint32_t no_sheet = 0xffffffff;
 
 class Builder {
  public:
+  // Makes room at once, where the numbers are known.
+  void reserve(std::size_t vertices, std::size_t faces, std::size_t corners) {
+    positions_.reserve(vertices);
+    corners_.reserve(corners);
+    first_corner_.reserve(faces + 1);
+    sheets_.reserve(faces);
+  }
   // The number of the new vertex: 0, 1, 2 ...
   std::uint32_t vertex(const glm::dvec3& position) {
     positions_.push_back(position);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The first half of close(), independent of the attributes: which half-edge does each corner of the builder become?
+// For the diagnosis of what close() could not stitch, independent of the attributes: which half-edge does each corner become?
 //
 // A corner stands for the half-edge from it to the next corner of its face. Two corners that run along the same two vertices
 // in opposite directions are the halves of an edge. The edges found so far hang in chains, one for each vertex; an edge hangs at the

@@ -114,10 +114,9 @@ class Array {
     data_ = static_cast<T*>(block);
     capacity_ = capacity;
   }
-  // Appends `count` records and returns the index of the first.
+  // Appends `count` records, which hold anything, and returns the index of the first.
   std::uint32_t extend(std::uint32_t count) {
     if (size_ + std::size_t{count} > capacity_) grow(size_ + std::size_t{count});
-    std::uninitialized_default_construct_n(data_ + size_, count);
     return std::exchange(size_, size_ + count);
   }
   [[nodiscard]] std::uint32_t size() const { return size_; }
@@ -200,7 +199,6 @@ class Pool {
     }
     return records_.extend(slots * Group);
   }
-  void reserve(std::uint32_t slots) { records_.reserve(std::size_t{slots} * Group); }
   [[nodiscard]] bool alive(std::uint32_t i) const { return i < records_.size() && (link(records_[i - i % Group]) & dead_bit) == 0; }
   [[nodiscard]] bool full() const { return free_ == end_of_list && records_.size() >= end_of_list - Group; }
 
@@ -214,6 +212,7 @@ class Pool {
  private:
   [[gnu::noinline]] std::uint32_t first_use() {  // apart, to keep the operators small
     const std::uint32_t i = append(1);
+    for (std::uint32_t k = 0; k < Group; ++k) records_[i + k] = Record{};
     link(records_[i]) = 0;
     return i;
   }

@@ -33,7 +33,7 @@ TEST_CASE("handles print as letter and index, compare, hash, and know their twin
 
 TEST_CASE("empty attribute types cost nothing: 16 bytes a half-edge, 4 a vertex, 4 a face") {
   static_assert(sizeof(detail::HalfedgeRecord) == 16 && sizeof(detail::AnchorRecord) == 4);
-  static_assert(sizeof(BRep<>) == 3 * sizeof(Array<detail::AnchorRecord>) + 3 * 8);
+  static_assert(sizeof(BRep<>) == 3 * sizeof(Pool<detail::AnchorRecord, NoData>));
   BRep<> m;
   CHECK(m.bytes() == 0);
   for (int i = 0; i < 10000; ++i) REQUIRE(make_segment(m));

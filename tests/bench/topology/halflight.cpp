@@ -24,6 +24,7 @@ struct LevelPoint : Tag {
 
 Builder builder_of(const bench::Torus& torus) {
   Builder builder;
+  builder.reserve(torus.positions.size(), torus.quads.size(), 4 * torus.quads.size());
   for (const auto& p : torus.positions) builder.vertex({p[0], p[1], p[2]});
   for (const auto& q : torus.quads) builder.face(q, 0);
   return builder;
