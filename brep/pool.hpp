@@ -6,7 +6,7 @@
 // Two kinds of memory. Attributes lie in pages that never move, so a reference to the user's data stays valid while the element lives,
 // however much the pool grows. Topology, to which nobody outside holds references, lies in one array: one load for a step of a
 // walk where a page table takes two, one after the other. That makes walks twice as fast and operators a third; the price is that
-// growth may copy 16 bytes a half-edge. Measured (tests/bench/README.md): realloc by a quarter is cheaper than pages even so, and
+// growth may copy 16 bytes a half-edge. Measured (tests/bench/README.md): realloc by an eighth is cheaper than pages even so, and
 // the third way, one reserved range of addresses that is mapped as it fills, pays more for its page faults than it saves.
 //
 // Killed slots are kept in a list that runs through the dead slots themselves, last in first out: an operator and its
@@ -123,7 +123,7 @@ class Array {
   [[nodiscard]] std::size_t bytes() const { return capacity_ * sizeof(T); }
 
  private:
-  void grow(std::size_t least) { reserve(std::max({least, capacity_ + capacity_ / 4, std::size_t{16}})); }
+  void grow(std::size_t least) { reserve(std::max({least, capacity_ + capacity_ / 8, std::size_t{16}})); }
 
   T* data_ = nullptr;
   std::uint32_t size_ = 0;

@@ -38,7 +38,7 @@ TEST_CASE("empty attribute types cost nothing: 16 bytes a half-edge, 4 a vertex,
   CHECK(m.bytes() == 0);
   for (int i = 0; i < 10000; ++i) REQUIRE(make_segment(m));
   CHECK(m.bytes() >= 10000 * (2 * 16 + 2 * 4 + 4));
-  CHECK(m.bytes() <= 12500 * (2 * 16 + 2 * 4 + 4));  // growth by a quarter
+  CHECK(m.bytes() <= 11250 * (2 * 16 + 2 * 4 + 4));  // growth by an eighth
 }
 
 TEST_CASE("slots are reused last in first out, with default data") {
