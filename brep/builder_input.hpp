@@ -7,6 +7,7 @@
 // A face is given by its corners, or it is made empty and gets its loop from the edges that name it, as in the winged-edge
 // structure of the paper (2.2): an edge knows its two vertices and the faces on its left and right. Both ways mix, in any order.
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
@@ -24,6 +25,13 @@ inline constexpr std::uint32_t no_sheet = 0xffffffff;
 
 class Builder {
  public:
+  // Makes room at once, where the numbers are known.
+  void reserve(std::size_t vertices, std::size_t faces, std::size_t corners) {
+    positions_.reserve(vertices);
+    corners_.reserve(corners);
+    first_corner_.reserve(faces + 1);
+    sheets_.reserve(faces);
+  }
   // The number of the new vertex: 0, 1, 2 ...
   std::uint32_t vertex(const glm::dvec3& position) {
     positions_.push_back(position);

@@ -3,7 +3,7 @@
 
 // Which faces of a builder run along which edge, and in which direction: any number of them.
 //
-// match.hpp pairs half-edges and is fast as long as everything fits; here nothing needs to fit. Diagnosis, repair and statistics
+// stitch.hpp pairs half-edges and is fast as long as everything fits; here nothing needs to fit. Diagnosis, repair and statistics
 // stand on it. An edge is a pair of vertices, its uses are corners: a corner stands for the way from its vertex to that of
 // the next corner. Faces that make no sense by themselves (unusable()) use no edge. Time: one sort of the corners.
 

@@ -24,8 +24,8 @@ namespace {
 using Bare = BRep<>;
 
 // The private counter and list head of a pool: an explicit instantiation may name a private member.
-using HalfedgePool = Pool<detail::HalfedgeRecord, 2>;
-using ElementPool = Pool<detail::ElementRecord<NoData>>;
+using HalfedgePool = Pool<detail::HalfedgeRecord, NoData, 2>;
+using ElementPool = Pool<detail::AnchorRecord, NoData>;
 template <class Tag, typename Tag::type Pointer>
 struct Open {
   friend typename Tag::type member(Tag) { return Pointer; }
