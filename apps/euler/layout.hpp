@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The picture of all shells at one moment: curves, and places for the labels; what svg.cpp draws.
+//
+// Each shell has a panel of its own, a square from (-1, -1) to (1, 1), y up, that its drawing fills. A picture is made to look like
+// the one before it: the face that lay outside stays outside while it has three corners, edges that were
+// whole stay whole, and of the ways to turn the picture by one corner the one is taken that moves the vertices least.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "apps/euler/embedding.hpp"
+
+namespace apps::euler {
+
+// A smooth curve: from the first point to the last, the others pull it (quadratic B-spline, clamped).
+struct Curve {
+  std::array<glm::dvec2, inner_points + 2> points{};
+
+  // Straight pieces that follow it, `pieces` for each of its three arcs.
+  [[nodiscard]] std::vector<glm::dvec2> flat(int pieces) const;
+};
+
+struct Strand {                // an edge, or one of the two stubs of an edge that is cut open
+  std::uint32_t halfedge = 0;  // leaves the start of the curve; for a stub, the vertex
+  bool stub = false;
+  Curve curve;
+};
+struct VertexMark {
+  std::uint32_t vertex = 0;
+  glm::dvec2 at{0.0};
+};
+struct FaceLabel {
+  std::uint32_t face = 0;
+  glm::dvec2 at{0.0};
+};
+struct FaceArea {  // an inner face of a shell that is drawn whole, or where all that bounds the area is one face
+  std::uint32_t face = 0;
+  std::vector<std::size_t> strands;  // around it; the bitwise complement of the index where the strand is passed backwards
+};
+
+struct Panel {
+  std::vector<Strand> strands;
+  std::vector<VertexMark> vertices;
+  std::vector<FaceLabel> labels;
+  std::vector<FaceArea> areas;
+  std::uint32_t outer_face = 0;  // the face around the drawing, or the one with most of what lies there
+  bool outer_whole = true;       // it is the only one
+  double text = 0.06;            // a good size for letters
+};
+
+struct Layout {
+  std::vector<Panel> panels;  // one for each shell, in the order of their first half-edges
+};
+
+// `before` is the picture of the state before, or empty. `smallest` is the least size of letters that is worth drawing.
+[[nodiscard]] Layout lay_out(const Records& records, const Layout& before, double smallest);
+
+}  // namespace apps::euler
