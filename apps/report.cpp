@@ -218,7 +218,7 @@ void write_settings(JsonWriter& json, const Report& report) {
   } else {
     json.null();
   }
-  json.key("solver").string(report.options.solver == radiosity::Solver::jacobi ? "jacobi" : "cg");
+  json.key("solver").string(name(report.options.solver));
   json.key("reconstruction").string(report.options.reconstruction == radiosity::Reconstruction::simple ? "simple" : "weighted");
   json.key("channels").count(audit.channels).key("threads").count(audit.threads).key("seed").count(audit.seed);
   json.close();
@@ -265,6 +265,13 @@ std::string to_json(const Report& report) {
   }
   json.key("energy_balance").number(audit.energy_balance).key("escaped").number(audit.escaped);
   json.key("residual").number(audit.residual).key("iterations").count(audit.iterations);
+  json.key("residual_histories").open_array();
+  for (const std::vector<double>& history : audit.histories) {
+    json.open_array();
+    for (const double residual : history) { json.number(residual); }
+    json.close();
+  }
+  json.close();
   json.key("converged").boolean(audit.converged);
   json.key("exposure").number(report.exposure).key("exposure_automatic").boolean(report.automatic_exposure);
   write_settings(json, report);

@@ -60,6 +60,7 @@ struct Audit {
   double escaped = 0.0;           // fraction of the emitted power that leaves an open scene
   double residual = 0.0;
   std::uint32_t iterations = 0;
+  std::vector<std::vector<double>> histories;  // of each channel: the relative residual at the start and after each iteration
   bool converged = true;  // solver below its residual and, when asked for, error below its target
   // error
   std::uint32_t audit_points = 0;

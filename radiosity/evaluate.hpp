@@ -92,8 +92,8 @@ struct EvaluateResult {
       rays[first + offset] = seen.rays;
       if (!hierarchy[link.p].leaf() || !hierarchy[link.q].leaf()) {
         const Slopes slope = slopes(p, q);
-        link.slope_p = slope.p;
-        link.slope_q = slope.q;
+        link.slope_p = glm::vec3{slope.p};
+        link.slope_q = glm::vec3{slope.q};
       }
     });
     control.report("link", static_cast<double>(std::min(first + batch, links.size())) / static_cast<double>(links.size()));

@@ -15,7 +15,11 @@ namespace radiosity {
 
 struct Surface;
 
-enum class Solver { conjugate_gradients, jacobi };
+enum class Solver { conjugate_gradients, jacobi, gauss_seidel, southwell };
+inline constexpr const char* name(Solver solver) {
+  constexpr const char* names[] = {"cg", "jacobi", "gauss-seidel", "southwell"};
+  return names[static_cast<int>(solver)];
+}
 enum class Reconstruction { weighted, simple };  // paper fig. 5; simple ignores the normals (figs. 6-8)
 
 struct Options {

@@ -114,11 +114,12 @@ inline std::vector<Color> solve_channels(Audit& audit, const Scene& scene, const
       reflectance.push_back(scene.materials[input.material].reflectance[c]);
       emission.push_back(scene.materials[input.material].emission[c]);
     }
-    const LinearSolution solved =
+    LinearSolution solved =
         solve_channel(hierarchy, transport, area, reflectance, emission, options.solver, options.residual, options.max_iterations);
     audit.residual = std::max(audit.residual, solved.residual);
     audit.iterations = std::max(audit.iterations, solved.iterations);
     audit.converged = audit.converged && solved.converged;
+    audit.histories.push_back(std::move(solved.history));
     for (std::size_t i = 0; i < radiosity.size(); ++i) {
       for (int to = c; to < (plan.channels == 1 ? 3 : c + 1); ++to) { radiosity[i][to] = solved.radiosity[i]; }
     }

@@ -203,9 +203,12 @@ void describe(CLI::App& command, RenderOptions& options) {
   command.add_option("--threads", solver.threads, "threads (default: all); results do not depend on it")->check(CLI::Range(1U, 1024U));
   command.add_option("--seed", solver.seed, "seed of all random choices");
   command.add_option("--audit", solver.audit_points, "points at which the error is measured; 0: none")->check(CLI::Range(0U, 100'000'000U));
-  command.add_option("--solver", solver.solver, "cg or jacobi")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, radiosity::Solver>{{"cg", radiosity::Solver::conjugate_gradients}, {"jacobi", radiosity::Solver::jacobi}}));
+  std::map<std::string, radiosity::Solver> solvers;
+  for (const auto s :
+       {radiosity::Solver::conjugate_gradients, radiosity::Solver::jacobi, radiosity::Solver::gauss_seidel, radiosity::Solver::southwell}) {
+    solvers.emplace(name(s), s);
+  }
+  command.add_option("--solver", solver.solver, "cg, jacobi, gauss-seidel or southwell")->transform(CLI::CheckedTransformer(solvers));
   command.add_option("--reconstruction", solver.reconstruction, "weighted or simple (paper fig. 5)")
       ->transform(CLI::CheckedTransformer(std::map<std::string, radiosity::Reconstruction>{
           {"weighted", radiosity::Reconstruction::weighted}, {"simple", radiosity::Reconstruction::simple}}));
