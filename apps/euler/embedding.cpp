@@ -74,12 +74,13 @@ Net triangulate(const PlanarMap& map, std::uint32_t outer) {
     const double height = std::max(1.0, n / (2.0 * std::numbers::pi) - strip);  // of the triangles at the centre
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t j = (i + 1) % n;
+      const double step = map.edges[map.faces[face][i / (inner_points + 1)] / 2].stub ? 1.6 : 1.0;  // stubs have labels of both halves
       if (i % (inner_points + 1) < (inner_points + 1) / 2) {  // diagonals from the ends of an edge: mirror images of each other
-        builder.triangle(p[i], p[j], ring + j, {0, 0}, {1, 0}, {1, strip});
-        builder.triangle(p[i], ring + j, ring + i, {0, 0}, {1, strip}, {0, strip});
+        builder.triangle(p[i], p[j], ring + j, {0, 0}, {step, 0}, {step, strip});
+        builder.triangle(p[i], ring + j, ring + i, {0, 0}, {step, strip}, {0, strip});
       } else {
-        builder.triangle(p[i], p[j], ring + i, {0, 0}, {1, 0}, {0, strip});
-        builder.triangle(p[j], ring + j, ring + i, {1, 0}, {1, strip}, {0, strip});
+        builder.triangle(p[i], p[j], ring + i, {0, 0}, {step, 0}, {0, strip});
+        builder.triangle(p[j], ring + j, ring + i, {step, 0}, {step, strip}, {0, strip});
       }
       if (face == outer) {
         net.outer_ring.push_back(ring + i);
@@ -258,7 +259,7 @@ double dot(const std::vector<Point>& a, const std::vector<Point>& b) {
 
 // Lowers the energy (L-BFGS, Nocedal 1980) from a drawing without crossings; no triangle turns over on the way.
 void relax(const Net& net, double scale, const std::vector<bool>& fixed, std::vector<Point>& x) {
-  constexpr double stiffness = 4.0;
+  constexpr double stiffness = 12.0;
   constexpr std::size_t memory = 8;
   constexpr int most = 300;
   struct Pair {

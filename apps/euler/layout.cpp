@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/euler/layout.hpp"
 
+#include "apps/euler/labels.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +17,6 @@ namespace apps::euler {
 namespace {
 
 using Point = glm::dvec2;
-constexpr int pieces = 6;  // of an arc, for distances
 
 struct Before {
   std::map<std::uint32_t, Point> vertices, edges;  // edges: the middle
@@ -25,14 +26,17 @@ struct Before {
 
 Before look_back(const Layout& layout) {
   Before before;
-  for (const Panel& panel : layout.panels) {
+  const std::size_t columns = columns_of(layout);
+  for (std::size_t i = 0; i < layout.panels.size(); ++i) {
+    const Panel& panel = layout.panels[i];
+    const Point shift = 2.5 * Point(static_cast<double>(i % columns), -static_cast<double>(i / columns));
     before.outer.insert(panel.outer_face);
-    for (const VertexMark& v : panel.vertices) { before.vertices[v.vertex] = v.at; }
+    for (const VertexMark& v : panel.vertices) { before.vertices[v.vertex] = v.at + shift; }
     for (const Strand& s : panel.strands) {
       const std::uint32_t e = s.halfedge / 2;
       if (before.cut.size() <= e) { before.cut.resize(e + 1, false); }
       before.cut[e] = s.stub;
-      if (!s.stub) { before.edges[e] = s.curve.points[2]; }
+      if (!s.stub) { before.edges[e] = s.curve.points[2] + shift; }
     }
   }
   return before;
@@ -52,8 +56,7 @@ std::uint32_t choose_outer(const PlanarMap& map, const Before& before) {
     const std::size_t n = map.faces[i].size(), best = map.faces[longest].size();
     if (n > best || (n == best && name(i) < name(longest))) { longest = i; }
   }
-  const std::size_t n = map.faces[familiar].size(), best = map.faces[longest].size();
-  return most > 0 && (n >= 3 || best < 3) ? familiar : longest;
+  return most > 0 ? familiar : longest;
 }
 
 Point turned(const Point& p, double angle) {
@@ -68,19 +71,21 @@ void settle(Embedding& drawing, const PlanarMap& map, std::size_t corners, const
       for (Point& p : edge) { visit(p); }
     }
   };
+  // What both pictures have, then and now. The best turn has the largest sum of products with what was there, measured from its middle.
+  std::vector<std::pair<Point, Point>> pairs;
+  const auto pair = [&](const Point& p, const std::map<std::uint32_t, Point>& old, std::uint32_t name) {
+    if (const auto found = old.find(name); found != old.end()) { pairs.emplace_back(p, found->second); }
+  };
+  for (std::size_t i = 0; i < map.vertices.size(); ++i) { pair(drawing.vertices[i], before.vertices, map.vertices[i]); }
+  for (std::size_t i = 0; i < map.edges.size(); ++i) { pair(drawing.edges[i][1], before.edges, map.edges[i].edge); }
+  Point middle(0.0);
+  for (const auto& [now, then] : pairs) { middle += then / static_cast<double>(pairs.size()); }
   const double turn = 2.0 * std::numbers::pi / static_cast<double>(corners);
-  double best = std::numeric_limits<double>::infinity(), angle = 0.0;
+  double best = -std::numeric_limits<double>::infinity(), angle = 0.0;
   for (std::size_t k = 0; k < corners; ++k) {
     double sum = 0.0;
-    const auto compare = [&](const Point& p, const auto& old, std::uint32_t name) {
-      const auto found = old.find(name);
-      if (found == old.end()) { return; }
-      const Point d = turned(p, turn * static_cast<double>(k)) - found->second;
-      sum += glm::dot(d, d);
-    };
-    for (std::size_t i = 0; i < map.vertices.size(); ++i) { compare(drawing.vertices[i], before.vertices, map.vertices[i]); }
-    for (std::size_t i = 0; i < map.edges.size(); ++i) { compare(drawing.edges[i][1], before.edges, map.edges[i].edge); }
-    if (sum < best - 1e-9) {
+    for (const auto& [now, then] : pairs) { sum += glm::dot(turned(now, turn * static_cast<double>(k)), then - middle); }
+    if (sum > best + 1e-9) {
       best = sum;
       angle = turn * static_cast<double>(k);
     }
@@ -95,120 +100,26 @@ void settle(Embedding& drawing, const PlanarMap& map, std::size_t corners, const
   each_point([&](Point& p) { p = (p - 0.5 * (low + high)) / half; });
 }
 
-double distance(const Point& p, const Point& a, const Point& b) {
-  const Point d = b - a;
-  const double t = std::clamp(glm::dot(p - a, d) / std::max(glm::dot(d, d), 1e-300), 0.0, 1.0);
-  return glm::length(p - a - t * d);
-}
-
-// A face of the plane map as straight pieces, each with the dart it belongs to.
-struct Outline {
-  std::vector<Point> points;
-  std::vector<std::uint32_t> dart;
-
-  [[nodiscard]] bool holds(const Point& p) const {
-    int winding = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Point a = points[i], b = points[(i + 1) % points.size()];
-      const double side = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-      if (a.y <= p.y && b.y > p.y && side > 0) { ++winding; }
-      if (a.y > p.y && b.y <= p.y && side < 0) { --winding; }
-    }
-    return winding != 0;
-  }
-};
-
-Outline outline_of(const PlanarMap& map, const Panel& panel, std::uint32_t face) {
-  Outline outline;
-  for (const std::uint32_t d : map.faces[face]) {
-    std::vector<Point> line = panel.strands[d / 2].curve.flat(pieces);
-    if (d % 2 == 1) { std::reverse(line.begin(), line.end()); }
-    line.pop_back();
-    outline.points.insert(outline.points.end(), line.begin(), line.end());
-    outline.dart.insert(outline.dart.end(), line.size(), d);
-  }
-  return outline;
-}
-
-// Labels of the faces inside one face of the plane map: where the way to all lines is longest. Several faces meet there when
-// edges are cut open; each gets a label for each run of its darts, in the part that lies nearest to them.
-void place_labels(const PlanarMap& map, std::uint32_t face, bool outer, Panel& panel) {
-  const Outline outline = outline_of(map, panel, face);
-  const auto& walk = map.faces[face];
-  const auto name = [&](std::size_t k) { return map.darts[walk[k % walk.size()]].true_face; };
-  std::vector<std::size_t> run(walk.size(), 0);  // of equal names, going round
-  std::size_t first = 0, runs = 1;
-  while (first < walk.size() && name(first) == name(first + walk.size() - 1)) { ++first; }
-  if (first == walk.size()) {
-    if (outer) {
-      panel.labels.push_back({name(0), {-1.08, 1.08}});
-      return;
-    }
-  } else {
-    for (std::size_t k = 1; k < walk.size(); ++k) {
-      if (name(first + k) != name(first + k - 1)) { ++runs; }
-      run[(first + k) % walk.size()] = runs - 1;
-    }
-  }
-  std::map<std::uint32_t, std::size_t> place;
-  for (std::size_t k = 0; k < walk.size(); ++k) { place[walk[k]] = k; }
-  struct Best {
-    double room = -1.0;
-    Point at{0.0};
-    std::uint32_t face = 0;
-  };
-  std::vector<Best> best(runs);
-  const double reach = outer ? 1.15 : 1.0;
-  constexpr int grid = 48;
-  for (int iy = 0; iy <= grid; ++iy) {
-    for (int ix = 0; ix <= grid; ++ix) {
-      const Point p(reach * (2.0 * ix / grid - 1.0), reach * (2.0 * iy / grid - 1.0));
-      if (outline.holds(p) == outer) { continue; }
-      double room = outer ? reach + 0.1 - std::max(std::abs(p.x), std::abs(p.y)) : 4.0, nearest = 4.0;
-      std::size_t owner = 0;
-      for (std::size_t i = 0; i < outline.points.size(); ++i) {
-        const Point a = outline.points[i], b = outline.points[(i + 1) % outline.points.size()];
-        const double d = distance(p, a, b);
-        const bool left = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0;
-        if (d < nearest - 1e-9 || (d < nearest + 1e-9 && left)) {  // both sides of a spur are equally near
-          nearest = d;
-          owner = place[outline.dart[i]];
-        }
-      }
-      room = std::min(room, nearest);
-      Best& b = best[run[owner]];
-      if (room > b.room + 1e-9) { b = {room, p, name(owner)}; }
-    }
-  }
-  for (const Best& b : best) {
-    if (b.room > 0) { panel.labels.push_back({b.face, b.at}); }
-  }
-}
-
 Panel draw(const PlanarMap& map, const Before& before, double smallest) {
   const std::uint32_t outer = choose_outer(map, before);
   const std::size_t corners = map.faces[outer].size();
-  // Three corners and more: a side below, the first corner left of it. Two: left and right. One: below.
-  const double first_corner = corners == 2   ? std::numbers::pi
-                              : corners == 1 ? -0.5 * std::numbers::pi
-                                             : std::numbers::pi * (-0.5 - 1.0 / static_cast<double>(corners));
+  // A tree begins on the left. Three corners and more: a side below, the first corner left of it. Two: left and right. One: below.
+  const double first_corner = corners == 2 || map.faces.size() == 1 ? std::numbers::pi
+                              : corners == 1                        ? -0.5 * std::numbers::pi
+                                                                    : std::numbers::pi * (-0.5 - 1.0 / static_cast<double>(corners));
   Embedding drawing = embed(map, outer, first_corner);
   settle(drawing, map, corners, before);
 
   Panel panel;
-  double length = 0.0;
   for (std::uint32_t i = 0; i < map.edges.size(); ++i) {
-    Strand strand{map.darts[2 * i].halfedge, map.edges[i].stub, {}};
+    Strand strand;
+    strand.halfedge = map.darts[2 * i].halfedge;
+    strand.stub = map.edges[i].stub;
     strand.curve.points.front() = drawing.vertices[map.darts[2 * i].vertex];
     std::copy(drawing.edges[i].begin(), drawing.edges[i].end(), strand.curve.points.begin() + 1);
     strand.curve.points.back() = drawing.vertices[map.darts[2 * i + 1].vertex];
-    for (std::size_t k = 1; k < strand.curve.points.size(); ++k) {
-      length += std::log(glm::length(strand.curve.points[k] - strand.curve.points[k - 1]));
-    }
     panel.strands.push_back(strand);
   }
-  const double typical = (inner_points + 1) * std::exp(length / static_cast<double>((inner_points + 1) * map.edges.size()));
-  panel.text = std::clamp(0.15 * typical, smallest, std::max(smallest, 0.078));
   for (std::size_t i = 0; i < map.vertices.size(); ++i) {
     if (map.vertices[i] != brep::invalid_index) { panel.vertices.push_back({map.vertices[i], drawing.vertices[i]}); }
   }
@@ -227,8 +138,8 @@ Panel draw(const PlanarMap& map, const Before& before, double smallest) {
       for (const std::uint32_t d : walk) { area.strands.push_back(d % 2 == 0 ? d / 2 : ~std::size_t{d / 2}); }
       panel.areas.push_back(std::move(area));
     }
-    place_labels(map, f, f == outer, panel);
   }
+  place_names(map, outer, smallest, panel);
   return panel;
 }
 
@@ -248,10 +159,36 @@ std::vector<Point> Curve::flat(int n) const {
   return line;
 }
 
+double length_of(const std::vector<Point>& line) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < line.size(); ++i) { sum += glm::length(line[i] - line[i - 1]); }
+  return sum;
+}
+
+Spot spot_on(const std::vector<Point>& line, double way) {
+  for (std::size_t i = 1;; ++i) {
+    const Point d = line[i] - line[i - 1];
+    const double length = std::max(glm::length(d), 1e-12);
+    if (way <= length || i + 1 == line.size()) { return {line[i - 1] + d * (way / length), d / length}; }
+    way -= length;
+  }
+}
+
+std::size_t columns_of(const Layout& layout) {
+  std::size_t columns = 1;
+  while (columns * columns < layout.panels.size()) { ++columns; }
+  return columns;
+}
+
 Layout lay_out(const Records& records, const Layout& before, double smallest) {
   const Before seen = look_back(before);
   Layout layout;
-  for (const auto& shell : shells_of(records)) { layout.panels.push_back(draw(planar_map(records, shell, seen.cut), seen, smallest)); }
+  const auto shells = shells_of(records);
+  layout.panels.resize(shells.size());
+  const double columns = static_cast<double>(columns_of(layout));
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    layout.panels[i] = draw(planar_map(records, shells[i], seen.cut), seen, std::min(0.13, smallest * columns));
+  }
   return layout;
 }
 

@@ -4,7 +4,7 @@
 // The picture of all shells at one moment: curves, and places for the labels; what svg.cpp draws.
 //
 // Each shell has a panel of its own, a square from (-1, -1) to (1, 1), y up, that its drawing fills. A picture is made to look like
-// the one before it: the face that lay outside stays outside while it has three corners, edges that were
+// the one before it: the face that lay outside stays outside while it lives, edges that were
 // whole stay whole, and of the ways to turn the picture by one corner the one is taken that moves the vertices least.
 
 #include <map>
@@ -25,10 +25,21 @@ struct Curve {
   [[nodiscard]] std::vector<glm::dvec2> flat(int pieces) const;
 };
 
+// A place on a line of straight pieces, and where the line runs there.
+struct Spot {
+  glm::dvec2 at{0.0}, along{1.0, 0.0};
+
+  [[nodiscard]] glm::dvec2 left() const { return {-along.y, along.x}; }
+};
+[[nodiscard]] double length_of(const std::vector<glm::dvec2>& line);
+[[nodiscard]] Spot spot_on(const std::vector<glm::dvec2>& line, double way);
+
 struct Strand {                // an edge, or one of the two stubs of an edge that is cut open
   std::uint32_t halfedge = 0;  // leaves the start of the curve; for a stub, the vertex
   bool stub = false;
   Curve curve;
+  std::array<glm::dvec2, 2> names{};  // where the names of the half-edge and of its twin stand
+  std::array<double, 2> sizes{};      // and the size of their letters
 };
 struct VertexMark {
   std::uint32_t vertex = 0;
@@ -37,6 +48,7 @@ struct VertexMark {
 struct FaceLabel {
   std::uint32_t face = 0;
   glm::dvec2 at{0.0};
+  double size = 0.0;
 };
 struct FaceArea {  // an inner face of a shell that is drawn whole, or where all that bounds the area is one face
   std::uint32_t face = 0;
@@ -51,13 +63,18 @@ struct Panel {
   std::uint32_t outer_face = 0;  // the face around the drawing, or the one with most of what lies there
   bool outer_whole = true;       // it is the only one
   double text = 0.06;            // a good size for letters
+  double gap = 0.02;             // from an edge to its half-edges
 };
 
 struct Layout {
   std::vector<Panel> panels;  // one for each shell, in the order of their first half-edges
 };
 
-// `before` is the picture of the state before, or empty. `smallest` is the least size of letters that is worth drawing.
+// Panels are put side by side in this number of columns.
+[[nodiscard]] std::size_t columns_of(const Layout& layout);
+
+// `before` is the picture of the state before, or empty. `smallest` is the least size of letters that is worth drawing, in a panel
+// that has the picture for itself.
 [[nodiscard]] Layout lay_out(const Records& records, const Layout& before, double smallest);
 
 }  // namespace apps::euler

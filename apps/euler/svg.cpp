@@ -107,48 +107,28 @@ class Pen {
   }
 
   // A half-edge: beside the curve, shortened at both ends, with half an arrow head on its left; and its name.
-  void draw_half(std::vector<Point> line, std::uint32_t h, bool stub) {
-    std::vector<double> way{0.0};
-    for (std::size_t i = 1; i < line.size(); ++i) { way.push_back(way.back() + glm::length(line[i] - line[i - 1])); }
-    const double all = way.back(), end = std::min(0.32 * all, 1.9 * text_), gap = 0.3 * text_;
-    const auto point = [&](double t) {
-      const std::size_t i = std::min<std::size_t>(
-          static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, std::lower_bound(way.begin(), way.end(), t) - way.begin())),
-          line.size() - 1);
-      const Point d = line[i] - line[i - 1];
-      return std::pair(line[i - 1] + d * ((t - way[i - 1]) / std::max(way[i] - way[i - 1], 1e-9)), d / std::max(glm::length(d), 1e-9));
-    };
-    const auto left = [](const Point& d) { return Point(d.y, -d.x); };  // y points down
+  void draw_half(const std::vector<Point>& line, const Strand& s, std::uint32_t side) {
+    const std::uint32_t h = s.halfedge ^ side;
+    const double all = length_of(line), end = std::min(0.32 * all, 1.9 * panel_.text);
     std::string d;
-    Point tip(0.0), along(0.0);
-    constexpr int steps = 8;
+    Spot spot;
+    constexpr int steps = 20;
     for (int i = 0; i <= steps; ++i) {
-      const auto [p, direction] = point(end + (all - 2 * end) * i / steps);
-      tip = p + gap * left(direction);
-      along = direction;
-      d += (i == 0 ? "M" : "L") + number(tip.x) + " " + number(tip.y);
+      spot = spot_on(line, end + (all - 2 * end) * i / steps);
+      d += (i == 0 ? "M" : "L") + at(spot.at + panel_.gap * spot.left());
     }
-    const Point barb = tip - 0.6 * text_ * along + 0.36 * text_ * left(along);
-    d += "L" + number(barb.x) + " " + number(barb.y);
-    const std::string kind = mark('h', h) + (stub ? " stub" : "");
-    const std::string key = name('h', h) + (stub ? "s" + std::to_string(stub_end_) : "");
+    d += "L" + at(spot.at + (panel_.gap + 0.36 * panel_.text) * spot.left() - 0.6 * panel_.text * spot.along);
+    const std::string kind = mark('h', h);
+    const std::string key = name('h', h) + (s.stub ? "s" + std::to_string(s.halfedge) : "");
     out_ += "<path class='half" + kind + "' data-k='" + key + "' d='" + d + "'/>\n";
-    const auto [middle, direction] = point(0.5 * all);
-    // As far out as its own size asks for in this direction.
-    const std::string label_text = name('h', h);
-    const Point out = left(direction);
-    const double reach = std::abs(out.x) * 0.31 * text_ * static_cast<double>(label_text.size()) + std::abs(out.y) * 0.38 * text_;
-    const Point label = middle + (gap + 0.2 * text_ + reach) * out;
-    out_ += "<text class='name" + kind + "' data-k='n" + key + "' font-size='" + number(0.9 * text_) + "' transform='translate(" +
-            number(label.x) + " " + number(label.y) + ")' y='.35em'>" + label_text + "</text>\n";
+    out_ += "<text class='name" + kind + "' data-k='n" + key + "' font-size='" + number(half_ * s.sizes[side]) + "' transform='translate(" +
+            at(s.names[side]) + ")' y='.35em'>" + name('h', h) + "</text>\n";
   }
   void draw_halves(const Strand& s) {
     std::vector<Point> line = s.curve.flat(8);
-    for (Point& p : line) { p = Point(half_ * p.x, -half_ * p.y); }
-    stub_end_ = s.halfedge;
-    draw_half(line, s.halfedge, s.stub);
+    draw_half(line, s, 0);
     std::reverse(line.begin(), line.end());
-    draw_half(line, s.halfedge ^ 1U, s.stub);
+    draw_half(line, s, 1);
   }
   void draw_vertex(const VertexMark& v) {
     const std::string label = name('v', v.vertex);
@@ -158,7 +138,7 @@ class Pen {
   }
   void draw_label(const FaceLabel& l, int copy) {
     out_ += "<text class='face" + mark('f', l.face) + "' data-k='l" + std::to_string(l.face) +
-            (copy > 0 ? "c" + std::to_string(copy) : "") + "' font-size='" + number(1.35 * text_) + "' transform='translate(" + at(l.at) +
+            (copy > 0 ? "c" + std::to_string(copy) : "") + "' font-size='" + number(half_ * l.size) + "' transform='translate(" + at(l.at) +
             ")' y='.35em'>" + name('f', l.face) + "</text>\n";
   }
 
@@ -166,7 +146,6 @@ class Pen {
   const Records* before_;
   const Panel& panel_;
   double half_, text_;
-  std::uint32_t stub_end_ = 0;
   std::string out_;
 };
 
@@ -205,21 +184,21 @@ struct TextLine {
 };
 
 // What stands around the drawing of a cell: the operator above; notes and captions below the counts.
-std::vector<TextLine> notes(const Frame& frame) {
+std::vector<TextLine> notes(const Frame& frame, std::size_t width) {
   std::vector<TextLine> lines;
-  const auto add = [&](const std::string& text, const char* kind, std::size_t width) {
+  const auto add = [&](const std::string& text, const char* kind) {
     for (std::string& line : wrapped(text, width)) { lines.push_back({std::move(line), kind}); }
   };
   if (!frame.outcome.sentence.empty()) {
     const bool refused = frame.outcome.kind == brep::Outcome::Kind::refused;
-    add((refused ? "refused: " : "") + frame.outcome.sentence, "bad", 50);
+    add((refused ? "refused: " : "") + frame.outcome.sentence, "bad");
   }
-  for (const brep::Fault& fault : frame.outcome.faults) { add(fault.sentence, "bad", 50); }
+  for (const brep::Fault& fault : frame.outcome.faults) { add(fault.sentence, "bad"); }
   for (const Check& check : frame.checks) {
-    add((check.met ? "\xe2\x9c\x93 " : "\xe2\x9c\x97 ") + check.text + (check.met ? "" : ": " + check.sentence), check.met ? "good" : "bad",
-        50);
+    add((check.met ? "\xe2\x9c\x93 " : "\xe2\x9c\x97 ") + check.text + (check.met ? "" : ": " + check.sentence),
+        check.met ? "good" : "bad");
   }
-  add(frame.caption, "caption", 50);
+  add(frame.caption, "caption");
   return lines;
 }
 
@@ -287,8 +266,7 @@ std::string drawing(const Story& story, std::size_t i, const Layout& layout, dou
   if (layout.panels.empty()) {
     return "<g class='drawing'><text font-size='" + number(0.06 * width) + "' fill='#888'>nothing</text></g>\n";
   }
-  std::size_t columns = 1;
-  while (columns * columns < layout.panels.size()) { ++columns; }
+  const std::size_t columns = columns_of(layout);
   const std::size_t rows = (layout.panels.size() + columns - 1) / columns;
   const double cell = width / static_cast<double>(columns);
   std::string out = "<g class='drawing'>\n";
@@ -302,8 +280,12 @@ std::string drawing(const Story& story, std::size_t i, const Layout& layout, dou
 }
 
 std::string strip(const Story& story) {
-  constexpr double cell = 300.0, gap = 18.0, line = 13.0, head = 26.0;
-  constexpr std::size_t columns = 4;
+  constexpr double width = 1290.0, gap = 18.0, line = 13.0, head = 26.0;
+  long edges = 0;
+  for (const Frame& frame : story.frames) { edges = std::max(edges, frame.drawn.e); }
+  const std::size_t columns = edges <= 14 ? 4 : edges <= 26 ? 3 : 2;  // large maps need large cells
+  const double cell = (width - gap) / static_cast<double>(columns) - gap;
+  const auto letters = static_cast<std::size_t>((cell - 10.0) / 5.7);  // in a line of a caption
   const std::vector<Layout> layouts = lay_out(story, 7.4 / (0.5 * cell * 0.96 / 1.26));
   std::string body;
   double y = 56.0;
@@ -327,7 +309,7 @@ std::string strip(const Story& story) {
       body += text_element(x, below, "counts", counts(frame) + (frame.damaged ? "  (before)" : ""));
       body += text_element(x, below + 15, "counts", equation(frame));
       below += 32;
-      const std::vector<TextLine> lines = notes(frame);
+      const std::vector<TextLine> lines = notes(frame, letters);
       for (const TextLine& t : lines) {
         body += text_element(x, below, t.kind, t.text);
         below += line;
@@ -336,7 +318,6 @@ std::string strip(const Story& story) {
     }
     y += head + cell + 16 + 32 + line * static_cast<double>(most) + 14;
   }
-  const double width = gap + columns * (cell + gap);
   return std::string(open_svg) + sized(width, y) +
          "<style>text{font-family:'DejaVu Sans',Verdana,'Segoe UI',sans-serif;fill:#222}.title{font-size:22px;font-weight:bold}"
          ".step{font-size:13px;fill:#888}.operator{font:bold 12px 'DejaVu Sans Mono',Consolas,monospace}"
