@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include <brep/euler_script_parse.hpp>
@@ -19,7 +20,7 @@
 namespace apps {
 namespace {
 
-bool ends_with(const std::string& path, const char* end) { return path.size() > 5 && path.ends_with(end); }
+bool ends_with(const std::string& path, std::string_view end) { return path.size() > end.size() && path.ends_with(end); }
 
 void print(const std::vector<brep::ScriptError>& errors, const std::string& path) {
   for (const brep::ScriptError& e : errors) {

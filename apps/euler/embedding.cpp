@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -18,15 +19,21 @@ namespace {
 
 using Point = glm::dvec2;
 
+struct Link {
+  std::uint32_t a, b;
+  double weight;
+};
+
 struct Triangle {
   std::array<std::uint32_t, 3> corner;  // counter-clockwise
   glm::dmat2 rest;                      // the inverse of its edge vectors in its rest shape
+  double pull;                          // the weight of its sides
 };
 
 // The triangulation: vertices of the map first, then inner points of edges, rings, centres.
 struct Net {
   std::vector<Triangle> triangles;
-  std::vector<std::array<std::uint32_t, 2>> links;
+  std::vector<Link> links;
   std::vector<std::array<std::uint32_t, 3>> bends;  // three points in a row on an edge
   std::vector<std::uint32_t> outer_ring;            // clockwise, as the walk around the outer face
   double rest_area = 0.0;
@@ -51,20 +58,44 @@ std::vector<std::uint32_t> points_around(const PlanarMap& map, std::uint32_t fac
 // Rest shapes are in units of the distance of neighbouring points on an edge: strips of this width run along both sides of edges.
 constexpr double strip = 0.9;
 
+// A part that hangs in a face by one vertex is pulled out by few links and held together by many. That the weights fall by this factor from
+// face to face makes up for it, else each level of nested loops would be a hundred times smaller than the one around it.
+constexpr double softer = 0.03;
+
 struct Builder {
   Net net;
 
+  double pull = 1.0;
+
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const Point& pa, const Point& pb, const Point& pc) {
-    net.triangles.push_back({{a, b, c}, glm::inverse(glm::dmat2(pb - pa, pc - pa))});
+    net.triangles.push_back({{a, b, c}, glm::inverse(glm::dmat2(pb - pa, pc - pa)), pull});
     net.rest_area += 0.5 * ((pb - pa).x * (pc - pa).y - (pb - pa).y * (pc - pa).x);
   }
 };
 
+// How many edges lie between each face and the outer one.
+std::vector<int> depths(const PlanarMap& map, std::uint32_t outer) {
+  std::vector<int> depth(map.faces.size(), -1);
+  std::vector<std::uint32_t> reached{outer};
+  depth[outer] = 0;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (const std::uint32_t d : map.faces[reached[i]]) {
+      const std::uint32_t next = map.darts[d ^ 1U].face;
+      if (depth[next] >= 0) { continue; }
+      depth[next] = depth[reached[i]] + 1;
+      reached.push_back(next);
+    }
+  }
+  return depth;
+}
+
 Net triangulate(const PlanarMap& map, std::uint32_t outer) {
   Builder builder;
   Net& net = builder.net;
+  const std::vector<int> depth = depths(map, outer);
   net.count = static_cast<std::uint32_t>(map.vertices.size() + map.edges.size() * inner_points);
   for (std::uint32_t face = 0; face < map.faces.size(); ++face) {
+    builder.pull = std::pow(softer, depth[face]);
     const std::vector<std::uint32_t> p = points_around(map, face);
     const auto n = static_cast<std::uint32_t>(p.size());
     const std::uint32_t ring = net.count;
@@ -92,7 +123,7 @@ Net triangulate(const PlanarMap& map, std::uint32_t outer) {
   for (const Triangle& t : net.triangles) {
     for (const auto& [a, b] :
          {std::pair(t.corner[0], t.corner[1]), std::pair(t.corner[1], t.corner[2]), std::pair(t.corner[2], t.corner[0])}) {
-      net.links.push_back({a, b});  // twice where two triangles meet
+      net.links.push_back({a, b, t.pull});  // twice where two triangles meet
     }
   }
   for (std::uint32_t d = 0; d < map.darts.size(); d += 2) {
@@ -108,7 +139,7 @@ Net triangulate(const PlanarMap& map, std::uint32_t outer) {
 // Places each free point at the weighted mean of its neighbours. Points are eliminated one by one, those with few neighbours first;
 // each leaves its neighbours linked to each other (the star-mesh transform of electrical networks). Only positive numbers are
 // added and multiplied, so even parts that come out a million times smaller than the disc are exact to rounding.
-void solve(const Net& net, const std::vector<double>& weight, const std::vector<bool>& fixed, std::vector<Point>& x) {
+void solve(const Net& net, const std::vector<bool>& fixed, std::vector<Point>& x) {
   struct Neighbour {
     std::uint32_t point;
     double weight;
@@ -122,10 +153,9 @@ void solve(const Net& net, const std::vector<double>& weight, const std::vector<
       known->weight += w;
     }
   };
-  for (std::size_t i = 0; i < net.links.size(); ++i) {
-    const auto& [a, b] = net.links[i];
-    link(a, b, weight[i]);
-    link(b, a, weight[i]);
+  for (const Link& l : net.links) {
+    link(l.a, l.b, l.weight);
+    link(l.b, l.a, l.weight);
   }
   std::set<std::pair<std::size_t, std::uint32_t>> waiting;  // free points by the number of their neighbours
   for (std::uint32_t i = 0; i < net.count; ++i) {
@@ -161,6 +191,11 @@ void solve(const Net& net, const std::vector<double>& weight, const std::vector<
 }
 
 double area(const Point& a, const Point& b, const Point& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+
+bool all_turn_left(const Net& net, const std::vector<Point>& x) {
+  return std::all_of(net.triangles.begin(), net.triangles.end(),
+                     [&](const Triangle& t) { return area(x[t.corner[0]], x[t.corner[1]], x[t.corner[2]]) > 0; });
+}
 
 // Evens out what the weighted means left tiny. Each point in turn goes to the least value of the sum of |J|^2 - 2 log det(J) over its
 // triangles, a convex function, by Newton's method: where all is tiny only the ratio of areas counts, so a part grows by
@@ -317,7 +352,7 @@ void relax(const Net& net, double scale, const std::vector<bool>& fixed, std::ve
 
 }  // namespace
 
-Embedding embed(const PlanarMap& map, std::uint32_t outer, double first_corner) {
+std::optional<Embedding> embed(const PlanarMap& map, std::uint32_t outer, double first_corner) {
   const Net net = triangulate(map, outer);
   std::vector<Point> x(net.count, Point(0.0));
   std::vector<bool> fixed(net.count, false);
@@ -335,10 +370,10 @@ Embedding embed(const PlanarMap& map, std::uint32_t outer, double first_corner) 
   for (std::size_t i = 1; i + 1 < net.outer_ring.size(); ++i) {
     room -= 0.5 * area(x[net.outer_ring[0]], x[net.outer_ring[i]], x[net.outer_ring[i + 1]]);
   }
-  std::vector<double> weight(net.links.size(), 1.0);
-  solve(net, weight, fixed, x);
+  solve(net, fixed, x);
   const double scale = std::sqrt(room / net.rest_area);
   unfold(net, scale, fixed, x);
+  if (!all_turn_left(net, x)) { return std::nullopt; }
   relax(net, scale, fixed, x);
   Embedding result;
   result.vertices.assign(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(map.vertices.size()));

@@ -4,14 +4,14 @@
 // A plane map drawn in the unit disc without crossings, whatever its loops, spurs, parallel edges and faces of one edge.
 //
 // The map is made a simple triangulation: each edge gets inner points, each face a ring of one point for every point that its walk
-// passes (so a face that passes an edge twice has two ring points there) and a centre. The ring of the outer face stands on
-// the unit circle. With positive weights on the edges of a triangulation, placing each free point at the weighted
-// mean of its neighbours gives a drawing without crossings (Tutte 1963; Floater 1997). Weights that grow with the edge lengths
-// themselves, found by iteration, even the lengths out: the drawing then minimises the sum of weight * length^4, which has one
-// minimum and does not jump. At last points are moved towards smooth edges and roomy faces, but only as far as all
-// triangles keep their orientation.
+// passes (so a face that passes an edge twice has two ring points there) and a centre. The ring of the outer face stands on a
+// circle or regular polygon. With positive weights on the edges of a triangulation, placing each free point at the weighted mean
+// of its neighbours gives a drawing without crossings (Tutte 1963; Floater 1997). It is cramped, so triangles are then brought near to
+// a shape of their own: one point after another while some are tiny, all together at last (the symmetric Dirichlet energy,
+// Smith and Schaefer 2015). No triangle turns over on the way, hence no crossing appears.
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -28,7 +28,8 @@ struct Embedding {
 };
 
 // y points up; the walk around an inner face is counter-clockwise. The corners of the outer face are spread evenly; the first
-// corner of map.faces[outer] lies in the direction `first_corner` (radians).
-[[nodiscard]] Embedding embed(const PlanarMap& map, std::uint32_t outer, double first_corner);
+// corner of map.faces[outer] lies in the direction `first_corner` (radians). Nothing when parts lie within one another so deeply that
+// doubles cannot hold the smallest.
+[[nodiscard]] std::optional<Embedding> embed(const PlanarMap& map, std::uint32_t outer, double first_corner);
 
 }  // namespace apps::euler

@@ -29,7 +29,7 @@ main{display:flex;flex-direction:column;min-width:0;min-height:0;padding:10px 16
 #numbers b{color:#888;font-weight:normal}
 #numbers .moved{background:#ffe3a8;border-radius:3px;padding:0 2px}
 aside{overflow:auto;border-left:1px solid #dcdcd6;padding:12px 16px;min-height:0}
-#caption{min-height:7em}
+#caption{min-height:5em}
 #caption p{margin:0 0 .7em}
 .note{border-left:4px solid #c8310f;background:#fdf0ec;padding:6px 10px;margin:0 0 8px;color:#8c1c06;font-size:14px}
 .note.fine{border-color:#cf8a00;background:#fff7e4;color:#6d4a00}
@@ -54,7 +54,7 @@ inline constexpr const char* page_body = R"~(
 <header><h1 id="title"></h1><span>next: &rarr; &nbsp; undo: &larr; &nbsp; play: space</span></header>
 <ol id="script"></ol>
 <main><div id="head"><span id="operator" class="mono"></span></div><div id="picture"></div><div id="numbers" class="mono"></div></main>
-<aside><div id="notes"></div><div id="caption"></div><div id="tables"></div></aside>
+<aside><div id="caption"></div><div id="notes"></div><div id="tables"></div></aside>
 <footer><button id="first" title="the start (Home)">|&#9664;</button><button id="back" title="undo this step (left arrow)">&#9664; undo</button>
 <button id="forth" title="the next step (right arrow)">next &#9654;</button><button id="last" title="the end (End)">&#9654;|</button>
 <button id="play" title="play (space)">play</button><input id="slide" type="range" min="0" value="0" aria-label="step"><span id="where"></span></footer>

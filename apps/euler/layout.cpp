@@ -42,21 +42,21 @@ Before look_back(const Layout& layout) {
   return before;
 }
 
-std::uint32_t choose_outer(const PlanarMap& map, const Before& before) {
-  std::uint32_t longest = 0, familiar = 0;
-  std::size_t most = 0;
+// The faces in the order in which they are tried as the outer one: that of the picture before, then the longest.
+std::vector<std::uint32_t> outer_faces(const PlanarMap& map, const Before& before) {
+  std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> rank;  // less is better
+  std::vector<std::uint32_t> order(map.faces.size());
   for (std::uint32_t i = 0; i < map.faces.size(); ++i) {
-    const auto known = static_cast<std::size_t>(std::count_if(
-        map.faces[i].begin(), map.faces[i].end(), [&](std::uint32_t d) { return before.outer.count(map.darts[d].true_face) != 0; }));
-    if (known > most) {
-      most = known;
-      familiar = i;
-    }
-    const auto name = [&](std::uint32_t face) { return map.darts[map.faces[face].front()].true_face; };
-    const std::size_t n = map.faces[i].size(), best = map.faces[longest].size();
-    if (n > best || (n == best && name(i) < name(longest))) { longest = i; }
+    const auto& walk = map.faces[i];
+    order[i] = i;
+    rank.emplace_back(
+        -std::count_if(walk.begin(), walk.end(), [&](std::uint32_t d) { return before.outer.count(map.darts[d].true_face) != 0; }),
+        -static_cast<std::ptrdiff_t>(walk.size()));
   }
-  return most > 0 ? familiar : longest;
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(rank[a], map.darts[map.faces[a].front()].true_face) < std::pair(rank[b], map.darts[map.faces[b].front()].true_face);
+  });
+  return order;
 }
 
 Point turned(const Point& p, double angle) {
@@ -100,15 +100,59 @@ void settle(Embedding& drawing, const PlanarMap& map, std::size_t corners, const
   each_point([&](Point& p) { p = (p - 0.5 * (low + high)) / half; });
 }
 
+double turn(const Point& a, const Point& b, const Point& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+
+bool cross(const std::vector<Point>& s, const std::vector<Point>& t) {
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    for (std::size_t j = 1; j < t.size(); ++j) {
+      const Point &a = s[i - 1], &b = s[i], &c = t[j - 1], &d = t[j];
+      if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0) { return true; }
+    }
+  }
+  return false;
+}
+
+// The lines of points do not cross; where their rounded forms do, both are rounded less, in the end not at all.
+void part(std::vector<Strand>& strands) {
+  std::vector<std::vector<Point>> lines(strands.size());
+  std::vector<bool> changed(strands.size(), true);
+  for (bool again = true; again;) {
+    again = false;
+    for (std::size_t i = 0; i < strands.size(); ++i) {
+      if (changed[i]) { lines[i] = strands[i].curve.flat(8); }
+    }
+    std::vector<bool> sharper(strands.size(), false);
+    for (std::size_t i = 0; i < strands.size(); ++i) {
+      for (std::size_t j = i; j < strands.size(); ++j) {
+        if ((changed[i] || changed[j]) && cross(lines[i], lines[j])) { sharper[i] = sharper[j] = true; }
+      }
+    }
+    for (std::size_t i = 0; i < strands.size(); ++i) {
+      double& rounding = strands[i].curve.rounding;
+      changed[i] = sharper[i] && rounding > 0.0;
+      if (changed[i]) { rounding = rounding > 0.2 ? 0.6 * rounding : 0.0; }
+      again = again || changed[i];
+    }
+  }
+}
+
 Panel draw(const PlanarMap& map, const Before& before, double smallest) {
-  const std::uint32_t outer = choose_outer(map, before);
-  const std::size_t corners = map.faces[outer].size();
-  // A tree begins on the left. Three corners and more: a side below, the first corner left of it. Two: left and right. One: below.
-  const double first_corner = corners == 2 || map.faces.size() == 1 ? std::numbers::pi
-                              : corners == 1                        ? -0.5 * std::numbers::pi
-                                                                    : std::numbers::pi * (-0.5 - 1.0 / static_cast<double>(corners));
-  Embedding drawing = embed(map, outer, first_corner);
-  settle(drawing, map, corners, before);
+  constexpr std::size_t most_tries = 8;
+  std::optional<Embedding> embedded;
+  std::uint32_t outer = 0;
+  const std::vector<std::uint32_t> order = outer_faces(map, before);
+  for (std::size_t i = 0; i < std::min(most_tries, order.size()) && !embedded; ++i) {
+    outer = order[i];
+    const std::size_t corners = map.faces[outer].size();
+    // A tree begins on the left. Three corners and more: a side below, the first corner left of it. Two: left and right. One: below.
+    const double first_corner = corners == 2 || map.faces.size() == 1 ? std::numbers::pi
+                                : corners == 1                        ? -0.5 * std::numbers::pi
+                                                                      : std::numbers::pi * (-0.5 - 1.0 / static_cast<double>(corners));
+    embedded = embed(map, outer, first_corner);
+  }
+  if (!embedded) { return {}; }
+  Embedding& drawing = *embedded;
+  settle(drawing, map, map.faces[outer].size(), before);
 
   Panel panel;
   for (std::uint32_t i = 0; i < map.edges.size(); ++i) {
@@ -120,6 +164,7 @@ Panel draw(const PlanarMap& map, const Before& before, double smallest) {
     strand.curve.points.back() = drawing.vertices[map.darts[2 * i + 1].vertex];
     panel.strands.push_back(strand);
   }
+  part(panel.strands);
   for (std::size_t i = 0; i < map.vertices.size(); ++i) {
     if (map.vertices[i] != brep::invalid_index) { panel.vertices.push_back({map.vertices[i], drawing.vertices[i]}); }
   }
@@ -145,17 +190,25 @@ Panel draw(const PlanarMap& map, const Before& before, double smallest) {
 
 }  // namespace
 
+std::array<Point, 3> Curve::arc(std::size_t k) const {
+  const Point before = k == 1 ? points[0] : 0.5 * (points[k - 1] + points[k]);
+  const Point after = k + 2 == points.size() ? points[k + 1] : 0.5 * (points[k] + points[k + 1]);
+  return {glm::mix(points[k], before, rounding), points[k], glm::mix(points[k], after, rounding)};
+}
+
 std::vector<Point> Curve::flat(int n) const {
   std::vector<Point> line{points.front()};
-  Point start = points.front();
+  const auto add = [&](const Point& p) {
+    if (p != line.back()) { line.push_back(p); }
+  };
   for (std::size_t k = 1; k + 1 < points.size(); ++k) {
-    const Point end = k + 2 == points.size() ? points.back() : 0.5 * (points[k] + points[k + 1]);
-    for (int i = 1; i <= n; ++i) {
+    const auto [a, b, c] = arc(k);
+    for (int i = 0; i <= n; ++i) {
       const double t = static_cast<double>(i) / n;
-      line.push_back(glm::mix(glm::mix(start, points[k], t), glm::mix(points[k], end, t), t));
+      add(glm::mix(glm::mix(a, b, t), glm::mix(b, c, t), t));
     }
-    start = end;
   }
+  add(points.back());
   return line;
 }
 

@@ -17,11 +17,15 @@
 
 namespace apps::euler {
 
-// A smooth curve: from the first point to the last, the others pull it (quadratic B-spline, clamped).
+// A curve along a line of points, its corners rounded by parabolas: a smooth one (quadratic B-spline) with rounding 1, the line itself with 0.
 struct Curve {
   std::array<glm::dvec2, inner_points + 2> points{};
+  double rounding = 1.0;
 
-  // Straight pieces that follow it, `pieces` for each of its three arcs.
+  // The parabola at inner point k: from arc(k)[0] to arc(k)[2] with the control point arc(k)[1]. Straight lines lie between.
+  [[nodiscard]] std::array<glm::dvec2, 3> arc(std::size_t k) const;
+
+  // Straight pieces that follow it, `pieces` for each arc.
   [[nodiscard]] std::vector<glm::dvec2> flat(int pieces) const;
 };
 
@@ -56,7 +60,7 @@ struct FaceArea {  // an inner face of a shell that is drawn whole, or where all
 };
 
 struct Panel {
-  std::vector<Strand> strands;
+  std::vector<Strand> strands;  // none when the shell is nested too deeply to be drawn
   std::vector<VertexMark> vertices;
   std::vector<FaceLabel> labels;
   std::vector<FaceArea> areas;

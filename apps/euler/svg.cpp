@@ -52,6 +52,7 @@ class Pen {
     out_ += "<rect x='" + number(-box) + "' y='" + number(-box) + "' width='" + number(2 * box) + "' height='" + number(2 * box) +
             "' rx='" + number(0.12 * half_) + "' class='outside' fill='" +
             (panel_.outer_whole ? tint(panel_.outer_face) : std::string("#f4f4f2")) + "'/>\n";
+    if (panel_.strands.empty()) { out_ += "<text font-size='" + number(0.08 * half_) + "'>nested too deeply to be drawn</text>\n"; }
     for (const FaceArea& area : panel_.areas) { draw_area(area); }
     for (const Strand& s : panel_.strands) { draw_edge(s); }
     for (const Strand& s : panel_.strands) { draw_halves(s); }
@@ -76,15 +77,17 @@ class Pen {
     return !old ? " new" : is_argument(letter, index) ? " argument" : "";
   }
 
-  // The control points of a strand as a path; backwards when asked.
+  // A strand as a path; backwards when asked.
   [[nodiscard]] std::string path(const Strand& s, bool backwards, bool move) const {
-    auto p = s.curve.points;
-    if (backwards) { std::reverse(p.begin(), p.end()); }
-    std::string d = move ? "M" + at(p.front()) : "";
-    for (std::size_t k = 1; k + 1 < p.size(); ++k) {
-      d += "Q" + at(p[k]) + " " + at(k + 2 == p.size() ? p.back() : 0.5 * (p[k] + p[k + 1]));
+    Curve curve = s.curve;
+    if (backwards) { std::reverse(curve.points.begin(), curve.points.end()); }
+    std::string d = move ? "M" + at(curve.points.front()) : "";
+    for (std::size_t k = 1; k + 1 < curve.points.size(); ++k) {
+      const auto [from, control, to] = curve.arc(k);
+      if (curve.rounding < 1.0) { d += "L" + at(from); }
+      d += "Q" + at(control) + " " + at(to);
     }
-    return d;
+    return d + (curve.rounding < 1.0 ? "L" + at(curve.points.back()) : "");
   }
   void draw_area(const FaceArea& area) {
     std::string d;
@@ -283,7 +286,7 @@ std::string strip(const Story& story) {
   constexpr double width = 1290.0, gap = 18.0, line = 13.0, head = 26.0;
   long edges = 0;
   for (const Frame& frame : story.frames) { edges = std::max(edges, frame.drawn.e); }
-  const std::size_t columns = edges <= 14 ? 4 : edges <= 26 ? 3 : 2;  // large maps need large cells
+  const std::size_t columns = edges <= 14 ? 4 : edges <= 40 ? 3 : 2;  // large maps need large cells
   const double cell = (width - gap) / static_cast<double>(columns) - gap;
   const auto letters = static_cast<std::size_t>((cell - 10.0) / 5.7);  // in a line of a caption
   const std::vector<Layout> layouts = lay_out(story, 7.4 / (0.5 * cell * 0.96 / 1.26));
