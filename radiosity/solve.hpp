@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include <radiosity/material.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/transport.hpp>
 #include <radiosity/tree_transport.hpp>
@@ -250,6 +251,38 @@ inline LinearSolution conjugate_gradients(const Channel& channel, double wanted,
       break;
   }
   return detail::conjugate_gradients(channel, residual, max_iterations);
+}
+
+// All channels of a scene.
+struct ColorSolution {
+  std::vector<Color> radiosity;                // of every node
+  double residual = 0.0;                       // the worst channel's
+  std::uint32_t iterations = 0;                // the most of any channel
+  bool converged = true;                       // all of them
+  std::vector<std::vector<double>> histories;  // one a channel
+};
+
+// `reflectance` and `emission`: one for each input surface. With one channel the scene is grey and the others are copies.
+[[nodiscard]] inline ColorSolution solve_channels(const Hierarchy& hierarchy, Transport& transport, const std::vector<double>& area,
+                                                  const std::vector<Color>& reflectance, const std::vector<Color>& emission,
+                                                  unsigned channels, Solver solver, double residual, std::uint32_t max_iterations) {
+  ColorSolution solution;
+  solution.radiosity.assign(hierarchy.size(), Color{0.0});
+  for (int c = 0; c < static_cast<int>(channels); ++c) {
+    std::vector<double> rho;
+    std::vector<double> e;
+    for (const Color& r : reflectance) { rho.push_back(r[c]); }
+    for (const Color& b : emission) { e.push_back(b[c]); }
+    LinearSolution solved = solve_channel(hierarchy, transport, area, rho, e, solver, residual, max_iterations);
+    solution.residual = std::max(solution.residual, solved.residual);
+    solution.iterations = std::max(solution.iterations, solved.iterations);
+    solution.converged = solution.converged && solved.converged;
+    solution.histories.push_back(std::move(solved.history));
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+      for (int to = c; to < (channels == 1 ? 3 : c + 1); ++to) { solution.radiosity[i][to] = solved.radiosity[i]; }
+    }
+  }
+  return solution;
 }
 
 }  // namespace radiosity

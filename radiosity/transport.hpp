@@ -104,11 +104,11 @@ class Transport {
     return y;
   }
 
-  // Closes a scene that is proven closed: finds D with all row sums 1 (symmetric scaling, van Leersum 1989), so that
+  // Closes a scene that is proven closed: finds D with all row sums 1, within the tolerance (symmetric scaling, van Leersum 1989), so that
   // what quadrature and sampled visibility got wrong in the rows does not grow by rho / (1 - rho) in the solution.
   // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS of D - 1, or nothing, and no D, when that
   // is beyond `limit`: then something other than quadrature and sampling is wrong.
-  std::optional<double> close(double limit) {
+  std::optional<double> close(double limit, double tolerance = 1e-12) {
     const std::vector<double>& area = exposure_->area;
     for (int round = 0; round < 400; ++round) {
       const std::vector<double> rows = row_sums();
@@ -118,7 +118,7 @@ class Transport {
         worst = std::max(worst, std::abs(rows[i] - 1.0));
         scale_[i] /= std::sqrt(rows[i]);
       }
-      if (worst < 1e-12) { break; }
+      if (worst < tolerance) { break; }
     }
     double square = 0.0;
     double total = 0.0;
