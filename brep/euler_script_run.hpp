@@ -35,8 +35,9 @@ class ScriptRunner {
   explicit ScriptRunner(B& brep) : brep_(&brep) {}
 
   Outcome run(const Statement& s) {
-    names_.erase(s.result.name);  // an older value must not stand in for a result that does not come
     Outcome outcome = dispatch(s);
+    // An older value must not stand in for a result that did not come.
+    if (outcome.kind != Outcome::Kind::done) names_.erase(s.result.name);
     if (s.refused && outcome.kind == Outcome::Kind::done) {
       outcome.kind = Outcome::Kind::failed;
       outcome.sentence = std::string(form(s.command).name) + " was done, but the script says that it is refused";

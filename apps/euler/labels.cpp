@@ -154,7 +154,7 @@ void place_names(const PlanarMap& map, std::uint32_t outer, double smallest, Pan
   }
   const double largest = std::max(smallest, 0.072);
   panel.text = std::clamp(wanted, smallest, largest);
-  panel.gap = 0.3 * panel.text;
+  panel.gap = 0.36 * panel.text;
   for (std::size_t i = 0; i < panel.strands.size(); ++i) {
     Strand& s = panel.strands[i];
     std::vector<Point> line = s.curve.flat(pieces);

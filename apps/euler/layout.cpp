@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apps/euler/layout.hpp"
 
-#include "apps/euler/labels.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +10,8 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "apps/euler/labels.hpp"
 
 namespace apps::euler {
 namespace {
