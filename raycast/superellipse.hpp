@@ -35,7 +35,8 @@ class Superellipse {
       return {g.value, g.dy, g.dx};
     }
     if (x == 0.0) return {0.0, 1.0, 1.0};
-    const double ratio = y / x, power = std::pow(ratio, p_), g = std::pow(1.0 + power, 1.0 / p_), dx = g / (1.0 + power);
+    const double ratio = y / x, power = p_ == 2.0 ? ratio * ratio : std::pow(ratio, p_);
+    const double g = p_ == 2.0 ? std::sqrt(1.0 + power) : std::pow(1.0 + power, 1.0 / p_), dx = g / (1.0 + power);
     return {x * g, dx, dx * (ratio > 0.0 ? power / ratio : p_ > 1.0 ? 0.0 : p_ < 1.0 ? infinity : 1.0)};
   }
   // The gauge of x, y >= 0 and its derivative along (ex, ey), which must not leave the quadrant's side of an axis: at a coordinate 0 it is

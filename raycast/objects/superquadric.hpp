@@ -114,7 +114,8 @@ class Superquadric final : public Object {
   // poles of a superellipsoid. A chord point lies within the sum of both curves' chord errors of the surface, each scaled by the largest
   // extent of the other; either gets half of the tolerance. 4 (8 for a profile ring) to 512 points a curve.
   void approximate(double tolerance, brep::Builder& out) const override {
-    const double across = limit_.x * std::max(radii_.x, radii_.y) * around_(1.0, 1.0).value;            // at least the largest radius
+    // The farthest point of the unit curve is on an axis or half-way between two.
+    const double across = limit_.x * std::max(radii_.x, radii_.y) * std::max(1.0, std::numbers::sqrt2 / around_(1.0, 1.0).value);
     if (ring_ > 0.0) tolerance = std::min(tolerance, 0.25 * std::min({radii_.x, radii_.y, radii_.z}));  // a mesh that is still a ring
     const int n = around_.points(0.5 * tolerance, limit_.x * radii_.x, limit_.y * radii_.y, 8);
     const int m = profile_.points(0.5 * tolerance, across / limit_.x, radii_.z, 8);
