@@ -3,6 +3,8 @@
 
 #include "primitives.hpp"
 
+#include <brep/brep.hpp>
+
 #include <limits>
 
 using namespace raycast;
@@ -221,4 +223,80 @@ TEST_CASE("no ray escapes from a room of any primitive") {
   }
   CHECK(rays > 50000);
   CHECK(escaped == 0);
+}
+
+TEST_CASE("a mesh made from a BRep is the mesh made from its list, closed or open") {
+  SEEDED(random);
+  struct Position {
+    dvec3 position{0.0};
+  };
+  struct Sheet {
+    std::uint32_t sheet = 0;
+  };
+  using Shell = brep::BRep<Position, brep::NoData, Sheet>;
+  const Corners gutter{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}};
+  const Made<Mesh> lists[] = {l_block(), Mesh::make(gutter, {{0, 1, 2, 3}, {1, 4, 5, 2}})};
+  for (const auto& list : lists) {
+    brep::Builder builder;
+    list->approximate(0.0, builder);
+    const auto closed = brep::close<Shell>(builder);
+    REQUIRE(closed.brep);
+    const auto copy = Mesh::make(*closed.brep);
+    INFO(copy.refusal);
+    REQUIRE(copy);
+    CHECK(copy->solid() == list->solid());
+    CHECK(copy->sheet_count() == list->sheet_count());
+    for (int i = 0; i < 2000; ++i) {
+      const Segment line = between(3.0 * random.direction(), random.in_cube());
+      Spans a, b;
+      list->spans(line, a);
+      copy->spans(line, b);
+      REQUIRE(a.size() == b.size());
+      for (std::size_t k = 0; k < a.size(); ++k) CHECK((a[k].in.t == b[k].in.t && a[k].out.sheet == b[k].out.sheet));
+    }
+  }
+}
+
+TEST_CASE("instances of instances share one object and answer as the composed placement does") {
+  SEEDED(random);
+  const auto torus = Torus::make({0, 0, 0}, {0, 0, 1}, 1, 0.3);
+  for (int i = 0; i < 300; ++i) {
+    const Placement inner{random.rotation() * random.uniform(0.5, 2), random.in_cube(), false};
+    const Placement outer{random.rotation() * glm::dmat3(1, 0, 0, 0, 2, 0, 0, 0, 0.5), random.in_cube(), false};
+    const auto nested = Instance::make(Instance::make(torus.object, inner).object, outer);
+    const PlacedObject direct = placed(torus, compose(outer, inner));
+    const Segment line = between(4.0 * random.direction(), direct.bounds().centre() + random.in_cube());
+    // The maps' condition is at most 16; a grazing chord takes the root of rounding.
+    CHECK(alike(spans_of(nested, line), spans(direct, line), 1e-6));
+    const dvec3 p = random.in_cube(3);
+    CHECK(glm::length(nested->project(0, p).position - direct.project(0, p).position) <= 1e-12);
+  }
+  CHECK(torus.object.use_count() == 1);
+}
+
+TEST_CASE("disks: met within the radius, at any size and distance; their mesh has their area") {
+  SEEDED(random);
+  int met = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double size = random.magnitude(8), far = size * std::pow(10.0, random.uniform(0, 8));
+    const dvec3 centre = random.in_cube(size * std::pow(10.0, random.uniform(-2, 2)));
+    const glm::dmat3 frame = random.rotation();
+    const auto disk = Disk::make(centre, 3.0 * frame[2], size);
+    const double r = random.below(2) ? random.uniform(0, 1.5) : 1 + std::pow(10.0, random.uniform(-6, -1)) * (random.below(2) ? 1 : -1);
+    const double angle = random.uniform(0, 6.28);
+    const dvec3 target = centre + size * r * (std::cos(angle) * frame[0] + std::sin(angle) * frame[1]);
+    const dvec3 d = random.direction();
+    const double cosine = std::abs(glm::dot(d, frame[2])), bound = 16 * unit_roundoff * (far + size + glm::length(centre)) / cosine;
+    if (std::abs(r - 1) * size <= bound) continue;
+    const Spans found = spans_of(disk, between(target - far * d, target));
+    REQUIRE(found.size() == (r < 1 ? 1u : 0u));
+    if (r < 1) CHECK(std::abs(found[0].in.t - 1.0) * far <= bound);
+    met += r < 1;
+  }
+  CHECK(met > 5000);
+  brep::Builder builder;
+  Disk::make({1, 2, 3}, {1, 1, 1}, 2)->approximate(0.1, builder);
+  Corners corners;
+  for (const std::uint32_t v : builder.corners(0)) corners.push_back(builder.position(v));
+  CHECK(glm::length(brep::vector_area(brep::Polygon(corners))) == test::Approx(4 * 3.14159265358979).epsilon(1e-13));
 }
