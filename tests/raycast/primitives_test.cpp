@@ -67,7 +67,7 @@ TEST_CASE("every primitive: crossings lie on the surface and on their sheet, ove
               lowest = std::min(lowest, value);
               highest = std::max(highest, value);
             }
-            CHECK(((lowest <= 0 && highest >= 0) || thinnest * size <= 4 * bound));
+            CHECK(((lowest <= 0 && highest >= 0) || thinnest * size <= 16 * bound));
           }
         }
         if (!primitive.creased) {
