@@ -14,7 +14,7 @@
 // shell first, then the other edges, which split faces and, as bridges, close the handles. The dual of the dual has every
 // half-edge with the roles of its ends exchanged, so twin leads back: it is the same map.
 
-#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <brep/brep.hpp>
@@ -64,17 +64,25 @@ class DualMaker {
  private:
   [[nodiscard]] HalfedgeId image(HalfedgeId h) const { return dual_.halfedge[h.index]; }
   [[nodiscard]] bool made(HalfedgeId h) const { return image(h).valid(); }
-  void set(HalfedgeId h, HalfedgeId made) {
-    dual_.halfedge[h.index] = made;
-    dual_.halfedge[twin(h).index] = twin(made);
+  void set(HalfedgeId h, HalfedgeId to) {
+    dual_.halfedge[h.index] = to;
+    dual_.halfedge[twin(h).index] = twin(to);
   }
 
   // The half-edge before which h* is to be inserted: the next one clockwise of those that are there. Clockwise around the dual vertex of
-  // a face lie the duals of its half-edges, backward.
+  // a face lie the duals of its half-edges, backward. Looks both ways, so that n insertions cost O(n log n) in any order.
   [[nodiscard]] HalfedgeId corner(HalfedgeId h) const {
-    HalfedgeId x = brep_.prev(h);
-    while (!made(x)) x = brep_.prev(x);
-    return image(x);
+    for (HalfedgeId x = brep_.prev(h), y = brep_.next(h);; x = brep_.prev(x), y = brep_.next(y)) {
+      if (made(x)) return image(x);
+      if (made(y)) return dual_.brep.next(twin(image(y)));
+    }
+  }
+  // Both h* and its twin are to be inserted in one corner: which comes first, clockwise?
+  [[nodiscard]] HalfedgeId first_in_corner(HalfedgeId h) const {
+    for (HalfedgeId x = brep_.prev(h), y = brep_.next(h);; x = brep_.prev(x), y = brep_.next(y)) {
+      if (x == twin(h) || made(y)) return h;
+      if (y == twin(h) || made(x)) return twin(h);
+    }
   }
 
   // A tree of edges from the vertex of f to all others of its shell, breadth first; a loop when there are no others.
@@ -104,10 +112,8 @@ class DualMaker {
   // Inserts h* between vertices that are there.
   void connect(HalfedgeId h) {
     const HalfedgeId a = corner(h), b = corner(twin(h));
-    if (a == b) {  // a loop in one corner: the half-edge that split_face returns comes first, clockwise
-      HalfedgeId x = brep_.prev(h);
-      while (x != twin(h) && !made(x)) x = brep_.prev(x);
-      set(x == twin(h) ? h : twin(h), unchecked::split_face(dual_.brep, a, a));
+    if (a == b) {
+      set(first_in_corner(h), unchecked::split_face(dual_.brep, a, a));
     } else if (dual_.brep.face(a) != dual_.brep.face(b)) {
       set(h, unchecked::bridge(dual_.brep, a, b));
     } else if (first_side_is_shorter(dual_.brep, a, b)) {
@@ -126,7 +132,7 @@ class DualMaker {
 
 // The dual as a new BRep of type D, all data default but for `position`, if both have it: a vertex of the dual lies in the centroid of its
 // face. A log in D tells how it was made.
-// Time: O(e log e), up to n^2 steps of a walk for a face of n edges, and the length of a face of the dual for each handle.
+// Time: O(e log e), and the length of a face of the unfinished dual for each handle.
 template <class D, class B>
 [[nodiscard]] Dual<D> dual(const B& brep) {
   return detail::DualMaker<D, B>(brep).run();
