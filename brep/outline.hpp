@@ -3,6 +3,9 @@
 
 // A planar polygon seen in its own plane: where may it be cut by a diagonal, and which diagonal is the best?
 //
+// A hole is reached by a bridge edge, on which the outline runs there and back; so corners may coincide where the outline passes
+// a point several times without crossing itself.
+//
 // Used by the face splits of split.hpp and t_vertices.hpp. Coordinates are relative to the first corner; an area counts as
 // zero up to 1e-14 times the square of the polygon's extent, some ten times the rounding error of the test.
 
@@ -53,17 +56,19 @@ class Outline {
     return std::atan2(cross(in, out), glm::dot(in, out));
   }
 
-  // Does the segment from corner i to corner j lie inside, touch the outline nowhere else, and cut two areas that are not zero?
+  // Does the segment from corner i to corner j lie inside, touch the outline nowhere but at these two points, and cut two areas that are
+  // not zero? Where other corners coincide with the two, the cones at i and j say all.
   [[nodiscard]] bool inner_diagonal(std::size_t i, std::size_t j) const {
     if (i == j || next(i) == j || next(j) == i || !in_cone(i, j) || !in_cone(j, i)) return false;
+    const auto at_end = [&](std::size_t k) { return points_[k] == points_[i] || points_[k] == points_[j]; };
     for (std::size_t k = 0; k < size(); ++k) {
-      const std::size_t l = next(k);
-      if (k != i && k != j && l != i && l != j && touch(i, j, k, l)) return false;
+      if (!at_end(k) && !at_end(next(k)) && touch(i, j, k, next(k))) return false;
     }
     return true;
   }
 
-  // Do two edges touch that are not neighbours, or does the outline turn back on itself? Then one of the corners.
+  // Do two edges touch that are not neighbours, but for bridges and coinciding corners around a hole, or does the outline turn back on
+  // itself? Then one of the corners.
   // O(n log n) for reasonable outlines (sweep along x), O(n^2) at worst.
   [[nodiscard]] std::optional<std::size_t> self_contact() const {
     std::vector<std::size_t> order(size());
@@ -78,7 +83,7 @@ class Outline {
     for (std::size_t a = 0; a < size(); ++a) {
       for (std::size_t b = a + 1; b < size() && lo(order[b]) <= hi(order[a]); ++b) {
         const std::size_t k = order[a], l = order[b];
-        if (next(k) != l && next(l) != k && touch(k, next(k), l, next(l))) return k;
+        if (next(k) != l && next(l) != k && touch(k, next(k), l, next(l)) && !legal_contact(k, l)) return k;
       }
     }
     return std::nullopt;
@@ -142,6 +147,19 @@ class Outline {
       return std::max(s, t) >= 0.0 && std::min(s, t) <= end;
     }
     return c_side * d_side <= 0 && a_side * b_side <= 0;
+  }
+
+  // The edges k and l touch. Is it no more than that corners coincide, neither of which enters the angle of the other? Of edges that overlap
+  // otherwise than as the two sides of a bridge, a neighbour touches too, unless the outline is run through twice.
+  [[nodiscard]] bool legal_contact(std::size_t k, std::size_t l) const {
+    const std::size_t m = next(k), n = next(l);
+    bool coincide = false;
+    for (const auto& [i, j] : {Diagonal{k, l}, Diagonal{k, n}, Diagonal{m, l}, Diagonal{m, n}}) {
+      if (points_[i] != points_[j]) continue;
+      if (in_cone(i, next(j)) || in_cone(i, prev(j)) || in_cone(j, next(i)) || in_cone(j, prev(i))) return false;
+      coincide = true;
+    }
+    return coincide && (points_[k] != points_[l] || points_[m] != points_[n]);
   }
 
   SmallList<glm::dvec2> points_;

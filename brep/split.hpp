@@ -179,7 +179,7 @@ template <class B, SplitObjectFor<B> Split, ConditionFor<B> Condition>
 
 namespace detail {
 
-// Is f a polygon that diagonals can take apart: finite, with area, and with a boundary that meets itself nowhere?
+// Is f a polygon that diagonals can take apart: finite, with area, and with a boundary that meets itself at bridges alone?
 template <class B>
 [[nodiscard]] Refusal check_polygon(const B& brep, FaceId f, double greatest_planarity) {
   if (!brep.alive(f)) return {Code::dead, {f}};
@@ -195,8 +195,8 @@ template <class B>
 
 }  // namespace detail
 
-// Cuts a planar simple face by inner diagonals until all parts are convex, and returns the parts, f first. No vertex is added, so
-// the parts cover the face exactly.
+// Cuts a planar simple face, with holes if they are reached by bridge edges, by inner diagonals until all parts are convex, and returns
+// the parts, f first. No vertex is added, so the parts cover the face exactly.
 // Refused (nothing changes): f is dead, has fewer than three corners or no area; it is not planar (planarity above 1e-6); its
 // boundary crosses or touches itself.
 template <class B>

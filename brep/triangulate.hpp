@@ -44,6 +44,7 @@ template <class B>
 }  // namespace detail
 
 // Cuts f of n edges into n - 2 triangles and returns them, f first.                                   counts: e+n-3 f+n-3
+// A bridge edge to a hole counts twice: the loop of f runs along both sides of it.
 // Refused (nothing changes): f is dead, has no area or a boundary that crosses or touches itself; no handle is left.
 // Inverse: join_faces for the new edges, last made first.     Time: O(n^2 log n) for the diagonals of each cut.
 template <class B>

@@ -279,6 +279,14 @@ Call random_call(const B& m, shapes::Random& random, std::size_t limit) {
   return {shrinking[random.below(8)], a, {}};
 }
 
+// What random calls make from nothing: degenerate states, handles and several shells.
+template <class B>
+B random_map(shapes::Random& random, std::size_t number_of_calls) {
+  B m;
+  for (std::size_t i = 0; i < number_of_calls; ++i) (void)apply(m, random_call(m, random, number_of_calls));
+  return m;
+}
+
 // The shortest sequence that dropping steps from a failing one leads to: halves, quarters, ... and at last single steps are left out as
 // long as it still fails.
 template <class Fails>

@@ -9,13 +9,13 @@
 #include <brep/euler_log.hpp>
 #include <brep/extrude.hpp>
 #include <brep/neighbours.hpp>
+#include <brep/testing.hpp>
 #include <brep/triangulate.hpp>
 
-#include "canonical.hpp"
+#include "calls.hpp"
 #include "shapes.hpp"
 
 using namespace brep;
-using shapes::canonical;
 using shapes::faults;
 using shapes::Mesh;
 using shapes::Random;
@@ -41,7 +41,6 @@ std::size_t not_simple(const B& m) {
 TEST_CASE("collapse_edge between triangles: v-1 e-3 f-2, and splitting the vertex again restores the map") {
   Mesh m = shapes::build(shapes::torus_builder(5, 6));
   REQUIRE(triangulate(m));
-  const auto before = canonical(m);
   for (HalfedgeId h : shapes::all_halfedges(m)) {
     Mesh copy = m;
     // To turn the collapse round: the half-edges that are merged with those of the killed edges, seen from v.
@@ -63,7 +62,7 @@ TEST_CASE("collapse_edge between triangles: v-1 e-3 f-2, and splitting the verte
     REQUIRE((copy.vertex(a) == v && copy.vertex(b) == v && edge(a) == edge(p) && edge(copy.next(right)) == edge(q)));
     REQUIRE(split_vertex(copy, a, b));
     REQUIRE(faults(copy) == "");
-    CHECK(canonical(copy) == before);
+    CHECK_THAT(copy, IsIsomorphicTo(m));
   }
 }
 
@@ -165,7 +164,7 @@ TEST_CASE("flip_edge in any two faces: as many flips as their polygon has corner
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     INFO("seed " << seed);
     Random random(seed);
-    const Bare m = shapes::random_map<Bare>(random, 30);
+    const Bare m = calls::random_map<Bare>(random, 30);
     for (HalfedgeId h : shapes::all_halfedges(m)) {
       Bare copy = m;
       const auto before = records(m);
@@ -196,7 +195,7 @@ TEST_CASE("collapse_edge on random maps: legal results, no new parallel edges or
   for (std::uint32_t seed = 1; seed <= 150; ++seed) {
     INFO("seed " << seed);
     Random random(seed);
-    const Bare m = shapes::random_map<Bare>(random, 30);
+    const Bare m = calls::random_map<Bare>(random, 30);
     for (HalfedgeId h : shapes::all_halfedges(m)) {
       Bare copy = m;
       if (collapse_edge(copy, h)) {

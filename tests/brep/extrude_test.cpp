@@ -6,11 +6,10 @@
 #include <brep/euler_log.hpp>
 #include <brep/triangulate.hpp>
 
-#include "canonical.hpp"
+#include "calls.hpp"
 #include "shapes.hpp"
 
 using namespace brep;
-using shapes::canonical;
 using shapes::faults;
 using shapes::Mesh;
 using shapes::Random;
@@ -64,7 +63,7 @@ TEST_CASE("extrude_face: the cap keeps its handle, each side is a quadrilateral 
 TEST_CASE("extrude_face is undone by joins in the opposite order: every record is restored") {
   Random random(5);
   for (int round = 0; round < 40; ++round) {
-    Bare m = shapes::random_map<Bare>(random, 25);
+    Bare m = calls::random_map<Bare>(random, 25);
     if (m.face_count() == 0) continue;
     const FaceId f = m.face(shapes::all_halfedges(m)[0]);
     const std::size_t n = degree(m, f);
@@ -174,7 +173,7 @@ TEST_CASE("triangulate without positions cuts fans; faces of one and two edges s
   for (std::uint32_t seed = 1; seed <= 30; ++seed) {
     INFO("seed " << seed);
     Random random(seed);
-    Bare m = shapes::random_map<Bare>(random, 40);
+    Bare m = calls::random_map<Bare>(random, 40);
     const std::size_t count = m.face_count();
     const auto added = triangulate(m);
     REQUIRE(added);
@@ -194,7 +193,7 @@ TEST_CASE("extrude and poke random maps: always valid, genus and shells kept, de
   for (std::uint32_t seed = 1; seed <= 30; ++seed) {
     INFO("seed " << seed);
     Random random(seed);
-    Logged m = shapes::random_map<Logged>(random, 30);
+    Logged m = calls::random_map<Logged>(random, 30);
     if (m.face_count() == 0) continue;
     const auto before = records(m);
     const std::size_t start = mark(m);

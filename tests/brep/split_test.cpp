@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Recursive face splits: non-convex polygons fall into convex parts, impossible ones are refused.
+// Recursive face splits: every split object with every condition object, and what is refused.
 
 #include <brep/split.hpp>
 
-#include <algorithm>
 #include <limits>
 #include <memory>
 #include <span>
@@ -11,182 +10,16 @@
 #include <brep/euler_log.hpp>
 #include <brep/refine.hpp>
 
+#include "outlines.hpp"
 #include "shapes.hpp"
 
 using namespace brep;
+using outlines::check_cover;
+using outlines::Points;
 using shapes::faults;
 using shapes::Mesh;
 
 namespace {
-
-using Points = std::vector<glm::dvec2>;
-
-Points comb(unsigned teeth) {
-  Points p{{0, 0}, {2.0 * teeth - 1.0, 0}};
-  for (unsigned i = teeth; i-- > 0;) {
-    const double x = 2.0 * i;
-    p.insert(p.end(), {{x + 1.0, 3.0}, {x, 3.0}});
-    if (i > 0) p.insert(p.end(), {{x, 1.0}, {x - 1.0, 1.0}});
-  }
-  return p;
-}
-Points star(unsigned points, double inner) {
-  Points p;
-  for (unsigned i = 0; i < 2 * points; ++i) {
-    const double r = i % 2 == 0 ? 1.0 : inner, angle = shapes::pi * i / points;
-    p.push_back({r * std::cos(angle), r * std::sin(angle)});
-  }
-  return p;
-}
-Points spiral(unsigned turns) {
-  const unsigned n = 12 * turns;
-  Points p;
-  for (unsigned i = 0; i <= n; ++i) {  // outward along the outer wall, back along the inner one
-    const double a = 2.0 * shapes::pi * i / 12, r = 1.0 + 0.5 * i;
-    p.push_back({r * std::cos(a), r * std::sin(a)});
-  }
-  for (unsigned i = n + 1; i-- > 0;) {
-    const double a = 2.0 * shapes::pi * i / 12, r = 1.0 + 0.5 * i - 2.0 * std::min(1.0, 0.2 + 0.05 * i);
-    p.push_back({r * std::cos(a), r * std::sin(a)});
-  }
-  return p;
-}
-
-std::size_t check_split(const Points& outline) {
-  Mesh m = shapes::build(shapes::pillow_builder(outline));
-  const double whole = area(m, FaceId{0});
-  const glm::dvec3 n = normal(m, FaceId{0});
-  REQUIRE(whole > 0.0);
-  m.data(FaceId{0}).mark(3);
-  const auto parts = split_until_convex(m, FaceId{0});
-  if (!parts) UNSCOPED_INFO(parts.refusal().sentence());
-  REQUIRE(parts);
-  CHECK((*parts)[0] == FaceId{0});
-  CHECK(m.face_count() == parts->size() + 1);
-  CHECK(m.vertex_count() == outline.size());
-  CHECK(faults(m) == "");
-  double sum = 0.0;
-  for (FaceId f : *parts) {
-    CHECK(is_convex(m, f));
-    CHECK(glm::dot(normal(m, f), n) > 0.999);
-    CHECK(m.data(f).marked(3));
-    sum += area(m, f);
-  }
-  CHECK(sum == test::Approx(whole).epsilon(1e-12));
-  return parts->size();
-}
-
-Code refused(const std::vector<glm::dvec3>& points) {
-  Builder b;
-  std::vector<std::uint32_t> front, back;
-  for (const auto& p : points) {
-    front.push_back(b.vertex(p));
-    back.insert(back.begin(), front.back());
-  }
-  b.face(front, 0);
-  b.face(back, 0);
-  Mesh m = shapes::build(b);
-  const auto before = shapes::records(m);
-  const auto parts = split_until_convex(m, FaceId{0});
-  CHECK(shapes::records(m) == before);
-  CHECK_FALSE(parts.refusal().sentence().empty());
-  return parts.refusal().code;
-}
-
-}  // namespace
-
-TEST_CASE("L, U, comb, star and spiral fall into convex parts that cover them") {
-  CHECK(check_split({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}) == 2);
-  CHECK(check_split({{0, 0}, {3, 0}, {3, 2}, {2, 2}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}) <= 4);
-  for (unsigned teeth : {2u, 3u, 10u, 40u}) CHECK(check_split(comb(teeth)) <= 2 * teeth);
-  for (unsigned points : {3u, 4u, 5u, 17u, 60u}) {
-    for (double inner : {0.1, 0.3, 0.45}) check_split(star(points, inner));
-  }
-  for (unsigned turns : {1u, 2u, 6u}) check_split(spiral(turns));
-}
-
-TEST_CASE("a convex face, straight corners or not, stays whole") {
-  CHECK(check_split({{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}) == 1);
-  CHECK(check_split({{0, 0}, {1, 0}, {0, 1}}) == 1);
-}
-
-TEST_CASE("an L with T-vertices on its edges") {
-  check_split({{0, 0}, {0.5, 0}, {1, 0}, {2, 0}, {2, 0.5}, {2, 1}, {1.5, 1}, {1, 1}, {1, 1.5}, {1, 2}, {0, 2}, {0, 1}});
-}
-
-TEST_CASE("random star-shaped polygons at any scale fall into convex parts") {
-  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
-    INFO("seed " << seed);
-    shapes::Random random(seed);
-    const unsigned n = 5 + random.below(60);
-    const double scale = std::pow(10.0, 12.0 * random.unit() - 6.0);
-    Points p;
-    for (unsigned i = 0; i < n; ++i) {
-      const double a = 2.0 * shapes::pi * (i + 0.8 * random.unit()) / n, r = scale * (0.1 + random.unit());
-      p.push_back({r * std::cos(a), r * std::sin(a)});
-    }
-    check_split(p);
-  }
-}
-
-TEST_CASE("self-crossing, touching, bent and degenerate polygons are refused and nothing changes") {
-  CHECK(refused({{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 1, 0}}) == Code::not_simple);              // a bow tie
-  CHECK(refused({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}}) == Code::not_simple);   // a corner touches an edge
-  CHECK(refused({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, -1, 0}, {0, 4, 0}}) == Code::not_simple);  // it goes through
-  CHECK(refused({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {3, 4, 0}, {3, 5, 0}, {3, 4, 0}, {0, 4, 0}}) == Code::not_simple);  // a spike
-  CHECK(refused({{0, 0, 0}, {2, 0, 0}, {2, 1, 1}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}) == Code::not_planar);
-  CHECK(refused({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1.5, 0, 0}}) == Code::degenerate_polygon);
-  Mesh m;
-  REQUIRE(make_segment(m));
-  CHECK(split_until_convex(m, FaceId{0}).refusal().code == Code::few_corners);
-  CHECK(split_until_convex(m, FaceId{7}).refusal().code == Code::dead);
-}
-
-TEST_CASE("split and condition objects combine: at most four edges by nice splits, and rejoin takes all back") {
-  Mesh m = shapes::build(shapes::prism_builder(40));
-  const auto before = shapes::records(m);
-  const auto parts = split_recursively(m, FaceId{1}, NiceSplit{}, quadrangles);
-  REQUIRE(parts);
-  CHECK(parts->unfinished.empty());
-  CHECK(parts->steps.size() + 1 == parts->faces.size());
-  for (FaceId f : parts->faces) CHECK((degree(m, f) <= 4 && is_convex(m, f)));
-  CHECK(faults(m) == "");
-  rejoin(m, *parts);
-  CHECK(shapes::records(m) == before);
-}
-
-namespace {
-
-// Staircases on all sides: only right angles, about half of the corners non-convex.
-Points rectilinear(std::uint32_t seed) {
-  shapes::Random random(seed);
-  Points p;
-  const unsigned n = 2 + random.below(12);
-  double x = 0.0;
-  for (unsigned i = 0; i < n; ++i) {  // below, from left to right
-    const double y = -0.5 - random.unit();
-    p.push_back({x, y});
-    x += 0.1 + random.unit();
-    p.push_back({x, y});
-  }
-  for (unsigned i = 0; i < n; ++i) {  // above, from right to left; the strip between is free
-    const double y = 0.5 + random.unit();
-    p.push_back({x, y});
-    x = i + 1 < n ? x * (0.4 + 0.5 * random.unit()) : 0.0;
-    p.push_back({x, y});
-  }
-  return p;
-}
-
-// The parts cover the face: their areas, all positive along its normal, add up to the face's.
-void check_cover(const Mesh& m, const Parts& parts, double whole, const glm::dvec3& n) {
-  double sum = 0.0;
-  for (FaceId f : parts.faces) {
-    CHECK(glm::dot(vector_area(m, f), n) > 0.0);
-    sum += area(m, f);
-  }
-  CHECK(sum == test::Approx(whole).epsilon(1e-12));
-}
 
 // What is asked of every successful split: valid, covering, the data of the parent, and the condition, but for the unfinished parts.
 template <class Split, class Condition>
@@ -199,7 +32,7 @@ std::size_t check_parts(const Points& outline, const Split& split, const Conditi
   const auto parts = split_recursively(m, FaceId{0}, split, condition);
   REQUIRE(parts);
   CHECK(faults(m) == "");
-  check_cover(m, *parts, whole, n);
+  check_cover(m, parts->faces, whole, n);
   std::size_t missed = 0;
   for (FaceId f : parts->faces) {
     CHECK(m.data(f).marked(6));
@@ -211,17 +44,6 @@ std::size_t check_parts(const Points& outline, const Split& split, const Conditi
   rejoin(m, *parts);
   CHECK(shapes::records(m) == before);
   return parts->faces.size();
-}
-
-Points star_shaped(std::uint32_t seed) {
-  shapes::Random random(seed);
-  const unsigned n = 4 + random.below(40);
-  Points p;
-  for (unsigned i = 0; i < n; ++i) {
-    const double a = 2.0 * shapes::pi * (i + 0.8 * random.unit()) / n, r = 0.1 + random.unit();
-    p.push_back({r * std::cos(a), r * std::sin(a)});
-  }
-  return p;
 }
 
 Refusal refusal_of(const auto& split, std::size_t limit = 65536) {
@@ -238,10 +60,23 @@ Refusal refusal_of(const auto& split, std::size_t limit = 65536) {
 
 }  // namespace
 
+TEST_CASE("split and condition objects combine: at most four edges by nice splits, and rejoin takes all back") {
+  Mesh m = shapes::build(shapes::prism_builder(40));
+  const auto before = shapes::records(m);
+  const auto parts = split_recursively(m, FaceId{1}, NiceSplit{}, quadrangles);
+  REQUIRE(parts);
+  CHECK(parts->unfinished.empty());
+  CHECK(parts->steps.size() + 1 == parts->faces.size());
+  for (FaceId f : parts->faces) CHECK((degree(m, f) <= 4 && is_convex(m, f)));
+  CHECK(faults(m) == "");
+  rejoin(m, *parts);
+  CHECK(shapes::records(m) == before);
+}
+
 TEST_CASE("every condition object with every split object on stars, spirals and staircases: covered, inherited, met or reported") {
   for (std::uint32_t seed = 1; seed <= 25; ++seed) {
     INFO("seed " << seed);
-    for (const Points& p : {star_shaped(seed), rectilinear(seed), spiral(1 + seed % 3)}) {
+    for (const Points& p : {outlines::star_shaped(seed), outlines::rectilinear(seed), outlines::spiral(1 + seed % 3)}) {
       const std::size_t n = p.size();
       CHECK(check_parts(p, NiceSplit{}, triangles, true) == n - 2);
       check_parts(p, NiceSplit{}, quadrangles && Convex{}, true);
@@ -273,69 +108,6 @@ TEST_CASE("conditions follow the laws of logic; operands are asked from the left
   CHECK(all_of(yes, negate(no), any_of(no, yes))(m, top));
   CHECK_FALSE(any_of(no, negate(yes))(m, top));
   CHECK(asked == 4);
-}
-
-TEST_CASE("a plane through a cube cuts four faces; T-vertices of the neighbours are shared; parts lie on one side") {
-  Mesh m = shapes::build(shapes::cube_builder());
-  const glm::dvec3 point{0.3, 0.0, 0.0}, across{2.0, 0.5, 0.0};
-  const auto parts = split_recursively(m, AlongPlane{point, across}, BesidePlane{point, across});
-  REQUIRE(parts);
-  CHECK((m.vertex_count() == 12 && m.edge_count() == 20 && m.face_count() == 10));
-  CHECK(faults(m) == "");
-  CHECK(shapes::total_area(m) == test::Approx(6.0).epsilon(1e-14));
-  for (FaceId f : faces(m)) {
-    double lo = 0.0, hi = 0.0;
-    for (const glm::dvec3& p : positions(m, f)) {
-      lo = std::min(lo, glm::dot(p - point, across));
-      hi = std::max(hi, glm::dot(p - point, across));
-    }
-    CHECK((lo > -1e-14 || hi < 1e-14));
-    CHECK(is_convex(m, f));
-  }
-  // Through four corners: no new vertex.
-  Mesh diagonal = shapes::build(shapes::cube_builder());
-  REQUIRE(split_recursively(diagonal, AlongPlane{{0, 0, 0}, {1, -1, 0}}, BesidePlane{{0, 0, 0}, {1, -1, 0}}));
-  CHECK((diagonal.vertex_count() == 8 && diagonal.face_count() == 8));
-  // Beside the cube, along a face, and without a normal: nothing.
-  for (const glm::dvec3& n : {glm::dvec3{0, 0, 1}, glm::dvec3{0.0}, glm::dvec3{NAN, 0, 0}}) {
-    Mesh same = shapes::build(shapes::cube_builder());
-    REQUIRE(split_recursively(same, AlongPlane{{0, 0, 1}, n}, BesidePlane{{0, 0, 1}, n}));
-    CHECK(same.face_count() == 6);
-  }
-}
-
-TEST_CASE("a plane cuts a face with a hole, reached by a bridge edge, beside, through and along the bridge") {
-  // A square of side 4 with a square hole of side 2, bridged from (0, 0) to (1, 1), or straight along y = 2 with corners on the line.
-  for (const bool straight : {false, true}) {
-    Points p;
-    if (straight)
-      p = {{0, 2}, {0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 2}, {1, 2}, {1, 3}, {3, 3}, {3, 1}, {1, 1}, {1, 2}};
-    else
-      p = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
-    for (const glm::dvec3& n :
-         {glm::dvec3{0, 1, 0}, glm::dvec3{1, 0, 0}, glm::dvec3{1, 1, 0}, glm::dvec3{1, -1, 0}, glm::dvec3{-2, 1, 0}}) {
-      for (const glm::dvec3& point : {glm::dvec3{2, 2, 0}, glm::dvec3{0.5, 0.5, 0}, glm::dvec3{0.5, 2, 0}}) {
-        CAPTURE(straight, n.x, n.y, point.x, point.y);
-        Mesh m;  // one shell: the loop and its back, with coinciding corners as separate vertices
-        m = shapes::build(shapes::pillow_builder(p));
-        const double whole = area(m, FaceId{0});
-        CHECK(whole == test::Approx(12.0));
-        const auto parts = split_recursively(m, FaceId{0}, AlongPlane{point, n}, BesidePlane{point, n});
-        REQUIRE(parts);
-        CHECK(parts->faces.size() >= 2);
-        CHECK(faults(m) == "");
-        check_cover(m, *parts, 12.0, glm::dvec3{0, 0, 1});
-        for (FaceId f : parts->faces) {
-          double lo = 0.0, hi = 0.0;
-          for (const glm::dvec3& x : positions(m, f)) {
-            lo = std::min(lo, glm::dot(x - point, n));
-            hi = std::max(hi, glm::dot(x - point, n));
-          }
-          CHECK((lo > -1e-12 || hi < 1e-12));
-        }
-      }
-    }
-  }
 }
 
 TEST_CASE("a lambda that halves a face by planes reaches any area; the neighbours stay closed") {
