@@ -201,7 +201,7 @@ class StatisticsOf {
   const Builder& builder_;
   std::vector<bool> skip_;
   EdgeUses uses_;
-  Orientation orientation_;
+  FlipPlan orientation_;
   std::vector<std::uint32_t> component_;  // of each face
   Statistics result_;
 };
