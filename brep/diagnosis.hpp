@@ -139,7 +139,9 @@ class Diagnosis {
       const FaceId f{i};
       const auto corners = builder_.corners(i);
       if (corners.size() < 3) {
-        add(DefectKind::few_corners, {f}, to_string(f) + " has " + std::to_string(corners.size()) + " corners, a face needs three");
+        add(DefectKind::few_corners, {f},
+            to_string(f) + " has " + std::to_string(corners.size()) + (corners.size() == 1 ? " corner" : " corners") +
+                ", a face needs three");
       }
       for (std::uint32_t v : corners) {
         const std::string name = to_string(VertexId{v});
