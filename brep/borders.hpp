@@ -27,7 +27,7 @@ struct Border {
 };
 
 // Edges that touch a vertex of `excused` are left out.
-[[nodiscard]] inline std::vector<Border> borders(const EdgeUses& uses, const Orientation& orientation, const std::vector<bool>& excused) {
+[[nodiscard]] inline std::vector<Border> borders(const EdgeUses& uses, const FlipPlan& orientation, const std::vector<bool>& excused) {
   constexpr std::uint32_t none = invalid_index;
   std::vector<Border::Edge> open;
   std::vector<std::uint32_t> enters(excused.size(), 0), leaves(excused.size(), 0);

@@ -99,7 +99,7 @@ class Diagnosis {
           to_string(FaceId{again}) + " is " + to_string(FaceId{first}) + " entered again: the same corners in the same order");
     }
     const EdgeUses uses(builder_, skip_);
-    const Orientation orientation(builder_, uses, skip_);
+    const FlipPlan orientation(builder_, uses, skip_);
     report_edges(uses, orientation);
     report_flips(uses, orientation);
     const std::vector<Border> chains = borders(uses, orientation, excused_);
@@ -139,7 +139,9 @@ class Diagnosis {
       const FaceId f{i};
       const auto corners = builder_.corners(i);
       if (corners.size() < 3) {
-        add(DefectKind::few_corners, {f}, to_string(f) + " has " + std::to_string(corners.size()) + " corners, a face needs three");
+        add(DefectKind::few_corners, {f},
+            to_string(f) + " has " + std::to_string(corners.size()) + (corners.size() == 1 ? " corner" : " corners") +
+                ", a face needs three");
       }
       for (std::uint32_t v : corners) {
         const std::string name = to_string(VertexId{v});
@@ -155,7 +157,7 @@ class Diagnosis {
     }
   }
 
-  void report_edges(const EdgeUses& uses, const Orientation& orientation) {
+  void report_edges(const EdgeUses& uses, const FlipPlan& orientation) {
     for (std::uint32_t e = 0; e < uses.edge_count(); ++e) {
       const auto all = uses.of(e);
       const std::uint32_t u = all[0].from(), w = all[0].to(), f = uses.face(all[0].corner);
@@ -176,7 +178,7 @@ class Diagnosis {
   }
 
   // One defect for each group of flipped faces that hang together.
-  void report_flips(const EdgeUses& uses, const Orientation& orientation) {
+  void report_flips(const EdgeUses& uses, const FlipPlan& orientation) {
     UnionFind groups(builder_.face_count());
     std::vector<std::uint32_t> sizes(orientation.one_sided.size(), 0);
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {

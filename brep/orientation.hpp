@@ -15,12 +15,12 @@
 
 namespace brep::detail {
 
-struct Orientation {
+struct FlipPlan {
   std::vector<std::uint32_t> patch;  // of each face; invalid_index for skipped faces
   std::vector<bool> flip;            // of each face
   std::vector<bool> one_sided;       // of each patch
 
-  Orientation(const Builder& builder, const EdgeUses& uses, const std::vector<bool>& skip)
+  FlipPlan(const Builder& builder, const EdgeUses& uses, const std::vector<bool>& skip)
       : patch(builder.face_count(), invalid_index), flip(builder.face_count(), false) {
     std::vector<std::uint32_t> members;
     for (std::uint32_t seed = 0; seed < builder.face_count(); ++seed) {

@@ -133,7 +133,7 @@ class Repairer {
     const Builder now = snapshot();
     const std::vector<bool> bad = unusable(now);
     const EdgeUses uses(now, bad);
-    const Orientation orientation(now, uses, bad);
+    const FlipPlan orientation(now, uses, bad);
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
       if (!orientation.flip[f]) continue;
       std::reverse(faces_[f].begin() + 1, faces_[f].end());

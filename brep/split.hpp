@@ -56,12 +56,20 @@ void rejoin(B& brep, const Parts& parts) {
 
 namespace detail {
 
+// The same for a refusal: a log is as before, too. Nothing was changed since the steps, each of which is one step of the log.
+template <class B>
+void take_back(B& brep, const Parts& parts) {
+  if constexpr (B::logs)
+    undo_to(brep, mark(brep) - parts.steps.size());
+  else
+    rejoin(brep, parts);
+}
+
 template <class B>
 class FaceSplit {
  public:
   FaceSplit(B& brep, std::span<const FaceId> given, std::size_t vertex_limit) : brep_(brep), vertices_left_(vertex_limit) {
     parts_.faces.assign(given.begin(), given.end());
-    if constexpr (B::logs) start_ = mark(brep);
   }
 
   template <class Split, class Condition>
@@ -82,7 +90,7 @@ class FaceSplit {
           continue;
         }
         if (const Refusal refusal = apply(part, cut); refusal.code != Code::none) {
-          take_back();
+          take_back(brep_, parts_);
           return refusal;
         }
         again = again || cut.on_a > 0.0 || cut.on_b > 0.0;
@@ -131,16 +139,8 @@ class FaceSplit {
     return {};
   }
 
-  void take_back() {
-    if constexpr (B::logs)
-      undo_to(brep_, start_);
-    else
-      rejoin(brep_, parts_);
-  }
-
   B& brep_;
   std::size_t vertices_left_;
-  std::size_t start_ = 0;  // in the log
   Parts parts_;
 };
 
@@ -205,7 +205,7 @@ template <class B>
   Result<Parts> parts = split_recursively(brep, f, AtNonConvexCorner{}, Convex{});
   if (!parts) return parts.refusal();
   if (parts->unfinished.empty()) return std::move(parts->faces);
-  rejoin(brep, *parts);  // a simple polygon always has such diagonals; only one that is degenerate within rounding ends here
+  detail::take_back(brep, *parts);  // a simple polygon always has such diagonals; only one that is degenerate within rounding ends here
   return Refusal{Code::degenerate_polygon, {f}};
 }
 

@@ -30,12 +30,12 @@ namespace brep {
 struct Component {
   FaceId first;  // the face of lowest number
   std::size_t vertices = 0, edges = 0, faces = 0;
-  std::size_t borders = 0, border_edges = 0;
-  std::size_t nonmanifold_edges = 0;  // with more than two faces
-  bool oriented = true;               // no edge is used twice in one direction
-  bool two_sided = true;              // flips can make it oriented
-  std::optional<long> genus;          // when it is a two-sided surface, with borders or without
-  std::optional<double> volume;       // when it is closed and oriented; negative: inside out
+  std::size_t borders = 0, border_edges = 0;  // borders: chains; where it is one-sided one border may be several of them
+  std::size_t nonmanifold_edges = 0;          // with more than two faces
+  bool oriented = true;                       // no edge is used twice in one direction
+  bool two_sided = true;                      // flips can make it oriented
+  std::optional<long> genus;                  // when it is a two-sided surface, with borders or without
+  std::optional<double> volume;               // when it is closed and oriented, and a double can hold it; negative: inside out
 
   [[nodiscard]] bool closed() const { return border_edges == 0 && nonmanifold_edges == 0; }
   [[nodiscard]] long euler() const { return static_cast<long>(vertices) - static_cast<long>(edges) + static_cast<long>(faces); }
@@ -192,7 +192,7 @@ class StatisticsOf {
       // Each term is wrong by less than 2^-49 of its product of lengths, each of the n sums by 2^-53 of the sum of all sizes.
       const double bound = (0x1p-49 + sums[i].count * 0x1p-53) * sums[i].sizes;
       Component& c = result_.components[i];
-      if (c.closed() && c.oriented) c.volume = std::abs(sums[i].terms) <= bound ? 0.0 : sums[i].terms / 6.0;
+      if (c.closed() && c.oriented && std::isfinite(bound)) c.volume = std::abs(sums[i].terms) <= bound ? 0.0 : sums[i].terms / 6.0;
     }
   }
 
@@ -201,7 +201,7 @@ class StatisticsOf {
   const Builder& builder_;
   std::vector<bool> skip_;
   EdgeUses uses_;
-  Orientation orientation_;
+  FlipPlan orientation_;
   std::vector<std::uint32_t> component_;  // of each face
   Statistics result_;
 };

@@ -30,9 +30,13 @@ template <class B>
     Result<Parts> parts = split_recursively(brep, std::span<const FaceId>(faces), NiceSplit{}, triangles);
     if (!parts) return parts.refusal();
     if (parts->unfinished.empty()) return std::move(parts->faces);
-    const FaceId stuck = parts->unfinished.front();
-    rejoin(brep, *parts);
-    return Refusal{Code::degenerate_polygon, {brep.alive(stuck) ? stuck : faces.front()}};
+    FaceId stuck = parts->unfinished.front();  // a part: on the way back it becomes the face that was given
+    for (; !parts->steps.empty(); parts->steps.pop_back()) {
+      const Parts last{{}, {}, {parts->steps.back()}};
+      if (brep.face(twin(last.steps[0].h)) == stuck) stuck = brep.face(last.steps[0].h);
+      take_back(brep, last);
+    }
+    return Refusal{Code::degenerate_polygon, {stuck}};
   } else {
     const auto ear = [](const B& b, FaceId f) { return Cut{b.halfedge(f), b.next(b.next(b.halfedge(f)))}; };
     Result<Parts> parts = split_recursively(brep, std::span<const FaceId>(faces), ear, triangles);

@@ -132,7 +132,7 @@ std::string component_table(const brep::Statistics& s, bool all) {
       remark = c.nonmanifold_edges > 0 ? "- (edges with more than two faces)" : "- (flipped faces)";
     }
     text += "  " + cell(to_string(c.first), 9) + cell(std::to_string(c.vertices), 9) + cell(std::to_string(c.edges), 8) +
-            cell(std::to_string(c.faces), 8) + cell(std::to_string(c.euler()), 6) + cell(std::to_string(c.borders), 8) +
+            cell(std::to_string(c.faces), 8) + cell(std::to_string(c.euler()), 6) + cell(c.two_sided ? std::to_string(c.borders) : "-", 8) +
             cell(c.genus ? std::to_string(*c.genus) : "-", 6) + " " + remark + "\n";
   }
   if (shown < list.size()) { text += "  ... and " + std::to_string(list.size() - shown) + " smaller ones (--all lists them)\n"; }
@@ -140,13 +140,13 @@ std::string component_table(const brep::Statistics& s, bool all) {
 }
 
 std::string summary(const brep::Statistics& s, bool all) {
-  std::string text = counted(s.vertices, "vertex", "vertices") + ", " + counted(s.edges, "edge") + ", " + counted(s.faces, "face") + ": " +
-                     sizes(s) + "\n";
+  std::string text = counted(s.vertices, "vertex", "vertices") + ", " + counted(s.edges, "edge") + ", " + counted(s.faces, "face") +
+                     (s.faces > 0 ? ": " : "") + sizes(s) + "\n";
   text += "v - e + f: " + std::to_string(s.euler());
   if (s.vertices > s.used_vertices) {
     text += " (without " + counted(s.vertices - s.used_vertices, "unused vertex", "unused vertices") + ")";
   }
-  text += "\nbounds: " + triple(s.lo) + "  to  " + triple(s.hi) + "\n";
+  text += "\nbounds: " + (s.used_vertices > 0 ? triple(s.lo) + "  to  " + triple(s.hi) : std::string("none")) + "\n";
   text += "edges with one face: " + std::to_string(s.border_edges) + ", with more than two: " + std::to_string(s.nonmanifold_edges) + "\n";
   if (s.duplicate_positions > 0) {
     text += "repeated positions: " + std::to_string(s.duplicate_positions) + " (" +
@@ -197,6 +197,7 @@ std::string repairs(const std::vector<brep::Repair>& list, const Mesh& mesh, con
 constexpr const char* numbering = "v0 v1 ... and f0 f1 ... are the vertices and faces of the file, counted from 0.\n";
 
 std::string verdict(std::size_t faults, const brep::Statistics& s) {
+  if (faults == 0 && s.components.empty()) { return "NOT SOUND: nothing is left, none of the faces could be used\n"; }
   if (faults == 0) {
     return "sound: " + counted(s.components.size(), "closed oriented shell") + ", every edge has two faces and every vertex one fan\n";
   }
@@ -267,12 +268,14 @@ ExitCode run(const CheckOptions& options) {
   for (const std::string& note : mesh->notes) { text += "note: " + note + "\n"; }
   std::vector<brep::Defect> remaining = brep::close<brep::BRep<>>(mesh->builder).defects;
   text += "\n" + verdict(remaining.size(), before);
+  bool nothing_left = false;
   if (options.repair && !remaining.empty()) {
     brep::RepairResult repaired = brep::repair(mesh->builder);
     text += "\n--- repaired: " + (repaired.repairs.empty() ? "nothing" : counted(repaired.repairs.size(), "step")) + "\n" +
             repairs(repaired.repairs, *mesh, options);
     remaining = std::move(repaired.remaining);
     brep::Statistics after = brep::statistics(repaired.builder);
+    nothing_left = after.components.empty();
     for (brep::Component& c : after.components) { c.first = brep::FaceId{repaired.old_face[c.first.index]}; }  // as everywhere else
     text += "\n--- the mesh now\n" + summary(after, options.all) + "\n" + verdict(remaining.size(), after);
     if (!options.output.empty()) {
@@ -294,7 +297,7 @@ ExitCode run(const CheckOptions& options) {
     complain("cannot write to standard output");
     return ExitCode::failure;
   }
-  return remaining.empty() ? ExitCode::ok : ExitCode::invalid_input;
+  return remaining.empty() && !nothing_left ? ExitCode::ok : ExitCode::invalid_input;
 }
 
 }  // namespace apps

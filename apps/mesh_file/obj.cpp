@@ -24,8 +24,8 @@ bool contains(const std::array<std::string_view, N>& list, std::string_view word
 }
 
 struct ForwardReference {
-  Place place;
-  std::uint32_t number;  // from 1
+  std::string_view word;  // its place is only looked for when there is no such vertex
+  std::uint32_t number;   // from 1
 };
 
 class ObjReader {
@@ -36,8 +36,10 @@ class ObjReader {
     while (!out_.full() && lines_.next()) { statement(); }
     if (out_.full()) { return; }
     for (const ForwardReference& f : forward_) {
+      if (out_.full()) { return; }
       if (f.number > count()) {
-        out_.error(f.place, "there is no vertex " + std::to_string(f.number) + ", the file has " + std::to_string(count()));
+        out_.error(lines_.place_in_text(f.word),
+                   "there is no vertex " + std::to_string(f.number) + ", the file has " + std::to_string(count()));
       }
     }
     if (out_.good() && out_.mesh.builder.face_count() == 0) { out_.error({1, 1}, "the file has no faces: no line begins with f"); }
@@ -99,7 +101,7 @@ class ObjReader {
         out_.error(lines_.place(i), "there is no vertex " + std::to_string(index));
         return;
       }
-      if (index > count()) { forward_.push_back({lines_.place(i), static_cast<std::uint32_t>(index)}); }
+      if (index > count()) { forward_.push_back({lines_.words()[i], static_cast<std::uint32_t>(index)}); }
       corners_.push_back(static_cast<std::uint32_t>(index - 1));
     }
     out_.mesh.builder.face(corners_, 0);

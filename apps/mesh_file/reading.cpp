@@ -11,6 +11,13 @@ namespace {
 
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+// Of `at`, counted from 1. A byte that continues a character in UTF-8 is no column of its own.
+std::uint32_t column(const char* start, const char* at) {
+  return static_cast<std::uint32_t>(1 + std::count_if(start, at, [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
+}
+
 template <class T>
 std::optional<T> parse(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') { word.remove_prefix(1); }
@@ -39,7 +46,6 @@ MeshResult Output::take() {
 }
 
 Lines::Lines(std::string_view text, bool comments, bool continued) : text_(text), comments_(comments), continued_(continued) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (text_.substr(0, 3) == byte_order_mark) { at_ = 3; }
 }
 
@@ -81,9 +87,19 @@ Place Lines::place(std::size_t word) const {
   const char* const at = word < words_.size() ? words_[word].data() : end_;
   auto start = starts_.begin();
   while (start + 1 != starts_.end() && (start + 1)->at <= at) { ++start; }
-  // A byte that continues a character in UTF-8 is no column of its own.
-  const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; };
-  return {start->line, static_cast<std::uint32_t>(1 + std::count_if(start->at, at, begins))};
+  return {start->line, column(start->at, at)};
+}
+
+Place Lines::place_in_text(std::string_view word) const {
+  const char* const begin = text_.data() + (text_.substr(0, 3) == byte_order_mark ? 3 : 0);
+  const char* start = begin;
+  std::uint32_t line = 1;
+  for (const char* at = begin; at != word.data(); ++at) {
+    if (*at != '\n' && (*at != '\r' || at[1] == '\n')) { continue; }
+    ++line;
+    start = at + 1;
+  }
+  return {line, column(start, word.data())};
 }
 
 std::optional<double> to_number(std::string_view word) {

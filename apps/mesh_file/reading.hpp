@@ -39,8 +39,9 @@ class Lines {
   bool next();
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
   [[nodiscard]] std::uint32_t line() const { return first_line_; }
-  [[nodiscard]] Place place(std::size_t word) const;          // of a word; of the line's end for the number of words
-  [[nodiscard]] std::size_t consumed() const { return at_; }  // bytes up to the end of the present line
+  [[nodiscard]] Place place(std::size_t word) const;               // of a word; of the line's end for the number of words
+  [[nodiscard]] Place place_in_text(std::string_view word) const;  // of a word of an earlier line; reads the text from its start
+  [[nodiscard]] std::size_t consumed() const { return at_; }       // bytes up to the end of the present line
 
  private:
   void cut(std::string_view line);

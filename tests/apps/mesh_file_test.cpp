@@ -175,10 +175,24 @@ TEST_CASE("OFF: keywords, counts on the keyword's line, no keyword, colours and 
   check_same(read(replaced(text, "4 0 2 3 1\n", "4 0 2 3 1  0.5 0.5 0.5\n"), MeshFormat::off), cube());
 }
 
+// Minutes when the column of each corner is counted from the start of its line.
+TEST_CASE("OBJ: a face of 200000 corners may stand before its vertices, in one line or in many") {
+  constexpr int n = 200000;
+  for (const char* blank : {" ", " \\\n"}) {
+    std::string face = "f", vertices = "\n";
+    for (int i = 1; i <= n; ++i) {
+      face += blank + std::to_string(i);
+      vertices += "v 0 0 " + std::to_string(i) + "\n";
+    }
+    CHECK(read(face + vertices, MeshFormat::obj).corners(0).size() == n);
+  }
+}
+
 TEST_CASE("errors say where they lie, what was expected and what was found") {
   CHECK(begins(error("", MeshFormat::obj), ":1:1: error: the file has no faces"));
   CHECK(
       begins(error(replaced(cube_obj, "f 1 3 4 2", "f 1 3 99 2"), MeshFormat::obj), ":10:7: error: there is no vertex 99, the file has 8"));
+  CHECK(begins(error("\xef\xbb\xbf# \xc3\xa4\r\n\rf 1 \\\r\n 7 8\nv 0 0 0", MeshFormat::obj), ":4:2: error: there is no vertex 7"));
   CHECK(begins(error(replaced(cube_obj, "f 1 3 4 2", "f 1 3 0 2"), MeshFormat::obj), ":10:7: error: vertices are counted from 1"));
   CHECK(begins(error(replaced(cube_obj, "f 1 3 4 2", "f 1 -9 4 2"), MeshFormat::obj), ":10:5: error: the corner -9 counts back"));
   CHECK(begins(error(replaced(cube_obj, "f 1 3 4 2", "f 1 3/x 4 2"), MeshFormat::obj), ":10:5: error: expected a corner such as"));

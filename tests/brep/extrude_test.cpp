@@ -3,6 +3,8 @@
 
 #include <brep/extrude.hpp>
 
+#include <algorithm>
+
 #include <brep/euler_log.hpp>
 #include <brep/triangulate.hpp>
 
@@ -187,6 +189,38 @@ TEST_CASE("triangulate without positions cuts fans; faces of one and two edges s
   CHECK(triangulate(crossed).refusal().code == Code::not_simple);
   CHECK(triangulate_face(crossed, FaceId{99}).refusal().code == Code::dead);
   CHECK(records(crossed) == before);
+}
+
+TEST_CASE("triangulate: of many faces the refusal names the one that cannot be cut, and neither records nor log change") {
+  using LoggedMesh = BRep<shapes::Vertex, NoData, shapes::Face, EulerLog>;
+  std::size_t refused_after_cuts = 0;
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    INFO("seed " << seed);
+    Random random(seed);
+    // A prism above a pentagon, and beside it a star so warped that its parts may cross themselves, with its back.
+    Builder b = shapes::prism_builder(5);
+    std::vector<std::uint32_t> star;
+    for (unsigned i = 0; i < 9; ++i) {
+      const double angle = 2.0 * shapes::pi * i / 9, r = 0.3 + random.unit();
+      star.push_back(b.vertex({r * std::cos(angle), r * std::sin(angle), 20.0 * random.unit()}));
+    }
+    b.face(star, 0);
+    std::reverse(star.begin(), star.end());
+    b.face(star, 0);
+    auto m = std::move(*close<LoggedMesh>(b).brep);
+    const auto before = records(m);
+    const auto all = triangulate(m);
+    if (all) continue;
+    CHECK(records(m) == before);
+    CHECK(mark(m) == 0);
+    if (all.refusal().code != Code::degenerate_polygon) continue;
+    ++refused_after_cuts;
+    REQUIRE(all.refusal().elements[0].index >= 7);
+    const FaceId f{all.refusal().elements[0].index};
+    CHECK_FALSE(triangulate_face(m, f));
+    CHECK((records(m) == before && mark(m) == 0));
+  }
+  CHECK(refused_after_cuts > 0);
 }
 
 TEST_CASE("extrude and poke random maps: always valid, genus and shells kept, dead faces refused, the log takes all back") {

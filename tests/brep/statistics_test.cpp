@@ -77,6 +77,16 @@ TEST_CASE("solids that touch in a vertex are two components, a pinched one has i
   CHECK(s.euler() == 3);  // the shared vertex counts once
 }
 
+TEST_CASE("a volume beyond the range of doubles is not given") {
+  for (const double size : {1e110, 1e150, 1e300}) {
+    Builder big;
+    const Builder cube = shapes::cube_builder();
+    for (std::uint32_t v = 0; v < cube.vertex_count(); ++v) big.vertex(size * cube.position(v));
+    for (std::uint32_t f = 0; f < cube.face_count(); ++f) big.face(cube.corners(f), 0);
+    CHECK_FALSE(statistics(big).components[0].volume.has_value());
+  }
+}
+
 TEST_CASE("volume changes its sign with the direction of the faces and does not depend on the place") {
   const Builder cube = shapes::cube_builder();
   Builder far;
