@@ -8,6 +8,7 @@
 // their intersection: no gap can open at the rim. A line whose direction across the axis is below 16 u of its length is taken as
 // parallel: over the height it strays by 16 u of the height, which is within rounding of the coordinates.
 
+#include "../compile.hpp"
 #include "../object.hpp"
 
 #include <numbers>
@@ -75,6 +76,8 @@ class Cylinder final : public Object {
     }
     out.push(span);  // drops an empty span
   }
+
+  void compile(Compiler& compiler) const override { compiler.cylinder(base_, height_ * w_, radius_); }
 
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override {
     const glm::dvec3 f = p - base_;

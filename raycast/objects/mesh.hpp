@@ -10,6 +10,7 @@
 // spans merge and a span of negative length is dropped, so no gap opens. That a closed mesh does not intersect itself is not checked.
 
 #include "../bvh.hpp"
+#include "../compile.hpp"
 #include "../planar.hpp"
 #include "../traverse.hpp"
 
@@ -69,6 +70,28 @@ class Mesh final : public Object {
         out.push(Span{in[i], in[i]});
       else if (i < leave.size())
         out.push(Span{in[i], leave[i]});
+    }
+  }
+
+  void compile(Compiler& compiler) const override {
+    if (convex_ && slack_ == 0.0) {
+      std::vector<Plane> distinct;  // the triangles of one flat side have one plane
+      for (const Plane& plane : planes_) {
+        const auto same = [&](const Plane& other) {
+          return glm::dot(plane.normal, other.normal) > 1.0 - 2e-15 &&
+                 std::abs(glm::dot(plane.normal, plane.point - other.point)) < 1e-9 * box_.diameter();
+        };
+        if (std::none_of(distinct.begin(), distinct.end(), same)) distinct.push_back(plane);
+        if (distinct.size() > 32) break;
+      }
+      if (distinct.size() <= 32) return compiler.body(distinct);
+    }
+    if (!compiler.takes_faces(planes_.size())) return;
+    std::vector<glm::dvec3> polygon;
+    for (std::uint32_t f = 0; f < planes_.size(); ++f) {
+      polygon.clear();
+      for (const std::uint32_t v : corners(f)) polygon.push_back(positions_[v]);
+      compiler.face(f, polygon);
     }
   }
 

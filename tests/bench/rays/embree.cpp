@@ -25,7 +25,8 @@ void bounds(const RTCBoundsFunctionArguments* args) {
 
 // One ball against n rays in arrays; the loop vectorises.
 template <bool any>
-inline void ball(const std::array<float, 4>& b, RTCRayN* rays, RTCHitN* hits, const int* valid, unsigned n, unsigned geometry, unsigned id) {
+inline void ball(const std::array<float, 4>& b, RTCRayN* rays, RTCHitN* hits, const int* valid, unsigned n, unsigned geometry,
+                 unsigned id) {
   for (unsigned i = 0; i < n; ++i) {
     const float dx = RTCRayN_dir_x(rays, n, i), dy = RTCRayN_dir_y(rays, n, i), dz = RTCRayN_dir_z(rays, n, i);
     const float fx = RTCRayN_org_x(rays, n, i) - b[0], fy = RTCRayN_org_y(rays, n, i) - b[1], fz = RTCRayN_org_z(rays, n, i) - b[2];
@@ -49,10 +50,14 @@ template <bool any, class Arguments>
 void dispatch(const Arguments* args, RTCRayN* rays, RTCHitN* hits, unsigned geometry) {
   const auto& b = (*static_cast<Balls>(args->geometryUserPtr))[args->primID];
   switch (args->N) {  // constant counts let the compiler unroll
-    case 1: return ball<any>(b, rays, hits, args->valid, 1, geometry, args->primID);
-    case 8: return ball<any>(b, rays, hits, args->valid, 8, geometry, args->primID);
-    case 16: return ball<any>(b, rays, hits, args->valid, 16, geometry, args->primID);
-    default: return ball<any>(b, rays, hits, args->valid, args->N, geometry, args->primID);
+    case 1:
+      return ball<any>(b, rays, hits, args->valid, 1, geometry, args->primID);
+    case 8:
+      return ball<any>(b, rays, hits, args->valid, 8, geometry, args->primID);
+    case 16:
+      return ball<any>(b, rays, hits, args->valid, 16, geometry, args->primID);
+    default:
+      return ball<any>(b, rays, hits, args->valid, args->N, geometry, args->primID);
   }
 }
 void occluded(const RTCOccludedFunctionNArguments* args) { dispatch<true>(args, args->ray, nullptr, args->geomID); }
@@ -63,14 +68,16 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
 template <class R>
 void set_ray(R& ray, const raycast::Segment& s, bool closest) {
   ray.org_x = static_cast<float>(s.origin.x), ray.org_y = static_cast<float>(s.origin.y), ray.org_z = static_cast<float>(s.origin.z);
-  ray.dir_x = static_cast<float>(s.direction.x), ray.dir_y = static_cast<float>(s.direction.y), ray.dir_z = static_cast<float>(s.direction.z);
+  ray.dir_x = static_cast<float>(s.direction.x), ray.dir_y = static_cast<float>(s.direction.y),
+  ray.dir_z = static_cast<float>(s.direction.z);
   ray.tnear = 1e-5f, ray.tfar = closest ? std::numeric_limits<float>::infinity() : 1.0f - 1e-5f;
   ray.mask = 0xffffffff, ray.flags = 0, ray.time = 0, ray.id = 0;
 }
 template <class Packet>
 void set_lane(Packet& p, unsigned i, const raycast::Segment& s, bool closest) {
   p.org_x[i] = static_cast<float>(s.origin.x), p.org_y[i] = static_cast<float>(s.origin.y), p.org_z[i] = static_cast<float>(s.origin.z);
-  p.dir_x[i] = static_cast<float>(s.direction.x), p.dir_y[i] = static_cast<float>(s.direction.y), p.dir_z[i] = static_cast<float>(s.direction.z);
+  p.dir_x[i] = static_cast<float>(s.direction.x), p.dir_y[i] = static_cast<float>(s.direction.y),
+  p.dir_z[i] = static_cast<float>(s.direction.z);
   p.tnear[i] = 1e-5f, p.tfar[i] = closest ? std::numeric_limits<float>::infinity() : 1.0f - 1e-5f;
   p.mask[i] = 0xffffffff, p.flags[i] = 0, p.time[i] = 0, p.id[i] = 0;
 }
@@ -89,7 +96,8 @@ Embree::Embree(const World& world, bool user_spheres) : data_(new Data) {
   data_->scene = rtcNewScene(data_->device);
   if (!world.triangles.empty()) {
     RTCGeometry mesh = rtcNewGeometry(data_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 3 * world.triangles.size()));
+    auto* v =
+        static_cast<float*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 3 * world.triangles.size()));
     auto* x = static_cast<unsigned*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, world.triangles.size()));
     unsigned next = 0;
     for (const auto& t : world.triangles)
@@ -103,7 +111,8 @@ Embree::Embree(const World& world, bool user_spheres) : data_(new Data) {
   }
   if (!world.balls.empty()) {
     for (const auto& b : world.balls)
-      data_->balls.push_back({static_cast<float>(b.centre.x), static_cast<float>(b.centre.y), static_cast<float>(b.centre.z), static_cast<float>(b.radius)});
+      data_->balls.push_back(
+          {static_cast<float>(b.centre.x), static_cast<float>(b.centre.y), static_cast<float>(b.centre.z), static_cast<float>(b.radius)});
     RTCGeometry balls = rtcNewGeometry(data_->device, user_spheres ? RTC_GEOMETRY_TYPE_USER : RTC_GEOMETRY_TYPE_SPHERE_POINT);
     if (user_spheres) {
       rtcSetGeometryUserPrimitiveCount(balls, static_cast<unsigned>(data_->balls.size()));
@@ -112,7 +121,8 @@ Embree::Embree(const World& world, bool user_spheres) : data_(new Data) {
       rtcSetGeometryOccludedFunction(balls, occluded);
       rtcSetGeometryIntersectFunction(balls, intersect);
     } else {
-      auto* v = static_cast<std::array<float, 4>*>(rtcSetNewGeometryBuffer(balls, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, data_->balls.size()));
+      auto* v = static_cast<std::array<float, 4>*>(
+          rtcSetNewGeometryBuffer(balls, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, data_->balls.size()));
       std::copy(data_->balls.begin(), data_->balls.end(), v);
     }
     rtcCommitGeometry(balls);
@@ -147,12 +157,14 @@ void Embree::run(const Set& set, int width, std::vector<std::uint8_t>& verdicts)
         verdicts[at] = r.hit.geomID != none;
       } else if (n == 8) {
         RTCRayHit8 r;
-        for (unsigned i = 0; i < n; ++i) set_lane(r.ray, i, set.rays[at + i].segment, true), r.hit.geomID[i] = none, r.hit.instID[0][i] = none;
+        for (unsigned i = 0; i < n; ++i)
+          set_lane(r.ray, i, set.rays[at + i].segment, true), r.hit.geomID[i] = none, r.hit.instID[0][i] = none;
         rtcIntersect8(valid, data_->scene, &context, &r);
         for (unsigned i = 0; i < n; ++i) verdicts[at + i] = r.hit.geomID[i] != none;
       } else {
         RTCRayHit16 r;
-        for (unsigned i = 0; i < n; ++i) set_lane(r.ray, i, set.rays[at + i].segment, true), r.hit.geomID[i] = none, r.hit.instID[0][i] = none;
+        for (unsigned i = 0; i < n; ++i)
+          set_lane(r.ray, i, set.rays[at + i].segment, true), r.hit.geomID[i] = none, r.hit.instID[0][i] = none;
         rtcIntersect16(valid, data_->scene, &context, &r);
         for (unsigned i = 0; i < n; ++i) verdicts[at + i] = r.hit.geomID[i] != none;
       }

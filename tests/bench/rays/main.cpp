@@ -27,7 +27,7 @@ double cpu_now() {
 struct Engine {
   std::string name;
   bool peer;
-  double build;  // seconds
+  double build;                                                     // seconds
   std::function<bool(const Set&, std::vector<std::uint8_t>&)> run;  // false: does not do this set
 };
 
@@ -65,7 +65,8 @@ void compare(const World& world) {
   double peer_build = 1e9;
   for (const Engine& e : engines)
     if (e.peer) peer_build = std::min(peer_build, e.build);
-  std::printf("  build ms: halflight %.3f, best peer %.3f, ratio of times %.2f\n", 1e3 * builds[2], 1e3 * peer_build, builds[2] / peer_build);
+  std::printf("  build ms: halflight %.3f, best peer %.3f, ratio of times %.2f\n", 1e3 * builds[2], 1e3 * peer_build,
+              builds[2] / peer_build);
   for (const Set& set : world.sets) {
     const std::size_t n = engines.size();
     std::vector<std::vector<double>> times(n);

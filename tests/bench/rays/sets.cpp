@@ -85,8 +85,8 @@ std::array<Patch, 4> quarters(const Patch& p) {
   std::array<Patch, 4> result;
   for (std::size_t k = 0; k < 4; ++k) {
     const double u = 0.5 * static_cast<double>(k % 2), v = 0.5 * static_cast<double>(k / 2);
-    result[k] = {{point_on(p, u, v), point_on(p, u + 0.5, v), point_on(p, u + 0.5, v + 0.5), point_on(p, u, v + 0.5)},
-                 p.normal, p.owner, p.bulge};
+    result[k] = {
+        {point_on(p, u, v), point_on(p, u + 0.5, v), point_on(p, u + 0.5, v + 0.5), point_on(p, u, v + 0.5)}, p.normal, p.owner, p.bulge};
   }
   return result;
 }
@@ -132,14 +132,14 @@ World cornell() {
   const double h = 2.775;
   add_room(world, quads, h, true);
   add(world, quads, {-0.65, 0.99 * h, -0.5}, {1.3, 0, 0}, {0, 0, 1.05});
-  const double blocks[5][6] = {{-0.9, -0.9, 0.8, 0.8, 3.3, 0.3},    // x z half-width half-depth height turn
+  const double blocks[5][6] = {{-0.9, -0.9, 0.8, 0.8, 3.3, 0.3},  // x z half-width half-depth height turn
                                {0.95, 0.6, 0.8, 0.8, 1.65, -0.28},
                                {-1.9, 1.3, 0.4, 0.4, 1.0, 0.6},
                                {1.8, -1.8, 0.45, 0.35, 2.2, 1.1},
                                {-0.2, 1.9, 0.35, 0.5, 0.7, -0.8}};
   for (const auto& b : blocks) {
-    const dvec3 c{b[0], -h, b[1]}, x = b[2] * dvec3(std::cos(b[5]), 0, std::sin(b[5])), z = b[3] * dvec3(-std::sin(b[5]), 0, std::cos(b[5])),
-                y{0, b[4], 0};
+    const dvec3 c{b[0], -h, b[1]}, x = b[2] * dvec3(std::cos(b[5]), 0, std::sin(b[5])),
+                                   z = b[3] * dvec3(-std::sin(b[5]), 0, std::cos(b[5])), y{0, b[4], 0};
     add(world, quads, c - x - z + y, 2.0 * z, 2.0 * x);
     add(world, quads, c + x - z, y, 2.0 * z);
     add(world, quads, c - x - z, 2.0 * z, y);

@@ -30,9 +30,9 @@ struct Ray {
 
 struct Set {
   std::string name;
-  std::vector<Ray> rays;                          // 16 per bundle
-  std::vector<std::pair<Patch, Patch>> pairs;     // one per bundle; empty for incoherent rays
-  std::vector<std::pair<Patch, Patch>> parents;   // one per 16 bundles; empty where there is no hierarchy
+  std::vector<Ray> rays;                         // 16 per bundle
+  std::vector<std::pair<Patch, Patch>> pairs;    // one per bundle; empty for incoherent rays
+  std::vector<std::pair<Patch, Patch>> parents;  // one per 16 bundles; empty where there is no hierarchy
   bool closest = false;
 };
 
