@@ -92,7 +92,7 @@ inline std::uint32_t Scene::blocked_by_rooms(const Segments16& segments, const R
   return blocked;
 }
 
-inline std::uint32_t Scene::occluded16(const Segments16& segments, const std::uint32_t* list, std::uint32_t count,
+inline std::uint32_t Scene::occluded16(const Segments16& segments, const std::uint32_t* list, std::uint32_t count, bool rooms_clear,
                                        std::uint32_t& hint) const {
   Rays16 rays;
   unsigned lines = 0;
@@ -117,12 +117,12 @@ inline std::uint32_t Scene::occluded16(const Segments16& segments, const std::ui
     HALFLIGHT_DISPATCH(isa_, finish(rays));
   }
   if (bounded) blocked |= HALFLIGHT_DISPATCH(isa_, blocked(compiled_, rays, bounded, list, count, hint, exact));
-  if (!compiled_.rooms.empty() && (lines & ~blocked)) blocked |= blocked_by_rooms(segments, rays, near, lines & ~blocked);
+  if (!rooms_clear && !compiled_.rooms.empty() && (lines & ~blocked)) blocked |= blocked_by_rooms(segments, rays, near, lines & ~blocked);
   return blocked;
 }
 
 inline std::uint32_t Scene::occluded16(const Segments16& segments, std::uint32_t& hint) const {
-  return occluded16(segments, nullptr, 0, hint);
+  return occluded16(segments, nullptr, 0, false, hint);
 }
 
 inline bool Scene::occluded(const Segment& segment, std::uint32_t source_owner, std::uint32_t target_owner) const {

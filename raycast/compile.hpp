@@ -114,7 +114,7 @@ class Compiler {
       out_.room_bodies.push_back(room_body_);
     } else if (items_.size() == before) {
       add_object_box(Kind::other, 0);
-    } else if (face_count_ > faces_before && outline.empty() && object.solid()) {
+    } else if (face_count_ > faces_before && outline.empty()) {
       add_object_box(Kind::guard, 0);
     }
   }

@@ -23,7 +23,7 @@
 
 namespace raycast {
 
-// The kinds of shapes. faces: convex polygons of three or four corners; body: a convex solid behind planes; guard: the bounds of a solid
+// The kinds of shapes. faces: convex polygons of three or four corners; body: a convex solid behind planes; guard: the bounds of an object
 // that is kept as faces; other: bounds of an object that is asked through its spans.
 enum class Kind : std::uint32_t { triangle, quad, ball, body, cylinder, guard, other };
 

@@ -49,6 +49,16 @@ struct Hull {
   unsigned count = 0;
 };
 
+// Where the segments between two patches may run: as segments between their corners, each with each, and the hull of these. Both are
+// wider by `bulge` all around.
+struct Corners16 {
+  Rays16 rays;
+  Hull hull;
+  float bulge = 0.0f;
+  std::uint32_t source, target;  // owners
+};
+enum class Relevance : std::uint8_t { none, some, blocks_all };
+
 inline constexpr unsigned stack_size = 640;  // 7 entries a level, and no tree is deeper than 80 (tree.hpp)
 
 // Which lanes are undecided about which object.
@@ -63,8 +73,9 @@ struct Pending {
 #define HALFLIGHT_ISA portable
 #define HALFLIGHT_LANES 4
 #define HALFLIGHT_TARGET
-#include "kernels.inc"
 #include "lanes.inc"
+
+#include "kernels.inc"
 #undef HALFLIGHT_ISA
 #undef HALFLIGHT_LANES
 #undef HALFLIGHT_TARGET
@@ -74,8 +85,9 @@ struct Pending {
 #define HALFLIGHT_ISA avx2
 #define HALFLIGHT_LANES 8
 #define HALFLIGHT_TARGET __attribute__((target("avx2,fma,bmi,popcnt")))
-#include "kernels.inc"
 #include "lanes.inc"
+
+#include "kernels.inc"
 #undef HALFLIGHT_ISA
 #undef HALFLIGHT_LANES
 #undef HALFLIGHT_TARGET
@@ -84,8 +96,9 @@ struct Pending {
 #define HALFLIGHT_ISA avx512
 #define HALFLIGHT_LANES 16
 #define HALFLIGHT_TARGET __attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,popcnt")))
-#include "kernels.inc"
 #include "lanes.inc"
+
+#include "kernels.inc"
 #undef HALFLIGHT_ISA
 #undef HALFLIGHT_LANES
 #undef HALFLIGHT_TARGET

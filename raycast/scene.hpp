@@ -34,6 +34,9 @@ namespace raycast {
 
 inline constexpr std::uint32_t no_object = 0xffffffff;
 
+class OccluderList;
+struct PatchShape;
+
 struct Hit {
   double t;
   std::uint32_t object, sheet;
@@ -65,6 +68,12 @@ class Scene {
     std::uint32_t hint = no_shape;
     return occluded16(segments, hint);
   }
+
+  // What may occlude segments between two patches (shaft.hpp), from the whole scene or from the list of a pair of their ancestors.
+  [[nodiscard]] OccluderList occluders(const PatchShape& a, const PatchShape& b) const;
+  [[nodiscard]] OccluderList filter(const OccluderList& parent, const PatchShape& a, const PatchShape& b) const;
+  // As above, for segments between the patches of the list: the same answers.
+  [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const OccluderList& list, std::uint32_t& hint) const;
 
   // The law for one object: what occluded() is defined by. In double precision, without any search.
   [[nodiscard]] bool occluded_by(std::uint32_t object, const Segment& segment, std::uint32_t source_owner = no_object,
@@ -104,8 +113,11 @@ class Scene {
   };
 
   struct Exact;
-  [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const std::uint32_t* list, std::uint32_t count,
+  [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const std::uint32_t* list, std::uint32_t count, bool rooms_clear,
                                          std::uint32_t& hint) const;
+  [[nodiscard]] OccluderList list_of(const OccluderList* parent, const PatchShape& a, const PatchShape& b) const;
+  [[nodiscard]] bool within(std::uint32_t object, std::span<const glm::dvec3> points) const;
+  [[nodiscard]] bool rooms_clear(const PatchShape& a, const PatchShape& b) const;
   [[nodiscard]] std::uint32_t blocked_by_rooms(const Segments16& segments, const Rays16& rays, std::uint32_t near,
                                                std::uint32_t lanes) const;
 
@@ -303,3 +315,4 @@ inline bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32
 }  // namespace raycast
 
 #include "bundle.hpp"
+#include "shaft.hpp"

@@ -39,6 +39,56 @@ void single(const raycast::Scene& scene, const Set& set, std::vector<std::uint8_
   }
 }
 
+raycast::Segments16 sixteen(const Set& set, std::size_t at) {
+  raycast::Segments16 segments;
+  for (unsigned i = 0; i < 16; ++i) segments.set(i, set.rays[at + i].segment, set.rays[at + i].source, set.rays[at + i].target);
+  return segments;
+}
+void spread(std::uint32_t mask, std::uint8_t* out) {
+  for (unsigned i = 0; i < 16; ++i) out[i] = mask >> i & 1u;
+}
+
+// Sixteen at a time, without knowledge of where they come from.
+bool bundles(const raycast::Scene& scene, const Set& set, std::vector<std::uint8_t>& verdicts) {
+  if (set.closest) return false;
+  verdicts.resize(set.rays.size());
+  std::uint32_t hint = raycast::no_shape;
+  for (std::size_t at = 0; at < set.rays.size(); at += 16) spread(scene.occluded16(sixteen(set, at), hint), &verdicts[at]);
+  return true;
+}
+
+raycast::PatchShape shape(const Patch& p) { return {p.contour, p.owner, p.bulge}; }
+
+struct Count {
+  std::size_t clear = 0, blocked = 0, unknown = 0, pairs = 0, listed = 0, shapes = 0;
+};
+// Between patches: the list of occluders of every pair, from that of its parent where there is one.
+bool lists(const raycast::Scene& scene, const Set& set, std::vector<std::uint8_t>& verdicts, Count& count) {
+  if (set.closest || set.pairs.empty()) return false;
+  verdicts.resize(set.rays.size());
+  count = {};
+  std::uint32_t hint = raycast::no_shape;
+  raycast::OccluderList parent;
+  for (std::size_t at = 0; at < set.rays.size(); at += 16) {
+    const std::size_t k = at / 16;
+    if (!set.parents.empty() && k % 16 == 0)
+      parent = scene.occluders(shape(set.parents[k / 16].first), shape(set.parents[k / 16].second));
+    const auto& [p, q] = set.pairs[k];
+    const raycast::OccluderList list = set.parents.empty() ? scene.occluders(shape(p), shape(q)) : scene.filter(parent, shape(p), shape(q));
+    ++count.pairs;
+    count.clear += list.clear();
+    count.blocked += list.blocked();
+    count.unknown += !list.known();
+    count.listed += list.known() && !list.clear() && !list.blocked();
+    count.shapes += list.shapes().size();
+    if (list.clear() || list.blocked())
+      spread(list.blocked() ? 0xffffu : 0u, &verdicts[at]);
+    else
+      spread(scene.occluded16(sixteen(set, at), list, hint), &verdicts[at]);
+  }
+  return true;
+}
+
 void compare(const World& world) {
   std::printf("\n%s\n", world.name.c_str());
   std::vector<double> builds;
@@ -52,6 +102,9 @@ void compare(const World& world) {
   const raycast::Scene scene(world.objects);
   std::vector<Engine> engines;
   engines.push_back({"halflight single", false, builds[2], [&](const Set& s, auto& v) { return single(scene, s, v), true; }});
+  engines.push_back({"halflight 16", false, builds[2], [&](const Set& s, auto& v) { return bundles(scene, s, v); }});
+  Count count;
+  engines.push_back({"halflight 16, occluder lists", false, builds[2], [&](const Set& s, auto& v) { return lists(scene, s, v, count); }});
 #ifdef HALFLIGHT_EMBREE
   const Embree built_in(world, false), user(world, true);
   for (const int width : {1, 8, 16}) {
@@ -95,6 +148,9 @@ void compare(const World& world) {
       if (best_peer > 0.0) std::printf("   %5.2f x best peer", rate(e) / best_peer);
       std::printf("   %zu differ\n", differ);
     }
+    if (!set.closest && !set.pairs.empty())
+      std::printf("    pairs: %zu, clear %zu, blocked %zu, listed %zu with %.1f shapes, unknown %zu\n", count.pairs, count.clear, count.blocked,
+                  count.listed, static_cast<double>(count.shapes) / static_cast<double>(std::max<std::size_t>(count.listed, 1)), count.unknown);
   }
 }
 
