@@ -8,6 +8,7 @@
 
 #include "scene.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace raycast {
@@ -126,9 +127,18 @@ inline std::uint32_t Scene::occluded16(const Segments16& segments, std::uint32_t
 }
 
 inline bool Scene::occluded(const Segment& segment, std::uint32_t source_owner, std::uint32_t target_owner) const {
-  Segments16 segments;
-  segments.set(0, segment, source_owner, target_owner);
-  return occluded16(segments) != 0;
+  if (!has_line(segment)) return false;
+  Rays16 rays;
+  if (!HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, segment, source_owner, target_owner, rays))) {
+    Segments16 segments;
+    segments.set(0, segment, source_owner, target_owner);
+    return occluded16(segments) != 0;
+  }
+  const auto exact = [&](std::uint32_t object, std::uint32_t) -> std::uint32_t {
+    return blocks(Line(segment), end_at(source_owner), end_at(target_owner), object);
+  };
+  if (HALFLIGHT_DISPATCH(isa_, blocked_one(compiled_, rays, exact))) return true;
+  return std::any_of(compiled_.rooms.begin(), compiled_.rooms.end(), [&](std::uint32_t room) { return exact(room, 1u) != 0; });
 }
 
 }  // namespace raycast

@@ -28,9 +28,9 @@ struct alignas(64) Segments16 {
   [[nodiscard]] Segment at(unsigned lane) const { return {{ox[lane], oy[lane], oz[lane]}, {dx[lane], dy[lane], dz[lane]}}; }
 };
 
-// Sixteen segments in the coordinates of a compiled scene: o the origins, t the targets, d = t - o, i = 1 / d.
+// Sixteen segments in the coordinates of a compiled scene: o the origins, t the targets, d = t - o, i = 1 / d, k = -o i.
 struct alignas(64) Rays16 {
-  float ox[16], oy[16], oz[16], tx[16], ty[16], tz[16], dx[16], dy[16], dz[16], ix[16], iy[16], iz[16];
+  float ox[16], oy[16], oz[16], tx[16], ty[16], tz[16], dx[16], dy[16], dz[16], ix[16], iy[16], iz[16], kx[16], ky[16], kz[16];
   float length[16];                      // of d, from above
   float per_square[16];                  // 1 / d.d
   std::uint32_t source[16], target[16];  // owners
@@ -47,6 +47,7 @@ struct Hull {
   };
   Side sides[6];
   unsigned count = 0;
+  float centre[2][3], half[2][3];  // the bounds of the origins, and of the targets
 };
 
 // Where the segments between two patches may run: as segments between their corners, each with each, and the hull of these. Both are
@@ -55,6 +56,7 @@ struct Corners16 {
   Rays16 rays;
   Hull hull;
   float bulge = 0.0f;
+  float smallest = 0.0f;         // what is smaller than this hides no section: such proofs are not tried
   std::uint32_t source, target;  // owners
 };
 enum class Relevance : std::uint8_t { none, some, blocks_all };

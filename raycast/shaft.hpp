@@ -72,22 +72,25 @@ inline OccluderList Scene::list_of(const OccluderList* parent, const PatchShape&
   OccluderList list;
   Corners16 c;
   const std::array<glm::dvec3, 4> p = detail::four_corners(a.contour), q = detail::four_corners(b.contour);
-  std::array<glm::dvec3, 4> pl, ql;
-  for (std::size_t i = 0; i < 4; ++i) pl[i] = compiled_.local(p[i]), ql[i] = compiled_.local(q[i]);
+  float pf[3][4], qf[3][4];
   double reach = 0.0;
-  for (std::size_t i = 0; i < 16; ++i) {
-    const glm::dvec3 &o = pl[i / 4], &t = ql[i % 4], d = t - o;
-    c.rays.ox[i] = static_cast<float>(o.x), c.rays.oy[i] = static_cast<float>(o.y), c.rays.oz[i] = static_cast<float>(o.z);
-    c.rays.tx[i] = static_cast<float>(t.x), c.rays.ty[i] = static_cast<float>(t.y), c.rays.tz[i] = static_cast<float>(t.z);
-    c.rays.dx[i] = static_cast<float>(d.x), c.rays.dy[i] = static_cast<float>(d.y), c.rays.dz[i] = static_cast<float>(d.z);
-    reach = std::max({reach, Box{o, o}.magnitude(), Box{t, t}.magnitude()});
+  for (std::size_t i = 0; i < 4; ++i) {
+    const glm::dvec3 o = compiled_.local(p[i]), t = compiled_.local(q[i]);
+    for (int k = 0; k < 3; ++k) {
+      pf[k][i] = static_cast<float>(o[k]), qf[k][i] = static_cast<float>(t[k]);
+      reach = std::max({reach, std::abs(o[k]), std::abs(t[k])});
+    }
   }
   const double bulge = std::max(a.bulge, b.bulge);
   if (!(reach + bulge * compiled_.scale < 1.5)) return list;  // not in the compiled scene
   c.bulge = bulge > 0.0 ? static_cast<float>(bulge * compiled_.scale) * 1.0001f + 0x1p-24f : 0.0f;
   c.source = a.owner, c.target = b.owner;
-  HALFLIGHT_DISPATCH(isa_, finish(c.rays));
-  HALFLIGHT_DISPATCH(isa_, widen(c));
+  HALFLIGHT_DISPATCH(isa_, spread_corners(pf, qf, c));
+  const bool faces_alone =
+      parent && parent->known() && std::all_of(parent->shapes().begin(), parent->shapes().end(), [](std::uint32_t shape) {
+        return kind_of(shape) == Kind::triangle || kind_of(shape) == Kind::quad;
+      });
+  if (!faces_alone) HALFLIGHT_DISPATCH(isa_, widen(c));  // faces are compared with the corners
 
   // A polygon matters only if some corner lies behind its plane and another before it, by more than rounding: half the skin of
   // scene.hpp for points that are themselves known to a fraction of it.
@@ -126,7 +129,8 @@ inline bool Scene::within(std::uint32_t object, std::span<const glm::dvec3> poin
     if (!has_line(inwards)) continue;
     Spans spans;
     body.spans(inwards, spans);
-    if (spans.size() != 1 || !(spans[0].in.t * glm::length(inwards.direction) <= 0.25 * rounding_) || !(spans[0].out.t >= 0.0)) return false;
+    if (spans.size() != 1 || !(spans[0].in.t * glm::length(inwards.direction) <= 0.25 * rounding_) || !(spans[0].out.t >= 0.0))
+      return false;
   }
   return true;
 }

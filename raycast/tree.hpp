@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Builds the tree of compiled.hpp: a binary hierarchy by the surface area heuristic over binned centres (Wald 2007), whose nodes are then
-// opened, the largest first, until they have eight children. A leaf holds up to eight shapes of one kind. What costs in a leaf is a
-// block of shapes, tested side by side.
+// Builds the tree of compiled.hpp: a binary hierarchy by the surface area heuristic over binned centres (Wald 2007), which is then merged
+// into nodes of up to eight children by the cheapest of all mergers. A leaf holds up to eight shapes of one kind, which are tested side
+// by side: one costs as much as eight.
 
 #include "compiled.hpp"
 #include "kernels.hpp"
@@ -96,8 +96,14 @@ class TreeBuilder {
 
   bool split(std::uint32_t at) {
     const Binary node = binary_[at];
-    if (node.count == 1) return false;
     const auto begin = references_.begin() + node.first, end = begin + node.count;
+    if (node.count <= largest_leaf) {
+      const Kind first_kind = kind(node.first);
+      const auto middle = std::partition(begin, end, [&](const Reference& r) { return items_[r.item].kind == first_kind; });
+      if (middle == end) return false;
+      children(at, static_cast<std::uint32_t>(middle - begin));
+      return true;
+    }
     Box4 centres;  // of doubled centres
     for (auto i = begin; i != end; ++i) {
       const V c = i->box.lo + i->box.hi;
@@ -140,18 +146,6 @@ class TreeBuilder {
         }
       }
     }
-    if (node.count <= largest_leaf) {
-      const Kind first_kind = kind(node.first);
-      bool mixed = false;
-      for (std::size_t i = 1; i < node.count; ++i) mixed = mixed || kind(node.first + i) != first_kind;
-      const float area = node.box.half_area();
-      if (!(node_cost * area + best < area * cost(node.count))) {
-        if (!mixed) return false;
-        const auto middle = std::partition(begin, end, [&](const Reference& r) { return items_[r.item].kind == first_kind; });
-        children(at, static_cast<std::uint32_t>(middle - begin));
-        return true;
-      }
-    }
     auto middle = begin + node.count / 2;  // equal centres, or too deep: halves
     if (best_axis < 3) {
       const auto k = static_cast<int>(best_axis);
@@ -164,9 +158,7 @@ class TreeBuilder {
   static std::uint32_t bin_of(float x) {
     return std::min(static_cast<std::uint32_t>(std::max(static_cast<std::int32_t>(x), 0)), bin_count - 1);
   }
-  // Testing n shapes, in blocks, relative to one child box.
-  static float cost(std::uint32_t n) { return item_cost * static_cast<float>((n + 3) / 4 * 4); }
-  static constexpr float node_cost = 1.0f, item_cost = 0.5f;
+  static float cost(std::uint32_t n) { return static_cast<float>((n + 7) / 8); }
 
   void children(std::uint32_t at, std::uint32_t left_count) {
     const Binary node = binary_[at];
@@ -179,10 +171,56 @@ class TreeBuilder {
     binary_.push_back(right);
   }
 
+  // least[i][k]: the least expected cost of the subtree of binary node i when it becomes k + 1 children, or fewer, of one wide node; it
+  // k = 0 is a node of its own. left[i][k]: how many of them come from its left child; 0: k are as good.
+  struct Merger {
+    std::array<float, 8> least;
+    std::array<std::uint8_t, 8> left;
+    std::uint8_t left7 = 0;  // of eight children, as a node of its own
+  };
+  void merge(std::vector<Merger>& mergers) const {
+    mergers.resize(binary_.size());
+    for (std::size_t i = binary_.size(); i-- > 0;) {  // children come after their parents
+      const Binary& node = binary_[i];
+      Merger& m = mergers[i];
+      m.left.fill(0);
+      if (node.count > 0) {
+        m.least.fill(node.box.half_area() * leaf_cost);
+        continue;
+      }
+      const Merger &l = mergers[node.first], &r = mergers[node.first + 1];
+      for (std::uint32_t k = 1; k < 8; ++k) {
+        m.least[k] = 1e30f;
+        for (std::uint32_t j = 0; j < k; ++j)
+          if (const float sum = l.least[j] + r.least[k - 1 - j]; sum < m.least[k])
+            m.least[k] = sum, m.left[k] = static_cast<std::uint8_t>(j + 1);
+      }
+      m.left7 = m.left[7];
+      m.least[0] = node.box.half_area() + m.least[7];
+      for (std::uint32_t k = 1; k < 8; ++k)
+        if (m.least[k - 1] < m.least[k]) m.least[k] = m.least[k - 1], m.left[k] = 0;
+    }
+  }
+  static constexpr float leaf_cost = 1.5f;  // of a block of shapes, in tests of eight boxes
+
+  void gather(const std::vector<Merger>& mergers, std::uint32_t at, std::uint32_t k, std::array<std::uint32_t, 8>& child,
+              std::size_t& count) const {
+    while (k > 0 && mergers[at].left[k] == 0) --k;
+    if (k == 0 || binary_[at].count > 0) {
+      child[count++] = at;
+      return;
+    }
+    const std::uint32_t left = mergers[at].left[k];
+    gather(mergers, binary_[at].first, left - 1, child, count);
+    gather(mergers, binary_[at].first + 1, k - left, child, count);
+  }
+
   void collapse(std::vector<Node>& out) {
     struct Open {
       std::uint32_t binary, parent, slot;
     };
+    std::vector<Merger> mergers;
+    merge(mergers);
     std::vector<Open> todo{{0, no_shape, 0}};
     while (!todo.empty()) {
       const Open open = todo.back();
@@ -190,17 +228,13 @@ class TreeBuilder {
       const auto index = static_cast<std::uint32_t>(out.size());
       if (open.parent != no_shape) out[open.parent].child[open.slot] = index;
       std::array<std::uint32_t, 8> child{open.binary};
-      std::size_t count = 1;
-      while (count < 8) {
-        std::size_t widest = 8;
-        float area = -1.0f;
-        for (std::size_t i = 0; i < count; ++i)
-          if (binary_[child[i]].count == 0 && binary_[child[i]].box.half_area() > area)
-            area = binary_[child[i]].box.half_area(), widest = i;
-        if (widest == 8) break;
-        const std::uint32_t first = binary_[child[widest]].first;
-        child[widest] = first;
-        child[count++] = first + 1;
+      std::size_t count = 0;
+      if (binary_[open.binary].count > 0) {
+        count = 1;  // a tree of one leaf
+      } else {
+        const std::uint32_t left = mergers[open.binary].left7;
+        gather(mergers, binary_[open.binary].first, left - 1, child, count);
+        gather(mergers, binary_[open.binary].first + 1, 7 - left, child, count);
       }
       // Largest first: any-hit searches look there first.
       for (std::size_t i = 1; i < count; ++i)

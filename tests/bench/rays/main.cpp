@@ -60,7 +60,7 @@ bool bundles(const raycast::Scene& scene, const Set& set, std::vector<std::uint8
 raycast::PatchShape shape(const Patch& p) { return {p.contour, p.owner, p.bulge}; }
 
 struct Count {
-  std::size_t clear = 0, blocked = 0, unknown = 0, pairs = 0, listed = 0, shapes = 0;
+  std::size_t clear = 0, blocked = 0, unknown = 0, pairs = 0, listed = 0, shapes = 0, unknown_parents = 0;
 };
 // Between patches: the list of occluders of every pair, from that of its parent where there is one.
 bool lists(const raycast::Scene& scene, const Set& set, std::vector<std::uint8_t>& verdicts, Count& count) {
@@ -72,7 +72,8 @@ bool lists(const raycast::Scene& scene, const Set& set, std::vector<std::uint8_t
   for (std::size_t at = 0; at < set.rays.size(); at += 16) {
     const std::size_t k = at / 16;
     if (!set.parents.empty() && k % 16 == 0)
-      parent = scene.occluders(shape(set.parents[k / 16].first), shape(set.parents[k / 16].second));
+      parent = scene.occluders(shape(set.parents[k / 16].first), shape(set.parents[k / 16].second)),
+      count.unknown_parents += !parent.known();
     const auto& [p, q] = set.pairs[k];
     const raycast::OccluderList list = set.parents.empty() ? scene.occluders(shape(p), shape(q)) : scene.filter(parent, shape(p), shape(q));
     ++count.pairs;
@@ -89,7 +90,8 @@ bool lists(const raycast::Scene& scene, const Set& set, std::vector<std::uint8_t
   return true;
 }
 
-void compare(const World& world) {
+// With `only`, other engines than the one of this name are left out.
+void compare(const World& world, const std::string& only, const std::string& only_set) {
   std::printf("\n%s\n", world.name.c_str());
   std::vector<double> builds;
   for (int k = 0; k < 5; ++k) {
@@ -115,16 +117,18 @@ void compare(const World& world) {
                          [&, width](const Set& s, auto& v) { return user.run(s, width, v), true; }});
   }
 #endif
+  if (!only.empty()) std::erase_if(engines, [&](const Engine& e) { return e.name != only; });
   double peer_build = 1e9;
   for (const Engine& e : engines)
     if (e.peer) peer_build = std::min(peer_build, e.build);
   std::printf("  build ms: halflight %.3f, best peer %.3f, ratio of times %.2f\n", 1e3 * builds[2], 1e3 * peer_build,
               builds[2] / peer_build);
   for (const Set& set : world.sets) {
+    if (!only_set.empty() && set.name != only_set) continue;
     const std::size_t n = engines.size();
     std::vector<std::vector<double>> times(n);
     std::vector<std::vector<std::uint8_t>> verdicts(n);
-    for (int round = 0; round < 6; ++round)  // the first warms up
+    for (int round = 0; round < (only.empty() ? 6 : 60); ++round)  // the first warms up
       for (std::size_t e = 0; e < n; ++e) {
         const double start = cpu_now();
         if (!engines[e].run(set, verdicts[e])) continue;
@@ -149,16 +153,20 @@ void compare(const World& world) {
       std::printf("   %zu differ\n", differ);
     }
     if (!set.closest && !set.pairs.empty())
-      std::printf("    pairs: %zu, clear %zu, blocked %zu, listed %zu with %.1f shapes, unknown %zu\n", count.pairs, count.clear, count.blocked,
-                  count.listed, static_cast<double>(count.shapes) / static_cast<double>(std::max<std::size_t>(count.listed, 1)), count.unknown);
+      std::printf("    pairs: %zu, clear %zu, blocked %zu, listed %zu with %.1f shapes, unknown %zu (of parents %zu)\n", count.pairs,
+                  count.clear, count.blocked, count.listed,
+                  static_cast<double>(count.shapes) / static_cast<double>(std::max<std::size_t>(count.listed, 1)), count.unknown,
+                  count.unknown_parents);
   }
 }
 
 }  // namespace
 
+// bench_rays [scene [engine [set]]]
 int main(int argc, char** argv) {
-  const std::string only = argc > 1 ? argv[1] : "";
-  if (only.empty() || only == "cornell") compare(cornell());
-  if (only.empty() || only == "spheres") compare(spheres());
-  if (only.empty() || only == "bumpy") compare(bumpy());
+  const auto argument = [&](int i) { return std::string(argc > i ? argv[i] : ""); };
+  const std::string only = argument(1);
+  if (only.empty() || only == "cornell") compare(cornell(), argument(2), argument(3));
+  if (only.empty() || only == "spheres") compare(spheres(), argument(2), argument(3));
+  if (only.empty() || only == "bumpy") compare(bumpy(), argument(2), argument(3));
 }
