@@ -141,4 +141,62 @@ inline bool Scene::occluded(const Segment& segment, std::uint32_t source_owner, 
   return std::any_of(compiled_.rooms.begin(), compiled_.rooms.end(), [&](std::uint32_t room) { return exact(room, 1u) != 0; });
 }
 
+// Asks the law about one object, for the first hit.
+struct Scene::Asker {
+  const Scene& scene;
+  const Line& line;
+  const End& source;
+  Nearest& nearest;
+  double t0, t1;  // of the ray: parameters 0 and 1 of the compiled segment
+
+  float operator()(std::uint32_t object) const {
+    scene.approach(line, source, object, nearest);
+    return static_cast<float>(std::min((nearest.limit - t0) / (t1 - t0), 1.0)) * 1.00001f + 1e-6f;
+  }
+  [[nodiscard]] bool near(std::uint32_t object) const {
+    return object == source.owner || scene.objects_[object].bounds().contains(line.segment.origin, 2 * scene.skin(source, object));
+  }
+};
+
+inline void Scene::approach_bounded(const Line& line, const End& a, Nearest& nearest) const {
+  const glm::dvec3 o = compiled_.local(line.segment.origin), d = line.segment.direction * compiled_.scale;
+  Asker asker{*this, line, a, nearest, 0.0, 0.0};
+  double entry = 0.0, exit = infinity;  // of a cube around everything
+  for (int k = 0; k < 3; ++k) {
+    const double lo = (-1.25 - o[k]) / d[k], hi = (1.25 - o[k]) / d[k];
+    if (d[k] == 0.0 && !(std::abs(o[k]) <= 1.25)) return;
+    if (d[k] == 0.0) continue;
+    entry = std::max(entry, std::min(lo, hi));
+    exit = std::min(exit, std::max(lo, hi));
+  }
+  if (!(entry < exit)) return;
+  Rays16 rays;
+  const glm::dvec3 from = o + entry * d, along = (exit - entry) * d;
+  const Segment inner{from / compiled_.scale + compiled_.centre, along / compiled_.scale};
+  if (!(Box{o, o}.magnitude() < 1e6) || !HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, inner, a.owner, no_object, rays))) {
+    objects_along(compiled_, line.segment, 0.0, nearest.limit, [&](std::uint32_t i) {
+      approach(line, a, i, nearest);
+      return false;
+    });
+    return;
+  }
+  asker.t0 = entry, asker.t1 = exit;
+  Entries entries;
+  HALFLIGHT_DISPATCH(isa_, first(compiled_, rays, asker, entries));
+  if (entries.count == 1 && entries.complete && entries.entry[0].sure) {
+    const Entries::Entry& e = entries.entry[0];
+    const double t = objects_[e.object].crossing(line.segment, e.face);
+    if (t > 0.0 && t <= nearest.limit) offer(line, Hit{t, e.object, e.face, true}, nearest);
+    return;
+  }
+  if (!entries.complete) {
+    for (std::uint32_t i = 0; i < objects_.size(); ++i)
+      if (compiled_.roles[i] == Role::solid && !objects_[i].inside()) approach(line, a, i, nearest);
+    return;
+  }
+  for (unsigned i = 0; i < entries.count; ++i)
+    if (std::none_of(entries.entry, entries.entry + i, [&](const auto& e) { return e.object == entries.entry[i].object; }))
+      approach(line, a, entries.entry[i].object, nearest);
+}
+
 }  // namespace raycast

@@ -34,6 +34,7 @@ struct alignas(64) Rays16 {
   float length[16];                      // of d, from above
   float per_square[16];                  // 1 / d.d
   std::uint32_t source[16], target[16];  // owners
+  std::uint32_t back[3];                 // by axis: the lanes with i < 0
   bool uniform;                          // all lanes have the owners of lane 0
 };
 
@@ -60,6 +61,32 @@ struct Corners16 {
   std::uint32_t source, target;  // owners
 };
 enum class Relevance : std::uint8_t { none, some, blocks_all };
+
+// Where a ray enters solids kept as faces, as far as single precision knows.
+struct Entries {
+  static constexpr unsigned capacity = 8;
+  struct Entry {
+    float from, to;  // bounds of the parameter
+    std::uint32_t object, face;
+    bool sure;
+  };
+  Entry entry[capacity];
+  unsigned count = 0;
+  bool complete = true;  // false: there were more
+
+  void add(const Entry& e) {
+    if (e.sure) {  // what certainly comes later does not matter
+      unsigned kept = 0;
+      for (unsigned i = 0; i < count; ++i)
+        if (entry[i].from <= e.to) entry[kept++] = entry[i];
+      count = kept;
+    }
+    if (count == capacity)
+      complete = false;
+    else
+      entry[count++] = e;
+  }
+};
 
 inline constexpr unsigned stack_size = 640;  // 7 entries a level, and no tree is deeper than 80 (tree.hpp)
 

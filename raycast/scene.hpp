@@ -113,6 +113,7 @@ class Scene {
   };
 
   struct Exact;
+  struct Asker;
   [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const std::uint32_t* list, std::uint32_t count, bool rooms_clear,
                                          std::uint32_t& hint) const;
   [[nodiscard]] OccluderList list_of(const OccluderList* parent, const PatchShape& a, const PatchShape& b) const;
@@ -142,6 +143,7 @@ class Scene {
   [[nodiscard]] bool blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const;
   [[nodiscard]] bool blocks_by_spans(const Line& line, const End& a, const End& b, std::uint32_t i) const;
   void approach(const Line& line, const End& a, std::uint32_t i, Nearest& nearest) const;
+  void approach_bounded(const Line& line, const End& a, Nearest& nearest) const;
   void offer(const Line& line, const Hit& hit, Nearest& nearest) const;
 
   std::vector<PlacedObject> objects_;
@@ -234,10 +236,7 @@ inline std::optional<Hit> Scene::closest(const Segment& ray, std::uint32_t sourc
   const End a = end_at(source_owner);
   Nearest nearest;
   for (const std::uint32_t i : compiled_.rooms) approach(line, a, i, nearest);
-  objects_along(compiled_, ray, 0.0, nearest.limit, [&](std::uint32_t i) {
-    approach(line, a, i, nearest);
-    return false;
-  });
+  approach_bounded(line, a, nearest);
   if (nearest.hit.object == no_object) return std::nullopt;
   return nearest.hit;
 }

@@ -8,7 +8,9 @@
 //
 // `bulge` of a patch bounds how far the points of the patch and of all its descendants leave the hull of its contour. On a flat sheet it is
 // 0; where refined vertices move out to a curved surface it is the sagitta. A list of a parent holds for its children when their hulls,
-// widened by their bulges, lie within those of the parent.
+// widened by their bulges, lie within those of the parent. More than 64 entries are not kept: such a list is unknown, for descendants
+// too (their segments search the whole scene, which is right and usually faster than gathering again); where descendants have become
+// much smaller, occluders() makes a new list.
 //
 // Convex owners: a segment whose end lies on or in a convex object that owns it is never blocked by that object. This is proven for
 // the contour, and holds for descendants because their vertices lie on the surface too, and their points in the hull of these.
@@ -64,7 +66,7 @@ inline std::array<glm::dvec3, 4> four_corners(std::span<const glm::dvec3> contou
 
 inline OccluderList Scene::occluders(const PatchShape& a, const PatchShape& b) const { return list_of(nullptr, a, b); }
 inline OccluderList Scene::filter(const OccluderList& parent, const PatchShape& a, const PatchShape& b) const {
-  if (parent.blocked() || parent.clear()) return parent;
+  if (parent.blocked() || parent.clear() || !parent.known()) return parent;
   return list_of(&parent, a, b);
 }
 
@@ -108,9 +110,8 @@ inline OccluderList Scene::list_of(const OccluderList* parent, const PatchShape&
     return objects_[object].convex() && (a.owner == b.owner || within(object, object == a.owner ? a.contour : b.contour));
   };
   const std::uint32_t count =
-      parent && parent->known()
-          ? HALFLIGHT_DISPATCH(isa_, narrow(compiled_, c, parent->shapes_.data(), parent->count_, list.shapes_.data(), touches, skips))
-          : HALFLIGHT_DISPATCH(isa_, gather(compiled_, c, list.shapes_.data(), OccluderList::capacity, touches, skips));
+      parent ? HALFLIGHT_DISPATCH(isa_, narrow(compiled_, c, parent->shapes_.data(), parent->count_, list.shapes_.data(), touches, skips))
+             : HALFLIGHT_DISPATCH(isa_, gather(compiled_, c, list.shapes_.data(), OccluderList::capacity, touches, skips));
   if (count == ~0u) {
     list.state_ = OccluderList::State::blocked;
   } else if (count <= OccluderList::capacity) {
