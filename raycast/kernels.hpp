@@ -102,9 +102,7 @@ struct Pending {
 #define HALFLIGHT_ISA portable
 #define HALFLIGHT_LANES 4
 #define HALFLIGHT_TARGET
-#include "lanes.inc"
-
-#include "kernels.inc"
+#include "kernels/all.inc"
 #undef HALFLIGHT_ISA
 #undef HALFLIGHT_LANES
 #undef HALFLIGHT_TARGET
@@ -114,9 +112,7 @@ struct Pending {
 #define HALFLIGHT_ISA avx2
 #define HALFLIGHT_LANES 8
 #define HALFLIGHT_TARGET __attribute__((target("avx2,fma,bmi,popcnt")))
-#include "lanes.inc"
-
-#include "kernels.inc"
+#include "kernels/all.inc"
 #undef HALFLIGHT_ISA
 #undef HALFLIGHT_LANES
 #undef HALFLIGHT_TARGET
@@ -125,9 +121,7 @@ struct Pending {
 #define HALFLIGHT_ISA avx512
 #define HALFLIGHT_LANES 16
 #define HALFLIGHT_TARGET __attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,popcnt")))
-#include "lanes.inc"
-
-#include "kernels.inc"
+#include "kernels/all.inc"
 #undef HALFLIGHT_ISA
 #undef HALFLIGHT_LANES
 #undef HALFLIGHT_TARGET

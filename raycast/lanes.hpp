@@ -3,7 +3,7 @@
 
 // Which vector instructions this machine has, and the kernels compiled for each of them.
 //
-// kernels.inc is written once, in terms of the small operations of lanes.inc, and is compiled three times: portable code in vectors of
+// The files in kernels/ are written once, in terms of the small operations of lanes.inc, and compiled three times: portable code in vectors of
 // four, AVX2 in eight, AVX-512 in sixteen, each function with the target attribute of its set, so that a library built without any
 // machine flag uses what the machine offers. (A template cannot carry such an attribute as a parameter; hence the inclusion.) The three
 // round differently, and still answer alike: a kernel decides only what its error bound allows and leaves the rest to double precision.

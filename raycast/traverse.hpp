@@ -31,36 +31,6 @@ template <class Visit>
   return false;
 }
 
-// Calls visit(item) for the items whose leaf the line meets within [t0, limit], nearer leaves first. visit may lower `limit`.
-template <class Visit>
-void closest(const Bvh& bvh, const SlabTest& slabs, double t0, const double& limit, Visit&& visit) {
-  if (bvh.empty()) return;
-  struct Entry {
-    std::uint32_t node;
-    double t;
-  };
-  const Bvh::Node* const nodes = bvh.nodes().data();
-  std::array<Entry, Bvh::depth_limit + 2> stack;
-  std::size_t top = 0;
-  double left = 0.0, right = 0.0;
-  if (slabs(nodes[0].box, t0, limit, left)) stack[top++] = {0, left};
-  while (top > 0) {
-    const Entry at = stack[--top];
-    if (at.t > limit) continue;
-    const Bvh::Node& node = nodes[at.node];
-    if (node.count > 0) {
-      for (const std::uint32_t item : bvh.items(node)) visit(item);
-      continue;
-    }
-    const bool meets_left = slabs(nodes[node.first].box, t0, limit, left);
-    const bool meets_right = slabs(nodes[node.first + 1].box, t0, limit, right);
-    const bool left_first = left <= right;
-    if (meets_right && left_first) stack[top++] = {node.first + 1, right};
-    if (meets_left) stack[top++] = {node.first, left};
-    if (meets_right && !left_first) stack[top++] = {node.first + 1, right};
-  }
-}
-
 // The objects of a compiled scene whose bounds the line may meet within [t0, limit], nearer ones first as far as it is cheap to know:
 // visit(object) -> bool, until one returns true. visit may lower `limit`. Rooms are not among them, and an object of many shapes is
 // visited once for its guard.

@@ -35,7 +35,7 @@ class TreeBuilder {
     for (std::size_t i = 0; i < items_.size();) {
       std::size_t end = i + 1;
       while (end < items_.size() && end < i + 8 && items_[end].kind == items_[i].kind) ++end;
-      out.push_back(leaf({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(end - i), 0}));
+      out.push_back(leaf({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(end - i)}));
       i = end;
     }
   }
@@ -83,7 +83,7 @@ class TreeBuilder {
     std::uint32_t depth;
   };
   struct Range {
-    std::uint32_t first, count, unused;
+    std::uint32_t first, count;
   };
   static constexpr std::uint32_t bin_count = 16, largest_leaf = 8, deepest = 48;
 
@@ -250,7 +250,7 @@ class TreeBuilder {
         if (i >= count) continue;
         const Binary& b = binary_[child[i]];
         if (b.count > 0)
-          node.child[i] = leaf({b.first, b.count, 0});
+          node.child[i] = leaf({b.first, b.count});
         else
           todo.push_back({child[i], index, static_cast<std::uint32_t>(i)});
       }
