@@ -6,7 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/commands/check.hpp"
 #include "apps/commands/common.hpp"
+#include "apps/commands/euler.hpp"
 #include "apps/commands/info.hpp"
 #include "apps/commands/render.hpp"
 #include "apps/version.hpp"
@@ -16,18 +18,26 @@ namespace {
 int run(int argc, char** argv) {
   CLI::App app("Radiosity for scenes of diffuse surfaces: every run says how wrong it is and how long it took.", "halflight");
   app.set_version_flag("--version", std::string("halflight ") + apps::version);
-  app.footer("Exit codes: 0 done, 1 failure, 2 wrong usage, 3 invalid scene, 4 not converged.");
+  app.footer("Exit codes: 0 done, 1 failure, 2 wrong usage, 3 invalid scene, mesh or script, 4 not converged.");
   app.require_subcommand(1);
   apps::RenderOptions render;
   apps::InfoOptions info;
+  apps::CheckOptions check;
+  apps::EulerOptions euler;
   CLI::App* const render_command = app.add_subcommand("render", "solve a scene; write a picture or a mesh and the report");
   CLI::App* const info_command = app.add_subcommand("info", "say what is in a scene without solving it");
+  CLI::App* const check_command = app.add_subcommand("check", "say what a polygon mesh is and everything that is wrong with it");
+  CLI::App* const euler_command = app.add_subcommand("euler", "play a script of Euler operators; draw each step");
   apps::describe(*render_command, render);
   apps::describe(*info_command, info);
+  apps::describe(*check_command, check);
+  apps::describe(*euler_command, euler);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : static_cast<int>(apps::ExitCode::usage); }
-  return static_cast<int>(render_command->parsed() ? apps::run(render) : apps::run(info));
+  if (render_command->parsed()) { return static_cast<int>(apps::run(render)); }
+  if (check_command->parsed()) { return static_cast<int>(apps::run(check)); }
+  return static_cast<int>(euler_command->parsed() ? apps::run(euler) : apps::run(info));
 }
 
 }  // namespace

@@ -159,7 +159,12 @@ struct Sample {
 class Band {
  public:
   Band(std::int64_t width, std::int64_t first_row, std::int64_t rows, const View& view)
-      : width_(width), first_row_(first_row), rows_(rows), samples_(static_cast<std::size_t>(width * rows)), view_(&view) {}
+      : width_(width),
+        first_row_(first_row),
+        rows_(rows),
+        samples_(static_cast<std::size_t>(width * rows)),
+        view_(&view),
+        pixel_(static_cast<double>(view.size.width) / static_cast<double>(width)) {}
 
   void draw(const Drawing& drawing, const Piece& piece);
   [[nodiscard]] const Sample& at(std::int64_t x, std::int64_t row) const {
@@ -167,9 +172,7 @@ class Band {
   }
   // The ray through sample (x, y), as (x/z, y/z, 1).
   [[nodiscard]] glm::dvec3 ray(std::int64_t x, std::int64_t y) const {
-    const double pitch = 2.0 * view_->half_width / static_cast<double>(width_);
-    const double height = view_->half_height();
-    return {(static_cast<double>(x) + 0.5) * pitch - view_->half_width, (static_cast<double>(y) + 0.5) * pitch - height, 1.0};
+    return view_->ray((static_cast<double>(x) + 0.5) * pixel_, (static_cast<double>(y) + 0.5) * pixel_);
   }
 
  private:
@@ -180,6 +183,7 @@ class Band {
   std::int64_t rows_;
   std::vector<Sample> samples_;
   const View* view_;
+  double pixel_;  // of one sample
 };
 
 void Band::put(const Drawing& drawing, std::uint32_t index, std::int64_t x, std::int64_t y) {

@@ -108,7 +108,10 @@ void sizes_and_checks(std::string& out, const Report& report) {
   row(out, "channels, threads, seed", format("%u, %u, %llu", audit.channels, audit.threads, static_cast<unsigned long long>(audit.seed)));
   row(out, "exposure", format("%.5g%s", report.exposure, report.automatic_exposure ? " (automatic)" : ""));
   if (report.picture) {
-    row(out, "picture", format("%u x %u, camera ", report.picture->width, report.picture->height) + report.picture->camera);
+    row(out, "picture",
+        format("%u x %u, of the %s, camera ", report.picture->width, report.picture->height,
+               report.picture->method == PictureMethod::mesh ? "mesh" : "objects (raycast)") +
+            report.picture->camera);
   }
 }
 
@@ -218,7 +221,7 @@ void write_settings(JsonWriter& json, const Report& report) {
   } else {
     json.null();
   }
-  json.key("solver").string(report.options.solver == radiosity::Solver::jacobi ? "jacobi" : "cg");
+  json.key("solver").string(name(report.options.solver));
   json.key("reconstruction").string(report.options.reconstruction == radiosity::Reconstruction::simple ? "simple" : "weighted");
   json.key("channels").count(audit.channels).key("threads").count(audit.threads).key("seed").count(audit.seed);
   json.close();
@@ -230,6 +233,7 @@ void write_settings(JsonWriter& json, const Report& report) {
   json.open_object();
   json.key("camera").string(report.picture->camera);
   json.key("width").count(report.picture->width).key("height").count(report.picture->height);
+  json.key("method").string(report.picture->method == PictureMethod::mesh ? "mesh" : "raycast");
   json.close();
 }
 
@@ -265,6 +269,13 @@ std::string to_json(const Report& report) {
   }
   json.key("energy_balance").number(audit.energy_balance).key("escaped").number(audit.escaped);
   json.key("residual").number(audit.residual).key("iterations").count(audit.iterations);
+  json.key("residual_histories").open_array();
+  for (const std::vector<double>& history : audit.histories) {
+    json.open_array();
+    for (const double residual : history) { json.number(residual); }
+    json.close();
+  }
+  json.close();
   json.key("converged").boolean(audit.converged);
   json.key("exposure").number(report.exposure).key("exposure_automatic").boolean(report.automatic_exposure);
   write_settings(json, report);

@@ -13,10 +13,13 @@
 
 namespace apps {
 
+enum class PictureMethod { mesh, raycast };  // what is drawn: the mesh, or the true objects
+
 struct PictureReport {
   std::string camera;
   unsigned width = 0;
   unsigned height = 0;
+  PictureMethod method = PictureMethod::mesh;
 };
 
 struct Report {

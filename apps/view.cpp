@@ -15,6 +15,16 @@ glm::dvec3 View::to_view(const glm::dvec3& world) const {
   return {glm::dot(p, right), glm::dot(p, down), glm::dot(p, forward)};
 }
 
+glm::dvec3 View::ray(double x, double y) const {
+  const double pitch = 2.0 * half_width / size.width;
+  return {x * pitch - half_width, y * pitch - half_height(), 1.0};
+}
+
+glm::dvec3 View::direction(double x, double y) const {
+  const glm::dvec3 r = ray(x, y);
+  return r.x * right + r.y * down + forward;
+}
+
 View make_view(const Camera& camera, const PictureSize& size) {
   View view;
   view.eye = camera.eye;

@@ -22,6 +22,10 @@ struct View {
 
   [[nodiscard]] double half_height() const { return half_width * size.height / size.width; }
   [[nodiscard]] glm::dvec3 to_view(const glm::dvec3& world) const;
+  // What falls on the point (x, y) of the picture, in pixels from its top left corner, lies along this ray of view space, whose z is 1,
+  [[nodiscard]] glm::dvec3 ray(double x, double y) const;
+  // and in this direction in the world, which goes 1 forward.
+  [[nodiscard]] glm::dvec3 direction(double x, double y) const;
 };
 
 // `camera` is sound: forward is not zero and up not parallel to it.

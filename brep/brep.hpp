@@ -41,24 +41,15 @@ struct HalfedgeRecord {
 };
 static_assert(sizeof(HalfedgeRecord) == 16);
 
-// A vertex or a face. The handle comes first: it never lies in the tail padding of the user's data, where a raw copy
-// of the data would overwrite it.
-template <class T>
-struct ElementRecord {
+// A vertex or a face.
+struct AnchorRecord {
   HalfedgeId halfedge;
-  [[no_unique_address]] T data{};
 };
 
 inline std::uint32_t& link(HalfedgeRecord& r) { return r.next.index; }
 inline std::uint32_t link(const HalfedgeRecord& r) { return r.next.index; }
-template <class T>
-std::uint32_t& link(ElementRecord<T>& r) {
-  return r.halfedge.index;
-}
-template <class T>
-std::uint32_t link(const ElementRecord<T>& r) {
-  return r.halfedge.index;
-}
+inline std::uint32_t& link(AnchorRecord& r) { return r.halfedge.index; }
+inline std::uint32_t link(const AnchorRecord& r) { return r.halfedge.index; }
 
 struct Raw;
 
@@ -88,12 +79,12 @@ class BRep {
   }
 
   // The references stay valid while the element lives, whatever else is made or killed.
-  [[nodiscard]] VertexT& data(VertexId v) { return vertices_[v.index].data; }
-  [[nodiscard]] const VertexT& data(VertexId v) const { return vertices_[v.index].data; }
-  [[nodiscard]] FaceT& data(FaceId f) { return faces_[f.index].data; }
-  [[nodiscard]] const FaceT& data(FaceId f) const { return faces_[f.index].data; }
-  [[nodiscard]] HalfedgeT& data(HalfedgeId h) requires(!std::is_empty_v<HalfedgeT>) { return halfedge_data_[h.index]; }
-  [[nodiscard]] const HalfedgeT& data(HalfedgeId h) const requires(!std::is_empty_v<HalfedgeT>) { return halfedge_data_[h.index]; }
+  [[nodiscard]] VertexT& data(VertexId v) { return vertices_.data(v.index); }
+  [[nodiscard]] const VertexT& data(VertexId v) const { return vertices_.data(v.index); }
+  [[nodiscard]] FaceT& data(FaceId f) { return faces_.data(f.index); }
+  [[nodiscard]] const FaceT& data(FaceId f) const { return faces_.data(f.index); }
+  [[nodiscard]] HalfedgeT& data(HalfedgeId h) requires(!std::is_empty_v<HalfedgeT>) { return halfedges_.data(h.index); }
+  [[nodiscard]] const HalfedgeT& data(HalfedgeId h) const requires(!std::is_empty_v<HalfedgeT>) { return halfedges_.data(h.index); }
 
   [[nodiscard]] std::size_t vertex_count() const { return vertices_.count(); }
   [[nodiscard]] std::size_t edge_count() const { return halfedges_.count(); }
@@ -111,21 +102,14 @@ class BRep {
   [[nodiscard]] std::uint32_t face_end() const { return faces_.size(); }
 
   // Memory held by the pools, in bytes, free slots included; what the user's data own elsewhere is not counted.
-  [[nodiscard]] std::size_t bytes() const {
-    std::size_t sum = halfedges_.bytes() + vertices_.bytes() + faces_.bytes();
-    if constexpr (!std::is_empty_v<HalfedgeT>) sum += halfedge_data_.bytes();
-    return sum;
-  }
+  [[nodiscard]] std::size_t bytes() const { return halfedges_.bytes() + vertices_.bytes() + faces_.bytes(); }
 
  private:
   friend struct detail::Raw;
-  struct Empty {};
-  using HalfedgeData = std::conditional_t<std::is_empty_v<HalfedgeT>, Empty, Pages<HalfedgeT, page_shift + 1>>;
 
-  Pool<detail::HalfedgeRecord, 2> halfedges_;
-  Pool<detail::ElementRecord<VertexT>> vertices_;
-  Pool<detail::ElementRecord<FaceT>> faces_;
-  [[no_unique_address]] HalfedgeData halfedge_data_;  // same indices as halfedges_
+  Pool<detail::HalfedgeRecord, HalfedgeT, 2> halfedges_;
+  Pool<detail::AnchorRecord, VertexT> vertices_;
+  Pool<detail::AnchorRecord, FaceT> faces_;
   [[no_unique_address]] typename LogT::template For<VertexT, HalfedgeT, FaceT> log_;
 };
 
@@ -183,33 +167,21 @@ struct Raw {
   template <class B>
   static HalfedgeId new_edge(B& brep) {
     const HalfedgeId h{brep.halfedges_.allocate()};
-    using Data = typename B::halfedge_type;
-    if constexpr (!std::is_empty_v<Data>) {
-      if (brep.halfedge_data_.size() < brep.halfedges_.size()) {
-        brep.halfedge_data_.push_back();
-        brep.halfedge_data_.push_back();
-      } else {
-        reset(brep.data(h));
-        reset(brep.data(twin(h)));
-      }
-      if constexpr (B::logs) {
-        brep.log_.give_back(brep.data(twin(h)));
-        brep.log_.give_back(brep.data(h));
-      }
+    if constexpr (B::logs && !std::is_empty_v<typename B::halfedge_type>) {
+      brep.log_.give_back(brep.data(twin(h)));
+      brep.log_.give_back(brep.data(h));
     }
     return h;
   }
   template <class B>
   static VertexId new_vertex(B& brep) {
     const VertexId v{brep.vertices_.allocate()};
-    reset(brep.data(v));
     if constexpr (B::logs) brep.log_.give_back(brep.data(v));
     return v;
   }
   template <class B>
   static VertexId new_vertex(B& brep, VertexId parent) {
     const VertexId v{brep.vertices_.allocate()};
-    reset(brep.data(v));
     inherit_vertex(brep.data(v), brep.data(parent));
     if constexpr (B::logs) brep.log_.give_back(brep.data(v));
     return v;
@@ -217,14 +189,12 @@ struct Raw {
   template <class B>
   static FaceId new_face(B& brep) {
     const FaceId f{brep.faces_.allocate()};
-    reset(brep.data(f));
     if constexpr (B::logs) brep.log_.give_back(brep.data(f));
     return f;
   }
   template <class B>
   static FaceId new_face(B& brep, FaceId parent) {
     const FaceId f{brep.faces_.allocate()};
-    reset(brep.data(f));
     inherit_face(brep.data(f), brep.data(parent));
     if constexpr (B::logs) brep.log_.give_back(brep.data(f));
     return f;
@@ -233,33 +203,21 @@ struct Raw {
   template <class B>
   static void kill(B& brep, EdgeId e) {
     const HalfedgeId h = brep::halfedge(e);
-    if constexpr (!std::is_empty_v<typename B::halfedge_type>) {
-      retire(brep, brep.data(h));
-      retire(brep, brep.data(twin(h)));
+    if constexpr (B::logs && !std::is_empty_v<typename B::halfedge_type>) {
+      brep.log_.keep(brep.data(h));
+      brep.log_.keep(brep.data(twin(h)));
     }
     brep.halfedges_.release(h.index);
   }
   template <class B>
   static void kill(B& brep, VertexId v) {
-    retire(brep, brep.data(v));
+    if constexpr (B::logs) brep.log_.keep(brep.data(v));
     brep.vertices_.release(v.index);
   }
   template <class B>
   static void kill(B& brep, FaceId f) {
-    retire(brep, brep.data(f));
+    if constexpr (B::logs) brep.log_.keep(brep.data(f));
     brep.faces_.release(f.index);
-  }
-
- private:
-  // Data that own something let it go when they are killed, the others are overwritten when their slot is used again.
-  template <class Data>
-  static void reset([[maybe_unused]] Data& data) {
-    if constexpr (std::is_trivially_destructible_v<Data> && !std::is_empty_v<Data>) data = Data{};
-  }
-  template <class B, class Data>
-  static void retire([[maybe_unused]] B& brep, [[maybe_unused]] Data& data) {
-    if constexpr (B::logs) brep.log_.keep(data);
-    if constexpr (!std::is_trivially_destructible_v<Data>) data = Data{};
   }
 };
 

@@ -1,208 +1,259 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The second half of close(), when something is left over: whatever the matching of the corners could not explain is found
-// here, all defects at once, each as a sentence about the builder's vertices and faces.
+// What is wrong with a builder: all defects at once, each as a sentence about the builder's vertices and faces.
 //
-// Consequences are left out: the border around a face that could not be used, the doubled edges of a flipped face, the
-// fans at a vertex on an open border. Time is linear, up to sorting the defects.
+// close() asks only when the matching of the corners left something over, so this file is made for good answers, not for speed:
+// O(n log n) in the corners. Consequences are left out: the border around a face that could not be used, the doubled edges
+// of flipped faces, the fans at a vertex on a border that a face in the hole would join.
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <brep/assemble.hpp>
+#include <brep/borders.hpp>
 #include <brep/builder_input.hpp>
-#include <brep/match.hpp>
+#include <brep/edge_uses.hpp>
+#include <brep/orientation.hpp>
 
 namespace brep::detail {
 
-// Adds to the defects of a matching what is wrong with faces and vertices together.
+// Faces with the same corners in the same order as an earlier one: pairs {earlier, later}, by the later one.
+[[nodiscard]] inline std::vector<std::pair<std::uint32_t, std::uint32_t>> duplicate_faces(const Builder& builder,
+                                                                                          const std::vector<bool>& skip) {
+  struct Key {
+    std::uint32_t least, count, after, face;  // the least vertex, the number of corners, the vertex after the least one
+    std::size_t start;
+  };
+  std::vector<Key> keys;
+  for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
+    if (skip[f]) continue;
+    const auto corners = builder.corners(f);
+    const auto start = static_cast<std::size_t>(std::min_element(corners.begin(), corners.end()) - corners.begin());
+    keys.push_back({corners[start], static_cast<std::uint32_t>(corners.size()), corners[(start + 1) % corners.size()], f, start});
+  }
+  const auto compare = [&](const Key& a, const Key& b) {
+    if (a.least != b.least) return a.least < b.least ? -1 : 1;
+    if (a.count != b.count) return a.count < b.count ? -1 : 1;
+    if (a.after != b.after) return a.after < b.after ? -1 : 1;
+    for (std::size_t k = 2; k < a.count; ++k) {
+      const std::uint32_t u = builder.corners(a.face)[(a.start + k) % a.count], w = builder.corners(b.face)[(b.start + k) % b.count];
+      if (u != w) return u < w ? -1 : 1;
+    }
+    return 0;
+  };
+  std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+    const int order = compare(a, b);
+    return order != 0 ? order < 0 : a.face < b.face;
+  });
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (std::size_t i = 0, first = 0; i < keys.size(); ++i) {
+    if (i > 0 && compare(keys[first], keys[i]) == 0) {
+      pairs.emplace_back(keys[first].face, keys[i].face);
+    } else {
+      first = i;
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return pairs;
+}
+
+// " v1 v2 v3": at most a dozen names.
+[[nodiscard]] inline std::string name_list(const std::vector<Element>& elements, std::size_t begin = 0,
+                                           std::size_t end = static_cast<std::size_t>(-1)) {
+  constexpr std::size_t most = 12;
+  std::string text;
+  end = std::min(end, elements.size());
+  for (std::size_t i = begin; i < end && i < begin + most; ++i) text += ' ' + to_string(elements[i]);
+  return end - begin > most ? text + " ..." : text;
+}
+
 class Diagnosis {
  public:
-  Diagnosis(const Builder& builder, Matching& matching) : builder_(builder), m_(matching) {}
-
-  void run() {
-    if (!m_.extras.empty()) report_doubled();
-    if (m_.matched != m_.halfedge.size()) report_borders();
-    report_fans();
-    for (std::uint32_t v = 0; v < m_.degree.size(); ++v) {
-      if (m_.degree[v] == 0) m_.add(DefectKind::unused_vertex, {VertexId{v}}, Matching::name(v) + " is not a corner of any face");
+  // `builder` holds corners only; the defects of its inserted edges are taken over.
+  Diagnosis(const Builder& builder, const Assembly* assembly)
+      : builder_(builder), excused_(builder.vertex_count(), false), skip_(unusable(builder)) {
+    report_vertices();
+    report_corners();
+    if (assembly == nullptr) return;
+    std::erase_if(found_, [&](const Defect& d) {  // the mark of a broken face was reported as what it is
+      return !d.elements.empty() && d.elements[0].letter == 'f' && assembly->broken[d.elements[0].index];
+    });
+    found_.insert(found_.end(), assembly->defects.begin(), assembly->defects.end());
+    for (const Defect& d : assembly->defects) {
+      for (const Element& e : d.elements) {
+        if (e.letter == 'v' && e.index < excused_.size()) excused_[e.index] = true;
+      }
     }
+  }
+
+  [[nodiscard]] std::vector<Defect> run() {
+    for (const auto& [first, again] : duplicate_faces(builder_, skip_)) {
+      skip_[again] = true;
+      add(DefectKind::duplicate_face, {FaceId{first}, FaceId{again}},
+          to_string(FaceId{again}) + " is " + to_string(FaceId{first}) + " entered again: the same corners in the same order");
+    }
+    const EdgeUses uses(builder_, skip_);
+    const Orientation orientation(builder_, uses, skip_);
+    report_edges(uses, orientation);
+    report_flips(uses, orientation);
+    const std::vector<Border> chains = borders(uses, orientation, excused_);
+    for (const Border& border : chains) report_border(border, uses);
+    report_fans(uses, chains);
+    std::vector<bool> used(builder_.vertex_count(), false);
+    for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
+      for (std::uint32_t v : builder_.corners(f)) {
+        if (v < used.size()) used[v] = true;
+      }
+    }
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+      if (!used[v] && !excused_[v]) add(DefectKind::unused_vertex, {VertexId{v}}, to_string(VertexId{v}) + " is not a corner of any face");
+    }
+    return std::move(found_);
   }
 
  private:
-  [[nodiscard]] FaceId face_of(std::uint32_t corner) const {
-    std::uint32_t lo = 0, hi = builder_.face_count();  // the last face whose first corner is <= corner
-    while (hi - lo > 1) {
-      const std::uint32_t middle = lo + (hi - lo) / 2;
-      (builder_.first_corner(middle) <= corner ? lo : hi) = middle;
-    }
-    return FaceId{lo};
+  void add(DefectKind kind, std::vector<Element> elements, std::string sentence) {
+    found_.push_back({kind, std::move(elements), std::move(sentence)});
   }
 
-  void report_doubled() {
-    std::sort(m_.extras.begin(), m_.extras.end(), [](const Matching::Extra& a, const Matching::Extra& b) {
-      return a.halfedge != b.halfedge ? a.halfedge < b.halfedge : a.corner < b.corner;
-    });
-    // The one further use of a half-edge without a twin, or none: such edges are what a flipped face leaves.
-    const auto twice = [&](std::uint32_t e) {
-      const auto x = std::lower_bound(m_.extras.begin(), m_.extras.end(), 2 * e,
-                                      [](const Matching::Extra& a, std::uint32_t key) { return a.halfedge < key; });
-      const bool once = x != m_.extras.end() && x->halfedge == 2 * e && (x + 1 == m_.extras.end() || (x + 1)->halfedge / 2 != e);
-      return once && m_.edges[e].corner[1] == Matching::none ? x->corner : Matching::none;
-    };
-    std::vector<bool> explained(m_.edges.size(), false);
-    std::uint32_t done = Matching::none;  // faces up to here were asked
-    std::vector<std::uint32_t> candidates;
-    for (const Matching::Extra& extra : m_.extras) {
-      candidates.push_back(face_of(extra.corner).index);
-      candidates.push_back(face_of(m_.edges[extra.halfedge / 2].corner[extra.halfedge % 2]).index);
+  void report_vertices() {
+    for (std::uint32_t v = 0; v < builder_.vertex_count(); ++v) {
+      const glm::dvec3& p = builder_.position(v);
+      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+      add(DefectKind::bad_position, {VertexId{v}}, to_string(VertexId{v}) + " has a coordinate that is not a finite number");
     }
-    std::sort(candidates.begin(), candidates.end());
-    for (std::uint32_t f : candidates) {
-      if (f == done) continue;
-      done = f;
-      const std::uint32_t begin = builder_.first_corner(f), count = static_cast<std::uint32_t>(builder_.corners(f).size());
-      bool flipped = true;
-      for (std::uint32_t c = begin; flipped && c < begin + count; ++c) {
-        flipped = m_.halfedge[c] != Matching::none && twice(m_.halfedge[c] / 2) != Matching::none && !explained[m_.halfedge[c] / 2];
+  }
+
+  // What is missing around a face that cannot be used has been reported with it.
+  void report_corners() {
+    const std::uint32_t n = builder_.vertex_count();
+    std::vector<std::uint32_t> seen(n, invalid_index);
+    for (std::uint32_t i = 0; i < builder_.face_count(); ++i) {
+      if (!skip_[i]) continue;
+      const FaceId f{i};
+      const auto corners = builder_.corners(i);
+      if (corners.size() < 3) {
+        add(DefectKind::few_corners, {f}, to_string(f) + " has " + std::to_string(corners.size()) + " corners, a face needs three");
       }
-      if (!flipped) continue;
-      for (std::uint32_t c = begin; c < begin + count; ++c) explained[m_.halfedge[c] / 2] = true;
-      m_.add(DefectKind::flipped_face, {FaceId{f}},
-             to_string(FaceId{f}) + " is flipped: all its edges run the same way as in the neighbouring faces");
-    }
-    for (std::size_t i = 0; i < m_.extras.size();) {
-      const std::uint32_t h = m_.extras[i].halfedge;
-      const Matching::Edge& e = m_.edges[h / 2];
-      const std::uint32_t u = h % 2 == 0 ? e.origin : e.target, w = h % 2 == 0 ? e.target : e.origin;
-      std::vector<Element> elements{VertexId{u}, VertexId{w}, face_of(e.corner[h % 2])};
-      std::string faces = to_string(elements[2]);
-      for (; i < m_.extras.size() && m_.extras[i].halfedge == h; ++i) {
-        elements.push_back(face_of(m_.extras[i].corner));
-        faces += ' ' + to_string(elements.back());
+      for (std::uint32_t v : corners) {
+        const std::string name = to_string(VertexId{v});
+        if (v >= n) {
+          add(DefectKind::bad_index, {f, VertexId{v}},
+              to_string(f) + " has the corner " + name + ", but there are only " + std::to_string(n) + " vertices");
+          continue;
+        }
+        if (seen[v] == i) add(DefectKind::repeated_corner, {f, VertexId{v}}, to_string(f) + " visits " + name + " twice");
+        seen[v] = i;
+        excused_[v] = true;
       }
-      if (explained[h / 2]) continue;
-      m_.add(DefectKind::doubled_edge, std::move(elements),
-             "the edge from " + Matching::name(u) + " to " + Matching::name(w) + " is used in this direction by more than one face: " +
-                 faces + "; one of them is flipped, or entered twice, or more than two faces meet here");
     }
   }
 
-  void report_borders() {
-    std::vector<bool> doubled(m_.edges.size(), false);
-    for (const Matching::Extra& extra : m_.extras) doubled[extra.halfedge / 2] = true;
-    std::vector<std::uint32_t> open, enters(m_.degree.size(), 0);
-    for (std::uint32_t e = 0; e < m_.edges.size(); ++e) {
-      if (m_.edges[e].corner[1] != Matching::none) continue;
-      at_defect(m_.edges[e].origin) = at_defect(m_.edges[e].target) = true;
-      if (doubled[e] || m_.excused[m_.edges[e].origin] || m_.excused[m_.edges[e].target]) continue;
-      open.push_back(e);
-      ++enters[m_.edges[e].target];
+  void report_edges(const EdgeUses& uses, const Orientation& orientation) {
+    for (std::uint32_t e = 0; e < uses.edge_count(); ++e) {
+      const auto all = uses.of(e);
+      const std::uint32_t u = all[0].from(), w = all[0].to(), f = uses.face(all[0].corner);
+      const auto ends = [&] { return to_string(VertexId{u}) + " to " + to_string(VertexId{w}); };
+      if (all.size() == 2 && all[0].forward == all[1].forward && orientation.one_sided[orientation.patch[f]]) {
+        const FaceId g{uses.face(all[1].corner)};
+        add(DefectKind::doubled_edge, {VertexId{u}, VertexId{w}, FaceId{f}, g},
+            "the edge from " + ends() + " is used in this direction by two faces, " + to_string(FaceId{f}) + " and " + to_string(g) +
+                ", and flipping cannot help: their surface has one side only, as a Moebius strip");
+      } else if (all.size() > 2) {
+        std::vector<Element> elements{VertexId{all[0].lo}, VertexId{all[0].hi}};
+        for (const EdgeUses::Use& use : all) elements.push_back(FaceId{uses.face(use.corner)});
+        std::string sentence = "the edge between " + to_string(elements[0]) + " and " + to_string(elements[1]) + " has " +
+                               std::to_string(all.size()) + " faces:" + name_list(elements, 2) + "; an edge of a surface has two";
+        add(DefectKind::nonmanifold_edge, std::move(elements), std::move(sentence));
+      }
     }
-    std::sort(open.begin(), open.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return std::pair(m_.edges[a].origin, a) < std::pair(m_.edges[b].origin, b); });
-    std::vector<std::uint32_t> cursor(m_.degree.size() + 1, 0);  // open edges by origin: those not yet taken begin here
-    for (std::uint32_t e : open) ++cursor[m_.edges[e].origin + 1];
-    for (std::size_t v = 1; v < cursor.size(); ++v) cursor[v] += cursor[v - 1];
-    const std::vector<std::uint32_t> begin = cursor;
-    const auto take = [&](std::uint32_t v) { return cursor[v] < begin[v + 1] ? open[cursor[v]++] : Matching::none; };
-    const auto follow = [&](std::uint32_t v) {
-      std::vector<std::uint32_t> chain;
-      for (std::uint32_t e = take(v); e != Matching::none; e = take(m_.edges[e].target)) chain.push_back(e);
-      if (!chain.empty()) report_border(chain);
-    };
-    for (std::uint32_t e : open) {
-      if (enters[m_.edges[e].origin] == 0) follow(m_.edges[e].origin);
-    }
-    for (std::uint32_t e : open) follow(m_.edges[e].origin);
   }
 
-  void report_border(const std::vector<std::uint32_t>& chain) {
+  // One defect for each group of flipped faces that hang together.
+  void report_flips(const EdgeUses& uses, const Orientation& orientation) {
+    UnionFind groups(builder_.face_count());
+    std::vector<std::uint32_t> sizes(orientation.one_sided.size(), 0);
+    for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
+      if (orientation.patch[f] != invalid_index) ++sizes[orientation.patch[f]];
+    }
+    for (std::uint32_t e = 0; e < uses.edge_count(); ++e) {
+      const auto all = uses.of(e);
+      if (all.size() != 2) continue;
+      const std::uint32_t f = uses.face(all[0].corner), g = uses.face(all[1].corner);
+      if (orientation.flip[f] && orientation.flip[g]) groups.unite(f, g);
+    }
+    std::vector<std::vector<Element>> members(builder_.face_count());
+    for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
+      if (orientation.flip[f]) members[groups.find(f)].push_back(FaceId{f});
+    }
+    for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
+      if (members[f].empty()) continue;
+      const std::size_t others = sizes[orientation.patch[f]] - members[f].size();
+      std::string sentence = members[f].size() == 1
+                                 ? to_string(FaceId{f}) + " is flipped: it runs along its edges the same way as the neighbouring faces"
+                                 : std::to_string(members[f].size()) + " faces are flipped against the " + std::to_string(others) +
+                                       " others of their component:" + name_list(members[f]);
+      add(DefectKind::flipped_face, std::move(members[f]), std::move(sentence));
+    }
+  }
+
+  void report_border(const Border& border, const EdgeUses& uses) {
+    const std::size_t count = border.edges.size();
     std::vector<Element> elements;
-    for (std::uint32_t e : chain) elements.push_back(VertexId{m_.edges[e].origin});
-    if (m_.edges[chain.back()].target != m_.edges[chain.front()].origin) elements.push_back(VertexId{m_.edges[chain.back()].target});
-    std::string path;
-    for (std::size_t i = 0; i < elements.size() && i < 12; ++i) path += ' ' + to_string(elements[i]);
-    if (elements.size() > 12) path += " ...";
-    std::string faces;
-    for (std::size_t i = 0; i < chain.size(); ++i) {
-      elements.push_back(face_of(m_.edges[chain[i]].corner[0]));
-      if (i < 12) faces += ' ' + to_string(elements.back());
-    }
-    if (chain.size() > 12) faces += " ...";
-    m_.add(DefectKind::open_border, std::move(elements),
-           "open border of " + std::to_string(chain.size()) + (chain.size() == 1 ? " edge" : " edges") + " along" + path +
-               ": nothing lies on the other side of" + faces + "; a face is missing");
+    for (const Border::Edge& e : border.edges) elements.push_back(VertexId{e.from});
+    if (!border.closed) elements.push_back(VertexId{border.edges.back().to});
+    const std::size_t corners = elements.size();
+    for (const Border::Edge& e : border.edges) elements.push_back(FaceId{uses.face(e.corner)});
+    std::string sentence = "open border of " + std::to_string(count) + (count == 1 ? " edge" : " edges") + " along" +
+                           name_list(elements, 0, corners) + ": nothing lies on the other side of" + name_list(elements, corners) +
+                           "; a face is missing";
+    add(DefectKind::open_border, std::move(elements), std::move(sentence));
   }
 
-  std::vector<bool>::reference at_defect(std::uint32_t v) {
-    if (at_defect_.empty()) at_defect_.assign(m_.degree.size(), false);
-    return at_defect_[v];
-  }
-
-  void report_fans() {
-    for (const Matching::Extra& extra : m_.extras)
-      at_defect(m_.edges[extra.halfedge / 2].origin) = at_defect(m_.edges[extra.halfedge / 2].target) = true;
-    for (std::uint32_t v = 0; v < m_.excused.size(); ++v) {
-      if (m_.excused[v]) at_defect(v) = true;
-    }
-    // One fan has as many corners as the vertex has; look closer only where the first fan has fewer.
-    std::vector<bool> seen(m_.degree.size(), false);
-    std::uint32_t corner = 0;
+  void report_fans(const EdgeUses& uses, const std::vector<Border>& chains) {
+    UnionFind fans = uses.fans();
+    join_across(fans, chains, uses);
+    std::vector<std::vector<Element>> faces(builder_.vertex_count());  // one of each fan
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
+      if (skip_[f]) continue;
+      std::uint32_t corner = builder_.first_corner(f);
       for (std::uint32_t v : builder_.corners(f)) {
-        const std::uint32_t c = corner++;
-        if (v >= seen.size() || seen[v] || (!at_defect_.empty() && at_defect_[v])) continue;
-        seen[v] = true;
-        if (walk_fan(c, [](std::uint32_t) {}) == m_.degree[v]) continue;
-        fanned_.push_back(v);
+        if (fans.find(corner) == corner && !excused_[v]) faces[v].push_back(FaceId{f});
+        ++corner;
       }
     }
-    if (fanned_.empty()) return;
-    std::sort(fanned_.begin(), fanned_.end());
-    std::vector<std::vector<Element>> elements(fanned_.size());
-    std::vector<bool> walked(builder_.corner_count(), false);
-    corner = 0;
-    for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
-      for (std::uint32_t v : builder_.corners(f)) {
-        const std::uint32_t c = corner++;
-        const auto x = std::lower_bound(fanned_.begin(), fanned_.end(), v);
-        if (x == fanned_.end() || *x != v || walked[c]) continue;
-        walk_fan(c, [&](std::uint32_t k) { walked[k] = true; });
-        std::vector<Element>& list = elements[static_cast<std::size_t>(x - fanned_.begin())];
-        if (list.empty()) list.push_back(VertexId{v});
-        list.push_back(FaceId{f});
-      }
+    for (std::uint32_t v = 0; v < faces.size(); ++v) {
+      if (faces[v].size() < 2) continue;
+      std::vector<Element> elements{VertexId{v}};
+      elements.insert(elements.end(), faces[v].begin(), faces[v].end());
+      std::string sentence = to_string(VertexId{v}) + " has " + std::to_string(faces[v].size()) +
+                             " fans of faces, a vertex has one; a face of each:" + name_list(elements, 1) +
+                             "; make one vertex for each fan";
+      add(DefectKind::several_fans, std::move(elements), std::move(sentence));
     }
-    for (std::vector<Element>& list : elements) {
-      std::string faces;
-      for (std::size_t i = 1; i < list.size(); ++i) faces += ' ' + to_string(list[i]);
-      std::string sentence = to_string(list[0]) + " has " + std::to_string(list.size() - 1) +
-                             " fans of faces, a vertex has one; a face of each:" + faces + "; make one vertex for each fan";
-      m_.add(DefectKind::several_fans, std::move(list), std::move(sentence));
-    }
-  }
-
-  // Visits the corners of one fan, clockwise; every edge at its vertex must have both halves. The number of corners.
-  template <class Visit>
-  std::uint32_t walk_fan(std::uint32_t first, Visit&& visit) const {
-    std::uint32_t count = 0, c = first;
-    do {
-      visit(c);
-      ++count;
-      const std::uint32_t h = m_.halfedge[c];
-      c = m_.next_corner[m_.edges[h / 2].corner[1 - h % 2]];
-    } while (c != first);
-    return count;
   }
 
   const Builder& builder_;
-  Matching& m_;
-  std::vector<bool> at_defect_;  // vertices on an edge with a defect, empty when there is none
-  std::vector<std::uint32_t> fanned_;
+  std::vector<bool> excused_;  // vertices where something was reported whose consequences are not
+  std::vector<Defect> found_;
+  std::vector<bool> skip_;  // faces that were reported by themselves
 };
 
 }  // namespace brep::detail
+
+namespace brep {
+
+// All defects of the builder; none exactly when close() gives a BRep.
+[[nodiscard]] inline std::vector<Defect> diagnose(const Builder& builder) {
+  if (builder.edges().empty()) return detail::Diagnosis(builder, nullptr).run();
+  const detail::Assembly assembly = detail::Assembler(builder).run();
+  return detail::Diagnosis(assembly.builder, &assembly).run();
+}
+
+}  // namespace brep

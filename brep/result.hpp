@@ -40,6 +40,14 @@ enum class Code : std::uint8_t {
   degenerate_polygon,  // zero area or a coordinate that is not finite
   not_planar,          // the vertices do not lie in one plane
   not_simple,          // the boundary crosses or touches itself
+  not_on_face,         // a split object answered with a half-edge of another face
+  no_progress,         // a split object answered with a cut that leaves a part as it was: equal or adjacent corners
+  not_on_edge,         // a split object answered with a point outside its half-edge
+  vertex_limit,        // split_recursively: the split objects asked for more new vertices than the limit allows
+  link_condition,      // collapse_edge: the ends have a common neighbour that is not the third corner of a triangle
+  cannot_flip,         // flip_edge: the sides are one face, or one of them has this edge alone
+  equal_faces,         // glue_faces, punch_hole: both half-edges lie on one face
+  different_degrees,   // glue_faces, punch_hole: the two faces have different numbers of edges
 };
 
 struct Refusal {
@@ -95,6 +103,22 @@ struct Refusal {
         return x + " is not planar";
       case Code::not_simple:
         return "the boundary of " + x + " crosses or touches itself at " + y;
+      case Code::not_on_face:
+        return "the split object answered with " + x + ", which does not lie on " + y;
+      case Code::no_progress:
+        return "the split object answered with " + x + " and " + y + ", which are equal or adjacent: such a cut leaves a part as it was";
+      case Code::not_on_edge:
+        return "the split object answered with a point that is not inside " + x + ": the fraction must be at least 0 and below 1";
+      case Code::vertex_limit:
+        return "the split object goes on to insert vertices into " + x + ": the limit is reached before the condition holds";
+      case Code::link_condition:
+        return "collapse_edge: both ends of " + x + " have the neighbour " + y + ", two edges between the same vertices would arise";
+      case Code::cannot_flip:
+        return "flip_edge: " + x + " does not lie between two faces that have a further edge each: see " + y;
+      case Code::equal_faces:
+        return x + " and " + y + " lie on the same face, two faces are needed";
+      case Code::different_degrees:
+        return x + " and " + y + " lie on faces with different numbers of edges";
     }
     return {};
   }

@@ -12,6 +12,21 @@
 
 namespace brep::detail {
 
+template <class B>
+void link(B& brep, HalfedgeId before, HalfedgeId after) {
+  Raw::at(brep, before).next = after;
+  Raw::at(brep, after).prev = before;
+}
+
+// The labels of a new edge. (Word by word, here and in link: records that are put together in vector registers cost more than they save.)
+template <class B>
+void label(B& brep, HalfedgeId h, VertexId v, FaceId f, VertexId w, FaceId g) {
+  Raw::at(brep, h).vertex = v;
+  Raw::at(brep, twin(h)).vertex = w;
+  Raw::at(brep, h).face = f;
+  Raw::at(brep, twin(h)).face = g;
+}
+
 // h runs from vertex(a) to vertex(b), in the corners before a and before b.  before_a -> h -> b,  before_b -> twin(h) -> a.
 // For a == b twin(h) is alone on its loop. Labels of h: of a's vertex, of b's face; of twin(h): of b's vertex, face g.
 template <class B>
@@ -19,18 +34,10 @@ void insert_edge(B& brep, HalfedgeId h, HalfedgeId a, HalfedgeId b, FaceId g) {
   const HalfedgeId t = twin(h), before_a = brep.prev(a), before_b = brep.prev(b);
   const VertexId v = brep.vertex(a), w = brep.vertex(b);
   const FaceId f = brep.face(b);
-  Raw::at(brep, before_a).next = h;
-  if (a == b) {
-    Raw::at(brep, h) = {a, before_a, v, f};
-    Raw::at(brep, t) = {t, t, v, g};
-    Raw::at(brep, a).prev = h;
-    return;
-  }
-  Raw::at(brep, h) = {b, before_a, v, f};
-  Raw::at(brep, t) = {a, before_b, w, g};
-  Raw::at(brep, before_b).next = t;
-  Raw::at(brep, a).prev = t;
-  Raw::at(brep, b).prev = h;
+  link(brep, before_a, h);
+  link(brep, h, b);
+  a == b ? link(brep, t, t) : (link(brep, before_b, t), link(brep, t, a));
+  label(brep, h, v, f, w, g);
 }
 
 // What delete_edge links anew: the half-edges that follow at the two ends.
@@ -41,16 +48,14 @@ struct Ends {
 // Takes h and its twin out of their loops; neither end is the end of a spur, and not both are alone.
 // insert_edge(h, at_origin, at_target) is the inverse; where h was alone, with twin(h) in place of h.
 template <class B>
-Ends delete_edge(B& brep, HalfedgeId h) {
+[[gnu::always_inline]] inline Ends delete_edge(B& brep, HalfedgeId h) {
   const HalfedgeId t = twin(h);
   const HalfedgeId before_h = brep.prev(h), after_h = brep.next(h), before_t = brep.prev(t), after_t = brep.next(t);
   const bool h_alone = after_h == h, t_alone = after_t == t;
   const Ends ends{t_alone ? after_h : after_t, h_alone ? after_t : after_h};
   const HalfedgeId to_origin = h_alone ? before_t : before_h, to_target = t_alone ? before_h : before_t;
-  Raw::at(brep, to_origin).next = ends.at_origin;
-  Raw::at(brep, ends.at_origin).prev = to_origin;
-  Raw::at(brep, to_target).next = ends.at_target;
-  Raw::at(brep, ends.at_target).prev = to_target;
+  link(brep, to_origin, ends.at_origin);
+  link(brep, to_target, ends.at_target);
   return ends;
 }
 
@@ -62,29 +67,17 @@ void expand_edge(B& brep, HalfedgeId h, HalfedgeId a, HalfedgeId b, VertexId w) 
   const HalfedgeId t = twin(h), before_a = brep.prev(a), before_b = brep.prev(b);
   const VertexId v = brep.vertex(b);
   const FaceId f = brep.face(a), g = brep.face(b);
-  Raw::at(brep, before_a).next = h;
-  if (a == b) {
-    Raw::at(brep, h) = {t, before_a, v, f};
-    Raw::at(brep, t) = {a, h, w, f};
-    Raw::at(brep, a).prev = t;
-    return;
-  }
-  Raw::at(brep, h) = {a, before_a, v, f};
-  Raw::at(brep, t) = {b, before_b, w, g};
-  Raw::at(brep, before_b).next = t;
-  Raw::at(brep, a).prev = h;
-  Raw::at(brep, b).prev = t;
+  link(brep, before_a, h);
+  a == b ? link(brep, h, t) : (link(brep, h, a), link(brep, before_b, t));
+  link(brep, t, b);
+  label(brep, h, v, f, w, g);
 }
 
 // Takes h and its twin out of the loops of their faces; neither is alone on its loop, and the edge is no segment.
 // expand_edge(h, next(h), next(twin(h))) is the inverse; for a spur with the one of the two that stays, twice.
 template <class B>
 void contract_edge(B& brep, HalfedgeId h) {
-  for (HalfedgeId x : {h, twin(h)}) {
-    const HalfedgeId before = brep.prev(x), after = brep.next(x);
-    Raw::at(brep, before).next = after;
-    Raw::at(brep, after).prev = before;
-  }
+  for (HalfedgeId x : {h, twin(h)}) { link(brep, brep.prev(x), brep.next(x)); }
 }
 
 // Names f as the face of all half-edges from `first` up to `last`, which is not renamed; first == last renames the whole loop.

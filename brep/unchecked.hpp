@@ -41,7 +41,7 @@ void kill_segment(B& brep, HalfedgeId h) {
 }
 
 template <class B>
-HalfedgeId split_face(B& brep, HalfedgeId a, HalfedgeId b) {
+inline HalfedgeId split_face(B& brep, HalfedgeId a, HalfedgeId b) {
   Raw::note(brep, Operator::split_face, {}, a, b);
   const HalfedgeId h = Raw::new_edge(brep), t = twin(h);
   const FaceId f = brep.face(a), g = Raw::new_face(brep, f);
@@ -54,14 +54,15 @@ HalfedgeId split_face(B& brep, HalfedgeId a, HalfedgeId b) {
 }
 
 template <class B>
-FaceId join_faces(B& brep, HalfedgeId h) {
+inline FaceId join_faces(B& brep, HalfedgeId h) {
   const HalfedgeId t = twin(h), after_h = brep.next(h), after_t = brep.next(t);
   Raw::note(brep, Operator::join_faces, h, after_t == t ? after_h : after_t, after_h == h ? after_t : after_h, after_h == h);
   const FaceId f = brep.face(h), g = brep.face(t);
+  const VertexId v = brep.vertex(h), w = brep.vertex(t);
   if (after_t != t) detail::rename_loop(brep, after_t, t, f);
   const detail::Ends ends = detail::delete_edge(brep, h);
-  if (brep.halfedge(brep.vertex(h)) == h) Raw::at(brep, brep.vertex(h)).halfedge = ends.at_origin;
-  if (brep.halfedge(brep.vertex(t)) == t) Raw::at(brep, brep.vertex(t)).halfedge = ends.at_target;
+  if (brep.halfedge(v) == h) Raw::at(brep, v).halfedge = ends.at_origin;
+  if (brep.halfedge(w) == t) Raw::at(brep, w).halfedge = ends.at_target;
   if (brep.halfedge(f) == h) {
     const HalfedgeId other = brep.halfedge(g);
     Raw::at(brep, f).halfedge = other != t ? other : ends.at_target;
@@ -72,7 +73,7 @@ FaceId join_faces(B& brep, HalfedgeId h) {
 }
 
 template <class B>
-HalfedgeId split_vertex(B& brep, HalfedgeId a, HalfedgeId b) {
+inline HalfedgeId split_vertex(B& brep, HalfedgeId a, HalfedgeId b) {
   Raw::note(brep, Operator::split_vertex, {}, a, b);
   const HalfedgeId h = Raw::new_edge(brep), t = twin(h);
   const VertexId v = brep.vertex(a), w = Raw::new_vertex(brep, v);
@@ -85,7 +86,7 @@ HalfedgeId split_vertex(B& brep, HalfedgeId a, HalfedgeId b) {
 }
 
 template <class B>
-VertexId join_vertices(B& brep, HalfedgeId h) {
+inline VertexId join_vertices(B& brep, HalfedgeId h) {
   const HalfedgeId t = twin(h);
   // Where the walk goes on when h and t are taken out; a spur has h and t behind one another.
   const HalfedgeId after_h = brep.next(h) == t ? brep.next(t) : brep.next(h);
@@ -106,19 +107,18 @@ VertexId join_vertices(B& brep, HalfedgeId h) {
 }
 
 template <class B>
-HalfedgeId split_edge(B& brep, HalfedgeId h) {
+inline HalfedgeId split_edge(B& brep, HalfedgeId h) {
   const HalfedgeId t = twin(h);
   Raw::note(brep, Operator::split_edge, {}, h, t);
   const HalfedgeId back = Raw::new_edge(brep), n = twin(back);
   const VertexId b = brep.vertex(t), m = Raw::new_vertex(brep, b);
   const HalfedgeId after_h = brep.next(h);
-  Raw::at(brep, n) = {after_h, h, m, brep.face(h)};
-  Raw::at(brep, h).next = n;
-  Raw::at(brep, after_h).prev = n;
+  detail::link(brep, h, n);
+  detail::link(brep, n, after_h);
   const HalfedgeId before_t = brep.prev(t);  // n itself when b was the end of a spur
-  Raw::at(brep, back) = {t, before_t, b, brep.face(t)};
-  Raw::at(brep, before_t).next = back;
-  Raw::at(brep, t).prev = back;
+  detail::link(brep, before_t, back);
+  detail::link(brep, back, t);
+  detail::label(brep, back, b, brep.face(t), m, brep.face(h));
   Raw::at(brep, t).vertex = m;
   const bool anchored = brep.halfedge(b) == t;
   Raw::at(brep, m).halfedge = anchored ? t : n;

@@ -60,8 +60,11 @@ struct Audit {
   double escaped = 0.0;           // fraction of the emitted power that leaves an open scene
   double residual = 0.0;
   std::uint32_t iterations = 0;
-  bool converged = true;  // solver below its residual and, when asked for, error below its target
+  std::vector<std::vector<double>> histories;  // of each channel: the relative residual at the start and after each iteration
+  bool converged = true;                       // solver below its residual and, when asked for, error below its target
   // error
+  std::optional<double> estimated_error;  // relative L2, by the links of BF-refinement
+  std::uint32_t generations = 0;          // of BF-refinement
   std::uint32_t audit_points = 0;
   std::optional<ErrorEstimate> leaf_error;     // of the constant on each leaf
   std::optional<ErrorEstimate> picture_error;  // of the reconstructed radiosity that the picture shows

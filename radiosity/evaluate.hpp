@@ -5,6 +5,7 @@
 // the oracle has agreed, for it is the expensive part).
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <raycast/scene.hpp>
@@ -51,69 +52,129 @@ struct EvaluateResult {
   return drawn == 0 ? share : std::min(1.0, share * above / drawn * patch.area / upper_area);
 }
 
-// Sets the exchange of every link and removes those that carry nothing. `emits` tells for each input surface whether
-// it is a light: its links make the shadows and get four times the segments where they are partly blocked.
-[[nodiscard]] inline EvaluateResult evaluate(const raycast::Scene& scene, const Plan& plan, const std::vector<Surface>& surfaces,
-                                             const Hierarchy& hierarchy, const Exposure& exposure, const std::vector<bool>& emits,
-                                             Links& links, unsigned threads, std::uint64_t seed, const Control& control = {}) {
-  EvaluateResult result;
-  std::vector<Patch> patches(hierarchy.size());
-  parallel_for(hierarchy.size(), threads,
-               [&](std::size_t i) { patches[i] = make_patch(contour(surfaces, hierarchy, static_cast<std::uint32_t>(i))); });
-  const auto end = [&](std::uint32_t i) {
-    const Node& node = hierarchy[i];
-    return PatchEnd{&patches[i], node.object, node.surface - surfaces[node.object].first_surface, exposure.partly_buried[i]};
+// How far the light of a link is from what the link can express, at each end: RMS values relative to the mean.
+struct LinkShape {
+  struct End {
+    float linear = 0.0f, rest = 0.0f;  // of the unoccluded light (exchange.hpp)
+    float shadow = 0.0f;               // of the visible fraction
   };
+  End p, q;
+};
 
-  std::vector<std::uint32_t> rays(links.size(), 0);
+// Evaluates links one by one. The hierarchy may grow between two calls of extend().
+class LinkEvaluator {
+ public:
+  // The references must outlive the evaluator. `emits` tells for each input surface whether it is a light: its links make the
+  // shadows and get four times the segments where they are partly blocked.
+  LinkEvaluator(const raycast::Scene& scene, const Plan& plan, const std::vector<Surface>& surfaces, const Hierarchy& hierarchy,
+                const Exposure& exposure, std::vector<bool> emits, std::uint64_t seed)
+      : scene_{&scene},
+        plan_{&plan},
+        surfaces_{&surfaces},
+        hierarchy_{&hierarchy},
+        exposure_{&exposure},
+        emits_{std::move(emits)},
+        seed_{seed} {}
+
+  // Makes the patches of the nodes that are new.
+  void extend(unsigned threads) {
+    const std::size_t first = patches_.size();
+    patches_.resize(hierarchy_->size());
+    parallel_for(patches_.size() - first, threads, [&](std::size_t i) {
+      patches_[first + i] = make_patch(contour(*surfaces_, *hierarchy_, static_cast<std::uint32_t>(first + i)));
+    });
+  }
+
+  // Sets the exchange, 0 when nothing arrives, and the slopes where they have an effect, or anyhow when the shape is asked for. Returns
+  // the number of segments cast. Depends on the ends of the link and the seed alone.
+  std::uint32_t operator()(Link& link, LinkShape* shape = nullptr) const {
+    const Patch& p = patches_[link.p];
+    const Patch& q = patches_[link.q];
+    const double area_p = exposure_->area[link.p];
+    const double area_q = exposure_->area[link.q];
+    link.exchange = 0.0f;
+    if (!(area_p > 0.0) || !(area_q > 0.0)) { return 0; }
+    const double unoccluded = exchange(p, q);
+    if (!(unoccluded > 0.0)) { return 0; }
+    const Node& node_p = (*hierarchy_)[link.p];
+    const Node& node_q = (*hierarchy_)[link.q];
+    const bool light = emits_[node_p.surface] || emits_[node_q.surface];
+    const std::uint64_t key = (std::uint64_t{link.p} << 32) | link.q;
+    const PatchEnd end_p = end(link.p);
+    const PatchEnd end_q = end(link.q);
+    const VisibilityEstimate seen = visibility(*scene_, *plan_, end_p, end_q, light ? 16 : 4, Random{seed_, key});
+    // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
+    const double share =
+        exposed_share(*scene_, end_p, area_p, q, Random{seed_, key, 1}) * exposed_share(*scene_, end_q, area_q, p, Random{seed_, key, 2});
+    link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
+    if (shape != nullptr || !node_p.leaf() || !node_q.leaf()) {
+      const Variations light_varies = variations(p, q);
+      link.slope_p = glm::vec3{light_varies.p.slope};
+      link.slope_q = glm::vec3{light_varies.q.slope};
+      if (shape != nullptr && seen.fraction > 0.0) {
+        *shape = {shape_of(light_varies.p, seen.spread_p / seen.fraction), shape_of(light_varies.q, seen.spread_q / seen.fraction)};
+      }
+    }
+    return seen.rays;
+  }
+
+ private:
+  [[nodiscard]] static LinkShape::End shape_of(const Variation& v, double shadow) {
+    return {static_cast<float>(v.linear), static_cast<float>(v.rest), static_cast<float>(shadow)};
+  }
+  [[nodiscard]] PatchEnd end(std::uint32_t i) const {
+    const Node& node = (*hierarchy_)[i];
+    return {&patches_[i], node.object, node.surface - (*surfaces_)[node.object].first_surface, exposure_->partly_buried[i]};
+  }
+
+  const raycast::Scene* scene_;
+  const Plan* plan_;
+  const std::vector<Surface>* surfaces_;
+  const Hierarchy* hierarchy_;
+  const Exposure* exposure_;
+  std::vector<bool> emits_;
+  std::uint64_t seed_;
+  std::vector<Patch> patches_;  // one a node
+};
+
+// Evaluates the links from `first` on and removes those that carry nothing. With `shapes`, one a link, those too.
+[[nodiscard]] inline EvaluateResult evaluate(const LinkEvaluator& evaluator, Links& links, std::size_t first,
+                                             std::vector<LinkShape>* shapes, unsigned threads, const Control& control = {}) {
+  EvaluateResult result;
+  const std::size_t count = links.size() - first;
+  if (shapes != nullptr) { shapes->resize(links.size()); }
+  std::vector<std::uint32_t> rays(count, 0);
   constexpr std::size_t batch = 1 << 16;  // between two looks at the cancel flag
-  for (std::size_t first = 0; first < links.size(); first += batch) {
+  for (std::size_t done = 0; done < count; done += batch) {
     if (control.cancelled()) {
       result.cancelled = true;
       return result;
     }
-    parallel_for(std::min(batch, links.size() - first), threads, [&](std::size_t offset) {
+    parallel_for(std::min(batch, count - done), threads, [&](std::size_t offset) {
       if (control.cancelled()) { return; }
-      Link& link = links[first + offset];
-      const Patch& p = patches[link.p];
-      const Patch& q = patches[link.q];
-      if (!(exposure.area[link.p] > 0.0) || !(exposure.area[link.q] > 0.0)) { return; }
-      const double unoccluded = exchange(p, q);
-      if (!(unoccluded > 0.0)) { return; }
-      const bool light = emits[hierarchy[link.p].surface] || emits[hierarchy[link.q].surface];
-      const std::uint64_t key = (std::uint64_t{link.p} << 32) | link.q;
-      const PatchEnd end_p = end(link.p);
-      const PatchEnd end_q = end(link.q);
-      const VisibilityEstimate seen = visibility(scene, plan, end_p, end_q, light ? 16 : 4, Random{seed, key});
-      // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
-      const double shape = exposed_share(scene, end_p, exposure.area[link.p], q, Random{seed, key, 1}) *
-                           exposed_share(scene, end_q, exposure.area[link.q], p, Random{seed, key, 2});
-      link.exchange = static_cast<float>(unoccluded * seen.fraction * shape);
-      rays[first + offset] = seen.rays;
-      if (!hierarchy[link.p].leaf() || !hierarchy[link.q].leaf()) {
-        const Slopes slope = slopes(p, q);
-        link.slope_p = slope.p;
-        link.slope_q = slope.q;
-      }
+      const std::size_t i = first + done + offset;
+      rays[done + offset] = evaluator(links[i], shapes != nullptr ? &(*shapes)[i] : nullptr);
     });
-    control.report("link", static_cast<double>(std::min(first + batch, links.size())) / static_cast<double>(links.size()));
+    if (shapes == nullptr) { control.report("link", static_cast<double>(std::min(done + batch, count)) / static_cast<double>(count)); }
   }
 
   if (control.cancelled()) {
     result.cancelled = true;
     return result;
   }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    result.rays += rays[i];
+  std::size_t kept = first;
+  for (std::size_t i = first; i < links.size(); ++i) {
+    result.rays += rays[i - first];
     if (links[i].exchange > 0.0f) {
-      result.proven_clear += rays[i] == 0 ? 1 : 0;
+      result.proven_clear += rays[i - first] == 0 ? 1 : 0;
+      if (shapes != nullptr) { (*shapes)[kept] = (*shapes)[i]; }
       links[kept++] = links[i];
     } else {
       ++result.blocked;
     }
   }
   links.resize(kept);
+  if (shapes != nullptr) { shapes->resize(kept); }
   return result;
 }
 

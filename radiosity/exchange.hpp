@@ -22,6 +22,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/small_list.hpp>
 #include <radiosity/patch.hpp>
 
 namespace radiosity {
@@ -174,40 +175,73 @@ inline std::vector<Edge> edges_of(std::span<const glm::dvec3> contour) {
   return high <= slack ? -1 : low >= -slack ? 1 : 0;
 }
 
-// How the light between two patches changes across each of them, to first order: relative change per length, a vector in the
-// plane of the patch. It is the linear function that has the same first moments as the kernel at the Gauss points, and is
-// limited so that the kernel stays positive on both patches.
-struct Slopes {
-  glm::dvec3 p{0.0};
-  glm::dvec3 q{0.0};
+// How the unoccluded light between two patches changes across one of them: the linear function with the same first moments at the
+// Gauss points, and what it leaves. RMS values are relative to the mean.
+struct Variation {
+  glm::dvec3 slope{0.0};  // relative change per length, a vector in the plane of the patch
+  double linear = 0.0;    // RMS of the linear part
+  double rest = 0.0;      // RMS of the rest
+};
+struct Variations {
+  Variation p, q;
 };
 
-[[nodiscard]] inline Slopes slopes(const Patch& p, const Patch& q) {
+namespace detail {
+
+// From the light at the Gauss points of a patch (the weight included). Without light: none.
+template <std::size_t N>
+[[nodiscard]] Variation variation(const Patch& patch, const brep::SmallList<double, N>& light) {
+  Variation result;
   double sum = 0.0;
-  glm::dvec3 moment_p{0.0};
-  glm::dvec3 moment_q{0.0};
+  double square = 0.0;
+  double area = 0.0;
+  glm::dvec3 moment{0.0};
+  for (std::size_t i = 0; i < patch.rule3.size(); ++i) {
+    const QuadraturePoint& a = patch.rule3[i];
+    sum += light[i];
+    square += light[i] * light[i] / a.weight;
+    area += a.weight;
+    moment += light[i] * (a.position - patch.centroid);
+  }
+  if (!(sum > 0.0)) { return result; }
+  moment /= sum;
+  result.slope = patch.inverse_inertia * moment;
+  const double linear = glm::dot(result.slope, moment);  // slope . inertia . slope
+  result.linear = std::sqrt(std::max(0.0, linear));
+  result.rest = std::sqrt(std::max(0.0, square * area / (sum * sum) - 1.0 - linear));
+  return result;
+}
+
+}  // namespace detail
+
+// The slopes are limited so that the kernel stays positive on both patches.
+[[nodiscard]] inline Variations variations(const Patch& p, const Patch& q) {
+  brep::SmallList<double, 36> light_p;
+  brep::SmallList<double, 36> light_q;
+  for (std::size_t j = 0; j < q.rule3.size(); ++j) { light_q.push_back(0.0); }
   for (const QuadraturePoint& a : p.rule3) {
-    for (const QuadraturePoint& b : q.rule3) {
+    double row = 0.0;
+    for (std::size_t j = 0; j < q.rule3.size(); ++j) {
+      const QuadraturePoint& b = q.rule3[j];
       const glm::dvec3 d = b.position - a.position;
       const double r2 = glm::dot(d, d);
       const double cosines = std::max(0.0, glm::dot(p.normal, d)) * std::max(0.0, -glm::dot(q.normal, d));
       const double light = a.weight * b.weight * cosines / (r2 * r2);
-      sum += light;
-      moment_p += light * (a.position - p.centroid);
-      moment_q += light * (b.position - q.centroid);
+      row += light;
+      light_q[j] += light;
     }
+    light_p.push_back(row);
   }
-  if (!(sum > 0.0)) { return {}; }
-  Slopes result{p.inverse_inertia * (moment_p / sum), q.inverse_inertia * (moment_q / sum)};
+  Variations result{detail::variation(p, light_p), detail::variation(q, light_q)};
   const auto steepest = [](const Patch& patch, const glm::dvec3& slope) {
     double fall = 0.0;
     for (const glm::dvec3& x : patch.contour) { fall = std::max(fall, -glm::dot(slope, x - patch.centroid)); }
     return fall;
   };
-  const double fall = steepest(p, result.p) + steepest(q, result.q);
+  const double fall = steepest(p, result.p.slope) + steepest(q, result.q.slope);
   if (fall > 1.0) {
-    result.p /= fall;
-    result.q /= fall;
+    result.p.slope /= fall;
+    result.q.slope /= fall;
   }
   return result;
 }

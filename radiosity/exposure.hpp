@@ -11,6 +11,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vector_relational.hpp>
+
+#include <raycast/box.hpp>
 #include <raycast/scene.hpp>
 
 #include <radiosity/hierarchy.hpp>
@@ -23,33 +26,56 @@ namespace radiosity {
 
 struct Exposure {
   std::vector<double> area;          // exposed area of each node, in the frame
+  std::vector<double> whole;         // the same with what is buried
   std::vector<glm::dvec3> centroid;  // of the exposed area of each node: area-weighted mean over its leaves
   std::vector<bool> partly_buried;   // some of the node is hidden, but not all
   bool all_buried = false;
   std::uint32_t buried_leaves = 0;  // leaves of which nothing is exposed
 };
 
-// Leaves are measured by 16 stratified points, 256 where these disagree: the standard error of the area is at most
-// 1/32 of a leaf at the border of what is hidden.
-[[nodiscard]] inline Exposure measure_exposure(const raycast::Scene& scene, const std::vector<Surface>& surfaces,
-                                               const Hierarchy& hierarchy, unsigned threads, std::uint64_t seed) {
-  std::vector<double> area(hierarchy.size(), 0.0);
-  std::vector<double> exposed(hierarchy.size(), 0.0);
-  std::vector<glm::dvec3> centroid(hierarchy.size(), glm::dvec3{0.0});
-  parallel_for(hierarchy.size(), threads, [&](std::size_t i) {
+// Can anything lie on or over this patch? Not when the bounds of all other objects stay clear of it.
+[[nodiscard]] inline bool may_be_buried(const raycast::Scene& scene, std::uint32_t object, const Patch& patch) {
+  const double margin = 1e-6 * scene.diameter();  // far beyond any skin of raycast/scene.hpp
+  raycast::Box box;
+  for (const glm::dvec3& p : patch.contour) { box.extend(p); }
+  box = box.grown(margin);
+  for (std::uint32_t i = 0; i < scene.size(); ++i) {
+    if (i == object) { continue; }
+    if (scene.object(i).inside()) { return true; }
+    const raycast::Box other = scene.object(i).bounds();
+    if (glm::all(glm::lessThanEqual(box.lo, other.hi)) && glm::all(glm::lessThanEqual(other.lo, box.hi))) { return true; }
+  }
+  return false;
+}
+
+// Measures the leaves among the nodes that are new since the last call and sums all up. Leaves near other objects are measured by 16
+// stratified points, 256 where these disagree: the standard error of the area is at most 1/32 of a leaf at the border of what is hidden.
+inline void extend(Exposure& exposure, const raycast::Scene& scene, const std::vector<Surface>& surfaces, const Hierarchy& hierarchy,
+                   unsigned threads, std::uint64_t seed) {
+  const std::size_t first_new = exposure.area.size();
+  std::vector<double>& area = exposure.whole;
+  std::vector<double>& exposed = exposure.area;
+  std::vector<glm::dvec3>& centroid = exposure.centroid;
+  area.resize(hierarchy.size(), 0.0);
+  exposed.resize(hierarchy.size(), 0.0);
+  centroid.resize(hierarchy.size(), glm::dvec3{0.0});
+  parallel_for(hierarchy.size() - first_new, threads, [&](std::size_t k) {
+    const std::size_t i = first_new + k;
     const Node& node = hierarchy[i];
     if (!node.leaf()) { return; }
     const SurfaceBRep& brep = surfaces[node.object].brep;
     area[i] = glm::length(brep::vector_area(brep, node.face));
     const Patch patch = make_patch(contour(surfaces, hierarchy, static_cast<std::uint32_t>(i)));
     centroid[i] = patch.centroid;
+    exposed[i] = area[i];
+    if (!may_be_buried(scene, node.object, patch)) { return; }
     const std::uint32_t sheet = brep.data(node.face).sheet;
     Random random{seed, i, 0x6578706f73656421ull};
     const auto count_exposed = [&](std::uint32_t side) {
       std::uint32_t count = 0;
-      for (std::uint32_t k = 0; k < side * side; ++k) {
-        const double u = (k % side + random.uniform()) / side;
-        const double v = (k / side + random.uniform()) / side;
+      for (std::uint32_t c = 0; c < side * side; ++c) {
+        const double u = (c % side + random.uniform()) / side;
+        const double v = (c / side + random.uniform()) / side;
         count += buried(scene, node.object, sheet, sample(patch, u, v)) ? 0u : 1u;
       }
       return count;
@@ -58,23 +84,25 @@ struct Exposure {
     exposed[i] = area[i] * (first == 16 ? 1.0 : first == 0 ? 0.0 : count_exposed(16) / 256.0);
   });
 
-  Exposure exposure;
+  exposure.buried_leaves = 0;
   for (std::size_t i = hierarchy.size(); i-- > 0;) {
     const Node& node = hierarchy[i];
-    for (std::uint32_t k = 0; k < node.child_count; ++k) {
-      area[i] += area[node.first_child + k];
-      exposed[i] += exposed[node.first_child + k];
-      centroid[i] += exposed[node.first_child + k] * centroid[node.first_child + k];
+    if (node.leaf()) {
+      exposure.buried_leaves += exposed[i] == 0.0 ? 1 : 0;
+      continue;
     }
-    if (!node.leaf()) { centroid[i] = exposed[i] > 0.0 ? centroid[i] / exposed[i] : node.centre; }
-    if (node.leaf() && exposed[i] == 0.0) { ++exposure.buried_leaves; }
+    area[i] = exposed[i] = 0.0;
+    centroid[i] = glm::dvec3{0.0};
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
+      area[i] += area[c];
+      exposed[i] += exposed[c];
+      centroid[i] += exposed[c] * centroid[c];
+    }
+    centroid[i] = exposed[i] > 0.0 ? centroid[i] / exposed[i] : node.centre;
   }
   exposure.partly_buried.resize(hierarchy.size());
   for (std::size_t i = 0; i < hierarchy.size(); ++i) { exposure.partly_buried[i] = exposed[i] > 0.0 && exposed[i] < area[i]; }
   exposure.all_buried = std::none_of(exposed.begin(), exposed.end(), [](double a) { return a > 0.0; });
-  exposure.area = std::move(exposed);
-  exposure.centroid = std::move(centroid);
-  return exposure;
 }
 
 }  // namespace radiosity

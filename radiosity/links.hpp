@@ -13,6 +13,8 @@
 // from each level above the mean over a patch that reaches far out of the corner, and its row sum errs by tens of
 // per cent however deep the hierarchy is. The slope of an end that is a leaf has no effect.
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -20,14 +22,33 @@
 
 namespace radiosity {
 
+// Three numbers in 6 bytes: the upper halves of floats, rounded to nearest. Relative error below 2^-8, the range of float; a slope is
+// itself only the linear part of a kernel.
+class Slope {
+ public:
+  Slope() = default;
+  Slope(const glm::vec3& v) : half_{round(v.x), round(v.y), round(v.z)} {}  // implicit: a slope is a vector
+
+  [[nodiscard]] glm::dvec3 vector() const { return {widen(half_[0]), widen(half_[1]), widen(half_[2])}; }
+
+ private:
+  [[nodiscard]] static std::uint16_t round(float x) {
+    return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(x) + 0x8000u) >> 16);
+  }
+  [[nodiscard]] static double widen(std::uint16_t h) {
+    return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(h) << 16));
+  }
+  std::array<std::uint16_t, 3> half_{};
+};
+
 struct Link {
   std::uint32_t p = 0;
   std::uint32_t q = 0;
-  float exchange = 0.0f;    // G, in the squared unit of the frame
-  glm::vec3 slope_p{0.0f};  // in the plane of p, relative change per length
-  glm::vec3 slope_q{0.0f};
+  float exchange = 0.0f;  // G, in the squared unit of the frame
+  Slope slope_p{};        // in the plane of p, relative change per length
+  Slope slope_q{};
 };
-static_assert(sizeof(Link) == 36);
+static_assert(sizeof(Link) == 24);
 
 using Links = std::vector<Link>;
 

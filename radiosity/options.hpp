@@ -15,10 +15,18 @@ namespace radiosity {
 
 struct Surface;
 
-enum class Solver { conjugate_gradients, jacobi };
-enum class Reconstruction { weighted, simple };  // paper fig. 5; simple ignores the normals (figs. 6-8)
+enum class Solver { conjugate_gradients, jacobi, gauss_seidel, southwell };
+inline constexpr const char* name(Solver solver) {
+  constexpr const char* names[] = {"cg", "jacobi", "gauss-seidel", "southwell"};
+  return names[static_cast<int>(solver)];
+}
+enum class Refinement { a_posteriori, a_priori };  // BF- and F-refinement (paper 4.4)
+enum class Reconstruction { weighted, simple };    // paper fig. 5; simple ignores the normals (figs. 6-8)
 
 struct Options {
+  Refinement refinement = Refinement::a_priori;
+  // BF-refinement goes on until the estimated relative L2 error is at most this.
+  double target = 0.02;
   // F-refinement (paper 4.4): a pair is linked when its estimated form factor is at most epsilon,
   double epsilon = 0.005;
   // or when both patches are no larger than min_area, relative to the total area of the scene.

@@ -65,7 +65,7 @@ inline bool on_the_hull(const std::vector<Surface>& surfaces, std::uint32_t obje
       high = std::max(high, glm::dot(normal, p - polygon[0]));
     };
     for (const Surface& surface : surfaces) {
-      if (surface.object->flat()) {
+      if (surface.object->exact()) {
         for (const brep::VertexId v : brep::vertices(surface.brep)) { extend(surface.brep.data(v).position); }
       } else {
         const raycast::Box box = surface.object->bounds();

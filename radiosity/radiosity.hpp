@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <radiosity/audit.hpp>
+#include <radiosity/bf_refine.hpp>
 #include <radiosity/evaluate.hpp>
 #include <radiosity/exposure.hpp>
 #include <radiosity/frame.hpp>
@@ -102,30 +103,6 @@ inline void sum_times(Audit& audit) {
 
 inline Outcome failed(Failure::Kind kind, std::vector<std::string> sentences) { return {std::nullopt, {kind, std::move(sentences)}}; }
 
-// Solves each channel; a grey scene has one. Fills the radiosity of every node.
-inline std::vector<Color> solve_channels(Audit& audit, const Scene& scene, const std::vector<InputSurface>& inputs, const Plan& plan,
-                                         const Hierarchy& hierarchy, Transport& transport, const std::vector<double>& area,
-                                         const Options& options) {
-  std::vector<Color> radiosity(hierarchy.size(), Color{0.0});
-  for (int c = 0; c < static_cast<int>(plan.channels); ++c) {
-    std::vector<double> reflectance;
-    std::vector<double> emission;
-    for (const InputSurface& input : inputs) {
-      reflectance.push_back(scene.materials[input.material].reflectance[c]);
-      emission.push_back(scene.materials[input.material].emission[c]);
-    }
-    const LinearSolution solved =
-        solve_channel(hierarchy, transport, area, reflectance, emission, options.solver, options.residual, options.max_iterations);
-    audit.residual = std::max(audit.residual, solved.residual);
-    audit.iterations = std::max(audit.iterations, solved.iterations);
-    audit.converged = audit.converged && solved.converged;
-    for (std::size_t i = 0; i < radiosity.size(); ++i) {
-      for (int to = c; to < (plan.channels == 1 ? 3 : c + 1); ++to) { radiosity[i][to] = solved.radiosity[i]; }
-    }
-  }
-  return radiosity;
-}
-
 // A closed scene whose rows need a larger RMS correction is too coarse for it.
 inline constexpr double closing_limit = 0.1;
 
@@ -158,20 +135,42 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   }
   watch.lap("build");
 
-  // Without light, or without reflection, B = E on the input faces.
+  std::vector<bool> emits;
+  std::vector<std::uint32_t> materials;
+  std::vector<Color> reflectance;
+  std::vector<Color> emission;
+  for (const InputSurface& input : inputs) {
+    const Material& material = scene.materials[input.material];
+    emits.push_back(!is_black(material.emission));
+    materials.push_back(input.material);
+    reflectance.push_back(material.reflectance);
+    emission.push_back(material.emission);
+  }
+  Exposure exposure;
+  LinkEvaluator evaluator{objects, plan, boundary, hierarchy, exposure, emits, options.seed};
   RefineResult refined;
-  if (plan.lit && plan.reflects) {
-    refined = refine(scene, objects, plan, boundary, hierarchy, options.epsilon, options.min_area, threads, options.seed, control);
-    if (refined.cancelled) { return cancelled(); }
-    if (refined.too_many) {
-      return failed(Failure::Kind::invalid_options, {"epsilon and min_area ask for more than " + std::to_string(link_limit / 1'000'000) +
-                                                     " million links; a larger epsilon or min_area, or an error target, needs fewer"});
-    }
+  EvaluateResult evaluated;
+  // Without light, or without reflection, B = E on the input faces.
+  const bool needs_links = plan.lit && plan.reflects;
+  if (needs_links && options.refinement == Refinement::a_posteriori) {
+    BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, exposure, evaluator, options.target,
+                            link_limit, threads, options.seed, control);
+    refined = std::move(bf.refined);
+    evaluated = bf.evaluated;
+    audit.estimated_error = bf.estimate;
+    audit.generations = bf.generations;
+  } else if (needs_links) {
+    refined = refine(scene, objects, plan, boundary, hierarchy, options.epsilon, options.min_area, true, threads, options.seed, control);
+  }
+  if (refined.cancelled || evaluated.cancelled) { return cancelled(); }
+  if (refined.too_many) {
+    return failed(Failure::Kind::invalid_options, {"epsilon and min_area ask for more than " + std::to_string(link_limit / 1'000'000) +
+                                                   " million links; a larger epsilon or min_area, or an error target, needs fewer"});
   }
   solution.links = std::move(refined.links);
   watch.lap("refine");
 
-  const Exposure exposure = measure_exposure(objects, boundary, hierarchy, threads, options.seed);
+  extend(exposure, objects, boundary, hierarchy, threads, options.seed);
   if (exposure.all_buried) {
     return failed(Failure::Kind::invalid_scene,
                   {"every surface is buried under another object: nothing can be seen. Two rooms made by 'inside' "
@@ -179,15 +178,11 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   }
   watch.lap("expose");
 
-  std::vector<bool> emits;
-  std::vector<std::uint32_t> materials;
-  for (const InputSurface& input : inputs) {
-    emits.push_back(!is_black(scene.materials[input.material].emission));
-    materials.push_back(input.material);
+  if (needs_links && options.refinement == Refinement::a_priori) {
+    evaluator.extend(threads);
+    evaluated = evaluate(evaluator, solution.links, 0, nullptr, threads, control);
+    if (evaluated.cancelled) { return cancelled(); }
   }
-  const EvaluateResult evaluated =
-      evaluate(objects, plan, boundary, hierarchy, exposure, emits, solution.links, threads, options.seed, control);
-  if (evaluated.cancelled) { return cancelled(); }
   watch.lap("link");
 
   Transport transport{hierarchy, solution.links, exposure};
@@ -196,7 +191,13 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   if (plan.closed && !solution.links.empty()) { audit.closure = transport.close(closing_limit); }
   solution.row_sum = transport.row_sums();
   audit.row_sum = summarise_rows(hierarchy, exposure.area, solution.row_sum);
-  solution.radiosity = solve_channels(audit, scene, inputs, plan, hierarchy, transport, exposure.area, options);
+  ColorSolution solved = solve_channels(hierarchy, transport, exposure.area, reflectance, emission, plan.channels, options.solver,
+                                        options.residual, options.max_iterations);
+  audit.residual = solved.residual;
+  audit.iterations = solved.iterations;
+  audit.converged = solved.converged;
+  audit.histories = std::move(solved.histories);
+  solution.radiosity = std::move(solved.radiosity);
   balance_energy(audit, scene, inputs, hierarchy, transport, exposure.area, solution.radiosity);
   summarise_surfaces(audit, inputs, frame, hierarchy, exposure.area, solution.radiosity);
   watch.lap("solve");

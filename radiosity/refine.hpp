@@ -31,6 +31,7 @@ struct RefineResult {
   std::uint64_t pairs_convex = 0;   // never asked: faces of one flat sheet or one convex solid cannot see each other
   std::uint64_t rays = 0;           // segments cast to find shadow boundaries
   std::uint32_t generations = 0;
+  std::vector<std::uint32_t> inner;  // leaves of concave curved objects: their children will see each other
   bool cancelled = false;
   bool too_many = false;  // more links than `link_limit` would be needed
 };
@@ -64,10 +65,11 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
 
 }  // namespace detail
 
-// Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots.
+// Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots. The light oracle is asked
+// only on demand.
 [[nodiscard]] inline RefineResult refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
                                          std::vector<Surface>& surfaces, Hierarchy& hierarchy, double epsilon, double min_area,
-                                         unsigned threads, std::uint64_t seed, const Control& control = {}) {
+                                         bool ask_light, unsigned threads, std::uint64_t seed, const Control& control = {}) {
   RefineResult result;
   const LightOracle light{scene, objects, plan, surfaces, hierarchy, epsilon, seed};
   min_area *= light.scene_area();
@@ -78,7 +80,7 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
     return result;
   }
   std::vector<detail::Pair> pairs;
-  std::vector<std::uint32_t> inner;  // leaves of concave curved objects: their children will see each other
+  std::vector<std::uint32_t>& inner = result.inner;
   detail::root_pairs(surfaces, hierarchy, pairs, inner, result.pairs_convex);
 
   std::vector<Decision> decisions;
@@ -98,7 +100,7 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
     parallel_for(pairs.size(), threads, [&](std::size_t i) {
       const auto& [p, q] = pairs[i];
       decisions[i] = f_oracle(hierarchy[p], hierarchy[q], epsilon, min_area);
-      if (decisions[i] != Decision::link) { return; }
+      if (decisions[i] != Decision::link || !ask_light) { return; }
       const std::uint32_t split = light.wants_split(p, q, rays[i]);
       if (split != no_node && hierarchy[split].area > min_area) { decisions[i] = split == p ? Decision::split_p : Decision::split_q; }
     });

@@ -7,17 +7,24 @@
 //                        rho times the row sum is below 1; leaves with rho = 0 are known (B = E) and move to the
 //                        right-hand side. The number of iterations hardly depends on rho.
 //   jacobi               the textbook iteration B <- E + rho H(B); its error shrinks by rho each time.
+//   gauss_seidel         the same, one input face after the other, with what the others have by now: about twice as fast.
+//   southwell            shooting (progressive refinement, Cohen et al. 1988; Southwell relaxation, Gortler et al. 1994): the input face
+//                        with the most unshot power shoots it. An iteration is as many shots as there are input faces.
 //
 // Residual: || E + rho H(B) - B || / || E + rho H(0) ||, area-weighted over all leaves. The iterate with the least
 // residual is kept; an iteration that diverges is stopped and says so.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include <radiosity/material.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/transport.hpp>
+#include <radiosity/tree_transport.hpp>
 
 namespace radiosity {
 
@@ -26,6 +33,7 @@ struct LinearSolution {
   double residual = 0.0;          // relative, of the radiosity returned
   std::uint32_t iterations = 0;
   bool converged = false;
+  std::vector<double> history;  // the relative residual after each iteration, that of the start first
 };
 
 namespace detail {
@@ -56,11 +64,16 @@ struct Channel {
 
 // Keeps the best iterate and tells when to stop.
 struct Progress {
+  Progress(double start_norm, const std::vector<double>& b) : start{start_norm}, best{b} {}
+
   double start = 0.0;  // norm of E
   std::vector<double> best;
   double best_norm = std::numeric_limits<double>::infinity();
 
+  std::vector<double> history;
+
   void offer(const std::vector<double>& b, double norm) {
+    history.push_back(start > 0.0 ? norm / start : 0.0);
     if (norm < best_norm) {
       best = b;
       best_norm = norm;
@@ -75,6 +88,7 @@ inline LinearSolution finish(const Channel& channel, Progress progress, std::uin
   solution.residual = progress.start > 0.0 ? progress.best_norm / progress.start : 0.0;
   solution.iterations = iterations;
   solution.converged = solution.residual <= wanted;
+  solution.history = std::move(progress.history);
   std::vector<double>& b = solution.radiosity;
   for (std::size_t i = b.size(); i-- > 0;) {
     const Node& node = (*channel.hierarchy)[i];
@@ -89,7 +103,7 @@ inline LinearSolution finish(const Channel& channel, Progress progress, std::uin
 inline LinearSolution jacobi(const Channel& channel, double wanted, std::uint32_t max_iterations) {
   std::vector<double> b(channel.emission);
   std::vector<double> r;
-  Progress progress{channel.norm(b), b, std::numeric_limits<double>::infinity()};
+  Progress progress{channel.norm(b), b};
   for (std::uint32_t iteration = 0;; ++iteration) {
     channel.residual(b, r);
     const double norm = channel.norm(r);
@@ -98,6 +112,68 @@ inline LinearSolution jacobi(const Channel& channel, double wanted, std::uint32_
       return finish(channel, std::move(progress), iteration, wanted);
     }
     for (std::size_t i = 0; i < b.size(); ++i) { b[i] += r[i]; }
+  }
+}
+
+inline LinearSolution gauss_seidel(const Channel& channel, double wanted, std::uint32_t max_iterations) {
+  std::vector<double> b(channel.emission);
+  std::vector<double> r;
+  std::vector<double> arrived(b.size(), 0.0);
+  TreeTransport trees{*channel.transport};
+  for (std::uint32_t t = 0; t < trees.trees(); ++t) { trees.send(t, b); }
+  Progress progress{channel.norm(b), b};
+  for (std::uint32_t iteration = 0;; ++iteration) {
+    channel.residual(b, r);
+    const double norm = channel.norm(r);
+    progress.offer(b, norm);
+    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations) {
+      return finish(channel, std::move(progress), iteration, wanted);
+    }
+    for (std::uint32_t t = 0; t < trees.trees(); ++t) {
+      trees.gather(t, arrived);
+      for (const std::uint32_t i : trees.nodes(t)) {
+        if (channel.counts(i)) { b[i] = channel.emission[i] + channel.reflectance[i] * arrived[i] / (*channel.area)[i]; }
+      }
+      trees.send(t, b);
+    }
+  }
+}
+
+// b + unshot -> solution; r = unshot is the residual of b at all times, up to rounding.
+inline LinearSolution southwell(const Channel& channel, double wanted, std::uint32_t max_iterations) {
+  std::vector<double> b(channel.emission.size(), 0.0);
+  std::vector<double> unshot(channel.emission);
+  std::vector<double> shot(b.size(), 0.0);
+  std::vector<double> arrived(b.size(), 0.0);
+  TreeTransport trees{*channel.transport};
+  const auto power = [&](std::uint32_t t) {
+    double sum = 0.0;
+    for (const std::uint32_t i : trees.nodes(t)) { sum += channel.counts(i) ? (*channel.area)[i] * std::abs(unshot[i]) : 0.0; }
+    return sum;
+  };
+  std::vector<double> powers;
+  for (std::uint32_t t = 0; t < trees.trees(); ++t) { powers.push_back(power(t)); }
+  Progress progress{channel.norm(unshot), b};
+  for (std::uint32_t iteration = 0;; ++iteration) {
+    const double norm = channel.norm(unshot);
+    progress.offer(b, norm);
+    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations) {
+      return finish(channel, std::move(progress), iteration, wanted);
+    }
+    for (std::uint32_t k = 0; k < trees.trees(); ++k) {
+      const auto t = static_cast<std::uint32_t>(std::max_element(powers.begin(), powers.end()) - powers.begin());
+      for (const std::uint32_t i : trees.nodes(t)) {
+        if (!channel.counts(i)) { continue; }
+        b[i] += unshot[i];
+        shot[i] = std::exchange(unshot[i], 0.0);
+      }
+      trees.send(t, shot);
+      trees.shoot(t, arrived);
+      for (std::size_t i = 0; i < b.size(); ++i) {
+        if (channel.counts(i)) { unshot[i] += channel.reflectance[i] * arrived[i] / (*channel.area)[i]; }
+      }
+      for (std::uint32_t u = 0; u < trees.trees(); ++u) { powers[u] = power(u); }
+    }
   }
 }
 
@@ -119,7 +195,7 @@ inline LinearSolution conjugate_gradients(const Channel& channel, double wanted,
   std::vector<double> r;
   std::vector<double> step;
   std::vector<double> image;
-  Progress progress{channel.norm(b), b, std::numeric_limits<double>::infinity()};
+  Progress progress{channel.norm(b), b};
   double square = 0.0;
   for (std::uint32_t iteration = 0;; ++iteration) {
     // The true residual is formed every 16 steps; rounding in the recurrence does not build up.
@@ -164,8 +240,49 @@ inline LinearSolution conjugate_gradients(const Channel& channel, double wanted,
     channel.reflectance[i] = reflectance[hierarchy[i].surface];
     channel.emission[i] = emission[hierarchy[i].surface];
   }
-  return solver == Solver::jacobi ? detail::jacobi(channel, residual, max_iterations)
-                                  : detail::conjugate_gradients(channel, residual, max_iterations);
+  switch (solver) {
+    case Solver::jacobi:
+      return detail::jacobi(channel, residual, max_iterations);
+    case Solver::gauss_seidel:
+      return detail::gauss_seidel(channel, residual, max_iterations);
+    case Solver::southwell:
+      return detail::southwell(channel, residual, max_iterations);
+    case Solver::conjugate_gradients:
+      break;
+  }
+  return detail::conjugate_gradients(channel, residual, max_iterations);
+}
+
+// All channels of a scene.
+struct ColorSolution {
+  std::vector<Color> radiosity;                // of every node
+  double residual = 0.0;                       // the worst channel's
+  std::uint32_t iterations = 0;                // the most of any channel
+  bool converged = true;                       // all of them
+  std::vector<std::vector<double>> histories;  // one a channel
+};
+
+// `reflectance` and `emission`: one for each input surface. With one channel the scene is grey and the others are copies.
+[[nodiscard]] inline ColorSolution solve_channels(const Hierarchy& hierarchy, Transport& transport, const std::vector<double>& area,
+                                                  const std::vector<Color>& reflectance, const std::vector<Color>& emission,
+                                                  unsigned channels, Solver solver, double residual, std::uint32_t max_iterations) {
+  ColorSolution solution;
+  solution.radiosity.assign(hierarchy.size(), Color{0.0});
+  for (int c = 0; c < static_cast<int>(channels); ++c) {
+    std::vector<double> rho;
+    std::vector<double> e;
+    for (const Color& r : reflectance) { rho.push_back(r[c]); }
+    for (const Color& b : emission) { e.push_back(b[c]); }
+    LinearSolution solved = solve_channel(hierarchy, transport, area, rho, e, solver, residual, max_iterations);
+    solution.residual = std::max(solution.residual, solved.residual);
+    solution.iterations = std::max(solution.iterations, solved.iterations);
+    solution.converged = solution.converged && solved.converged;
+    solution.histories.push_back(std::move(solved.history));
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+      for (int to = c; to < (channels == 1 ? 3 : c + 1); ++to) { solution.radiosity[i][to] = solved.radiosity[i]; }
+    }
+  }
+  return solution;
 }
 
 }  // namespace radiosity

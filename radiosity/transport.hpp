@@ -27,45 +27,71 @@ class Transport {
   Transport(const Hierarchy& hierarchy, const Links& links, const Exposure& exposure)
       : hierarchy_{&hierarchy}, links_{&links}, exposure_{&exposure}, scale_(hierarchy.size(), 1.0) {}
 
-  // y = M x. Both have one value a node; x is read and y written at the leaves, the rest of y is scratch.
-  void apply(const std::vector<double>& x, std::vector<double>& y) {
-    const std::vector<double>& area = exposure_->area;
-    const std::vector<glm::dvec3>& centroid = exposure_->centroid;
-    std::vector<Moments>& sent = sent_;
-    std::vector<Moments>& arrived = arrived_;
-    sent.assign(x.size(), {});
-    arrived.assign(x.size(), {});
-    for (std::size_t i = x.size(); i-- > 0;) {  // pull
-      const Node& node = (*hierarchy_)[i];
-      Moments& own = sent[i];
-      if (node.leaf()) { own.value = area[i] * x[i] * scale_[i]; }
-      for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
-        own.value += sent[c].value;
-        own.slope += sent[c].slope + sent[c].value * (centroid[c] - centroid[i]);
-      }
+  // Light on its way, of a node: what it sends (mean of B over its area, and of B (x - c)), or what arrives at it (irradiance at the
+  // centroid c, and its gradient).
+  struct Moments {
+    double value = 0.0;
+    glm::dvec3 slope{0.0};
+
+    void divide(double area) {  // a node that is buried carries nothing
+      const double factor = area > 0.0 ? 1.0 / area : 0.0;
+      value *= factor;
+      slope *= factor;
     }
-    for (const Link& link : *links_) {  // gather
-      const double density = static_cast<double>(link.exchange) / (area[link.p] * area[link.q]);
-      const glm::dvec3 slope_p{link.slope_p};
-      const glm::dvec3 slope_q{link.slope_q};
-      const Moments& p = sent[link.p];
-      const Moments& q = sent[link.q];
-      arrived[link.p].value += density * (q.value + glm::dot(slope_q, q.slope));
-      arrived[link.p].slope += density * q.value * slope_p;
-      arrived[link.q].value += density * (p.value + glm::dot(slope_p, p.slope));
-      arrived[link.q].slope += density * p.value * slope_q;
+  };
+
+  // y = M x. Both have one value a node; x is read and y written at the leaves, the rest of y is 0.
+  void apply(const std::vector<double>& x, std::vector<double>& y) {
+    sent_.resize(x.size());
+    for (std::size_t i = x.size(); i-- > 0;) { pull(i, x, sent_); }
+    arrived_.assign(x.size(), {});
+    for (const Link& link : *links_) {
+      carry(link, sent_[link.p], arrived_[link.q], link.slope_p.vector(), link.slope_q.vector());
+      carry(link, sent_[link.q], arrived_[link.p], link.slope_q.vector(), link.slope_p.vector());
     }
     y.assign(x.size(), 0.0);
-    for (std::size_t i = 0; i < x.size(); ++i) {  // push
-      const Node& node = (*hierarchy_)[i];
-      const Moments& own = arrived[i];
-      if (node.leaf()) { y[i] = own.value * area[i] * scale_[i]; }
+    for (std::size_t i = 0; i < x.size(); ++i) { push(i, arrived_, y); }
+  }
+
+  // The three steps of apply(), for those who go through the scene in another order.
+  // What node i sends, from the radiosity of a leaf or from what its children send.
+  void pull(std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const {
+    const Node& node = (*hierarchy_)[i];
+    const std::vector<glm::dvec3>& centroid = exposure_->centroid;
+    Moments own;
+    if (node.leaf()) {
+      own.value = exposure_->area[i] > 0.0 ? x[i] * scale_[i] : 0.0;
+    } else {
       for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
-        arrived[c].value += own.value + glm::dot(own.slope, centroid[c] - centroid[i]);
-        arrived[c].slope += own.slope;
+        own.value += exposure_->area[c] * sent[c].value;
+        own.slope += exposure_->area[c] * (sent[c].slope + sent[c].value * (centroid[c] - centroid[i]));
       }
+      own.divide(exposure_->area[i]);
+    }
+    sent[i] = own;
+  }
+  // What one end of a link sends, added to what arrives at the other, times its area.
+  static void carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& slope_from, const glm::dvec3& slope_to) {
+    const double exchange = static_cast<double>(link.exchange);
+    to.value += exchange * (from.value + glm::dot(slope_from, from.slope));
+    to.slope += exchange * from.value * slope_to;
+  }
+  // Adds what arrived at node i, by links and from its parent, to its children or, for a leaf, to y. Parents first.
+  void push(std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const {
+    const Node& node = (*hierarchy_)[i];
+    const std::vector<glm::dvec3>& centroid = exposure_->centroid;
+    Moments& own = arrived[i];  // of a child, its parent has divided it
+    if (node.parent == no_node) { own.divide(exposure_->area[i]); }
+    if (node.leaf()) { y[i] += own.value * exposure_->area[i] * scale_[i]; }
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
+      arrived[c].divide(exposure_->area[c]);
+      arrived[c].value += own.value + glm::dot(own.slope, centroid[c] - centroid[i]);
+      arrived[c].slope += own.slope;
     }
   }
+
+  [[nodiscard]] const Hierarchy& hierarchy() const { return *hierarchy_; }
+  [[nodiscard]] const Links& links() const { return *links_; }
 
   // What each leaf sees of the scene: the sum of its form factors. 1 in a closed scene. Inner nodes hold 0.
   [[nodiscard]] std::vector<double> row_sums() {
@@ -78,11 +104,11 @@ class Transport {
     return y;
   }
 
-  // Closes a scene that is proven closed: finds D with all row sums 1 (symmetric scaling, van Leersum 1989), so that
+  // Closes a scene that is proven closed: finds D with all row sums 1, within the tolerance (symmetric scaling, van Leersum 1989), so that
   // what quadrature and sampled visibility got wrong in the rows does not grow by rho / (1 - rho) in the solution.
   // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS of D - 1, or nothing, and no D, when that
   // is beyond `limit`: then something other than quadrature and sampling is wrong.
-  std::optional<double> close(double limit) {
+  std::optional<double> close(double limit, double tolerance = 1e-12) {
     const std::vector<double>& area = exposure_->area;
     for (int round = 0; round < 400; ++round) {
       const std::vector<double> rows = row_sums();
@@ -92,7 +118,7 @@ class Transport {
         worst = std::max(worst, std::abs(rows[i] - 1.0));
         scale_[i] /= std::sqrt(rows[i]);
       }
-      if (worst < 1e-12) { break; }
+      if (worst < tolerance) { break; }
     }
     double square = 0.0;
     double total = 0.0;
@@ -108,18 +134,11 @@ class Transport {
   }
 
  private:
-  struct Moments {
-    double value = 0.0;
-    glm::dvec3 slope{0.0};
-  };
-
   const Hierarchy* hierarchy_;
   const Links* links_;
   const Exposure* exposure_;
-  std::vector<double> scale_;  // D, at the leaves
-  // Scratch of apply(), one a node, kept because it is asked for many times:
-  std::vector<Moments> sent_;     // integrals of B and of B (x - c)
-  std::vector<Moments> arrived_;  // irradiance: value at the centroid, and gradient
+  std::vector<double> scale_;            // D, at the leaves
+  std::vector<Moments> sent_, arrived_;  // scratch of apply(), kept because it is asked for many times
 };
 
 }  // namespace radiosity

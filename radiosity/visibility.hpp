@@ -8,6 +8,8 @@
 // Patches may be partly buried (a floor under a box): their points are drawn from the exposed part alone.
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 
 #include <glm/common.hpp>
@@ -66,6 +68,34 @@ struct PatchEnd {
 struct VisibilityEstimate {
   double fraction = 1.0;
   std::uint32_t rays = 0;
+  // Standard deviation of the visible fraction from place to place on each patch, without the noise of sampling.
+  double spread_p = 0.0, spread_q = 0.0;
+};
+
+// Segments that arrived, by the sixteenth of the patch where they end.
+class CellCounts {
+ public:
+  void add(std::uint32_t cell, bool clear) {
+    ++all_[cell];
+    if (clear) { ++clear_[cell]; }
+  }
+  // Between the means of the cells; the noise p (1 - p) / (n - 1) of each mean is taken off. Cells of one segment do not count.
+  [[nodiscard]] double spread() const {
+    double n = 0.0, sum = 0.0, square = 0.0, noise = 0.0;
+    for (std::size_t c = 0; c < 16; ++c) {
+      if (all_[c] < 2) { continue; }
+      const double mean = static_cast<double>(clear_[c]) / all_[c];
+      n += 1.0;
+      sum += mean;
+      square += mean * mean;
+      noise += mean * (1.0 - mean) / (all_[c] - 1.0);
+    }
+    if (n < 2.0) { return 0.0; }
+    return std::sqrt(std::max(0.0, (square - sum * sum / n) / (n - 1.0) - noise / n));
+  }
+
+ private:
+  std::array<std::uint16_t, 16> all_{}, clear_{};
 };
 
 inline constexpr std::uint32_t segments_per_round = 16;
@@ -90,26 +120,32 @@ inline constexpr std::uint32_t segments_per_round = 16;
   double arrived = 0.0;
   std::uint32_t clear = 0;
   std::uint32_t blocked = 0;
+  CellCounts cells_p;
+  CellCounts cells_q;
   for (std::uint32_t round = 0; round < rounds; ++round) {
     const auto shift = static_cast<std::uint32_t>(random.bits() & 15u);
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
       glm::dvec3 x{0.0};
       glm::dvec3 y{0.0};
-      if (!draw_exposed(scene, p, i, random, x) || !draw_exposed(scene, q, (i * 5u ^ shift) & 15u, random, y)) { continue; }
+      const std::uint32_t other = (i * 5u ^ shift) & 15u;
+      if (!draw_exposed(scene, p, i, random, x) || !draw_exposed(scene, q, other, random, y)) { continue; }
       const glm::dvec3 d = y - x;
       const double r2 = glm::dot(d, d) + softening;
       const double weight = std::max(0.0, glm::dot(p.patch->normal, d)) * std::max(0.0, -glm::dot(q.patch->normal, d)) / (r2 * r2);
       if (!(weight > 0.0)) { continue; }
       total += weight;
       ++estimate.rays;
-      if (scene.occluded({x, d}, p.object, q.object)) {
-        ++blocked;
-      } else {
-        ++clear;
-        arrived += weight;
-      }
+      const bool arrives = !scene.occluded({x, d}, p.object, q.object);
+      ++(arrives ? clear : blocked);
+      arrived += arrives ? weight : 0.0;
+      cells_p.add(i, arrives);
+      cells_q.add(other, arrives);
     }
     if (clear + blocked >= segments_per_round / 2 && (clear == 0 || blocked == 0)) { break; }
+  }
+  if (clear > 0 && blocked > 0) {
+    estimate.spread_p = cells_p.spread();
+    estimate.spread_q = cells_q.spread();
   }
   estimate.fraction = total > 0.0 ? arrived / total : 1.0;  // no sample above both horizons: nothing is known to block
   return estimate;

@@ -110,6 +110,7 @@ class Compiler {
       object.object().compile(*this);
     }
     if (object.inside()) {
+      out_.bounds.back() = {{-1e30f, -1e30f, -1e30f}, {1e30f, 1e30f, 1e30f}};
       out_.rooms.push_back(index);
       out_.room_bodies.push_back(room_body_);
     } else if (items_.size() == before) {

@@ -92,7 +92,7 @@ struct Compiled {
   std::vector<std::uint32_t> guards, others;  // objects
   std::vector<std::uint32_t> leaves;          // all leaves: a scene of few shapes is a loop over them
   std::vector<Role> roles;                    // by object
-  std::vector<FloatBox> bounds;               // by object, grown by the margin
+  std::vector<FloatBox> bounds;               // by object, grown by the margin; everything for a room
   std::vector<std::uint32_t> rooms;           // objects turned inside out
   std::vector<std::uint32_t> room_bodies;     // by room: its convex body, or no_shape
   std::uint32_t shape_count = 0;
@@ -125,5 +125,14 @@ struct Compiled {
            roles.capacity() + bounds.capacity() * sizeof(FloatBox);
   }
 };
+
+// May a span of the object lie within the solid that owns an end of a segment? Not when their bounds are apart.
+[[nodiscard]] inline bool may_contain(const Compiled& scene, std::uint32_t owner, std::uint32_t object) {
+  if (owner == 0xffffffffu || owner == object || scene.roles[owner] != Role::solid) return false;
+  const FloatBox &a = scene.bounds[owner], &b = scene.bounds[object];
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a.hi[k] < b.lo[k] || b.hi[k] < a.lo[k]) return false;
+  return true;
+}
 
 }  // namespace raycast

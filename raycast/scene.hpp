@@ -7,7 +7,9 @@
 // epsilon along the ray, spans decide (notes/raycaster.md R3):
 //   - of an end's owner, the span that contains the end is dropped: a ray that leaves a solid is never stopped by its own skin, while a
 //     concave solid still shadows itself further on. A polygon that is an owner is left out, and so is a convex object that owns both ends;
-//   - of every other object, a span is dropped when the end only touches it: it is no deeper behind the crossed surface than a skin.
+//   - of every other object, a span is dropped when the end only touches it: it is no deeper behind the crossed surface than a skin; or
+//     when it ends within the owner's own dropped span (up to the skin): a chord point inside its owner stands for the owner's surface, and
+//     what is sunk into the owner, or fills the same place, is not in front of that.
 // A depth is measured across the surface, |t_crossing - t_end| |n.d|, so it does not depend on the angle of the ray. For a convex solid
 // it bounds how deep any point of the dropped part lies inside.
 //
@@ -142,6 +144,7 @@ class Scene {
   }
   [[nodiscard]] bool blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const;
   [[nodiscard]] bool blocks_by_spans(const Line& line, const End& a, const End& b, std::uint32_t i) const;
+  [[nodiscard]] bool within_owner(const Segment& s, const End& end, bool source, const Span& span, std::uint32_t i) const;
   void approach(const Line& line, const End& a, std::uint32_t i, Nearest& nearest) const;
   void approach_bounded(const Line& line, const End& a, Nearest& nearest) const;
   void offer(const Line& line, const Hit& hit, Nearest& nearest) const;
@@ -225,7 +228,25 @@ inline bool Scene::blocks_by_spans(const Line& line, const End& a, const End& b,
     // The owner's own span that begins in the skin of the source (a corner of a box, by rounding), and likewise at the target.
     if (near_a && i == a.owner && depth(i, s, in, in.t) <= skin_a) continue;
     if (near_b && i == b.owner && depth(i, s, out, 1.0 - out.t) <= skin_b) continue;
+    if (within_owner(s, a, true, span, i) || within_owner(s, b, false, span, i)) continue;
     return true;
+  }
+  return false;
+}
+
+// Does the span of object i end before the segment comes out of its source's owner, or begin after it went into its target's?
+inline bool Scene::within_owner(const Segment& s, const End& end, bool source, const Span& span, std::uint32_t i) const {
+  if (end.owner == no_object || end.owner == i) return false;
+  const PlacedObject& owner = objects_[end.owner];
+  const Crossing& inner = source ? span.out : span.in;
+  const double near = skin(end, i);
+  if (!owner.solid() || !std::isfinite(inner.t) || (!owner.inside() && !owner.bounds().contains(s.at(inner.t), near))) return false;
+  Spans own;
+  owner.spans(s, own);
+  for (const Span& o : own) {
+    if (source ? o.in.t > 0.0 || o.out.t <= 0.0 : o.in.t >= 1.0 || o.out.t < 1.0) continue;
+    const double beyond = source ? inner.t - o.out.t : o.in.t - inner.t;
+    return beyond <= 0.0 || depth(i, s, inner, beyond) <= near;
   }
   return false;
 }

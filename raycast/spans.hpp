@@ -54,6 +54,10 @@ class InlineVector {
     }
     ++size_;
   }
+  void pop() {
+    if (!heap_.empty()) heap_.pop_back();
+    --size_;
+  }
   void clear() {
     heap_.clear();
     size_ = 0;

@@ -91,6 +91,7 @@ class PlacedObject {
   // Traits. convex() is that of the body: a convex room is the inside of a convex body.
   [[nodiscard]] bool convex() const { return object_->convex(); }
   [[nodiscard]] bool flat() const { return object_->flat(); }
+  [[nodiscard]] bool exact() const { return object_->exact(); }
   [[nodiscard]] bool solid() const { return object_->solid(); }
   [[nodiscard]] std::uint32_t sheet_count() const { return object_->sheet_count(); }
   [[nodiscard]] std::string_view sheet_name(std::uint32_t sheet) const { return object_->sheet_name(sheet); }

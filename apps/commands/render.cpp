@@ -18,6 +18,7 @@
 #include "apps/ply.hpp"
 #include "apps/png.hpp"
 #include "apps/progress.hpp"
+#include "apps/raycast_picture.hpp"
 #include "apps/report.hpp"
 
 namespace apps {
@@ -135,30 +136,37 @@ struct Output {
   std::string bytes;
 };
 
+std::optional<Picture> draw(const RenderOptions& options, const radiosity::Scene& scene, const radiosity::Solution& solution,
+                            const View& view, double exposure, const radiosity::Control& control) {
+  if (options.method == PictureMethod::mesh) { return draw(solution.mesh, view, exposure, 4, control.cancel); }
+  const radiosity::Lookup lookup(scene, solution.mesh, solution.frame);
+  return draw(lookup, view, exposure, options.solver.threads, 4, control);
+}
+
 // Everything that is to be written, in memory. Nothing when interrupted.
 std::optional<std::vector<Output>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera,
-                                          const radiosity::Mesh& mesh, const std::atomic<bool>& cancel, Report& report) {
+                                          const radiosity::Solution& solution, const radiosity::Control& control, Report& report) {
   std::vector<Output> outputs;
   std::string png;
   if (has_picture(options)) {
     const Stopwatch watch;
     const PictureSize size = options.size.value_or(camera.size.value_or(PictureSize{}));
-    const auto picture = draw(mesh, make_view(camera, size), report.exposure, 4, &cancel);
+    const auto picture = draw(options, file.scene, solution, make_view(camera, size), report.exposure, control);
     if (!picture) { return std::nullopt; }
     png = to_png(*picture);
-    report.picture = PictureReport{camera.name, size.width, size.height};
+    report.picture = PictureReport{camera.name, size.width, size.height, options.method};
     report.picture_time = watch.stop("picture");
   }
   for (const std::string& path : options.outputs) {
     const bool is_png = format_of(path) == Format::png;
-    outputs.push_back({path, is_png ? png : to_ply(mesh, radiosity::surfaces(file.scene), report.exposure)});
+    outputs.push_back({path, is_png ? png : to_ply(solution.mesh, radiosity::surfaces(file.scene), report.exposure)});
     report.files.push_back(path);
   }
   if (!options.json.empty()) {
     report.files.push_back(options.json);
     outputs.push_back({options.json, to_json(report)});
   }
-  if (cancel.load()) { return std::nullopt; }
+  if (control.cancelled()) { return std::nullopt; }
   return outputs;
 }
 
@@ -199,13 +207,21 @@ void describe(CLI::App& command, RenderOptions& options) {
         return parse_size(text) ? std::string()
                                 : "expected WIDTHxHEIGHT, each 1 to " + std::to_string(max_picture_side) + ", found '" + text + "'";
       });
+  command
+      .add_option("--method", options.method,
+                  "what the picture shows: mesh, the triangles of the solution, or raycast, the objects themselves with smooth outlines")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, PictureMethod>{{"mesh", PictureMethod::mesh}, {"raycast", PictureMethod::raycast}}));
   command.add_option("--exposure", options.exposure, "factor from radiance to picture (default: automatic)")->check(above_zero(max_number));
   command.add_option("--threads", solver.threads, "threads (default: all); results do not depend on it")->check(CLI::Range(1U, 1024U));
   command.add_option("--seed", solver.seed, "seed of all random choices");
   command.add_option("--audit", solver.audit_points, "points at which the error is measured; 0: none")->check(CLI::Range(0U, 100'000'000U));
-  command.add_option("--solver", solver.solver, "cg or jacobi")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, radiosity::Solver>{{"cg", radiosity::Solver::conjugate_gradients}, {"jacobi", radiosity::Solver::jacobi}}));
+  std::map<std::string, radiosity::Solver> solvers;
+  for (const auto s :
+       {radiosity::Solver::conjugate_gradients, radiosity::Solver::jacobi, radiosity::Solver::gauss_seidel, radiosity::Solver::southwell}) {
+    solvers.emplace(name(s), s);
+  }
+  command.add_option("--solver", solver.solver, "cg, jacobi, gauss-seidel or southwell")->transform(CLI::CheckedTransformer(solvers));
   command.add_option("--reconstruction", solver.reconstruction, "weighted or simple (paper fig. 5)")
       ->transform(CLI::CheckedTransformer(std::map<std::string, radiosity::Reconstruction>{
           {"weighted", radiosity::Reconstruction::weighted}, {"simple", radiosity::Reconstruction::simple}}));
@@ -241,7 +257,8 @@ ExitCode run(const RenderOptions& options) {
   report.audit = solution.audit;
   report.automatic_exposure = !options.exposure;
   report.exposure = options.exposure ? *options.exposure : automatic_exposure(solution.mesh, file->scene);
-  const auto outputs = encode(options, *file, *camera, solution.mesh, cancel, report);
+  const auto outputs = encode(options, *file, *camera, solution, control, report);
+  progress.done();
   if (!outputs) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
   if (code = write_all(*outputs); code != ExitCode::ok) { return code; }
   std::fputs(to_text(report).c_str(), stdout);

@@ -15,6 +15,7 @@
 #include <radiosity/options.hpp>
 
 #include "apps/exit_code.hpp"
+#include "apps/report.hpp"
 #include "apps/scene_file.hpp"
 
 namespace apps {
@@ -26,6 +27,7 @@ struct RenderOptions {
   std::string camera;                // empty: the first of the file, or the automatic one
   std::optional<PictureSize> size;
   std::optional<double> exposure;
+  PictureMethod method = PictureMethod::mesh;
   bool quiet = false;
   radiosity::Options solver;
 };

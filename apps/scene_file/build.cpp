@@ -64,7 +64,9 @@ SceneFile Builder::build() {
   const Groups groups(syntax_, errors_);
   if (errors_.count() == 0) { place(groups); }
   if (errors_.count() == 0 && file_.scene.objects.empty()) {
-    errors_.add({1, 1}, "the scene is empty; expected at least one object (polygon, box, sphere, cylinder, mesh or use)");
+    errors_.add(
+        {1, 1},
+        "the scene is empty; expected at least one object (polygon, disk, box, sphere, cylinder, cone, torus, superquadric, mesh or use)");
   }
   return std::move(file_);
 }

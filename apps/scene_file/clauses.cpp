@@ -169,6 +169,17 @@ void Parser::face_clause(const Token& keyword, ObjectSyntax& out) {
   out.faces.push_back(face);
 }
 
+// A number above 0: a radius, or the ring of a superquadric in units of its radii.
+void Parser::length_clause(const Token& keyword, std::optional<Placed<double>>& out) {
+  const Place place = token_.place;
+  double value = 0.0;
+  if (!numbers(keyword, std::span(&value, 1))) { return; }
+  if (!(value >= 1.0 / max_number)) {
+    return error(place, "expected a " + std::string(keyword.text) + " above 0, found " + std::to_string(value));
+  }
+  out = Placed<double>{value, place};
+}
+
 void Parser::object_clause(const Token& keyword, ObjectSyntax& out) {
   const std::string_view word = keyword.text;
   if (placement_clause(keyword, out.placement)) { return; }
@@ -191,12 +202,22 @@ void Parser::object_clause(const Token& keyword, ObjectSyntax& out) {
   } else if (word == "vertex") {
     glm::dvec3 position{0.0};
     if (vector(keyword, position)) { out.vertices.push_back({position, keyword.place}); }
+  } else if (word == "normal") {
+    vector(keyword, out.normal);
+  } else if (word == "radii") {
+    vector(keyword, out.radii);
   } else if (word == "radius") {
+    length_clause(keyword, out.radius);
+  } else if (word == "top") {
+    length_clause(keyword, out.top);
+  } else if (word == "tube") {
+    length_clause(keyword, out.tube);
+  } else if (word == "ring") {
+    length_clause(keyword, out.ring);
+  } else if (word == "exponents") {
     const Place place = token_.place;
-    double value = 0.0;
-    if (!numbers(keyword, std::span(&value, 1))) { return; }
-    if (!(value >= 1.0 / max_number)) { return error(place, "expected a radius above 0, found " + std::to_string(value)); }
-    out.radius = Placed<double>{value, place};
+    std::array<double, 2> values{};
+    if (numbers(keyword, values)) { out.exponents = Placed<std::array<double, 2>>{values, place}; }
   } else if (word == "material") {
     Name given;
     if (!name("material", given)) { return skip_rest(); }

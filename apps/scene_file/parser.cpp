@@ -13,8 +13,8 @@ namespace {
 
 using Words = std::span<const std::string_view>;
 
-constexpr std::array<std::string_view, 9> statements = {"material", "camera", "polygon", "box", "sphere",
-                                                        "cylinder", "mesh",   "define",  "use"};
+constexpr std::array<std::string_view, 13> statements = {"material", "camera", "polygon",      "disk", "box",    "sphere", "cylinder",
+                                                         "cone",     "torus",  "superquadric", "mesh", "define", "use"};
 constexpr std::array<std::string_view, 2> material_words = {"reflectance", "emission"};
 constexpr std::array<std::string_view, 6> camera_words = {"eye", "target", "look", "up", "fov", "size"};
 constexpr std::array<std::string_view, 3> use_words = {"move", "rotate", "scale"};
@@ -23,6 +23,13 @@ constexpr std::array<std::string_view, 8> box_words = {"from", "to", "material",
 constexpr std::array<std::string_view, 8> sphere_words = {"center", "radius", "material", "sheet", "move", "rotate", "scale", "inside"};
 constexpr std::array<std::string_view, 9> cylinder_words = {"base", "axis",   "radius", "material", "sheet",
                                                             "move", "rotate", "scale",  "inside"};
+constexpr std::array<std::string_view, 8> disk_words = {"center", "normal", "radius", "material", "sheet", "move", "rotate", "scale"};
+constexpr std::array<std::string_view, 10> cone_words = {"base",  "axis", "radius", "top",   "material",
+                                                         "sheet", "move", "rotate", "scale", "inside"};
+constexpr std::array<std::string_view, 10> torus_words = {"center", "axis", "radius", "tube",  "material",
+                                                          "sheet",  "move", "rotate", "scale", "inside"};
+constexpr std::array<std::string_view, 10> superquadric_words = {"center", "radii", "exponents", "ring",  "material",
+                                                                 "sheet",  "move",  "rotate",    "scale", "inside"};
 constexpr std::array<std::string_view, 8> mesh_words = {"vertex", "face", "material", "sheet", "move", "rotate", "scale", "inside"};
 
 Words words_of(Kind kind) {
@@ -35,6 +42,14 @@ Words words_of(Kind kind) {
       return sphere_words;
     case Kind::cylinder:
       return cylinder_words;
+    case Kind::disk:
+      return disk_words;
+    case Kind::cone:
+      return cone_words;
+    case Kind::torus:
+      return torus_words;
+    case Kind::superquadric:
+      return superquadric_words;
     case Kind::mesh:
       break;
   }
@@ -50,7 +65,8 @@ std::size_t index_in(Words words, std::string_view word) {
   return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin());
 }
 
-constexpr std::array<Kind, 5> kinds = {Kind::polygon, Kind::box, Kind::sphere, Kind::cylinder, Kind::mesh};
+constexpr std::array<Kind, 9> kinds = {Kind::polygon, Kind::disk,  Kind::box,          Kind::sphere, Kind::cylinder,
+                                       Kind::cone,    Kind::torus, Kind::superquadric, Kind::mesh};
 
 std::optional<Kind> kind_of(std::string_view word) {
   for (const Kind kind : kinds) {
@@ -71,6 +87,14 @@ std::string_view to_string(Kind kind) {
       return "sphere";
     case Kind::cylinder:
       return "cylinder";
+    case Kind::disk:
+      return "disk";
+    case Kind::cone:
+      return "cone";
+    case Kind::torus:
+      return "torus";
+    case Kind::superquadric:
+      return "superquadric";
     case Kind::mesh:
       break;
   }
@@ -223,12 +247,17 @@ void Parser::object(Kind kind, std::vector<Item>& out) {
       require(syntax.from.has_value(), "'from'");
       require(syntax.to.has_value(), "'to'");
     }
-    if (kind == Kind::sphere) { require(syntax.center.has_value(), "'center'"); }
-    if (kind == Kind::cylinder) {
-      require(syntax.base.has_value(), "'base'");
-      require(syntax.axis.has_value(), "'axis'");
+    const auto is_one_of = [kind](std::initializer_list<Kind> list) { return std::find(list.begin(), list.end(), kind) != list.end(); };
+    if (is_one_of({Kind::sphere, Kind::disk, Kind::torus, Kind::superquadric})) { require(syntax.center.has_value(), "'center'"); }
+    if (is_one_of({Kind::cylinder, Kind::cone})) { require(syntax.base.has_value(), "'base'"); }
+    if (is_one_of({Kind::cylinder, Kind::cone, Kind::torus})) { require(syntax.axis.has_value(), "'axis'"); }
+    if (kind == Kind::disk) { require(syntax.normal.has_value(), "'normal'"); }
+    if (is_one_of({Kind::sphere, Kind::disk, Kind::cylinder, Kind::cone, Kind::torus})) { require(syntax.radius.has_value(), "'radius'"); }
+    if (kind == Kind::torus) { require(syntax.tube.has_value(), "'tube'"); }
+    if (kind == Kind::superquadric) {
+      require(syntax.radii.has_value(), "'radii'");
+      require(syntax.exponents.has_value(), "'exponents'");
     }
-    if (kind == Kind::sphere || kind == Kind::cylinder) { require(syntax.radius.has_value(), "'radius'"); }
     if (kind == Kind::polygon || kind == Kind::mesh) { require(!syntax.vertices.empty(), "'vertex'"); }
     if (kind == Kind::mesh) { require(!syntax.faces.empty(), "'face'"); }
     require(syntax.material.has_value() || !syntax.sheets.empty(), "'material'");

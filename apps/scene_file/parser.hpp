@@ -41,6 +41,7 @@ class Parser {
   void object_clause(const Token& keyword, ObjectSyntax& out);
   void sheet_clause(ObjectSyntax& out);
   void face_clause(const Token& keyword, ObjectSyntax& out);
+  void length_clause(const Token& keyword, std::optional<Placed<double>>& out);
   bool placement_clause(const Token& keyword, raycast::Placement& out);
   void rotate_clause(const Token& keyword, raycast::Placement& out);
   void scale_clause(const Token& keyword, raycast::Placement& out);

@@ -28,7 +28,7 @@ SceneResult parse_scene(std::string_view text) {
 std::optional<std::string> read_text(const std::string& path, std::string& fault) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    fault = "is a folder; expected a scene file";
+    fault = "is a folder; expected a file";
     return std::nullopt;
   }
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
@@ -44,7 +44,7 @@ std::optional<std::string> read_text(const std::string& path, std::string& fault
     const std::size_t got = std::fread(text.data() + size, 1, text.size() - size, file.get());
     size += got;
     if (size > max_file_bytes) {
-      fault = "is larger than " + std::to_string(max_file_bytes >> 20) + " MiB; that is no scene made for people";
+      fault = "is larger than " + std::to_string(max_file_bytes >> 20) + " MiB, more than halflight reads";
       return std::nullopt;
     }
     if (got == 0 || std::feof(file.get()) != 0) { break; }

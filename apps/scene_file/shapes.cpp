@@ -12,10 +12,14 @@
 #include <glm/geometric.hpp>
 
 #include <raycast/objects/box.hpp>
+#include <raycast/objects/cone.hpp>
 #include <raycast/objects/cylinder.hpp>
+#include <raycast/objects/disk.hpp>
 #include <raycast/objects/mesh.hpp>
 #include <raycast/objects/polygon.hpp>
 #include <raycast/objects/sphere.hpp>
+#include <raycast/objects/superquadric.hpp>
+#include <raycast/objects/torus.hpp>
 #include <raycast/planar.hpp>
 
 namespace apps::scene_file {
@@ -44,12 +48,38 @@ Shape make_box(const ObjectSyntax& syntax, Errors& errors) {
   return take(raycast::BoxObject::make(lo, hi), syntax, syntax.to->place, errors);
 }
 
-Shape make_cylinder(const ObjectSyntax& syntax, Errors& errors) {
-  if (syntax.axis->value == glm::dvec3(0.0)) {
-    errors.add(syntax.axis->place, who(syntax) + "'axis' has no length; expected the vector from the bottom to the top");
+Shape make_disk(const ObjectSyntax& syntax, Errors& errors) {
+  if (syntax.normal->value == glm::dvec3(0.0)) {
+    errors.add(syntax.normal->place, who(syntax) + "'normal' has no direction; expected the vector towards which the disk shines");
     return nullptr;
   }
-  return take(raycast::Cylinder::make(syntax.base->value, syntax.axis->value, syntax.radius->value), syntax, syntax.name.place, errors);
+  return take(raycast::Disk::make(syntax.center->value, syntax.normal->value, syntax.radius->value), syntax, syntax.name.place, errors);
+}
+
+// Cylinders, cones and tori.
+Shape make_turned(const ObjectSyntax& syntax, Errors& errors) {
+  const glm::dvec3& axis = syntax.axis->value;
+  const double radius = syntax.radius->value;
+  if (axis == glm::dvec3(0.0)) {
+    errors.add(syntax.axis->place, who(syntax) + "'axis' has no length; expected the vector " +
+                                       (syntax.kind == Kind::torus ? "through the hole" : "from the bottom to the top"));
+    return nullptr;
+  }
+  if (syntax.kind == Kind::torus) {
+    return take(raycast::Torus::make(syntax.center->value, axis, radius, syntax.tube->value), syntax, syntax.tube->place, errors);
+  }
+  if (syntax.kind == Kind::cylinder) {
+    return take(raycast::Cylinder::make(syntax.base->value, axis, radius), syntax, syntax.name.place, errors);
+  }
+  const double top = syntax.top ? syntax.top->value : 0.0;
+  return take(raycast::Cone::make(syntax.base->value, axis, radius, top), syntax, syntax.name.place, errors);
+}
+
+Shape make_superquadric(const ObjectSyntax& syntax, Errors& errors) {
+  const auto [profile, around] = syntax.exponents->value;
+  const double ring = syntax.ring ? syntax.ring->value : 0.0;
+  return take(raycast::Superquadric::make(syntax.center->value, syntax.radii->value, profile, around, ring), syntax,
+              ring > 0.0 && !(ring > 1.0) ? syntax.ring->place : syntax.exponents->place, errors);
 }
 
 // Place of the vertex that lies farthest off the mean plane, if that is off by more than rounding; else `fallback`.
@@ -143,8 +173,14 @@ Shape make_shape(const ObjectSyntax& syntax, Errors& errors) {
       return make_box(syntax, errors);
     case Kind::sphere:
       return take(raycast::Sphere::make(syntax.center->value, syntax.radius->value), syntax, syntax.name.place, errors);
+    case Kind::disk:
+      return make_disk(syntax, errors);
     case Kind::cylinder:
-      return make_cylinder(syntax, errors);
+    case Kind::cone:
+    case Kind::torus:
+      return make_turned(syntax, errors);
+    case Kind::superquadric:
+      return make_superquadric(syntax, errors);
     case Kind::mesh:
       break;
   }

@@ -5,6 +5,7 @@
 // Names are not resolved yet. A statement that had an error of its own is kept with sound == false: its name is
 // known, so that nothing that refers to it is blamed, but it is not built.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -43,7 +44,7 @@ struct CameraSyntax {
   bool sound = true;
 };
 
-enum class Kind { polygon, box, sphere, cylinder, mesh };
+enum class Kind { polygon, disk, box, sphere, cylinder, cone, torus, superquadric, mesh };
 [[nodiscard]] std::string_view to_string(Kind kind);
 
 struct SheetSyntax {
@@ -65,9 +66,11 @@ struct ObjectSyntax {
   std::vector<SheetSyntax> sheets;
   raycast::Placement placement;
   std::optional<Place> inside;
-  // box: from, to; sphere: center, radius; cylinder: base, axis, radius; polygon: vertices; mesh: vertices, faces
-  std::optional<Placed<glm::dvec3>> from, to, center, base, axis;
-  std::optional<Placed<double>> radius;
+  // box: from, to; sphere: center, radius; disk: center, normal, radius; cylinder: base, axis, radius; cone: base, axis, radius, top;
+  // torus: center, axis, radius, tube; superquadric: center, radii, exponents, ring; polygon: vertices; mesh: vertices, faces
+  std::optional<Placed<glm::dvec3>> from, to, center, base, axis, normal, radii;
+  std::optional<Placed<double>> radius, top, tube, ring;
+  std::optional<Placed<std::array<double, 2>>> exponents;
   std::vector<Placed<glm::dvec3>> vertices;
   std::vector<std::uint32_t> corners;
   std::vector<FaceSyntax> faces;

@@ -8,10 +8,9 @@
 // their intersection: no gap can open at the rim. A line whose direction across the axis is below 16 u of its length is taken as
 // parallel: over the height it strays by 16 u of the height, which is within rounding of the coordinates.
 
+#include "../circle.hpp"
 #include "../compile.hpp"
-#include "../object.hpp"
 
-#include <numbers>
 #include <vector>
 
 namespace raycast {
@@ -35,25 +34,20 @@ class Cylinder final : public Object {
     return names[sheet];
   }
 
-  // The bounds of the two cap disks: a disk of unit normal w reaches r sqrt(1 - w_k^2) along axis k. Widened by 4 u of the magnitude.
+  // The bounds of the two cap disks, widened by 4 u of the magnitude.
   [[nodiscard]] Box bounds() const override {
     Box box;
-    box.extend(base_);
-    box.extend(base_ + height_ * w_);
-    for (int k = 0; k < 3; ++k) {
-      const double reach = radius_ * std::sqrt(u_[k] * u_[k] + v_[k] * v_[k]);
-      box.lo[k] -= reach;
-      box.hi[k] += reach;
-    }
+    frame_.extend(box, base_, radius_);
+    frame_.extend(box, base_ + height_ * frame_.w, radius_);
     return box.grown(4 * unit_roundoff * box.magnitude());
   }
 
   void spans(const Segment& line, Spans& out) const override {
     const glm::dvec3& d = line.direction;
-    const double shift = nearest_parameter(line, base_ + 0.5 * height_ * w_);
+    const double shift = nearest_parameter(line, base_ + 0.5 * height_ * frame_.w);
     const glm::dvec3 f = line.at(shift) - base_;
-    const double fz = glm::dot(f, w_), dz = glm::dot(d, w_);
-    const glm::dvec3 fp = f - fz * w_, dp = d - dz * w_;
+    const double fz = glm::dot(f, frame_.w), dz = glm::dot(d, frame_.w);
+    const glm::dvec3 fp = f - fz * frame_.w, dp = d - dz * frame_.w;
     const double a = glm::dot(dp, dp), parallel = 16 * unit_roundoff;
     Span span{{-infinity, 0}, {infinity, 0}};
     if (a <= parallel * parallel * glm::dot(d, d)) {
@@ -77,32 +71,28 @@ class Cylinder final : public Object {
     out.push(span);  // drops an empty span
   }
 
-  void compile(Compiler& compiler) const override { compiler.cylinder(base_, height_ * w_, radius_); }
+  void compile(Compiler& compiler) const override { compiler.cylinder(base_, height_ * frame_.w, radius_); }
 
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override {
     const glm::dvec3 f = p - base_;
-    const double z = glm::dot(f, w_);
-    if (sheet == 1) return {p - z * w_, -w_};
-    if (sheet == 2) return {p + (height_ - z) * w_, w_};
-    const double x = glm::dot(f, u_), y = glm::dot(f, v_), length = std::hypot(x, y);
-    const glm::dvec3 normal = length > 0.0 ? glm::normalize((x / length) * u_ + (y / length) * v_) : u_;
-    return {base_ + z * w_ + radius_ * normal, normal};
+    const double z = glm::dot(f, frame_.w);
+    if (sheet == 1) return {p - z * frame_.w, -frame_.w};
+    if (sheet == 2) return {p + (height_ - z) * frame_.w, frame_.w};
+    const glm::dvec3 normal = frame_.radial(f);
+    return {base_ + z * frame_.w + radius_ * normal, normal};
   }
 
   // n columns, a multiple of 4 between 8 and 1024, so that the chord error r (1 - cos(pi/n)) is within the tolerance; m rows between 1
   // and 64 that make the quadrilaterals of the side nearly square; each cap is one n-gon.
   void approximate(double tolerance, brep::Builder& out) const override {
-    const int n = columns(tolerance / radius_);
+    const int n = circle_points(tolerance / radius_);
     const double width = 2 * radius_ * std::sin(std::numbers::pi / n);
     const int m = static_cast<int>(std::clamp(std::round(height_ / width), 1.0, 64.0));
     std::vector<std::uint32_t> ring;  // row by row, counter-clockwise about the axis
     for (int row = 0; row <= m; ++row)
       for (int i = 0; i < n; ++i) {
-        // Exact quarter turns of the first quadrant keep opposite vertices exact mirrors.
-        const double angle = 2 * std::numbers::pi * (i % (n / 4)) / n;
-        double x = std::cos(angle), y = std::sin(angle);
-        for (int quarter = i / (n / 4); quarter > 0; --quarter) x = -std::exchange(y, x);
-        ring.push_back(out.vertex(base_ + (height_ * row / m) * w_ + radius_ * (x * u_ + y * v_)));
+        const glm::dvec2 p = circle_point(i, n);
+        ring.push_back(out.vertex(base_ + (height_ * row / m) * frame_.w + radius_ * (p.x * frame_.u + p.y * frame_.v)));
       }
     const auto at = [&](int row, int i) { return ring[static_cast<std::size_t>(row * n + i % n)]; };
     for (int row = 0; row < m; ++row)
@@ -117,25 +107,10 @@ class Cylinder final : public Object {
 
  private:
   Cylinder(const glm::dvec3& base, const glm::dvec3& axis, double radius)
-      : base_(base), w_(glm::normalize(axis)), height_(glm::length(axis)), radius_(radius) {
-    int smallest = 0;  // the coordinate axis that is most across w
-    for (int k = 1; k < 3; ++k)
-      if (std::abs(w_[k]) < std::abs(w_[smallest])) smallest = k;
-    glm::dvec3 across{0.0};
-    across[smallest] = 1.0;
-    v_ = glm::normalize(glm::cross(w_, across));
-    u_ = glm::normalize(glm::cross(v_, w_));
-  }
-  static int columns(double relative) {
-    constexpr int most = 1024;
-    if (!(relative > 0.0)) return most;
-    int n = 8;
-    while (n < most && 1.0 - std::cos(std::numbers::pi / n) > relative) n += 4;
-    return n;
-  }
+      : base_(base), frame_(axis), height_(glm::length(axis)), radius_(radius) {}
 
-  glm::dvec3 base_{0.0}, w_{0.0};
-  glm::dvec3 u_{0.0}, v_{0.0};  // with w a right-handed frame
+  glm::dvec3 base_{0.0};
+  AxisFrame frame_;
   double height_ = 0.0, radius_ = 0.0;
 };
 

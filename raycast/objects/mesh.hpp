@@ -9,6 +9,8 @@
 // in an embedded surface they alternate, and where rounding swaps an exit and the next entry (a line over an edge), two overlapping
 // spans merge and a span of negative length is dropped, so no gap opens. That a closed mesh does not intersect itself is not checked.
 
+#include <brep/circulators.hpp>
+
 #include "../bvh.hpp"
 #include "../compile.hpp"
 #include "../planar.hpp"
@@ -33,6 +35,27 @@ class Mesh final : public Object {
       return "the mesh is closed and inside out: list the corners of its faces counter-clockwise seen from outside";
     mesh->prepare();
     return std::shared_ptr<const Mesh>(std::move(mesh));
+  }
+
+  // The faces of a BRep whose vertices have a `.position`, in its order; those with a `.sheet` of brep::no_sheet are holes.
+  // Refused as above; the numbers in the sentence count the faces that are no holes.
+  template <class Shape>
+  requires requires(const Shape& shape, brep::VertexId v) { shape.data(v).position; }
+  static Made<Mesh> make(const Shape& shape) {
+    std::vector<glm::dvec3> positions;
+    std::map<brep::VertexId, std::uint32_t> number;
+    for (const brep::VertexId v : brep::vertices(shape)) {
+      number.emplace(v, static_cast<std::uint32_t>(positions.size()));
+      positions.push_back(shape.data(v).position);
+    }
+    std::vector<std::vector<std::uint32_t>> faces;
+    for (const brep::FaceId f : brep::faces(shape)) {
+      if constexpr (requires { shape.data(f).sheet; })
+        if (shape.data(f).sheet == brep::no_sheet) continue;
+      faces.emplace_back();
+      for (const brep::HalfedgeId h : brep::halfedges_of(shape, f)) faces.back().push_back(number.at(shape.vertex(h)));
+    }
+    return make(positions, faces);
   }
 
   [[nodiscard]] Box bounds() const override { return box_; }

@@ -87,6 +87,22 @@ TEST_CASE("render writes its files and the report, exit code 0") {
   CHECK(report["surfaces"].size() == 2);
 }
 
+TEST_CASE("render draws the objects when asked to, and says so") {
+  const Place place;
+  const std::string arguments = "render " + scene("two_plates") + " -o a.png --json a.json --size 64x48 --audit 0 --epsilon 0.05";
+  const Run mesh = place.run(arguments);
+  REQUIRE(mesh.code == 0);
+  CHECK(json::parse(place.read("a.json"))["picture"]["method"].string() == "mesh");
+  const Run run = place.run(arguments + " --method raycast");
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(place.read("a.png").substr(1, 3) == "PNG");
+  CHECK(run.out.find("raycast") != std::string::npos);
+  const json::Value report = json::parse(place.read("a.json"));
+  CHECK(report["picture"]["method"].string() == "raycast");
+  CHECK(report["wall_seconds"]["picture"].number() > 0.0);
+}
+
 TEST_CASE("quiet is quiet on stderr, the report stays") {
   const Place place;
   const Run run = place.run("render " + scene("two_plates") + " -o a.ply --audit 0 --quiet --solver jacobi --reconstruction simple");
@@ -112,7 +128,8 @@ TEST_CASE("wrong usage is exit code 2 and writes nothing") {
         "render " + scene("room") + " -o a.png --epsilon nan", "render " + scene("room") + " -o a.png --epsilon 0",
         "render " + scene("room") + " -o a.png --error 0.1 --epsilon 0.1", "render " + scene("room") + " -o a.png --error 0.1 --audit 0",
         "render " + scene("room") + " -o a.png --camera none", "render " + scene("room") + " -o a.png --threads 0",
-        "render " + scene("room") + " -o a.png --exposure -1", "render " + scene("room") + " -o a.png --solver magic"}) {
+        "render " + scene("room") + " -o a.png --exposure -1", "render " + scene("room") + " -o a.png --solver magic",
+        "render " + scene("room") + " -o a.png --method paint"}) {
     const Run run = place.run(arguments);
     INFO(arguments << "\n" << run.err);
     CHECK(run.code == 2);

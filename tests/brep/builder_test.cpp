@@ -96,22 +96,72 @@ TEST_CASE("a flipped face is reported by its name alone") {
   }
 }
 
-TEST_CASE("an edge used twice in one direction is reported with all its faces") {
+TEST_CASE("an edge where three faces meet is reported with all of them, whatever their directions") {
   // A fin: one more face at the edge v0 - v1 of the cube, with a vertex of its own.
-  Faces faces = faces_of(shapes::cube_builder());
-  faces.push_back({0, 1, 8});
-  const auto found = defects(with_faces(shapes::cube_builder(), faces, 1));
+  for (const auto& fin : {Faces::value_type{0, 1, 8}, Faces::value_type{1, 0, 8}}) {
+    Faces faces = faces_of(shapes::cube_builder());
+    faces.push_back(fin);
+    const auto found = defects(with_faces(shapes::cube_builder(), faces, 1));
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].kind == DefectKind::nonmanifold_edge);
+    CHECK(found[0].elements.size() == 5);
+    for (const Element e : {Element(VertexId{0}), Element(VertexId{1}), Element(FaceId{0}), Element(FaceId{2}), Element(FaceId{6})})
+      CHECK(names(found[0], e));
+    CHECK(found[1].kind == DefectKind::open_border);  // the fin's other two edges
+    CHECK(names(found[1], VertexId{8}));
+  }
+}
+
+TEST_CASE("a face that was entered twice is reported as that alone, wherever it begins") {
+  for (const Builder& solid : {shapes::cube_builder(), shapes::prism_builder(5), shapes::torus_builder(4, 3)}) {
+    for (std::uint32_t f = 0; f < solid.face_count(); ++f) {
+      Faces faces = faces_of(solid);
+      faces.push_back(faces[f]);
+      std::rotate(faces.back().begin(), faces.back().begin() + 1, faces.back().end());
+      const auto found = defects(with_faces(solid, faces));
+      REQUIRE(found.size() == 1);
+      CHECK(found[0].kind == DefectKind::duplicate_face);
+      CHECK(found[0].elements == std::vector<Element>{FaceId{f}, FaceId{solid.face_count()}});
+    }
+  }
+}
+
+TEST_CASE("a flipped patch is one defect with all its faces, the smaller part of its component") {
+  const Builder torus = shapes::torus_builder(6, 5);
+  Faces faces = faces_of(torus);
+  for (std::uint32_t f : {7u, 8u, 13u, 29u}) std::reverse(faces[f].begin(), faces[f].end());
+  const auto found = defects(with_faces(torus, faces));
   REQUIRE(found.size() == 2);
+  CHECK((found[0].kind == DefectKind::flipped_face && found[0].elements == std::vector<Element>{FaceId{7}, FaceId{8}, FaceId{13}}));
+  CHECK((found[1].kind == DefectKind::flipped_face && found[1].elements == std::vector<Element>{FaceId{29}}));
+}
+
+TEST_CASE("a one-sided surface is told from a flipped one: the doubled edge and its two faces") {
+  // A Moebius strip of five quadrilaterals: v0..v4 on one rim, v5..v9 on the other, the last one joined crosswise.
+  Builder b;
+  for (int i = 0; i < 10; ++i) b.vertex({i, i * i, i % 3});
+  for (std::uint32_t i = 0; i < 4; ++i) b.face({i, i + 1, i + 6, i + 5}, 0);
+  b.face({4, 5, 0, 9}, 0);
+  const auto found = defects(b);
+  REQUIRE_FALSE(found.empty());
   CHECK(found[0].kind == DefectKind::doubled_edge);
-  CHECK(found[0].elements == std::vector<Element>{VertexId{0}, VertexId{1}, FaceId{2}, FaceId{6}});
-  CHECK(found[1].kind == DefectKind::open_border);  // the fin's other two edges
-  CHECK(names(found[1], VertexId{8}));
-  // A face that was entered twice: its four edges, and nothing else.
-  faces = faces_of(shapes::cube_builder());
-  faces.push_back(faces[3]);
-  const auto twice = defects(with_faces(shapes::cube_builder(), faces));
-  REQUIRE(twice.size() == 4);
-  for (const Defect& d : twice) CHECK((d.kind == DefectKind::doubled_edge && names(d, FaceId{3}) && names(d, FaceId{6})));
+  CHECK(names(found[0], FaceId{4}));
+  for (const Defect& d : found) CHECK((d.kind == DefectKind::doubled_edge || d.kind == DefectKind::open_border));
+}
+
+TEST_CASE("two missing faces that touch in a vertex are two borders, and no fans") {
+  Faces faces = faces_of(shapes::torus_builder(5, 5));
+  const auto a = faces[6], c = faces[12];  // they have one vertex in common
+  faces.erase(faces.begin() + 12);
+  faces.erase(faces.begin() + 6);
+  const auto found = defects(with_faces(shapes::torus_builder(5, 5), faces));
+  REQUIRE(found.size() == 2);
+  for (const Defect& d : found) {
+    CHECK((d.kind == DefectKind::open_border && d.elements.size() == 8));
+    const bool first = std::all_of(a.begin(), a.end(), [&](std::uint32_t v) { return names(d, VertexId{v}); });
+    const bool second = std::all_of(c.begin(), c.end(), [&](std::uint32_t v) { return names(d, VertexId{v}); });
+    CHECK(first != second);
+  }
 }
 
 TEST_CASE("a vertex with two fans is reported with a face of each") {

@@ -129,6 +129,39 @@ std::vector<std::uint32_t> records(const B& mesh) {
   return all;
 }
 
+// What decides all that a BRep will ever do: every record of every living element, the counts, and which slots each pool hands out next,
+// the free ones in their order and then fresh ones. A free slot that a fresh one would equal is left out: an operator
+// may have used it for the first time.
+enum class Anchors { shown, hidden };
+template <class B>
+std::vector<std::uint32_t> picture(const B& mesh, Anchors anchors = Anchors::shown) {
+  using brep::detail::Raw;
+  std::vector<std::uint32_t> all;
+  all.reserve(5 * mesh.halfedge_end() + 3 * (mesh.vertex_end() + mesh.face_end()) + 12);
+  const auto add_pool = [&](const auto& pool, std::uint32_t step, auto&& add_record) {
+    using Pool = std::decay_t<decltype(pool)>;
+    all.push_back(pool.count());
+    for (std::uint32_t i = 0; i < pool.size(); i += step) {
+      if (pool.alive(i)) add_record(i);
+    }
+    const std::size_t first = all.size();
+    for (std::uint32_t i = pool.first_free(); i != Pool::end_of_list; i = link(pool[i]) & ~Pool::dead_bit) all.push_back(i);
+    std::uint32_t fresh = pool.size();
+    for (; all.size() > first && all.back() + step == fresh; fresh -= step) all.pop_back();
+    all.push_back(fresh);
+  };
+  add_pool(Raw::halfedges(mesh), 2, [&](std::uint32_t i) {
+    for (std::uint32_t k : {i, i + 1}) {
+      const auto& r = Raw::halfedges(mesh)[k];
+      all.insert(all.end(), {k, r.next.index, r.prev.index, r.vertex.index, r.face.index});
+    }
+  });
+  const bool shown = anchors == Anchors::shown;
+  add_pool(Raw::vertices(mesh), 1, [&](std::uint32_t i) { all.insert(all.end(), {i, shown ? Raw::vertices(mesh)[i].halfedge.index : 0}); });
+  add_pool(Raw::faces(mesh), 1, [&](std::uint32_t i) { all.insert(all.end(), {i, shown ? Raw::faces(mesh)[i].halfedge.index : 0}); });
+  return all;
+}
+
 template <class B>
 std::vector<brep::HalfedgeId> all_halfedges(const B& mesh) {
   std::vector<brep::HalfedgeId> all;

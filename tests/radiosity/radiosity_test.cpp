@@ -107,6 +107,26 @@ TEST_CASE("energy: what is emitted is absorbed or escapes") {
   CHECK(solved(scenes::two_plates(0.8), coarse()).audit.escaped > 0.5);
 }
 
+TEST_CASE("BF-refinement meets its estimate with fewer links where less light goes, the same with any number of threads") {
+  Options options = coarse();
+  options.refinement = radiosity::Refinement::a_posteriori;
+  std::size_t links = 0;
+  for (const double target : {0.2, 0.1, 0.05}) {
+    options.target = target;
+    options.threads = 1;
+    const Solution solution = solved(scenes::room_with_box(), options);
+    REQUIRE(solution.audit.estimated_error);
+    CHECK(*solution.audit.estimated_error <= target);
+    CHECK(solution.links.size() >= links);
+    links = solution.links.size();
+    options.threads = 3;
+    const Solution same = solved(scenes::room_with_box(), options);
+    CHECK(same.radiosity == solution.radiosity);
+  }
+  const Solution furnace = solved(scenes::furnace_cube(0.9), options);
+  CHECK(furnace_error(furnace) < 1e-3);
+}
+
 TEST_CASE("every BRep is valid after every generation of refinement, and v - e + f = 2 (s - h)") {
   for (const Scene& scene : {scenes::furnace_cube(0.5), scenes::furnace_sphere(0.5), scenes::furnace_with_things(0.5),
                              scenes::room_with_box(), scenes::two_plates(0.5)}) {

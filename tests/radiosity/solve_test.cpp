@@ -141,19 +141,67 @@ TEST_CASE("a link between roots carries the same as its sixteen leaf links in pr
   for (std::size_t i = 2; i < rows.size(); ++i) { CHECK(rows[i] == test::Approx(same[i]).epsilon(1e-6)); }  // links are floats
 }
 
-TEST_CASE("conjugate gradients and Jacobi agree, and leave B = E on a black surface") {
+TEST_CASE("all solvers find the same solution, and leave B = E on a black surface") {
   const Problem problem{8, 0.8, 11};
   Transport transport{problem.hierarchy, problem.links, problem.exposure};
   for (const double rho : {0.1, 0.5, 0.9}) {
     const auto cg = problem.solve(transport, rho, Solver::conjugate_gradients);
-    const auto jacobi = problem.solve(transport, rho, Solver::jacobi);
     REQUIRE(cg.converged);
-    REQUIRE(jacobi.converged);
-    CHECK(cg.iterations <= jacobi.iterations);
-    for (std::size_t i = 0; i < cg.radiosity.size(); ++i) {
-      CHECK(cg.radiosity[i] == test::Approx(jacobi.radiosity[i]).epsilon(1e-9).margin(1e-12));
+    for (const Solver solver : {Solver::jacobi, Solver::gauss_seidel, Solver::southwell}) {
+      INFO(name(solver));
+      const auto other = problem.solve(transport, rho, solver);
+      REQUIRE(other.converged);
+      CHECK(cg.iterations <= other.iterations);
+      for (std::size_t i = 0; i < cg.radiosity.size(); ++i) {
+        CHECK(cg.radiosity[i] == test::Approx(other.radiosity[i]).epsilon(1e-9).margin(1e-12));
+      }
+      CHECK(other.radiosity[1] == 0.25);
     }
-    CHECK(cg.radiosity[1] == 0.25);
+  }
+}
+
+TEST_CASE("the residual history falls by rho times the row sum with Jacobi, and by its square with Gauss-Seidel") {
+  // Two surfaces that see only each other, F = 0.8 both ways: Jacobi has the spectral radius rho F, Gauss-Seidel its square.
+  Problem problem{2, 0.0, 5};
+  problem.exposure.area = {4.0, 4.0, 1, 1, 1, 1, 1, 1, 1, 1};
+  problem.links = {{0, 1, 0.8f * 4.0f}};
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  const std::vector<double> reflectance{0.5, 0.5};
+  const std::vector<double> emission{1.0, 0.0};
+  for (const auto& [solver, factor] : {std::pair{Solver::jacobi, 0.4}, std::pair{Solver::gauss_seidel, 0.16}}) {
+    const auto solved =
+        radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, reflectance, emission, solver, 1e-10, 1000);
+    REQUIRE(solved.history.size() == solved.iterations + 1);
+    REQUIRE(solved.history.size() > 5);
+    CHECK(solved.history.back() == solved.residual);
+    // From the second step on; exchanges are floats.
+    for (std::size_t k = 2; k < solved.history.size(); ++k) {
+      CHECK(solved.history[k] == test::Approx(factor * solved.history[k - 1]).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("light that goes tree by tree is the light of the whole operator") {
+  const Problem problem{7, 0.9, 41};
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  radiosity::TreeTransport trees{transport};
+  REQUIRE(trees.trees() == 7);
+  std::vector<double> x(problem.hierarchy.size(), 0.0);
+  for (std::size_t i = 7; i < x.size(); ++i) { x[i] = 1.0 + 0.1 * static_cast<double>(i % 5); }
+  std::vector<double> whole;
+  transport.apply(x, whole);
+  std::vector<double> gathered(x.size(), 0.0);
+  std::vector<double> shot(x.size(), 0.0);
+  std::vector<double> arrived(x.size(), 0.0);
+  for (std::uint32_t t = 0; t < 7; ++t) {
+    trees.send(t, x);
+    trees.shoot(t, arrived);
+    for (std::size_t i = 0; i < x.size(); ++i) { shot[i] += arrived[i]; }
+  }
+  for (std::uint32_t t = 0; t < 7; ++t) { trees.gather(t, gathered); }
+  for (std::size_t i = 7; i < x.size(); ++i) {  // sums of some ten terms in another order
+    CHECK(gathered[i] == test::Approx(whole[i]).epsilon(1e-14));
+    CHECK(shot[i] == test::Approx(whole[i]).epsilon(1e-14));
   }
 }
 

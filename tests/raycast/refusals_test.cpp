@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is refused, with which words; and how placements compose.
 
-#include "support.hpp"
+#include "primitives.hpp"
 
 #include <limits>
 #include <string>
@@ -40,6 +40,28 @@ TEST_CASE("factories refuse with a sentence what is no object") {
   refused(Cylinder::make({0, 0, 0}, {0, 0, 0}, 1.0), "axis");
   refused(Cylinder::make({0, 0, 0}, {0, 0, 1}, 0.0), "radius");
   refused(Cylinder::make({0, 0, 0}, {0, infinity, 1}, 1.0), "finite");
+  const dvec3 o{0, 0, 0}, z{0, 0, 1};
+  refused(Disk::make({nan, 0, 0}, z, 1.0), "finite");
+  refused(Disk::make(o, o, 1.0), "normal");
+  refused(Disk::make(o, z, -1.0), "radius");
+  refused(Disk::make({1e20, 0, 0}, z, 1.0), "vanishing");
+  refused(Cone::make(o, o, 1.0), "axis");
+  refused(Cone::make(o, z, 0.0, 1.0), "base radius");
+  refused(Cone::make(o, z, 1.0, -0.5), "top radius");
+  refused(Cone::make(o, z, nan), "base radius");
+  refused(Torus::make(o, o, 1.0, 0.5), "axis");
+  refused(Torus::make(o, z, 1.0, 1.0), "passes through itself");
+  refused(Torus::make(o, z, 1.0, nan), "radii");
+  refused(Torus::make(o, z, 1.0, 1e-5), "1e-4");
+  refused(Superquadric::make(o, {1, 1, 0}, 1, 1), "radii");
+  refused(Superquadric::make(o, {1, 1, 1e-7}, 1, 1), "radii");
+  refused(Superquadric::make(o, {1, 1, 1}, 0, 1), "exponents");
+  refused(Superquadric::make(o, {1, 1, 1}, 1, nan), "exponents");
+  refused(Superquadric::make(o, {1, 1, 1}, 1, 1, 1.0), "ring");
+  refused(Superquadric::make(o, {1, 1, 1}, 1, 1, nan), "ring");
+  refused(Instance::make(nullptr, {}), "needs an object");
+  refused(Instance::make(Sphere::make(o, 1.0).object, room()), "inside out");
+  refused(Instance::make(Sphere::make(o, 1.0).object, {glm::dmat3(0.0), o, false}), "flattens");
   refused(Mesh::make({}, {}), "no faces");
   refused(Mesh::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 3}}), "face 0 names vertex 3");
   refused(Mesh::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1}}), "face 0");

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include "apps/commands/check.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string_view>
+
+#include <brep/builder.hpp>
+#include <brep/repair.hpp>
+#include <brep/statistics.hpp>
+
+#include "apps/commands/common.hpp"
+#include "apps/files.hpp"
+#include "apps/mesh_file.hpp"
+
+namespace apps {
+namespace {
+
+constexpr std::size_t most = 10;  // lines of a list, unless --all
+
+// What a kind of fault is, and what to do about it. In the order of brep::DefectKind, to which they belong.
+struct Lesson {
+  const char* title;
+  const char* text;
+};
+Lesson lesson(brep::DefectKind kind) {
+  using K = brep::DefectKind;
+  switch (kind) {
+    case K::bad_index:
+      return {"index of nothing", "A face or an edge names something that does not exist. Correct the file."};
+    case K::bad_position:
+      return {"bad position", "A coordinate must be a finite number. Correct the file."};
+    case K::few_corners:
+      return {"face with too few corners", "A face needs three corners. --repair drops such faces."};
+    case K::repeated_corner:
+      return {"face that visits a vertex twice",
+              "The corners of a face are different vertices. --repair mends it when they follow each other; otherwise part\n"
+              "the face by hand at the vertex that it visits twice."};
+    case K::broken_loop:
+      return {"broken loop", "The edges of a face must form one closed loop. Correct the file."};
+    case K::unused_edge:
+      return {"edge without a face", "Every edge lies between two faces. Add the faces, or take the edge away."};
+    case K::duplicate_face:
+      return {"duplicate face", "The same corners in the same order as an earlier face. --repair drops it."};
+    case K::nonmanifold_edge:
+      return {"edge with more than two faces",
+              "At an edge of a surface two faces meet, one on each side. Where more meet it cannot be told which two belong\n"
+              "together, so this is not repaired: take away inner walls, or part the solids that touch along the edge."};
+    case K::doubled_edge:
+      return {"one-sided surface",
+              "The two faces at an edge run along it in opposite directions, so that both are counter-clockwise from the same\n"
+              "side. Here no choice of directions does that everywhere, as on a Moebius strip: it bounds no solid."};
+    case K::flipped_face:
+      return {"flipped faces",
+              "The two faces at an edge must run along it in opposite directions; then all are counter-clockwise from the same\n"
+              "side. --repair turns the smaller part of each component."};
+    case K::open_border:
+      return {"open border",
+              "Here the surface ends: edges with a face on one side only. A closed surface has none. --repair closes each\n"
+              "with one face; for a flat sheet that is its back."};
+    case K::several_fans:
+      return {"vertex with several fans",
+              "Around a vertex the faces follow each other from edge to edge, like a fan, and come back to the first. Here\n"
+              "several fans touch in one point. --repair gives each its own vertex at the same place."};
+    case K::unused_vertex:
+      return {"unused vertex", "No face has it as a corner. --repair drops it."};
+  }
+  return {"fault", ""};
+}
+
+const char* title(brep::RepairKind kind) {
+  using K = brep::RepairKind;
+  switch (kind) {
+    case K::simplified_face:
+      return "repeated corners taken away";
+    case K::dropped_face:
+      return "faces dropped";
+    case K::flipped_face:
+      return "faces flipped";
+    case K::closed_hole:
+      return "holes closed";
+    case K::split_vertex:
+      return "vertices split";
+    case K::dropped_vertex:
+      return "unused vertices dropped";
+  }
+  return "repairs";
+}
+
+std::string number(double x) {
+  char text[40] = "";
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+std::string triple(const glm::dvec3& v) { return number(v.x) + " " + number(v.y) + " " + number(v.z); }
+std::string counted(std::size_t n, std::string one, const char* plural = nullptr) {
+  return std::to_string(n) + " " + (n == 1 ? one : plural != nullptr ? std::string(plural) : one + "s");
+}
+std::string cell(const std::string& text, std::size_t width) {
+  return std::string(text.size() < width ? width - text.size() : 0, ' ') + text + "  ";
+}
+
+// "468 quadrilaterals, 32 triangles", the most frequent first.
+std::string sizes(const brep::Statistics& s) {
+  std::vector<std::pair<std::size_t, std::size_t>> list(s.face_sizes.begin(), s.face_sizes.end());
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (std::size_t i = 0; i < list.size() && i < 5; ++i) {
+    const auto [size, count] = list[i];
+    const std::string name = size == 3 ? "triangle" : size == 4 ? "quadrilateral" : std::to_string(size) + "-gon";
+    text += (i == 0 ? "" : ", ") + counted(count, name);
+  }
+  return text + (list.size() > 5 ? ", ..." : "");
+}
+
+std::string component_table(const brep::Statistics& s, bool all) {
+  std::vector<brep::Component> list = s.components;
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.faces > b.faces; });
+  std::string text = "components: " + std::to_string(list.size()) + "\n";
+  if (list.empty()) { return text; }
+  text += "  with face    vertices     edges     faces   v-e+f   borders   genus   volume\n";
+  const std::size_t shown = all ? list.size() : std::min(list.size(), most);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const brep::Component& c = list[i];
+    std::string remark = c.volume ? number(*c.volume) + (*c.volume < 0.0 ? " (inside out: the faces look inwards)" : "") : "-";
+    if (!c.two_sided) {
+      remark = "- (one-sided)";
+    } else if (!c.oriented) {
+      remark = c.nonmanifold_edges > 0 ? "- (edges with more than two faces)" : "- (flipped faces)";
+    }
+    text += "  " + cell(to_string(c.first), 9) + cell(std::to_string(c.vertices), 9) + cell(std::to_string(c.edges), 8) +
+            cell(std::to_string(c.faces), 8) + cell(std::to_string(c.euler()), 6) + cell(std::to_string(c.borders), 8) +
+            cell(c.genus ? std::to_string(*c.genus) : "-", 6) + " " + remark + "\n";
+  }
+  if (shown < list.size()) { text += "  ... and " + std::to_string(list.size() - shown) + " smaller ones (--all lists them)\n"; }
+  return text;
+}
+
+std::string summary(const brep::Statistics& s, bool all) {
+  std::string text = counted(s.vertices, "vertex", "vertices") + ", " + counted(s.edges, "edge") + ", " + counted(s.faces, "face") + ": " +
+                     sizes(s) + "\n";
+  text += "v - e + f: " + std::to_string(s.euler());
+  if (s.vertices > s.used_vertices) {
+    text += " (without " + counted(s.vertices - s.used_vertices, "unused vertex", "unused vertices") + ")";
+  }
+  text += "\nbounds: " + triple(s.lo) + "  to  " + triple(s.hi) + "\n";
+  text += "edges with one face: " + std::to_string(s.border_edges) + ", with more than two: " + std::to_string(s.nonmanifold_edges) + "\n";
+  if (s.duplicate_positions > 0) {
+    text += "repeated positions: " + std::to_string(s.duplicate_positions) + " (" +
+            (s.duplicate_positions == 1 ? "a vertex lies" : "vertices lie") +
+            " exactly where another one lies; that is legal, and they are never merged)\n";
+  }
+  return text + component_table(s, all);
+}
+
+// Elements that a list names, and where the first of its faces, or else of its vertices, stands in the file.
+std::string where(const std::vector<brep::Element>& elements, const Mesh& mesh, const std::string& name) {
+  for (const char letter : {'f', 'v'}) {
+    const auto& lines = letter == 'f' ? mesh.face_line : mesh.vertex_line;
+    for (const brep::Element& e : elements) {
+      if (e.letter == letter && e.index < lines.size()) { return name + ":" + std::to_string(lines[e.index]) + ": "; }
+    }
+  }
+  return {};
+}
+
+// The items of each kind under its heading, at most `most` of each.
+template <class Item, class Heading>
+std::string by_kind(const std::vector<Item>& items, const Mesh& mesh, const CheckOptions& options, Heading heading) {
+  std::map<decltype(Item::kind), std::vector<const Item*>> kinds;
+  for (const Item& item : items) { kinds[item.kind].push_back(&item); }
+  std::string text;
+  for (const auto& [kind, list] : kinds) {
+    text += "\n" + heading(kind, list.size());
+    const std::size_t shown = options.all ? list.size() : std::min(list.size(), most);
+    for (std::size_t i = 0; i < shown; ++i) { text += "  " + where(list[i]->elements, mesh, options.mesh) + list[i]->sentence + "\n"; }
+    if (shown < list.size()) { text += "  ... and " + std::to_string(list.size() - shown) + " more (--all lists them)\n"; }
+  }
+  return text;
+}
+
+std::string faults(const std::vector<brep::Defect>& defects, const Mesh& mesh, const CheckOptions& options) {
+  return by_kind(defects, mesh, options, [](brep::DefectKind kind, std::size_t count) {
+    const Lesson l = lesson(kind);
+    return std::string(l.title) + ": " + std::to_string(count) + "\n" + l.text + "\n";
+  });
+}
+
+std::string repairs(const std::vector<brep::Repair>& list, const Mesh& mesh, const CheckOptions& options) {
+  return by_kind(list, mesh, options,
+                 [](brep::RepairKind kind, std::size_t count) { return std::string(title(kind)) + ": " + std::to_string(count) + "\n"; });
+}
+
+constexpr const char* numbering = "v0 v1 ... and f0 f1 ... are the vertices and faces of the file, counted from 0.\n";
+
+std::string verdict(std::size_t faults, const brep::Statistics& s) {
+  if (faults == 0) {
+    return "sound: " + counted(s.components.size(), "closed oriented shell") + ", every edge has two faces and every vertex one fan\n";
+  }
+  return "NOT SOUND: " + counted(faults, "fault") + ". " + numbering;
+}
+
+std::optional<Mesh> load(const std::string& path, ExitCode& code) {
+  const auto format = mesh_format(path);
+  if (!format) {
+    complain(path + ": expected a name that ends with .obj, .ply or .off");
+    code = ExitCode::usage;
+    return std::nullopt;
+  }
+  std::string fault;
+  const auto bytes = read_text(path, fault);
+  if (!bytes) {
+    complain(path + " " + fault);
+    code = ExitCode::failure;
+    return std::nullopt;
+  }
+  MeshResult result = read_mesh(*bytes, *format);
+  if (!result.mesh) {
+    std::fputs(to_text(result, path).c_str(), stderr);
+    code = ExitCode::invalid_input;
+  }
+  return std::move(result.mesh);
+}
+
+// An output that cannot be written is refused before any work.
+ExitCode check_output(const CheckOptions& options) {
+  if (options.output.empty()) { return ExitCode::ok; }
+  std::error_code ignored;
+  if (!mesh_format(options.output)) {
+    complain("--output " + options.output + ": expected a name that ends with .obj, .ply or .off");
+    return ExitCode::usage;
+  }
+  if (std::filesystem::equivalent(options.output, options.mesh, ignored)) {
+    complain(options.output + " is the mesh itself; the output needs a file of its own");
+    return ExitCode::usage;
+  }
+  if (const auto fault = check_writable(options.output)) {
+    complain(*fault);
+    return ExitCode::failure;
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void describe(CLI::App& command, CheckOptions& options) {
+  command.add_option("mesh", options.mesh, "the mesh: .obj, .ply or .off")->required()->type_name("MESH");
+  auto* repair = command.add_flag("--repair", options.repair,
+                                  "flip faces, close holes, part fans, drop duplicates and what is unused; the file stays as it is");
+  command.add_option("-o,--output", options.output, "where to write the repaired mesh: .obj, .ply or .off")
+      ->type_name("FILE")
+      ->needs(repair);
+  command.add_flag("--all", options.all, "list every fault, not only the first " + std::to_string(most) + " of each kind");
+}
+
+ExitCode run(const CheckOptions& options) {
+  ExitCode code = check_output(options);
+  if (code != ExitCode::ok) { return code; }
+  const auto mesh = load(options.mesh, code);
+  if (!mesh) { return code; }
+
+  const brep::Statistics before = brep::statistics(mesh->builder);
+  std::string text = options.mesh + "\n" + summary(before, options.all);
+  for (const std::string& note : mesh->notes) { text += "note: " + note + "\n"; }
+  std::vector<brep::Defect> remaining = brep::close<brep::BRep<>>(mesh->builder).defects;
+  text += "\n" + verdict(remaining.size(), before);
+  if (options.repair && !remaining.empty()) {
+    brep::RepairResult repaired = brep::repair(mesh->builder);
+    text += "\n--- repaired: " + (repaired.repairs.empty() ? "nothing" : counted(repaired.repairs.size(), "step")) + "\n" +
+            repairs(repaired.repairs, *mesh, options);
+    remaining = std::move(repaired.remaining);
+    brep::Statistics after = brep::statistics(repaired.builder);
+    for (brep::Component& c : after.components) { c.first = brep::FaceId{repaired.old_face[c.first.index]}; }  // as everywhere else
+    text += "\n--- the mesh now\n" + summary(after, options.all) + "\n" + verdict(remaining.size(), after);
+    if (!options.output.empty()) {
+      if (const auto fault = write_file(options.output, write_mesh(repaired.builder, *mesh_format(options.output)))) {
+        complain(*fault);
+        return ExitCode::failure;
+      }
+    }
+  } else if (!options.output.empty()) {
+    if (const auto fault = write_file(options.output, write_mesh(mesh->builder, *mesh_format(options.output)))) {
+      complain(*fault);
+      return ExitCode::failure;
+    }
+  }
+  text += faults(remaining, *mesh, options);
+  if (!options.output.empty()) { text += "\nwritten: " + options.output + "\n"; }
+  std::fputs(text.c_str(), stdout);
+  if (std::fflush(stdout) != 0) {
+    complain("cannot write to standard output");
+    return ExitCode::failure;
+  }
+  return remaining.empty() ? ExitCode::ok : ExitCode::invalid_input;
+}
+
+}  // namespace apps

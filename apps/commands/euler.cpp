@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "apps/commands/euler.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include <brep/euler_script_parse.hpp>
+
+#include "apps/commands/common.hpp"
+#include "apps/euler/html.hpp"
+#include "apps/euler/interactive.hpp"
+#include "apps/euler/story.hpp"
+#include "apps/euler/svg.hpp"
+#include "apps/files.hpp"
+#include "apps/scene_file.hpp"
+
+namespace apps {
+namespace {
+
+bool ends_with(const std::string& path, std::string_view end) { return path.size() > end.size() && path.ends_with(end); }
+
+void print(const std::vector<brep::ScriptError>& errors, const std::string& path) {
+  for (const brep::ScriptError& e : errors) {
+    std::fprintf(stderr, "%s:%u:%u: error: %s\n", path.c_str(), e.place.line, e.place.column, e.sentence.c_str());
+  }
+}
+
+std::string summary(const euler::Story& story) {
+  const euler::Frame& end = story.frames.back();
+  return story.title + "\nsteps: " + std::to_string(story.frames.size() - 1) + "\n" + euler::counts(end) + "\n" + euler::equation(end) +
+         "\n";
+}
+
+}  // namespace
+
+void describe(CLI::App& command, EulerOptions& options) {
+  auto* const script = command.add_option("script", options.script, "the script; see examples/euler")->type_name("SCRIPT");
+  command
+      .add_option("-o,--output", options.outputs,
+                  "OUT.html: a page to step through; OUT.svg: all steps for print (with --interactive: the last step). May be repeated")
+      ->type_name("OUT")
+      ->check(CLI::Validator(
+          [](std::string& path) {
+            return ends_with(path, ".svg") || ends_with(path, ".html") ? std::string()
+                                                                       : "expected a name that ends in .svg or .html, found '" + path + "'";
+          },
+          ""));
+  auto* const interactive = command.add_flag("--interactive", options.interactive, "read operators from the terminal; `help` lists them");
+  interactive->excludes(script);
+  command.callback([&options] {
+    if (options.script.empty() && !options.interactive) { throw CLI::RequiredError("SCRIPT or --interactive"); }
+    auto sorted = options.outputs;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) { throw CLI::ValidationError("--output", "the same file twice"); }
+  });
+}
+
+ExitCode run(const EulerOptions& options) {
+  for (const std::string& output : options.outputs) {
+    if (const auto fault = check_writable(output)) {
+      complain(*fault);
+      return ExitCode::failure;
+    }
+  }
+  if (options.interactive) { return euler::converse(options.outputs); }
+  std::string fault;
+  const auto text = read_text(options.script, fault);
+  if (!text) {
+    complain(options.script + " " + fault);
+    return ExitCode::invalid_input;
+  }
+  const brep::ScriptResult parsed = brep::parse_script(*text);
+  if (!parsed.script) {
+    print(parsed.errors, options.script);
+    return ExitCode::invalid_input;
+  }
+  const euler::Story story = euler::tell(*parsed.script, std::filesystem::path(options.script).stem().string());
+  print(story.errors, options.script);
+  for (const std::string& output : options.outputs) {
+    if (const auto failure = write_file(output, ends_with(output, ".svg") ? euler::strip(story) : euler::page(story))) {
+      complain(*failure);
+      return ExitCode::failure;
+    }
+  }
+  std::string out = summary(story);
+  for (const std::string& output : options.outputs) { out += "written: " + output + "\n"; }
+  std::fputs(out.c_str(), stdout);
+  if (std::fflush(stdout) != 0) { return ExitCode::failure; }
+  return story.errors.empty() ? ExitCode::ok : ExitCode::invalid_input;
+}
+
+}  // namespace apps

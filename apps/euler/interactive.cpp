@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "apps/euler/interactive.hpp"
+
+#include <array>
+#include <cstdio>
+#include <iostream>
+#include <string>
+
+#include <unistd.h>
+
+#include <brep/euler_script_parse.hpp>
+#include <brep/euler_script_text.hpp>
+
+#include "apps/euler/html.hpp"
+#include "apps/euler/story.hpp"
+#include "apps/euler/svg.hpp"
+#include "apps/files.hpp"
+
+namespace apps::euler {
+namespace {
+
+constexpr const char* help =
+    "operators    h = make_segment              kill_segment h\n"
+    "             h = split_face a b            join_faces h         a, b on one face\n"
+    "             h = split_vertex a b          join_vertices h      a, b leave one vertex; a a: a spur\n"
+    "             h = bridge a b                cut h                a, b on different faces\n"
+    "             h = weld a b                  unweld h             a, b leave different vertices\n"
+    "             h = split_edge a              set_anchor h\n"
+    "arguments    h7, a name that was given with =, next(x) prev(x) twin(x), anchor(f1), anchor(v3)\n"
+    "others       undo, redo, expect v 8 e 12 f 6, raw next h3 h5 (damages a record; undo repairs it)\n"
+    "             show (all records), save FILE (the steps as a script), help, quit\n";
+
+std::string records_table(const Records& r) {
+  const auto name = [](char letter, std::uint32_t i) {
+    return i == brep::invalid_index ? std::string("none") : letter + std::to_string(i);
+  };
+  std::string out = "half-edge   next  prev  vertex  face\n";
+  for (std::uint32_t i = 0; i < r.halfedges.size(); ++i) {
+    const Records::Halfedge& h = r.halfedges[i];
+    if (!h.alive) { continue; }
+    std::array<char, 100> line{};
+    std::snprintf(line.data(), line.size(), "%-10s %5s %5s %7s %5s\n", name('h', i).c_str(), name('h', h.next).c_str(),
+                  name('h', h.prev).c_str(), name('v', h.vertex).c_str(), name('f', h.face).c_str());
+    out += line.data();
+  }
+  const auto anchors = [&](char letter, const std::vector<std::uint32_t>& list) {
+    out += letter == 'v' ? "anchors of vertices:" : "anchors of faces:";
+    for (std::uint32_t i = 0; i < list.size(); ++i) {
+      if (list[i] != brep::invalid_index) { out += " " + name(letter, i) + "-" + name('h', list[i]); }
+    }
+    out += '\n';
+  };
+  anchors('v', r.vertices);
+  anchors('f', r.faces);
+  return out;
+}
+
+class Conversation {
+ public:
+  explicit Conversation(const std::vector<std::string>& outputs) : outputs_(outputs), teller_(solid_) {
+    teller_.story().title = "Interactive";
+    layout_ = lay_out(teller_.story().frames.back().drawn, {}, smallest);
+  }
+
+  // False: the end.
+  bool take(const std::string& line, std::uint32_t number) {
+    const std::size_t begin = line.find_first_not_of(" \t"), end = line.find_last_not_of(" \t\r");
+    const std::string text = begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
+    if (text == "quit" || text == "exit") { return false; }
+    if (text == "help" || text == "?") {
+      say(help);
+    } else if (text == "show") {
+      say(records_table(teller_.story().frames.back().records));
+    } else if (text == "save" || text.rfind("save ", 0) == 0) {
+      save(text.substr(std::min<std::size_t>(5, text.size())));
+    } else {
+      statement(text, number);
+    }
+    return true;
+  }
+  [[nodiscard]] ExitCode code() const { return code_; }
+
+ private:
+  static constexpr double smallest = 0.026;
+
+  static void say(const std::string& text) {
+    std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+  }
+  void write(const std::string& path, const std::string& bytes) {
+    if (const auto fault = write_file(path, bytes)) {
+      say(*fault + "\n");
+      code_ = ExitCode::failure;
+    }
+  }
+  void save(const std::string& path) {
+    if (path.empty()) { return say("save FILE: expected the name of a file\n"); }
+    if (const auto fault = check_writable(path)) { return say(*fault + "\n"); }
+    write(path, brep::to_text(brep::steps(solid_)));
+    say("written: " + path + "\n");
+  }
+  void statement(const std::string& text, std::uint32_t number) {
+    const std::size_t errors = parser_.errors().size();
+    const auto parsed = parser_.parse_line(text, number);
+    if (parser_.errors().size() > errors) {
+      const brep::ScriptError& e = parser_.errors().back();
+      return say("column " + std::to_string(e.place.column) + ": " + e.sentence + "\n");
+    }
+    if (!parsed) { return; }
+    const std::size_t checks = teller_.story().frames.back().checks.size();
+    teller_.tell(*parsed);
+    const Frame& frame = teller_.story().frames.back();
+    if (parsed->command == brep::Command::expect) {
+      const Check& check = frame.checks[checks];
+      return say(check.met ? "as expected\n" : check.sentence + "\n");
+    }
+    const brep::Outcome& outcome = frame.outcome;
+    std::string out;
+    if (outcome.kind == brep::Outcome::Kind::refused) {
+      out = "refused: " + outcome.sentence + "\n";
+    } else if (!outcome.sentence.empty()) {
+      out = outcome.sentence + "\n";
+    } else {
+      out = headline(frame) + "\n";
+    }
+    for (const brep::Fault& fault : outcome.faults) { out += fault.sentence + "\n"; }
+    if (!frame.damaged) { out += counts(frame) + "      " + equation(frame) + "\n"; }
+    layout_ = lay_out(frame.drawn, layout_, smallest);
+    for (const std::string& path : outputs_) {
+      write(path, path.ends_with(".svg") ? picture(teller_.story(), layout_) : page(teller_.story()));
+    }
+    say(out);
+  }
+
+  const std::vector<std::string>& outputs_;
+  Solid solid_;
+  Teller teller_;
+  brep::ScriptParser parser_;
+  Layout layout_;
+  ExitCode code_ = ExitCode::ok;
+};
+
+}  // namespace
+
+ExitCode converse(const std::vector<std::string>& outputs) {
+  const bool terminal = ::isatty(0) == 1;
+  Conversation conversation(outputs);
+  std::string line;
+  if (terminal) { std::fputs("Euler operators; `help` lists them, `quit` ends.\n", stdout); }
+  for (std::uint32_t number = 1;; ++number) {
+    if (terminal) {
+      std::fputs("> ", stdout);
+      std::fflush(stdout);
+    }
+    if (!std::getline(std::cin, line) || !conversation.take(line, number)) { break; }
+  }
+  return conversation.code();
+}
+
+}  // namespace apps::euler

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "apps/euler/labels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace apps::euler {
+namespace {
+
+using Point = glm::dvec2;
+constexpr int pieces = 6;  // of an arc, for distances
+constexpr double edge_of_panel = 1.18;
+
+double distance(const Point& p, const Point& a, const Point& b) {
+  const Point d = b - a;
+  const double t = std::clamp(glm::dot(p - a, d) / std::max(glm::dot(d, d), 1e-300), 0.0, 1.0);
+  return glm::length(p - a - t * d);
+}
+double side(const Point& p, const Point& a, const Point& b) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
+
+// One face of the plane map, sampled. Where edges are cut open several faces of the shell meet in it; each run of darts with one
+// name on the walk owns the part that lies nearest to it.
+class Region {
+ public:
+  Region(const PlanarMap& map, const Panel& panel, std::uint32_t face, bool outer) : outer_(outer) {
+    const auto& walk = map.faces[face];
+    const auto name = [&](std::size_t k) { return map.darts[walk[k % walk.size()]].true_face; };
+    std::size_t first = 0;
+    while (first < walk.size() && name(first) == name(first + walk.size() - 1)) { ++first; }
+    for (std::size_t k = 0; k < walk.size(); ++k) {
+      if (k == 0 || name(first + k) != name(first + k - 1)) { runs_.push_back({name(first + k), {}}); }
+      const std::uint32_t d = walk[(first + k) % walk.size()];
+      runs_.back().darts.push_back(d);
+      std::vector<Point> line = panel.strands[d / 2].curve.flat(pieces);
+      if (d % 2 == 1) { std::reverse(line.begin(), line.end()); }
+      line.pop_back();
+      points_.insert(points_.end(), line.begin(), line.end());
+      owner_.insert(owner_.end(), line.size(), runs_.size() - 1);
+    }
+    sample();
+  }
+
+  [[nodiscard]] bool whole() const { return runs_.size() == 1; }
+  [[nodiscard]] double room() const {
+    double most = 0.0;
+    for (const Site& s : sites_) { most = std::max(most, s.room); }
+    return most;
+  }
+
+  void label(Panel& panel, double size) const {
+    if (outer_ && whole()) {
+      panel.labels.push_back({runs_.front().name, {-1.08, 1.08}, size});
+      return;
+    }
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const std::uint32_t d = runs_[r].darts[runs_[r].darts.size() / 2];
+      const Point near = panel.strands[d / 2].curve.points[2];
+      double best = -std::numeric_limits<double>::infinity();
+      Point at(0.0);
+      for (const Site& s : sites_) {
+        if (s.owner != r) { continue; }
+        double room = s.room;
+        for (const Strand& strand : panel.strands) {
+          for (const std::uint32_t k : {0U, 1U}) { room = std::min(room, glm::length(s.at - strand.names[k]) - 0.9 * strand.sizes[k]); }
+          if (strand.stub) { room = std::min(room, glm::length(s.at - strand.curve.points.back()) - panel.text); }
+        }
+        for (const VertexMark& v : panel.vertices) { room = std::min(room, glm::length(s.at - v.at) - panel.text); }
+        for (const FaceLabel& l : panel.labels) { room = std::min(room, glm::length(s.at - l.at) - 0.8 * l.size); }
+        // Alone in the face: in the middle of it. Else near to what it names, once there is room enough.
+        const double value = whole() ? room : std::min(room, size) - 0.2 * glm::length(s.at - near);
+        if (value > best + 1e-9) {
+          best = value;
+          at = s.at;
+        }
+      }
+      if (best > -std::numeric_limits<double>::infinity()) { panel.labels.push_back({runs_[r].name, at, size}); }
+    }
+  }
+
+ private:
+  struct Run {
+    std::uint32_t name;
+    std::vector<std::uint32_t> darts;
+  };
+  struct Site {
+    Point at;
+    double room;  // the distance from all lines
+    std::size_t owner;
+  };
+
+  [[nodiscard]] bool holds(const Point& p) const {
+    int winding = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Point a = points_[i], b = points_[(i + 1) % points_.size()];
+      if (a.y <= p.y && b.y > p.y && side(p, a, b) > 0) { ++winding; }
+      if (a.y > p.y && b.y <= p.y && side(p, a, b) < 0) { --winding; }
+    }
+    return (winding != 0) != outer_;
+  }
+  void sample() {
+    Point low(outer_ ? -edge_of_panel : std::numeric_limits<double>::infinity()), high(-low);
+    for (const Point& p : points_) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+    const int grid = outer_ ? 48 : 28;
+    for (int iy = 1; iy < grid; ++iy) {
+      for (int ix = 1; ix < grid; ++ix) {
+        const Point p = low + (high - low) * Point(ix, iy) / static_cast<double>(grid);
+        if (!holds(p)) { continue; }
+        Site site{p, std::numeric_limits<double>::infinity(), 0};
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+          const Point a = points_[i], b = points_[(i + 1) % points_.size()];
+          const double d = distance(p, a, b);
+          if (d < site.room - 1e-9 || (d < site.room + 1e-9 && side(p, a, b) > 0)) {  // both sides of a spur are equally near
+            site.room = d;
+            site.owner = owner_[i];
+          }
+        }
+        if (outer_) { site.room = std::min(site.room, edge_of_panel - std::max(std::abs(p.x), std::abs(p.y))); }
+        sites_.push_back(site);
+      }
+    }
+  }
+
+  bool outer_;
+  std::vector<Run> runs_;
+  std::vector<Point> points_;
+  std::vector<std::size_t> owner_;  // the run of the piece from this point to the next
+  std::vector<Site> sites_;
+};
+
+}  // namespace
+
+void place_names(const PlanarMap& map, std::uint32_t outer, double smallest, Panel& panel) {
+  std::vector<Region> regions;
+  std::vector<double> rooms, inner;
+  for (std::uint32_t f = 0; f < map.faces.size(); ++f) {
+    regions.emplace_back(map, panel, f, f == outer);
+    rooms.push_back(regions.back().room());
+    if (f != outer) { inner.push_back(rooms.back()); }
+  }
+  double length = 0.0;
+  for (const Strand& s : panel.strands) { length += std::log(std::max(length_of(s.curve.flat(1)), 1e-9)); }
+  double wanted = 0.14 * std::exp(length / static_cast<double>(panel.strands.size()));
+  if (!inner.empty()) {
+    const auto middle = inner.begin() + static_cast<std::ptrdiff_t>(inner.size() / 2);
+    std::nth_element(inner.begin(), middle, inner.end());
+    wanted = std::min(wanted, 0.5 * *middle);
+  }
+  const double largest = std::max(smallest, 0.072);
+  panel.text = std::clamp(wanted, smallest, largest);
+  panel.gap = 0.36 * panel.text;
+  for (std::size_t i = 0; i < panel.strands.size(); ++i) {
+    Strand& s = panel.strands[i];
+    std::vector<Point> line = s.curve.flat(pieces);
+    for (const std::uint32_t k : {0U, 1U}) {
+      const std::uint32_t face = map.darts[2 * i + k].face;
+      s.sizes[k] = face == outer ? panel.text : std::clamp(0.34 * rooms[face], 0.75 * smallest, panel.text);
+      const Spot middle = spot_on(line, 0.5 * length_of(line));
+      const Point out = middle.left();
+      // As far out as the size of the text asks for in this direction.
+      const double letters = static_cast<double>(std::to_string(s.halfedge ^ k).size() + 1);
+      const double reach = std::abs(out.x) * 0.28 * letters + std::abs(out.y) * 0.36;
+      s.names[k] = middle.at + (panel.gap + (0.16 + reach) * s.sizes[k]) * out;
+      std::reverse(line.begin(), line.end());
+    }
+  }
+  for (std::uint32_t f = 0; f < map.faces.size(); ++f) {
+    const bool small = f != outer && regions[f].whole();
+    regions[f].label(panel, small ? std::clamp(0.52 * rooms[f], smallest, 1.4 * panel.text) : 1.4 * panel.text);
+  }
+}
+
+}  // namespace apps::euler

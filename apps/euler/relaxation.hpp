@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A triangulation in the plane and how its triangles are brought near to their rest shapes; no triangle turns over.
+//
+// See embedding.hpp, which makes the triangulation and its first drawing.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/mat2x2.hpp>
+#include <glm/vec2.hpp>
+
+namespace apps::euler {
+
+struct Link {
+  std::uint32_t a, b;
+  double weight;
+};
+
+struct Triangle {
+  std::array<std::uint32_t, 3> corner;  // counter-clockwise
+  glm::dmat2 rest;                      // the inverse of its edge vectors in its rest shape
+  double pull;                          // the weight of its sides
+};
+
+// Points are numbered: vertices of the map first, then inner points of edges, rings, centres.
+struct Net {
+  std::vector<Triangle> triangles;
+  std::vector<Link> links;
+  std::vector<std::array<std::uint32_t, 3>> bends;  // three points in a row on an edge
+  std::vector<std::uint32_t> outer_ring;            // clockwise, as the walk around the outer face
+  double rest_area = 0.0;
+  std::uint32_t count = 0;
+};
+
+// Twice the signed area.
+[[nodiscard]] inline double area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+[[nodiscard]] bool all_turn_left(const Net& net, const std::vector<glm::dvec2>& x);
+
+// Evens out what the weighted means left tiny. Each point in turn goes to the least value of the sum of |J|^2 - 2 log det(J) over its
+// triangles, a convex function, by Newton's method: where all is tiny only the ratio of areas counts, so a part grows by
+// a factor in each round however small it begins.
+void unfold(const Net& net, double scale, const std::vector<bool>& fixed, std::vector<glm::dvec2>& x);
+
+// Lowers the energy (L-BFGS, Nocedal 1980) from a drawing without crossings; no triangle turns over on the way.
+void relax(const Net& net, double scale, const std::vector<bool>& fixed, std::vector<glm::dvec2>& x);
+
+}  // namespace apps::euler

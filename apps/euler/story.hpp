@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A script that was run, moment by moment: what the pictures and the page show.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <brep/euler_script.hpp>
+#include <brep/euler_script_run.hpp>
+
+#include "apps/euler/records.hpp"
+
+namespace apps::euler {
+
+using Solid = brep::BRep<brep::NoData, brep::NoData, brep::NoData, brep::EulerLog>;
+
+struct Check {  // an `expect` behind a step
+  std::string text;
+  bool met = true;
+  std::string sentence;
+};
+
+struct Frame {
+  std::string statement;  // empty for the start
+  std::string caption;
+  std::uint32_t line = 0;
+  brep::Outcome outcome;
+  Records records;               // as they are, damaged ones too
+  Records drawn;                 // the last that were valid
+  long shells = 0, handles = 0;  // of `drawn`
+  bool damaged = false;
+  std::vector<brep::Element> arguments;  // handles as they were before the step
+  brep::Element edited;                  // the element whose record a raw edit overwrote
+  std::vector<Check> checks;
+};
+
+struct Story {
+  std::string title, introduction;
+  std::vector<Frame> frames;              // the first is the start
+  std::vector<brep::ScriptError> errors;  // statements that were not done as written
+};
+
+// One statement after another, also after one that failed.
+class Teller {
+ public:
+  explicit Teller(Solid& solid);
+  void tell(const brep::Statement& statement);
+  [[nodiscard]] const Story& story() const { return story_; }
+  [[nodiscard]] Story& story() { return story_; }
+
+ private:
+  void remember(Frame& frame);
+
+  Solid& solid_;
+  brep::ScriptRunner<Solid> runner_;
+  Story story_;
+};
+
+[[nodiscard]] Story tell(const brep::Script& script, const std::string& name);
+
+// The statement with its result in front where the script leaves it out: "h2 = split_edge h0", "split_edge h0 -> h2".
+[[nodiscard]] std::string headline(const Frame& frame);
+// "v 8   e 12   f 6   s 1   h 0"
+[[nodiscard]] std::string counts(const Frame& frame);
+// "8 - 12 + 6 = 2 = 2(1 - 0)"
+[[nodiscard]] std::string equation(const Frame& frame);
+
+}  // namespace apps::euler

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Steps as SVG: one drawing for the page, and the strip of all steps for print.
+//
+// Edges are dark, what is new red, the arguments of the step blue. Along each edge run its two half-edges, each a half arrow on
+// its left side beside the face that it names. The background of a panel is the outer face. A dashed edge is one
+// end of an edge that is cut open to lay a handle flat; the other end has the same name in its tip.
+
+#include <string>
+#include <vector>
+
+#include "apps/euler/layout.hpp"
+#include "apps/euler/story.hpp"
+
+namespace apps::euler {
+
+// Text for SVG and HTML: & < > " are written as entities.
+[[nodiscard]] std::string escaped(const std::string& text);
+
+// The layouts of all frames, one after the other.
+[[nodiscard]] std::vector<Layout> lay_out(const Story& story, double smallest);
+
+// The classes of the drawings.
+[[nodiscard]] std::string drawing_style();
+
+// The drawing of frame `i` in a square of this width: an SVG group around the origin.
+[[nodiscard]] std::string drawing(const Story& story, std::size_t i, const Layout& layout, double width);
+
+// A grid of cells, one for each step, with caption, operator, counts and both sides of the equation.
+[[nodiscard]] std::string strip(const Story& story);
+
+// The last frame alone, as a file.
+[[nodiscard]] std::string picture(const Story& story, const Layout& layout);
+
+}  // namespace apps::euler

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// Wavefront OBJ: v and f lines. A corner is v, v/vt, v//vn or v/vt/vn; a negative number counts back from the last vertex.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+
+#include "apps/mesh_file/reading.hpp"
+
+namespace apps::mesh_file {
+namespace {
+
+// Statements that say nothing about the shape of the faces.
+constexpr std::array<std::string_view, 19> silent{"vt",     "vn",         "vp",        "g",      "o",     "s",        "mg",
+                                                  "usemtl", "mtllib",     "usemap",    "maplib", "bevel", "c_interp", "d_interp",
+                                                  "lod",    "shadow_obj", "trace_obj", "ctech",  "stech"};
+// Points, lines, curves and free-form surfaces: they are geometry, and are not read.
+constexpr std::array<std::string_view, 21> unread{"p",    "l",    "curv", "curv2", "surf", "cstype", "deg", "bmat", "step", "parm", "trim",
+                                                  "hole", "scrv", "sp",   "end",   "con",  "bzp",    "cdc", "cdp",  "res",  "call"};
+
+template <std::size_t N>
+bool contains(const std::array<std::string_view, N>& list, std::string_view word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+struct ForwardReference {
+  Place place;
+  std::uint32_t number;  // from 1
+};
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view bytes, Output& out) : lines_(bytes, true, true), out_(out) {}
+
+  void run() {
+    while (!out_.full() && lines_.next()) { statement(); }
+    if (out_.full()) { return; }
+    for (const ForwardReference& f : forward_) {
+      if (f.number > count()) {
+        out_.error(f.place, "there is no vertex " + std::to_string(f.number) + ", the file has " + std::to_string(count()));
+      }
+    }
+    if (out_.good() && out_.mesh.builder.face_count() == 0) { out_.error({1, 1}, "the file has no faces: no line begins with f"); }
+    for (const auto& [word, number] : unread_) {
+      out_.mesh.notes.push_back(std::to_string(number) + (number == 1 ? " line '" : " lines '") + std::string(word) +
+                                "' passed over: points, lines, curves and free-form surfaces are not read");
+    }
+  }
+
+ private:
+  [[nodiscard]] std::int64_t count() const { return out_.mesh.builder.vertex_count(); }
+
+  void statement() {
+    const std::string_view word = lines_.words()[0];
+    if (word == "v") {
+      vertex();
+    } else if (word == "f" || word == "fo") {
+      face();
+    } else if (contains(unread, word)) {
+      ++unread_[word];
+    } else if (!contains(silent, word)) {
+      out_.error(lines_.place(0), "expected a statement such as v, f or vn, found " + shown(word));
+    }
+  }
+
+  void vertex() {
+    for (std::size_t i = 4; i < lines_.words().size(); ++i) {  // a weight, or a colour
+      if (!to_number(lines_.words()[i])) {
+        out_.error(lines_.place(i), "expected a number, found " + shown(lines_.words()[i]));
+        return;
+      }
+    }
+    const auto position = read_position(lines_, 1, out_);
+    out_.mesh.builder.vertex(position.value_or(glm::dvec3(0.0)));
+    out_.mesh.vertex_line.push_back(lines_.line());
+  }
+
+  void face() {
+    corners_.clear();
+    if (lines_.words().size() == 1) {
+      out_.error(lines_.place(1), "expected the corners of a face, found the end of the line");
+      return;
+    }
+    for (std::size_t i = 1; i < lines_.words().size(); ++i) {
+      const auto number = corner(lines_.words()[i]);
+      if (!number) {
+        out_.error(lines_.place(i), "expected a corner such as 3, 3/1, 3//2 or 3/1/2, found " + shown(lines_.words()[i]));
+        return;
+      }
+      const std::int64_t index = *number > 0 ? *number : count() + 1 + *number;
+      if (*number == 0 || index < 1) {
+        out_.error(lines_.place(i), *number == 0
+                                        ? "vertices are counted from 1, found 0"
+                                        : "the corner " + std::to_string(*number) + " counts back from the last vertex, but only " +
+                                              std::to_string(count()) + " stand before this line");
+        return;
+      }
+      if (index >= std::int64_t{std::numeric_limits<std::uint32_t>::max()}) {
+        out_.error(lines_.place(i), "there is no vertex " + std::to_string(index));
+        return;
+      }
+      if (index > count()) { forward_.push_back({lines_.place(i), static_cast<std::uint32_t>(index)}); }
+      corners_.push_back(static_cast<std::uint32_t>(index - 1));
+    }
+    out_.mesh.builder.face(corners_, 0);
+    out_.mesh.face_line.push_back(lines_.line());
+  }
+
+  // The first number of a corner; texture and normal must be numbers, too, if they are there.
+  static std::optional<std::int64_t> corner(std::string_view word) {
+    const auto number = to_integer(word.substr(0, word.find('/')));
+    for (int slashes = 0; number && word.find('/') != std::string_view::npos; ++slashes) {
+      word.remove_prefix(word.find('/') + 1);
+      const std::string_view part = word.substr(0, word.find('/'));
+      if (slashes == 2 || (!part.empty() && !to_integer(part))) { return std::nullopt; }
+    }
+    return number;
+  }
+
+  Lines lines_;
+  Output& out_;
+  std::vector<std::uint32_t> corners_;
+  std::vector<ForwardReference> forward_;
+  std::map<std::string_view, std::size_t> unread_;
+};
+
+}  // namespace
+
+void read_obj(std::string_view bytes, Output& out) { ObjReader(bytes, out).run(); }
+
+}  // namespace apps::mesh_file

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// OFF (Geomview): an optional keyword, the counts of vertices, faces and edges, one line per vertex, one line per face.
+// Normals, colours and texture coordinates after a position and colours after a face are passed over.
+#include "apps/mesh_file/reading.hpp"
+
+namespace apps::mesh_file {
+namespace {
+
+class OffReader {
+ public:
+  OffReader(std::string_view bytes, Output& out) : lines_(bytes, true), out_(out) {}
+
+  void run() {
+    if (!header()) { return; }
+    for (std::int64_t i = 0; i < vertices_ && !out_.full(); ++i) {
+      if (!next("vertex", i, vertices_)) { return; }
+      out_.mesh.builder.vertex(read_position(lines_, 0, out_).value_or(glm::dvec3(0.0)));
+      out_.mesh.vertex_line.push_back(lines_.line());
+    }
+    for (std::int64_t i = 0; i < faces_ && !out_.full(); ++i) {
+      if (!next("face", i, faces_)) { return; }
+      face();
+    }
+    if (lines_.next()) {
+      out_.mesh.notes.push_back("what follows the last face from line " + std::to_string(lines_.line()) +
+                                " on was passed over; does the header count too few?");
+    }
+  }
+
+ private:
+  bool next(const char* what, std::int64_t number, std::int64_t count) {
+    if (lines_.next()) { return true; }
+    out_.error(lines_.place(0), std::string("the file ends before ") + what + " " + std::to_string(number + 1) + " of " +
+                                    std::to_string(count) + " that the header promises");
+    return false;
+  }
+
+  // The keyword says what stands on the lines of the vertices besides positions; those in [] may be missing: [ST][C][N]OFF.
+  bool header() {
+    if (!lines_.next()) {
+      out_.error(lines_.place(0), "the file is empty; expected OFF");
+      return false;
+    }
+    std::size_t word = 0;
+    std::string_view keyword = lines_.words()[0];
+    if (!to_number(keyword)) {
+      for (const std::string_view prefix : {"ST", "C", "N"}) {
+        if (keyword.starts_with(prefix)) { keyword.remove_prefix(prefix.size()); }
+      }
+      if (keyword != "OFF") {
+        const bool other = keyword == "4OFF" || keyword == "nOFF" || keyword == "4nOFF";
+        out_.error(lines_.place(0), other ? "positions in more than three dimensions are not read: " + shown(lines_.words()[0])
+                                          : "expected OFF, COFF, NOFF or the like, found " + shown(lines_.words()[0]));
+        return false;
+      }
+      word = 1;
+      if (word < lines_.words().size() && lines_.words()[word] == "BINARY") {
+        out_.error(lines_.place(word), "binary OFF is not read; convert the file to text, or to PLY");
+        return false;
+      }
+    }
+    if (word == lines_.words().size()) {
+      if (!lines_.next()) {
+        out_.error(lines_.place(0), "expected the numbers of vertices, faces and edges, found the end of the file");
+        return false;
+      }
+      word = 0;
+    }
+    for (std::int64_t* const count : {&vertices_, &faces_}) {
+      const auto number = word < lines_.words().size() ? to_integer(lines_.words()[word]) : std::nullopt;
+      if (!number || *number < 0) {
+        const std::string found = word < lines_.words().size() ? shown(lines_.words()[word]) : "the end of the line";
+        out_.error(lines_.place(word),
+                   std::string("expected the number of ") + (count == &vertices_ ? "vertices" : "faces") + ", found " + found);
+        return false;
+      }
+      *count = *number;
+      ++word;
+    }
+    if (faces_ == 0) { out_.error(lines_.place(word - 1), "the file has no faces"); }
+    return faces_ > 0;
+  }
+
+  void face() {
+    const auto& words = lines_.words();
+    const auto size = to_integer(words[0]);
+    if (!size || *size < 0) {
+      out_.error(lines_.place(0), "expected the number of corners of a face, found " + shown(words[0]));
+      return;
+    }
+    if (*size > static_cast<std::int64_t>(words.size()) - 1) {
+      out_.error(lines_.place(words.size()), "the face has " + std::to_string(words.size() - 1) + " of the " + std::to_string(*size) +
+                                                 " corners that its line promises");
+      return;
+    }
+    corners_.clear();
+    for (std::size_t i = 1; i <= static_cast<std::size_t>(*size); ++i) {
+      const auto index = to_integer(words[i]);
+      if (!index || *index < 0 || *index >= vertices_) {
+        out_.error(lines_.place(i), (vertices_ == 0 ? std::string("there are no vertices, ")
+                                                    : "expected a vertex, a number from 0 to " + std::to_string(vertices_ - 1) + ", ") +
+                                        "found " + shown(words[i]));
+        return;
+      }
+      corners_.push_back(static_cast<std::uint32_t>(*index));
+    }
+    out_.mesh.builder.face(corners_, 0);
+    out_.mesh.face_line.push_back(lines_.line());
+  }
+
+  Lines lines_;
+  Output& out_;
+  std::int64_t vertices_ = 0, faces_ = 0;
+  std::vector<std::uint32_t> corners_;
+};
+
+}  // namespace
+
+void read_off(std::string_view bytes, Output& out) { OffReader(bytes, out).run(); }
+
+}  // namespace apps::mesh_file

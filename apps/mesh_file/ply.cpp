@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+// PLY (Turk 1994): a header that declares elements and their properties, then the values, as text or binary in either byte order.
+// Of the element vertex x, y and z are read, of the element face the list vertex_indices (or vertex_index); the rest is stepped over.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+#include "apps/mesh_file/reading.hpp"
+
+namespace apps::mesh_file {
+namespace {
+
+enum class Type : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+std::optional<Type> type_of(std::string_view name) {
+  struct Name {
+    std::string_view old, sized;
+  };
+  constexpr std::array<Name, 8> names{{{"char", "int8"},
+                                       {"uchar", "uint8"},
+                                       {"short", "int16"},
+                                       {"ushort", "uint16"},
+                                       {"int", "int32"},
+                                       {"uint", "uint32"},
+                                       {"float", "float32"},
+                                       {"double", "float64"}}};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (name == names[i].old || name == names[i].sized) { return static_cast<Type>(i); }
+  }
+  return std::nullopt;
+}
+constexpr std::size_t size_of(Type type) { return std::array<std::size_t, 8>{1, 1, 2, 2, 4, 4, 4, 8}[static_cast<std::size_t>(type)]; }
+constexpr bool is_float(Type type) { return type >= Type::float32; }
+
+struct Property {
+  enum class Role : std::uint8_t { other, x, y, z, corners };
+  Type type;
+  bool is_list;
+  Type count;  // of a list: the type of its length
+  Role role = Role::other;
+};
+struct Element {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<Property> properties;
+};
+
+class PlyReader {
+ public:
+  PlyReader(std::string_view bytes, Output& out) : bytes_(bytes), lines_(bytes, false), out_(out) {}
+
+  void run() {
+    if (!header() || !check_header()) { return; }
+    at_ = lines_.consumed();
+    for (const Element& element : elements_) {
+      // An element without values takes no room, so its count cannot be checked against the file: it is passed over.
+      for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
+        if (out_.full() || !(text_ ? text_element(element, i) : binary_element(element, i))) { return; }
+      }
+    }
+    const bool more = text_ ? lines_.next() : at_ < bytes_.size();
+    if (more) { out_.mesh.notes.push_back("what follows the last element was passed over; does the header count too few?"); }
+  }
+
+ private:
+  // --- the header
+  bool fail(std::size_t word, const std::string& sentence) {
+    out_.error(lines_.place(word), sentence);
+    return false;
+  }
+  [[nodiscard]] std::string found(std::size_t word) const {
+    return word < lines_.words().size() ? "found " + shown(lines_.words()[word]) : "found the end of the line";
+  }
+  [[nodiscard]] std::string_view word(std::size_t i) const { return i < lines_.words().size() ? lines_.words()[i] : std::string_view(); }
+
+  bool header() {
+    if (!lines_.next() || word(0) != "ply") { return fail(0, "expected ply in the first line of a PLY file"); }
+    bool has_format = false;
+    while (lines_.next()) {
+      const std::string_view statement = word(0);
+      if (statement == "comment" || statement == "obj_info") { continue; }
+      if (statement == "end_header") {
+        return has_format || fail(0, "expected a line such as 'format ascii 1.0' before the end of the header");
+      }
+      if (statement == "format") {
+        if (!format()) { return false; }
+        has_format = true;
+      } else if (statement == "element") {
+        const auto count = to_integer(word(2));
+        if (lines_.words().size() != 3 || !count || *count < 0) { return fail(2, "expected 'element NAME COUNT', " + found(2)); }
+        elements_.push_back({std::string(word(1)), static_cast<std::uint64_t>(*count), {}});
+      } else if (statement == "property") {
+        if (!property()) { return false; }
+      } else {
+        return fail(0, "expected element, property, comment or end_header, " + found(0));
+      }
+    }
+    return fail(0, "the file ends within its header: no line end_header");
+  }
+
+  bool format() {
+    text_ = word(1) == "ascii";
+    big_ = word(1) == "binary_big_endian";
+    if (!text_ && !big_ && word(1) != "binary_little_endian") {
+      return fail(1, "expected ascii, binary_little_endian or binary_big_endian, " + found(1));
+    }
+    return word(2) == "1.0" || fail(2, "expected the version 1.0, " + found(2));
+  }
+
+  bool property() {
+    if (elements_.empty()) { return fail(0, "a property stands before the first element"); }
+    const bool is_list = word(1) == "list";
+    const std::size_t type_at = is_list ? 3 : 1;
+    const auto count = is_list ? type_of(word(2)) : std::nullopt;
+    if (is_list && (!count || is_float(*count))) { return fail(2, "expected an integer type for the length of a list, " + found(2)); }
+    const auto type = type_of(word(type_at));
+    if (!type) { return fail(type_at, "expected a type such as float, uchar or int32, " + found(type_at)); }
+    if (lines_.words().size() != type_at + 2) { return fail(type_at + 1, "expected one name for the property, " + found(type_at + 1)); }
+    const std::string_view name = word(type_at + 1);
+    Element& element = elements_.back();
+    Property property{*type, is_list, count.value_or(Type::uint8)};
+    using Role = Property::Role;
+    if (element.name == "vertex" && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') {
+      if (is_list) { return fail(1, "the coordinate " + std::string(name) + " cannot be a list"); }
+      property.role = std::array{Role::x, Role::y, Role::z}[static_cast<std::size_t>(name[0] - 'x')];
+    } else if (element.name == "face" && (name == "vertex_indices" || name == "vertex_index")) {
+      if (!is_list || is_float(*type)) { return fail(1, "the corners of faces must be a list of integers"); }
+      property.role = Role::corners;
+    }
+    for (const Property& p : element.properties) {
+      if (p.role != Role::other && p.role == property.role) { return fail(type_at + 1, shown(name) + " is declared twice"); }
+    }
+    element.properties.push_back(property);
+    return true;
+  }
+
+  bool check_header() {
+    const Element *vertex = nullptr, *face = nullptr;
+    for (const Element& element : elements_) {
+      const Element** const known = element.name == "vertex" ? &vertex : element.name == "face" ? &face : nullptr;
+      if (known == nullptr) { continue; }
+      if (*known != nullptr) { return fail(0, "the element " + element.name + " is declared twice"); }
+      *known = &element;
+    }
+    const auto has = [](const Element& element, Property::Role role) {
+      return std::any_of(element.properties.begin(), element.properties.end(), [&](const Property& p) { return p.role == role; });
+    };
+    using Role = Property::Role;
+    if (vertex == nullptr || !has(*vertex, Role::x) || !has(*vertex, Role::y) || !has(*vertex, Role::z)) {
+      return fail(0, "expected an element vertex with the properties x, y and z");
+    }
+    if (face == nullptr || face->count == 0) {
+      const bool strips = std::any_of(elements_.begin(), elements_.end(), [](const Element& e) { return e.name == "tristrips"; });
+      return fail(0, strips ? "triangle strips are not read; save the mesh with single faces" : "the file has no faces");
+    }
+    if (!has(*face, Role::corners)) { return fail(0, "expected the element face to have the property list vertex_indices"); }
+    vertices_ = vertex->count;
+    return true;
+  }
+
+  // --- values, the same way from text and binary files
+  void take(const Element& element, Place place) {
+    if (element.name == "vertex") {
+      if (!std::isfinite(position_.x) || !std::isfinite(position_.y) || !std::isfinite(position_.z)) {
+        out_.error(place, "a coordinate is not a finite number");
+      }
+      out_.mesh.builder.vertex(position_);
+      if (text_) { out_.mesh.vertex_line.push_back(place.line); }
+    } else if (element.name == "face") {
+      out_.mesh.builder.face(corners_, 0);
+      if (text_) { out_.mesh.face_line.push_back(place.line); }
+    }
+    corners_.clear();
+  }
+  void set_coordinate(Property::Role role, double value) {
+    if (role >= Property::Role::x && role <= Property::Role::z) {
+      position_[static_cast<int>(role) - static_cast<int>(Property::Role::x)] = value;
+    }
+  }
+  [[nodiscard]] std::string vertex_range() const {
+    return vertices_ == 0 ? std::string("; there are no vertices") : ", a number from 0 to " + std::to_string(vertices_ - 1);
+  }
+  static std::string which(const Element& element, std::uint64_t i) {
+    return element.name + " " + std::to_string(i + 1) + " of " + std::to_string(element.count);
+  }
+
+  bool text_element(const Element& element, std::uint64_t i) {
+    if (!lines_.next()) { return fail(0, "the file ends before " + which(element, i) + " that the header promises"); }
+    std::size_t at = 0;
+    for (const Property& property : element.properties) {
+      std::uint64_t values = 1;
+      if (property.is_list) {
+        const auto count = to_integer(word(at));
+        if (!count || *count < 0) { return fail(at, "expected the length of a list, " + found(at)); }
+        values = static_cast<std::uint64_t>(*count);
+        ++at;
+      }
+      for (; values > 0; --values, ++at) {
+        if (at >= lines_.words().size()) { return fail(at, "the line of " + which(element, i) + " has too few values"); }
+        if (property.role == Property::Role::corners) {
+          const auto index = to_integer(word(at));
+          if (!index || *index < 0 || static_cast<std::uint64_t>(*index) >= vertices_) {
+            return fail(at, "expected a vertex" + vertex_range() + ", " + found(at));
+          }
+          corners_.push_back(static_cast<std::uint32_t>(*index));
+        } else if (property.role != Property::Role::other) {
+          const auto value = to_number(word(at));
+          if (!value) { return fail(at, "expected a coordinate, a finite number, " + found(at)); }
+          set_coordinate(property.role, *value);
+        }
+      }
+    }
+    if (at < lines_.words().size()) { return fail(at, "the line of " + which(element, i) + " has too many values"); }
+    take(element, lines_.place(0));
+    return true;
+  }
+
+  bool binary_element(const Element& element, std::uint64_t i) {
+    const Place place{0, static_cast<std::uint32_t>(at_ + 1)};
+    const auto ends = [&] {
+      out_.error(place, "the file ends within " + which(element, i) + " that the header promises");
+      return false;
+    };
+    for (const Property& property : element.properties) {
+      std::uint64_t values = 1;
+      if (property.is_list) {
+        if (bytes_.size() - at_ < size_of(property.count)) { return ends(); }
+        const double count = value(property.count);
+        if (count < 0) {
+          out_.error(place, "a list in " + which(element, i) + " has a negative length");
+          return false;
+        }
+        values = static_cast<std::uint64_t>(count);
+      }
+      if ((bytes_.size() - at_) / size_of(property.type) < values) { return ends(); }
+      if (property.role == Property::Role::other) {
+        at_ += values * size_of(property.type);
+      } else if (property.role != Property::Role::corners) {
+        set_coordinate(property.role, value(property.type));
+      } else {
+        for (; values > 0; --values) {
+          const double index = value(property.type);
+          if (index < 0 || index >= static_cast<double>(vertices_)) {
+            out_.error(place, which(element, i) + " has the corner " + std::to_string(static_cast<std::int64_t>(index)) +
+                                  "; expected a vertex" + vertex_range());
+            return false;
+          }
+          corners_.push_back(static_cast<std::uint32_t>(index));
+        }
+      }
+    }
+    take(element, place);
+    return true;
+  }
+
+  // The next value; the caller has looked whether it is there. Every type fits into a double.
+  double value(Type type) {
+    std::uint64_t bits = 0;
+    const std::size_t size = size_of(type);
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto byte = std::uint64_t{static_cast<unsigned char>(bytes_[at_ + i])};
+      bits |= byte << 8 * (big_ ? size - 1 - i : i);
+    }
+    at_ += size;
+    switch (type) {
+      case Type::int8:
+        return static_cast<std::int8_t>(bits);
+      case Type::int16:
+        return static_cast<std::int16_t>(bits);
+      case Type::int32:
+        return static_cast<std::int32_t>(bits);
+      case Type::float32:
+        return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+      case Type::float64:
+        return std::bit_cast<double>(bits);
+      default:
+        return static_cast<double>(bits);
+    }
+  }
+
+  std::string_view bytes_;
+  Lines lines_;
+  Output& out_;
+  bool text_ = true, big_ = false;
+  std::vector<Element> elements_;
+  std::uint64_t vertices_ = 0;
+  std::size_t at_ = 0;  // in a binary file
+  glm::dvec3 position_{0.0};
+  std::vector<std::uint32_t> corners_;
+};
+
+}  // namespace
+
+void read_ply(std::string_view bytes, Output& out) { PlyReader(bytes, out).run(); }
+
+}  // namespace apps::mesh_file

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "apps/mesh_file/reading.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace apps::mesh_file {
+namespace {
+
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+
+template <class T>
+std::optional<T> parse(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') { word.remove_prefix(1); }
+  T value{};
+  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (code != std::errc() || end != word.data() + word.size()) { return std::nullopt; }
+  return value;
+}
+
+}  // namespace
+
+void Output::error(Place place, std::string sentence) {
+  if (errors_.size() < max_errors) {
+    errors_.push_back({place, std::move(sentence)});
+  } else {
+    more_ = true;
+  }
+}
+
+MeshResult Output::take() {
+  if (errors_.empty()) { return {std::move(mesh), {}, false}; }
+  std::stable_sort(errors_.begin(), errors_.end(), [](const MeshError& a, const MeshError& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
+  return {std::nullopt, std::move(errors_), more_};
+}
+
+Lines::Lines(std::string_view text, bool comments, bool continued) : text_(text), comments_(comments), continued_(continued) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (text_.substr(0, 3) == byte_order_mark) { at_ = 3; }
+}
+
+bool Lines::next() {
+  words_.clear();
+  while (words_.empty() && at_ < text_.size()) {
+    starts_.clear();
+    first_line_ = line_ + 1;
+    for (bool more = true; more && at_ < text_.size();) {
+      const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
+      std::string_view line = text_.substr(at_, end - at_);
+      starts_.push_back({++line_, line.data()});
+      at_ = end + (text_.substr(end, 2) == "\r\n" ? 2 : end < text_.size() ? 1 : 0);
+      const std::size_t comment = comments_ ? line.find('#') : std::string_view::npos;
+      more = continued_ && comment == std::string_view::npos && !line.empty() && line.back() == '\\';
+      line = line.substr(0, comment);
+      if (more) { line.remove_suffix(1); }
+      cut(line);
+    }
+  }
+  return !words_.empty();
+}
+
+void Lines::cut(std::string_view line) {
+  end_ = line.data() + line.size();
+  for (std::size_t i = 0; i < line.size();) {
+    if (is_blank(line[i])) {
+      ++i;
+      continue;
+    }
+    const std::size_t begin = i;
+    while (i < line.size() && !is_blank(line[i])) { ++i; }
+    words_.push_back(line.substr(begin, i - begin));
+  }
+}
+
+Place Lines::place(std::size_t word) const {
+  if (starts_.empty()) { return {}; }  // an empty text
+  const char* const at = word < words_.size() ? words_[word].data() : end_;
+  auto start = starts_.begin();
+  while (start + 1 != starts_.end() && (start + 1)->at <= at) { ++start; }
+  // A byte that continues a character in UTF-8 is no column of its own.
+  const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; };
+  return {start->line, static_cast<std::uint32_t>(1 + std::count_if(start->at, at, begins))};
+}
+
+std::optional<double> to_number(std::string_view word) {
+  const auto value = parse<double>(word);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<std::int64_t> to_integer(std::string_view word) { return parse<std::int64_t>(word); }
+
+std::string shown(std::string_view word) {
+  constexpr std::size_t longest = 40;
+  std::string text(word.substr(0, longest));
+  for (char& c : text) {
+    if (c < 0x20 || c > 0x7e) { c = '?'; }
+  }
+  return "'" + text + (word.size() > longest ? "...'" : "'");
+}
+
+std::optional<glm::dvec3> read_position(const Lines& lines, std::size_t first, Output& out) {
+  glm::dvec3 position{0.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t word = first + i;
+    if (word >= lines.words().size()) {
+      out.error(lines.place(lines.words().size()), "expected a coordinate, found the end of the line; a vertex has three");
+      return std::nullopt;
+    }
+    const auto value = to_number(lines.words()[word]);
+    if (!value) {
+      out.error(lines.place(word), "expected a coordinate, a finite number, found " + shown(lines.words()[word]));
+      return std::nullopt;
+    }
+    position[static_cast<int>(i)] = *value;
+  }
+  return position;
+}
+
+}  // namespace apps::mesh_file

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the mesh readers share: lines of words with their places, numbers, and the list of errors.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/mesh_file.hpp"
+
+namespace apps::mesh_file {
+
+// The errors of one file and the mesh that is read. Never holds more than max_errors; then full() is true and reading stops.
+class Output {
+ public:
+  Mesh mesh;
+
+  void error(Place place, std::string sentence);
+  [[nodiscard]] bool full() const { return more_; }
+  [[nodiscard]] bool good() const { return errors_.empty(); }
+  [[nodiscard]] MeshResult take();
+
+ private:
+  std::vector<MeshError> errors_;
+  bool more_ = false;
+};
+
+// Text line by line; lines end with LF, CR LF or CR. Words are separated by blanks.
+class Lines {
+ public:
+  // `comments`: a '#' and what follows it are passed over. `continued`: a backslash at its end joins a line to the next.
+  Lines(std::string_view text, bool comments, bool continued = false);
+
+  // Goes to the next line that has words; false at the end.
+  bool next();
+  [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
+  [[nodiscard]] std::uint32_t line() const { return first_line_; }
+  [[nodiscard]] Place place(std::size_t word) const;          // of a word; of the line's end for the number of words
+  [[nodiscard]] std::size_t consumed() const { return at_; }  // bytes up to the end of the present line
+
+ private:
+  void cut(std::string_view line);
+
+  struct Start {
+    std::uint32_t line;
+    const char* at;
+  };
+  std::string_view text_;
+  bool comments_, continued_;
+  std::size_t at_ = 0;
+  std::uint32_t line_ = 0, first_line_ = 0;
+  std::vector<Start> starts_;  // of the joined lines
+  std::vector<std::string_view> words_;
+  const char* end_ = nullptr;  // of the present line
+};
+
+// A finite number or an integer that is the whole word; a plus sign is allowed.
+[[nodiscard]] std::optional<double> to_number(std::string_view word);
+[[nodiscard]] std::optional<std::int64_t> to_integer(std::string_view word);
+
+// The word in quotes for a message: at most 40 characters, what is not printable as '?'.
+[[nodiscard]] std::string shown(std::string_view word);
+
+// The first three words from `first` on are a position; errors say what is wrong. Nothing when there is an error.
+[[nodiscard]] std::optional<glm::dvec3> read_position(const Lines& lines, std::size_t first, Output& out);
+
+void read_obj(std::string_view bytes, Output& out);
+void read_ply(std::string_view bytes, Output& out);
+void read_off(std::string_view bytes, Output& out);
+
+}  // namespace apps::mesh_file

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The picture of the true objects: rays through the same sample points as those of the mesh picture (picture.hpp), each shaded with the
+// solved radiosity at the point that it meets (radiosity/lookup.hpp). Silhouettes are those of the objects at any zoom; on plane
+// surfaces it is the mesh picture. Exposure, clamping and averaging are the same, too.
+//
+// Every pixel is computed on its own, so the picture does not depend on the number of threads.
+
+#include <optional>
+
+#include <radiosity/lookup.hpp>
+#include <radiosity/options.hpp>
+
+#include "apps/picture.hpp"
+#include "apps/view.hpp"
+
+namespace apps {
+
+// Where there is no object the picture is black. Reports the stage "picture". Nothing when control.cancel became true.
+[[nodiscard]] std::optional<Picture> draw(const radiosity::Lookup& lookup, const View& view, double exposure, unsigned threads = 0,
+                                          unsigned samples = 4, const radiosity::Control& control = {});
+
+}  // namespace apps

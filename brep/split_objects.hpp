@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Split objects: where is this face cut? (paper 2.2: "split objects encapsulate the geometric decision where faces should be split")
+//
+// A split object is any function object Cut(const BRep&, FaceId). It changes nothing, it answers: the two ends of the cut, or
+// a default Cut when it finds no place. An end is a corner of the face, or a point inside an edge, where split_recursively
+// then inserts a vertex. Further ones: AtTVertex (t_vertices.hpp), AlongPlane (split_plane.hpp), lambdas.
+//
+//   first_of(AtTVertex{}, NiceSplit{})    asks one after the other until one finds a place
+
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include <brep/circulators.hpp>
+#include <brep/geometry.hpp>
+#include <brep/outline.hpp>
+#include <brep/small_list.hpp>
+
+namespace brep {
+
+// The cut runs from vertex(a) to vertex(b); with on_a > 0 from the point at that fraction of a, 0 < on_a < 1; so for b.
+struct Cut {
+  HalfedgeId a{}, b{};
+  double on_a = 0.0, on_b = 0.0;
+};
+
+namespace detail {
+
+template <class B>
+[[nodiscard]] SmallList<HalfedgeId> loop_of(const B& brep, FaceId f) {
+  SmallList<HalfedgeId> loop;
+  for (HalfedgeId h : halfedges_of(brep, f)) loop.push_back(h);
+  return loop;
+}
+
+template <class... Splits>
+struct FirstOf {
+  std::tuple<Splits...> splits;
+  template <class B>
+  Cut operator()(const B& brep, FaceId f) const {
+    Cut cut;
+    std::apply([&](const auto&... each) { (void)((cut = each(brep, f), cut.a.valid()) || ...); }, splits);
+    return cut;
+  }
+};
+
+}  // namespace detail
+
+// The answer of the first of the split objects that finds a place.
+template <class... Splits>
+[[nodiscard]] auto first_of(Splits&&... splits) {
+  return detail::FirstOf<std::decay_t<Splits>...>{{std::forward<Splits>(splits)...}};
+}
+
+// The best proportioned inner diagonal from the corner that turns right the most; no place in a face without such corners.
+struct AtNonConvexCorner {
+  template <class B>
+  Cut operator()(const B& brep, FaceId f) const {
+    const Outline outline{Polygon(positions(brep, f))};
+    std::size_t corner = 0;
+    for (std::size_t i = 1; i < outline.size(); ++i) {
+      if (outline.turn(i) < outline.turn(corner)) corner = i;
+    }
+    if (!(outline.turn(corner) < 0.0)) return {};
+    const auto diagonal = outline.best_diagonal(corner);
+    if (!diagonal) return {};
+    const auto loop = detail::loop_of(brep, f);
+    return {loop[diagonal->first], loop[diagonal->second]};
+  }
+};
+
+// The best proportioned of all inner diagonals. Every planar simple face of four and more corners has one.
+struct NiceSplit {
+  template <class B>
+  Cut operator()(const B& brep, FaceId f) const {
+    const auto diagonal = Outline{Polygon(positions(brep, f))}.best_diagonal();
+    if (!diagonal) return {};
+    const auto loop = detail::loop_of(brep, f);
+    return {loop[diagonal->first], loop[diagonal->second]};
+  }
+};
+
+// For faces so warped that no inner diagonal is found: cuts off three consecutive corners such that the smaller part has the largest signed
+// area. Finds a place in every face of four and more edges.
+struct AtBestEar {
+  template <class B>
+  Cut operator()(const B& brep, FaceId f) const {
+    const auto loop = detail::loop_of(brep, f);
+    if (loop.size() < 4) return {};
+    const auto points = positions(brep, f);
+    const glm::dvec3 n = normal(points);
+    const double whole = area(points);
+    Cut best{loop[0], loop[2]};
+    double best_area = -HUGE_VAL;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::size_t j = (i + 1) % loop.size(), k = (i + 2) % loop.size();
+      const double ear = 0.5 * glm::dot(glm::cross(points[j] - points[i], points[k] - points[i]), n);
+      const double smaller = std::fmin(ear, whole - ear);
+      if (smaller <= best_area) continue;
+      best_area = smaller;
+      best = {loop[i], loop[k]};
+    }
+    return best;
+  }
+};
+
+}  // namespace brep

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Transport tree by tree: the light that one input face receives from all others, or sends to them, without the rest of M.
+// A tree is an input face with all the nodes below it. Gauss-Seidel gathers into one tree after the other, Southwell shoots
+// from the one with the most unshot power; the sum over all trees of either is one application of Transport.
+
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include <radiosity/transport.hpp>
+
+namespace radiosity {
+
+class TreeTransport {
+ public:
+  // The reference must outlive the operator.
+  explicit TreeTransport(const Transport& transport) : transport_{&transport} {
+    const Hierarchy& hierarchy = transport.hierarchy();
+    const Links& links = transport.links();
+    tree_.resize(hierarchy.size());
+    std::uint32_t trees = 0;
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) { tree_[i] = hierarchy[i].parent == no_node ? trees++ : tree_[hierarchy[i].parent]; }
+    nodes_ = Groups(trees, hierarchy.size(), [&](auto&& add) {
+      for (std::uint32_t i = 0; i < hierarchy.size(); ++i) { add(tree_[i], i); }
+    });
+    links_ = Groups(trees, 2 * links.size(), [&](auto&& add) {
+      for (std::uint32_t i = 0; i < links.size(); ++i) {
+        add(tree_[links[i].p], i);
+        if (tree_[links[i].q] != tree_[links[i].p]) { add(tree_[links[i].q], i); }
+      }
+    });
+    sent_.resize(hierarchy.size());
+    arrived_.resize(hierarchy.size());
+  }
+
+  [[nodiscard]] std::uint32_t trees() const { return static_cast<std::uint32_t>(nodes_.size()); }
+  // The nodes of a tree, parents before children.
+  [[nodiscard]] std::span<const std::uint32_t> nodes(std::uint32_t tree) const { return nodes_[tree]; }
+
+  // From now on the tree sends what its leaves radiate by x.
+  void send(std::uint32_t tree, const std::vector<double>& x) {
+    const auto all = nodes_[tree];
+    for (std::size_t k = all.size(); k-- > 0;) { transport_->pull(all[k], x, sent_); }
+  }
+  // Writes into y what arrives at the leaves of the tree from what all trees send.
+  void gather(std::uint32_t tree, std::vector<double>& y) {
+    for (const std::uint32_t l : links_[tree]) {
+      const Link& link = transport_->links()[l];
+      if (tree_[link.p] == tree) { Transport::carry(link, sent_[link.q], arrived_[link.p], link.slope_q.vector(), link.slope_p.vector()); }
+      if (tree_[link.q] == tree) { Transport::carry(link, sent_[link.p], arrived_[link.q], link.slope_p.vector(), link.slope_q.vector()); }
+    }
+    collect(tree, y);
+  }
+  // Writes into y what arrives at all leaves from what this tree sends.
+  void shoot(std::uint32_t tree, std::vector<double>& y) {
+    for (const std::uint32_t l : links_[tree]) {
+      const Link& link = transport_->links()[l];
+      if (tree_[link.p] == tree) { Transport::carry(link, sent_[link.p], arrived_[link.q], link.slope_p.vector(), link.slope_q.vector()); }
+      if (tree_[link.q] == tree) { Transport::carry(link, sent_[link.q], arrived_[link.p], link.slope_q.vector(), link.slope_p.vector()); }
+    }
+    for (std::uint32_t t = 0; t < trees(); ++t) { collect(t, y); }
+  }
+
+ private:
+  // Numbers in groups: all numbers one group after the other, and where each group begins.
+  class Groups {
+   public:
+    Groups() = default;
+    template <class Each>
+    Groups(std::uint32_t groups, std::size_t numbers, Each&& each) : first_(groups + 1, 0) {
+      each([&](std::uint32_t group, std::uint32_t) { ++first_[group + 1]; });
+      std::partial_sum(first_.begin(), first_.end(), first_.begin());
+      std::vector<std::uint64_t> next(first_.begin(), first_.end() - 1);
+      numbers_.reserve(numbers);
+      numbers_.resize(first_.back());
+      each([&](std::uint32_t group, std::uint32_t number) { numbers_[next[group]++] = number; });
+    }
+    [[nodiscard]] std::size_t size() const { return first_.size() - 1; }
+    [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t group) const {
+      return std::span(numbers_).subspan(first_[group], first_[group + 1] - first_[group]);
+    }
+
+   private:
+    std::vector<std::uint64_t> first_{0};
+    std::vector<std::uint32_t> numbers_;
+  };
+
+  // Pushes what has arrived at the nodes of a tree into y and leaves nothing behind.
+  void collect(std::uint32_t tree, std::vector<double>& y) {
+    for (const std::uint32_t i : nodes_[tree]) { y[i] = 0.0; }
+    for (const std::uint32_t i : nodes_[tree]) {
+      transport_->push(i, arrived_, y);
+      arrived_[i] = {};
+    }
+  }
+
+  const Transport* transport_;
+  std::vector<std::uint32_t> tree_;                 // of each node
+  Groups nodes_, links_;                            // of each tree
+  std::vector<Transport::Moments> sent_, arrived_;  // arrived_ is empty between two calls
+};
+
+}  // namespace radiosity

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// An object placed in the coordinates of another one: any number of instances, at any depth, share one object. (The objects of a scene
+// share theirs without it: a PlacedObject is an object and a placement.) Everything is asked of the shared object in its own coordinates;
+// project is then the nearest point up to the map's condition number, see transform.hpp.
+
+#include "../transform.hpp"
+
+#include <utility>
+
+namespace raycast {
+
+class Instance final : public Object {
+ public:
+  // Refused: no object; a placement that `check` refuses; one that turns the object inside out, which is for the outermost placement.
+  static Made<Instance> make(std::shared_ptr<const Object> object, const Placement& placement) {
+    if (!object) return "an instance needs an object";
+    if (placement.inside) return "an instance cannot be turned inside out: turn what is made of it";
+    if (std::optional<std::string> fault = check(placement)) return std::move(*fault);
+    return std::shared_ptr<const Instance>(new Instance(PlacedObject(std::move(object), placement)));
+  }
+
+  [[nodiscard]] Box bounds() const override { return placed_.bounds(); }
+  void spans(const Segment& line, Spans& out) const override { placed_.spans(line, out); }
+  void approximate(double tolerance, brep::Builder& out) const override { placed_.approximate(tolerance, out); }
+  [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override { return placed_.project(sheet, p); }
+
+  [[nodiscard]] bool convex() const override { return placed_.convex(); }
+  [[nodiscard]] bool flat() const override { return placed_.flat(); }
+  [[nodiscard]] bool exact() const override { return placed_.exact(); }
+  [[nodiscard]] bool solid() const override { return placed_.solid(); }
+  [[nodiscard]] std::uint32_t sheet_count() const override { return placed_.sheet_count(); }
+  [[nodiscard]] std::string_view sheet_name(std::uint32_t sheet) const override { return placed_.sheet_name(sheet); }
+  [[nodiscard]] double slack() const override { return placed_.slack(); }
+  [[nodiscard]] std::span<const glm::dvec3> outline() const override { return outline_; }
+
+ private:
+  explicit Instance(PlacedObject placed) : placed_(std::move(placed)), outline_(placed_.outline()) {}
+
+  PlacedObject placed_;
+  std::vector<glm::dvec3> outline_;
+};
+
+}  // namespace raycast

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Zeros of a function on an interval, for surfaces without a formula for theirs.
+//
+//   bracketed_root   one zero between two points of different sign: Newton's step where it stays inside and converges, else halving
+//   sign_changes     all of them, for a function that is the sum of a convex and a concave one
+//
+// The second needs no bound from outside: the slope of a convex function grows and that of a concave one falls, so over [a, b]
+//      convex'(a) + concave'(b)  <=  f'  <=  convex'(b) + concave'(a).
+// An interval on which f' keeps its sign has one sign change or none; one on which f cannot reach 0 by these slopes has none; any other
+// one is divided. Near a touching point the division ends when what is left lies within `negligible` of 0.
+
+#include "spans.hpp"
+
+#include <cmath>
+
+namespace raycast {
+
+struct Sample {
+  double value, slope;
+};
+
+// f(s) -> Sample, with different signs at a < b: it rises through 0 or falls. The zero to 2 u of the larger |end|, or to where the value
+// is 0. `s` is the first guess.
+template <class F>
+[[nodiscard]] double bracketed_root(F&& f, double a, double b, bool rising, double s) {
+  double last = b - a;
+  for (int i = 0; i < 200; ++i) {
+    const Sample at = f(s);
+    if (at.value == 0.0) return s;
+    ((at.value < 0.0) == rising ? a : b) = s;
+    double next = s - at.value / at.slope;
+    if (!(next > a && next < b && std::abs(next - s) <= 0.5 * last)) next = a + 0.5 * (b - a);
+    last = std::abs(next - s);
+    if (last <= 2 * unit_roundoff * std::max(std::abs(a), std::abs(b)) || next <= a || next >= b) return next;
+    s = next;
+  }
+  return s;
+}
+
+// A value with the slopes of its convex and of its concave part; slopes may be infinite where the parts have vertical tangents.
+struct SplitSample {
+  double value, convex, concave;
+};
+
+// Calls found(lo, hi, rising) for every sign change of f on [a, b], from left to right; f is monotone on [lo, hi] (or that is as short as
+// 4 u of the larger |end|). f(s) -> SplitSample; a value of 0 counts as positive. Two sign changes between which |f| stays below
+// `negligible` may be left out. Typically 5 to 15 values.
+template <class F, class Found>
+void sign_changes(F&& f, double a, double b, double negligible, Found&& found) {
+  struct Part {
+    double a, b;
+    SplitSample at_a, at_b;
+  };
+  const double shortest = 4 * unit_roundoff * std::max(std::abs(a), std::abs(b));
+  InlineVector<Part, 64> stack;
+  stack.push({a, b, f(a), f(b)});
+  while (!stack.empty()) {
+    const Part p = stack.back();
+    stack.pop();
+    const double width = p.b - p.a, fa = p.at_a.value, fb = p.at_b.value;
+    const bool rises = fa < 0.0 && !(fb < 0.0), falls = !(fa < 0.0) && fb < 0.0;
+    const double least = p.at_a.convex + p.at_b.concave, most = p.at_b.convex + p.at_a.concave;
+    if (rises || falls) {
+      if (least >= 0.0 || most <= 0.0 || width <= shortest) {
+        found(p.a, p.b, rises);
+        continue;
+      }
+    } else if (least >= 0.0 || most <= 0.0 || width <= shortest) {
+      continue;
+    }
+    double middle = p.a + 0.5 * width;
+    if (!rises && !falls) {
+      // How near to 0 the slopes let f come between the ends: g = |f| begins at ga with a slope of at least -down, ends at gb.
+      const double ga = std::abs(fa), gb = std::abs(fb), down = fa < 0.0 ? most : -least, up = fa < 0.0 ? -least : most;
+      const double finite_down = down < infinity ? ga - down * width : -infinity, finite_up = up < infinity ? gb - up * width : -infinity;
+      double lowest = std::max(finite_down, finite_up);
+      if (down < infinity && up < infinity) {
+        const double meet = (ga - gb + up * width) / (down + up);  // where the two lines do
+        if (meet > 0.0 && meet < width) {
+          lowest = ga - down * meet;
+          middle = p.a + std::clamp(meet, 0.1 * width, 0.9 * width);
+        }
+      }
+      if (lowest > -negligible) continue;
+    }
+    const SplitSample at = f(middle);
+    stack.push({middle, p.b, at, p.at_b});
+    stack.push({p.a, middle, p.at_a, at});
+  }
+}
+
+}  // namespace raycast

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// halflight euler as its user meets it: exit codes, streams, files.
+#include "catch.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <sys/wait.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// A folder of the test's own; the program runs in it.
+struct Folder {
+  fs::path path;
+  std::string out, err;
+
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "halflight-euler-XXXXXX").string();
+    REQUIRE(::mkdtemp(name.data()) != nullptr);
+    path = name;
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path / name) << text; }
+  int run(const std::string& arguments) {
+    const std::string command = "cd '" + path.string() + "' && '" HALFLIGHT_PROGRAM "' euler " + arguments + " >stdout.log 2>stderr.log";
+    const int status = std::system(command.c_str());
+    out = content(path / "stdout.log");
+    err = content(path / "stderr.log");
+    fs::remove(path / "stdout.log");
+    fs::remove(path / "stderr.log");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("euler draws every lesson as strip and page, exit code 0") {
+  Folder folder;
+  std::size_t lessons = 0;
+  for (const auto& entry : fs::directory_iterator(HALFLIGHT_LESSONS)) {
+    if (entry.path().extension() != ".euler") { continue; }
+    ++lessons;
+    CHECK(folder.run("'" + entry.path().string() + "' -o a.svg -o a.html") == 0);
+    INFO(entry.path().filename().string() << "\n" << folder.err);
+    CHECK(folder.err.empty());
+    CHECK(folder.out.find("written: a.svg\nwritten: a.html\n") != std::string::npos);
+    CHECK(content(folder.path / "a.svg").find("</svg>") != std::string::npos);
+    CHECK(content(folder.path / "a.html").find("</html>") != std::string::npos);
+  }
+  CHECK(lessons >= 7);
+}
+
+TEST_CASE("euler: errors in a script are exit code 3 with file, line and column") {
+  Folder folder;
+  folder.write("words.euler", "make_segment\nsplit_fase h0 h1\n");
+  CHECK(folder.run("words.euler -o a.svg") == 3);
+  CHECK(folder.err.find("words.euler:2:1: error: found 'split_fase'") == 0);
+  CHECK_FALSE(fs::exists(folder.path / "a.svg"));
+  folder.write("refusal.euler", "h0 = make_segment\njoin_faces h0\nexpect v 3\n");
+  CHECK(folder.run("refusal.euler -o a.svg") == 3);
+  CHECK(folder.err.find("refusal.euler:2:1: error: join_faces: both sides of h0 are the face f0") == 0);
+  CHECK(folder.err.find("\nrefusal.euler:3:1: error: v is 2, not 3") != std::string::npos);
+  CHECK(content(folder.path / "a.svg").find("refused: join_faces") != std::string::npos);  // the picture shows where it went wrong
+  CHECK(folder.run("none.euler") == 3);
+}
+
+TEST_CASE("euler: wrong usage is exit code 2, a target that cannot be written 1") {
+  Folder folder;
+  folder.write("a.euler", "make_segment\n");
+  CHECK(folder.run("") == 2);
+  CHECK(folder.run("a.euler -o a.png") == 2);
+  CHECK(folder.run("a.euler -o a.svg -o a.svg") == 2);
+  CHECK(folder.run("a.euler --interactive") == 2);
+  CHECK(folder.run("a.euler -o none/a.svg") == 1);
+  CHECK(folder.run("a.euler") == 0);
+}
+
+TEST_CASE("euler --interactive answers every line and saves what was done as a script") {
+  Folder folder;
+  folder.write(
+      "input",
+      "help\n# a comment\n\ntop = make_segment\nsplit_face top twin(top)\ncut top\nfoo\nsplit_edge h0\nundo\nexpect e 2\nexpect e 3\nshow\n"
+      "save saved.euler\nsave\nquit\nmake_segment\n");
+  CHECK(folder.run("--interactive -o now.svg -o all.html < input") == 0);
+  INFO(folder.out);
+  for (const char* part :
+       {"operators ", "top = make_segment   (h0)\nv 2   e 1   f 1   s 1   h 0", "split_face top twin(top)   -> h2\n",
+        "refused: cut: the sides of h0 are different faces", "column 1: found 'foo'", "as expected\n", "e is 2, not 3\n",
+        "half-edge   next  prev  vertex  face\nh0 ", "anchors of vertices: v0-h0 v1-h1\n", "written: saved.euler\n", "save FILE: "}) {
+    INFO(part);
+    CHECK(folder.out.find(part) != std::string::npos);
+  }
+  CHECK(content(folder.path / "saved.euler") == "h0 = make_segment\nh2 = split_face h0 h1\n");
+  CHECK(content(folder.path / "now.svg").find("</svg>") != std::string::npos);
+  CHECK(content(folder.path / "all.html").find("</html>") != std::string::npos);
+  CHECK(folder.run("saved.euler") == 0);
+}
