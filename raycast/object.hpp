@@ -33,6 +33,8 @@ struct SurfacePoint {
   glm::dvec3 normal{0.0};  // unit length, out of the solid = into the air
 };
 
+class Compiler;
+
 class Object {
  public:
   Object() = default;
@@ -66,6 +68,12 @@ class Object {
   // The largest distance between a vertex that approximate() emits and the surface that spans() answers for, beyond rounding: a polygon
   // may be non-planar by 1e-6 of its diameter. Points of such a sheet are known no better than this.
   [[nodiscard]] virtual double slack() const { return 0.0; }
+
+  // An object that consists of shapes which the fast lanes know tells them (compile.hpp). Whatever says nothing is asked through spans().
+  virtual void compile(Compiler&) const {}
+
+  // Of objects that compile to faces: where the line crosses the face, which it is known to do. Bit for bit what spans() says.
+  [[nodiscard]] virtual double crossing(const Segment&, std::uint32_t) const { return 0.0; }
 
   // A single planar polygon returns its corners, counter-clockwise seen from the air, and a scene keeps it in array form.
   // Everything else returns nothing.

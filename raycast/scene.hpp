@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// All objects of a scene, compiled for rays: polygons as arrays in world coordinates, everything else behind its bounds.
+// All objects of a scene, compiled for rays (compiled.hpp), and the law of occlusion in double precision.
 //
 // The ends of a visibility segment lie on surfaces, up to rounding, or on chord patches inside convex ones (paper 4.3). Instead of an
 // epsilon along the ray, spans decide (notes/raycaster.md R3):
@@ -18,8 +18,12 @@
 // the two surfaces are known to be non-planar by, and, between two objects, 1e-9 of the smaller one's diameter: so closely a lamp
 // must fit the ceiling to count as lying on it. The same skin decides in covered(), so what is coincident there is so here too.
 //
+// This law, object by object, is blocks(). The fast searches answer from single precision where its error bound allows, and ask
+// blocks() elsewhere: their answers are those of asking blocks() about every object, bit for bit, for any instruction set.
+//
 // All queries are const, thread-safe, and use no heap (a line that crosses a mesh more than eight times excepted).
 
+#include "compile.hpp"
 #include "planar.hpp"
 #include "transform.hpp"
 #include "traverse.hpp"
@@ -32,6 +36,9 @@ namespace raycast {
 
 inline constexpr std::uint32_t no_object = 0xffffffff;
 
+class OccluderList;
+struct PatchShape;
+
 struct Hit {
   double t;
   std::uint32_t object, sheet;
@@ -40,7 +47,8 @@ struct Hit {
 
 class Scene {
  public:
-  explicit Scene(std::vector<PlacedObject> objects);
+  // Every instruction set gives the same answers; one that the machine does not have must not be named.
+  explicit Scene(std::vector<PlacedObject> objects, Isa isa = best_isa());
 
   [[nodiscard]] const PlacedObject& object(std::uint32_t i) const { return objects_[i]; }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(objects_.size()); }
@@ -48,12 +56,32 @@ class Scene {
   [[nodiscard]] double diameter() const { return bounds_.diameter(); }
   [[nodiscard]] std::size_t bytes() const {  // of the compiled scene, without the objects themselves
     return objects_.capacity() * sizeof(PlacedObject) + records_.capacity() * sizeof(Record) + corners_.capacity() * sizeof(glm::dvec3) +
-           (rooms_.capacity() + bounded_.capacity()) * sizeof(std::uint32_t) + bvh_.bytes();
+           compiled_.bytes();
   }
 
   // Does anything stand between the two ends, t in (0, 1)? The owners are the objects on which the ends lie. Symmetric: exchanging ends
   // and owners gives the same answer (up to the rounding of grazing rays). A segment of no length is never occluded.
   [[nodiscard]] bool occluded(const Segment& segment, std::uint32_t source_owner = no_object, std::uint32_t target_owner = no_object) const;
+
+  // The lanes whose segment is occluded: bit for bit the answers of occluded() for each. `hint` remembers what blocked last, a shape
+  // that is looked at first: keep one per pair of patches, or per patch.
+  [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, std::uint32_t& hint) const;
+  [[nodiscard]] std::uint32_t occluded16(const Segments16& segments) const {
+    std::uint32_t hint = no_shape;
+    return occluded16(segments, hint);
+  }
+
+  // What may occlude segments between two patches (shaft.hpp), from the whole scene or from the list of a pair of their ancestors.
+  [[nodiscard]] OccluderList occluders(const PatchShape& a, const PatchShape& b) const;
+  [[nodiscard]] OccluderList filter(const OccluderList& parent, const PatchShape& a, const PatchShape& b) const;
+  // As above, for segments between the patches of the list: the same answers.
+  [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const OccluderList& list, std::uint32_t& hint) const;
+
+  // The law for one object: what occluded() is defined by. In double precision, without any search.
+  [[nodiscard]] bool occluded_by(std::uint32_t object, const Segment& segment, std::uint32_t source_owner = no_object,
+                                 std::uint32_t target_owner = no_object) const {
+    return has_line(segment) && blocks(Line(segment), end_at(source_owner), end_at(target_owner), object);
+  }
 
   // The first surface met at t > 0, without upper limit: where a span of any object begins. Of surfaces that coincide the one that
   // covers is met: the later object when they face the same way, the front when they stand back to back.
@@ -86,6 +114,16 @@ class Scene {
     double limit = infinity;
   };
 
+  struct Exact;
+  struct Asker;
+  [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const std::uint32_t* list, std::uint32_t count, bool rooms_clear,
+                                         std::uint32_t& hint) const;
+  [[nodiscard]] OccluderList list_of(const OccluderList* parent, const PatchShape& a, const PatchShape& b) const;
+  [[nodiscard]] bool within(std::uint32_t object, std::span<const glm::dvec3> points) const;
+  [[nodiscard]] bool rooms_clear(const PatchShape& a, const PatchShape& b) const;
+  [[nodiscard]] std::uint32_t blocked_by_rooms(const Segments16& segments, const Rays16& rays, std::uint32_t near,
+                                               std::uint32_t lanes) const;
+
   [[nodiscard]] End end_at(std::uint32_t owner) const {
     if (owner == no_object) return {owner, 0.0, rounding_};
     return {owner, records_[owner].touch, rounding_ + records_[owner].slack};
@@ -108,26 +146,27 @@ class Scene {
   [[nodiscard]] bool blocks_by_spans(const Line& line, const End& a, const End& b, std::uint32_t i) const;
   [[nodiscard]] bool within_owner(const Segment& s, const End& end, bool source, const Span& span, std::uint32_t i) const;
   void approach(const Line& line, const End& a, std::uint32_t i, Nearest& nearest) const;
+  void approach_bounded(const Line& line, const End& a, Nearest& nearest) const;
   void offer(const Line& line, const Hit& hit, Nearest& nearest) const;
 
   std::vector<PlacedObject> objects_;
   std::vector<Record> records_;
   std::vector<glm::dvec3> corners_;
-  std::vector<std::uint32_t> rooms_, bounded_;  // objects turned inside out have no bounds; the others are found by a loop or the tree
-  Bvh bvh_;                                     // of bounded_; empty when they are few
+  Compiled compiled_;
+  Isa isa_;
   Box bounds_;
   double rounding_ = 0.0, slack_ = 0.0;  // slack_: the largest of all objects
 };
 
-inline Scene::Scene(std::vector<PlacedObject> objects) : objects_(std::move(objects)) {
-  // Up to here a loop over all is as fast as the tree. (17 polygons of the Cornell box: 5.4 against 5.8 million segments a second,
-  // tests/raycast/speed_test.cpp.)
-  constexpr std::size_t loop_limit = 8;
-  for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-    const PlacedObject& object = objects_[i];
+inline Scene::Scene(std::vector<PlacedObject> objects, Isa isa) : objects_(std::move(objects)), isa_(isa) {
+  // Up to here a loop over all is as fast as the tree. (tests/bench/rays)
+  constexpr std::size_t loop_limit = 64;
+  double touch = 0.0;
+  records_.reserve(objects_.size());
+  for (const PlacedObject& object : objects_) {
     Record record;
-    const std::vector<glm::dvec3> outline = object.outline();
-    if (!outline.empty()) {
+    if (!object.object().outline().empty()) {
+      const std::vector<glm::dvec3> outline = object.outline();
       const Plane plane = plane_of(outline);
       record.normal = plane.normal;
       record.point = plane.point;
@@ -138,31 +177,17 @@ inline Scene::Scene(std::vector<PlacedObject> objects) : objects_(std::move(obje
     record.touch = 1e-9 * object.bounds().diameter();
     record.slack = object.slack();
     slack_ = std::max(slack_, record.slack);
+    touch = std::max(touch, record.touch);
     records_.push_back(record);
     bounds_.extend(object.bounds());
-    (object.inside() ? rooms_ : bounded_).push_back(i);
   }
   rounding_ = 64 * unit_roundoff * bounds_.magnitude();
-  if (bounded_.size() > loop_limit) {
-    std::vector<Box> boxes;
-    for (const std::uint32_t i : bounded_) boxes.push_back(objects_[i].bounds().grown(rounding_ + records_[i].slack));
-    bvh_ = Bvh(boxes, 2.0);
+  Compiler compiler(compiled_, bounds_, rounding_ + 2 * slack_ + touch);
+  for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+    const Record& r = records_[i];
+    compiler.add(i, objects_[i], std::span<const glm::dvec3>(corners_).subspan(r.first_corner, r.corner_count), r.normal);
   }
-}
-
-inline bool Scene::occluded(const Segment& segment, std::uint32_t source_owner, std::uint32_t target_owner) const {
-  if (!has_line(segment)) return false;
-  const Line line(segment);
-  const End a = end_at(source_owner), b = end_at(target_owner);
-  if (!bvh_.empty()) {
-    if (any(bvh_, line.slabs, 0.0, 1.0, [&](std::uint32_t k) { return blocks(line, a, b, bounded_[k]); })) return true;
-  } else {
-    for (const std::uint32_t i : bounded_)
-      if (blocks(line, a, b, i)) return true;
-  }
-  for (const std::uint32_t i : rooms_)
-    if (blocks(line, a, b, i)) return true;
-  return false;
+  compiler.finish(loop_limit);
 }
 
 inline bool Scene::blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const {
@@ -231,12 +256,8 @@ inline std::optional<Hit> Scene::closest(const Segment& ray, std::uint32_t sourc
   const Line line(ray);
   const End a = end_at(source_owner);
   Nearest nearest;
-  for (const std::uint32_t i : rooms_) approach(line, a, i, nearest);
-  if (!bvh_.empty()) {
-    raycast::closest(bvh_, line.slabs, 0.0, nearest.limit, [&](std::uint32_t k) { approach(line, a, bounded_[k], nearest); });
-  } else {
-    for (const std::uint32_t i : bounded_) approach(line, a, i, nearest);
-  }
+  for (const std::uint32_t i : compiled_.rooms) approach(line, a, i, nearest);
+  approach_bounded(line, a, nearest);
   if (nearest.hit.object == no_object) return std::nullopt;
   return nearest.hit;
 }
@@ -307,13 +328,11 @@ inline bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32
     }
     return false;
   };
-  for (const std::uint32_t i : rooms_)
-    if (covers(i)) return true;
-  if (!bvh_.empty()) {
-    const double near = end.base + slack_ + end.touch;  // at least every skin
-    return any(bvh_, line.slabs, -near, near, [&](std::uint32_t k) { return covers(bounded_[k]); });
-  }
-  return std::any_of(bounded_.begin(), bounded_.end(), covers);
+  const double near = end.base + slack_ + end.touch;  // at least every skin
+  return std::any_of(compiled_.rooms.begin(), compiled_.rooms.end(), covers) || objects_along(compiled_, out_of_p, -near, near, covers);
 }
 
 }  // namespace raycast
+
+#include "bundle.hpp"
+#include "shaft.hpp"

@@ -98,9 +98,11 @@ class PlacedObject {
   [[nodiscard]] double slack() const { return stretch_ * object_->slack(); }
 
   void spans(const Segment& line, Spans& out) const {
-    object_->spans(identity_ ? line : Segment{inverse_ * (line.origin - placement_.translation), inverse_ * line.direction}, out);
+    object_->spans(to_object(line), out);
     if (placement_.inside) out.complement();
   }
+
+  [[nodiscard]] double crossing(const Segment& line, std::uint32_t sheet) const { return object_->crossing(to_object(line), sheet); }
 
   // The corners of a single planar polygon in the world, counter-clockwise seen from the air; empty for everything else.
   [[nodiscard]] std::vector<glm::dvec3> outline() const {
@@ -139,6 +141,9 @@ class PlacedObject {
 
  private:
   [[nodiscard]] glm::dvec3 to_world(const glm::dvec3& p) const { return identity_ ? p : placement_.linear * p + placement_.translation; }
+  [[nodiscard]] Segment to_object(const Segment& line) const {
+    return identity_ ? line : Segment{inverse_ * (line.origin - placement_.translation), inverse_ * line.direction};
+  }
   [[nodiscard]] bool mirrored() const { return !identity_ && glm::determinant(placement_.linear) < 0.0; }
 
   // The box around the image of a box, widened by the rounding of the map (8 u of the magnitudes that are added).

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Walks through a Bvh along a line. What lies in the leaves is the caller's business: it is a lambda.
-// Neither walk misses a box that the line meets (box.hpp), and neither touches the heap.
+// Walks in double precision along a line, through a Bvh or a compiled scene. What lies in the leaves is the caller's business: it is a
+// lambda. No walk misses a box that the line meets (box.hpp), and none touches the heap.
 
 #include "bvh.hpp"
+#include "kernels.hpp"
 
 namespace raycast {
 
@@ -30,34 +31,52 @@ template <class Visit>
   return false;
 }
 
-// Calls visit(item) for the items whose leaf the line meets within [t0, limit], nearer leaves first. visit may lower `limit`.
+// The objects of a compiled scene whose bounds the line may meet within [t0, limit], nearer ones first as far as it is cheap to know:
+// visit(object) -> bool, until one returns true. visit may lower `limit`. Rooms are not among them, and an object of many shapes is
+// visited once for its guard.
 template <class Visit>
-void closest(const Bvh& bvh, const SlabTest& slabs, double t0, const double& limit, Visit&& visit) {
-  if (bvh.empty()) return;
+bool objects_along(const Compiled& scene, const Segment& line, double t0, const double& limit, Visit&& visit) {
+  const auto leaf = [&](std::uint32_t at) {
+    const Kind kind = leaf_kind(at);
+    for (std::uint32_t j = 0; j < leaf_count(at); ++j) {
+      const std::uint32_t object = scene.object_of(shape_id(kind, leaf_first(at) + j));
+      const bool by_guard = (kind == Kind::triangle || kind == Kind::quad) && scene.roles[object] != Role::polygon;
+      if (!by_guard && visit(object)) return true;
+    }
+    return false;
+  };
+  if (scene.nodes.empty()) {
+    for (const std::uint32_t at : scene.leaves)
+      if (leaf(at)) return true;
+    return false;
+  }
   struct Entry {
-    std::uint32_t node;
+    std::uint32_t child;
     double t;
   };
-  const Bvh::Node* const nodes = bvh.nodes().data();
-  std::array<Entry, Bvh::depth_limit + 2> stack;
+  const SlabTest slabs(Segment{scene.local(line.origin), line.direction * scene.scale});
+  Entry stack[stack_size];
   std::size_t top = 0;
-  double left = 0.0, right = 0.0;
-  if (slabs(nodes[0].box, t0, limit, left)) stack[top++] = {0, left};
+  stack[top++] = {0, t0};
   while (top > 0) {
     const Entry at = stack[--top];
     if (at.t > limit) continue;
-    const Bvh::Node& node = nodes[at.node];
-    if (node.count > 0) {
-      for (const std::uint32_t item : bvh.items(node)) visit(item);
+    if (is_leaf(at.child)) {
+      if (leaf(at.child)) return true;
       continue;
     }
-    const bool meets_left = slabs(nodes[node.first].box, t0, limit, left);
-    const bool meets_right = slabs(nodes[node.first + 1].box, t0, limit, right);
-    const bool left_first = left <= right;
-    if (meets_right && left_first) stack[top++] = {node.first + 1, right};
-    if (meets_left) stack[top++] = {node.first, left};
-    if (meets_right && !left_first) stack[top++] = {node.first + 1, right};
+    const Node& node = scene.nodes[at.child];
+    const std::size_t first = top;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Box box{{node.bound[0][i], node.bound[1][i], node.bound[2][i]}, {node.bound[3][i], node.bound[4][i], node.bound[5][i]}};
+      Entry entry{node.child[i], 0.0};
+      if (box.empty() || !slabs(box, t0, limit, entry.t)) continue;
+      std::size_t place = top++;
+      for (; place > first && stack[place - 1].t < entry.t; --place) stack[place] = stack[place - 1];
+      stack[place] = entry;
+    }
   }
+  return false;
 }
 
 }  // namespace raycast

@@ -6,6 +6,7 @@
 // Intersection by slabs: each crossing is one rounded difference divided once, so t is exact to 2u relative, and a line that leaves the
 // box from a point of one of its faces has its exit within 2u of that point or behind it.
 
+#include "../compile.hpp"
 #include "../object.hpp"
 
 namespace raycast {
@@ -37,6 +38,15 @@ class BoxObject final : public Object {
     if (!clip(2, box_.lo.y, box_.hi.y, line.origin.y, line.direction.y, span)) return;
     if (!clip(4, box_.lo.z, box_.hi.z, line.origin.z, line.direction.z, span)) return;
     out.push(span);  // drops an empty span
+  }
+
+  void compile(Compiler& compiler) const override {
+    Plane planes[6];
+    for (std::uint32_t sheet = 0; sheet < 6; ++sheet) {
+      const SurfacePoint at = project(sheet, box_.centre());
+      planes[sheet] = {at.position, at.normal};
+    }
+    compiler.body(planes);
   }
 
   void approximate(double, brep::Builder& out) const override {

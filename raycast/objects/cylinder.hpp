@@ -9,6 +9,7 @@
 // parallel: over the height it strays by 16 u of the height, which is within rounding of the coordinates.
 
 #include "../circle.hpp"
+#include "../compile.hpp"
 
 #include <vector>
 
@@ -69,6 +70,8 @@ class Cylinder final : public Object {
     }
     out.push(span);  // drops an empty span
   }
+
+  void compile(Compiler& compiler) const override { compiler.cylinder(base_, height_ * frame_.w, radius_); }
 
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override {
     const glm::dvec3 f = p - base_;

@@ -12,6 +12,7 @@
 #include <brep/circulators.hpp>
 
 #include "../bvh.hpp"
+#include "../compile.hpp"
 #include "../planar.hpp"
 #include "../traverse.hpp"
 
@@ -67,14 +68,14 @@ class Mesh final : public Object {
 
   void spans(const Segment& line, Spans& out) const override {
     // Seen from the middle of the mesh, rounding is relative to its size and not to the distance of the ray's origin.
-    const double shift = nearest_parameter(line, box_.centre());
-    const Segment near{line.at(shift), line.direction};
+    double shift = 0.0;
+    const Segment near = nearer(line, shift);
     const RayFrame frame(near);
     InlineVector<Crossing, 16> in, leave;
     const auto visit = [&](std::uint32_t f) {
       const std::span<const std::uint32_t> face = corners(f);
       const int w = frame.winding(face.size(), [&](std::size_t i) -> const glm::dvec3& { return positions_[face[i]]; });
-      if (w != 0) (w < 0 ? in : leave).push(Crossing{shift + crossing(near, f), f});
+      if (w != 0) (w < 0 ? in : leave).push(Crossing{shift + crossing_near(near, f), f});
       return false;
     };
     if (bvh_.empty()) {
@@ -93,6 +94,34 @@ class Mesh final : public Object {
       else if (i < leave.size())
         out.push(Span{in[i], leave[i]});
     }
+  }
+
+  void compile(Compiler& compiler) const override {
+    if (convex_ && slack_ == 0.0) {
+      std::vector<Plane> distinct;  // the triangles of one flat side have one plane
+      for (const Plane& plane : planes_) {
+        const auto same = [&](const Plane& other) {
+          return glm::dot(plane.normal, other.normal) > 1.0 - 2e-15 &&
+                 std::abs(glm::dot(plane.normal, plane.point - other.point)) < 1e-9 * box_.diameter();
+        };
+        if (std::none_of(distinct.begin(), distinct.end(), same)) distinct.push_back(plane);
+        if (distinct.size() > 32) break;
+      }
+      if (distinct.size() <= 32) return compiler.body(distinct);
+    }
+    if (!compiler.takes_faces(planes_.size())) return;
+    std::vector<glm::dvec3> polygon;
+    for (std::uint32_t f = 0; f < planes_.size(); ++f) {
+      polygon.clear();
+      for (const std::uint32_t v : corners(f)) polygon.push_back(positions_[v]);
+      compiler.face(f, polygon);
+    }
+  }
+
+  [[nodiscard]] double crossing(const Segment& line, std::uint32_t sheet) const override {
+    double shift = 0.0;
+    const Segment near = nearer(line, shift);
+    return shift + crossing_near(near, sheet);
   }
 
   // The mesh itself, whatever the tolerance; each border loop is closed by one face of brep::no_sheet.
@@ -119,9 +148,13 @@ class Mesh final : public Object {
   [[nodiscard]] std::span<const std::uint32_t> corners(std::uint32_t f) const {
     return std::span<const std::uint32_t>(corners_).subspan(first_corner_[f], first_corner_[f + 1] - first_corner_[f]);
   }
+  [[nodiscard]] Segment nearer(const Segment& line, double& shift) const {
+    shift = nearest_parameter(line, box_.centre());
+    return {line.at(shift), line.direction};
+  }
   // Where the line meets the plane of face f; kept within the face's own extent along the line, because the quotient is unbounded when
   // the face is seen edge-on.
-  [[nodiscard]] double crossing(const Segment& line, std::uint32_t f) const {
+  [[nodiscard]] double crossing_near(const Segment& line, std::uint32_t f) const {
     const double dd = glm::dot(line.direction, line.direction);
     double lowest = infinity, highest = -infinity;
     for (const std::uint32_t v : corners(f)) {

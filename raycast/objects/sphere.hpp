@@ -10,6 +10,7 @@
 // Approximation: a cube of n x n quadrilaterals per side blown up to the sphere, its grid lines at equal angles. Eight corners where
 // three quadrilaterals meet, no poles, no slivers.
 
+#include "../compile.hpp"
 #include "../object.hpp"
 
 #include <glm/geometric.hpp>
@@ -45,6 +46,8 @@ class Sphere final : public Object {
     const double half = std::sqrt((radius_ - l) * (radius_ + l) / dd);
     out.push(Span{{k - half, 0}, {k + half, 0}});
   }
+
+  void compile(Compiler& compiler) const override { compiler.ball(centre_, radius_); }
 
   [[nodiscard]] SurfacePoint project(std::uint32_t, const glm::dvec3& p) const override {
     const glm::dvec3 f = p - centre_;

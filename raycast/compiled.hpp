@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the fast lanes see of a scene: shapes in single precision, arrays by kind, and a tree whose nodes have eight children.
+//
+// Coordinates are moved to the middle of the scene and scaled by a power of two, so that the scene lies in [-1,1]^3; nothing below
+// depends on the size or the place of the scene. Segments may leave it a little (to |x| <= 1.5; what is longer is clipped, bundle.hpp).
+//
+// The error bound. A coordinate is rounded by 2^-24, a direction by 2^-23; a height above a plane of unit normal adds 2^-24 (sqrt(3) 2.6)
+// for the plane's own rounding and at most 4 roundings of terms below 2.6 sqrt(3): less than 20 * 2^-24. The same holds for a distance from
+// a centre or an axis. `margin` = 2^-19 = 32 * 2^-24 plus the skins of scene.hpp: what lies farther than this from the limit of a decision
+// is decided as the double-precision reference decides it; what lies nearer is not decided here but there.
+//
+// Boxes of nodes are grown by the margin and rounded outwards; so a node is never missed for a shape that could be met.
+
+#include "lanes.hpp"
+#include "planar.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace raycast {
+
+// The kinds of shapes. faces: convex polygons of three or four corners; body: a convex solid behind planes; guard: the bounds of an object
+// that is kept as faces; other: bounds of an object that is asked through its spans.
+enum class Kind : std::uint32_t { triangle, quad, ball, body, cylinder, guard, other };
+
+// A shape's name: its kind and its index among its kind.
+[[nodiscard]] constexpr std::uint32_t shape_id(Kind kind, std::uint32_t index) { return static_cast<std::uint32_t>(kind) << 29 | index; }
+[[nodiscard]] constexpr Kind kind_of(std::uint32_t shape) { return static_cast<Kind>(shape >> 29); }
+[[nodiscard]] constexpr std::uint32_t index_of(std::uint32_t shape) { return shape & 0x1fffffffu; }
+inline constexpr std::uint32_t no_shape = 0xffffffff;
+
+// Eight faces side by side. Row 0 is the plane: height above the front; rows 1.. are the edges: distance into the polygon.
+template <int Edges>
+struct alignas(64) FaceBlock {
+  float row[Edges + 1][4][8];
+  std::uint32_t object[8], face[8];  // of an unused place: no_object, and heights of 1 everywhere, which nothing crosses
+};
+struct alignas(64) BallBlock {
+  float centre[3][8], radius[8];
+  std::uint32_t object[8];
+};
+struct Body {
+  std::uint32_t first, count, object;  // planes: heights outside
+};
+struct Tube {  // a cylinder
+  float base[3], axis[3], height, radius;
+  std::uint32_t object;
+};
+
+struct alignas(64) Node {
+  float bound[6][8];       // lo x y z, hi x y z of the eight children; an unused one has lo = inf, hi = -inf
+  std::uint32_t child[8];  // a node, or a leaf: bit 31, kind, count - 1 (3 bits), index of the first shape (25 bits) among its kind
+};
+[[nodiscard]] constexpr std::uint32_t leaf_of(Kind kind, std::uint32_t count, std::uint32_t first) {
+  return 0x80000000u | static_cast<std::uint32_t>(kind) << 28 | (count - 1) << 25 | first;
+}
+[[nodiscard]] constexpr bool is_leaf(std::uint32_t child) { return child >> 31; }
+[[nodiscard]] constexpr Kind leaf_kind(std::uint32_t child) { return static_cast<Kind>(child >> 28 & 7u); }
+[[nodiscard]] constexpr std::uint32_t leaf_count(std::uint32_t child) { return (child >> 25 & 7u) + 1; }
+[[nodiscard]] constexpr std::uint32_t leaf_first(std::uint32_t child) { return child & 0x1ffffffu; }
+
+// How a face of an object blocks: a polygon never blocks its owner; of an open surface every crossing counts; of a solid's surface the
+// crossings pair to spans.
+enum class Role : std::uint8_t { polygon, surface, solid };
+
+struct FloatBox {
+  std::array<float, 3> lo{1e30f, 1e30f, 1e30f}, hi{-1e30f, -1e30f, -1e30f};
+  void extend(const FloatBox& b) {
+    for (std::size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], b.lo[k]), hi[k] = std::max(hi[k], b.hi[k]);
+  }
+  [[nodiscard]] float half_area() const {
+    const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
+    return x < 0.0f ? 0.0f : x * y + y * z + z * x;
+  }
+};
+
+struct Compiled {
+  glm::dvec3 centre{0.0};
+  double scale = 1.0;
+  float margin = 0x1p-19f;
+  std::vector<Node> nodes;  // the first is the root; empty when there are few shapes
+  std::vector<FaceBlock<3>> triangles;
+  std::vector<FaceBlock<4>> quads;
+  std::vector<BallBlock> balls;
+  std::vector<Body> bodies;
+  std::vector<std::array<float, 4>> planes;
+  std::vector<Tube> tubes;
+  std::vector<std::uint32_t> guards, others;  // objects
+  std::vector<std::uint32_t> leaves;          // all leaves: a scene of few shapes is a loop over them
+  std::vector<Role> roles;                    // by object
+  std::vector<FloatBox> bounds;               // by object, grown by the margin; everything for a room
+  std::vector<std::uint32_t> rooms;           // objects turned inside out
+  std::vector<std::uint32_t> room_bodies;     // by room: its convex body, or no_shape
+  std::uint32_t shape_count = 0;
+
+  [[nodiscard]] glm::dvec3 local(const glm::dvec3& p) const { return (p - centre) * scale; }
+  [[nodiscard]] std::uint32_t object_of(std::uint32_t shape) const {
+    const std::uint32_t i = index_of(shape);
+    switch (kind_of(shape)) {
+      case Kind::triangle:
+        return triangles[i / 8].object[i % 8];
+      case Kind::quad:
+        return quads[i / 8].object[i % 8];
+      case Kind::ball:
+        return balls[i / 8].object[i % 8];
+      case Kind::body:
+        return bodies[i].object;
+      case Kind::cylinder:
+        return tubes[i].object;
+      case Kind::guard:
+        return guards[i];
+      default:
+        return others[i];
+    }
+  }
+  [[nodiscard]] std::size_t bytes() const {
+    return nodes.capacity() * sizeof(Node) + triangles.capacity() * sizeof(FaceBlock<3>) + quads.capacity() * sizeof(FaceBlock<4>) +
+           balls.capacity() * sizeof(BallBlock) + bodies.capacity() * sizeof(Body) + planes.capacity() * 16 +
+           tubes.capacity() * sizeof(Tube) +
+           (guards.capacity() + others.capacity() + leaves.capacity() + rooms.capacity() + room_bodies.capacity()) * sizeof(std::uint32_t) +
+           roles.capacity() + bounds.capacity() * sizeof(FloatBox);
+  }
+};
+
+// May a span of the object lie within the solid that owns an end of a segment? Not when their bounds are apart.
+[[nodiscard]] inline bool may_contain(const Compiled& scene, std::uint32_t owner, std::uint32_t object) {
+  if (owner == 0xffffffffu || owner == object || scene.roles[owner] != Role::solid) return false;
+  const FloatBox &a = scene.bounds[owner], &b = scene.bounds[object];
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a.hi[k] < b.lo[k] || b.hi[k] < a.lo[k]) return false;
+  return true;
+}
+
+}  // namespace raycast

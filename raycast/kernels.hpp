@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The searches over compiled.hpp, for every instruction set (lanes.hpp), and what they are asked with: sixteen segments in arrays.
+//
+// Every test has three answers: blocked for certain, free for certain, or too near to the limit to say. The third is collected by object
+// and asked of the double-precision reference once no certain blocker was found: so the answer of a search is that of the reference,
+// whatever the order and the instruction set.
+
+#include "compiled.hpp"
+
+#include <bit>
+
+namespace raycast {
+
+// Sixteen segments in the world, as the caller fills them in. Lanes that are not set take no part.
+struct alignas(64) Segments16 {
+  double ox[16] = {}, oy[16] = {}, oz[16] = {}, dx[16] = {}, dy[16] = {}, dz[16] = {};
+  std::uint32_t source[16] = {}, target[16] = {};  // owners of the ends
+  std::uint32_t lanes = 0;                         // one bit per lane that is set
+
+  void set(unsigned lane, const Segment& s, std::uint32_t source_owner, std::uint32_t target_owner) {
+    ox[lane] = s.origin.x, oy[lane] = s.origin.y, oz[lane] = s.origin.z;
+    dx[lane] = s.direction.x, dy[lane] = s.direction.y, dz[lane] = s.direction.z;
+    source[lane] = source_owner, target[lane] = target_owner;
+    lanes |= 1u << lane;
+  }
+  [[nodiscard]] Segment at(unsigned lane) const { return {{ox[lane], oy[lane], oz[lane]}, {dx[lane], dy[lane], dz[lane]}}; }
+};
+
+// Sixteen segments in the coordinates of a compiled scene: o the origins, t the targets, d = t - o, i = 1 / d, k = -o i.
+struct alignas(64) Rays16 {
+  float ox[16], oy[16], oz[16], tx[16], ty[16], tz[16], dx[16], dy[16], dz[16], ix[16], iy[16], iz[16], kx[16], ky[16], kz[16];
+  float length[16];                      // of d, from above
+  float per_square[16];                  // 1 / d.d
+  std::uint32_t source[16], target[16];  // owners
+  std::uint32_t back[3];                 // by axis: the lanes with i < 0
+  bool uniform;                          // all lanes have the owners of lane 0
+};
+
+// The convex hull of a bundle from outside: its bounds, and in each coordinate plane the two lines that run beside its outline
+// (Haines, Wallace 1991). A plane is pu x_u + pk x_k <= limit; `row` are the rows of Node::bound where its left side is least.
+struct Hull {
+  float lo[3], hi[3];
+  struct Side {
+    float pu, pk, limit, norm;
+    std::uint8_t u, k, row_u, row_k;
+  };
+  Side sides[6];
+  unsigned count = 0;
+  float centre[2][3], half[2][3];  // the bounds of the origins, and of the targets
+};
+
+// Where the segments between two patches may run: as segments between their corners, each with each, and the hull of these. Both are
+// wider by `bulge` all around.
+struct Corners16 {
+  Rays16 rays;
+  Hull hull;
+  float bulge = 0.0f;
+  float smallest = 0.0f;         // what is smaller than this hides no section: such proofs are not tried
+  std::uint32_t source, target;  // owners
+};
+enum class Relevance : std::uint8_t { none, some, blocks_all };
+
+// Where a ray enters solids kept as faces, as far as single precision knows.
+struct Entries {
+  static constexpr unsigned capacity = 8;
+  struct Entry {
+    float from, to;  // bounds of the parameter
+    std::uint32_t object, face;
+    bool sure;
+  };
+  Entry entry[capacity];
+  unsigned count = 0;
+  bool complete = true;  // false: there were more
+
+  void add(const Entry& e) {
+    if (e.sure) {  // what certainly comes later does not matter
+      unsigned kept = 0;
+      for (unsigned i = 0; i < count; ++i)
+        if (entry[i].from <= e.to) entry[kept++] = entry[i];
+      count = kept;
+    }
+    if (count == capacity)
+      complete = false;
+    else
+      entry[count++] = e;
+  }
+};
+
+inline constexpr unsigned stack_size = 640;  // 7 entries a level, and no tree is deeper than 80 (tree.hpp)
+
+// Which lanes are undecided about which object.
+struct Pending {
+  static constexpr unsigned capacity = 24;
+  std::uint32_t object[capacity], lanes[capacity];
+  unsigned count = 0;
+};
+
+}  // namespace raycast
+
+#define HALFLIGHT_ISA portable
+#define HALFLIGHT_LANES 4
+#define HALFLIGHT_TARGET
+#include "kernels/all.inc"
+#undef HALFLIGHT_ISA
+#undef HALFLIGHT_LANES
+#undef HALFLIGHT_TARGET
+#undef HALFLIGHT_OP
+
+#ifdef HALFLIGHT_X86
+#define HALFLIGHT_ISA avx2
+#define HALFLIGHT_LANES 8
+#define HALFLIGHT_TARGET __attribute__((target("avx2,fma,bmi,popcnt")))
+#include "kernels/all.inc"
+#undef HALFLIGHT_ISA
+#undef HALFLIGHT_LANES
+#undef HALFLIGHT_TARGET
+#undef HALFLIGHT_OP
+
+#define HALFLIGHT_ISA avx512
+#define HALFLIGHT_LANES 16
+#define HALFLIGHT_TARGET __attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,popcnt")))
+#include "kernels/all.inc"
+#undef HALFLIGHT_ISA
+#undef HALFLIGHT_LANES
+#undef HALFLIGHT_TARGET
+#undef HALFLIGHT_OP
+#endif

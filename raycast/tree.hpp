@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Builds the tree of compiled.hpp: a binary hierarchy by the surface area heuristic over binned centres (Wald 2007), which is then merged
+// into nodes of up to eight children by the cheapest of all mergers. A leaf holds up to eight shapes of one kind, which are tested side
+// by side: one costs as much as eight.
+
+#include "compiled.hpp"
+#include "kernels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace raycast {
+
+struct Item {  // a shape before it has its place
+  FloatBox box;
+  Kind kind;
+  std::uint32_t object, data;
+};
+
+// Emit(kind, items) -> index of the first among its kind, called once for every leaf, in the order of the tree.
+template <class Emit>
+class TreeBuilder {
+ public:
+  TreeBuilder(std::vector<Item>& items, Emit emit) : items_(items), emit_(std::move(emit)) {}
+
+  // The leaves alone, each with its items, for scenes that need no tree.
+  void leaves(std::vector<std::uint32_t>& out) {
+    std::stable_sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.kind < b.kind; });
+    for (std::size_t i = 0; i < items_.size();) {
+      std::size_t end = i + 1;
+      while (end < items_.size() && end < i + 8 && items_[end].kind == items_[i].kind) ++end;
+      out.push_back(leaf({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(end - i)}));
+      i = end;
+    }
+  }
+
+  void build(std::vector<Node>& out) {
+    references_.resize(items_.size());
+    for (std::uint32_t i = 0; i < items_.size(); ++i) {
+      const FloatBox& b = items_[i].box;
+      references_[i] = {Box4{V{b.lo[0], b.lo[1], b.lo[2], 0.0f}, V{b.hi[0], b.hi[1], b.hi[2], 0.0f}}, i};
+    }
+    binary_.reserve(items_.size());
+    binary_.push_back({bounds(0, references_.size()), 0, static_cast<std::uint32_t>(items_.size()), 0});
+    std::vector<std::uint32_t> todo{0};
+    while (!todo.empty()) {
+      const std::uint32_t at = todo.back();
+      todo.pop_back();
+      if (!split(at)) continue;
+      todo.push_back(binary_[at].first);
+      todo.push_back(binary_[at].first + 1);
+    }
+    std::vector<Item> sorted;
+    sorted.reserve(items_.size());
+    for (const Reference& r : references_) sorted.push_back(items_[r.item]);
+    items_.swap(sorted);
+    collapse(out);
+  }
+
+ private:
+  using V = portable::F;
+  struct Box4 {
+    V lo = V{} + 1e30f, hi = V{} - 1e30f;
+    void extend(const Box4& b) { lo = portable::min(lo, b.lo), hi = portable::max(hi, b.hi); }
+    [[nodiscard]] float half_area() const {
+      const V s = hi - lo;
+      return s[0] < 0.0f ? 0.0f : s[0] * s[1] + s[1] * s[2] + s[2] * s[0];
+    }
+  };
+  struct Reference {
+    Box4 box;
+    std::uint32_t item;
+  };
+  struct Binary {
+    Box4 box;
+    std::uint32_t first, count;  // count 0: children first and first + 1
+    std::uint32_t depth;
+  };
+  struct Range {
+    std::uint32_t first, count;
+  };
+  static constexpr std::uint32_t bin_count = 16, largest_leaf = 8, deepest = 48;
+
+  [[nodiscard]] Box4 bounds(std::size_t first, std::size_t count) const {
+    Box4 box;
+    for (std::size_t i = first; i < first + count; ++i) box.extend(references_[i].box);
+    return box;
+  }
+  [[nodiscard]] Kind kind(std::size_t i) const { return items_[references_[i].item].kind; }
+
+  bool split(std::uint32_t at) {
+    const Binary node = binary_[at];
+    const auto begin = references_.begin() + node.first, end = begin + node.count;
+    if (node.count <= largest_leaf) {
+      const Kind first_kind = kind(node.first);
+      const auto middle = std::partition(begin, end, [&](const Reference& r) { return items_[r.item].kind == first_kind; });
+      if (middle == end) return false;
+      children(at, static_cast<std::uint32_t>(middle - begin));
+      return true;
+    }
+    Box4 centres;  // of doubled centres
+    for (auto i = begin; i != end; ++i) {
+      const V c = i->box.lo + i->box.hi;
+      centres.extend({c, c});
+    }
+    std::uint32_t best_axis = 3, best_bin = 0;
+    float best = 1e30f;
+    const V width = centres.hi - centres.lo;
+    V scale{};
+    for (int k = 0; k < 3; ++k) scale[k] = width[k] > 0.0f ? 0.999f * static_cast<float>(bin_count) / width[k] : 0.0f;
+    if (node.depth < deepest) {
+      struct Bin {
+        Box4 box;
+        std::uint32_t count = 0;
+      };
+      std::array<std::array<Bin, bin_count>, 3> bins;
+      for (auto i = begin; i != end; ++i) {
+        const V at_bin = (i->box.lo + i->box.hi - centres.lo) * scale;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+          Bin& bin = bins[k][bin_of(at_bin[static_cast<int>(k)])];
+          bin.box.extend(i->box);
+          ++bin.count;
+        }
+      }
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (!(scale[static_cast<int>(k)] > 0.0f)) continue;
+        std::array<float, bin_count> above{};
+        Bin sum;
+        for (std::uint32_t b = bin_count; b-- > 1;) {
+          sum.box.extend(bins[k][b].box);
+          sum.count += bins[k][b].count;
+          above[b] = sum.box.half_area() * cost(sum.count);
+        }
+        sum = Bin{};
+        for (std::uint32_t b = 1; b < bin_count; ++b) {
+          sum.box.extend(bins[k][b - 1].box);
+          sum.count += bins[k][b - 1].count;
+          const float all = sum.box.half_area() * cost(sum.count) + above[b];
+          if (sum.count && sum.count < node.count && all < best) best = all, best_axis = k, best_bin = b;
+        }
+      }
+    }
+    auto middle = begin + node.count / 2;  // equal centres, or too deep: halves
+    if (best_axis < 3) {
+      const auto k = static_cast<int>(best_axis);
+      const float lo = centres.lo[k], factor = scale[k];
+      middle = std::partition(begin, end, [&](const Reference& r) { return bin_of((r.box.lo[k] + r.box.hi[k] - lo) * factor) < best_bin; });
+    }
+    children(at, static_cast<std::uint32_t>(middle - begin));
+    return true;
+  }
+  static std::uint32_t bin_of(float x) {
+    return std::min(static_cast<std::uint32_t>(std::max(static_cast<std::int32_t>(x), 0)), bin_count - 1);
+  }
+  static float cost(std::uint32_t n) { return static_cast<float>((n + 7) / 8); }
+
+  void children(std::uint32_t at, std::uint32_t left_count) {
+    const Binary node = binary_[at];
+    Binary left{bounds(node.first, left_count), node.first, left_count, node.depth + 1};
+    Binary right{bounds(node.first + left_count, node.count - left_count), node.first + left_count, node.count - left_count,
+                 node.depth + 1};
+    binary_[at].first = static_cast<std::uint32_t>(binary_.size());
+    binary_[at].count = 0;
+    binary_.push_back(left);
+    binary_.push_back(right);
+  }
+
+  // least[i][k]: the least expected cost of the subtree of binary node i when it becomes k + 1 children, or fewer, of one wide node; it
+  // k = 0 is a node of its own. left[i][k]: how many of them come from its left child; 0: k are as good.
+  struct Merger {
+    std::array<float, 8> least;
+    std::array<std::uint8_t, 8> left;
+    std::uint8_t left7 = 0;  // of eight children, as a node of its own
+  };
+  void merge(std::vector<Merger>& mergers) const {
+    mergers.resize(binary_.size());
+    for (std::size_t i = binary_.size(); i-- > 0;) {  // children come after their parents
+      const Binary& node = binary_[i];
+      Merger& m = mergers[i];
+      m.left.fill(0);
+      if (node.count > 0) {
+        m.least.fill(node.box.half_area() * leaf_cost);
+        continue;
+      }
+      const Merger &l = mergers[node.first], &r = mergers[node.first + 1];
+      for (std::uint32_t k = 1; k < 8; ++k) {
+        m.least[k] = 1e30f;
+        for (std::uint32_t j = 0; j < k; ++j)
+          if (const float sum = l.least[j] + r.least[k - 1 - j]; sum < m.least[k])
+            m.least[k] = sum, m.left[k] = static_cast<std::uint8_t>(j + 1);
+      }
+      m.left7 = m.left[7];
+      m.least[0] = node.box.half_area() + m.least[7];
+      for (std::uint32_t k = 1; k < 8; ++k)
+        if (m.least[k - 1] < m.least[k]) m.least[k] = m.least[k - 1], m.left[k] = 0;
+    }
+  }
+  static constexpr float leaf_cost = 1.5f;  // of a block of shapes, in tests of eight boxes
+
+  void gather(const std::vector<Merger>& mergers, std::uint32_t at, std::uint32_t k, std::array<std::uint32_t, 8>& child,
+              std::size_t& count) const {
+    while (k > 0 && mergers[at].left[k] == 0) --k;
+    if (k == 0 || binary_[at].count > 0) {
+      child[count++] = at;
+      return;
+    }
+    const std::uint32_t left = mergers[at].left[k];
+    gather(mergers, binary_[at].first, left - 1, child, count);
+    gather(mergers, binary_[at].first + 1, k - left, child, count);
+  }
+
+  void collapse(std::vector<Node>& out) {
+    struct Open {
+      std::uint32_t binary, parent, slot;
+    };
+    std::vector<Merger> mergers;
+    merge(mergers);
+    std::vector<Open> todo{{0, no_shape, 0}};
+    while (!todo.empty()) {
+      const Open open = todo.back();
+      todo.pop_back();
+      const auto index = static_cast<std::uint32_t>(out.size());
+      if (open.parent != no_shape) out[open.parent].child[open.slot] = index;
+      std::array<std::uint32_t, 8> child{open.binary};
+      std::size_t count = 0;
+      if (binary_[open.binary].count > 0) {
+        count = 1;  // a tree of one leaf
+      } else {
+        const std::uint32_t left = mergers[open.binary].left7;
+        gather(mergers, binary_[open.binary].first, left - 1, child, count);
+        gather(mergers, binary_[open.binary].first + 1, 7 - left, child, count);
+      }
+      // Largest first: any-hit searches look there first.
+      for (std::size_t i = 1; i < count; ++i)
+        for (std::size_t j = i; j > 0 && binary_[child[j - 1]].box.half_area() < binary_[child[j]].box.half_area(); --j)
+          std::swap(child[j - 1], child[j]);
+      Node node;
+      for (std::size_t i = 0; i < 8; ++i) {
+        for (int k = 0; k < 3; ++k) {
+          node.bound[k][i] = i < count ? binary_[child[i]].box.lo[k] : 1e30f;
+          node.bound[k + 3][i] = i < count ? binary_[child[i]].box.hi[k] : -1e30f;
+        }
+        node.child[i] = leaf_of(Kind::other, 1, 0);
+        if (i >= count) continue;
+        const Binary& b = binary_[child[i]];
+        if (b.count > 0)
+          node.child[i] = leaf({b.first, b.count});
+        else
+          todo.push_back({child[i], index, static_cast<std::uint32_t>(i)});
+      }
+      out.push_back(node);
+    }
+  }
+  std::uint32_t leaf(const Range& range) {
+    const std::span<const Item> items = std::span<const Item>(items_).subspan(range.first, range.count);
+    return leaf_of(items[0].kind, range.count, emit_(items[0].kind, items));
+  }
+
+  std::vector<Item>& items_;
+  Emit emit_;
+  std::vector<Reference> references_;
+  std::vector<Binary> binary_;
+};
+
+}  // namespace raycast

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// The fast searches against the law they stand for: occluded_by() of every object, in double precision.
+
+#include "world.hpp"
+
+#include <thread>
+
+using namespace raycast;
+using namespace test;
+
+TEST_CASE("bundle = single = the law for every object, on every instruction set, over 16 decades") {
+  SEEDED(random);
+  std::size_t blocked = 0, all = 0;
+  for (int turn = 0; turn < 60; ++turn) {
+    const double scale = random.magnitude(8);
+    const dvec3 shift = turn % 3 == 0 ? scale * random.magnitude(5) * random.in_cube() : scale * random.in_cube();
+    const World w = world(random, turn % 4 == 0 ? 4 : turn % 4 == 1 ? 30 : 150, scale, shift, turn % 2);
+    std::vector<Scene> scenes;
+    for (const Isa isa : instruction_sets()) scenes.emplace_back(w.objects, isa);
+    std::uint32_t hint = no_shape;
+    for (int i = 0; i < 60; ++i) {
+      Segments16 segments;
+      const Place a = place(random, w, scale, shift), b = place(random, w, scale, shift);
+      const double spread = i % 3 == 0 ? 0.0 : 0.05 * scale;  // a coherent bundle, or sixteen different segments
+      for (unsigned lane = 0; lane < 16; ++lane) {
+        if (i % 7 == 0 && random.below(3) == 0) continue;
+        Place p = a, q = b;
+        if (i % 3 == 0) p = place(random, w, scale, shift), q = place(random, w, scale, shift);
+        Segment s = between(p.at + spread * random.in_cube() * (i % 2 ? 0.0 : 1.0), q.at + spread * random.in_cube() * (i % 2 ? 0.0 : 1.0));
+        if (random.below(20) == 0) s.direction[static_cast<int>(random.below(3))] = random.below(2) ? 0.0 : -0.0;
+        if (random.below(50) == 0) s.direction = dvec3(0.0);
+        if (random.below(50) == 0) s.direction *= 1e7;
+        if (random.below(50) == 0) s.direction *= 1e-12;
+        segments.set(lane, s, p.owner, q.owner);
+      }
+      std::uint32_t expected = 0;
+      for (unsigned lane = 0; lane < 16; ++lane)
+        if (segments.lanes >> lane & 1u)
+          expected |= static_cast<std::uint32_t>(by_law(scenes[0], segments.at(lane), segments.source[lane], segments.target[lane]))
+                      << lane;
+      for (std::size_t k = 0; k < scenes.size(); ++k) {
+        INFO("turn " << turn << " bundle " << i << " set " << k);
+        REQUIRE(scenes[k].occluded16(segments) == expected);
+        REQUIRE(scenes[k].occluded16(segments, hint) == expected);
+        for (unsigned lane = 0; lane < 16; ++lane)
+          if (segments.lanes >> lane & 1u)
+            REQUIRE(scenes[k].occluded(segments.at(lane), segments.source[lane], segments.target[lane]) == ((expected >> lane & 1u) != 0));
+      }
+      blocked += static_cast<std::size_t>(std::popcount(expected));
+      all += static_cast<std::size_t>(std::popcount(segments.lanes));
+    }
+  }
+  CHECK(blocked > all / 10);
+  CHECK(blocked < all - all / 10);
+}
+
+TEST_CASE("the first hit is the same on every instruction set, and no object is met before it") {
+  SEEDED(random);
+  std::size_t met = 0;
+  for (int turn = 0; turn < 40; ++turn) {
+    const double scale = random.magnitude(8);
+    const dvec3 shift = turn % 3 == 0 ? scale * random.magnitude(4) * random.in_cube() : scale * random.in_cube();
+    const World w = world(random, turn % 4 == 0 ? 4 : turn % 4 == 1 ? 30 : 150, scale, shift, turn % 2);
+    std::vector<Scene> scenes;
+    for (const Isa isa : instruction_sets()) scenes.emplace_back(w.objects, isa);
+    for (int i = 0; i < 400; ++i) {
+      const Place a = place(random, w, scale, shift), b = place(random, w, scale, shift);
+      Segment ray = between(a.at, b.at);
+      if (i % 9 == 0) ray.direction[static_cast<int>(random.below(3))] = 0.0;
+      if (i % 5 == 0) ray.direction *= random.magnitude(6);
+      const auto hit = scenes[0].closest(ray, a.owner);
+      met += hit.has_value();
+      for (const Scene& other : scenes) {
+        const auto same = other.closest(ray, a.owner);
+        INFO("turn " << turn << " ray " << i);
+        REQUIRE(hit.has_value() == same.has_value());
+        if (!hit) continue;
+        REQUIRE(hit->t == same->t);
+        REQUIRE(hit->object == same->object);
+        REQUIRE(hit->sheet == same->sheet);
+        REQUIRE(hit->front == same->front);
+      }
+      if (!hit || a.owner != no_object) continue;
+      // From the air far from any surface: the nearest entry of all spans. (Polygons are placed with other roundings by the scene.)
+      double nearest = infinity;
+      bool touching = false;
+      for (const PlacedObject& object : w.objects) {
+        touching = touching || object.bounds().contains(ray.origin, 1e-3 * scale);
+        for (const Span& span : spans(object, ray))
+          if (span.in.t > 0.0) nearest = std::min(nearest, span.in.t);
+      }
+      if (!touching) REQUIRE(hit->t == test::Approx(nearest).epsilon(1e-9));
+    }
+  }
+  CHECK(met > 5000);
+}
+
+TEST_CASE("a scene may be asked by many threads at once") {
+  SEEDED(random);
+  const World w = world(random, 100, 1.0, dvec3(0.0), true);
+  const Scene scene(w.objects);
+  std::vector<Segments16> bundles(400);
+  for (Segments16& bundle : bundles)
+    for (unsigned lane = 0; lane < 16; ++lane) {
+      const Place a = place(random, w, 1.0, dvec3(0.0)), b = place(random, w, 1.0, dvec3(0.0));
+      bundle.set(lane, between(a.at, b.at), a.owner, b.owner);
+    }
+  std::vector<std::vector<std::uint32_t>> answers(4, std::vector<std::uint32_t>(bundles.size()));
+  {
+    std::vector<std::jthread> threads;
+    for (auto& mine : answers)
+      threads.emplace_back([&] {
+        for (std::size_t i = 0; i < bundles.size(); ++i) mine[i] = scene.occluded16(bundles[i]);
+      });
+  }
+  for (const auto& mine : answers) CHECK(mine == answers[0]);
+}

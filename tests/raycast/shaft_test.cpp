@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Occluder lists: nothing that blocks a segment between the patches is ever missing, for their descendants either.
+
+#include "world.hpp"
+
+using namespace raycast;
+using namespace test;
+
+namespace {
+
+struct TestPatch {
+  Corners contour;
+  std::uint32_t owner = no_object;
+  double bulge = 0.0;
+  [[nodiscard]] PatchShape shape() const { return {contour, owner, bulge}; }
+};
+
+dvec3 inside(Random& random, const Corners& contour) {
+  double sum = 0.0;
+  dvec3 p{0.0};
+  for (const dvec3& c : contour) {
+    const double weight = random.uniform() * random.uniform();
+    p += weight * c, sum += weight;
+  }
+  return p / sum;
+}
+// A smaller patch within the hull of this one.
+TestPatch child(Random& random, const TestPatch& patch) {
+  TestPatch result = patch;
+  const dvec3 towards = inside(random, patch.contour);
+  for (dvec3& p : result.contour) p = 0.5 * (p + towards);
+  return result;
+}
+
+void check_pair(Random& random, const Scene& scene, const TestPatch& p, const TestPatch& q, const OccluderList& list, std::size_t& clear,
+                std::size_t& blocked, const std::function<dvec3(const TestPatch&, const dvec3&)>& lift) {
+  Segments16 segments;
+  for (unsigned lane = 0; lane < 16; ++lane)
+    segments.set(lane, between(lift(p, inside(random, p.contour)), lift(q, inside(random, q.contour))), p.owner, q.owner);
+  std::uint32_t expected = 0;
+  for (unsigned lane = 0; lane < 16; ++lane)
+    expected |= static_cast<std::uint32_t>(by_law(scene, segments.at(lane), p.owner, q.owner)) << lane;
+  std::uint32_t hint = no_shape;
+  if (list.clear()) REQUIRE(expected == 0);
+  if (list.blocked()) REQUIRE(expected == 0xffff);
+  REQUIRE(scene.occluded16(segments, list, hint) == expected);
+  REQUIRE(scene.occluded16(segments, list, hint) == expected);
+  clear += list.clear();
+  blocked += list.blocked();
+}
+
+}  // namespace
+
+TEST_CASE("a list of occluders gives the answers of the law, at every level and every scale") {
+  SEEDED(random);
+  std::size_t clear = 0, blocked = 0, unknown = 0, all = 0;
+  for (int turn = 0; turn < 40; ++turn) {
+    const double scale = random.magnitude(8);
+    const dvec3 shift = turn % 3 == 0 ? scale * random.magnitude(4) * random.in_cube() : scale * random.in_cube();
+    const World w = world(random, turn % 4 == 0 ? 5 : turn % 4 == 1 ? 25 : 120, scale, shift, turn % 2);
+    const auto sets = instruction_sets();
+    const Scene scene(w.objects, sets[static_cast<std::size_t>(turn) % sets.size()]);
+    const auto any = [&] {
+      const auto& [owner, corners] = w.faces[random.below(static_cast<std::uint32_t>(w.faces.size()))];
+      return TestPatch{corners, owner, 0.0};
+    };
+    const auto stay = [](const TestPatch&, const dvec3& x) { return x; };
+    for (int i = 0; i < 60; ++i) {
+      TestPatch p = any(), q = any();
+      OccluderList list = scene.occluders(p.shape(), q.shape());
+      for (int level = 0; level < 5; ++level) {
+        INFO("turn " << turn << " pair " << i << " level " << level);
+        check_pair(random, scene, p, q, list, clear, blocked, stay);
+        unknown += !list.known();
+        ++all;
+        if (level % 2 == 0) p = child(random, p);
+        if (level != 1) q = child(random, q);
+        const OccluderList narrowed = scene.filter(list, p.shape(), q.shape());
+        if (list.known())
+          for (const std::uint32_t shape : narrowed.shapes())
+            REQUIRE(std::find(list.shapes().begin(), list.shapes().end(), shape) != list.shapes().end());
+        list = narrowed;
+      }
+    }
+  }
+  CHECK(clear > all / 50);
+  CHECK(blocked > all / 100);
+  CHECK(unknown < all / 2);
+}
+
+TEST_CASE("lists of curved patches hold for points that move out to the true surface") {
+  SEEDED(random);
+  std::size_t clear = 0, blocked = 0;
+  for (int turn = 0; turn < 30; ++turn) {
+    const double scale = random.magnitude(6);
+    std::vector<PlacedObject> objects;
+    std::vector<std::pair<dvec3, double>> balls;
+    for (int i = 0; i < 60; ++i) {
+      balls.push_back({scale * random.in_cube(), scale * random.uniform(0.02, 0.25)});
+      objects.push_back(placed(Sphere::make(balls.back().first, balls.back().second)));
+    }
+    const Scene scene(objects);
+    const auto lift = [&](const TestPatch& p, const dvec3& x) {
+      const auto& [centre, radius] = balls[p.owner];
+      return random.below(2) ? x : centre + radius * glm::normalize(x - centre);
+    };
+    const auto cap = [&](std::uint32_t i, double width) {
+      const auto& [centre, radius] = balls[i];
+      const glm::dmat3 turned = random.rotation();
+      TestPatch patch{{}, i, 0.0};
+      for (int k = 0; k < 4; ++k)
+        patch.contour.push_back(centre +
+                                radius * glm::normalize(turned * dvec3(k == 1 || k == 2 ? width : -width, k >= 2 ? width : -width, 1)));
+      // All points of the cap lie between the plane of the contour and the tangent plane, and as near to the hull at its rim.
+      patch.bulge = radius - glm::length(0.5 * (patch.contour[0] + patch.contour[2]) - centre);
+      return patch;
+    };
+    for (int i = 0; i < 300; ++i) {
+      const TestPatch p = cap(random.below(60), random.uniform(0.05, 0.7)), q = cap(random.below(60), random.uniform(0.05, 0.7));
+      check_pair(random, scene, p, q, scene.occluders(p.shape(), q.shape()), clear, blocked, lift);
+    }
+  }
+  CHECK(clear > 100);
+  CHECK(blocked > 100);
+}
+
+TEST_CASE("a pair that a wall separates is blocked, and one in an empty room is clear, without a ray") {
+  const auto square = [](double z, bool up) {
+    return up ? rectangle({-1, -1, z}, {2, 0, 0}, {0, 2, 0}) : rectangle({-1, -1, z}, {0, 2, 0}, {2, 0, 0});
+  };
+  const TestPatch low{square(0, true), 0, 0.0}, high{square(2, false), 1, 0.0};
+  const std::vector<PlacedObject> ends{placed(Polygon::make(low.contour)), placed(Polygon::make(high.contour))};
+  const auto with = [&](const PlacedObject& third) {
+    std::vector<PlacedObject> objects = ends;
+    objects.push_back(third);
+    const Scene scene(objects);
+    return scene.occluders(low.shape(), high.shape());
+  };
+  CHECK(with(placed(BoxObject::make({-1, -1, 0}, {1, 1, 2}), room())).clear());
+  CHECK(with(placed(Polygon::make(rectangle({-2, -2, 1}, {4, 0, 0}, {0, 4, 0})))).blocked());
+  CHECK(with(placed(BoxObject::make({-2, -2, 0.9}, {2, 2, 1.1}))).blocked());
+  CHECK(with(placed(Sphere::make({0, 0, 1}, 1.7))).known());
+  CHECK(with(placed(Sphere::make({0, 0, 1}, 0.9))).shapes().size() == 1);
+  const OccluderList half = with(placed(Polygon::make(rectangle({0, -2, 1}, {4, 0, 0}, {0, 4, 0}))));
+  CHECK(half.known());
+  CHECK_FALSE(half.clear());
+  CHECK_FALSE(half.blocked());
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Random worlds with objects of every kind, places on their surfaces, and the law that all fast searches must repeat.
+
+#include "support.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+
+using namespace raycast;
+
+namespace test {
+
+inline std::vector<Isa> instruction_sets() {
+  std::vector<Isa> sets{Isa::portable};
+  if (best_isa() >= Isa::avx2) sets.push_back(Isa::avx2);
+  if (best_isa() >= Isa::avx512) sets.push_back(Isa::avx512);
+  return sets;
+}
+inline bool by_law(const Scene& scene, const Segment& s, std::uint32_t source, std::uint32_t target) {
+  for (std::uint32_t i = 0; i < scene.size(); ++i)
+    if (scene.occluded_by(i, s, source, target)) return true;
+  return false;
+}
+
+// A place on some object's surface (the vertex or the middle of a face of its mesh), or a free point.
+struct Place {
+  dvec3 at{0.0};
+  std::uint32_t owner = no_object;
+};
+
+struct World {
+  std::vector<PlacedObject> objects;
+  std::vector<std::pair<std::uint32_t, Corners>> faces;  // owner, corners
+};
+
+// A room with objects of every kind, some of them touching, at any scale and any place.
+inline World world(Random& random, int count, double scale, const dvec3& shift, bool with_room) {
+  World w;
+  const auto add = [&](const PlacedObject& object) {
+    brep::Builder mesh;
+    object.approximate(0.05 * scale, mesh);
+    for (std::uint32_t f = 0; f < mesh.face_count(); f += 1 + mesh.face_count() / 40) {
+      if (mesh.sheet(f) == brep::no_sheet) continue;
+      Corners corners;
+      for (const std::uint32_t v : mesh.corners(f)) corners.push_back(mesh.position(v));
+      w.faces.push_back({static_cast<std::uint32_t>(w.objects.size()), corners});
+    }
+    w.objects.push_back(object);
+  };
+  if (with_room) add(placed(BoxObject::make(shift - 1.05 * scale, shift + 1.05 * scale), room()));
+  const auto gutter = Mesh::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}}, {{0, 1, 2, 3}, {1, 4, 5, 2}});
+  const auto ball = mesh_of(*Sphere::make({0, 0, 0}, 0.8), 0.02);
+  const auto star = Polygon::make({{0, 0, 0}, {1, -1, 0}, {0.5, 0, 0}, {1, 1, 0}, {-1, 0.2, 0}});
+  for (int i = 0; i < count; ++i) {
+    const double size = 0.6 * scale / std::cbrt(static_cast<double>(count));
+    dvec3 at = 0.9 * random.in_cube();
+    if (i % 3 == 0) at[static_cast<int>(random.below(3))] = random.below(2) ? 0.9 : -0.9;
+    Placement p{random.rotation() * (size * random.uniform(0.3, 1)), shift + scale * at, false};
+    if (i % 5 == 0) p.linear = p.linear * glm::dmat3(1, 0.2, 0, 0, 1.5, 0, 0.1, 0, -0.7);
+    switch (random.below(9)) {
+      case 0:
+        add(placed(Sphere::make(p.translation, size)));
+        break;
+      case 1:
+        add(placed(Sphere::make({0, 0, 0}, 1), p));
+        break;
+      case 2:
+        add(placed(BoxObject::make({-1, -0.5, -0.1}, {1, 0.5, 0.1}), p));
+        break;
+      case 3:
+        add(placed(Cylinder::make({0, 0, 0}, {0, 0, 1}, 0.5), p));
+        break;
+      case 4:
+        add(placed(Polygon::make(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 1, 0})), p));
+        break;
+      case 5:
+        add(placed(star, p));
+        break;
+      case 6:
+        add(placed(gutter, p));
+        break;
+      case 7:
+        add(placed(ball, p));
+        break;
+      default:
+        add(placed(l_block(), p));
+        break;
+    }
+  }
+  return w;
+}
+inline Place place(Random& random, const World& w, double scale, const dvec3& shift) {
+  if (random.below(6) == 0) return {shift + scale * random.in_cube(random.below(8) ? 1.0 : 20.0)};
+  const auto& [owner, corners] = w.faces[random.below(static_cast<std::uint32_t>(w.faces.size()))];
+  if (random.below(12) == 0) return {corners[0], owner};
+  double sum = 0.0;
+  dvec3 p{0.0};
+  for (const dvec3& c : corners) {
+    const double weight = random.uniform();
+    p += weight * c, sum += weight;
+  }
+  return {p / sum, owner};
+}
+
+}  // namespace test
