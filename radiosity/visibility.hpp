@@ -15,6 +15,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <raycast/bundle.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
 
@@ -122,24 +123,31 @@ inline constexpr std::uint32_t segments_per_round = 16;
   std::uint32_t blocked = 0;
   CellCounts cells_p;
   CellCounts cells_q;
+  std::uint32_t last_occluder = raycast::no_shape;
+  const auto opposite = [](std::uint32_t cell, std::uint32_t shift) { return (cell * 5u ^ shift) & 15u; };
   for (std::uint32_t round = 0; round < rounds; ++round) {
     const auto shift = static_cast<std::uint32_t>(random.bits() & 15u);
+    raycast::Segments16 segments;
+    std::array<double, segments_per_round> weights{};
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
       glm::dvec3 x{0.0};
       glm::dvec3 y{0.0};
-      const std::uint32_t other = (i * 5u ^ shift) & 15u;
-      if (!draw_exposed(scene, p, i, random, x) || !draw_exposed(scene, q, other, random, y)) { continue; }
+      if (!draw_exposed(scene, p, i, random, x) || !draw_exposed(scene, q, opposite(i, shift), random, y)) { continue; }
       const glm::dvec3 d = y - x;
       const double r2 = glm::dot(d, d) + softening;
-      const double weight = std::max(0.0, glm::dot(p.patch->normal, d)) * std::max(0.0, -glm::dot(q.patch->normal, d)) / (r2 * r2);
-      if (!(weight > 0.0)) { continue; }
-      total += weight;
+      weights[i] = std::max(0.0, glm::dot(p.patch->normal, d)) * std::max(0.0, -glm::dot(q.patch->normal, d)) / (r2 * r2);
+      if (weights[i] > 0.0) { segments.set(i, {x, d}, p.object, q.object); }
+    }
+    const std::uint32_t occluded = scene.occluded16(segments, last_occluder);
+    for (std::uint32_t i = 0; i < segments_per_round; ++i) {
+      if (!(weights[i] > 0.0)) { continue; }
+      const bool arrives = (occluded >> i & 1u) == 0;
+      total += weights[i];
+      arrived += arrives ? weights[i] : 0.0;
       ++estimate.rays;
-      const bool arrives = !scene.occluded({x, d}, p.object, q.object);
       ++(arrives ? clear : blocked);
-      arrived += arrives ? weight : 0.0;
       cells_p.add(i, arrives);
-      cells_q.add(other, arrives);
+      cells_q.add(opposite(i, shift), arrives);
     }
     if (clear + blocked >= segments_per_round / 2 && (clear == 0 || blocked == 0)) { break; }
   }
