@@ -93,7 +93,7 @@ Result<VertexId> collapse_edge(B& brep, HalfedgeId h) {
 //      x f h g y   ==>   x <-h-- y       one that began at w, and with the one that began at v; face(twin(h)) accordingly.
 //      |   |   |         |       |       The data of the two halves are new.
 //      *---v---*         *---v---*
-//      (w - x and v - y adjacent)
+//      (w - x and v - y adjacent)        Face data that cannot be copied: those of the second half's face start anew.
 //
 // An edge between x and y may exist already; then there are two, which is legal.
 // Refused (nothing changes): h is dead; both sides are the same face; one of them has this edge alone.

@@ -20,6 +20,8 @@
 namespace apps {
 namespace {
 
+constexpr std::size_t most_edges = 200000;  // in all pictures of a script: minutes of drawing, hundreds of megabytes
+
 bool ends_with(const std::string& path, std::string_view end) { return path.size() > end.size() && path.ends_with(end); }
 
 void print(const std::vector<brep::ScriptError>& errors, const std::string& path) {
@@ -77,8 +79,17 @@ ExitCode run(const EulerOptions& options) {
     print(parsed.errors, options.script);
     return ExitCode::invalid_input;
   }
-  const euler::Story story = euler::tell(*parsed.script, std::filesystem::path(options.script).stem().string());
+  const std::string name = std::filesystem::path(options.script).stem().string();
+  euler::Story story = euler::tell(*parsed.script, name, false);
   print(story.errors, options.script);
+  if (!options.outputs.empty()) {
+    if (story.edges > most_edges) {
+      complain(options.script + " is too long to draw: its " + std::to_string(story.frames.size()) + " pictures would show " +
+               std::to_string(story.edges) + " edges together, at most " + std::to_string(most_edges) + " are drawn");
+      return ExitCode::failure;
+    }
+    story = euler::tell(*parsed.script, name);
+  }
   for (const std::string& output : options.outputs) {
     if (const auto failure = write_file(output, ends_with(output, ".svg") ? euler::strip(story) : euler::page(story))) {
       complain(*failure);

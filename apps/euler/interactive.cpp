@@ -57,7 +57,7 @@ std::string records_table(const Records& r) {
 
 class Conversation {
  public:
-  explicit Conversation(const std::vector<std::string>& outputs) : outputs_(outputs), teller_(solid_) {
+  explicit Conversation(const std::vector<std::string>& outputs) : outputs_(outputs), teller_(solid_, !outputs.empty()) {
     teller_.story().title = "Interactive";
     layout_ = lay_out(teller_.story().frames.back().drawn, {}, smallest);
   }
@@ -125,7 +125,7 @@ class Conversation {
     }
     for (const brep::Fault& fault : outcome.faults) { out += fault.sentence + "\n"; }
     if (!frame.damaged) { out += counts(frame) + "      " + equation(frame) + "\n"; }
-    layout_ = lay_out(frame.drawn, layout_, smallest);
+    if (!outputs_.empty()) { layout_ = lay_out(frame.drawn, layout_, smallest); }
     for (const std::string& path : outputs_) {
       write(path, path.ends_with(".svg") ? picture(teller_.story(), layout_) : page(teller_.story()));
     }

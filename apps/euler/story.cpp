@@ -5,9 +5,15 @@
 
 namespace apps::euler {
 
-Teller::Teller(Solid& solid) : solid_(solid), runner_(solid) { remember(story_.frames.emplace_back()); }
+Teller::Teller(Solid& solid, bool drawn) : solid_(solid), drawn_(drawn), runner_(solid) { remember(story_.frames.emplace_back()); }
 
 void Teller::remember(Frame& frame) {
+  story_.edges += solid_.edge_count();
+  if (!drawn_ && story_.frames.size() > 2) {
+    Frame& old = story_.frames[story_.frames.size() - 3];
+    old.drawn = Records();  // by moves, which free the memory
+    old.records = Records();
+  }
   frame.records = records_of(solid_);
   frame.damaged = runner_.damaged();
   if (frame.damaged) {
@@ -47,9 +53,9 @@ void Teller::tell(const brep::Statement& s) {
   remember(story_.frames.back());
 }
 
-Story tell(const brep::Script& script, const std::string& name) {
+Story tell(const brep::Script& script, const std::string& name, bool drawn) {
   Solid solid;
-  Teller teller(solid);
+  Teller teller(solid, drawn);
   Story& story = teller.story();
   story.title = script.title.empty() ? name : script.title;
   story.introduction = script.introduction;

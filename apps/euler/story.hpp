@@ -40,12 +40,14 @@ struct Story {
   std::string title, introduction;
   std::vector<Frame> frames;              // the first is the start
   std::vector<brep::ScriptError> errors;  // statements that were not done as written
+  std::size_t edges = 0;                  // of all frames together: what drawing it costs
 };
 
-// One statement after another, also after one that failed.
+// One statement after another, also after one that failed. A story that is not drawn keeps the records of its last two frames only:
+// those of all steps of a long script are a lot.
 class Teller {
  public:
-  explicit Teller(Solid& solid);
+  explicit Teller(Solid& solid, bool drawn = true);
   void tell(const brep::Statement& statement);
   [[nodiscard]] const Story& story() const { return story_; }
   [[nodiscard]] Story& story() { return story_; }
@@ -54,11 +56,12 @@ class Teller {
   void remember(Frame& frame);
 
   Solid& solid_;
+  bool drawn_;
   brep::ScriptRunner<Solid> runner_;
   Story story_;
 };
 
-[[nodiscard]] Story tell(const brep::Script& script, const std::string& name);
+[[nodiscard]] Story tell(const brep::Script& script, const std::string& name, bool drawn = true);
 
 // The statement with its result in front where the script leaves it out: "h2 = split_edge h0", "split_edge h0 -> h2".
 [[nodiscard]] std::string headline(const Frame& frame);

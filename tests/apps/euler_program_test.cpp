@@ -50,6 +50,19 @@ TEST_CASE("euler: errors in a script are exit code 3 with file, line and column"
   CHECK(folder.run("none.euler") == 3);
 }
 
+TEST_CASE("euler: a script too long to be drawn is played all the same, and drawing it is refused at once") {
+  Folder folder;
+  std::string script = "make_segment\n";
+  for (int i = 1; i < 700; ++i) script += "split_edge h0\n";
+  folder.write("long.euler", script + "expect v 701 e 700 f 1 s 1 h 0\n");
+  CHECK(folder.run("long.euler") == 0);
+  CHECK(folder.out.find("steps: 700\nv 701   e 700   f 1   s 1   h 0\n") != std::string::npos);
+  CHECK(folder.run("long.euler -o a.html") == 1);
+  // 1 + 2 + ... + 700 edges.
+  CHECK(folder.err.find("long.euler is too long to draw: its 701 pictures would show 245350 edges together") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder.path / "a.html"));
+}
+
 TEST_CASE("euler: wrong usage is exit code 2, a target that cannot be written 1") {
   Folder folder;
   folder.write("a.euler", "make_segment\n");
