@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include <brep/validate.hpp>
 #include <radiosity/radiosity.hpp>
 
 #include "apps/scene_file.hpp"
+#include "generations.hpp"
 
 namespace {
 
@@ -46,19 +46,8 @@ TEST_CASE("every scene: valid BReps after every generation, v - e + f = 2 (s - h
     options.epsilon = 0.02;
     options.min_area = 1e-4;
     options.audit_points = 0;
-    radiosity::Control control;
     int generations = 0;
-    control.after_generation = [&](const std::vector<radiosity::Surface>& surfaces) {
-      ++generations;
-      for (const radiosity::Surface& surface : surfaces) {
-        const auto faults = brep::validate(surface.brep);
-        for (const auto& fault : faults) { UNSCOPED_INFO(fault.sentence); }
-        REQUIRE(faults.empty());
-        const auto euler = static_cast<long>(surface.brep.vertex_count()) - static_cast<long>(surface.brep.edge_count()) +
-                           static_cast<long>(surface.brep.face_count());
-        REQUIRE(euler == 2 * (static_cast<long>(brep::shell_count(surface.brep)) - brep::genus(surface.brep)));
-      }
-    };
+    const radiosity::Control control = watch_generations(generations);
     const auto outcome = radiosity::solve(scene(name), options, control);
     REQUIRE(outcome.solution);
     CHECK(generations > 0);
