@@ -4,9 +4,8 @@
 
 #include <radiosity/radiosity.hpp>
 
-#include <brep/validate.hpp>
-
 #include "catch.hpp"
+#include "generations.hpp"
 #include "scenes.hpp"
 
 using radiosity::Options;
@@ -130,19 +129,8 @@ TEST_CASE("BF-refinement meets its estimate with fewer links where less light go
 TEST_CASE("every BRep is valid after every generation of refinement, and v - e + f = 2 (s - h)") {
   for (const Scene& scene : {scenes::furnace_cube(0.5), scenes::furnace_sphere(0.5), scenes::furnace_with_things(0.5),
                              scenes::room_with_box(), scenes::two_plates(0.5)}) {
-    radiosity::Control control;
     int generations = 0;
-    control.after_generation = [&](const std::vector<radiosity::Surface>& surfaces) {
-      ++generations;
-      for (const radiosity::Surface& surface : surfaces) {
-        const auto faults = brep::validate(surface.brep);
-        for (const auto& fault : faults) { UNSCOPED_INFO(fault.sentence); }
-        REQUIRE(faults.empty());
-        const auto euler = static_cast<long>(surface.brep.vertex_count()) - static_cast<long>(surface.brep.edge_count()) +
-                           static_cast<long>(surface.brep.face_count());
-        REQUIRE(euler == 2 * (static_cast<long>(brep::shell_count(surface.brep)) - brep::genus(surface.brep)));
-      }
-    };
+    const radiosity::Control control = watch_generations(generations);
     solved(scene, coarse(), control);
     CHECK(generations >= 1);
   }
