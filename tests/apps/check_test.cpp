@@ -72,7 +72,7 @@ TEST_CASE("check --repair: what remains is exit code 3, and is written all the s
 
 TEST_CASE("check --repair: a mesh of which nothing is left is not called sound") {
   Check check("v 0 0 0\nv 1 0 0\nf 1 2\nf 1\n");
-  CHECK(check.run("m.obj --repair").code == 3);
+  CHECK(check.run("m.obj --repair").last.code == 3);
   CHECK(check.says("f1 was dropped"));
   CHECK(check.says("NOT SOUND: nothing is left"));
   CHECK(check.run("m.obj").says("f1 has 1 corner, a face needs three"));
@@ -80,7 +80,7 @@ TEST_CASE("check --repair: a mesh of which nothing is left is not called sound")
 
 TEST_CASE("check: the border of a Moebius strip is not counted by its chains") {
   Check check("v 0 0 0\nv 0 0 1\nv 1 0 0\nv 1 0 1\nv 0 1 0\nv 0 1 1\nf 1 3 4 2\nf 3 5 6 4\nf 5 2 1 6\n");
-  CHECK(check.run("m.obj").code == 3);
+  CHECK(check.run("m.obj").last.code == 3);
   CHECK(check.says("       0         -       -   - (one-sided)"));
 }
 

@@ -56,11 +56,11 @@ TEST_CASE("euler: a script too long to be drawn is played all the same, and draw
   for (int i = 1; i < 700; ++i) script += "split_edge h0\n";
   folder.write("long.euler", script + "expect v 701 e 700 f 1 s 1 h 0\n");
   CHECK(folder.run("long.euler") == 0);
-  CHECK(folder.out.find("steps: 700\nv 701   e 700   f 1   s 1   h 0\n") != std::string::npos);
+  CHECK(folder.last.out.find("steps: 700\nv 701   e 700   f 1   s 1   h 0\n") != std::string::npos);
   CHECK(folder.run("long.euler -o a.html") == 1);
   // 1 + 2 + ... + 700 edges.
-  CHECK(folder.err.find("long.euler is too long to draw: its 701 pictures would show 245350 edges together") != std::string::npos);
-  CHECK_FALSE(fs::exists(folder.path / "a.html"));
+  CHECK(folder.last.err.find("long.euler is too long to draw: its 701 pictures would show 245350 edges together") != std::string::npos);
+  CHECK_FALSE(folder.has("a.html"));
 }
 
 TEST_CASE("euler: wrong usage is exit code 2, a target that cannot be written 1") {
