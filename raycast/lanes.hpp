@@ -5,13 +5,14 @@
 //
 // The files in kernels/ are written once, in terms of the small operations of lanes.inc, and compiled three times: portable code in vectors of
 // four, AVX2 in eight, AVX-512 in sixteen, each function with the target attribute of its set, so that a library built without any
-// machine flag uses what the machine offers. (A template cannot carry such an attribute as a parameter; hence the inclusion.) The three
-// round differently, and still answer alike: a kernel decides only what its error bound allows and leaves the rest to double precision.
+// machine flag uses what the machine offers. (A template cannot carry such an attribute as a parameter; hence the inclusion.
+// HALFLIGHT_PORTABLE leaves the last two out.) The three round differently, and still answer alike: a kernel decides only what its error
+// bound allows and leaves the rest to double precision.
 
 #include <cstdint>
 #include <cstring>
 
-#if (defined(__x86_64__) || defined(_M_X64)) && defined(__GNUC__)
+#if (defined(__x86_64__) || defined(_M_X64)) && defined(__GNUC__) && !defined(HALFLIGHT_PORTABLE)
 #define HALFLIGHT_X86 1
 #include <immintrin.h>
 #endif
