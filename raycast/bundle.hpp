@@ -15,13 +15,6 @@ namespace raycast {
 
 namespace detail {
 
-// Calls f(tag) for the instruction set, with functions of the same names.
-#ifdef HALFLIGHT_X86
-#define HALFLIGHT_DISPATCH(isa, call) ((isa) == Isa::avx512 ? avx512::call : (isa) == Isa::avx2 ? avx2::call : portable::call)
-#else
-#define HALFLIGHT_DISPATCH(isa, call) (static_cast<void>(isa), portable::call)
-#endif
-
 // A segment that leaves the compiled scene, cut to what lies within 1.25 of its middle: in lane `lane` of `rays`. False: nothing does.
 // Requires ends within 1e6, so that the cut is known to 1e-10.
 inline bool clip(const Compiled& scene, const Segment& segment, unsigned lane, Rays16& rays) {

@@ -127,3 +127,10 @@ struct Pending {
 #undef HALFLIGHT_TARGET
 #undef HALFLIGHT_OP
 #endif
+
+// The call in the namespace of the instruction set: its functions have the same names in each.
+#ifdef HALFLIGHT_X86
+#define HALFLIGHT_DISPATCH(isa, call) ((isa) == Isa::avx512 ? avx512::call : (isa) == Isa::avx2 ? avx2::call : portable::call)
+#else
+#define HALFLIGHT_DISPATCH(isa, call) (static_cast<void>(isa), portable::call)
+#endif

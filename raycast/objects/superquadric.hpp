@@ -16,6 +16,7 @@
 // Crossings are known to 32 u (D + size) across the surface, with the cusps of pinched shapes as sharp as the coordinates: a blade or
 // needle that is thinner than their rounding may be missed.
 
+#include "../object.hpp"
 #include "../roots.hpp"
 #include "../superellipse.hpp"
 
