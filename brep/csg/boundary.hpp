@@ -46,17 +46,16 @@ struct Box {
   void add(const Box& b) {
     for (std::size_t i = 0; i < 3; ++i) lo[i] = lo[i] < b.lo[i] ? lo[i] : b.lo[i], hi[i] = hi[i] > b.hi[i] ? hi[i] : b.hi[i];
   }
-  void add(const glm::dvec3& p) {  // |p| < 2^25; p may be a point rounded down by less than one
+  void add(const glm::dvec3& p, bool exact) {  // |p| < 2^25, exact or rounded down by less than 2^-27
     for (int i = 0; i < 3; ++i) {
-      const auto down = static_cast<std::int32_t>(p[i] + 0x1p25) - (1 << 25);
       const auto axis = static_cast<std::size_t>(i);
-      const std::int32_t up = static_cast<double>(down) == p[i] ? down : down + 1;
+      const auto down = static_cast<std::int32_t>(p[i] + 0x1p25) - (1 << 25), up = exact ? down : down + 1;
       lo[axis] = lo[axis] < down ? lo[axis] : down;
       hi[axis] = hi[axis] > up ? hi[axis] : up;
     }
   }
   [[nodiscard]] bool meets(const Box& b) const {
-    return (lo[0] <= b.hi[0]) & (b.lo[0] <= hi[0]) & (lo[1] <= b.hi[1]) & (b.lo[1] <= hi[1]) & (lo[2] <= b.hi[2]) & (b.lo[2] <= hi[2]);
+    return lo[0] <= b.hi[0] && b.lo[0] <= hi[0] && lo[1] <= b.hi[1] && b.lo[1] <= hi[1] && lo[2] <= b.hi[2] && b.lo[2] <= hi[2];
   }
 };
 
