@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// One operation on two boundaries, step by step as in the paper (2.2): intersect the faces pairwise, collect the loops of common edges, cut
+// along them, label by breadth-first search, select, reglue.
+//
+// All three operations are two: a - b is the intersection of a with b turned inside out. The steps stand in files of their own; here is
+// their order. Cost: one pass over both operands, and work near the common edges.
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <brep/csg/assemble.hpp>
+#include <brep/csg/box_pairs.hpp>
+#include <brep/csg/contacts.hpp>
+#include <brep/csg/cut_faces.hpp>
+#include <brep/csg/labels.hpp>
+#include <brep/csg/radial.hpp>
+#include <brep/csg/split_edges.hpp>
+#include <brep/csg/work.hpp>
+
+namespace brep::csg::detail {
+
+// Both operands, cut along each other and labelled.
+class Arrangement {
+ public:
+  Work work;
+  Contacts contacts;
+  std::vector<std::uint32_t> cuts;
+  Radial radial;
+  Labels labels;
+  std::uint32_t fault = invalid_index;  // a face of the arrangement that no valid operand has, if there is one
+
+  Arrangement(const PlaneTable& planes, const Boundary& a, const Boundary& b, bool reverse_b, std::uint32_t attributes_of_a)
+      : work(both(planes, a, b, reverse_b, attributes_of_a)), contacts(work), radial(work), labels(work, contacts.table, reverse_b) {
+    find_contacts();
+    if (!contacts.consistent) fault = 0;
+    if (fault == invalid_index) cut();
+    if (fault == invalid_index) {
+      labels.run(radial);
+      fault = labels.fault;
+    }
+  }
+  Arrangement(const Arrangement&) = delete;
+
+ private:
+  static Work both(const PlaneTable& planes, const Boundary& a, const Boundary& b, bool reverse_b, std::uint32_t attributes_of_a) {
+    Work w(planes);
+    w.add(a, false, false, 0);
+    w.add(b, true, reverse_b, attributes_of_a);
+    return w;
+  }
+
+  void find_contacts() {
+    Box boxes[2];
+    for (const WorkFace& f : work.faces) boxes[f.of_b].add(f.box);
+    BoxPairs pairs;
+    for (std::uint32_t f = 0; f < work.faces.size(); ++f) {
+      const WorkFace& face = work.faces[f];
+      if (face.box.meets(boxes[!face.of_b])) (face.of_b ? pairs.b : pairs.a).push_back({face.box, f});
+    }
+    pairs.run([&](std::uint32_t f, std::uint32_t g) { contacts.compare(f, g); });
+    if (contacts.table.renamed()) {
+      for (WorkHalf& h : work.halves) h.point = contacts.table.name(h.point);
+    }
+  }
+
+  void cut() {
+    SplitEdges edges(work);
+    edges.run(contacts.nodes);
+    CutFaces faces(work);
+    faces.run(contacts.segments, edges);
+    fault = faces.fault;
+    if (fault != invalid_index) return;
+    cuts = std::move(faces.cuts);
+    for (std::uint32_t c : cuts) radial.add(c), radial.add(c + 1);
+    std::vector<std::uint32_t>& along = contacts.along;
+    std::sort(along.begin(), along.end());
+    along.erase(std::unique(along.begin(), along.end()), along.end());
+    for (std::uint32_t e : along) edges.for_parts(e, [&](std::uint32_t h) { radial.add(h); });
+    radial.run();
+    fault = radial.fault;
+  }
+};
+
+// The union (or the intersection) of the operands of an arrangement. same(i, j): are the attributes i and j equal?
+// False: the operands are not valid.
+template <class Same>
+[[nodiscard]] bool select(Arrangement& arrangement, bool unite, Same&& same, Boundary& result) {
+  if (arrangement.fault != invalid_index) return false;
+  Work& work = arrangement.work;
+  std::vector<std::uint8_t> keep(work.faces.size());
+  for (std::size_t f = 0; f < keep.size(); ++f) {
+    const Side side = arrangement.labels.sides[f];
+    keep[f] = side == Side::on_same ? !work.faces[f].of_b : side == (unite ? Side::outside : Side::inside);
+  }
+  Assemble assemble(work, std::move(keep));
+  if (!assemble.glue(arrangement.radial)) return false;
+  for (const Spine& s : arrangement.radial.spines) assemble.merge(s.half, same);
+  for (std::uint32_t c : arrangement.cuts) assemble.merge(c, same);
+  assemble.straighten([&](std::uint32_t p) { return arrangement.contacts.table.contains(p); });
+  result = assemble.run();
+  return true;
+}
+
+}  // namespace brep::csg::detail
