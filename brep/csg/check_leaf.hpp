@@ -60,6 +60,8 @@ class CheckLeaf {
  public:
   explicit CheckLeaf(Work& work) : work_(work) {}
 
+  std::vector<std::uint32_t> several;  // half-edges of edges that coincide with others
+
   // The refusal names faces by their attributes.
   [[nodiscard]] Refusal run() {
     Refusal refusal = contacts();
@@ -103,6 +105,7 @@ class CheckLeaf {
         if (s.begins == next.begins || s.stacked) {
           return {Code::self_intersecting, {name(work_.halves[s.half].face), name(work_.halves[next.half].face)}};
         }
+        several.push_back(s.half);
         if (s.begins) work_.halves[s.half].twin = next.half, work_.halves[next.half].twin = s.half;
       }
     }

@@ -5,7 +5,8 @@
 //
 // At a point where segments end, all edges of the face are sorted by direction. A half-edge that arrives goes on with the first one that
 // leaves clockwise of the way it came, so the region on its left is kept together: the links that split_face and bridge would make one
-// segment after the other. Where the operands touch themselves, a segment may run through the end of another; it is cut there, too.
+// segment after the other. A segment may end inside the face, where an edge of the other operand touches it. Where the operands touch
+// themselves, a segment may run through the end of another; it is cut there, too.
 
 #include <algorithm>
 #include <cstdint>
@@ -204,7 +205,6 @@ class CutFaces {
               [](const Spoke& a, const Spoke& b) { return a.point != b.point ? a.point < b.point : before(a.direction, b.direction); });
     for (std::size_t first = 0, last = 0; first < spokes_.size(); first = last) {
       while (last < spokes_.size() && spokes_[last].point == spokes_[first].point) ++last;
-      if (last - first < 2) fault = f;
       for (std::size_t i = first; i < last; ++i) {
         if (spokes_[i].in == invalid_index) continue;
         std::size_t out = i;
