@@ -99,7 +99,7 @@ class Arrangement {
     SplitEdges edges(work);
     edges.run(contacts.nodes);
     CutFaces faces(work);
-    faces.run(contacts.segments, edges);
+    faces.run(contacts.segments, edges, contacts.table.points());
     fault = faces.fault;
     if (fault != invalid_index) return;
     cuts = std::move(faces.cuts);

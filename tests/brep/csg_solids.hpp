@@ -219,6 +219,7 @@ inline Counts counts(const Solid& solid) {
 // As broken, and the exported BRep is valid, has the faces of the solid and its volume.
 inline std::string faults(const Solid& solid) {
   std::string all = broken(solid);
+  if (!all.empty()) return all;
   const Mesh m = brep::csg::to_brep<Mesh>(solid);
   for (const brep::Fault& fault : brep::validate(m)) all += fault.sentence + '\n';
   if (m.face_count() != solid.face_count()) all += "the BRep has another number of faces";
