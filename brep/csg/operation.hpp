@@ -36,6 +36,10 @@ class Arrangement {
 
   Arrangement(const PlaneTable& planes, const Boundary& a, const Boundary& b, bool reverse_b, std::uint32_t attributes_of_a)
       : work(both(planes, a, b, reverse_b, attributes_of_a)), contacts(work), radial(work), labels(work, contacts.table, reverse_b) {
+    if (reverse_b && b.touching) {  // the wedges between its wedges are solid now
+      std::vector<std::uint32_t> several;
+      if (pair_wedges(work, static_cast<std::uint32_t>(a.halves.size()), several)) fault = 0;
+    }
     find_contacts();
     if (a.touching || b.touching) add_copies();
     if (!contacts.consistent) fault = 0;
