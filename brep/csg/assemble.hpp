@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,18 +25,29 @@ class Assemble {
   Assemble(Work& work, std::vector<std::uint8_t> keep)
       : work_(work), keep_(std::move(keep)), removed_(work.halves.size(), 0), groups_(work.faces.size()) {}
 
+  // The half-edge is one of several at its place: its edge stays.
+  void hold(std::uint32_t h) {
+    removed_[h] = held;
+    touching_ = true;
+  }
+
   // Pairs the kept faces around each common edge; false: they do not begin and end in turn.
   [[nodiscard]] bool glue(const Radial& radial) {
     for (std::size_t e = 0; e + 1 < radial.first.size(); ++e) {
       const Spine *begin = radial.spines.data() + radial.first[e], *end = radial.spines.data() + radial.first[e + 1];
       const Spine *last = nullptr, *first = nullptr;
+      std::size_t count = 0;
       for (const Spine* s = begin; s != end; ++s) {
         if (!kept(s->half)) continue;
+        ++count;
         if (last != nullptr && !pair(*last, *s)) return false;
         if (last == nullptr) first = s;
         last = s;
       }
       if (last != nullptr && !pair(*last, *first)) return false;
+      for (const Spine* s = begin; count > 2 && s != end; ++s) {
+        if (kept(s->half)) hold(s->half);
+      }
     }
     return true;
   }
@@ -44,13 +56,13 @@ class Assemble {
   template <class Same>
   void merge(std::uint32_t h, Same&& same) {
     const std::uint32_t t = work_.halves[h].twin, f = work_.halves[h].face, g = work_.halves[t].face;
-    if (removed_[h] || !keep_[f] || !keep_[g] || work_.faces[f].plane != work_.faces[g].plane) return;
+    if (removed_[h] != 0 || !keep_[f] || !keep_[g] || work_.faces[f].plane != work_.faces[g].plane) return;
     if (f != g && !same(work_.faces[f].attribute, work_.faces[g].attribute)) return;
     const std::uint32_t before_h = work_.halves[h].prev, after_h = work_.halves[h].next;
     const std::uint32_t before_t = work_.halves[t].prev, after_t = work_.halves[t].next;
     if (after_h != t) work_.link(before_t, after_h);
     if (after_t != h) work_.link(before_h, after_t);
-    removed_[h] = removed_[t] = 1;
+    removed_[h] = removed_[t] = gone;
     groups_.unite(f, g);
   }
 
@@ -63,7 +75,7 @@ class Assemble {
       const WorkFace& face = work_.faces[f];
       for (std::uint32_t i = 0; i < face.count; ++i) {
         const std::uint32_t h = work_.half(face, i);
-        if (!removed_[h] && candidate(work_.halves[h].point)) leaving.emplace_back(work_.halves[h].point, h);
+        if (removed_[h] != gone && candidate(work_.halves[h].point)) leaving.emplace_back(work_.halves[h].point, h);
       }
     }
     std::sort(leaving.begin(), leaving.end());
@@ -74,18 +86,25 @@ class Assemble {
       for (std::size_t i = first; i < end; ++i) {
         const std::uint32_t h = leaving[i].second;
         if (work_.target(h) != ahead) continue;
-        const std::uint32_t x = work_.halves[h].prev, y = work_.halves[x].twin, t = work_.halves[h].twin;
-        work_.link(x, work_.halves[h].next);
-        work_.link(t, work_.halves[y].next);
-        work_.halves[x].twin = t;
-        work_.halves[t].twin = x;
-        removed_[h] = removed_[y] = 1;
+        drop(h);
       }
+    }
+  }
+
+  // The same umbrella by umbrella, whatever else meets the point.
+  void straighten_umbrellas() {
+    for (std::uint32_t h = 0; h < work_.halves.size(); ++h) {
+      if (removed_[h] == gone || !keep_[work_.halves[h].face]) continue;
+      const std::uint32_t x = work_.halves[h].prev, y = work_.halves[x].twin;
+      const std::pair<std::uint32_t, std::uint32_t> pair[] = {{0, h}, {0, y}};
+      if (y == h || work_.halves[y].prev != work_.halves[h].twin || !straight(pair, pair + 2)) continue;
+      drop(h);
     }
   }
 
   [[nodiscard]] Boundary run() {
     Boundary result;
+    result.touching = touching_;
     std::vector<std::uint32_t> next_of(work_.faces.size(), invalid_index);  // the faces that became one
     for (auto f = static_cast<std::uint32_t>(work_.faces.size()); f-- > 0;) {
       const std::uint32_t root = groups_.find(f);
@@ -100,7 +119,7 @@ class Assemble {
         const WorkFace& from = work_.faces[member];
         for (std::uint32_t i = 0; i < from.count; ++i) {
           const std::uint32_t h = work_.half(from, i);
-          if (removed_[h]) continue;
+          if (removed_[h] == gone) continue;
           new_half[h] = static_cast<std::uint32_t>(source.size());
           source.push_back(h);
         }
@@ -130,6 +149,16 @@ class Assemble {
 
  private:
   [[nodiscard]] bool kept(std::uint32_t h) const { return keep_[work_.halves[h].face] != 0; }
+
+  // Makes one edge of that of h and the one before it.
+  void drop(std::uint32_t h) {
+    const std::uint32_t x = work_.halves[h].prev, y = work_.halves[x].twin, t = work_.halves[h].twin;
+    work_.link(x, work_.halves[h].next);
+    work_.link(t, work_.halves[y].next);
+    work_.halves[x].twin = t;
+    work_.halves[t].twin = x;
+    removed_[h] = removed_[y] = gone;
+  }
 
   bool pair(const Spine& a, const Spine& b) {
     if (a.begins == b.begins) return false;
@@ -161,9 +190,24 @@ class Assemble {
     return order != 0 && order == p.compare(work_.points[half.point], work_.points[ahead], line.axis);
   }
 
+  static constexpr std::uint8_t gone = 1, held = 2;
+
   Work& work_;
+  bool touching_ = false;
   std::vector<std::uint8_t> keep_, removed_;
   brep::detail::UnionFind groups_;
 };
+
+// The boundary with faces as large as they can be, if that may be another one.
+template <class Same>
+[[nodiscard]] std::optional<Boundary> with_largest_faces(const PlaneTable& planes, const Boundary& boundary, Same&& same) {
+  if (!boundary.touching) return std::nullopt;
+  Work work(planes);
+  work.add(boundary, false, false, 0);
+  Assemble assemble(work, std::vector<std::uint8_t>(work.faces.size(), 1));
+  for (std::uint32_t h = 0; h < work.halves.size(); ++h) assemble.merge(h, same);
+  assemble.straighten_umbrellas();
+  return assemble.run();
+}
 
 }  // namespace brep::csg::detail

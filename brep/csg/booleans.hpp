@@ -8,6 +8,7 @@
 // in a face become one. Where both operands have a face in one plane, looking the same way, the attribute is that of a.
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -41,17 +42,17 @@ enum class Operation : std::uint8_t { unite, intersect, subtract };
 template <class F>
 [[nodiscard]] Result<Solid<F>> operate(const Solid<F>& a, const Solid<F>& b, Operation operation) {
   if (!(a.grid() == b.grid())) return Refusal{Code::different_grids, {}};
-  const std::size_t of_a = a.attributes().size();
-  Arrangement arrangement(a.grid().planes(), a.boundary(), b.boundary(), operation == Operation::subtract,
-                          static_cast<std::uint32_t>(of_a));
+  const auto of_a = static_cast<std::uint32_t>(a.attributes().size());
+  Arrangement arrangement(a.grid().planes(), a.boundary(), b.boundary(), operation == Operation::subtract, of_a);
   const auto value = [&](std::uint32_t i) -> const F& { return i < of_a ? a.attributes()[i] : b.attributes()[i - of_a]; };
+  const auto same = [&](std::uint32_t i, std::uint32_t j) { return i == j || value(i) == value(j); };
   Boundary boundary;
-  const bool valid = select(
-      arrangement, operation == Operation::unite, [&](std::uint32_t i, std::uint32_t j) { return i == j || value(i) == value(j); },
-      boundary);
-  if (!valid) return Refusal{Code::self_intersecting, {}};
+  if (!select(arrangement, operation == Operation::unite, same, boundary)) return Refusal{Code::self_intersecting, {}};
+  boundary.touching = boundary.touching || a.boundary().touching || b.boundary().touching;
   std::vector<F> attributes = attributes_of(a, b, boundary);
-  return Solid<F>(a.grid(), std::move(boundary), std::move(attributes));
+  std::optional<Boundary> largest = with_largest_faces(
+      a.grid().planes(), boundary, [&](std::uint32_t i, std::uint32_t j) { return i == j || attributes[i] == attributes[j]; });
+  return Solid<F>(a.grid(), std::move(boundary), std::move(largest), std::move(attributes));
 }
 
 }  // namespace detail

@@ -35,7 +35,7 @@ template <class F>
   const Plain brep = to_brep<Plain>(solid, [](NoData&, const F&) {});
   std::vector<Collapse> result;
   for (std::uint32_t f = 0; f < solid.face_count(); ++f) {
-    const OrientedPlane oriented = solid.boundary().faces[f].plane;
+    const OrientedPlane oriented = solid.faces().faces[f].plane;
     const Plane& plane = solid.grid().planes()[oriented.number()];
     const glm::dvec3 normal = glm::dvec3{plane.normal[0], plane.normal[1], plane.normal[2]} * static_cast<double>(oriented.sign());
     const glm::dvec3 o = brep.data(brep.vertex(brep.halfedge(FaceId{f}))).position;

@@ -60,6 +60,8 @@ class CheckLeaf {
  public:
   explicit CheckLeaf(Work& work) : work_(work) {}
 
+  std::vector<std::uint32_t> several;  // half-edges of edges that coincide with others
+
   // The refusal names faces by their attributes.
   [[nodiscard]] Refusal run() {
     Refusal refusal = contacts();
@@ -88,25 +90,9 @@ class CheckLeaf {
   }
 
   [[nodiscard]] Refusal wedges() {
-    Radial radial(work_);
-    for (std::uint32_t h = 0; h < work_.halves.size(); ++h) radial.add(h);
-    std::vector<Spine>& spines = radial.spines;
-    std::sort(spines.begin(), spines.end(), [](const Spine& a, const Spine& b) {
-      return a.lo != b.lo ? a.lo < b.lo : a.hi != b.hi ? a.hi < b.hi : a.half < b.half;
-    });
-    for (std::size_t i = 0, end = 0; i < spines.size(); i = end) {
-      while (end < spines.size() && spines[end].lo == spines[i].lo && spines[end].hi == spines[i].hi) ++end;
-      if (end - i == 2) continue;
-      radial.sort(spines.data() + i, spines.data() + end);
-      for (std::size_t k = i; k < end; ++k) {
-        const Spine &s = spines[k], &next = spines[k + 1 == end ? i : k + 1];
-        if (s.begins == next.begins || s.stacked) {
-          return {Code::self_intersecting, {name(work_.halves[s.half].face), name(work_.halves[next.half].face)}};
-        }
-        if (s.begins) work_.halves[s.half].twin = next.half, work_.halves[next.half].twin = s.half;
-      }
-    }
-    return {};
+    const auto wrong = pair_wedges(work_, 0, several);
+    if (!wrong) return {};
+    return {Code::self_intersecting, {name(work_.halves[wrong->first].face), name(work_.halves[wrong->second].face)}};
   }
 
   // Volume times six of the faces of a shell, from the middle of the grid. Exact for vertices on the grid.

@@ -145,10 +145,8 @@ class Contacts {
       if (at_f && at_g) {
         here = resolve(k);
         if (before != invalid_index) {
-          if (state_f == 3) segments.push_back({f, before, here, q});
-          if (state_g == 3) segments.push_back({g, before, here, p});
-          if (state_f != 3) run_along(k, false);
-          if (state_g != 3) run_along(k, true);
+          if (!run_along(k, false)) state_f == 3 ? segments.push_back({f, before, here, q}) : void(consistent = false);
+          if (!run_along(k, true)) state_g == 3 ? segments.push_back({g, before, here, p}) : void(consistent = false);
         }
       }
       state_f = after_f, state_g = after_g;
@@ -173,15 +171,15 @@ class Contacts {
     return number;
   }
 
-  // Between the groups k - 1 and k the face has an edge.
-  void run_along(std::uint32_t k, bool of_g) {
+  // Notes the edges that the face has between the groups k - 1 and k; false: none.
+  bool run_along(std::uint32_t k, bool of_g) {
     bool found = false;
     for (const Along& a : along_) {
       if (a.of_g != of_g || a.first >= k || a.last < k) continue;
       along.push_back(lower(a.half));
       found = true;
     }
-    consistent = consistent && found;
+    return found;
   }
 
   [[nodiscard]] std::uint32_t lower(std::uint32_t h) const { return std::min(h, work_.halves[h].twin); }

@@ -5,7 +5,8 @@
 //
 // At a point where segments end, all edges of the face are sorted by direction. A half-edge that arrives goes on with the first one that
 // leaves clockwise of the way it came, so the region on its left is kept together: the links that split_face and bridge would make one
-// segment after the other. Where the operands touch themselves, a segment may run through the end of another; it is cut there, too.
+// segment after the other. A segment may end inside the face, where an edge of the other operand touches it. Where the operands touch
+// themselves, a segment may run through the end of another; it is cut there, too.
 
 #include <algorithm>
 #include <cstdint>
@@ -33,12 +34,12 @@ class CutFaces {
   std::vector<std::uint32_t> touched;   // faces with a segment or a split edge, before they fall into pieces
   std::uint32_t fault = invalid_index;  // a face that is not bounded as a face must be, if there is one
 
-  void run(std::vector<Segment>& segments, const SplitEdges& edges) {
+  void run(std::vector<Segment>& segments, const SplitEdges& edges, const std::vector<std::uint32_t>& contacts) {
     for (Segment& s : segments) {
       if (s.from > s.to) std::swap(s.from, s.to);
     }
     remove_copies(segments);
-    if (split_at_ends(segments)) remove_copies(segments);
+    if (split_at_contacts(segments, contacts)) remove_copies(segments);
     for (const Segment& s : segments) touched.push_back(s.face);
     for (const EdgeParts& p : edges.parts()) {
       touched.push_back(work_.halves[p.edge].face);
@@ -71,35 +72,31 @@ class CutFaces {
                    segments.end());
   }
 
-  // Cuts segments at the ends of others on the same face, wherever they are drawn. Rare: an operand has to touch itself.
-  bool split_at_ends(std::vector<Segment>& segments) const {
+  // Cuts segments at the points of contact inside them, which lie there only where an operand touches itself.
+  bool split_at_contacts(std::vector<Segment>& segments, std::vector<std::uint32_t> points) const {
     struct Stop {
       std::uint32_t from, to, point;
     };
     std::vector<Stop> stops;
-    for (std::size_t first = 0, end = 0; first < segments.size(); first = end) {
-      while (end < segments.size() && segments[end].face == segments[first].face) ++end;
-      if (end - first < 2) continue;
-      std::vector<std::uint32_t> ends;
-      for (std::size_t i = first; i < end; ++i) ends.insert(ends.end(), {segments[i].from, segments[i].to});
-      std::sort(ends.begin(), ends.end());
-      ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-      const int axis = widest(ends);
-      std::sort(ends.begin(), ends.end(),
-                [&](std::uint32_t a, std::uint32_t b) { return work_.points[a].position[axis] < work_.points[b].position[axis]; });
-      for (std::size_t i = first; i < end; ++i) {
-        const Segment& s = segments[i];
-        const glm::dvec3 a = work_.points[s.from].position, b = work_.points[s.to].position;
-        const glm::dvec3 lo = glm::min(a, b), hi = glm::max(a, b);
-        auto p = std::lower_bound(ends.begin(), ends.end(), lo[axis],
-                                  [&](std::uint32_t x, double at) { return work_.points[x].position[axis] < at; });
-        for (; p != ends.end() && work_.points[*p].position[axis] <= hi[axis]; ++p) {
-          const glm::dvec3& x = work_.points[*p].position;
-          if (x.x < lo.x || x.y < lo.y || x.z < lo.z || x.x > hi.x || x.y > hi.y || x.z > hi.z) continue;
-          if (*p != s.from && *p != s.to && work_.predicates.side(work_.points[*p], s.across) == 0 && between(*p, s)) {
-            stops.push_back({s.from, s.to, *p});
-          }
-        }
+    if (segments.empty()) return false;
+    const int axis = widest(points);
+    std::sort(points.begin(), points.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return work_.points[a].position[axis] < work_.points[b].position[axis]; });
+    std::vector<glm::dvec3> positions;
+    for (std::uint32_t p : points) positions.push_back(work_.points[p].position);
+    for (const Segment& s : segments) {
+      const glm::dvec3 a = work_.points[s.from].position, b = work_.points[s.to].position;
+      const glm::dvec3 lo = glm::min(a, b), hi = glm::max(a, b);
+      auto p = static_cast<std::size_t>(
+          std::lower_bound(positions.begin(), positions.end(), lo[axis], [&](const glm::dvec3& x, double at) { return x[axis] < at; }) -
+          positions.begin());
+      for (; p < positions.size() && positions[p][axis] <= hi[axis]; ++p) {
+        const glm::dvec3& x = positions[p];
+        if (x.x < lo.x || x.y < lo.y || x.z < lo.z || x.x > hi.x || x.y > hi.y || x.z > hi.z) continue;
+        if (points[p] == s.from || points[p] == s.to) continue;
+        const Point& point = work_.points[points[p]];
+        if (work_.predicates.side(point, s.across) != 0 || work_.predicates.side(point, work_.faces[s.face].plane.number()) != 0) continue;
+        if (between(points[p], s)) stops.push_back({s.from, s.to, points[p]});
       }
     }
     if (stops.empty()) return false;
@@ -109,16 +106,16 @@ class CutFaces {
     for (const Segment& s : segments) {
       auto stop = std::lower_bound(stops.begin(), stops.end(), s,
                                    [](const Stop& a, const Segment& b) { return std::pair(a.from, a.to) < std::pair(b.from, b.to); });
-      std::vector<std::uint32_t> points{s.from, s.to};
+      std::vector<std::uint32_t> chain{s.from, s.to};
       for (; stop != stops.end() && stop->from == s.from && stop->to == s.to; ++stop) {
-        if (points.back() != stop->point) points.push_back(stop->point);
+        if (chain.back() != stop->point) chain.push_back(stop->point);
       }
-      const int axis = widest({s.from, s.to});
-      std::sort(points.begin(), points.end(),
-                [&](std::uint32_t a, std::uint32_t b) { return work_.predicates.compare(work_.points[a], work_.points[b], axis) < 0; });
-      for (std::size_t i = 1; i < points.size(); ++i) {
-        if (points[i - 1] == points[i]) continue;
-        result.push_back({s.face, std::min(points[i - 1], points[i]), std::max(points[i - 1], points[i]), s.across});
+      const int along = widest({s.from, s.to});
+      std::sort(chain.begin(), chain.end(),
+                [&](std::uint32_t a, std::uint32_t b) { return work_.predicates.compare(work_.points[a], work_.points[b], along) < 0; });
+      for (std::size_t i = 1; i < chain.size(); ++i) {
+        if (chain[i - 1] == chain[i]) continue;
+        result.push_back({s.face, std::min(chain[i - 1], chain[i]), std::max(chain[i - 1], chain[i]), s.across});
       }
     }
     segments.swap(result);
@@ -200,11 +197,14 @@ class CutFaces {
       spokes_.push_back({s->from, c + 1, c, d});
       spokes_.push_back({s->to, c, c + 1, {-d.u, -d.v}});
     }
-    std::sort(spokes_.begin(), spokes_.end(),
-              [](const Spoke& a, const Spoke& b) { return a.point != b.point ? a.point < b.point : before(a.direction, b.direction); });
+    std::sort(spokes_.begin(), spokes_.end(), [](const Spoke& a, const Spoke& b) {
+      if (a.point != b.point) return a.point < b.point;
+      const bool less = before(a.direction, b.direction);
+      if (less || before(b.direction, a.direction)) return less;
+      return a.out == invalid_index && b.out != invalid_index;  // both sides of a slit: who arrives does not turn back at once
+    });
     for (std::size_t first = 0, last = 0; first < spokes_.size(); first = last) {
       while (last < spokes_.size() && spokes_[last].point == spokes_[first].point) ++last;
-      if (last - first < 2) fault = f;
       for (std::size_t i = first; i < last; ++i) {
         if (spokes_[i].in == invalid_index) continue;
         std::size_t out = i;

@@ -6,6 +6,7 @@
 // What a boolean operation does before it selects. A mesher of shadow volumes or of contact surfaces needs just this (paper 5).
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,7 +36,9 @@ template <class F>
       keep.push_back(arrangement.work.faces[f].of_b == of_b);
       if (keep.back()) sides.push_back(arrangement.labels.sides[f]);
     }
-    return Solid<F>(a.grid(), detail::Assemble(arrangement.work, std::move(keep)).run(), of_b ? b.attributes() : a.attributes());
+    Boundary boundary = detail::Assemble(arrangement.work, std::move(keep)).run();
+    boundary.touching = (of_b ? b : a).boundary().touching;
+    return Solid<F>(a.grid(), std::move(boundary), std::nullopt, (of_b ? b : a).attributes());
   };
   Imprint<F> result;
   result.a = part(false, result.side_a);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -60,12 +61,16 @@ template <class F, class B, class Position, class Attribute>
   if (const Refusal refusal = leaf.run(boundary); refusal.code != Code::none) return refusal;
   detail::Work work(grid.planes());
   work.add(boundary, false, false, 0);
-  if (const Refusal refusal = detail::CheckLeaf(work).run(); refusal.code != Code::none) return refusal;
+  detail::CheckLeaf check(work);
+  if (const Refusal refusal = check.run(); refusal.code != Code::none) return refusal;
   detail::Assemble assemble(work, std::vector<std::uint8_t>(work.faces.size(), 1));
   const auto same = [&](std::uint32_t i, std::uint32_t j) { return attributes[i] == attributes[j]; };
+  for (std::uint32_t h : check.several) assemble.hold(h);
   for (std::uint32_t h = 0; h < work.halves.size(); ++h) assemble.merge(h, same);
   assemble.straighten([](std::uint32_t) { return true; });
-  return Solid<F>(grid, assemble.run(), std::move(attributes));
+  boundary = assemble.run();
+  std::optional<Boundary> largest = detail::with_largest_faces(grid.planes(), boundary, same);
+  return Solid<F>(grid, std::move(boundary), std::move(largest), std::move(attributes));
 }
 
 // The same for a BRep whose vertex data have a `position` and whose face data have a `sheet`.

@@ -7,6 +7,8 @@
 // All three operations are two: a - b is the intersection of a with b turned inside out. The steps stand in files of their own; here is
 // their order. Cost: one pass over both operands, and work near the common edges.
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -34,7 +36,12 @@ class Arrangement {
 
   Arrangement(const PlaneTable& planes, const Boundary& a, const Boundary& b, bool reverse_b, std::uint32_t attributes_of_a)
       : work(both(planes, a, b, reverse_b, attributes_of_a)), contacts(work), radial(work), labels(work, contacts.table, reverse_b) {
+    if (reverse_b && b.touching) {  // the wedges between its wedges are solid now
+      std::vector<std::uint32_t> several;
+      if (pair_wedges(work, static_cast<std::uint32_t>(a.halves.size()), several)) fault = 0;
+    }
     find_contacts();
+    if (a.touching || b.touching) add_copies();
     if (!contacts.consistent) fault = 0;
     if (fault == invalid_index) cut();
     if (fault == invalid_index) {
@@ -66,11 +73,37 @@ class Arrangement {
     }
   }
 
+  // What happens to an edge happens to all edges at its place: those whose faces both lie in the plane of a face of the other operand have not
+  // been compared with it.
+  void add_copies() {
+    std::vector<std::array<std::uint32_t, 3>> edges;  // ends, lower half-edge
+    for (std::uint32_t h = 0; h < work.halves.size(); ++h) {
+      const std::uint32_t p = work.halves[h].point, q = work.target(h);
+      if (h < work.halves[h].twin) edges.push_back({std::min(p, q), std::max(p, q), h});
+    }
+    std::sort(edges.begin(), edges.end());
+    std::vector<std::uint32_t> next(work.halves.size(), invalid_index);  // a ring of the edges at one place
+    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+      while (end < edges.size() && edges[end][0] == edges[i][0] && edges[end][1] == edges[i][1]) ++end;
+      for (std::size_t k = i; end - i > 1 && k < end; ++k) next[edges[k][2]] = edges[k + 1 < end ? k + 1 : i][2];
+    }
+    const auto for_copies = [&](std::uint32_t e, auto&& visit) {
+      for (std::uint32_t x = next[e]; x != invalid_index && x != e; x = next[x]) visit(x);
+    };
+    for (std::size_t i = 0, count = contacts.nodes.size(); i < count; ++i) {
+      const EdgeNode node = contacts.nodes[i];
+      for_copies(node.edge, [&](std::uint32_t x) { contacts.nodes.push_back({x, node.point}); });
+    }
+    for (std::size_t i = 0, count = contacts.along.size(); i < count; ++i) {
+      for_copies(contacts.along[i], [&](std::uint32_t x) { contacts.along.push_back(x); });
+    }
+  }
+
   void cut() {
     SplitEdges edges(work);
     edges.run(contacts.nodes);
     CutFaces faces(work);
-    faces.run(contacts.segments, edges);
+    faces.run(contacts.segments, edges, contacts.table.points());
     fault = faces.fault;
     if (fault != invalid_index) return;
     cuts = std::move(faces.cuts);

@@ -24,7 +24,7 @@ class PointTable {
       std::uint32_t& slot = find(work_.points[v]);
       if (slot == invalid_index) {
         name_[v] = slot = v;
-        entered();
+        entered(v);
       } else {
         name_[v] = slot;
         renamed_ = true;
@@ -39,13 +39,15 @@ class PointTable {
     const auto number = slot = static_cast<std::uint32_t>(work_.points.size());
     work_.points.push_back(p);
     name_.push_back(number);
-    entered();
+    entered(number);
     return number;
   }
 
   // Is the point part of a contact?
   [[nodiscard]] bool contains(std::uint32_t p) const { return name_[p] != invalid_index; }
   [[nodiscard]] std::uint32_t name(std::uint32_t p) const { return name_[p] == invalid_index ? p : name_[p]; }
+  // All points of contact.
+  [[nodiscard]] const std::vector<std::uint32_t>& points() const { return points_; }
   [[nodiscard]] bool renamed() const { return renamed_; }
 
  private:
@@ -59,8 +61,9 @@ class PointTable {
     while (slots_[i] != invalid_index && !work_.predicates.equal(work_.points[slots_[i]], p)) i = (i + 1) & (slots_.size() - 1);
     return slots_[i];
   }
-  void entered() {
-    if (2 * ++count_ < slots_.size()) return;
+  void entered(std::uint32_t number) {
+    points_.push_back(number);
+    if (2 * points_.size() < slots_.size()) return;
     std::vector<std::uint32_t> old(2 * slots_.size(), invalid_index);
     old.swap(slots_);
     for (std::uint32_t p : old) {
@@ -72,8 +75,7 @@ class PointTable {
   }
 
   Work& work_;
-  std::vector<std::uint32_t> name_, slots_;
-  std::size_t count_ = 0;
+  std::vector<std::uint32_t> name_, slots_, points_;
   bool renamed_ = false;
 };
 

@@ -12,6 +12,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <brep/csg/solid.hpp>
@@ -139,5 +141,29 @@ class Radial {
   Work& work_;
   std::vector<Ranked> ranked_;
 };
+
+// Where edges of one operand coincide, chooses their twins by solid wedges; for the half-edges from `first` on. Notes them in `several`.
+// Returns two half-edges that do not begin and end a solid in turn, if there are such.
+[[nodiscard]] inline std::optional<std::pair<std::uint32_t, std::uint32_t>> pair_wedges(Work& work, std::uint32_t first,
+                                                                                        std::vector<std::uint32_t>& several) {
+  Radial radial(work);
+  for (std::uint32_t h = first; h < work.halves.size(); ++h) radial.add(h);
+  std::vector<Spine>& spines = radial.spines;
+  std::sort(spines.begin(), spines.end(), [](const Spine& a, const Spine& b) {
+    return a.lo != b.lo ? a.lo < b.lo : a.hi != b.hi ? a.hi < b.hi : a.half < b.half;
+  });
+  for (std::size_t i = 0, end = 0; i < spines.size(); i = end) {
+    while (end < spines.size() && spines[end].lo == spines[i].lo && spines[end].hi == spines[i].hi) ++end;
+    if (end - i == 2) continue;
+    radial.sort(spines.data() + i, spines.data() + end);
+    for (std::size_t k = i; k < end; ++k) {
+      const Spine &s = spines[k], &next = spines[k + 1 == end ? i : k + 1];
+      if (s.begins == next.begins || s.stacked) return std::pair(s.half, next.half);
+      several.push_back(s.half);
+      if (s.begins) work.halves[s.half].twin = next.half, work.halves[next.half].twin = s.half;
+    }
+  }
+  return std::nullopt;
+}
 
 }  // namespace brep::csg::detail

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,24 +23,28 @@ class Solid {
  public:
   using attribute_type = F;
 
-  Solid() : Solid(Grid(glm::dvec3{0.0}, glm::dvec3{1.0}), {}, {}) {}
-  // For the operations: whoever calls this answers for the invariants of boundary.hpp. Attributes are numbers in the list.
-  Solid(Grid grid, Boundary boundary, std::vector<F> attributes)
+  Solid() : Solid(Grid(glm::dvec3{0.0}, glm::dvec3{1.0}), {}, {}, {}) {}
+  // For the operations: whoever calls this answers for the invariants of boundary.hpp. Attributes are numbers in the list. `largest`
+  // is the same with faces as large as they can be, where that differs.
+  Solid(Grid grid, Boundary boundary, std::optional<Boundary> largest, std::vector<F> attributes)
       : grid_(std::move(grid)),
         boundary_(std::make_shared<const Boundary>(std::move(boundary))),
+        largest_(largest ? std::make_shared<const Boundary>(std::move(*largest)) : boundary_),
         attributes_(std::make_shared<const std::vector<F>>(std::move(attributes))) {}
 
   [[nodiscard]] const Grid& grid() const { return grid_; }
-  [[nodiscard]] bool empty() const { return boundary_->faces.empty(); }
-  [[nodiscard]] std::size_t face_count() const { return boundary_->faces.size(); }
-  [[nodiscard]] const F& attribute(std::size_t face) const { return (*attributes_)[boundary_->faces[face].attribute]; }
+  [[nodiscard]] bool empty() const { return largest_->faces.empty(); }
+  [[nodiscard]] std::size_t face_count() const { return largest_->faces.size(); }
+  [[nodiscard]] const F& attribute(std::size_t face) const { return (*attributes_)[largest_->faces[face].attribute]; }
 
+  // The faces as large as they can be: what is exported and measured. Differs from boundary() where the solid touches itself along an edge.
+  [[nodiscard]] const Boundary& faces() const { return *largest_; }
   [[nodiscard]] const Boundary& boundary() const { return *boundary_; }
   [[nodiscard]] const std::vector<F>& attributes() const { return *attributes_; }
 
  private:
   Grid grid_;
-  std::shared_ptr<const Boundary> boundary_;
+  std::shared_ptr<const Boundary> boundary_, largest_;
   std::shared_ptr<const std::vector<F>> attributes_;
 };
 

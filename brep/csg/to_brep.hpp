@@ -40,12 +40,12 @@ namespace detail {
 template <class F>
 [[nodiscard]] double area(const Solid<F>& solid) {
   double sum = 0.0;
-  for (const Face& f : solid.boundary().faces) sum += 0.5 * glm::length(detail::double_area(solid.boundary(), f));
+  for (const Face& f : solid.faces().faces) sum += 0.5 * glm::length(detail::double_area(solid.faces(), f));
   return sum * solid.grid().spacing() * solid.grid().spacing();
 }
 template <class F>
 [[nodiscard]] double volume(const Solid<F>& solid) {
-  const Boundary& b = solid.boundary();
+  const Boundary& b = solid.faces();
   if (b.faces.empty()) return 0.0;
   const glm::dvec3 origin = b.points[0].position;
   double sum = 0.0;
@@ -176,7 +176,7 @@ class Export {
 // Valid and closed for every solid; positions are rounded, so what is thinner than a double can show collapses: check_export tells.
 template <class B, class F, class SetFace>
 [[nodiscard]] B to_brep(const Solid<F>& solid, SetFace&& set_face) {
-  return detail::Export<B>(solid.grid(), solid.boundary()).run([&](typename B::face_type& data, std::uint32_t attribute) {
+  return detail::Export<B>(solid.grid(), solid.faces()).run([&](typename B::face_type& data, std::uint32_t attribute) {
     set_face(data, solid.attributes()[attribute]);
   });
 }
