@@ -54,7 +54,7 @@ class Csg final : public Object {
 
   // Faces are convex where they lie on flat sheets.
   void approximate(double tolerance, brep::Builder& out) const override {
-    if (flat() || tolerance >= tolerance_) return append(polygons_, out);
+    if (flat() || tolerance >= 0.98 * tolerance_) return append(polygons_, out);  // a placement knows its stretch to 0.2 %
     // What can be done with coarse chords can be done with fine ones, but for features that fall below the grid.
     const CsgBoundaryResult finer = csg_boundary(*tree_, tolerance);
     append(finer.boundary ? polygons_of(finer.boundary->brep) : polygons_, out);
