@@ -70,8 +70,11 @@ class CsgEvaluation {
 
   CsgBoundaryResult run() {
     CsgBoundary result;
-    Exact whole = evaluate(0);
-    if (!refusal_.empty() || !finish(whole, result.brep)) return {std::nullopt, std::move(refusal_)};
+    if (!attempt(result.brep)) {  // what was finished in a frame of its own may not bear to be snapped again: all on one grid
+      nested_ = false;
+      refusal_.clear();
+      if (!attempt(result.brep)) return {std::nullopt, std::move(refusal_)};
+    }
     for (const brep::FaceId f : brep::faces(result.brep))
       for (const brep::HalfedgeId h : brep::halfedges_of(result.brep, f)) {
         const glm::dvec3& p = result.brep.data(result.brep.vertex(h)).position;
@@ -82,6 +85,11 @@ class CsgEvaluation {
   }
 
  private:
+  bool attempt(CsgBRep& out) {
+    const Exact whole = evaluate(0);
+    return refusal_.empty() && finish(whole, out);
+  }
+
   // A solid on a grid that is turned against the tree's coordinates.
   struct Exact {
     Solid solid;
@@ -183,7 +191,7 @@ class CsgEvaluation {
     }
     return result;
   }
-  [[nodiscard]] bool own_grid(std::uint32_t index, const glm::dmat3& frame) const { return !same(frame_of(index), frame); }
+  [[nodiscard]] bool own_grid(std::uint32_t index, const glm::dmat3& frame) const { return nested_ && !same(frame_of(index), frame); }
 
   template <class Operation>
   Solid apply(Operation&& operation, const Solid& a, const Solid& b) {
@@ -299,6 +307,7 @@ class CsgEvaluation {
 
   const CsgTree& tree_;
   double tolerance_, near_ = 0.0;
+  bool nested_ = true;
   std::string refusal_;
 };
 

@@ -190,7 +190,7 @@ TEST_CASE("csg: rays meet the evaluated faces of polyhedral leaves where the mer
 TEST_CASE("csg: its mesh is closed, its vertices lie on their sheets, and it holds the volume that its spans hold") {
   SEEDED(random);
   const std::vector<test::Primitive> primitives = tame();
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < 20; ++round) {
     const RandomTree random_solid = random_tree(random, primitives, 2);
     const Made<Csg> csg = Csg::make(random_solid.node);
     if (!csg) {
@@ -215,7 +215,7 @@ TEST_CASE("csg: its mesh is closed, its vertices lie on their sheets, and it hol
       }
       // By lines on a grid: n^2 columns of width w, each right but for those that cross an outline.
       const Box box = csg->bounds();
-      const int n = 60;
+      const int n = 40;
       const dvec3 step = box.size() / static_cast<double>(n);
       double measured = 0.0;
       for (int i = 0; i < n; ++i)
