@@ -45,11 +45,7 @@ bool objects_along(const Compiled& scene, const Segment& line, double t0, const 
     }
     return false;
   };
-  if (scene.nodes.empty()) {
-    for (const std::uint32_t at : scene.leaves)
-      if (leaf(at)) return true;
-    return false;
-  }
+  if (scene.nodes.empty()) return false;
   struct Entry {
     std::uint32_t child;
     double t;

@@ -16,6 +16,7 @@
 // Crossings are known to 32 u (D + size) across the surface, with the cusps of pinched shapes as sharp as the coordinates: a blade or
 // needle that is thinner than their rounding may be missed.
 
+#include "../compile.hpp"
 #include "../object.hpp"
 #include "../roots.hpp"
 #include "../superellipse.hpp"
@@ -78,6 +79,11 @@ class Superquadric final : public Object {
       const auto t = [&](double s) { return shift + (again + s) / length; };
       out.push(Span{{t(in), 0}, {t(leave), 0}});
     }
+  }
+
+  void compile(Compiler& compiler) const override {
+    const glm::dmat3 unit(1.0 / radii_.x, 0, 0, 0, 1.0 / radii_.y, 0, 0, 0, 1.0 / radii_.z);
+    compiler.superquadric(centre_, unit, around_.p(), profile_.p(), ring_);
   }
 
   // Nearest, to 1e-8 of the size, for points that are nearer than the smallest radius of curvature; otherwise a point whose normal runs

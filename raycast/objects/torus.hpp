@@ -13,6 +13,7 @@
 // known to 32 u (D + R) across the surface, and hit or miss is decided rightly when the line passes the surface by more.
 
 #include "../circle.hpp"
+#include "../compile.hpp"
 #include "../roots.hpp"
 
 #include <array>
@@ -63,6 +64,10 @@ class Torus final : public Object {
       inside = !inside;
       before = at;
     }
+  }
+
+  void compile(Compiler& compiler) const override {
+    compiler.superquadric(centre_, frame_.into(minor_, minor_), 2.0, 2.0, major_ / minor_);
   }
 
   [[nodiscard]] SurfacePoint project(std::uint32_t, const glm::dvec3& p) const override {
