@@ -81,6 +81,11 @@ inline std::uint32_t Scene::blocked_by_rooms(const Segments16& segments, const R
         ask &= ~(near & (from | o) & (to | t));
       }
     }
+    for (std::uint32_t rest = objects_[room].convex() ? ask : 0; rest; rest &= rest - 1) {  // ends on or near a wall
+      const auto i = static_cast<unsigned>(std::countr_zero(rest));
+      const Segment s = segments.at(i);
+      if (((from >> i & 1u) || in_room(r, s.origin)) && ((to >> i & 1u) || in_room(r, s.at(1.0)))) ask &= ~(1u << i);
+    }
     if (ask) blocked |= exact(room, ask);
   }
   return blocked;
@@ -131,7 +136,13 @@ inline bool Scene::occluded(const Segment& segment, std::uint32_t source_owner, 
     return blocks(Line(segment), end_at(source_owner), end_at(target_owner), object);
   };
   if (HALFLIGHT_DISPATCH(isa_, blocked_one(compiled_, rays, exact))) return true;
-  return std::any_of(compiled_.rooms.begin(), compiled_.rooms.end(), [&](std::uint32_t room) { return exact(room, 1u) != 0; });
+  for (std::size_t r = 0; r < compiled_.rooms.size(); ++r) {
+    const std::uint32_t room = compiled_.rooms[r];
+    const bool clear = objects_[room].convex() && (source_owner == room || in_room(r, segment.origin)) &&
+                       (target_owner == room || in_room(r, segment.at(1.0)));
+    if (!clear && exact(room, 1u)) return true;
+  }
+  return false;
 }
 
 // Asks the law about one object, for the first hit.

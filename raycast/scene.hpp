@@ -56,7 +56,7 @@ class Scene {
   [[nodiscard]] double diameter() const { return bounds_.diameter(); }
   [[nodiscard]] std::size_t bytes() const {  // of the compiled scene, without the objects themselves
     return objects_.capacity() * sizeof(PlacedObject) + records_.capacity() * sizeof(Record) + corners_.capacity() * sizeof(glm::dvec3) +
-           compiled_.bytes();
+           walls_.capacity() * sizeof(Plane) + compiled_.bytes();
   }
 
   // Does anything stand between the two ends, t in (0, 1)? The owners are the objects on which the ends lie. Symmetric: exchanging ends
@@ -121,6 +121,13 @@ class Scene {
   [[nodiscard]] OccluderList list_of(const OccluderList* parent, const PatchShape& a, const PatchShape& b) const;
   [[nodiscard]] bool within(std::uint32_t object, std::span<const glm::dvec3> points) const;
   [[nodiscard]] bool rooms_clear(const PatchShape& a, const PatchShape& b) const;
+  // Is the point in the convex polyhedral room number r, or on its wall as well as rounding can tell? False for other rooms.
+  [[nodiscard]] bool in_room(std::size_t r, const glm::dvec3& p, double bulge = 0.0) const {
+    const std::uint32_t first = first_wall_[r], end = first_wall_[r + 1];
+    for (std::uint32_t k = first; k < end; ++k)
+      if (!(glm::dot(walls_[k].normal, p - walls_[k].point) >= bulge - 0.5 * rounding_)) return false;
+    return first < end;
+  }
   [[nodiscard]] std::uint32_t blocked_by_rooms(const Segments16& segments, const Rays16& rays, std::uint32_t near,
                                                std::uint32_t lanes) const;
 
@@ -152,6 +159,8 @@ class Scene {
   std::vector<PlacedObject> objects_;
   std::vector<Record> records_;
   std::vector<glm::dvec3> corners_;
+  std::vector<Plane> walls_;                  // of the convex polyhedral rooms, normals inwards
+  std::vector<std::uint32_t> first_wall_{0};  // by room
   Compiled compiled_;
   Isa isa_;
   Box bounds_;
@@ -188,6 +197,15 @@ inline Scene::Scene(std::vector<PlacedObject> objects, Isa isa) : objects_(std::
     compiler.add(i, objects_[i], std::span<const glm::dvec3>(corners_).subspan(r.first_corner, r.corner_count), r.normal);
   }
   compiler.finish(loop_limit);
+  for (const std::uint32_t room : compiled_.rooms) {
+    const PlacedObject& object = objects_[room];
+    if (object.convex() && object.flat() && object.sheet_count() <= 32)
+      for (std::uint32_t sheet = 0; sheet < object.sheet_count(); ++sheet) {
+        const SurfacePoint wall = object.project(sheet, object.bounds().centre());
+        walls_.push_back({wall.position, wall.normal});
+      }
+    first_wall_.push_back(static_cast<std::uint32_t>(walls_.size()));
+  }
 }
 
 inline bool Scene::blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const {

@@ -138,21 +138,16 @@ inline bool Scene::within(std::uint32_t object, std::span<const glm::dvec3> poin
 
 // A convex polyhedral room blocks nothing between patches that lie in it or on it.
 inline bool Scene::rooms_clear(const PatchShape& a, const PatchShape& b) const {
-  return std::all_of(compiled_.rooms.begin(), compiled_.rooms.end(), [&](std::uint32_t room) {
-    const PlacedObject& object = objects_[room];
-    if (!object.convex()) return false;
-    if (a.owner == room && b.owner == room) return true;
-    if (!object.flat() || object.sheet_count() > 32) return false;
-    for (const PatchShape* patch : {&a, &b}) {
-      if (patch->owner == room) continue;
-      for (std::uint32_t sheet = 0; sheet < object.sheet_count(); ++sheet) {
-        const SurfacePoint wall = object.project(sheet, patch->contour[0]);
-        for (const glm::dvec3& p : patch->contour)
-          if (!(glm::dot(wall.normal, p - wall.position) >= patch->bulge - 0.5 * rounding_)) return false;
-      }
-    }
-    return true;
-  });
+  for (std::size_t r = 0; r < compiled_.rooms.size(); ++r) {
+    const std::uint32_t room = compiled_.rooms[r];
+    if (!objects_[room].convex()) return false;
+    if (a.owner == room && b.owner == room) continue;
+    for (const PatchShape* patch : {&a, &b})
+      if (patch->owner != room &&
+          !std::all_of(patch->contour.begin(), patch->contour.end(), [&](const glm::dvec3& p) { return in_room(r, p, patch->bulge); }))
+        return false;
+  }
+  return true;
 }
 
 inline std::uint32_t Scene::occluded16(const Segments16& segments, const OccluderList& list, std::uint32_t& hint) const {

@@ -116,7 +116,7 @@ class Torus final : public Object {
 
     [[nodiscard]] Sample operator()(double s) const {
       const double x = f_.x + s * e_.x, y = f_.y + s * e_.y, z = f_.z + s * e_.z;
-      const double rho = std::hypot(x, y), off = rho - 1.0, distance = std::hypot(off, z);
+      const double rho = std::sqrt(x * x + y * y), off = rho - 1.0, distance = std::sqrt(off * off + z * z);
       return {distance - r_, (off * (x * e_.x + y * e_.y) / rho + z * e_.z) / distance};
     }
     // The part of the line within the ball of radius 1 + r and the slab |z| <= r. Both a few u too large.
