@@ -8,7 +8,6 @@
 #include "circle.hpp"
 #include "compiled.hpp"
 #include "transform.hpp"
-#include "tree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,12 @@
 #include <vector>
 
 namespace raycast {
+
+struct Item {  // a shape before it has its place
+  FloatBox box;
+  Kind kind;
+  std::uint32_t object, data;
+};
 
 class Compiler {
  public:
@@ -134,15 +139,7 @@ class Compiler {
     }
   }
   // Arranges everything. Up to `loop_limit` shapes are a loop for occlusion; the first hit is always looked for in the tree.
-  void finish(std::size_t loop_limit) {
-    out_.shape_count = static_cast<std::uint32_t>(items_.size());
-    out_.bodies.reserve(bodies_.size());
-    for (std::uint32_t& body : out_.room_bodies)
-      if (body != no_shape) out_.bodies.push_back(bodies_[std::exchange(body, static_cast<std::uint32_t>(out_.bodies.size()))]);
-    TreeBuilder tree(items_, [this](Kind kind, std::span<const Item> items) { return emit(kind, items); });
-    if (items_.size() <= loop_limit) tree.leaves(out_.leaves);
-    if (!items_.empty()) tree.build(out_.nodes);
-  }
+  void finish(std::size_t loop_limit);  // tree.hpp
 
  private:
   struct Face {

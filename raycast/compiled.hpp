@@ -13,7 +13,7 @@
 //
 // Boxes of nodes are grown by the margin and rounded outwards; so a node is never missed for a shape that could be met.
 
-#include "lanes.hpp"
+#include "isa.hpp"
 #include "planar.hpp"
 
 #include <array>
