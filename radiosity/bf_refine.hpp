@@ -247,7 +247,7 @@ struct BfResult {
     evaluated = kept;
     patches.extend(threads);
     const std::vector<Decision> decisions = detail::decide(
-        pairs, objects, patches, result.refined, threads,
+        pairs, objects, plan, patches, result.refined, threads,
         [&](std::uint32_t p, std::uint32_t q) { return f_oracle(hierarchy[p], hierarchy[q], 1.0, min_area); },
         [](std::size_t, const raycast::OccluderList&, Decision&) {});
     for (std::size_t i = 0; i < pairs.size(); ++i) {
