@@ -35,9 +35,18 @@ class OccluderList {
  public:
   static constexpr std::uint32_t capacity = 64;
 
+  OccluderList() = default;  // unknown
+  // A list that was kept elsewhere: at most `capacity` shapes, and whether no room is in the way.
+  OccluderList(std::span<const std::uint32_t> shapes, bool rooms_clear)
+      : state_(State::listed), rooms_clear_(rooms_clear), count_(static_cast<std::uint32_t>(shapes.size())) {
+    std::copy(shapes.begin(), shapes.end(), shapes_.begin());
+  }
+  static OccluderList nothing() { return {{}, true}; }
+
   [[nodiscard]] bool known() const { return state_ != State::unknown; }  // false: more than `capacity`, the whole scene is asked
   [[nodiscard]] bool clear() const { return state_ == State::listed && count_ == 0 && rooms_clear_; }  // proven: nothing is occluded
   [[nodiscard]] bool blocked() const { return state_ == State::blocked; }                              // proven: everything is
+  [[nodiscard]] bool rooms_clear() const { return rooms_clear_; }                                      // no room is in the way
   [[nodiscard]] std::span<const std::uint32_t> shapes() const { return {shapes_.data(), state_ == State::listed ? count_ : 0}; }
 
  private:
