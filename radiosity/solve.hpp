@@ -5,14 +5,17 @@
 //
 //   conjugate_gradients  on the symmetric system (A / rho - M) B = A E / rho, which is positive definite when
 //                        rho times the row sum is below 1; leaves with rho = 0 are known (B = E) and move to the
-//                        right-hand side. The number of iterations hardly depends on rho.
+//                        right-hand side. The constant mode, which a closed scene of rho near 1 hardly damps, is solved
+//                        for directly and kept out of the search (deflation, Nicolaides 1987): the number of iterations
+//                        does not depend on rho.
 //   jacobi               the textbook iteration B <- E + rho H(B); its error shrinks by rho each time.
 //   gauss_seidel         the same, one input face after the other, with what the others have by now: about twice as fast.
 //   southwell            shooting (progressive refinement, Cohen et al. 1988; Southwell relaxation, Gortler et al. 1994): the input face
 //                        with the most unshot power shoots it. An iteration is as many shots as there are input faces.
 //
 // Residual: || E + rho H(B) - B || / || E + rho H(0) ||, area-weighted over all leaves. The iterate with the least
-// residual is kept; an iteration that diverges is stopped and says so.
+// residual is kept; an iteration that diverges is stopped and says so. Where rho is so near 1 that B is known to no more than the
+// residual wanted, the residual ends at the rounding of B.
 
 #include <algorithm>
 #include <cmath>
@@ -80,6 +83,8 @@ struct Progress {
     }
   }
   [[nodiscard]] bool diverged(double norm) const { return !(norm <= 1e3 * best_norm); }
+  // Below this a residual is rounding: B and H(B) are sums of some ten terms a level, each known to half an epsilon.
+  [[nodiscard]] static double rounding(double norm_of_b) { return 16.0 * std::numeric_limits<double>::epsilon() * norm_of_b; }
 };
 
 inline LinearSolution finish(const Channel& channel, Progress progress, std::uint32_t iterations, double wanted) {
@@ -87,7 +92,7 @@ inline LinearSolution finish(const Channel& channel, Progress progress, std::uin
   solution.radiosity = std::move(progress.best);
   solution.residual = progress.start > 0.0 ? progress.best_norm / progress.start : 0.0;
   solution.iterations = iterations;
-  solution.converged = solution.residual <= wanted;
+  solution.converged = progress.best_norm <= std::max(wanted * progress.start, Progress::rounding(channel.norm(solution.radiosity)));
   solution.history = std::move(progress.history);
   std::vector<double>& b = solution.radiosity;
   for (std::size_t i = b.size(); i-- > 0;) {
@@ -191,6 +196,20 @@ inline LinearSolution conjugate_gradients(const Channel& channel, double wanted,
     for (std::size_t i = 0; i < n; ++i) { sum += weight[i] * x[i] * y[i]; }
     return sum;
   };
+  const std::vector<double> constant = [&] {
+    std::vector<double> w(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) { w[i] = weight[i] > 0.0 ? 1.0 : 0.0; }
+    return w;
+  }();
+  const auto apply = [&](const std::vector<double>& x, std::vector<double>& y) {  // y := x - rho H(x), the preconditioned system
+    channel.transport->apply(x, y);
+    for (std::size_t i = 0; i < n; ++i) { y[i] = weight[i] > 0.0 ? x[i] - y[i] / weight[i] : 0.0; }
+  };
+  std::vector<double> image_of_constant;
+  apply(constant, image_of_constant);
+  const double stiffness = inner(constant, image_of_constant);
+  const bool deflated = stiffness > 1e-14 * inner(constant, constant);
+
   std::vector<double> b(channel.emission);
   std::vector<double> r;
   std::vector<double> step;
@@ -199,21 +218,29 @@ inline LinearSolution conjugate_gradients(const Channel& channel, double wanted,
   double square = 0.0;
   for (std::uint32_t iteration = 0;; ++iteration) {
     // The true residual is formed every 16 steps; rounding in the recurrence does not build up.
-    if (iteration % 16 == 0) { channel.residual(b, r); }
+    if (iteration % 16 == 0) {
+      channel.residual(b, r);
+      if (deflated) {
+        const double amount = inner(constant, r) / stiffness;
+        for (std::size_t i = 0; i < n; ++i) {
+          b[i] += amount * constant[i];
+          r[i] -= amount * image_of_constant[i];
+        }
+      }
+    }
     const double norm = channel.norm(r);
     progress.offer(b, norm);
-    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations) {
+    if (norm <= std::max(wanted * progress.start, Progress::rounding(channel.norm(b))) || progress.diverged(norm) ||
+        iteration == max_iterations) {
       return finish(channel, std::move(progress), iteration, wanted);
     }
     const double next_square = inner(r, r);
-    if (step.empty()) {
-      step = r;
-    } else {
-      for (std::size_t i = 0; i < n; ++i) { step[i] = r[i] + next_square / square * step[i]; }
-    }
+    const double along = step.empty() ? 0.0 : next_square / square;
+    const double amount = deflated ? inner(image_of_constant, r) / stiffness : 0.0;
+    step.resize(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) { step[i] = r[i] - amount * constant[i] + along * step[i]; }
     square = next_square;
-    channel.transport->apply(step, image);  // image := step - rho H(step), the preconditioned system
-    for (std::size_t i = 0; i < n; ++i) { image[i] = weight[i] > 0.0 ? step[i] - image[i] / weight[i] : 0.0; }
+    apply(step, image);
     const double curvature = inner(step, image);
     if (!(curvature > 0.0)) {  // rho times a row sum is 1 or more: there is no steady state
       return finish(channel, std::move(progress), iteration, wanted);
