@@ -90,7 +90,9 @@ void sizes_and_checks(std::string& out, const Report& report) {
   out += "size\n";
   row(out, "nodes, leaves", grouped(audit.nodes) + ", " + grouped(audit.leaves));
   row(out, "links", grouped(audit.links));
-  row(out, "rays", grouped(audit.rays));
+  row(out, "rays",
+      grouped(audit.rays) + " cast, " + grouped(audit.rays_avoided) + " avoided: " + grouped(audit.pairs_clear) + " pairs proven clear, " +
+          grouped(audit.pairs_hidden) + " proven blocked");
   row(out, "memory", bytes(audit.bytes));
   out += "checks\n";
   const auto range = [](const radiosity::Audit::Range& r) { return format("%.6f to %.6f, mean %.6f", r.min, r.max, r.mean); };
@@ -258,7 +260,8 @@ std::string to_json(const Report& report) {
   write_times(json, "cpu_seconds", report, &radiosity::StageTime::cpu_seconds, audit.cpu_seconds);
   write_times(json, "wall_seconds", report, &radiosity::StageTime::wall_seconds, audit.wall_seconds);
   json.key("nodes").count(audit.nodes).key("leaves").count(audit.leaves).key("links").count(audit.links);
-  json.key("rays").count(audit.rays).key("bytes").count(audit.bytes);
+  json.key("rays").count(audit.rays).key("rays_avoided").count(audit.rays_avoided);
+  json.key("pairs_clear").count(audit.pairs_clear).key("pairs_blocked").count(audit.pairs_hidden).key("bytes").count(audit.bytes);
   write_range(json, "row_sum", audit.row_sum);
   write_range(json, "computed_row_sum", audit.computed_row_sum);
   json.key("closure");

@@ -146,12 +146,12 @@ struct BfResult {
 // split, at 2^-24 of the scene's area, or when there would be more than `most_links`.
 [[nodiscard]] inline BfResult bf_refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
                                         const std::vector<Color>& reflectance, const std::vector<Color>& emission,
-                                        std::vector<Surface>& surfaces, Hierarchy& hierarchy, Exposure& exposure, LinkEvaluator& evaluator,
-                                        double target, std::size_t most_links, unsigned threads, std::uint64_t seed,
-                                        const Control& control = {}) {
+                                        std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches, Exposure& exposure,
+                                        const LinkEvaluator& evaluator, double target, std::size_t most_links, unsigned threads,
+                                        std::uint64_t seed, const Control& control = {}) {
   constexpr double first_epsilon = 0.25;
   BfResult result;
-  result.refined = refine(scene, objects, plan, surfaces, hierarchy, first_epsilon, 1e-3, false, threads, seed, control);
+  result.refined = refine(scene, objects, plan, surfaces, hierarchy, patches, first_epsilon, 1e-3, false, threads, seed, control);
   if (result.refined.cancelled || result.refined.too_many) { return result; }
   double scene_area = 0.0;
   for (const Node& node : hierarchy) { scene_area += node.parent == no_node ? node.area : 0.0; }
@@ -162,12 +162,13 @@ struct BfResult {
   std::vector<bool> stuck;
 
   Links& links = result.refined.links;
+  std::vector<std::uint32_t>& lists = result.refined.lists;
   std::vector<LinkShape> shapes;
   std::size_t evaluated = 0;
   for (;;) {
-    extend(exposure, objects, surfaces, hierarchy, threads, seed);
-    evaluator.extend(threads);
-    const EvaluateResult round = evaluate(evaluator, links, evaluated, &shapes, threads, control);
+    patches.extend(threads);
+    extend(exposure, objects, surfaces, hierarchy, patches, threads, seed);
+    const EvaluateResult round = evaluate(evaluator, result.refined.occluders, links, lists, evaluated, &shapes, threads, control);
     result.evaluated.rays += round.rays;
     result.evaluated.proven_clear += round.proven_clear;
     result.evaluated.blocked += round.blocked;
@@ -223,7 +224,7 @@ struct BfResult {
       if (!sees_itself[i]) { continue; }
       const std::uint32_t first = hierarchy[i].first_child, last = first + hierarchy[i].child_count;
       for (std::uint32_t a = first; a < last; ++a) {
-        for (std::uint32_t b = a + 1; b < last; ++b) { pairs.emplace_back(a, b); }
+        for (std::uint32_t b = a + 1; b < last; ++b) { pairs.push_back({a, b}); }
       }
     }
     std::size_t kept = 0;
@@ -232,21 +233,27 @@ struct BfResult {
       const std::uint32_t other = splits[i] == Split::p ? links[i].q : links[i].p;
       if (splits[i] == Split::none || hierarchy[split].leaf()) {
         shapes[kept] = shapes[i];
+        lists[kept] = lists[i];
         links[kept++] = links[i];
         continue;
       }
-      for (std::uint32_t k = 0; k < hierarchy[split].child_count; ++k) { pairs.emplace_back(hierarchy[split].first_child + k, other); }
+      for (std::uint32_t k = 0; k < hierarchy[split].child_count; ++k) {
+        pairs.push_back({hierarchy[split].first_child + k, other, lists[i]});
+      }
     }
     links.resize(kept);
+    lists.resize(kept);
     shapes.resize(kept);
     evaluated = kept;
-    result.refined.pairs_tested += pairs.size();
-    for (const auto& [p, q] : pairs) {
-      if (f_oracle(hierarchy[p], hierarchy[q], 1.0, min_area) == Decision::drop) {
-        ++result.refined.pairs_dropped;
-      } else {
-        links.push_back({p, q});
-      }
+    patches.extend(threads);
+    const std::vector<Decision> decisions = detail::decide(
+        pairs, objects, plan, patches, result.refined, threads,
+        [&](std::uint32_t p, std::uint32_t q) { return f_oracle(hierarchy[p], hierarchy[q], 1.0, min_area); },
+        [](std::size_t, const raycast::OccluderList&, Decision&) {});
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (decisions[i] == Decision::drop || decisions[i] == Decision::hide) { continue; }
+      links.push_back({pairs[i].p, pairs[i].q});
+      lists.push_back(pairs[i].list);
     }
     ++result.generations;
     if (control.after_generation) { control.after_generation(surfaces); }

@@ -147,20 +147,22 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     emission.push_back(material.emission);
   }
   Exposure exposure;
-  LinkEvaluator evaluator{objects, plan, boundary, hierarchy, exposure, emits, options.seed};
+  Patches patches{boundary, hierarchy};
+  const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, emits, options.seed};
   RefineResult refined;
   EvaluateResult evaluated;
   // Without light, or without reflection, B = E on the input faces.
   const bool needs_links = plan.lit && plan.reflects;
   if (needs_links && options.refinement == Refinement::a_posteriori) {
-    BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, exposure, evaluator, options.target,
+    BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, evaluator, options.target,
                             link_limit, threads, options.seed, control);
     refined = std::move(bf.refined);
     evaluated = bf.evaluated;
     audit.estimated_error = bf.estimate;
     audit.generations = bf.generations;
   } else if (needs_links) {
-    refined = refine(scene, objects, plan, boundary, hierarchy, options.epsilon, options.min_area, true, threads, options.seed, control);
+    refined =
+        refine(scene, objects, plan, boundary, hierarchy, patches, options.epsilon, options.min_area, true, threads, options.seed, control);
   }
   if (refined.cancelled || evaluated.cancelled) { return cancelled(); }
   if (refined.too_many) {
@@ -170,7 +172,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   solution.links = std::move(refined.links);
   watch.lap("refine");
 
-  extend(exposure, objects, boundary, hierarchy, threads, options.seed);
+  patches.extend(threads);
+  extend(exposure, objects, boundary, hierarchy, patches, threads, options.seed);
   if (exposure.all_buried) {
     return failed(Failure::Kind::invalid_scene,
                   {"every surface is buried under another object: nothing can be seen. Two rooms made by 'inside' "
@@ -179,8 +182,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   watch.lap("expose");
 
   if (needs_links && options.refinement == Refinement::a_priori) {
-    evaluator.extend(threads);
-    evaluated = evaluate(evaluator, solution.links, 0, nullptr, threads, control);
+    evaluated = evaluate(evaluator, refined.occluders, solution.links, refined.lists, 0, nullptr, threads, control);
     if (evaluated.cancelled) { return cancelled(); }
   }
   watch.lap("link");
@@ -210,7 +212,12 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.nodes = hierarchy.size();
   audit.leaves = static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.leaf(); }));
   audit.links = solution.links.size();
-  audit.rays = refined.rays + evaluated.rays;
+  RayCount rays = refined.rays;
+  rays += evaluated.rays;
+  audit.rays = rays.cast;
+  audit.rays_avoided = rays.avoided + refined.pairs_hidden * segments_per_round;
+  audit.pairs_clear = evaluated.proven_clear;
+  audit.pairs_hidden = refined.pairs_hidden;
   audit.bytes = hierarchy.capacity() * sizeof(Node) + solution.links.capacity() * sizeof(Link) + objects.bytes();
   for (const Surface& surface : boundary) { audit.bytes += surface.brep.bytes(); }
   report_left_out(audit, plan, refined, evaluated, exposure, options);
