@@ -155,11 +155,23 @@ class Leaf {
     return true;
   }
 
+  // Is one coordinate the same all over the face? Then it stays coplanar with other such faces by snapping.
+  [[nodiscard]] bool along_axes(std::uint32_t f) const {
+    const glm::dvec3 o = vertices[corners[anchor[f]].vertex];
+    bool same[3] = {true, true, true};
+    std::uint32_t c = anchor[f];
+    do {
+      for (int i = 0; i < 3; ++i) same[i] = same[i] && vertices[corners[c].vertex][i] == o[i];
+      c = corners[c].next;
+    } while (c != anchor[f]);
+    return same[0] || same[1] || same[2];
+  }
+
   // Gives every face a plane and every vertex the point of its three; false, and nothing changes, when that moves a vertex by more than a spacing.
   bool place_by_planes() {
     std::vector<OrientedPlane> plane = plane_;
     for (std::uint32_t f = 0; f < plane.size(); ++f) {
-      if (plane[f].code != invalid_index) continue;
+      if (plane[f].code != invalid_index && along_axes(f)) continue;
       glm::dvec3 sum{0.0}, mean{0.0};
       double count = 0.0;
       std::uint32_t c = anchor[f];
@@ -229,7 +241,7 @@ class Leaf {
       } while (c != anchor[f]);
       const auto cut = ears(seen);
       if (!cut) return {Code::not_planar, {FaceId{given[f]}}};
-      for (std::size_t k : *cut) cut_off(loop[k]);
+      for (const Ear& ear : *cut) loop[ear.before] = cut_off(loop[ear.corner]);
     }
     for (std::uint32_t f = 0; f < anchor.size(); ++f) {
       if (plane_[f].code != invalid_index) continue;
@@ -239,8 +251,9 @@ class Leaf {
     }
     return {};
   }
-  // The corner c becomes the middle of a triangle of its own. Its face goes on with a half-edge from the corner before it to the one after.
-  void cut_off(std::uint32_t c) {
+  // The corner c becomes the middle of a triangle of its own. Its face goes on with a half-edge from the corner before it to the one after,
+  // which is returned.
+  std::uint32_t cut_off(std::uint32_t c) {
     const std::uint32_t f = corners[c].face, before = corners[c].prev, after = corners[c].next;
     const auto d = static_cast<std::uint32_t>(corners.size()), back = d + 1, g = static_cast<std::uint32_t>(anchor.size());
     corners.push_back({corners[before].vertex, after, corners[before].prev, back, f});
@@ -254,6 +267,7 @@ class Leaf {
     anchor[f] = d;
     given.push_back(given[f]);
     plane_.push_back(OrientedPlane{});
+    return d;
   }
 
   void strip_bridges() {

@@ -177,6 +177,36 @@ TEST_CASE("faces keep what they carry, and neighbours with different attributes 
   for (FaceId f : faces(back)) CHECK(back.data(f).sheet == valid(csg::unite(a, right)).attribute(f.index));
 }
 
+TEST_CASE("a result goes through a BRep and back, with its holes, and turned") {
+  const Grid g(glm::dvec3(-8.0), glm::dvec3(8.0));
+  Solid plate = valid(leaf(box({0, 0, 0}, {5, 5, 1}), g));
+  for (int i = 0; i < 4; ++i) {
+    const glm::dvec3 at(2 * (i % 2) + 1, 2 * (i / 2) + 1, 0);
+    plate = valid(csg::subtract(plate, valid(leaf(box(at, at + 1.0), g))));
+  }
+  const Mesh m = csg::to_brep<Mesh>(plate);
+  const Solid again = valid(csg::make_solid(m, g));
+  CHECK(counts(again) == counts(plate));
+  CHECK(valid(csg::subtract(again, plate)).empty());
+  const auto turned = [&](const Mesh& given, double angle) {
+    const glm::dmat3 turn = rotation({1, 2, 3}, angle);
+    return csg::make_solid<std::uint32_t>(
+        given, g, [&](VertexId v) { return turn * given.data(v).position; }, [&](FaceId f) { return given.data(f).sheet; });
+  };
+  for (double angle : {.4, 1e-6}) {  // faces with holes on bridge edges fall into triangles
+    const Solid other = valid(turned(m, angle));
+    CHECK(counts(other).genus == 4);
+    CHECK(csg::volume(other) == test::Approx(21.0).epsilon(1e-6));
+  }
+  // Planes first: a prism of 24 sides stays one, although its snapped vertices are in no plane.
+  const Solid prism = valid(turned(mesh(regular_prism(24, 1, -1, 1)), .7));
+  CHECK(prism.face_count() == 26);
+  const Solid drilled =
+      valid(csg::subtract(valid(leaf(box(glm::dvec3(-1.5), glm::dvec3(1.5)), g)), valid(turned(mesh(regular_prism(24, .5, -3, 3)), .7))));
+  CHECK(counts(drilled).genus == 1);
+  CHECK(csg::volume(valid(csg::make_solid(csg::to_brep<Mesh>(drilled), g))) == test::Approx(csg::volume(drilled)).epsilon(1e-6));
+}
+
 TEST_CASE("imprint cuts both solids along each other and selects nothing") {
   const Grid g(glm::dvec3(-4.0), glm::dvec3(4.0));
   const Solid a = valid(leaf(box(glm::dvec3(0.0), glm::dvec3(1.0)), g)), b = valid(leaf(box({.25, .25, .5}, {.75, .75, 1.5}), g));
