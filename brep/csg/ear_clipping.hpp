@@ -3,8 +3,8 @@
 
 // Triangles of a polygon whose corners lie on the grid, exactly: for faces that are no longer planar there.
 //
-// The polygon is seen along the axis in which its mean normal is largest; it must look simple, bridges to holes apart. An ear is a corner that
-// turns left and has no other corner in its triangle (Meisters 1975). All coordinates are integers of 26 bits.
+// The polygon is seen along the axis in which its mean normal is largest; it must look simple, bridges to holes apart. An ear is a corner
+// that turns left and has no other corner in its triangle (Meisters 1975). All coordinates are integers of 26 bits.
 
 #include <cstdint>
 #include <optional>
@@ -30,7 +30,8 @@ struct Ear {
   std::size_t before, corner;
 };
 
-// The ears of a polygon of n corners in the order in which they are cut off, n - 3 of them. What is left then is a triangle. Nothing: there are not enough ears. Time O(n^3) at worst, n^2 as a rule.
+// The ears of a polygon of n corners in the order in which they are cut off, n - 3 of them. What is left then is a triangle. Nothing:
+// there are not enough ears. Time O(n^3) at worst, n^2 as a rule.
 [[nodiscard]] inline std::optional<std::vector<Ear>> ears(const std::vector<GridCorner>& corners) {
   std::vector<std::size_t> left(corners.size());
   std::vector<Ear> result;

@@ -3,10 +3,10 @@
 
 // A leaf of a CSG tree on its way to the grid: vertices are snapped, faces get planes, bridge edges go.
 //
-// A face whose snapped vertices lie in one plane keeps all its vertices. Where one does not, there are two ways. If three faces meet at every
-// vertex - boxes and prisms, however they are turned - the planes come first: the face takes the plane of its vertices before snapping,
-// quantised to 2^-52 in its normal, and each vertex becomes the point of its three planes; faces stay whole polygons. Otherwise the
-// faces that are not planar fall into triangles.
+// A face whose snapped vertices lie in one plane keeps all its vertices. Where one does not, there are two ways. If three faces meet at
+// every vertex - boxes and prisms, however they are turned - the planes come first: the face takes the plane of its vertices before
+// snapping, quantised to 2^-52 in its normal, and each vertex becomes the point of its three planes; faces stay whole polygons. Otherwise
+// the faces that are not planar fall into triangles.
 
 #include <array>
 #include <cmath>
@@ -167,7 +167,8 @@ class Leaf {
     return same[0] || same[1] || same[2];
   }
 
-  // Gives every face a plane and every vertex the point of its three; false, and nothing changes, when that moves a vertex by more than a spacing.
+  // Gives every face a plane and every vertex the point of its three; false, and nothing changes, when that moves a vertex by more than a
+  // spacing.
   bool place_by_planes() {
     std::vector<OrientedPlane> plane = plane_;
     for (std::uint32_t f = 0; f < plane.size(); ++f) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Booleans of random solids on few grid points, where almost everything coincides, against points that know the answer; long chains; what is
-// refused; what the faces carry; and the arithmetic below it all.
+// Booleans of random solids on few grid points, where almost everything coincides, against points that know the answer; long chains; what
+// is refused; what the faces carry; and the arithmetic below it all.
 
 #include <algorithm>
 #include <numeric>
