@@ -40,7 +40,7 @@ struct Direction {
   const double value = x - y, bound = (std::abs(x) + std::abs(y)) * 0x1p-50;
   if (value > bound) return 1;
   if (value < -bound) return -1;
-  return (Wide<4>(a.u) * Wide<4>(b.v) - Wide<4>(a.v) * Wide<4>(b.u)).sign();
+  return (product(a.u, b.v) - product(a.v, b.u)).sign();
 }
 // Order of angles in [0, 360) degrees from the u axis.
 [[nodiscard]] inline bool before(const Direction& a, const Direction& b) {

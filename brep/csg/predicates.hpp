@@ -43,9 +43,9 @@ namespace detail {
 [[nodiscard]] inline Homogeneous<4> meet(const Plane& p, const Plane& q, const Plane& r) {
   Homogeneous<4> result;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Wide<4> qr(cross(q, r, i)), rp(cross(r, p, i)), pq(cross(p, q, i));
-    result.x[i] = -(Wide<4>(p.d) * qr + Wide<4>(q.d) * rp + Wide<4>(r.d) * pq);
-    result.w = result.w + Wide<4>(p.n[i]) * qr;
+    const Int128 qr = cross(q, r, i);
+    result.x[i] = -(product(p.d, qr) + product(q.d, cross(r, p, i)) + product(r.d, cross(p, q, i)));
+    result.w = result.w + product(p.n[i], qr);
   }
   if (result.w.negative()) {
     result.w = -result.w;

@@ -35,6 +35,8 @@ TEST_CASE("wide integers calculate as 128-bit integers do, and beyond them by th
     CHECK(W(x) - W(y) == W(x - y));
     CHECK(W(x).sign() == (x > 0) - (x < 0));
     const W a = W(x) * W(y) * W(z), b = W(z) * W(x);
+    const csg::Int128 u = x * y, v = z * x;
+    CHECK(csg::product(u, v) == W(u) * W(v));
     CHECK((a + b) * W(y) == a * W(y) + b * W(y));
     CHECK(csg::Wide<6>(a) * csg::Wide<6>(W(y)) == csg::Wide<6>(a * W(y)));
     const double exact = static_cast<double>(x) * static_cast<double>(y) * static_cast<double>(z);
