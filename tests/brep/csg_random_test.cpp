@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Booleans of random solids on few grid points, where almost everything coincides, against points that know the answer; long chains; what is
-// refused; what the faces carry; and the arithmetic below it all.
+// Booleans of random solids on few grid points, where almost everything coincides, against points that know the answer; long chains; what
+// is refused; what the faces carry; and the arithmetic below it all.
 
 #include <algorithm>
 #include <numeric>
@@ -35,6 +35,8 @@ TEST_CASE("wide integers calculate as 128-bit integers do, and beyond them by th
     CHECK(W(x) - W(y) == W(x - y));
     CHECK(W(x).sign() == (x > 0) - (x < 0));
     const W a = W(x) * W(y) * W(z), b = W(z) * W(x);
+    const csg::Int128 u = x * y, v = z * x;
+    CHECK(csg::product(u, v) == W(u) * W(v));
     CHECK((a + b) * W(y) == a * W(y) + b * W(y));
     CHECK(csg::Wide<6>(a) * csg::Wide<6>(W(y)) == csg::Wide<6>(a * W(y)));
     const double exact = static_cast<double>(x) * static_cast<double>(y) * static_cast<double>(z);
@@ -175,6 +177,41 @@ TEST_CASE("faces keep what they carry, and neighbours with different attributes 
   CHECK(valid(csg::unite(a, valid(painted(box({1, 0, 0}, {2, 1, 1}), 0)))).face_count() == 6);
   const Mesh back = csg::to_brep<Mesh>(valid(csg::unite(a, right)));
   for (FaceId f : faces(back)) CHECK(back.data(f).sheet == valid(csg::unite(a, right)).attribute(f.index));
+}
+
+TEST_CASE("a result goes through a BRep and back, with its holes, and turned") {
+  const Grid g(glm::dvec3(-8.0), glm::dvec3(8.0));
+  Solid plate = valid(leaf(box({0, 0, 0}, {5, 5, 1}), g));
+  for (int i = 0; i < 4; ++i) {
+    const glm::dvec3 at(2 * (i % 2) + 1, 2 * (i / 2) + 1, 0);
+    plate = valid(csg::subtract(plate, valid(leaf(box(at, at + 1.0), g))));
+  }
+  const Mesh m = csg::to_brep<Mesh>(plate);
+  const Solid again = valid(csg::make_solid(m, g));
+  CHECK(counts(again) == counts(plate));
+  CHECK(valid(csg::subtract(again, plate)).empty());
+  const auto turned = [&](const Mesh& given, double angle) {
+    const glm::dmat3 turn = rotation({1, 2, 3}, angle);
+    return csg::make_solid<std::uint32_t>(
+        given, g, [&](VertexId v) { return turn * given.data(v).position; }, [&](FaceId f) { return given.data(f).sheet; });
+  };
+  for (double angle : {.4, 1e-6}) {  // three faces at every vertex: they stay whole, with their holes
+    const Solid other = valid(turned(m, angle));
+    CHECK(counts(other) == counts(plate));
+    CHECK(csg::volume(other) == test::Approx(21.0).epsilon(1e-12));
+  }
+  // A sphere cut by another has other vertices, too: there the faces fall into triangles.
+  const Solid bowl = valid(csg::subtract(valid(leaf(octasphere(4, glm::dvec3(0.0)), g)), valid(leaf(octasphere(4, glm::dvec3(.5)), g))));
+  const Solid bowl_again = valid(csg::make_solid(csg::to_brep<Mesh>(bowl), g));
+  CHECK(bowl_again.face_count() > bowl.face_count());
+  CHECK(csg::volume(bowl_again) == test::Approx(csg::volume(bowl)).epsilon(1e-6));
+  // Planes first: a prism of 24 sides stays one, although its snapped vertices are in no plane.
+  const Solid prism = valid(turned(mesh(regular_prism(24, 1, -1, 1)), .7));
+  CHECK(prism.face_count() == 26);
+  const Solid drilled =
+      valid(csg::subtract(valid(leaf(box(glm::dvec3(-1.5), glm::dvec3(1.5)), g)), valid(turned(mesh(regular_prism(24, .5, -3, 3)), .7))));
+  CHECK(counts(drilled).genus == 1);
+  CHECK(csg::volume(valid(csg::make_solid(csg::to_brep<Mesh>(drilled), g))) == test::Approx(csg::volume(drilled)).epsilon(1e-6));
 }
 
 TEST_CASE("imprint cuts both solids along each other and selects nothing") {
