@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 #include <map>
 #include <utility>
 
@@ -72,13 +71,6 @@ std::optional<Camera> choose_camera(const SceneFile& file, const std::string& na
   }
   complain("there is no camera '" + name + "' in the scene; " + (known.empty() ? "it has none" : "it has: " + known));
   return std::nullopt;
-}
-
-// One name for one file, however it was written: through '.', '..' and symbolic links.
-std::string resolved(const std::string& path) {
-  std::error_code error;
-  const std::filesystem::path canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
-  return error ? path : canonical.string();
 }
 
 // Outputs that cannot become files are refused before any work.
