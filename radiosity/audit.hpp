@@ -47,6 +47,8 @@ struct Audit {
   double wall_seconds = 0.0, cpu_seconds = 0.0;  // of all stages but the audit
   // size
   std::uint64_t nodes = 0, leaves = 0, links = 0, rays = 0;
+  std::uint64_t rays_avoided = 0;                   // at least; by the two proofs:
+  std::uint64_t pairs_clear = 0, pairs_hidden = 0;  // links that nothing can block; pairs, with all below, that one object hides
   std::uint64_t audit_rays = 0;
   std::uint64_t bytes = 0;  // held by the result: BReps, hierarchy, links, compiled objects
   // the linear system
@@ -72,6 +74,7 @@ struct Audit {
   std::vector<LeftOut> left_out;
   std::vector<SurfaceMean> surfaces;
   double epsilon = 0.0, min_area = 0.0;  // as used
+  double target = 0.0;                   // of BF-refinement; 0 when the time was the limit
   unsigned threads = 1, channels = 3;
   std::uint64_t seed = 0;
 };

@@ -14,6 +14,7 @@
 #include <radiosity/exposure.hpp>
 #include <radiosity/hierarchy.hpp>
 #include <radiosity/links.hpp>
+#include <radiosity/occlusion.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/parallel.hpp>
 #include <radiosity/plan.hpp>
@@ -23,7 +24,7 @@
 namespace radiosity {
 
 struct EvaluateResult {
-  std::uint64_t rays = 0;
+  RayCount rays;
   std::uint64_t proven_clear = 0;  // links for which no segment was cast
   std::uint64_t blocked = 0;       // links removed because nothing arrives
   bool cancelled = false;
@@ -32,24 +33,19 @@ struct EvaluateResult {
 // What the exposed part of a patch exchanges with `other`, over what the whole patch would: its share of the area, unless the
 // other's horizon cuts the patch. Then the object that buries the rest is often the one that draws the horizon (the wall of a
 // post and the floor around it), and the share is that of the part above the horizon.
-[[nodiscard]] inline double exposed_share(const raycast::Scene& scene, const PatchEnd& end, double exposed_area, const Patch& other,
-                                          Random random) {
+[[nodiscard]] inline double exposed_share(const PatchEnd& end, double exposed_area, const Patch& other, Random random) {
   const Patch& patch = *end.patch;
   const double share = exposed_area / patch.area;
-  if (!end.partly_buried || above_horizon(other, patch) != 0) { return share; }
+  if (end.exposed == nullptr || above_horizon(other, patch) != 0) { return share; }
   Polygon upper;
   clip_to_horizon(patch.contour, other.centre, other.normal, upper);
   const double upper_area = upper.size() < 3 ? 0.0 : glm::length(vector_area(upper));
   if (!(upper_area > 0.0)) { return share; }
-  int drawn = 0;
   int above = 0;
   for (std::uint32_t i = 0; i < 64; ++i) {
-    glm::dvec3 x{0.0};
-    if (!draw_exposed(scene, end, i % 16, random, x)) { continue; }
-    ++drawn;
-    above += glm::dot(other.normal, x - other.centre) > 0.0 ? 1 : 0;
+    above += glm::dot(other.normal, draw_exposed(end, i % 16, random) - other.centre) > 0.0 ? 1 : 0;
   }
-  return drawn == 0 ? share : std::min(1.0, share * above / drawn * patch.area / upper_area);
+  return std::min(1.0, share * above / 64.0 * patch.area / upper_area);
 }
 
 // How far the light of a link is from what the link can express, at each end: RMS values relative to the mean.
@@ -61,51 +57,41 @@ struct LinkShape {
   End p, q;
 };
 
-// Evaluates links one by one. The hierarchy may grow between two calls of extend().
+// Evaluates links one by one.
 class LinkEvaluator {
  public:
   // The references must outlive the evaluator. `emits` tells for each input surface whether it is a light: its links make the
   // shadows and get four times the segments where they are partly blocked.
-  LinkEvaluator(const raycast::Scene& scene, const Plan& plan, const std::vector<Surface>& surfaces, const Hierarchy& hierarchy,
-                const Exposure& exposure, std::vector<bool> emits, std::uint64_t seed)
+  LinkEvaluator(const raycast::Scene& scene, const Plan& plan, const Hierarchy& hierarchy, const Patches& patches, const Exposure& exposure,
+                std::vector<bool> emits, std::uint64_t seed)
       : scene_{&scene},
         plan_{&plan},
-        surfaces_{&surfaces},
         hierarchy_{&hierarchy},
+        patches_{&patches},
         exposure_{&exposure},
         emits_{std::move(emits)},
         seed_{seed} {}
 
-  // Makes the patches of the nodes that are new.
-  void extend(unsigned threads) {
-    const std::size_t first = patches_.size();
-    patches_.resize(hierarchy_->size());
-    parallel_for(patches_.size() - first, threads, [&](std::size_t i) {
-      patches_[first + i] = make_patch(contour(*surfaces_, *hierarchy_, static_cast<std::uint32_t>(first + i)));
-    });
-  }
-
   // Sets the exchange, 0 when nothing arrives, and the slopes where they have an effect, or anyhow when the shape is asked for. Returns
-  // the number of segments cast. Depends on the ends of the link and the seed alone.
-  std::uint32_t operator()(Link& link, LinkShape* shape = nullptr) const {
-    const Patch& p = patches_[link.p];
-    const Patch& q = patches_[link.q];
+  // its segments. Depends on the ends of the link and the seed alone; `list` saves time.
+  RayCount operator()(Link& link, const raycast::OccluderList& list, LinkShape* shape = nullptr) const {
+    const Patch& p = (*patches_)[link.p];
+    const Patch& q = (*patches_)[link.q];
     const double area_p = exposure_->area[link.p];
     const double area_q = exposure_->area[link.q];
     link.exchange = 0.0f;
-    if (!(area_p > 0.0) || !(area_q > 0.0)) { return 0; }
+    if (!(area_p > 0.0) || !(area_q > 0.0)) { return {}; }
     const double unoccluded = exchange(p, q);
-    if (!(unoccluded > 0.0)) { return 0; }
+    if (!(unoccluded > 0.0)) { return {}; }
     const Node& node_p = (*hierarchy_)[link.p];
     const Node& node_q = (*hierarchy_)[link.q];
     const bool light = emits_[node_p.surface] || emits_[node_q.surface];
     const std::uint64_t key = (std::uint64_t{link.p} << 32) | link.q;
     const PatchEnd end_p = end(link.p);
     const PatchEnd end_q = end(link.q);
-    const VisibilityEstimate seen = visibility(*scene_, *plan_, end_p, end_q, light ? 16 : 4, Random{seed_, key});
+    const VisibilityEstimate seen = visibility(*scene_, *plan_, list, end_p, end_q, light ? 16 : 4, Random{seed_, key});
     // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
-    const double share =
-        exposed_share(*scene_, end_p, area_p, q, Random{seed_, key, 1}) * exposed_share(*scene_, end_q, area_q, p, Random{seed_, key, 2});
+    const double share = exposed_share(end_p, area_p, q, Random{seed_, key, 1}) * exposed_share(end_q, area_q, p, Random{seed_, key, 2});
     link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
     if (shape != nullptr || !node_p.leaf() || !node_q.leaf()) {
       const Variations light_varies = variations(p, q);
@@ -122,28 +108,26 @@ class LinkEvaluator {
   [[nodiscard]] static LinkShape::End shape_of(const Variation& v, double shadow) {
     return {static_cast<float>(v.linear), static_cast<float>(v.rest), static_cast<float>(shadow)};
   }
-  [[nodiscard]] PatchEnd end(std::uint32_t i) const {
-    const Node& node = (*hierarchy_)[i];
-    return {&patches_[i], node.object, node.surface - (*surfaces_)[node.object].first_surface, exposure_->partly_buried[i]};
-  }
+  [[nodiscard]] PatchEnd end(std::uint32_t i) const { return {&(*patches_)[i], (*hierarchy_)[i].object, exposure_->points(i)}; }
 
   const raycast::Scene* scene_;
   const Plan* plan_;
-  const std::vector<Surface>* surfaces_;
   const Hierarchy* hierarchy_;
+  const Patches* patches_;
   const Exposure* exposure_;
   std::vector<bool> emits_;
   std::uint64_t seed_;
-  std::vector<Patch> patches_;  // one a node
 };
 
-// Evaluates the links from `first` on and removes those that carry nothing. With `shapes`, one a link, those too.
-[[nodiscard]] inline EvaluateResult evaluate(const LinkEvaluator& evaluator, Links& links, std::size_t first,
-                                             std::vector<LinkShape>* shapes, unsigned threads, const Control& control = {}) {
+// Evaluates the links from `first` on and removes those that carry nothing. `lists`: the index of each link in `occluders`. With
+// `shapes`, one a link, those too.
+[[nodiscard]] inline EvaluateResult evaluate(const LinkEvaluator& evaluator, const OccluderLists& occluders, Links& links,
+                                             std::vector<std::uint32_t>& lists, std::size_t first, std::vector<LinkShape>* shapes,
+                                             unsigned threads, const Control& control = {}) {
   EvaluateResult result;
   const std::size_t count = links.size() - first;
   if (shapes != nullptr) { shapes->resize(links.size()); }
-  std::vector<std::uint32_t> rays(count, 0);
+  std::vector<RayCount> rays(count);
   constexpr std::size_t batch = 1 << 16;  // between two looks at the cancel flag
   for (std::size_t done = 0; done < count; done += batch) {
     if (control.cancelled()) {
@@ -153,7 +137,7 @@ class LinkEvaluator {
     parallel_for(std::min(batch, count - done), threads, [&](std::size_t offset) {
       if (control.cancelled()) { return; }
       const std::size_t i = first + done + offset;
-      rays[done + offset] = evaluator(links[i], shapes != nullptr ? &(*shapes)[i] : nullptr);
+      rays[done + offset] = evaluator(links[i], occluders[lists[i]], shapes != nullptr ? &(*shapes)[i] : nullptr);
     });
     if (shapes == nullptr) { control.report("link", static_cast<double>(std::min(done + batch, count)) / static_cast<double>(count)); }
   }
@@ -166,14 +150,16 @@ class LinkEvaluator {
   for (std::size_t i = first; i < links.size(); ++i) {
     result.rays += rays[i - first];
     if (links[i].exchange > 0.0f) {
-      result.proven_clear += rays[i - first] == 0 ? 1 : 0;
+      result.proven_clear += rays[i - first].avoided > 0 ? 1 : 0;
       if (shapes != nullptr) { (*shapes)[kept] = (*shapes)[i]; }
+      lists[kept] = lists[i];
       links[kept++] = links[i];
     } else {
       ++result.blocked;
     }
   }
   links.resize(kept);
+  lists.resize(kept);
   if (shapes != nullptr) { shapes->resize(kept); }
   return result;
 }

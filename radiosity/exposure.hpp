@@ -17,6 +17,7 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/hierarchy.hpp>
+#include <radiosity/occlusion.hpp>
 #include <radiosity/parallel.hpp>
 #include <radiosity/random.hpp>
 #include <radiosity/surface.hpp>
@@ -25,12 +26,19 @@
 namespace radiosity {
 
 struct Exposure {
-  std::vector<double> area;          // exposed area of each node, in the frame
-  std::vector<double> whole;         // the same with what is buried
-  std::vector<glm::dvec3> centroid;  // of the exposed area of each node: area-weighted mean over its leaves
-  std::vector<bool> partly_buried;   // some of the node is hidden, but not all
+  std::vector<double> area;             // exposed area of each node, in the frame
+  std::vector<double> whole;            // the same with what is buried
+  std::vector<glm::dvec3> centroid;     // of the exposed area of each node: area-weighted mean over its leaves
+  std::vector<bool> partly_buried;      // some of the node is hidden, but not all
+  std::vector<ExposedPoints> drawn;     // of nodes that are, or were, partly buried
+  std::vector<std::uint32_t> drawn_of;  // of each node: index of its points, or no_node
   bool all_buried = false;
   std::uint32_t buried_leaves = 0;  // leaves of which nothing is exposed
+
+  // Exposed points of a node of which a part is buried, else null; null as well where so little shows that no point was found.
+  [[nodiscard]] const ExposedPoints* points(std::size_t i) const {
+    return partly_buried[i] && drawn_of[i] != no_node && drawn[drawn_of[i]].count() > 0 ? &drawn[drawn_of[i]] : nullptr;
+  }
 };
 
 // Can anything lie on or over this patch? Not when the bounds of all other objects stay clear of it.
@@ -50,39 +58,56 @@ struct Exposure {
 
 // Measures the leaves among the nodes that are new since the last call and sums all up. Leaves near other objects are measured by 16
 // stratified points, 256 where these disagree: the standard error of the area is at most 1/32 of a leaf at the border of what is hidden.
+// `patches` of all nodes.
 inline void extend(Exposure& exposure, const raycast::Scene& scene, const std::vector<Surface>& surfaces, const Hierarchy& hierarchy,
-                   unsigned threads, std::uint64_t seed) {
+                   const Patches& patches, unsigned threads, std::uint64_t seed) {
   const std::size_t first_new = exposure.area.size();
+  const std::size_t new_nodes = hierarchy.size() - first_new;
   std::vector<double>& area = exposure.whole;
   std::vector<double>& exposed = exposure.area;
   std::vector<glm::dvec3>& centroid = exposure.centroid;
   area.resize(hierarchy.size(), 0.0);
   exposed.resize(hierarchy.size(), 0.0);
   centroid.resize(hierarchy.size(), glm::dvec3{0.0});
-  parallel_for(hierarchy.size() - first_new, threads, [&](std::size_t k) {
+  exposure.drawn_of.resize(hierarchy.size(), no_node);
+  const auto sheet = [&](std::size_t i) { return hierarchy[i].surface - surfaces[hierarchy[i].object].first_surface; };
+  const auto key = [&](std::size_t i) { return Random{seed, i, 0x6578706f73656421ull}.bits(); };
+  std::vector<char> mixed(new_nodes, 0);  // some of the 16 points are buried, some are not
+  parallel_for(new_nodes, threads, [&](std::size_t k) {
     const std::size_t i = first_new + k;
     const Node& node = hierarchy[i];
     if (!node.leaf()) { return; }
     const SurfaceBRep& brep = surfaces[node.object].brep;
     area[i] = glm::length(brep::vector_area(brep, node.face));
-    const Patch patch = make_patch(contour(surfaces, hierarchy, static_cast<std::uint32_t>(i)));
+    const Patch& patch = patches[i];
     centroid[i] = patch.centroid;
     exposed[i] = area[i];
     if (!may_be_buried(scene, node.object, patch)) { return; }
-    const std::uint32_t sheet = brep.data(node.face).sheet;
-    Random random{seed, i, 0x6578706f73656421ull};
-    const auto count_exposed = [&](std::uint32_t side) {
-      std::uint32_t count = 0;
-      for (std::uint32_t c = 0; c < side * side; ++c) {
-        const double u = (c % side + random.uniform()) / side;
-        const double v = (c / side + random.uniform()) / side;
-        count += buried(scene, node.object, sheet, sample(patch, u, v)) ? 0u : 1u;
-      }
-      return count;
-    };
-    const std::uint32_t first = count_exposed(4);
-    exposed[i] = area[i] * (first == 16 ? 1.0 : first == 0 ? 0.0 : count_exposed(16) / 256.0);
+    Random random{key(i), 16};
+    std::uint32_t count = 0;
+    for (std::uint32_t c = 0; c < 16; ++c) {
+      const double u = (c % 4 + random.uniform()) / 4.0;
+      count += buried(scene, node.object, sheet(i), sample(patch, u, (c / 4 + random.uniform()) / 4.0)) ? 0u : 1u;
+    }
+    if (count == 0) { exposed[i] = 0.0; }
+    mixed[k] = count > 0 && count < 16 ? 1 : 0;
   });
+  // The points of nodes that have none yet.
+  const auto draw = [&](const std::vector<std::uint32_t>& nodes) {
+    const std::size_t first = exposure.drawn.size();
+    exposure.drawn.resize(first + nodes.size());
+    parallel_for(nodes.size(), threads, [&](std::size_t k) {
+      const std::uint32_t i = nodes[k];
+      exposure.drawn_of[i] = static_cast<std::uint32_t>(first + k);
+      exposure.drawn[first + k] = ExposedPoints{scene, hierarchy[i].object, sheet(i), patches[i], key(i)};
+    });
+  };
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t k = 0; k < new_nodes; ++k) {
+    if (mixed[k] != 0) { nodes.push_back(static_cast<std::uint32_t>(first_new + k)); }
+  }
+  draw(nodes);
+  for (const std::uint32_t i : nodes) { exposed[i] = area[i] * (exposure.drawn[exposure.drawn_of[i]].count() / 256.0); }
 
   exposure.buried_leaves = 0;
   for (std::size_t i = hierarchy.size(); i-- > 0;) {
@@ -101,7 +126,12 @@ inline void extend(Exposure& exposure, const raycast::Scene& scene, const std::v
     centroid[i] = exposed[i] > 0.0 ? centroid[i] / exposed[i] : node.centre;
   }
   exposure.partly_buried.resize(hierarchy.size());
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) { exposure.partly_buried[i] = exposed[i] > 0.0 && exposed[i] < area[i]; }
+  nodes.clear();
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    exposure.partly_buried[i] = exposed[i] > 0.0 && exposed[i] < area[i];
+    if (exposure.partly_buried[i] && exposure.drawn_of[i] == no_node) { nodes.push_back(static_cast<std::uint32_t>(i)); }
+  }
+  draw(nodes);
   exposure.all_buried = std::none_of(exposed.begin(), exposed.end(), [](double a) { return a > 0.0; });
 }
 

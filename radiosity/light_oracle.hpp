@@ -20,12 +20,12 @@
 
 #include <radiosity/form_factor.hpp>
 #include <radiosity/hierarchy.hpp>
+#include <radiosity/occlusion.hpp>
 #include <radiosity/oracle.hpp>
 #include <radiosity/patch.hpp>
 #include <radiosity/plan.hpp>
 #include <radiosity/random.hpp>
 #include <radiosity/scene.hpp>
-#include <radiosity/surface.hpp>
 #include <radiosity/visibility.hpp>
 
 namespace radiosity {
@@ -33,9 +33,9 @@ namespace radiosity {
 class LightOracle {
  public:
   // The references must outlive the oracle; the hierarchy holds the roots when it is made, and may grow.
-  LightOracle(const Scene& scene, const raycast::Scene& objects, const Plan& plan, const std::vector<Surface>& surfaces,
-              const Hierarchy& hierarchy, double epsilon, std::uint64_t seed)
-      : objects_{&objects}, plan_{&plan}, surfaces_{&surfaces}, hierarchy_{&hierarchy}, epsilon_{share * epsilon}, seed_{seed} {
+  LightOracle(const Scene& scene, const raycast::Scene& objects, const Plan& plan, const Patches& patches, const Hierarchy& hierarchy,
+              double epsilon, std::uint64_t seed)
+      : objects_{&objects}, plan_{&plan}, patches_{&patches}, hierarchy_{&hierarchy}, epsilon_{share * epsilon}, seed_{seed} {
     for (const InputSurface& input : radiosity::surfaces(scene)) {
       const Color& emission = scene.materials[input.material].emission;
       emission_.push_back(std::max({emission.x, emission.y, emission.z}));
@@ -51,8 +51,9 @@ class LightOracle {
   // Total area of the roots.
   [[nodiscard]] double scene_area() const { return scene_area_; }
 
-  // The end of the pair that should be split because of the light of the other, or no_node. Adds the segments cast to `rays`.
-  [[nodiscard]] std::uint32_t wants_split(std::uint32_t p, std::uint32_t q, std::uint32_t& rays) const {
+  // The end of the pair that should be split because of the light of the other, or no_node. Adds its segments to `rays`.
+  // `list` is that of the pair.
+  [[nodiscard]] std::uint32_t wants_split(std::uint32_t p, std::uint32_t q, const raycast::OccluderList& list, RayCount& rays) const {
     const Hierarchy& nodes = *hierarchy_;
     const bool q_shines = emission_[nodes[q].surface] >= emission_[nodes[p].surface];
     const std::uint32_t receiver = q_shines ? p : q;
@@ -65,7 +66,7 @@ class LightOracle {
     const double weight = emission_[from.surface] * std::sqrt(parts * to.area / scene_area_);
     if (!(weight > epsilon_)) { return no_node; }
 
-    const Patch patch = make_patch(contour(*surfaces_, nodes, receiver));
+    const Patch& patch = (*patches_)[receiver];
     double low = 1.0;
     double high = 0.0;
     const auto look = [&](const glm::dvec3& x) {
@@ -78,8 +79,8 @@ class LightOracle {
     if (weight * (high - low) > std::sqrt(12.0) * epsilon_) { return receiver; }
     if (!(weight * high * 0.5 > epsilon_)) { return no_node; }  // sqrt(V (1 - V)) is at most one half
 
-    const Patch light = make_patch(contour(*surfaces_, nodes, q_shines ? q : p));
-    const VisibilityEstimate seen = visibility(*objects_, *plan_, {&patch, to.object}, {&light, from.object}, 1,
+    const Patch& light = (*patches_)[q_shines ? q : p];
+    const VisibilityEstimate seen = visibility(*objects_, *plan_, list, {&patch, to.object}, {&light, from.object}, 1,
                                                Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull});
     rays += seen.rays;
     const double mean = 0.5 * (low + high);
@@ -93,7 +94,7 @@ class LightOracle {
 
   const raycast::Scene* objects_;
   const Plan* plan_;
-  const std::vector<Surface>* surfaces_;
+  const Patches* patches_;
   const Hierarchy* hierarchy_;
   double epsilon_;
   std::uint64_t seed_;

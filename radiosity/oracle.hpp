@@ -16,6 +16,7 @@ namespace radiosity {
 
 enum class Decision : unsigned char {
   drop,     // proven: the patches cannot face each other
+  hide,     // proven: they cannot see each other
   link,     // exchange light at this level
   split_p,  // too much light for one link: split the first,
   split_q,  // or the second patch

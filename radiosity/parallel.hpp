@@ -19,8 +19,7 @@ namespace radiosity {
 // Calls body(i) once for each i in [0, count), in any order, on up to `threads` threads.
 // `body` must not touch what another index writes. Blocks are handed out on demand.
 template <class Body>
-void parallel_for(std::size_t count, unsigned threads, const Body& body) {
-  constexpr std::size_t block = 64;
+void parallel_for(std::size_t count, unsigned threads, const Body& body, std::size_t block = 64) {
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (;;) {

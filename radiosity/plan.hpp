@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <raycast/box.hpp>
@@ -28,21 +27,16 @@ struct LeftOut {
   std::string saved;
 };
 
-// An object that can stand between two patches.
-struct Occluder {
-  raycast::Box bounds;
-  std::uint32_t object = 0;
-  bool convex = false;  // cannot stand between its own patch and another that faces it
-};
-
 struct Plan {
-  bool lit = false;       // something emits
-  bool reflects = false;  // something reflects
-  unsigned channels = 3;  // 1 when every material is grey
-  bool closed = false;    // proven: no light leaves the scene
-  bool traceable = true;  // paths end soon enough to measure the error
-  bool lossless = false;  // closed, lit, and nothing absorbs in some channel that is lit: no steady state
-  std::vector<Occluder> occluders;
+  bool lit = false;             // something emits
+  bool reflects = false;        // something reflects
+  unsigned channels = 3;        // 1 when every material is grey
+  bool closed = false;          // proven: no light leaves the scene
+  bool traceable = true;        // paths end soon enough to measure the error
+  bool lossless = false;        // closed, lit, and nothing absorbs in some channel that is lit: no steady state
+  std::uint32_t occluders = 0;  // objects that can stand between two patches
+  std::vector<bool> outer;      // by object: the whole scene lies on one side of it, it blocks nothing
+  bool rooms_convex = true;     // nobody sees through the wall of a convex room
   std::vector<LeftOut> left_out;
 };
 
@@ -124,18 +118,21 @@ inline bool lies_on_room(const Surface& surface, const raycast::PlacedObject& ro
   bool holes = false;
   std::uint32_t hull = 0;
   std::vector<std::uint32_t> sheets;  // flat surfaces that block no segment
+  plan.outer.assign(surfaces.size(), false);
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
     const raycast::PlacedObject& object = *surfaces[o].object;
     if (object.inside() && room == nullptr) { room = &surfaces[o]; }
-    if (object.inside() && object.convex()) { continue; }  // nobody sees through the wall of a convex room
+    if (object.inside() && object.convex()) { continue; }
+    plan.rooms_convex = plan.rooms_convex && !object.inside();
     const bool on_hull = object.flat() && !object.solid() && detail::on_the_hull(surfaces, o);
     if (on_hull) {
       ++hull;
+      plan.outer[o] = true;
       sheets.push_back(o);
       continue;
     }
     holes = holes || !object.solid();
-    plan.occluders.push_back({object.bounds(), o, object.convex()});
+    ++plan.occluders;
   }
   plan.closed = room != nullptr && !holes && std::all_of(sheets.begin(), sheets.end(), [&](std::uint32_t o) {
                   return detail::lies_on_room(surfaces[o], *room->object);
@@ -162,17 +159,6 @@ inline bool lies_on_room(const Surface& surface, const raycast::PlacedObject& ro
                              "the whole scene lies on one side of each", ""});
   }
   return plan;
-}
-
-// Can anything stand between a patch of object p and one of object q, both inside `hull`?
-[[nodiscard]] inline bool may_block(const Plan& plan, std::uint32_t p, std::uint32_t q, const raycast::Box& hull) {
-  for (const Occluder& occluder : plan.occluders) {
-    const bool owner = occluder.object == p || occluder.object == q;
-    if (owner && occluder.convex) { continue; }
-    const raycast::Box& box = occluder.bounds;
-    if (glm::all(glm::lessThanEqual(box.lo, hull.hi)) && glm::all(glm::lessThanEqual(hull.lo, box.hi))) { return true; }
-  }
-  return false;
 }
 
 }  // namespace radiosity

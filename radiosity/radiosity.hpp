@@ -147,20 +147,23 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     emission.push_back(material.emission);
   }
   Exposure exposure;
-  LinkEvaluator evaluator{objects, plan, boundary, hierarchy, exposure, emits, options.seed};
+  Patches patches{boundary, hierarchy};
+  const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, emits, options.seed};
   RefineResult refined;
   EvaluateResult evaluated;
   // Without light, or without reflection, B = E on the input faces.
   const bool needs_links = plan.lit && plan.reflects;
   if (needs_links && options.refinement == Refinement::a_posteriori) {
-    BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, exposure, evaluator, options.target,
-                            link_limit, threads, options.seed, control);
+    BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, evaluator, options.target,
+                            Deadline{options.time}, link_limit, threads, options.seed, control);
     refined = std::move(bf.refined);
     evaluated = bf.evaluated;
     audit.estimated_error = bf.estimate;
+    audit.target = options.time ? 0.0 : options.target;
     audit.generations = bf.generations;
   } else if (needs_links) {
-    refined = refine(scene, objects, plan, boundary, hierarchy, options.epsilon, options.min_area, true, threads, options.seed, control);
+    refined =
+        refine(scene, objects, plan, boundary, hierarchy, patches, options.epsilon, options.min_area, true, threads, options.seed, control);
   }
   if (refined.cancelled || evaluated.cancelled) { return cancelled(); }
   if (refined.too_many) {
@@ -170,7 +173,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   solution.links = std::move(refined.links);
   watch.lap("refine");
 
-  extend(exposure, objects, boundary, hierarchy, threads, options.seed);
+  patches.extend(threads);
+  extend(exposure, objects, boundary, hierarchy, patches, threads, options.seed);
   if (exposure.all_buried) {
     return failed(Failure::Kind::invalid_scene,
                   {"every surface is buried under another object: nothing can be seen. Two rooms made by 'inside' "
@@ -179,8 +183,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   watch.lap("expose");
 
   if (needs_links && options.refinement == Refinement::a_priori) {
-    evaluator.extend(threads);
-    evaluated = evaluate(evaluator, solution.links, 0, nullptr, threads, control);
+    evaluated = evaluate(evaluator, refined.occluders, solution.links, refined.lists, 0, nullptr, threads, control);
     if (evaluated.cancelled) { return cancelled(); }
   }
   watch.lap("link");
@@ -210,7 +213,12 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.nodes = hierarchy.size();
   audit.leaves = static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.leaf(); }));
   audit.links = solution.links.size();
-  audit.rays = refined.rays + evaluated.rays;
+  RayCount rays = refined.rays;
+  rays += evaluated.rays;
+  audit.rays = rays.cast;
+  audit.rays_avoided = rays.avoided + refined.pairs_hidden * segments_per_round;
+  audit.pairs_clear = evaluated.proven_clear;
+  audit.pairs_hidden = refined.pairs_hidden;
   audit.bytes = hierarchy.capacity() * sizeof(Node) + solution.links.capacity() * sizeof(Link) + objects.bytes();
   for (const Surface& surface : boundary) { audit.bytes += surface.brep.bytes(); }
   report_left_out(audit, plan, refined, evaluated, exposure, options);
@@ -237,16 +245,18 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
 
 }  // namespace detail
 
-// Solves the scene. With an error target the run starts coarse and halves epsilon and min_area until the audit of the picture
-// witnesses the target, its standard error included; times are those of all rounds together. A run whose error stays above
-// says so by audit.converged; it gives up before it would need more than 20 million links (720 MB).
+// Solves the scene. With an error target the run starts coarse and refines until the audit of the picture witnesses the target, twice its
+// standard error included; times are those of all rounds together. A run whose error stays above says so by audit.converged; it gives up
+// before it would need more than 20 million links (480 MB).
 [[nodiscard]] inline Outcome solve(const Scene& scene, const Options& options = {}, const Control& control = {}) {
   std::vector<std::string> sentences = faults(options);
   if (!sentences.empty()) { return detail::failed(Failure::Kind::invalid_options, std::move(sentences)); }
   if (!options.error) { return detail::solve_at(scene, options, control); }
+  const double wanted = *options.error;
   Options round = options;
   round.epsilon = 0.04;
   round.min_area = 2.4e-4;
+  round.target = wanted;
   std::vector<StageTime> stages;
   for (;;) {
     Outcome outcome = detail::solve_at(scene, round, control);
@@ -255,15 +265,16 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     detail::add_times(stages, audit.stages);
     constexpr double unknown = std::numeric_limits<double>::infinity();
     const ErrorEstimate error = audit.picture_error.value_or(ErrorEstimate{unknown, unknown});
-    const bool met = error.relative_l2 + error.standard_error <= *options.error;
+    const bool met = error.relative_l2 + 2.0 * error.standard_error <= wanted;
     // An estimate that drowns in its own noise needs more points; else, and in any case where noise is not to blame, a finer mesh.
-    const bool noisy = error.standard_error > 0.5 * *options.error && round.audit_points < 200'000;
+    const bool noisy = error.standard_error > 0.25 * wanted && round.audit_points < 200'000;
     if (noisy) { round.audit_points *= 4; }
-    if (!noisy || error.relative_l2 > 0.5 * *options.error) {
+    if (!noisy || error.relative_l2 > 0.5 * wanted) {
       round.epsilon *= 0.5;
       round.min_area *= 0.5;
+      round.target *= std::clamp(0.7 * wanted / error.relative_l2, 0.25, 0.8);
     }
-    if (met || 4 * audit.links > 20'000'000 || round.epsilon < 1e-5) {
+    if (met || 4 * audit.links > 20'000'000 || round.epsilon < 1e-5 || round.target < 1e-6) {
       audit.converged = audit.converged && met;
       audit.stages = std::move(stages);
       detail::sum_times(audit);

@@ -6,7 +6,9 @@
 // for all open pairs in parallel, then links and splits are carried out in the order of the pairs and of the nodes. So the
 // result is the same for any number of threads, and a split asked for by many pairs happens once.
 //
-// Invariant: after each generation every BRep is valid and every unordered pair of leaves that can face each other is
+// Each pair knows what can stand between its patches (occlusion.hpp): a pair that is proven hidden is dropped with all pairs below it.
+//
+// Invariant: after each generation every BRep is valid and every unordered pair of leaves that can face and see each other is
 // covered by exactly one link or open pair between ancestors (or the leaves themselves).
 
 #include <cstdint>
@@ -16,6 +18,7 @@
 #include <radiosity/hierarchy.hpp>
 #include <radiosity/light_oracle.hpp>
 #include <radiosity/links.hpp>
+#include <radiosity/occlusion.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/oracle.hpp>
 #include <radiosity/parallel.hpp>
@@ -25,11 +28,14 @@
 namespace radiosity {
 
 struct RefineResult {
-  Links links;                      // without their exchange
+  Links links;                       // without their exchange
+  std::vector<std::uint32_t> lists;  // of each link: the index of its list of occluders
+  OccluderLists occluders;
   std::uint64_t pairs_tested = 0;   // questions to the oracle
   std::uint64_t pairs_dropped = 0;  // proven to face away from each other
+  std::uint64_t pairs_hidden = 0;   // proven to be hidden from each other by one object
   std::uint64_t pairs_convex = 0;   // never asked: faces of one flat sheet or one convex solid cannot see each other
-  std::uint64_t rays = 0;           // segments cast to find shadow boundaries
+  RayCount rays;                    // segments cast to find shadow boundaries
   std::uint32_t generations = 0;
   std::vector<std::uint32_t> inner;  // leaves of concave curved objects: their children will see each other
   bool cancelled = false;
@@ -41,7 +47,10 @@ inline constexpr std::size_t link_limit = 100'000'000;
 
 namespace detail {
 
-using Pair = std::pair<std::uint32_t, std::uint32_t>;
+struct Pair {
+  std::uint32_t p, q;
+  std::uint32_t list = OccluderLists::none;  // of the pair, or of the pair of ancestors from which it comes
+};
 
 // All pairs of roots that may face each other, and in `inner` the roots whose own parts may.
 inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& roots, std::vector<Pair>& pairs,
@@ -57,10 +66,44 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
       if (same_object && (!sees_itself || same_flat_sheet)) {
         ++convex;
       } else {
-        pairs.emplace_back(p, q);
+        pairs.push_back({p, q});
       }
     }
   }
+}
+
+// Asks `oracle(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
+// the others keep their list and are shown to `look(pair, list, decision)`, in parallel.
+template <class Oracle, class Look>
+std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& objects, const Plan& plan, const Patches& patches,
+                             RefineResult& result, unsigned threads, const Oracle& oracle, const Look& look) {
+  std::vector<Decision> decisions(pairs.size(), Decision::drop);
+  constexpr std::size_t batch = 1 << 14;  // lists of full length that live at a time
+  std::vector<raycast::OccluderList> lists(std::min(batch, pairs.size()));
+  for (std::size_t first = 0; first < pairs.size(); first += batch) {
+    const std::size_t count = std::min(batch, pairs.size() - first);
+    parallel_for(count, threads, [&](std::size_t k) {
+      const Pair& pair = pairs[first + k];
+      Decision& decision = decisions[first + k];
+      decision = oracle(pair.p, pair.q);
+      if (decision == Decision::drop) { return; }
+      lists[k] = result.occluders.of(pair.p, pair.q, pair.list, objects, plan, patches);
+      if (lists[k].blocked()) {
+        decision = Decision::hide;
+      } else {
+        look(first + k, lists[k], decision);
+      }
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      const Decision decision = decisions[first + k];
+      result.pairs_dropped += decision == Decision::drop ? 1 : 0;
+      result.pairs_hidden += decision == Decision::hide ? 1 : 0;
+      if (decision == Decision::drop || decision == Decision::hide) { continue; }
+      pairs[first + k].list = result.occluders.keep(lists[k], pairs[first + k].list);
+    }
+  }
+  result.pairs_tested += pairs.size();
+  return decisions;
 }
 
 }  // namespace detail
@@ -68,12 +111,13 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
 // Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots. The light oracle is asked
 // only on demand.
 [[nodiscard]] inline RefineResult refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
-                                         std::vector<Surface>& surfaces, Hierarchy& hierarchy, double epsilon, double min_area,
-                                         bool ask_light, unsigned threads, std::uint64_t seed, const Control& control = {}) {
+                                         std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches, double epsilon,
+                                         double min_area, bool ask_light, unsigned threads, std::uint64_t seed,
+                                         const Control& control = {}) {
   RefineResult result;
-  const LightOracle light{scene, objects, plan, surfaces, hierarchy, epsilon, seed};
+  const LightOracle light{scene, objects, plan, patches, hierarchy, epsilon, seed};
   min_area *= light.scene_area();
-  std::vector<std::uint32_t> rays;
+  std::vector<RayCount> rays;
 
   if (hierarchy.size() * hierarchy.size() / 2 > link_limit) {
     result.too_many = true;
@@ -83,9 +127,7 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
   std::vector<std::uint32_t>& inner = result.inner;
   detail::root_pairs(surfaces, hierarchy, pairs, inner, result.pairs_convex);
 
-  std::vector<Decision> decisions;
-  std::vector<std::uint32_t> wanted;  // leaves to split in this generation
-  std::vector<bool> stuck;            // leaves that the BRep refused to split
+  std::vector<bool> stuck;  // leaves that the BRep refused to split
   while (!pairs.empty()) {
     if (control.cancelled()) {
       result.cancelled = true;
@@ -95,24 +137,25 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
       result.too_many = true;
       return result;
     }
-    decisions.assign(pairs.size(), Decision::drop);
-    rays.assign(pairs.size(), 0);
-    parallel_for(pairs.size(), threads, [&](std::size_t i) {
-      const auto& [p, q] = pairs[i];
-      decisions[i] = f_oracle(hierarchy[p], hierarchy[q], epsilon, min_area);
-      if (decisions[i] != Decision::link || !ask_light) { return; }
-      const std::uint32_t split = light.wants_split(p, q, rays[i]);
-      if (split != no_node && hierarchy[split].area > min_area) { decisions[i] = split == p ? Decision::split_p : Decision::split_q; }
-    });
-    for (const std::uint32_t r : rays) { result.rays += r; }
-    result.pairs_tested += pairs.size();
+    patches.extend(threads);
+    rays.assign(pairs.size(), {});
+    const std::vector<Decision> decisions = detail::decide(
+        pairs, objects, plan, patches, result, threads,
+        [&](std::uint32_t p, std::uint32_t q) { return f_oracle(hierarchy[p], hierarchy[q], epsilon, min_area); },
+        [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
+          const auto [p, q, index] = pairs[i];
+          if (decision != Decision::link || !ask_light) { return; }
+          const std::uint32_t split = light.wants_split(p, q, list, rays[i]);
+          if (split != no_node && hierarchy[split].area > min_area) { decision = split == p ? Decision::split_p : Decision::split_q; }
+        });
+    for (const RayCount& r : rays) { result.rays += r; }
 
     // Leaves are split in the order of their index.
     std::vector<bool> asked(hierarchy.size(), false);
     stuck.resize(hierarchy.size(), false);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (decisions[i] == Decision::split_p) { asked[pairs[i].first] = true; }
-      if (decisions[i] == Decision::split_q) { asked[pairs[i].second] = true; }
+      if (decisions[i] == Decision::split_p) { asked[pairs[i].p] = true; }
+      if (decisions[i] == Decision::split_q) { asked[pairs[i].q] = true; }
     }
     const auto before = static_cast<std::uint32_t>(hierarchy.size());
     for (std::uint32_t i = 0; i < before; ++i) {
@@ -120,24 +163,19 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
     }
 
     std::vector<detail::Pair> next;
-    const auto descend = [&](std::uint32_t split, std::uint32_t other) {
-      for (std::uint32_t k = 0; k < hierarchy[split].child_count; ++k) { next.emplace_back(hierarchy[split].first_child + k, other); }
+    const auto descend = [&](std::uint32_t split, std::uint32_t other, std::uint32_t list) {
+      for (std::uint32_t k = 0; k < hierarchy[split].child_count; ++k) { next.push_back({hierarchy[split].first_child + k, other, list}); }
     };
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const auto [p, q] = pairs[i];
-      switch (decisions[i]) {
-        case Decision::drop:
-          ++result.pairs_dropped;
-          break;
-        case Decision::link:
-          result.links.push_back({p, q});
-          break;
-        case Decision::split_p:
-          stuck[p] ? result.links.push_back({p, q}) : descend(p, q);
-          break;
-        case Decision::split_q:
-          stuck[q] ? result.links.push_back({p, q}) : descend(q, p);
-          break;
+      const auto [p, q, list] = pairs[i];
+      if (decisions[i] == Decision::drop || decisions[i] == Decision::hide) { continue; }
+      const bool split_p = decisions[i] == Decision::split_p && !stuck[p];
+      const bool split_q = decisions[i] == Decision::split_q && !stuck[q];
+      if (split_p || split_q) {
+        split_p ? descend(p, q, list) : descend(q, p, list);
+      } else {
+        result.links.push_back({p, q});
+        result.lists.push_back(list);
       }
     }
     std::vector<std::uint32_t> still_inner;
@@ -150,7 +188,7 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
       const std::uint32_t last = first + hierarchy[p].child_count;
       for (std::uint32_t a = first; a < last; ++a) {
         still_inner.push_back(a);
-        for (std::uint32_t b = a + 1; b < last; ++b) { next.emplace_back(a, b); }
+        for (std::uint32_t b = a + 1; b < last; ++b) { next.push_back({a, b}); }
       }
     }
     inner = std::move(still_inner);

@@ -5,22 +5,26 @@
 //
 //   conjugate_gradients  on the symmetric system (A / rho - M) B = A E / rho, which is positive definite when
 //                        rho times the row sum is below 1; leaves with rho = 0 are known (B = E) and move to the
-//                        right-hand side. The number of iterations hardly depends on rho.
+//                        right-hand side. The constant mode of each room, which rho near 1 hardly damps, is solved for
+//                        directly and kept out of the search (deflation, Nicolaides 1987): the number of iterations
+//                        does not depend on rho.
 //   jacobi               the textbook iteration B <- E + rho H(B); its error shrinks by rho each time.
 //   gauss_seidel         the same, one input face after the other, with what the others have by now: about twice as fast.
 //   southwell            shooting (progressive refinement, Cohen et al. 1988; Southwell relaxation, Gortler et al. 1994): the input face
 //                        with the most unshot power shoots it. An iteration is as many shots as there are input faces.
 //
 // Residual: || E + rho H(B) - B || / || E + rho H(0) ||, area-weighted over all leaves. The iterate with the least
-// residual is kept; an iteration that diverges is stopped and says so.
+// residual is kept; an iteration that diverges is stopped and says so. Where rho is so near 1 that B is known to no more than the
+// residual wanted, the residual ends at the rounding of B.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include <radiosity/conjugate_gradients.hpp>
+#include <radiosity/iteration.hpp>
 #include <radiosity/material.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/transport.hpp>
@@ -28,77 +32,7 @@
 
 namespace radiosity {
 
-struct LinearSolution {
-  std::vector<double> radiosity;  // of every node: leaves solved, inner nodes area averages
-  double residual = 0.0;          // relative, of the radiosity returned
-  std::uint32_t iterations = 0;
-  bool converged = false;
-  std::vector<double> history;  // the relative residual after each iteration, that of the start first
-};
-
 namespace detail {
-
-// One channel of the problem: leaves with exposed area only.
-struct Channel {
-  const Hierarchy* hierarchy = nullptr;
-  Transport* transport = nullptr;
-  const std::vector<double>* area = nullptr;
-  std::vector<double> reflectance, emission;  // one a node; leaves count
-
-  [[nodiscard]] bool counts(std::size_t i) const { return (*hierarchy)[i].leaf() && (*area)[i] > 0.0; }
-
-  // r = E + rho H(B) - B.
-  void residual(const std::vector<double>& b, std::vector<double>& r) const {
-    transport->apply(b, r);
-    for (std::size_t i = 0; i < r.size(); ++i) { r[i] = counts(i) ? emission[i] + reflectance[i] * r[i] / (*area)[i] - b[i] : 0.0; }
-  }
-
-  [[nodiscard]] double norm(const std::vector<double>& r) const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < r.size(); ++i) {
-      if (counts(i)) { sum += (*area)[i] * r[i] * r[i]; }
-    }
-    return std::sqrt(sum);
-  }
-};
-
-// Keeps the best iterate and tells when to stop.
-struct Progress {
-  Progress(double start_norm, const std::vector<double>& b) : start{start_norm}, best{b} {}
-
-  double start = 0.0;  // norm of E
-  std::vector<double> best;
-  double best_norm = std::numeric_limits<double>::infinity();
-
-  std::vector<double> history;
-
-  void offer(const std::vector<double>& b, double norm) {
-    history.push_back(start > 0.0 ? norm / start : 0.0);
-    if (norm < best_norm) {
-      best = b;
-      best_norm = norm;
-    }
-  }
-  [[nodiscard]] bool diverged(double norm) const { return !(norm <= 1e3 * best_norm); }
-};
-
-inline LinearSolution finish(const Channel& channel, Progress progress, std::uint32_t iterations, double wanted) {
-  LinearSolution solution;
-  solution.radiosity = std::move(progress.best);
-  solution.residual = progress.start > 0.0 ? progress.best_norm / progress.start : 0.0;
-  solution.iterations = iterations;
-  solution.converged = solution.residual <= wanted;
-  solution.history = std::move(progress.history);
-  std::vector<double>& b = solution.radiosity;
-  for (std::size_t i = b.size(); i-- > 0;) {
-    const Node& node = (*channel.hierarchy)[i];
-    if (node.leaf()) { continue; }
-    double sum = 0.0;
-    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { sum += (*channel.area)[c] * b[c]; }
-    b[i] = (*channel.area)[i] > 0.0 ? sum / (*channel.area)[i] : 0.0;
-  }
-  return solution;
-}
 
 inline LinearSolution jacobi(const Channel& channel, double wanted, std::uint32_t max_iterations) {
   std::vector<double> b(channel.emission);
@@ -173,55 +107,6 @@ inline LinearSolution southwell(const Channel& channel, double wanted, std::uint
         if (channel.counts(i)) { unshot[i] += channel.reflectance[i] * arrived[i] / (*channel.area)[i]; }
       }
       for (std::uint32_t u = 0; u < trees.trees(); ++u) { powers[u] = power(u); }
-    }
-  }
-}
-
-// Preconditioned by the diagonal A / rho. In terms of the residual r above, the residual of the symmetric system is
-// (A / rho) r, so the preconditioned residual is r itself.
-inline LinearSolution conjugate_gradients(const Channel& channel, double wanted, std::uint32_t max_iterations) {
-  const std::size_t n = channel.emission.size();
-  const std::vector<double>& area = *channel.area;
-  std::vector<double> weight(n, 0.0);  // A / rho where unknown, 0 where B = E is known
-  for (std::size_t i = 0; i < n; ++i) {
-    if (channel.counts(i) && channel.reflectance[i] > 0.0) { weight[i] = area[i] / channel.reflectance[i]; }
-  }
-  const auto inner = [&](const std::vector<double>& x, const std::vector<double>& y) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < n; ++i) { sum += weight[i] * x[i] * y[i]; }
-    return sum;
-  };
-  std::vector<double> b(channel.emission);
-  std::vector<double> r;
-  std::vector<double> step;
-  std::vector<double> image;
-  Progress progress{channel.norm(b), b};
-  double square = 0.0;
-  for (std::uint32_t iteration = 0;; ++iteration) {
-    // The true residual is formed every 16 steps; rounding in the recurrence does not build up.
-    if (iteration % 16 == 0) { channel.residual(b, r); }
-    const double norm = channel.norm(r);
-    progress.offer(b, norm);
-    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations) {
-      return finish(channel, std::move(progress), iteration, wanted);
-    }
-    const double next_square = inner(r, r);
-    if (step.empty()) {
-      step = r;
-    } else {
-      for (std::size_t i = 0; i < n; ++i) { step[i] = r[i] + next_square / square * step[i]; }
-    }
-    square = next_square;
-    channel.transport->apply(step, image);  // image := step - rho H(step), the preconditioned system
-    for (std::size_t i = 0; i < n; ++i) { image[i] = weight[i] > 0.0 ? step[i] - image[i] / weight[i] : 0.0; }
-    const double curvature = inner(step, image);
-    if (!(curvature > 0.0)) {  // rho times a row sum is 1 or more: there is no steady state
-      return finish(channel, std::move(progress), iteration, wanted);
-    }
-    const double length = square / curvature;
-    for (std::size_t i = 0; i < n; ++i) {
-      b[i] += length * step[i];
-      r[i] -= length * image[i];
     }
   }
 }

@@ -86,7 +86,7 @@ inline void report_left_out(Audit& audit, const Plan& plan, const RefineResult& 
   if (!plan.lit || !plan.reflects) { return; }
   if (evaluated.proven_clear > 0) {
     add("visibility of " + std::to_string(evaluated.proven_clear) + " links", "no object can stand between the patches",
-        "at least " + std::to_string(evaluated.proven_clear * segments_per_round) + " rays");
+        std::to_string(evaluated.rays.avoided) + " rays");
   }
   if (refined.pairs_convex > 0) {
     add(std::to_string(refined.pairs_convex) + " pairs of input faces", "faces of one plane or of one convex solid do not see each other",
@@ -95,6 +95,10 @@ inline void report_left_out(Audit& audit, const Plan& plan, const RefineResult& 
   if (refined.pairs_dropped > 0) {
     add(std::to_string(refined.pairs_dropped) + " pairs of patches", "proven to face away from each other",
         std::to_string(refined.pairs_dropped) + " links");
+  }
+  if (refined.pairs_hidden > 0) {
+    add(std::to_string(refined.pairs_hidden) + " pairs of patches", "proven to be hidden from each other by one convex object",
+        "their links and rays");
   }
   if (exposure.buried_leaves > 0) { add(std::to_string(exposure.buried_leaves) + " leaves", "buried under another object", "their links"); }
   if (options.audit_points == 0) { add("the error estimate", "not asked for (audit of 0 points)", "the time of the audit"); }

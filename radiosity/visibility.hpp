@@ -3,21 +3,22 @@
 
 // The fraction of the light between two patches that arrives (paper 4.3): segments between stratified points of both
 // patches are tested against the original objects, never against the mesh. Each segment counts with the light it would
-// carry. Where nothing can stand in between, no segment is cast.
+// carry. Where nothing can stand in between, no segment is cast (occlusion.hpp).
 //
 // Patches may be partly buried (a floor under a box): their points are drawn from the exposed part alone.
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <raycast/bundle.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
+#include <raycast/shaft.hpp>
 
 #include <radiosity/patch.hpp>
 #include <radiosity/plan.hpp>
@@ -46,29 +47,79 @@ namespace radiosity {
   return scene.covered(surface.position, surface.normal, object);
 }
 
+// Points of a patch that are known to be exposed: of one point in each cell of a 16 x 16 grid, those that are not buried.
+class ExposedPoints {
+ public:
+  ExposedPoints() = default;
+  // `key` names the patch: it fixes where in their cells the points lie.
+  ExposedPoints(const raycast::Scene& scene, std::uint32_t object, std::uint32_t sheet, const Patch& patch, std::uint64_t key) : key_{key} {
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      if (buried(scene, object, sheet, point(patch, i))) { continue; }
+      blocks_[block_of(i)] = static_cast<std::uint16_t>(blocks_[block_of(i)] | 1u << bit_of(i));
+      ++count_;
+    }
+  }
+
+  [[nodiscard]] std::uint32_t count() const { return count_; }
+
+  // One of the points at random: in the given block of 4 x 4 cells, 0...15, if there is one, else anywhere. Requires a point.
+  [[nodiscard]] glm::dvec3 draw(const Patch& patch, std::uint32_t block, Random& random) const {
+    const std::uint64_t bits = random.bits();
+    if (blocks_[block] == 0) {
+      std::uint32_t left = static_cast<std::uint32_t>(bits % count_);
+      for (block = 0; left >= static_cast<std::uint32_t>(std::popcount(blocks_[block])); ++block) {
+        left -= static_cast<std::uint32_t>(std::popcount(blocks_[block]));
+      }
+    }
+    std::uint32_t chosen = blocks_[block];
+    for (auto skip = static_cast<std::uint32_t>(bits >> 32) % static_cast<std::uint32_t>(std::popcount(chosen)); skip > 0; --skip) {
+      chosen &= chosen - 1;
+    }
+    const auto bit = static_cast<std::uint32_t>(std::countr_zero(chosen));
+    return point(patch, (block / 4 * 4 + bit / 4) * 16 + block % 4 * 4 + bit % 4);
+  }
+
+ private:
+  [[nodiscard]] static std::uint32_t block_of(std::uint32_t i) { return i / 64 * 4 + i % 16 / 4; }
+  [[nodiscard]] static std::uint32_t bit_of(std::uint32_t i) { return i / 16 % 4 * 4 + i % 4; }
+  [[nodiscard]] glm::dvec3 point(const Patch& patch, std::uint32_t i) const {
+    Random random{key_, i};
+    const double u = (i % 16 + random.uniform()) / 16.0;
+    return sample(patch, u, (i / 16 + random.uniform()) / 16.0);
+  }
+
+  std::uint64_t key_ = 0;
+  std::uint32_t count_ = 0;
+  std::array<std::uint16_t, 16> blocks_{};
+};
+
 // One end of a link as the visibility test sees it.
 struct PatchEnd {
   const Patch* patch = nullptr;
   std::uint32_t object = 0;
-  std::uint32_t sheet = 0;
-  bool partly_buried = false;
+  const ExposedPoints* exposed = nullptr;  // of a patch that is partly buried
 };
 
-// Draws a point of the exposed part of the end; the first attempt lies in cell 0...15 of a 4 x 4 grid. False when none is found.
-[[nodiscard]] inline bool draw_exposed(const raycast::Scene& scene, const PatchEnd& end, std::uint32_t cell, Random& random,
-                                       glm::dvec3& x) {
-  for (int attempt = 0; attempt < 16; ++attempt) {
-    const double u = attempt == 0 ? (cell % 4 + random.uniform()) / 4.0 : random.uniform();
-    const double v = attempt == 0 ? (cell / 4 + random.uniform()) / 4.0 : random.uniform();
-    x = sample(*end.patch, u, v);
-    if (!end.partly_buried || !buried(scene, end.object, end.sheet, x)) { return true; }
-  }
-  return false;
+// A point of the exposed part of the end, in cell 0...15 of a 4 x 4 grid if that is exposed.
+[[nodiscard]] inline glm::dvec3 draw_exposed(const PatchEnd& end, std::uint32_t cell, Random& random) {
+  if (end.exposed != nullptr) { return end.exposed->draw(*end.patch, cell, random); }
+  const double u = (cell % 4 + random.uniform()) / 4.0;
+  return sample(*end.patch, u, (cell / 4 + random.uniform()) / 4.0);
 }
+
+// Segments that were cast, and that were not because the answer was proven.
+struct RayCount {
+  std::uint64_t cast = 0, avoided = 0;
+  RayCount& operator+=(const RayCount& other) {
+    cast += other.cast;
+    avoided += other.avoided;
+    return *this;
+  }
+};
 
 struct VisibilityEstimate {
   double fraction = 1.0;
-  std::uint32_t rays = 0;
+  RayCount rays;
   // Standard deviation of the visible fraction from place to place on each patch, without the noise of sampling.
   double spread_p = 0.0, spread_q = 0.0;
 };
@@ -103,19 +154,14 @@ inline constexpr std::uint32_t segments_per_round = 16;
 
 // One round of 16 segments decides when they agree; else `rounds` rounds are averaged. So a patch of which the part p is hidden
 // passes for wholly visible with probability (1 - p)^16, and the fraction is too large by p (1 - p)^16 <= 0.022 on average.
-// The numbers drawn depend on `random` alone.
-[[nodiscard]] inline VisibilityEstimate visibility(const raycast::Scene& scene, const Plan& plan, const PatchEnd& p, const PatchEnd& q,
-                                                   std::uint32_t rounds, Random random) {
-  raycast::Box hull{p.patch->contour[0], p.patch->contour[0]};
-  for (const Patch* patch : {p.patch, q.patch}) {
-    for (const glm::dvec3& x : patch->contour) {
-      hull.lo = glm::min(hull.lo, x);
-      hull.hi = glm::max(hull.hi, x);
-    }
-  }
-  if (!may_block(plan, p.object, q.object, hull)) { return {}; }
-
+// The numbers drawn depend on `random` alone. `list` is that of the pair.
+[[nodiscard]] inline VisibilityEstimate visibility(const raycast::Scene& scene, const Plan& plan, const raycast::OccluderList& list,
+                                                   const PatchEnd& p, const PatchEnd& q, std::uint32_t rounds, Random random) {
   VisibilityEstimate estimate;
+  if (list.known() && !list.blocked() && list.shapes().empty() && (list.rooms_clear() || plan.rooms_convex)) {
+    estimate.rays.avoided = segments_per_round;
+    return estimate;
+  }
   const double softening = 0.01 * std::min(p.patch->area, q.patch->area);  // bounds the weight of touching points
   double total = 0.0;
   double arrived = 0.0;
@@ -130,21 +176,20 @@ inline constexpr std::uint32_t segments_per_round = 16;
     raycast::Segments16 segments;
     std::array<double, segments_per_round> weights{};
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
-      glm::dvec3 x{0.0};
-      glm::dvec3 y{0.0};
-      if (!draw_exposed(scene, p, i, random, x) || !draw_exposed(scene, q, opposite(i, shift), random, y)) { continue; }
+      const glm::dvec3 x = draw_exposed(p, i, random);
+      const glm::dvec3 y = draw_exposed(q, opposite(i, shift), random);
       const glm::dvec3 d = y - x;
       const double r2 = glm::dot(d, d) + softening;
       weights[i] = std::max(0.0, glm::dot(p.patch->normal, d)) * std::max(0.0, -glm::dot(q.patch->normal, d)) / (r2 * r2);
       if (weights[i] > 0.0) { segments.set(i, {x, d}, p.object, q.object); }
     }
-    const std::uint32_t occluded = scene.occluded16(segments, last_occluder);
+    const std::uint32_t occluded = scene.occluded16(segments, list, last_occluder);
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
       if (!(weights[i] > 0.0)) { continue; }
       const bool arrives = (occluded >> i & 1u) == 0;
       total += weights[i];
       arrived += arrives ? weights[i] : 0.0;
-      ++estimate.rays;
+      ++estimate.rays.cast;
       ++(arrives ? clear : blocked);
       cells_p.add(i, arrives);
       cells_q.add(opposite(i, shift), arrives);

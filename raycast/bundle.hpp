@@ -1,195 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Occlusion of one segment and of sixteen: the fast searches of kernels.hpp in front of the law of scene.hpp.
-//
-// Segments may lie anywhere: one that leaves the compiled scene is clipped to where something is. Rooms come last: where both ends are in a
-// convex one, or on it, it does not block.
+// Sixteen segments, as they run between two patches: what Scene::occluded16 is asked.
 
-#include "scene.hpp"
+#include "ray.hpp"
 
-#include <algorithm>
-#include <bit>
+#include <cstdint>
 
 namespace raycast {
 
-namespace detail {
+// Sixteen segments in the world, as the caller fills them in. Lanes that are not set take no part.
+struct alignas(64) Segments16 {
+  double ox[16] = {}, oy[16] = {}, oz[16] = {}, dx[16] = {}, dy[16] = {}, dz[16] = {};
+  std::uint32_t source[16] = {}, target[16] = {};  // owners of the ends
+  std::uint32_t lanes = 0;                         // one bit per lane that is set
 
-// A segment that leaves the compiled scene, cut to what lies within 1.25 of its middle: in lane `lane` of `rays`. False: nothing does.
-// Requires ends within 1e6, so that the cut is known to 1e-10.
-inline bool clip(const Compiled& scene, const Segment& segment, unsigned lane, Rays16& rays) {
-  const glm::dvec3 o = scene.local(segment.origin), d = segment.direction * scene.scale;
-  double t0 = 0.0, t1 = 1.0;
-  for (int k = 0; k < 3; ++k) {
-    const double a = (-1.25 - o[k]) / d[k], b = (1.25 - o[k]) / d[k];
-    if (d[k] == 0.0) {
-      if (std::abs(o[k]) > 1.25) return false;
-      continue;
-    }
-    t0 = std::max(t0, std::min(a, b));
-    t1 = std::min(t1, std::max(a, b));
+  void set(unsigned lane, const Segment& s, std::uint32_t source_owner, std::uint32_t target_owner) {
+    ox[lane] = s.origin.x, oy[lane] = s.origin.y, oz[lane] = s.origin.z;
+    dx[lane] = s.direction.x, dy[lane] = s.direction.y, dz[lane] = s.direction.z;
+    source[lane] = source_owner, target[lane] = target_owner;
+    lanes |= 1u << lane;
   }
-  if (!(t0 < t1)) return false;
-  const glm::dvec3 from = o + t0 * d, to = o + t1 * d;
-  float* const rows[9] = {rays.ox, rays.oy, rays.oz, rays.tx, rays.ty, rays.tz, rays.dx, rays.dy, rays.dz};
-  for (int k = 0; k < 3; ++k) {
-    rows[k][lane] = static_cast<float>(from[k]);
-    rows[k + 3][lane] = static_cast<float>(to[k]);
-    rows[k + 6][lane] = static_cast<float>(to[k] - from[k]);
-  }
-  return true;
-}
-
-}  // namespace detail
-
-// Asks the law about one object for some lanes.
-struct Scene::Exact {
-  const Scene& scene;
-  const Segments16& segments;
-
-  std::uint32_t operator()(std::uint32_t object, std::uint32_t lanes) const {
-    std::uint32_t result = 0;
-    for (std::uint32_t rest = lanes; rest; rest &= rest - 1) {
-      const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-      if (scene.blocks(Line(segments.at(lane)), scene.end_at(segments.source[lane]), scene.end_at(segments.target[lane]), object))
-        result |= 1u << lane;
-    }
-    return result;
-  }
+  [[nodiscard]] Segment at(unsigned lane) const { return {{ox[lane], oy[lane], oz[lane]}, {dx[lane], dy[lane], dz[lane]}}; }
 };
-
-// Which of `near` lie in a convex room with both ends, or are the room's own at both.
-inline std::uint32_t Scene::blocked_by_rooms(const Segments16& segments, const Rays16& rays, std::uint32_t near,
-                                             std::uint32_t lanes) const {
-  const Exact exact{*this, segments};
-  std::uint32_t blocked = 0;
-  for (std::size_t r = 0; r < compiled_.rooms.size(); ++r) {
-    const std::uint32_t room = compiled_.rooms[r], body = compiled_.room_bodies[r];
-    std::uint32_t ask = lanes & ~blocked, from = 0, to = 0;
-    if (objects_[room].convex()) {
-      for (unsigned i = 0; i < 16; ++i) {
-        from |= static_cast<std::uint32_t>(segments.source[i] == room) << i;
-        to |= static_cast<std::uint32_t>(segments.target[i] == room) << i;
-      }
-      ask &= ~(from & to);
-      if (body != no_shape && ask) {
-        const Body& b = compiled_.bodies[body];
-        const auto* planes = compiled_.planes.data();
-        const float margin = compiled_.margin;
-        const std::uint32_t o = HALFLIGHT_DISPATCH(isa_, inside(b, planes, rays.ox, rays.oy, rays.oz, margin));
-        const std::uint32_t t = HALFLIGHT_DISPATCH(isa_, inside(b, planes, rays.tx, rays.ty, rays.tz, margin));
-        ask &= ~(near & (from | o) & (to | t));
-      }
-    }
-    if (ask) blocked |= exact(room, ask);
-  }
-  return blocked;
-}
-
-inline std::uint32_t Scene::occluded16(const Segments16& segments, const std::uint32_t* list, std::uint32_t count, bool rooms_clear,
-                                       std::uint32_t& hint) const {
-  Rays16 rays;
-  unsigned lines = 0;
-  const unsigned near = HALFLIGHT_DISPATCH(isa_, convert(compiled_, segments, rays, lines));
-  const Exact exact{*this, segments};
-  std::uint32_t blocked = 0, bounded = near;
-  if (near != lines) {
-    for (std::uint32_t rest = lines & ~near; rest; rest &= rest - 1) {
-      const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-      const Segment s = segments.at(lane);
-      const Box ends{compiled_.local(s.origin), compiled_.local(s.at(1.0))};
-      if (!(std::max(Box{ends.lo, ends.lo}.magnitude(), Box{ends.hi, ends.hi}.magnitude()) < 1e6)) {
-        for (std::uint32_t i = 0; i < objects_.size(); ++i)
-          if (exact(i, 1u << lane)) {
-            blocked |= 1u << lane;
-            break;
-          }
-      } else if (detail::clip(compiled_, s, lane, rays)) {
-        bounded |= 1u << lane;
-      }
-    }
-    HALFLIGHT_DISPATCH(isa_, finish(rays));
-  }
-  if (bounded) blocked |= HALFLIGHT_DISPATCH(isa_, blocked(compiled_, rays, bounded, list, count, hint, exact));
-  if (!rooms_clear && !compiled_.rooms.empty() && (lines & ~blocked)) blocked |= blocked_by_rooms(segments, rays, near, lines & ~blocked);
-  return blocked;
-}
-
-inline std::uint32_t Scene::occluded16(const Segments16& segments, std::uint32_t& hint) const {
-  return occluded16(segments, nullptr, 0, false, hint);
-}
-
-inline bool Scene::occluded(const Segment& segment, std::uint32_t source_owner, std::uint32_t target_owner) const {
-  if (!has_line(segment)) return false;
-  Rays16 rays;
-  if (!HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, segment, source_owner, target_owner, rays))) {
-    Segments16 segments;
-    segments.set(0, segment, source_owner, target_owner);
-    return occluded16(segments) != 0;
-  }
-  const auto exact = [&](std::uint32_t object, std::uint32_t) -> std::uint32_t {
-    return blocks(Line(segment), end_at(source_owner), end_at(target_owner), object);
-  };
-  if (HALFLIGHT_DISPATCH(isa_, blocked_one(compiled_, rays, exact))) return true;
-  return std::any_of(compiled_.rooms.begin(), compiled_.rooms.end(), [&](std::uint32_t room) { return exact(room, 1u) != 0; });
-}
-
-// Asks the law about one object, for the first hit.
-struct Scene::Asker {
-  const Scene& scene;
-  const Line& line;
-  const End& source;
-  Nearest& nearest;
-  double t0, t1;  // of the ray: parameters 0 and 1 of the compiled segment
-
-  float operator()(std::uint32_t object) const {
-    scene.approach(line, source, object, nearest);
-    return static_cast<float>(std::min((nearest.limit - t0) / (t1 - t0), 1.0)) * 1.00001f + 1e-6f;
-  }
-  [[nodiscard]] bool near(std::uint32_t object) const {
-    return object == source.owner || scene.objects_[object].bounds().contains(line.segment.origin, 2 * scene.skin(source, object));
-  }
-};
-
-inline void Scene::approach_bounded(const Line& line, const End& a, Nearest& nearest) const {
-  const glm::dvec3 o = compiled_.local(line.segment.origin), d = line.segment.direction * compiled_.scale;
-  Asker asker{*this, line, a, nearest, 0.0, 0.0};
-  double entry = 0.0, exit = infinity;  // of a cube around everything
-  for (int k = 0; k < 3; ++k) {
-    const double lo = (-1.25 - o[k]) / d[k], hi = (1.25 - o[k]) / d[k];
-    if (d[k] == 0.0 && !(std::abs(o[k]) <= 1.25)) return;
-    if (d[k] == 0.0) continue;
-    entry = std::max(entry, std::min(lo, hi));
-    exit = std::min(exit, std::max(lo, hi));
-  }
-  if (!(entry < exit)) return;
-  Rays16 rays;
-  const glm::dvec3 from = o + entry * d, along = (exit - entry) * d;
-  const Segment inner{from / compiled_.scale + compiled_.centre, along / compiled_.scale};
-  if (!(Box{o, o}.magnitude() < 1e6) || !HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, inner, a.owner, no_object, rays))) {
-    objects_along(compiled_, line.segment, 0.0, nearest.limit, [&](std::uint32_t i) {
-      approach(line, a, i, nearest);
-      return false;
-    });
-    return;
-  }
-  asker.t0 = entry, asker.t1 = exit;
-  Entries entries;
-  HALFLIGHT_DISPATCH(isa_, first(compiled_, rays, asker, entries));
-  if (entries.count == 1 && entries.complete && entries.entry[0].sure) {
-    const Entries::Entry& e = entries.entry[0];
-    const Crossing at = objects_[e.object].crossing(line.segment, e.face);
-    if (at.t > 0.0 && at.t <= nearest.limit) offer(line, Hit{at.t, e.object, at.sheet, true}, nearest);
-    return;
-  }
-  if (!entries.complete) {
-    for (std::uint32_t i = 0; i < objects_.size(); ++i)
-      if (compiled_.roles[i] == Role::solid && !objects_[i].inside()) approach(line, a, i, nearest);
-    return;
-  }
-  for (unsigned i = 0; i < entries.count; ++i)
-    if (std::none_of(entries.entry, entries.entry + i, [&](const auto& e) { return e.object == entries.entry[i].object; }))
-      approach(line, a, entries.entry[i].object, nearest);
-}
 
 }  // namespace raycast

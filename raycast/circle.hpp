@@ -6,6 +6,8 @@
 #include "object.hpp"
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 
 #include <algorithm>
@@ -33,6 +35,9 @@ struct AxisFrame {
     const double x = glm::dot(f, u), y = glm::dot(f, v), length = std::hypot(x, y);
     return length > 0.0 ? glm::normalize((x / length) * u + (y / length) * v) : u;
   }
+
+  // The map into the frame, in units of `across` and of `along` the axis.
+  [[nodiscard]] glm::dmat3 into(double across, double along) const { return glm::transpose(glm::dmat3(u / across, v / across, w / along)); }
 
   // Adds to the box the circle of this radius about a point of the axis: a disk of unit normal w reaches r sqrt(1 - w_k^2) along axis k.
   void extend(Box& box, const glm::dvec3& centre, double radius) const {

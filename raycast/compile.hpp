@@ -5,9 +5,9 @@
 // coordinates; what says nothing is kept behind its bounds and asked through its spans. Shapes that a placement distorts are treated
 // the same way, unless they are polyhedral.
 
+#include "circle.hpp"
 #include "compiled.hpp"
 #include "transform.hpp"
-#include "tree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,25 +16,44 @@
 
 namespace raycast {
 
+struct Item {  // a shape before it has its place
+  FloatBox box;
+  Kind kind;
+  std::uint32_t object, data;
+};
+
 class Compiler {
  public:
   // --- What Object::compile may call. Only one kind per object. ---
 
   void ball(const glm::dvec3& centre, double radius) {
-    if (object_->inside() || !similar_) return;
+    if (object_->inside()) return;
+    if (!similar_) return superquadric(centre, glm::dmat3(1.0 / radius), 2.0, 2.0, 0.0);  // an ellipsoid
     const glm::dvec3 c = map(centre);
     const double r = radius * stretch_ * out_.scale;
     Box box{c - r, c + r};
     add(box, Kind::ball, static_cast<std::uint32_t>(balls_.size()));
     balls_.push_back({static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z), static_cast<float>(r)});
   }
-  void cylinder(const glm::dvec3& base, const glm::dvec3& axis, double radius) {  // the axis' length is the height
-    if (object_->inside() || !similar_) return;
+  void cylinder(const glm::dvec3& base, const AxisFrame& frame, double radius, double height) {
+    if (object_->inside()) return;
+    if (!similar_) return cone(base, frame.into(radius, height), 1.0, 0.0);
+    const glm::dvec3 axis = height * frame.w;
     const glm::dvec3 b = map(base), w = object_->placement().linear * axis * out_.scale, unit = glm::normalize(w);
     Tube tube{{}, {}, static_cast<float>(glm::length(w)), static_cast<float>(radius * stretch_ * out_.scale), index_};
     for (int k = 0; k < 3; ++k) tube.base[k] = static_cast<float>(b[k]), tube.axis[k] = static_cast<float>(unit[k]);
     add_object_box(Kind::cylinder, static_cast<std::uint32_t>(tubes_.size()));
     tubes_.push_back(tube);
+  }
+  // |x, y| <= 1, z = 0 where x, y, z are unit (p - centre).
+  void disk(const glm::dvec3& centre, const glm::dmat3& unit) { form(FormKind::disk, centre, unit, 0.0, 0.0, 0.0, 0.0); }
+  // 0 <= z <= 1, |x, y| <= p + q z, neither beyond 1.
+  void cone(const glm::dvec3& base, const glm::dmat3& unit, double p, double q) { form(FormKind::cone, base, unit, p, q, 0.0, 0x1p-20); }
+  // ((|x|^p + |y|^p)^(1/p) - ring)^q + |z|^q <= 1.
+  void superquadric(const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring) {
+    if (std::min(p, q) < 0.2 || std::max(p, q) > 16.0 || ring > 64.0) return;  // powers are not known well enough
+    form(p >= 1.0 && q >= 1.0 && ring == 0.0 ? FormKind::convex : FormKind::concave, centre, unit, p, q, ring,
+         0x1p-15 * (1.0 + 0.5 / p + 0.5 / q));
   }
   // A convex solid behind all these planes; at most 32 of them.
   void body(std::span<const Plane> planes) {
@@ -119,18 +138,8 @@ class Compiler {
       add_object_box(Kind::guard, 0);
     }
   }
-  // Arranges everything. Up to `loop_limit` shapes are a loop, not a tree.
-  void finish(std::size_t loop_limit) {
-    out_.shape_count = static_cast<std::uint32_t>(items_.size());
-    out_.bodies.reserve(bodies_.size());
-    for (std::uint32_t& body : out_.room_bodies)
-      if (body != no_shape) out_.bodies.push_back(bodies_[std::exchange(body, static_cast<std::uint32_t>(out_.bodies.size()))]);
-    TreeBuilder tree(items_, [this](Kind kind, std::span<const Item> items) { return emit(kind, items); });
-    if (items_.size() <= loop_limit)
-      tree.leaves(out_.leaves);
-    else
-      tree.build(out_.nodes);
-  }
+  // Arranges everything. Up to `loop_limit` shapes are a loop for occlusion; the first hit is always looked for in the tree.
+  void finish(std::size_t loop_limit);  // tree.hpp
 
  private:
   struct Face {
@@ -157,6 +166,26 @@ class Compiler {
   }
   void add(const Box& box, Kind kind, std::uint32_t data) { items_.push_back({rounded(box), kind, index_, data}); }
   void add_object_box(Kind kind, std::uint32_t data) { items_.push_back({out_.bounds.back(), kind, index_, data}); }
+
+  // What double precision computes in the shape's coordinates must be better than the margin there: so not under very uneven maps.
+  void form(FormKind kind, const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring, double eps) {
+    if (object_->inside()) return;
+    const Placement& place = object_->placement();
+    const glm::dmat3 inverse = glm::inverse(place.linear), linear = unit * inverse / out_.scale;
+    const glm::dvec3 shift = unit * (inverse * (out_.centre - place.translation) - centre);
+    const auto norm = [](const glm::dmat3& m) { return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])); };
+    if (!(norm(unit * inverse) * norm(glm::inverse(unit * inverse)) < 1e4)) return;
+    Form f{{}, {}, static_cast<float>(p), static_cast<float>(q), static_cast<float>(ring), static_cast<float>(eps), kind, index_};
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 row{linear[0][k], linear[1][k], linear[2][k]};
+      for (int i = 0; i < 3; ++i) f.map[k][i] = static_cast<float>(row[i]);
+      f.map[k][3] = static_cast<float>(shift[k]);
+      f.slop[k] = 2.0f * out_.margin * static_cast<float>(glm::length(row));
+      if (!(f.slop[k] < 0.02f)) return;
+    }
+    add_object_box(Kind::form, static_cast<std::uint32_t>(forms_.size()));
+    forms_.push_back(f);
+  }
 
   // Cuts the polygon `world_` into pieces of at most four corners. Where the plane is not known (normal 0) or the polygon is not convex
   // its rows stay zero: neither in nor out, double precision decides.
@@ -229,6 +258,8 @@ class Compiler {
         return append(out_.bodies, [&](const Item& item) { return bodies_[item.data]; });
       case Kind::cylinder:
         return append(out_.tubes, [&](const Item& item) { return tubes_[item.data]; });
+      case Kind::form:
+        return append(out_.forms, [&](const Item& item) { return forms_[item.data]; });
       case Kind::guard:
         return append(out_.guards, [&](const Item& item) { return item.object; });
       default:
@@ -243,6 +274,7 @@ class Compiler {
   std::vector<std::array<float, 4>> balls_;
   std::vector<Body> bodies_;
   std::vector<Tube> tubes_;
+  std::vector<Form> forms_;
   std::vector<glm::dvec3> world_;
   std::uint32_t face_count_ = 0;
   // Of the object being added:

@@ -13,7 +13,7 @@
 //
 // Boxes of nodes are grown by the margin and rounded outwards; so a node is never missed for a shape that could be met.
 
-#include "lanes.hpp"
+#include "isa.hpp"
 #include "planar.hpp"
 
 #include <array>
@@ -24,8 +24,8 @@
 namespace raycast {
 
 // The kinds of shapes. faces: convex polygons of three or four corners; body: a convex solid behind planes; guard: the bounds of an object
-// that is kept as faces; other: bounds of an object that is asked through its spans.
-enum class Kind : std::uint32_t { triangle, quad, ball, body, cylinder, guard, other };
+// that is kept as faces; form: a shape with a formula in coordinates of its own; other: bounds of an object that is asked through its spans.
+enum class Kind : std::uint32_t { triangle, quad, ball, body, cylinder, guard, other, form };
 
 // A shape's name: its kind and its index among its kind.
 [[nodiscard]] constexpr std::uint32_t shape_id(Kind kind, std::uint32_t index) { return static_cast<std::uint32_t>(kind) << 29 | index; }
@@ -48,6 +48,20 @@ struct Body {
 };
 struct Tube {  // a cylinder
   float base[3], axis[3], height, radius;
+  std::uint32_t object;
+};
+
+// A shape about the origin of its own coordinates, and the affine map into them. `slop` bounds how far a point's coordinates are off there:
+// the margin in the units of the shape. With p, q:
+//   disk      z = 0, |x, y| <= 1
+//   cone      0 <= z <= 1, |x, y| <= p + q z
+//   convex    G(A(x, y), z) <= 1 with the gauges A = (|x|^p + |y|^p)^(1/p) and G of q; p, q >= 1
+//   concave   G(|A(x, y) - ring|, z) <= 1: any exponents; tori, too
+enum class FormKind : std::uint32_t { disk, cone, convex, concave };
+struct Form {
+  float map[3][4], slop[3], p, q, ring;
+  float eps;  // relative error of G as it is computed (forms.inc)
+  FormKind kind;
   std::uint32_t object;
 };
 
@@ -82,21 +96,23 @@ struct Compiled {
   glm::dvec3 centre{0.0};
   double scale = 1.0;
   float margin = 0x1p-19f;
-  std::vector<Node> nodes;  // the first is the root; empty when there are few shapes
+  std::vector<Node> nodes;  // the first is the root; none without shapes
   std::vector<FaceBlock<3>> triangles;
   std::vector<FaceBlock<4>> quads;
   std::vector<BallBlock> balls;
   std::vector<Body> bodies;
   std::vector<std::array<float, 4>> planes;
   std::vector<Tube> tubes;
+  std::vector<Form> forms;
   std::vector<std::uint32_t> guards, others;  // objects
-  std::vector<std::uint32_t> leaves;          // all leaves: a scene of few shapes is a loop over them
-  std::vector<Role> roles;                    // by object
-  std::vector<FloatBox> bounds;               // by object, grown by the margin; everything for a room
-  std::vector<std::uint32_t> rooms;           // objects turned inside out
-  std::vector<std::uint32_t> room_bodies;     // by room: its convex body, or no_shape
+  std::vector<std::uint32_t> leaves;  // of a scene of few shapes, where occlusion is a loop over them: all leaves, with shapes of their own
+  std::vector<Role> roles;            // by object
+  std::vector<FloatBox> bounds;       // by object, grown by the margin; everything for a room
+  std::vector<std::uint32_t> rooms;   // objects turned inside out
+  std::vector<std::uint32_t> room_bodies;  // by room: its convex body, or no_shape
   std::uint32_t shape_count = 0;
 
+  [[nodiscard]] bool few() const { return nodes.empty() || !leaves.empty(); }
   [[nodiscard]] glm::dvec3 local(const glm::dvec3& p) const { return (p - centre) * scale; }
   [[nodiscard]] std::uint32_t object_of(std::uint32_t shape) const {
     const std::uint32_t i = index_of(shape);
@@ -113,6 +129,8 @@ struct Compiled {
         return tubes[i].object;
       case Kind::guard:
         return guards[i];
+      case Kind::form:
+        return forms[i].object;
       default:
         return others[i];
     }
@@ -120,7 +138,7 @@ struct Compiled {
   [[nodiscard]] std::size_t bytes() const {
     return nodes.capacity() * sizeof(Node) + triangles.capacity() * sizeof(FaceBlock<3>) + quads.capacity() * sizeof(FaceBlock<4>) +
            balls.capacity() * sizeof(BallBlock) + bodies.capacity() * sizeof(Body) + planes.capacity() * 16 +
-           tubes.capacity() * sizeof(Tube) +
+           tubes.capacity() * sizeof(Tube) + forms.capacity() * sizeof(Form) +
            (guards.capacity() + others.capacity() + leaves.capacity() + rooms.capacity() + room_bodies.capacity()) * sizeof(std::uint32_t) +
            roles.capacity() + bounds.capacity() * sizeof(FloatBox);
   }

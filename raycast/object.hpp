@@ -35,6 +35,8 @@ struct SurfacePoint {
 
 class Compiler;
 
+inline constexpr std::uint32_t no_object = 0xffffffff;  // an object's number in a scene: none
+
 class Object {
  public:
   Object() = default;

@@ -23,21 +23,23 @@
 //
 // All queries are const, thread-safe, and use no heap (a line that crosses a mesh more than eight times excepted).
 
-#include "compile.hpp"
+#include "bundle.hpp"
+#include "compiled.hpp"
 #include "planar.hpp"
+#include "shaft.hpp"
 #include "transform.hpp"
-#include "traverse.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <vector>
 
+#ifndef HALFLIGHT_INLINE
+#define HALFLIGHT_INLINE inline
+#endif
+
 namespace raycast {
 
-inline constexpr std::uint32_t no_object = 0xffffffff;
-
-class OccluderList;
-struct PatchShape;
+struct Rays16;
 
 struct Hit {
   double t;
@@ -56,7 +58,7 @@ class Scene {
   [[nodiscard]] double diameter() const { return bounds_.diameter(); }
   [[nodiscard]] std::size_t bytes() const {  // of the compiled scene, without the objects themselves
     return objects_.capacity() * sizeof(PlacedObject) + records_.capacity() * sizeof(Record) + corners_.capacity() * sizeof(glm::dvec3) +
-           compiled_.bytes();
+           walls_.capacity() * sizeof(Plane) + compiled_.bytes();
   }
 
   // Does anything stand between the two ends, t in (0, 1)? The owners are the objects on which the ends lie. Symmetric: exchanging ends
@@ -74,6 +76,7 @@ class Scene {
   // What may occlude segments between two patches (shaft.hpp), from the whole scene or from the list of a pair of their ancestors.
   [[nodiscard]] OccluderList occluders(const PatchShape& a, const PatchShape& b) const;
   [[nodiscard]] OccluderList filter(const OccluderList& parent, const PatchShape& a, const PatchShape& b) const;
+  [[nodiscard]] std::uint32_t object_of(std::uint32_t shape) const { return compiled_.object_of(shape); }  // of a shape in a list
   // As above, for segments between the patches of the list: the same answers.
   [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const OccluderList& list, std::uint32_t& hint) const;
 
@@ -121,6 +124,13 @@ class Scene {
   [[nodiscard]] OccluderList list_of(const OccluderList* parent, const PatchShape& a, const PatchShape& b) const;
   [[nodiscard]] bool within(std::uint32_t object, std::span<const glm::dvec3> points) const;
   [[nodiscard]] bool rooms_clear(const PatchShape& a, const PatchShape& b) const;
+  // Is the point in the convex polyhedral room number r, or on its wall as well as rounding can tell? False for other rooms.
+  [[nodiscard]] bool in_room(std::size_t r, const glm::dvec3& p, double bulge = 0.0) const {
+    const std::uint32_t first = first_wall_[r], end = first_wall_[r + 1];
+    for (std::uint32_t k = first; k < end; ++k)
+      if (!(glm::dot(walls_[k].normal, p - walls_[k].point) >= bulge - 0.5 * rounding_)) return false;
+    return first < end;
+  }
   [[nodiscard]] std::uint32_t blocked_by_rooms(const Segments16& segments, const Rays16& rays, std::uint32_t near,
                                                std::uint32_t lanes) const;
 
@@ -152,187 +162,18 @@ class Scene {
   std::vector<PlacedObject> objects_;
   std::vector<Record> records_;
   std::vector<glm::dvec3> corners_;
+  std::vector<Plane> walls_;                  // of the convex polyhedral rooms, normals inwards
+  std::vector<std::uint32_t> first_wall_{0};  // by room
   Compiled compiled_;
   Isa isa_;
   Box bounds_;
   double rounding_ = 0.0, slack_ = 0.0;  // slack_: the largest of all objects
 };
 
-inline Scene::Scene(std::vector<PlacedObject> objects, Isa isa) : objects_(std::move(objects)), isa_(isa) {
-  // Up to here a loop over all is as fast as the tree. (tests/bench/rays)
-  constexpr std::size_t loop_limit = 64;
-  double touch = 0.0;
-  records_.reserve(objects_.size());
-  for (const PlacedObject& object : objects_) {
-    Record record;
-    if (!object.object().outline().empty()) {
-      const std::vector<glm::dvec3> outline = object.outline();
-      const Plane plane = plane_of(outline);
-      record.normal = plane.normal;
-      record.point = plane.point;
-      record.first_corner = static_cast<std::uint32_t>(corners_.size());
-      record.corner_count = static_cast<std::uint32_t>(outline.size());
-      corners_.insert(corners_.end(), outline.begin(), outline.end());
-    }
-    record.touch = 1e-9 * object.bounds().diameter();
-    record.slack = object.slack();
-    slack_ = std::max(slack_, record.slack);
-    touch = std::max(touch, record.touch);
-    records_.push_back(record);
-    bounds_.extend(object.bounds());
-  }
-  rounding_ = 64 * unit_roundoff * bounds_.magnitude();
-  Compiler compiler(compiled_, bounds_, rounding_ + 2 * slack_ + touch);
-  for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-    const Record& r = records_[i];
-    compiler.add(i, objects_[i], std::span<const glm::dvec3>(corners_).subspan(r.first_corner, r.corner_count), r.normal);
-  }
-  compiler.finish(loop_limit);
-}
-
-inline bool Scene::blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const {
-  const Record& r = records_[i];
-  if (r.corner_count) {  // a polygon: the ends lie on different sides of its plane, both out of the skin
-    if (i == a.owner || i == b.owner) return false;
-    const double from = glm::dot(r.normal, line.segment.origin - r.point);
-    const double to = from + glm::dot(r.normal, line.segment.direction);
-    if ((from > 0.0) == (to > 0.0)) return false;
-    if (!(std::abs(from) > skin(a, i)) || !(std::abs(to) > skin(b, i))) return false;
-    return passes(line, r);
-  }
-  const PlacedObject& object = objects_[i];
-  if (i == a.owner && i == b.owner && object.convex()) return false;
-  double entry = 0.0;
-  if (!object.inside() && !line.slabs(object.bounds(), 0.0, 1.0, entry)) return false;
-  return blocks_by_spans(line, a, b, i);
-}
-
-inline bool Scene::blocks_by_spans(const Line& line, const End& a, const End& b, std::uint32_t i) const {
-  const PlacedObject& object = objects_[i];
-  const Segment& s = line.segment;
-  Spans spans;
-  object.spans(s, spans);
-  if (spans.empty()) return false;
-  const double skin_a = skin(a, i), skin_b = skin(b, i);
-  // An end out of the bounds, skin included, cannot touch: the common case, decided without normals.
-  const bool near_a = object.inside() || object.bounds().contains(s.origin, skin_a);
-  const bool near_b = object.inside() || object.bounds().contains(s.at(1.0), skin_b);
-  for (const Span& span : spans) {
-    const Crossing &in = span.in, &out = span.out;
-    if (out.t <= 0.0) continue;
-    if (in.t >= 1.0) break;
-    if (i == a.owner && in.t <= 0.0) continue;
-    if (i == b.owner && out.t >= 1.0) continue;
-    if (near_a && depth(i, s, out, out.t) <= skin_a) continue;
-    if (near_b && depth(i, s, in, 1.0 - in.t) <= skin_b) continue;
-    // The owner's own span that begins in the skin of the source (a corner of a box, by rounding), and likewise at the target.
-    if (near_a && i == a.owner && depth(i, s, in, in.t) <= skin_a) continue;
-    if (near_b && i == b.owner && depth(i, s, out, 1.0 - out.t) <= skin_b) continue;
-    if (within_owner(s, a, true, span, i) || within_owner(s, b, false, span, i)) continue;
-    return true;
-  }
-  return false;
-}
-
-// Does the span of object i end before the segment comes out of its source's owner, or begin after it went into its target's?
-inline bool Scene::within_owner(const Segment& s, const End& end, bool source, const Span& span, std::uint32_t i) const {
-  if (end.owner == no_object || end.owner == i) return false;
-  const PlacedObject& owner = objects_[end.owner];
-  const Crossing& inner = source ? span.out : span.in;
-  const double near = skin(end, i);
-  if (!owner.solid() || !std::isfinite(inner.t) || (!owner.inside() && !owner.bounds().contains(s.at(inner.t), near))) return false;
-  Spans own;
-  owner.spans(s, own);
-  for (const Span& o : own) {
-    if (source ? o.in.t > 0.0 || o.out.t <= 0.0 : o.in.t >= 1.0 || o.out.t < 1.0) continue;
-    const double beyond = source ? inner.t - o.out.t : o.in.t - inner.t;
-    return beyond <= 0.0 || depth(i, s, inner, beyond) <= near;
-  }
-  return false;
-}
-
-inline std::optional<Hit> Scene::closest(const Segment& ray, std::uint32_t source_owner) const {
-  if (!has_line(ray)) return std::nullopt;
-  const Line line(ray);
-  const End a = end_at(source_owner);
-  Nearest nearest;
-  for (const std::uint32_t i : compiled_.rooms) approach(line, a, i, nearest);
-  approach_bounded(line, a, nearest);
-  if (nearest.hit.object == no_object) return std::nullopt;
-  return nearest.hit;
-}
-
-inline void Scene::approach(const Line& line, const End& a, std::uint32_t i, Nearest& nearest) const {
-  const Record& r = records_[i];
-  const Segment& s = line.segment;
-  if (r.corner_count) {
-    if (i == a.owner) return;
-    const double from = glm::dot(r.normal, s.origin - r.point), step = glm::dot(r.normal, s.direction);
-    if (step == 0.0 || (from > 0.0) == (step > 0.0) || !(std::abs(from) > skin(a, i))) return;
-    const double t = -from / step;
-    if (t <= nearest.limit && passes(line, r)) offer(line, Hit{t, i, 0, step < 0.0}, nearest);
-    return;
-  }
-  const PlacedObject& object = objects_[i];
-  double entry = 0.0;
-  if (!object.inside() && !line.slabs(object.bounds(), 0.0, nearest.limit, entry)) return;
-  Spans spans;
-  object.spans(s, spans);
-  const double skin_a = skin(a, i);
-  const bool near_a = object.inside() || object.bounds().contains(s.origin, skin_a);
-  for (const Span& span : spans) {
-    if (!(span.in.t > 0.0)) continue;
-    if (near_a && depth(i, s, span.out, span.out.t) <= skin_a) continue;
-    if (near_a && i == a.owner && depth(i, s, span.in, span.in.t) <= skin_a) continue;
-    if (span.in.t <= nearest.limit) offer(line, Hit{span.in.t, i, span.in.sheet, object.solid() || along(i, s, span.in) < 0.0}, nearest);
-    return;
-  }
-}
-
-// Takes the hit if it is nearer, or as near as rounding can tell and covering. Ties are looked for within 1000 skins along the ray: beyond
-// that the ray grazes at less than a thousandth of a right angle, and the nearer parameter decides.
-inline void Scene::offer(const Line& line, const Hit& hit, Nearest& nearest) const {
-  const double length = glm::length(line.segment.direction);
-  Hit& best = nearest.hit;
-  bool take = best.object == no_object || hit.t < best.t;
-  if (best.object != no_object) {
-    const End other = end_at(best.object);
-    const double tolerance = skin(other, hit.object), gap = std::abs(hit.t - best.t);
-    if (gap * length <= 1000 * tolerance && gap * std::abs(along(hit.object, line.segment, {hit.t, hit.sheet})) <= tolerance)
-      take = hit.front != best.front ? hit.front : hit.object > best.object;
-  }
-  if (!take) return;
-  best = hit;
-  const Record& r = records_[hit.object];
-  nearest.limit = hit.t + 1000 * (rounding_ + r.slack + slack_ + r.touch) / length;
-}
-
-inline bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const {
-  const Segment out_of_p{p, n};  // t is a length
-  const Line line(out_of_p);
-  const End end = end_at(owner);
-  const auto covers = [&](std::uint32_t i) {
-    if (i == owner) return false;
-    const PlacedObject& object = objects_[i];
-    const Record& r = records_[i];
-    const double near = skin(end, i);
-    if (!object.inside() && !object.bounds().contains(p, near)) return false;
-    // A coincident surface of object i, its normal at a cosine to n: parallel within 2.5 degrees counts as the same direction.
-    const auto coincides = [&](double cosine) { return cosine > 0.999 && i > owner; };
-    if (r.corner_count) return std::abs(glm::dot(r.normal, p - r.point)) <= near && coincides(glm::dot(r.normal, n)) && passes(line, r);
-    Spans spans;
-    object.spans(out_of_p, spans);
-    for (const Span& span : spans) {
-      if (object.solid() && span.in.t <= near && span.out.t > near) return true;
-      if (std::abs(span.out.t) <= near && coincides(along(i, out_of_p, span.out))) return true;
-    }
-    return false;
-  };
-  const double near = end.base + slack_ + end.touch;  // at least every skin
-  return std::any_of(compiled_.rooms.begin(), compiled_.rooms.end(), covers) || objects_along(compiled_, out_of_p, -near, near, covers);
-}
-
 }  // namespace raycast
 
-#include "bundle.hpp"
-#include "shaft.hpp"
+#ifndef HALFLIGHT_RAYCAST_APART
+#include "law.hpp"
+#include "lists.hpp"
+#include "occlusion.hpp"
+#endif

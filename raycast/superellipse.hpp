@@ -35,8 +35,7 @@ class Superellipse {
       return {g.value, g.dy, g.dx};
     }
     if (x == 0.0) return {0.0, 1.0, 1.0};
-    const double ratio = y / x, power = p_ == 2.0 ? ratio * ratio : std::pow(ratio, p_);
-    const double g = p_ == 2.0 ? std::sqrt(1.0 + power) : std::pow(1.0 + power, 1.0 / p_), dx = g / (1.0 + power);
+    const double ratio = y / x, power = this->power(ratio), g = root(1.0 + power), dx = g / (1.0 + power);
     return {x * g, dx, dx * (ratio > 0.0 ? power / ratio : p_ > 1.0 ? 0.0 : p_ < 1.0 ? infinity : 1.0)};
   }
   // The gauge of x, y >= 0 and its derivative along (ex, ey), which must not leave the quadrant's side of an axis: at a coordinate 0 it is
@@ -49,8 +48,9 @@ class Superellipse {
   // The width of the curve at the height z >= 0, y of |y|^p + z^p = 1 (0 beyond its end), and its derivative.
   [[nodiscard]] Sample width(double z) const {
     if (!(z > 0.0)) return {1.0, p_ > 1.0 ? 0.0 : p_ < 1.0 ? -infinity : -1.0};
-    const double y = z < 1.0 ? std::pow(-std::expm1(p_ * std::log(z)), 1.0 / p_) : 0.0;
-    return {y, -std::pow(z / y, p_ - 1.0)};
+    if (!(z < 1.0)) return {0.0, p_ > 1.0 ? -infinity : p_ < 1.0 ? 0.0 : -1.0};
+    const double zp = power(z), yp = zp < 0.5 ? 1.0 - zp : rest(z), y = root(yp);
+    return {y, -(zp / z) * (y / yp)};  // (z / y)^(p - 1)
   }
 
   // Point i of n on the curve, n a multiple of 4: equal angles of x = cos^(2/p), y = sin^(2/p) (Barr 1981), which crowd where the curve
@@ -90,6 +90,15 @@ class Superellipse {
   }
 
  private:
+  [[nodiscard]] double power(double x) const { return p_ == 2.0 ? x * x : p_ == 1.0 ? x : p_ == 4.0 ? (x * x) * (x * x) : std::pow(x, p_); }
+  [[nodiscard]] double root(double x) const {
+    return p_ == 2.0 ? std::sqrt(x) : p_ == 1.0 ? x : p_ == 4.0 ? std::sqrt(std::sqrt(x)) : std::pow(x, 1.0 / p_);
+  }
+  // 1 - z^p without cancellation.
+  [[nodiscard]] double rest(double z) const {
+    return p_ == 2.0 ? (1.0 - z) * (1.0 + z) : p_ == 1.0 ? 1.0 - z : -std::expm1(p_ * std::log(z));
+  }
+
   double p_;
 };
 

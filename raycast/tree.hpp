@@ -5,7 +5,7 @@
 // into nodes of up to eight children by the cheapest of all mergers. A leaf holds up to eight shapes of one kind, which are tested side
 // by side: one costs as much as eight.
 
-#include "compiled.hpp"
+#include "compile.hpp"
 #include "kernels.hpp"
 
 #include <algorithm>
@@ -16,12 +16,6 @@
 #include <vector>
 
 namespace raycast {
-
-struct Item {  // a shape before it has its place
-  FloatBox box;
-  Kind kind;
-  std::uint32_t object, data;
-};
 
 // Emit(kind, items) -> index of the first among its kind, called once for every leaf, in the order of the tree.
 template <class Emit>
@@ -267,5 +261,15 @@ class TreeBuilder {
   std::vector<Reference> references_;
   std::vector<Binary> binary_;
 };
+
+inline void Compiler::finish(std::size_t loop_limit) {
+  out_.shape_count = static_cast<std::uint32_t>(items_.size());
+  out_.bodies.reserve(bodies_.size());
+  for (std::uint32_t& body : out_.room_bodies)
+    if (body != no_shape) out_.bodies.push_back(bodies_[std::exchange(body, static_cast<std::uint32_t>(out_.bodies.size()))]);
+  TreeBuilder tree(items_, [this](Kind kind, std::span<const Item> items) { return emit(kind, items); });
+  if (items_.size() <= loop_limit) tree.leaves(out_.leaves);
+  if (!items_.empty()) tree.build(out_.nodes);
+}
 
 }  // namespace raycast

@@ -75,8 +75,8 @@ std::string plan(const radiosity::Prepared& prepared) {
   for (const radiosity::Surface& surface : prepared.surfaces) { faces += radiosity::radiating_faces(surface); }
   std::string out = "input faces: " + std::to_string(faces) + "\n";
   out += std::string("closed: ") + (plan.closed ? "proven, no light leaves the scene\n" : "not proven\n");
-  out += "can stand between two others: " + std::to_string(plan.occluders.size()) + " of " + std::to_string(prepared.surfaces.size()) +
-         " objects\n";
+  out +=
+      "can stand between two others: " + std::to_string(plan.occluders) + " of " + std::to_string(prepared.surfaces.size()) + " objects\n";
   out += "left out when rendered, as far as known without solving:\n";
   for (const radiosity::LeftOut& item : plan.left_out) { out += "  " + item.what + ": " + item.why + "\n"; }
   return out + (plan.left_out.empty() ? "  nothing\n" : "");

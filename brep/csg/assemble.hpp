@@ -3,8 +3,8 @@
 
 // From the faces that are selected to the boundary of the result: regluing, merging, and leaving out what is no longer needed.
 //
-// Around a common edge the selected faces begin and end the result in turn; twins are the two that bound one solid wedge. So every
-// result is a 2-manifold, whatever coincides: where solids touch along an edge, there are two edges. Then neighbours in one plane with equal
+// Around a common edge the selected faces begin and end the result in turn; twins are the two that bound one solid wedge. So every result
+// is a 2-manifold, whatever coincides: where solids touch along an edge, there are two edges. Then neighbours in one plane with equal
 // attributes become one face (join_faces and cut, as links), and points between two edges on one line go (join_vertices).
 
 #include <algorithm>

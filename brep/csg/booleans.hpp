@@ -3,9 +3,9 @@
 
 // Union, intersection and difference of exact solids, and the cut of both along each other without a selection.
 //
-// The operands stay as they are. The result is exact, however deep the tree; it is always a closed 2-manifold with faces as large as they can be.
-// Coplanar, touching and identical operands are ordinary: solids that touch in an edge or a vertex stay separate there, solids that touch
-// in a face become one. Where both operands have a face in one plane, looking the same way, the attribute is that of a.
+// The operands stay as they are. The result is exact, however deep the tree; it is always a closed 2-manifold with faces as large as they
+// can be. Coplanar, touching and identical operands are ordinary: solids that touch in an edge or a vertex stay separate there, solids
+// that touch in a face become one. Where both operands have a face in one plane, looking the same way, the attribute is that of a.
 
 #include <cstdint>
 #include <optional>

@@ -8,10 +8,10 @@
 // `across` is a second plane through the edge: with the plane of the face it names the line. Twins belong to one solid wedge, so where
 // two parts of a solid touch along an edge there are two edges with the same two points.
 //
-// Invariants: points are geometrically different; edges have a point in common only at their ends, or they coincide; a point where two edges
-// on one line meet is kept only where something else meets it. An edge that lies in a face of the same solid is an edge of that face, too: where
-// a solid touches itself along an edge, the edges stay, even between neighbours in one plane or with one face on both sides. Other
-// neighbours differ in plane or in attribute. Shells, genus and umbrellas at a point follow from the twins.
+// Invariants: points are geometrically different; edges have a point in common only at their ends, or they coincide; a point where two
+// edges on one line meet is kept only where something else meets it. An edge that lies in a face of the same solid is an edge of that
+// face, too: where a solid touches itself along an edge, the edges stay, even between neighbours in one plane or with one face on both
+// sides. Other neighbours differ in plane or in attribute. Shells, genus and umbrellas at a point follow from the twins.
 
 #include <array>
 #include <cstddef>

@@ -29,7 +29,7 @@ class SelfContacts : public Contacts {
   using Contacts::Contacts;
 
   [[nodiscard]] bool legal(std::uint32_t f, std::uint32_t g) {
-    if (!meet(f, g)) return true;
+    if (at_most_a_vertex(f, g) || at_most_a_vertex(g, f) || !meet(f, g)) return true;
     int state[2] = {0, 0};
     for (std::uint32_t k = 0; k + 1 < groups_.size(); ++k) {
       if (state[0] != 0 && state[1] != 0 && !(edge_before(k, false) && edge_before(k, true))) return false;
@@ -47,6 +47,22 @@ class SelfContacts : public Contacts {
   }
 
  private:
+  // Does g lie on one side of the plane of f but for a vertex that both have? Common in smooth surfaces, and quickly answered.
+  [[nodiscard]] bool at_most_a_vertex(std::uint32_t f, std::uint32_t g) const {
+    const WorkFace &ff = work_.faces[f], &gg = work_.faces[g];
+    std::uint32_t on = invalid_index;
+    int side = 0;
+    for (std::uint32_t h = gg.first; h < gg.first + gg.count; ++h) {
+      const int s = work_.predicates.side(work_.from(h), ff.plane.number());
+      if (s * side < 0) return false;
+      if (s == 0 && on != invalid_index) return false;
+      if (s == 0) on = work_.halves[h].point;
+      if (s != 0) side = s;
+    }
+    bool common = on == invalid_index;
+    for (std::uint32_t h = ff.first; h < ff.first + ff.count; ++h) common = common || work_.halves[h].point == on;
+    return common;
+  }
   // Is all between the groups k - 1 and k one edge of the face?
   [[nodiscard]] bool edge_before(std::uint32_t k, bool of_g) const {
     for (const Along& a : along_) {

@@ -3,9 +3,9 @@
 
 // Directions of edges as seen on a face from outside, in exact integers.
 //
-// The direction of a half-edge is +-(n_p x n_q) for the plane p of its face and a second plane q of its line; the sign comes from the order of
-// its ends along an axis. Dropping the coordinate where the normal of the face is largest leaves two of 107 bits each, in an order in
-// which counter-clockwise from outside is counter-clockwise; a cross product of two directions has 215 bits.
+// The direction of a half-edge is +-(n_p x n_q) for the plane p of its face and a second plane q of its line; the sign comes from the
+// order of its ends along an axis. Dropping the coordinate where the normal of the face is largest leaves two of 107 bits each, in an
+// order in which counter-clockwise from outside is counter-clockwise; a cross product of two directions has 215 bits.
 
 #include <cstdint>
 #include <utility>
@@ -40,7 +40,7 @@ struct Direction {
   const double value = x - y, bound = (std::abs(x) + std::abs(y)) * 0x1p-50;
   if (value > bound) return 1;
   if (value < -bound) return -1;
-  return (Wide<4>(a.u) * Wide<4>(b.v) - Wide<4>(a.v) * Wide<4>(b.u)).sign();
+  return (product(a.u, b.v) - product(a.v, b.u)).sign();
 }
 // Order of angles in [0, 360) degrees from the u axis.
 [[nodiscard]] inline bool before(const Direction& a, const Direction& b) {

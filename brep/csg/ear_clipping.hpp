@@ -3,8 +3,8 @@
 
 // Triangles of a polygon whose corners lie on the grid, exactly: for faces that are no longer planar there.
 //
-// The polygon is seen along the axis in which its mean normal is largest; it must look simple, bridges to holes apart. An ear is a corner that
-// turns left and has no other corner in its triangle (Meisters 1975). All coordinates are integers of 26 bits.
+// The polygon is seen along the axis in which its mean normal is largest; it must look simple, bridges to holes apart. An ear is a corner
+// that turns left and has no other corner in its triangle (Meisters 1975). All coordinates are integers of 26 bits.
 
 #include <cstdint>
 #include <optional>
@@ -25,10 +25,16 @@ struct GridCorner {
   return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-// The ears of a polygon of n corners in the order in which they are cut off, n - 3 of them: each as the corner before it and itself. What is left
-// then is a triangle. Nothing: there are not enough ears. Time O(n^3) at worst, n^2 as a rule.
-[[nodiscard]] inline std::optional<std::vector<std::size_t>> ears(const std::vector<GridCorner>& corners) {
-  std::vector<std::size_t> left(corners.size()), result;
+// A corner that is cut off, and the one that is before it by then.
+struct Ear {
+  std::size_t before, corner;
+};
+
+// The ears of a polygon of n corners in the order in which they are cut off, n - 3 of them. What is left then is a triangle. Nothing:
+// there are not enough ears. Time O(n^3) at worst, n^2 as a rule.
+[[nodiscard]] inline std::optional<std::vector<Ear>> ears(const std::vector<GridCorner>& corners) {
+  std::vector<std::size_t> left(corners.size());
+  std::vector<Ear> result;
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = i;
   const auto is_ear = [&](std::size_t k) {
     const GridCorner &a = corners[left[(k + left.size() - 1) % left.size()]], &b = corners[left[k]],
@@ -46,7 +52,7 @@ struct GridCorner {
     while (tried < left.size() && !is_ear(at % left.size())) ++at, ++tried;
     if (tried == left.size()) return std::nullopt;
     at %= left.size();
-    result.push_back(left[at]);
+    result.push_back({left[(at + left.size() - 1) % left.size()], left[at]});
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(at));
     ++at;  // not a fan
   }

@@ -3,11 +3,11 @@
 
 // The integer grid of one CSG tree, and the planes of all solids that stand on it.
 //
-// Everything exact is exact relative to this grid: make_solid snaps the vertices of a leaf to it once, and from then on no operation rounds.
-// The spacing is a power of two and the centre a multiple of 2^20 spacings, so a number with few binary digits lies on the grid itself.
-// Coordinates in spacings, relative to the centre, have 26 bits: |x| < 2^25. A Grid is a handle: copies name the same grid, and only
-// solids of the same grid can be combined. make_solid adds planes to the grid, so two threads must not call it at the same time for one
-// grid; the operations only read and may run in parallel.
+// Everything exact is exact relative to this grid: make_solid snaps the vertices of a leaf to it once, and from then on no operation
+// rounds. The spacing is a power of two and the centre a multiple of 2^20 spacings, so a number with few binary digits lies on the grid
+// itself. Coordinates in spacings, relative to the centre, have 26 bits: |x| < 2^25. A Grid is a handle: copies name the same grid, and
+// only solids of the same grid can be combined. make_solid adds planes to the grid, so two threads must not call it at the same time for
+// one grid; the operations only read and may run in parallel.
 
 #include <algorithm>
 #include <cmath>

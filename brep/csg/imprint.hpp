@@ -22,9 +22,9 @@ struct Imprint {
   std::vector<Side> side_a, side_b;  // of each face with respect to the other operand
 };
 
-// Cuts a and b along each other. No face of the results crosses the other solid's boundary; where both have a face in one plane, the pieces that
-// cover each other have the same outline. Volumes and areas stay as they are.
-// Refused: the operands stand on different grids.     Time: as unite.
+// Cuts a and b along each other. No face of the results crosses the other solid's boundary; where both have a face in one plane, the
+// pieces that cover each other have the same outline. Volumes and areas stay as they are. Refused: the operands stand on different grids.
+// Time: as unite.
 template <class F>
 [[nodiscard]] Result<Imprint<F>> imprint(const Solid<F>& a, const Solid<F>& b) {
   if (!(a.grid() == b.grid())) return Refusal{Code::different_grids, {}};

@@ -3,10 +3,10 @@
 
 // A leaf of a CSG tree on its way to the grid: vertices are snapped, faces get planes, bridge edges go.
 //
-// A face whose snapped vertices lie in one plane keeps all its vertices. Where one does not, there are two ways. If three faces meet at every
-// vertex - boxes and prisms, however they are turned - the planes come first: the face takes the plane of its vertices before snapping,
-// quantised to 2^-52 in its normal, and each vertex becomes the point of its three planes; faces stay whole polygons. Otherwise the
-// faces that are not planar fall into triangles.
+// A face whose snapped vertices lie in one plane keeps all its vertices. Where one does not, there are two ways. If three faces meet at
+// every vertex - boxes and prisms, however they are turned - the planes come first: the face takes the plane of its vertices before
+// snapping, quantised to 2^-52 in its normal, and each vertex becomes the point of its three planes; faces stay whole polygons. Otherwise
+// the faces that are not planar fall into triangles.
 
 #include <array>
 #include <cmath>
@@ -51,11 +51,18 @@ class Leaf {
       if (plane) plane_[f] = *plane;
       planar = planar && plane;
     }
-    const bool planes_first = !planar && is_simple() && place_by_planes();
-    if (!planar && !planes_first) {
-      if (const Refusal refusal = triangulate(); refusal.code != Code::none) return refusal;
+    if (!planar) {
+      const std::vector<Corner> bridged = corners;
+      strip_bridges();
+      planar = is_simple() && place_by_planes();
+      if (!planar) {
+        corners = bridged;
+        if (const Refusal refusal = triangulate(); refusal.code != Code::none) return refusal;
+        strip_bridges();
+      }
+    } else {
+      strip_bridges();
     }
-    strip_bridges();
     emit(boundary);
     return {};
   }
@@ -145,7 +152,7 @@ class Leaf {
   [[nodiscard]] bool is_simple() const {
     std::vector<std::uint8_t> degree(points_.size(), 0);
     for (std::uint32_t c = 0; c < corners.size(); ++c) {
-      if (is_bridge(c)) return false;
+      if (gone_[c]) continue;
       std::uint8_t& n = degree[point_[corners[c].vertex]];
       if (++n > 3) return false;
     }
@@ -155,30 +162,43 @@ class Leaf {
     return true;
   }
 
-  // Gives every face a plane and every vertex the point of its three; false, and nothing changes, when that moves a vertex by more than a spacing.
+  // What the corners of a face say about its plane before snapping.
+  struct Mean {
+    glm::dvec3 origin{0.0}, normal{0.0}, middle{0.0};  // a corner, twice the area, sum of the others from there
+    double count = 0.0;
+    bool level[3] = {true, true, true};  // one coordinate is the same all over: then the snapped plane is right, and meets others like it
+  };
+  [[nodiscard]] std::vector<Mean> means() const {
+    std::vector<Mean> result(anchor.size());
+    for (std::uint32_t c = 0; c < corners.size(); ++c) {
+      if (gone_[c]) continue;
+      Mean& m = result[corners[c].face];
+      const glm::dvec3 &v = vertices[corners[c].vertex], &w = vertices[corners[corners[c].next].vertex];
+      if (m.count == 0.0) m.origin = v;
+      m.normal += glm::cross(v - m.origin, w - m.origin);
+      m.middle += v - m.origin;
+      m.count += 1.0;
+      for (int i = 0; i < 3; ++i) m.level[i] = m.level[i] && v[i] == m.origin[i];
+    }
+    return result;
+  }
+
+  // Gives every face a plane and every vertex the point of its three; false, and nothing changes, when that moves a vertex by more than a
+  // spacing.
   bool place_by_planes() {
     std::vector<OrientedPlane> plane = plane_;
+    const std::vector<Mean> mean = means();
     for (std::uint32_t f = 0; f < plane.size(); ++f) {
-      if (plane[f].code != invalid_index) continue;
-      glm::dvec3 sum{0.0}, mean{0.0};
-      double count = 0.0;
-      std::uint32_t c = anchor[f];
-      const glm::dvec3 o = vertices[corners[c].vertex];
-      do {
-        const glm::dvec3 a = vertices[corners[c].vertex] - o, b = vertices[corners[corners[c].next].vertex] - o;
-        sum += glm::cross(a, b);
-        mean += a;
-        count += 1.0;
-        c = corners[c].next;
-      } while (c != anchor[f]);
-      const double length = glm::length(sum);
+      const Mean& m = mean[f];
+      if (plane[f].code != invalid_index && (m.level[0] || m.level[1] || m.level[2])) continue;
+      const double length = glm::length(m.normal);
       if (!(length > 0.0)) return false;
       Grid3 n{};
       Int128 offset = Int128{1} << 26;  // in 2^-27 spacings, rounded
       for (int i = 0; i < 3; ++i) {
-        n[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::round(sum[i] / length * 0x1p52));
-        offset +=
-            static_cast<Int128>(n[static_cast<std::size_t>(i)]) * static_cast<std::int64_t>(std::round((o[i] + mean[i] / count) * 0x1p27));
+        n[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::round(m.normal[i] / length * 0x1p52));
+        offset += static_cast<Int128>(n[static_cast<std::size_t>(i)]) *
+                  static_cast<std::int64_t>(std::round((m.origin[i] + m.middle[i] / m.count) * 0x1p27));
       }
       plane[f] = planes_.insert(n, -(offset >> 27));
     }
@@ -187,7 +207,7 @@ class Leaf {
     std::vector<std::uint8_t> done(points_.size(), 0);
     for (std::uint32_t c = 0; c < corners.size(); ++c) {
       const std::uint32_t p = point_[corners[c].vertex];
-      if (done[p]) continue;
+      if (gone_[c] || done[p]) continue;
       done[p] = 1;
       const std::uint32_t second = corners[corners[c].twin].next, third = corners[corners[second].twin].next;
       const PlaneNumber a = plane[corners[c].face].number(), b = plane[corners[second].face].number(),
@@ -199,8 +219,9 @@ class Leaf {
       if (!(moved.x < 1.0 && moved.y < 1.0 && moved.z < 1.0)) return false;
       placed[p] = predicates.point(a, b, d);
     }
-    for (const Corner& c : corners) {  // no edge may be turned round by it
-      const std::uint32_t v = c.vertex, w = corners[c.next].vertex;
+    for (std::uint32_t c = 0; c < corners.size(); ++c) {  // no edge may be turned round by it
+      if (gone_[c]) continue;
+      const std::uint32_t v = corners[c].vertex, w = corners[corners[c].next].vertex;
       if (!(glm::dot(placed[point_[w]].position - placed[point_[v]].position, vertices[w] - vertices[v]) > 0.0)) return false;
     }
     plane_ = std::move(plane);
@@ -229,7 +250,7 @@ class Leaf {
       } while (c != anchor[f]);
       const auto cut = ears(seen);
       if (!cut) return {Code::not_planar, {FaceId{given[f]}}};
-      for (std::size_t k : *cut) cut_off(loop[k]);
+      for (const Ear& ear : *cut) loop[ear.before] = cut_off(loop[ear.corner]);
     }
     for (std::uint32_t f = 0; f < anchor.size(); ++f) {
       if (plane_[f].code != invalid_index) continue;
@@ -239,8 +260,9 @@ class Leaf {
     }
     return {};
   }
-  // The corner c becomes the middle of a triangle of its own. Its face goes on with a half-edge from the corner before it to the one after.
-  void cut_off(std::uint32_t c) {
+  // The corner c becomes the middle of a triangle of its own. Its face goes on with a half-edge from the corner before it to the one after,
+  // which is returned.
+  std::uint32_t cut_off(std::uint32_t c) {
     const std::uint32_t f = corners[c].face, before = corners[c].prev, after = corners[c].next;
     const auto d = static_cast<std::uint32_t>(corners.size()), back = d + 1, g = static_cast<std::uint32_t>(anchor.size());
     corners.push_back({corners[before].vertex, after, corners[before].prev, back, f});
@@ -254,6 +276,7 @@ class Leaf {
     anchor[f] = d;
     given.push_back(given[f]);
     plane_.push_back(OrientedPlane{});
+    return d;
   }
 
   void strip_bridges() {

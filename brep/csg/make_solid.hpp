@@ -19,13 +19,13 @@
 namespace brep::csg {
 
 // The solid that a BRep encloses, on the grid. position(VertexId) -> glm::dvec3 places its vertices, attribute(FaceId) -> F says what its
-// faces carry; neighbours in one plane with equal attributes become one face. Any genus, any number of shells, cavities, bridge edges to holes.
-// Vertices move by at most half a spacing of the grid in each coordinate; faces that are not planar then stay whole if three faces meet
-// at every vertex (boxes and prisms, however turned), else they fall into triangles (leaf.hpp).
+// faces carry; neighbours in one plane with equal attributes become one face. Any genus, any number of shells, cavities, bridge edges to
+// holes. Vertices move by at most half a spacing of the grid in each coordinate; faces that are not planar then stay whole if three faces
+// meet at every vertex (boxes and prisms, however turned), else they fall into triangles (leaf.hpp).
 //
-// Refused, with the faces: a vertex outside the grid or not finite; a face without area or an edge without length on the grid; a face that is
-// not planar and does not look simple; faces that intersect, touch or overlap beyond common edges and vertices; a shell that is inside
-// out. The BRep stays as it is.     Time: O(v log v) on average.
+// Refused, with the faces: a vertex outside the grid or not finite; a face without area or an edge without length on the grid; a face
+// that is not planar and does not look simple; faces that intersect, touch or overlap beyond common edges and vertices; a shell that is
+// inside out. The BRep stays as it is.     Time: O(v log v) on average.
 template <class F, class B, class Position, class Attribute>
 [[nodiscard]] Result<Solid<F>> make_solid(const B& brep, const Grid& grid, Position&& position, Attribute&& attribute) {
   detail::Leaf leaf(grid.planes());

@@ -73,8 +73,8 @@ class Arrangement {
     }
   }
 
-  // What happens to an edge happens to all edges at its place: those whose faces both lie in the plane of a face of the other operand have not
-  // been compared with it.
+  // What happens to an edge happens to all edges at its place: those whose faces both lie in the plane of a face of the other operand
+  // have not been compared with it.
   void add_copies() {
     std::vector<std::array<std::uint32_t, 3>> edges;  // ends, lower half-edge
     for (std::uint32_t h = 0; h < work.halves.size(); ++h) {

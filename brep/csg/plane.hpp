@@ -3,8 +3,9 @@
 
 // Integer planes a x + b y + c z + d = 0, each kept once: equal planes have equal numbers, so coplanar is a comparison of numbers.
 //
-// Canonical: gcd(a, b, c, d) = 1 and the first of a, b, c that is not zero is positive. Bits, with |coordinates| < 2^25: a normal from three
-// points of the grid has |a|, |b|, |c| <= 2^53 and with it |d| < 2^80. An operation never makes a plane, therefore depth costs no bits.
+// Canonical: gcd(a, b, c, d) = 1 and the first of a, b, c that is not zero is positive. Bits, with |coordinates| < 2^25: a normal from
+// three points of the grid has |a|, |b|, |c| <= 2^53 and with it |d| < 2^80. An operation never makes a plane, therefore depth costs no
+// bits.
 //
 // A face names its plane together with the side to which it looks: `Side of a plane` = number * 2 + (1 when the face looks against the
 // canonical normal).

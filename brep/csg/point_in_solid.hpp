@@ -4,9 +4,9 @@
 // Is a point inside a solid? For the parts of an operand that have no common edge with the other one.
 //
 // A ray along +x from the point counts the faces that it meets, each by the parity of its edges around the ray. The ray is moved by an
-// infinitesimal upwards and a smaller one sideways, v' = v + (0, e^2, e), so it meets no edge and no face along x; the point itself must not lie
-// on the boundary. An edge on the planes p and q seen along x is the line a_q p - a_p q = b y + c z + d = 0: |b|, |c| < 2^107, |d| < 2^134. The point
-// is a vertex, or the middle of two: |w| < 2^325, |x| < 2^352; so everything fits into 10 words.
+// infinitesimal upwards and a smaller one sideways, v' = v + (0, e^2, e), so it meets no edge and no face along x; the point itself must
+// not lie on the boundary. An edge on the planes p and q seen along x is the line a_q p - a_p q = b y + c z + d = 0: |b|, |c| < 2^107,
+// |d| < 2^134. The point is a vertex, or the middle of two: |w| < 2^325, |x| < 2^352; so everything fits into 10 words.
 
 #include <cmath>
 #include <cstdint>

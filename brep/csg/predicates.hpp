@@ -3,14 +3,15 @@
 
 // All geometric questions of CSG, answered exactly: on which side of a plane is a point, and in which order are two points along an axis.
 //
-// The common point of three planes is (x, y, z) / w by Cramer's rule; with |n| <= 2^53 and |d| < 2^80 that is |w| < 2^162 and |x| < 2^189,
-// so side() = a x + b y + c z + d w stays below 2^244 and compare() = x w' - x' w below 2^352. The order of points on a line is their order along
-// an axis that is not perpendicular to it; the order of directions in a plane and of faces around an edge needs cross products of integer
-// normals alone. Nothing takes a root, an angle or a quotient.
+// The common point of three planes is (x, y, z) / w by Cramer's rule; with |n| <= 2^53 and |d| < 2^80 that is |w| < 2^162 and |x| <
+// 2^189, so side() = a x + b y + c z + d w stays below 2^244 and compare() = x w' - x' w below 2^352. The order of points on a line is
+// their order along an axis that is not perpendicular to it; the order of directions in a plane and of faces around an edge needs cross
+// products of integer normals alone. Nothing takes a root, an angle or a quotient.
 //
-// Filter: a point keeps its coordinates rounded down to a multiple of 2^-27. With N = |a| + |b| + |c|, a x + b y + c z + d in doubles is wrong by
-// less than N 2^-27 for the coordinates and N 2^-25 for rounding; beyond N 2^-24 its sign is right. Rounding down is monotone and the same for
-// equal points: points with different coordinates are ordered as these, and equal points have equal ones, which is how they are found.
+// Filter: a point keeps its coordinates rounded down to a multiple of 2^-27. With N = |a| + |b| + |c|, a x + b y + c z + d in doubles is
+// wrong by less than N 2^-27 for the coordinates and N 2^-25 for rounding; beyond N 2^-24 its sign is right. Rounding down is monotone
+// and the same for equal points: points with different coordinates are ordered as these, and equal points have equal ones, which is how
+// they are found.
 
 #include <cmath>
 #include <cstddef>
@@ -42,9 +43,9 @@ namespace detail {
 [[nodiscard]] inline Homogeneous<4> meet(const Plane& p, const Plane& q, const Plane& r) {
   Homogeneous<4> result;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Wide<4> qr(cross(q, r, i)), rp(cross(r, p, i)), pq(cross(p, q, i));
-    result.x[i] = -(Wide<4>(p.d) * qr + Wide<4>(q.d) * rp + Wide<4>(r.d) * pq);
-    result.w = result.w + Wide<4>(p.n[i]) * qr;
+    const Int128 qr = cross(q, r, i);
+    result.x[i] = -(product(p.d, qr) + product(q.d, cross(r, p, i)) + product(r.d, cross(p, q, i)));
+    result.w = result.w + product(p.n[i], qr);
   }
   if (result.w.negative()) {
     result.w = -result.w;

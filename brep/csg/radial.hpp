@@ -3,10 +3,10 @@
 
 // The faces of both operands around each common edge, in order, and what they say about inside and outside.
 //
-// Around an edge with direction d a face is a half-plane. With m = its outward normal for a half-edge that runs along d, and minus that for one that
-// runs against, the half-plane is m turned by 90 degrees: the order of the m is the order of the faces. Going round counter-clockwise,
-// a half-edge against d is a face where its solid begins, one along d a face where it ends; so the first face of each operand tells
-// whether the walk starts inside of it, and no ray is needed. Equal m are faces in one plane on one side of the edge.
+// Around an edge with direction d a face is a half-plane. With m = its outward normal for a half-edge that runs along d, and minus that
+// for one that runs against, the half-plane is m turned by 90 degrees: the order of the m is the order of the faces. Going round
+// counter-clockwise, a half-edge against d is a face where its solid begins, one along d a face where it ends; so the first face of
+// each operand tells whether the walk starts inside of it, and no ray is needed. Equal m are faces in one plane on one side of the edge.
 
 #include <algorithm>
 #include <array>

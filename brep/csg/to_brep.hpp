@@ -3,8 +3,8 @@
 
 // From an exact solid back to a BRep with positions in double, and the measures of a solid.
 //
-// Every umbrella of faces at a point becomes a vertex of its own, so where a solid touches itself the BRep is still a 2-manifold. Every cycle of
-// a face becomes a face at first; then the cycles of one face are joined by bridge edges with the Euler operator, hole by hole.
+// Every umbrella of faces at a point becomes a vertex of its own, so where a solid touches itself the BRep is still a 2-manifold. Every
+// cycle of a face becomes a face at first; then the cycles of one face are joined by bridge edges with the Euler operator, hole by hole.
 // Face i of the solid is FaceId{i}.
 
 #include <cstdint>

@@ -7,7 +7,6 @@
 // no signed overflow anywhere. There is no division; what is needed of it, predicates.hpp does by multiplication.
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -75,18 +74,31 @@ class Wide {
   }
   friend constexpr bool operator==(const Wide&, const Wide&) = default;
 
-  // The nearest double but for a relative error of 2^-52.
+  // As a double, with a relative error below 2^-50.
   [[nodiscard]] double approximate() const {
     const Wide size = negative() ? -*this : *this;
-    std::size_t top = N;
-    while (top > 1 && size.words_[top - 1] == 0) --top;
-    double value = std::ldexp(static_cast<double>(size.words_[top - 1]), static_cast<int>(64 * (top - 1)));
-    if (top > 1) value += std::ldexp(static_cast<double>(size.words_[top - 2]), static_cast<int>(64 * (top - 2)));
+    double value = 0.0;
+    for (std::size_t i = N; i-- > 0;) value = value * 0x1p64 + static_cast<double>(size.words_[i]);
     return negative() ? -value : value;
   }
 
  private:
+  friend constexpr Wide<4> product(Int128 a, Int128 b);
+
   std::array<std::uint64_t, N> words_{};
 };
+
+// The product of two integers of 128 bits. Unsigned it is short by 2^128 b for a negative a, and by 2^128 a for a negative b.
+[[nodiscard]] constexpr Wide<4> product(Int128 a, Int128 b) {
+  constexpr auto low = [](Word128 x) { return static_cast<std::uint64_t>(x); };
+  const auto x = static_cast<Word128>(a), y = static_cast<Word128>(b);
+  const Word128 ll = static_cast<Word128>(low(x)) * low(y), lh = static_cast<Word128>(low(x)) * low(y >> 64);
+  const Word128 hl = static_cast<Word128>(low(x >> 64)) * low(y), hh = static_cast<Word128>(low(x >> 64)) * low(y >> 64);
+  const Word128 middle = (ll >> 64) + low(lh) + low(hl);
+  const Word128 high = hh + (lh >> 64) + (hl >> 64) + (middle >> 64) - (a < 0 ? y : 0) - (b < 0 ? x : 0);
+  Wide<4> result;
+  result.words_ = {low(ll), low(middle), low(high), low(high >> 64)};
+  return result;
+}
 
 }  // namespace brep::csg

@@ -14,6 +14,7 @@
 // 32 u (D + L) across the surface, and hit or miss is decided rightly when the line passes the surface by more.
 
 #include "../circle.hpp"
+#include "../compile.hpp"
 
 #include <vector>
 
@@ -67,6 +68,11 @@ class Cone final : public Object {
       if (leave.t < span.out.t) span.out = leave;
     }
     out.push(span);  // drops an empty span
+  }
+
+  void compile(Compiler& compiler) const override {
+    const double largest = std::max(radius_, top_radius_);
+    compiler.cone(base_, frame_.into(largest, height_), radius_ / largest, (top_radius_ - radius_) / largest);
   }
 
   // The side goes on beyond the caps up to the apex. The normal at the apex itself points along the axis.

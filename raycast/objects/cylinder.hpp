@@ -71,7 +71,7 @@ class Cylinder final : public Object {
     out.push(span);  // drops an empty span
   }
 
-  void compile(Compiler& compiler) const override { compiler.cylinder(base_, height_ * frame_.w, radius_); }
+  void compile(Compiler& compiler) const override { compiler.cylinder(base_, frame_, radius_, height_); }
 
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override {
     const glm::dvec3 f = p - base_;

@@ -11,6 +11,7 @@
 // third of the chord error, the middles of the edges inside by two thirds.
 
 #include "../circle.hpp"
+#include "../compile.hpp"
 
 #include <vector>
 
@@ -47,6 +48,8 @@ class Disk final : public Object {
     const glm::dvec3 across = (f - height * frame_.w) + step * (line.direction - along * frame_.w);
     if (glm::dot(across, across) < radius_ * radius_) out.push(Span{{shift + step, 0}, {shift + step, 0}});
   }
+
+  void compile(Compiler& compiler) const override { compiler.disk(centre_, frame_.into(radius_, radius_)); }
 
   [[nodiscard]] SurfacePoint project(std::uint32_t, const glm::dvec3& p) const override {
     return {p - glm::dot(p - centre_, frame_.w) * frame_.w, frame_.w};

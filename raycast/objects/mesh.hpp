@@ -8,6 +8,7 @@
 // by a dot product, and there are equally many of both on every line through a closed mesh. The k-th entry belongs to the k-th exit:
 // in an embedded surface they alternate, and where rounding swaps an exit and the next entry (a line over an edge), two overlapping
 // spans merge and a span of negative length is dropped, so no gap opens. That a closed mesh does not intersect itself is not checked.
+// A convex mesh of up to 32 planes is cut plane by plane instead.
 
 #include <brep/circulators.hpp>
 
@@ -67,6 +68,7 @@ class Mesh final : public Object {
   [[nodiscard]] std::string_view sheet_name(std::uint32_t sheet) const override { return names_[sheet]; }
 
   void spans(const Segment& line, Spans& out) const override {
+    if (few_planes_) return clip(line, out);
     // Seen from the middle of the mesh, rounding is relative to its size and not to the distance of the ray's origin.
     double shift = 0.0;
     const Segment near = nearer(line, shift);
@@ -97,18 +99,8 @@ class Mesh final : public Object {
   }
 
   void compile(Compiler& compiler) const override {
-    if (convex_ && slack_ == 0.0) {
-      std::vector<Plane> distinct;  // the triangles of one flat side have one plane
-      for (const Plane& plane : planes_) {
-        const auto same = [&](const Plane& other) {
-          return glm::dot(plane.normal, other.normal) > 1.0 - 2e-15 &&
-                 std::abs(glm::dot(plane.normal, plane.point - other.point)) < 1e-9 * box_.diameter();
-        };
-        if (std::none_of(distinct.begin(), distinct.end(), same)) distinct.push_back(plane);
-        if (distinct.size() > 32) break;
-      }
-      if (distinct.size() <= 32) return compiler.body(distinct);
-    }
+    if (convex_ && slack_ == 0.0)
+      if (const std::vector<Plane> distinct = distinct_planes(); distinct.size() <= 32) return compiler.body(distinct);
     if (!compiler.takes_faces(planes_.size())) return;
     std::vector<glm::dvec3> polygon;
     for (std::uint32_t f = 0; f < planes_.size(); ++f) {
@@ -145,6 +137,37 @@ class Mesh final : public Object {
 
  private:
   Mesh() = default;
+  // The planes of a convex mesh, up to 33: the triangles of one flat side have one.
+  [[nodiscard]] std::vector<Plane> distinct_planes() const {
+    std::vector<Plane> distinct;
+    for (const Plane& plane : planes_) {
+      const auto same = [&](const Plane& other) {
+        return glm::dot(plane.normal, other.normal) > 1.0 - 2e-15 &&
+               std::abs(glm::dot(plane.normal, plane.point - other.point)) < 1e-9 * box_.diameter();
+      };
+      if (std::none_of(distinct.begin(), distinct.end(), same)) distinct.push_back(plane);
+      if (distinct.size() > 32) break;
+    }
+    return distinct;
+  }
+  // A convex solid with one face a plane: the part of the line that is behind all of them. From the middle of the mesh, as above.
+  void clip(const Segment& line, Spans& out) const {
+    double shift = 0.0;
+    const Segment near = nearer(line, shift);
+    Span span{{-infinity, 0}, {infinity, 0}};
+    for (std::uint32_t f = 0; f < planes_.size(); ++f) {
+      const double height = glm::dot(planes_[f].normal, near.origin - planes_[f].point);
+      const double rate = glm::dot(planes_[f].normal, near.direction);
+      if (rate == 0.0) {
+        if (height > 0.0) return;
+        continue;
+      }
+      const double t = -height / rate;
+      if (rate < 0.0 ? t > span.in.t : t < span.out.t) (rate < 0.0 ? span.in : span.out) = {t, f};
+    }
+    span.in.t += shift, span.out.t += shift;
+    out.push(span);  // drops an empty span
+  }
   [[nodiscard]] std::span<const std::uint32_t> corners(std::uint32_t f) const {
     return std::span<const std::uint32_t>(corners_).subspan(first_corner_[f], first_corner_[f + 1] - first_corner_[f]);
   }
@@ -257,6 +280,7 @@ class Mesh final : public Object {
     for (std::size_t f = 0; f < planes_.size() && convex_; ++f)
       for (const glm::dvec3& p : positions_)
         if (glm::dot(p - planes_[f].point, planes_[f].normal) > 1e-12 * box_.diameter() + slack_) convex_ = false;
+    few_planes_ = convex_ && slack_ == 0.0 && planes_.size() <= 32 && distinct_planes().size() == planes_.size();
   }
 
   std::vector<glm::dvec3> positions_;
@@ -267,7 +291,7 @@ class Mesh final : public Object {
   Bvh bvh_;
   Box box_;
   double slack_ = 0.0;
-  bool convex_ = false;
+  bool convex_ = false, few_planes_ = false;
 };
 
 }  // namespace raycast

@@ -10,17 +10,19 @@
 //
 // Intersection, in units of the radii and from the point of the line nearest to the centre, clipped to the bounds. With A the gauge of
 // (x, y) and B(z) the width of the profile (superellipse.hpp), the outer surface is f = A - k - B = 0 and the inner one f = k - A - B = 0.
-// - Superellipsoid with p, q >= 1: its gauge is a norm, hence convex along a line, with two crossings at most.
+// - Superellipsoid with p, q >= 1: its gauge is a norm, hence convex along a line, with two crossings at most: Newton from both sides.
 // - Otherwise the line is cut where it meets x = 0, y = 0 and z = 0. Between these A and B are each convex or concave, and roots.hpp finds
 //   all sign changes of their differences. Crossings are then found by Newton steps on the gauge of the profile.
 // Crossings are known to 32 u (D + size) across the surface, with the cusps of pinched shapes as sharp as the coordinates: a blade or
 // needle that is thinner than their rounding may be missed.
 
+#include "../compile.hpp"
 #include "../object.hpp"
 #include "../roots.hpp"
 #include "../superellipse.hpp"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace raycast {
@@ -78,6 +80,11 @@ class Superquadric final : public Object {
       const auto t = [&](double s) { return shift + (again + s) / length; };
       out.push(Span{{t(in), 0}, {t(leave), 0}});
     }
+  }
+
+  void compile(Compiler& compiler) const override {
+    const glm::dmat3 unit(1.0 / radii_.x, 0, 0, 0, 1.0 / radii_.y, 0, 0, 0, 1.0 / radii_.z);
+    compiler.superquadric(centre_, unit, around_.p(), profile_.p(), ring_);
   }
 
   // Nearest, to 1e-8 of the size, for points that are nearer than the smallest radius of curvature; otherwise a point whose normal runs
@@ -156,19 +163,24 @@ class Superquadric final : public Object {
     return {value - 1.0, slope};
   }
 
+  // Newton's steps on a convex function from outside never pass its zero; where there is none, they come to where it rises.
   void cut_convex(const glm::dvec3& f, const glm::dvec3& e, double lo, double hi, Cut& cuts) const {
-    const auto split = [&](double s) {
-      const Sample at = norm(f, e, s);
-      return SplitSample{at.value, at.slope, 0.0};
+    const double step = 2 * unit_roundoff * std::max(std::abs(lo), std::abs(hi));
+    const auto zero = [&](double from, double to) -> std::optional<double> {
+      double s = from;
+      for (int i = 0; i < 200; ++i) {
+        const Sample at = norm(f, e, s);
+        if (!(at.value > 0.0)) return s;
+        if (!(at.slope * (to - from) < 0.0)) return std::nullopt;
+        const double next = s - at.value / at.slope;
+        if (!(std::abs(next - from) <= std::abs(to - from))) return std::nullopt;
+        if (std::abs(next - s) <= step) return next;
+        s = next;
+      }
+      return s;
     };
-    double ends[2] = {lo, hi};
-    bool met = split(lo).value < 0.0;  // by rounding alone
-    sign_changes(split, lo, hi, 8 * unit_roundoff, [&](double a, double b, bool rising) {
-      met = true;
-      // From the outside, Newton's steps on a convex function never leave the bracket.
-      ends[rising] = bracketed_root([&](double s) { return norm(f, e, s); }, a, b, rising, rising ? b : a);
-    });
-    if (met && ends[0] <= ends[1]) cuts.push({ends[0], ends[1]});
+    if (const std::optional<double> in = zero(lo, hi))
+      if (const std::optional<double> leave = zero(hi, lo); leave && *in <= *leave) cuts.push({*in, *leave});
   }
 
   // A line in units of the radii, between two coordinate planes. A coordinate is measured from where the line meets its plane, so that it

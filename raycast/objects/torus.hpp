@@ -13,6 +13,7 @@
 // known to 32 u (D + R) across the surface, and hit or miss is decided rightly when the line passes the surface by more.
 
 #include "../circle.hpp"
+#include "../compile.hpp"
 #include "../roots.hpp"
 
 #include <array>
@@ -65,6 +66,10 @@ class Torus final : public Object {
     }
   }
 
+  void compile(Compiler& compiler) const override {
+    compiler.superquadric(centre_, frame_.into(minor_, minor_), 2.0, 2.0, major_ / minor_);
+  }
+
   [[nodiscard]] SurfacePoint project(std::uint32_t, const glm::dvec3& p) const override {
     const glm::dvec3 f = p - centre_, radial = frame_.radial(f);
     const double z = glm::dot(f, frame_.w), x = glm::dot(f, radial) - major_, length = std::hypot(x, z);
@@ -111,7 +116,7 @@ class Torus final : public Object {
 
     [[nodiscard]] Sample operator()(double s) const {
       const double x = f_.x + s * e_.x, y = f_.y + s * e_.y, z = f_.z + s * e_.z;
-      const double rho = std::hypot(x, y), off = rho - 1.0, distance = std::hypot(off, z);
+      const double rho = std::sqrt(x * x + y * y), off = rho - 1.0, distance = std::sqrt(off * off + z * z);
       return {distance - r_, (off * (x * e_.x + y * e_.y) / rho + z * e_.z) / distance};
     }
     // The part of the line within the ball of radius 1 + r and the slab |z| <= r. Both a few u too large.

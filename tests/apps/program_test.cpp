@@ -138,3 +138,28 @@ TEST_CASE("help and version are exit code 0") {
   CHECK(place.run("render --help").out.find("--reconstruction") != std::string::npos);
   CHECK(place.run("--version").out.find("halflight ") == 0);
 }
+
+TEST_CASE("factors prints the matrix and writes it as CSV and JSON") {
+  const Place place;
+  const Run run = place.run("factors " + scene("two_plates") + " --csv f.csv --json f.json");
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(run.out.find("0.1998249") != std::string::npos);
+  CHECK(place.read("f.csv").starts_with(
+      "surface,area,area error,row sum,row sum error,lower,upper,lower error,upper error\nlower,1,0,0.19982"));
+  const json::Value report = json::parse(place.read("f.json"));
+  CHECK(report["factors"][0][1].number() == test::Approx(0.19982489569838738).epsilon(1e-7));
+  CHECK(report["methods"][0][1].string() == "faces");
+  CHECK(report["surfaces"][1]["name"].string() == "upper");
+  CHECK(report["converged"].boolean());
+}
+
+TEST_CASE("factors: exit code 2 for an error that makes no sense, 3 for a bad scene, 4 when the error is not reached") {
+  const Place place;
+  CHECK(place.run("factors " + scene("two_plates") + " --error 0").code == 2);
+  place.write("bad.scene", "box b from 0 0 0 to 1 1\n");
+  CHECK(place.run("factors bad.scene").code == 3);
+  const Run run = place.run("factors " + scene("two_plates") + " --error 1e-12");
+  CHECK(run.code == 4);
+  CHECK(run.out.find("NOT REACHED") != std::string::npos);
+}

@@ -192,6 +192,6 @@ TEST_CASE("the example in the README of the scenes is sound") {
   const std::size_t end = readme.find("## Grammar");
   REQUIRE(begin < end);
   const auto file = parsed(readme.substr(begin, end - begin));
-  CHECK(file.scene.objects.size() == 13);
+  CHECK(file.scene.objects.size() == 14);
   CHECK(file.scene.objects.back().name == "second.back");
 }

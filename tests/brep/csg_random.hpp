@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Random solids on few grid points, where almost everything touches or coincides, and the laws that all operations on them obey. Used by the
-// tests, where numbers come from a seed, and by the fuzz target, where they come from its input.
+// Random solids on few grid points, where almost everything touches or coincides, and the laws that all operations on them obey. Used by
+// the tests, where numbers come from a seed, and by the fuzz target, where they come from its input.
 
 #include <functional>
 #include <random>

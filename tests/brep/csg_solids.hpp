@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the tests of CSG share: leaves, all operations at once, counts of a result, and the invariants of boundary.hpp asked slowly, pair by pair.
+// What the tests of CSG share: leaves, all operations at once, counts of a result, and the invariants of boundary.hpp asked slowly, pair
+// by pair.
 
 #include <array>
 #include <cmath>

@@ -9,6 +9,7 @@
 #include <brep/circulators.hpp>
 #include <brep/conditions.hpp>
 #include <brep/diagnosis.hpp>
+#include <brep/csg/csg.hpp>
 #include <brep/dual.hpp>
 #include <brep/edge_uses.hpp>
 #include <brep/edit.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: the input chooses solids on few grid points and the operations on them; the laws of set algebra are the oracle, and every
-// result is valid (tests/brep/csg_random.hpp).
+// libFuzzer target: the input chooses solids on few grid points and the operations on them; the laws of set algebra are the oracle, and
+// every result is valid (tests/brep/csg_random.hpp).
 
 #include <cstdint>
 #include <cstdio>

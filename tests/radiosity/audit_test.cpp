@@ -136,7 +136,7 @@ TEST_CASE("plan: a lamp flush with the ceiling of a room leaves it closed; a lam
 }
 
 TEST_CASE("plan: what cannot occlude is left out, what can is kept") {
-  const auto occluders = [](const Scene& scene) { return prepared(scene).plan.occluders.size(); };
+  const auto occluders = [](const Scene& scene) { return prepared(scene).plan.occluders; };
   CHECK(occluders(scenes::furnace_cube(0.5)) == 0);
   CHECK(occluders(scenes::two_plates(0.5)) == 0);
   CHECK(occluders(scenes::room_with_box()) == 1);  // the box; not the lamp in the ceiling

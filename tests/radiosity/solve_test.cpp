@@ -223,6 +223,88 @@ TEST_CASE("a closed scene has row sums of exactly 1, and a furnace glows evenly 
   }
 }
 
+TEST_CASE("conjugate gradients: at most 20 iterations for any reflectance below 1, and what is emitted is absorbed") {
+  Problem problem{12, 1.0, 43};
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  REQUIRE(transport.close(10.0));
+  for (const double loss : {0.5, 0.1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-9}) {
+    for (const bool even : {true, false}) {
+      CAPTURE(loss, even);
+      std::vector<double> reflectance(12, 1.0 - loss);
+      if (!even) {  // a dark surface and a black one among bright ones
+        reflectance[3] = 0.3;
+        reflectance[7] = 0.0;
+      }
+      std::vector<double> emission(12, 0.0);
+      emission[2] = 5.0;
+      const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, reflectance, emission,
+                                                   Solver::conjugate_gradients, 1e-10, 100);
+      CHECK(solved.converged);
+      CHECK(solved.iterations <= 20);
+      double emitted = 0.0;
+      double absorbed = 0.0;
+      double largest = 0.0;
+      for (std::size_t i = 12; i < problem.hierarchy.size(); ++i) {
+        const std::uint32_t s = problem.hierarchy[i].surface;
+        const double area = problem.exposure.area[i];
+        emitted += area * emission[s];
+        // Absorbed is (1 - rho) H; of a surface of rho > 0, H = (B - E) / rho.
+        if (reflectance[s] > 0.0) { absorbed += area * (1.0 - reflectance[s]) * (solved.radiosity[i] - emission[s]) / reflectance[s]; }
+        largest = std::max(largest, solved.radiosity[i]);
+      }
+      if (even) {
+        // The residual bounds the error of B by 1e-10 E / loss, rounding by some 1e-15 B / loss; the balance multiplies by the loss.
+        CHECK(absorbed == test::Approx(emitted).epsilon(1e-8 + 1e-14 * largest));
+      }
+    }
+  }
+}
+
+TEST_CASE("conjugate gradients: two closed rooms that do not see each other have two stiff modes and still take few iterations") {
+  Problem problem{12, 1.0, 47};
+  std::erase_if(problem.links, [&](const radiosity::Link& link) {
+    return (problem.hierarchy[link.p].surface < 6) != (problem.hierarchy[link.q].surface < 6);
+  });
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  REQUIRE(transport.close(10.0));
+  for (const double loss : {1e-3, 1e-6, 1e-9}) {
+    std::vector<double> emission(12, 0.0);
+    emission[2] = 1.0;
+    emission[9] = 7.0;
+    const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, std::vector<double>(12, 1.0 - loss),
+                                                 emission, Solver::conjugate_gradients, 1e-8, 100);
+    CAPTURE(loss, solved.residual);
+    CHECK(solved.converged);
+    CHECK(solved.iterations <= 20);
+  }
+}
+
+TEST_CASE("a solver that is stopped too early says so and keeps its best iterate") {
+  const Problem problem{8, 0.95, 53};
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  for (const Solver solver : {Solver::conjugate_gradients, Solver::jacobi, Solver::gauss_seidel, Solver::southwell}) {
+    const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, std::vector<double>(8, 0.99),
+                                                 {1, 0, 0, 0, 0, 0, 0, 0}, solver, 1e-12, 2);
+    INFO(name(solver));
+    CHECK_FALSE(solved.converged);
+    CHECK(solved.residual == *std::min_element(solved.history.begin(), solved.history.end()));
+  }
+}
+
+TEST_CASE("an iteration that diverges is stopped: rho times the row sums above 1") {
+  const Problem problem{8, 4.0, 59};
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  for (std::size_t i = 8; i < problem.hierarchy.size(); ++i) { REQUIRE(transport.row_sums()[i] > 1.2); }
+  for (const Solver solver : {Solver::conjugate_gradients, Solver::jacobi, Solver::gauss_seidel}) {
+    const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, std::vector<double>(8, 1.0),
+                                                 {1, 0, 0, 0, 0, 0, 0, 0}, solver, 1e-8, 10000);
+    INFO(name(solver));
+    CHECK_FALSE(solved.converged);
+    CHECK(solved.iterations < 1000);
+    for (const double b : solved.radiosity) { CHECK(std::isfinite(b)); }
+  }
+}
+
 TEST_CASE("a correction beyond its limit is refused and changes nothing") {
   Problem problem{4, 0.2, 29};
   Transport transport{problem.hierarchy, problem.links, problem.exposure};

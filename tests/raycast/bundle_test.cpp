@@ -81,15 +81,19 @@ TEST_CASE("the first hit is the same on every instruction set, and no object is 
         REQUIRE(hit->front == same->front);
       }
       if (!hit || a.owner != no_object) continue;
-      // From the air far from any surface: the nearest entry of all spans. (Polygons are placed with other roundings by the scene.)
+      // From the air far from any surface: the nearest entry of all spans; polygons, which the scene places with other roundings, may
+      // be met before it.
       double nearest = infinity;
       bool touching = false;
       for (const PlacedObject& object : w.objects) {
         touching = touching || object.bounds().contains(ray.origin, 1e-3 * scale);
+        if (!object.object().outline().empty()) continue;
         for (const Span& span : spans(object, ray))
           if (span.in.t > 0.0) nearest = std::min(nearest, span.in.t);
       }
-      if (!touching) REQUIRE(hit->t == test::Approx(nearest).epsilon(1e-9));
+      if (touching) continue;
+      REQUIRE(hit->t <= nearest * (1.0 + 1e-9));
+      if (w.objects[hit->object].object().outline().empty()) REQUIRE(hit->t == test::Approx(nearest).epsilon(1e-9));
     }
   }
   CHECK(met > 5000);

@@ -5,6 +5,11 @@
 
 #include "support.hpp"
 
+#include <raycast/objects/cone.hpp>
+#include <raycast/objects/disk.hpp>
+#include <raycast/objects/superquadric.hpp>
+#include <raycast/objects/torus.hpp>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -61,7 +66,7 @@ inline World world(Random& random, int count, double scale, const dvec3& shift, 
     if (i % 3 == 0) at[static_cast<int>(random.below(3))] = random.below(2) ? 0.9 : -0.9;
     Placement p{random.rotation() * (size * random.uniform(0.3, 1)), shift + scale * at, false};
     if (i % 5 == 0) p.linear = p.linear * glm::dmat3(1, 0.2, 0, 0, 1.5, 0, 0.1, 0, -0.7);
-    switch (random.below(9)) {
+    switch (random.below(16)) {
       case 0:
         add(placed(Sphere::make(p.translation, size)));
         break;
@@ -85,6 +90,27 @@ inline World world(Random& random, int count, double scale, const dvec3& shift, 
         break;
       case 7:
         add(placed(ball, p));
+        break;
+      case 8:
+        add(placed(Disk::make({0.1, 0, 0}, random.direction(), 0.8), p));
+        break;
+      case 9:
+        add(placed(Cone::make({0, 0, -0.5}, {0.1, 0, 1}, random.uniform(0.1, 0.6), random.below(2) ? 0.0 : random.uniform(0.1, 0.6)), p));
+        break;
+      case 10:
+        add(placed(Torus::make({0, 0, 0}, random.direction(), 0.7, random.uniform(0.03, 0.6)), p));
+        break;
+      case 11:  // convex
+        add(placed(Superquadric::make({0, 0, 0}, {1, 0.5, 0.7}, random.uniform(0.15, 2), random.uniform(0.15, 2)), p));
+        break;
+      case 12:  // pinched
+        add(placed(Superquadric::make({0, 0, 0}, {0.8, 1, 0.7}, random.uniform(0.3, 4), random.uniform(2, 6)), p));
+        break;
+      case 13:
+        add(placed(Superquadric::make({0, 0, 0}, {0.8, 1, 0.7}, random.uniform(2, 4), 1), p));
+        break;
+      case 14:
+        add(placed(Superquadric::make({0, 0, 0}, {0.3, 0.4, 0.3}, random.uniform(0.3, 3), random.uniform(0.3, 3), 2.2), p));
         break;
       default:
         add(placed(l_block(), p));
