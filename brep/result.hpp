@@ -127,7 +127,8 @@ struct Refusal {
       case Code::outside_grid:
         return x + " of " + y + " does not lie within the box for which the grid was made, or is not finite";
       case Code::collapsed:
-        return x + " has no area or an edge without length when its vertices are put on the grid; it needs a larger model or a smaller grid";
+        return x +
+               " has no area or an edge without length when its vertices are put on the grid; it needs a larger model or a smaller grid";
       case Code::self_intersecting:
         return x + " and " + y + " meet in more than common edges and vertices: the surface intersects or touches itself there";
       case Code::inside_out:

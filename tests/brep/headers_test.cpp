@@ -8,8 +8,8 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/conditions.hpp>
-#include <brep/diagnosis.hpp>
 #include <brep/csg/csg.hpp>
+#include <brep/diagnosis.hpp>
 #include <brep/dual.hpp>
 #include <brep/edge_uses.hpp>
 #include <brep/edit.hpp>
