@@ -11,6 +11,7 @@
 #include "apps/commands/euler.hpp"
 #include "apps/commands/factors.hpp"
 #include "apps/commands/info.hpp"
+#include "apps/commands/mesh.hpp"
 #include "apps/commands/render.hpp"
 #include "apps/version.hpp"
 
@@ -23,16 +24,19 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   apps::RenderOptions render;
   apps::InfoOptions info;
+  apps::MeshOptions mesh;
   apps::CheckOptions check;
   apps::EulerOptions euler;
   apps::FactorsOptions factors;
   CLI::App* const render_command = app.add_subcommand("render", "solve a scene; write a picture or a mesh and the report");
   CLI::App* const info_command = app.add_subcommand("info", "say what is in a scene without solving it");
+  CLI::App* const mesh_command = app.add_subcommand("mesh", "the polygons of each object: counts, genus, area, volume, and a mesh file");
   CLI::App* const check_command = app.add_subcommand("check", "say what a polygon mesh is and everything that is wrong with it");
   CLI::App* const factors_command = app.add_subcommand("factors", "the form factors between the surfaces of a scene, each with its error");
   CLI::App* const euler_command = app.add_subcommand("euler", "play a script of Euler operators; draw each step");
   apps::describe(*render_command, render);
   apps::describe(*info_command, info);
+  apps::describe(*mesh_command, mesh);
   apps::describe(*check_command, check);
   apps::describe(*euler_command, euler);
   apps::describe(*factors_command, factors);
@@ -40,6 +44,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : static_cast<int>(apps::ExitCode::usage); }
   if (render_command->parsed()) { return static_cast<int>(apps::run(render)); }
+  if (mesh_command->parsed()) { return static_cast<int>(apps::run(mesh)); }
   if (check_command->parsed()) { return static_cast<int>(apps::run(check)); }
   if (factors_command->parsed()) { return static_cast<int>(apps::run(factors)); }
   return static_cast<int>(euler_command->parsed() ? apps::run(euler) : apps::run(info));

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,7 +48,14 @@ struct MeshResult {
 // One line per error: "box.obj:12:8: error: ..."; the last line says so when more were found.
 [[nodiscard]] std::string to_text(const MeshResult& result, std::string_view name);
 
+// Faces that belong together, up to where the next group begins.
+struct MeshGroup {
+  std::uint32_t first_face = 0;
+  std::string name;
+};
+
 // The file's bytes; PLY is binary little endian. Positions are written so that they read back exactly. Every corner must exist.
-[[nodiscard]] std::string write_mesh(const brep::Builder& builder, MeshFormat format);
+// Groups, by rising first face, become objects in OBJ ("o name"); the other formats have no such thing.
+[[nodiscard]] std::string write_mesh(const brep::Builder& builder, MeshFormat format, std::span<const MeshGroup> groups = {});
 
 }  // namespace apps

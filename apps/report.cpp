@@ -72,6 +72,9 @@ void error_and_time(std::string& out, const Report& report) {
   out += "error (RMS, relative to the RMS of the reflected radiosity)\n";
   row(out, "picture", error_text(audit.picture_error));
   row(out, "leaf constants", error_text(audit.leaf_error));
+  if (audit.estimated_error) {
+    row(out, "estimated from links", percent(*audit.estimated_error) + ", after " + std::to_string(audit.generations) + " generations");
+  }
   if (audit.picture_error) { row(out, "path-traced points", grouped(audit.audit_points) + ", " + grouped(audit.audit_rays) + " rays"); }
   out += "time (s)                      wall       CPU\n";
   const auto time = [&](const std::string& name, double wall, double cpu) { row(out, name, format("%10.3f%10.3f", wall, cpu)); };
@@ -106,7 +109,12 @@ void sizes_and_checks(std::string& out, const Report& report) {
       format("%.2e after %u iterations%s", audit.residual, static_cast<unsigned>(audit.iterations),
              audit.converged ? "" : " - NOT CONVERGED"));
   out += "settings\n";
-  row(out, "epsilon, min area", format("%.3g, %.3g", audit.epsilon, audit.min_area));
+  if (audit.estimated_error) {
+    row(out, "refinement",
+        audit.target > 0.0 ? format("bf, estimate at most %.3g", audit.target) : std::string("bf, until the time was used"));
+  } else {
+    row(out, "refinement", format("f, epsilon %.3g, min area %.3g", audit.epsilon, audit.min_area));
+  }
   row(out, "channels, threads, seed", format("%u, %u, %llu", audit.channels, audit.threads, static_cast<unsigned long long>(audit.seed)));
   row(out, "exposure", format("%.5g%s", report.exposure, report.automatic_exposure ? " (automatic)" : ""));
   if (report.picture) {
@@ -267,6 +275,12 @@ std::string to_json(const Report& report) {
   json.key("closure");
   if (audit.closure) {
     json.number(*audit.closure);
+  } else {
+    json.null();
+  }
+  json.key("estimated_error");
+  if (audit.estimated_error) {
+    json.number(*audit.estimated_error);
   } else {
     json.null();
   }

@@ -48,6 +48,11 @@ enum class Code : std::uint8_t {
   cannot_flip,         // flip_edge: the sides are one face, or one of them has this edge alone
   equal_faces,         // glue_faces, punch_hole: both half-edges lie on one face
   different_degrees,   // glue_faces, punch_hole: the two faces have different numbers of edges
+  outside_grid,        // csg: a vertex does not lie on the grid, or is not finite
+  collapsed,           // csg: what remains of a face on the grid has no area, or an edge of it no length
+  self_intersecting,   // csg: two faces of one solid have more in common than edges and vertices
+  inside_out,          // csg: the shell of a face looks inwards where it must look outwards, or the other way round
+  different_grids,     // csg: the operands stand on different grids
 };
 
 struct Refusal {
@@ -119,6 +124,17 @@ struct Refusal {
         return x + " and " + y + " lie on the same face, two faces are needed";
       case Code::different_degrees:
         return x + " and " + y + " lie on faces with different numbers of edges";
+      case Code::outside_grid:
+        return x + " of " + y + " does not lie within the box for which the grid was made, or is not finite";
+      case Code::collapsed:
+        return x +
+               " has no area or an edge without length when its vertices are put on the grid; it needs a larger model or a smaller grid";
+      case Code::self_intersecting:
+        return x + " and " + y + " meet in more than common edges and vertices: the surface intersects or touches itself there";
+      case Code::inside_out:
+        return "the shell of " + x + " is inside out: its faces must look away from the solid";
+      case Code::different_grids:
+        return "the operands stand on different grids: make all leaves of a tree with one grid";
     }
     return {};
   }

@@ -74,6 +74,7 @@ struct Audit {
   std::vector<LeftOut> left_out;
   std::vector<SurfaceMean> surfaces;
   double epsilon = 0.0, min_area = 0.0;  // as used
+  double target = 0.0;                   // of BF-refinement; 0 when the time was the limit
   unsigned threads = 1, channels = 3;
   std::uint64_t seed = 0;
 };

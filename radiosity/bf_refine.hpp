@@ -21,6 +21,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -133,22 +136,53 @@ inline double refinement_threshold(const std::vector<LinkError>& errors, double 
   return std::exp2((b - half_octaves / 2) / 2.0);
 }
 
+// The error of the link of this rank, largest first; 0 beyond the last.
+inline double error_of_rank(const std::vector<LinkError>& errors, std::size_t rank) {
+  if (rank >= errors.size()) { return 0.0; }
+  std::vector<float> sums;
+  sums.reserve(errors.size());
+  for (const LinkError& e : errors) { sums.push_back(e.sum()); }
+  std::nth_element(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(rank), sums.end(), std::greater<>{});
+  return sums[rank];
+}
+
 }  // namespace detail
 
 struct BfResult {
   RefineResult refined;
   EvaluateResult evaluated;
+  std::uint64_t evaluations = 0;  // of links
   std::uint32_t generations = 0;
   double estimate = 0.0;  // relative L2 error
 };
 
-// Links, evaluated, and leaves such that the estimated relative error is at most `target`. Stops before when there is nothing left to
-// split, at 2^-24 of the scene's area, or when there would be more than `most_links`.
+// Seconds that refinement may take, from some beginning.
+class Deadline {
+ public:
+  explicit Deadline(std::optional<double> seconds) : seconds_{seconds} {}
+
+  // How many links can be evaluated in what is left, when `links` were until now; the last solution takes its part.
+  [[nodiscard]] std::size_t links_left(std::uint64_t links) const {
+    if (!seconds_) { return std::numeric_limits<std::size_t>::max(); }
+    constexpr double for_solution = 0.2;
+    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double left = (1.0 - for_solution) * *seconds_ - spent;
+    return left > 0.0 ? static_cast<std::size_t>(left / spent * static_cast<double>(links)) : 0;
+  }
+  [[nodiscard]] bool limited() const { return seconds_.has_value(); }
+
+ private:
+  std::optional<double> seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Links, evaluated, and leaves such that the estimated relative error is at most `target`, or, with a limit, as many as the deadline
+// allows. Stops before when there is nothing left to split, at 2^-24 of the scene's area, or when there would be more than `most_links`.
 [[nodiscard]] inline BfResult bf_refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
                                         const std::vector<Color>& reflectance, const std::vector<Color>& emission,
                                         std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches, Exposure& exposure,
-                                        const LinkEvaluator& evaluator, double target, std::size_t most_links, unsigned threads,
-                                        std::uint64_t seed, const Control& control = {}) {
+                                        const LinkEvaluator& evaluator, double target, const Deadline& deadline, std::size_t most_links,
+                                        unsigned threads, std::uint64_t seed, const Control& control = {}) {
   constexpr double first_epsilon = 0.25;
   BfResult result;
   result.refined = refine(scene, objects, plan, surfaces, hierarchy, patches, first_epsilon, 1e-3, false, threads, seed, control);
@@ -168,7 +202,9 @@ struct BfResult {
   for (;;) {
     patches.extend(threads);
     extend(exposure, objects, surfaces, hierarchy, patches, threads, seed);
+    const std::size_t new_links = links.size() - evaluated;
     const EvaluateResult round = evaluate(evaluator, result.refined.occluders, links, lists, evaluated, &shapes, threads, control);
+    result.evaluations += new_links;
     result.evaluated.rays += round.rays;
     result.evaluated.proven_clear += round.proven_clear;
     result.evaluated.blocked += round.blocked;
@@ -182,9 +218,14 @@ struct BfResult {
     const detail::ErrorEstimation errors =
         detail::estimate_errors(hierarchy, exposure, links, shapes, reflectance, emission, light.radiosity);
     result.estimate = errors.relative();
-    if (result.estimate <= target || links.size() > most_links) { return result; }
-    const double excess = errors.sum - target * target * errors.norm;
-    const double threshold = detail::refinement_threshold(errors.links, errors.sum - std::min(0.8 * errors.sum, 1.1 * excess));
+    if ((!deadline.limited() && result.estimate <= target) || links.size() > most_links) { return result; }
+    const double excess = errors.sum - (deadline.limited() ? 0.0 : target * target * errors.norm);
+    double threshold = detail::refinement_threshold(errors.links, errors.sum - std::min(0.8 * errors.sum, 1.1 * excess));
+    if (deadline.limited()) {
+      const std::size_t most = deadline.links_left(result.evaluations) / 4;  // a link that is refined becomes four
+      if (50 * most < links.size()) { return result; }
+      threshold = std::max(threshold, detail::error_of_rank(errors.links, most));
+    }
 
     // Which end of which link is to be split.
     enum class Split : std::uint8_t { none, p, q };
@@ -247,7 +288,7 @@ struct BfResult {
     evaluated = kept;
     patches.extend(threads);
     const std::vector<Decision> decisions = detail::decide(
-        pairs, objects, patches, result.refined, threads,
+        pairs, objects, plan, patches, result.refined, threads,
         [&](std::uint32_t p, std::uint32_t q) { return f_oracle(hierarchy[p], hierarchy[q], 1.0, min_area); },
         [](std::size_t, const raycast::OccluderList&, Decision&) {});
     for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -35,7 +35,9 @@ class Lookup {
 
   // The radiosity at a point of a sheet of an object, in the coordinates of the frame. Nothing where the sheet has no mesh because it
   // is buried. Cost: a walk down a tree.
-  [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const glm::dvec3& point) const;
+  [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const glm::dvec3& point) const {
+    return at(object, sheet, {point, objects_.object(object).project(sheet, point).normal});
+  }
 
   // What is seen from `eye` in `direction` (of any length), in the scene's coordinates: the first surface that shows its front and is
   // not buried under another object. Nothing where the ray meets none. Backs do not hide what lies behind them, so one looks into a
@@ -56,6 +58,8 @@ class Lookup {
     raycast::Bvh tree;  // over the triangles
   };
 
+  // At a place of the sheet of which the normal is known.
+  [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const;
   [[nodiscard]] ChordTriangle chord(const Triangle& triangle) const;
   [[nodiscard]] raycast::Box region(const Triangle& triangle, const raycast::PlacedObject& object, std::uint32_t sheet) const;
   [[nodiscard]] Color blend(const Triangle& triangle, const glm::dvec3& weight) const;
@@ -124,17 +128,29 @@ inline Color Lookup::blend(const Triangle& triangle, const glm::dvec3& weight) c
   return sum;
 }
 
-inline std::optional<Color> Lookup::at(std::uint32_t object, std::uint32_t sheet, const glm::dvec3& point) const {
+inline std::optional<Color> Lookup::at(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const {
   const Sheet& on = sheets_[first_sheet_[object] + sheet];
-  // Of several triangles the nearer one: the far side of a thin solid is on the same sheet. On a common wall they agree.
+  const glm::dvec3& point = place.position;
+  // Of several triangles one that faces the same way, and of these the nearer one: the far side of a thin solid, and beyond a crease, is
+  // on the same sheet. On a common wall they agree.
+  const auto faces = [&](const ChordTriangle& flat) {
+    const auto& [a, b, c] = flat.position;
+    return glm::dot(glm::cross(b - a, c - a), place.normal) > 0.0;
+  };
   constexpr double slip = 1e-9;
   const Triangle* best = nullptr;
+  bool best_faces = false;
   ChordPoint foot;
   raycast::around(on.tree, point, [&](std::uint32_t i) {
-    const std::optional<ChordPoint> candidate = chord_point(chord(on.triangles[i]), point);
+    const ChordTriangle flat = chord(on.triangles[i]);
+    const std::optional<ChordPoint> candidate = chord_point(flat, point);
     if (!candidate || candidate->depth() < -slip) { return; }
-    if (best != nullptr && !(std::abs(candidate->offset) < std::abs(foot.offset))) { return; }
+    const bool facing = faces(flat);
+    if (best != nullptr && (facing < best_faces || (facing == best_faces && !(std::abs(candidate->offset) < std::abs(foot.offset))))) {
+      return;
+    }
     best = &on.triangles[i];
+    best_faces = facing;
     foot = *candidate;
   });
   if (best != nullptr) {
@@ -145,7 +161,7 @@ inline std::optional<Color> Lookup::at(std::uint32_t object, std::uint32_t sheet
     const ChordTriangle flat = chord(on.triangles[i]);
     const glm::dvec3 w = nearest_in_triangle(flat.position, point);
     const glm::dvec3 gap = w.x * flat.position[0] + w.y * flat.position[1] + w.z * flat.position[2] - point;
-    return glm::dot(gap, gap);
+    return glm::dot(gap, gap) * (faces(flat) ? 1.0 : 16.0);
   });
   if (!nearest) { return std::nullopt; }
   const Triangle& triangle = on.triangles[*nearest];
@@ -161,7 +177,7 @@ inline std::optional<Color> Lookup::seen(const glm::dvec3& eye, const glm::dvec3
     if (!hit) { return std::nullopt; }
     const raycast::SurfacePoint point = objects_.object(hit->object).project(hit->sheet, ray.at(hit->t));
     if (hit->front && !objects_.covered(point.position, point.normal, hit->object)) {
-      if (const std::optional<Color> color = at(hit->object, hit->sheet, point.position)) { return color; }
+      if (const std::optional<Color> color = at(hit->object, hit->sheet, point)) { return color; }
     }
     ray.origin = point.position;
     owner = hit->object;

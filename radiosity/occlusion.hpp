@@ -7,6 +7,8 @@
 //
 // Lists are kept in one array, a word and the shapes each; a list from which nothing was filtered is that of its parent.
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,6 +18,7 @@
 #include <radiosity/hierarchy.hpp>
 #include <radiosity/parallel.hpp>
 #include <radiosity/patch.hpp>
+#include <radiosity/plan.hpp>
 #include <radiosity/surface.hpp>
 
 namespace radiosity {
@@ -61,9 +64,14 @@ class OccluderLists {
 
   // The list of a pair of nodes; `ancestors` is the index of a pair of their ancestors.
   [[nodiscard]] raycast::OccluderList of(std::uint32_t p, std::uint32_t q, std::uint32_t ancestors, const raycast::Scene& scene,
-                                         const Patches& patches) const {
-    return ancestors == none ? scene.occluders(patches.shape(p), patches.shape(q))
-                             : scene.filter((*this)[ancestors], patches.shape(p), patches.shape(q));
+                                         const Plan& plan, const Patches& patches) const {
+    if (ancestors != none) { return scene.filter((*this)[ancestors], patches.shape(p), patches.shape(q)); }
+    const raycast::OccluderList all = scene.occluders(patches.shape(p), patches.shape(q));
+    if (!all.known() || all.blocked()) { return all; }
+    std::array<std::uint32_t, raycast::OccluderList::capacity> shapes{};
+    const auto end = std::copy_if(all.shapes().begin(), all.shapes().end(), shapes.begin(),
+                                  [&](std::uint32_t shape) { return !plan.outer[scene.object_of(shape)]; });
+    return {std::span<const std::uint32_t>{shapes.begin(), end}, all.rooms_clear()};
   }
 
   // Keeps a list that `of` gave for these ancestors. Requires that not everything is blocked.

@@ -21,17 +21,21 @@ inline constexpr const char* name(Solver solver) {
   return names[static_cast<int>(solver)];
 }
 enum class Refinement { a_posteriori, a_priori };  // BF- and F-refinement (paper 4.4)
-enum class Reconstruction { weighted, simple };    // paper fig. 5; simple ignores the normals (figs. 6-8)
+inline constexpr const char* name(Refinement refinement) { return refinement == Refinement::a_priori ? "f" : "bf"; }
+enum class Reconstruction { weighted, simple };  // paper fig. 5; simple ignores the normals (figs. 6-8)
 
 struct Options {
   Refinement refinement = Refinement::a_priori;
-  // BF-refinement goes on until the estimated relative L2 error is at most this.
+  // BF-refinement goes on until the estimated relative L2 error is at most this,
   double target = 0.02;
+  // or, instead, until refinement has used this many seconds (wall): the links that promise most come first, the result is the best so far
+  // and, as its only option, depends on the machine. The audit comes on top.
+  std::optional<double> time;
   // F-refinement (paper 4.4): a pair is linked when its estimated form factor is at most epsilon,
   double epsilon = 0.005;
   // or when both patches are no larger than min_area, relative to the total area of the scene.
   double min_area = 3e-5;
-  // Accuracy target: epsilon and min_area are chosen anew until the audited relative L2 error of the picture is at most this.
+  // Accuracy target: target, or epsilon and min_area, are chosen anew until the audited relative L2 error of the picture is at most this.
   std::optional<double> error;
 
   Solver solver = Solver::conjugate_gradients;
@@ -52,6 +56,14 @@ struct Options {
   };
   check("epsilon", options.epsilon, options.epsilon > 0.0, "above 0");
   check("min_area", options.min_area, options.min_area >= 0.0, "0 or more");
+  check("target", options.target, options.target > 0.0, "above 0");
+  if (options.time) {
+    check("time", *options.time, *options.time > 0.0, "above 0");
+    if (options.error) { sentences.emplace_back("a time limit and an error target exclude each other; give one"); }
+    if (options.refinement == Refinement::a_priori) {
+      sentences.emplace_back("a time limit needs BF-refinement: F-refinement knows no best-first");
+    }
+  }
   check("residual", options.residual, options.residual > 0.0, "above 0");
   if (options.error) {
     check("error", *options.error, *options.error > 0.0, "above 0");

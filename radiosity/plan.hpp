@@ -35,6 +35,7 @@ struct Plan {
   bool traceable = true;        // paths end soon enough to measure the error
   bool lossless = false;        // closed, lit, and nothing absorbs in some channel that is lit: no steady state
   std::uint32_t occluders = 0;  // objects that can stand between two patches
+  std::vector<bool> outer;      // by object: the whole scene lies on one side of it, it blocks nothing
   bool rooms_convex = true;     // nobody sees through the wall of a convex room
   std::vector<LeftOut> left_out;
 };
@@ -117,6 +118,7 @@ inline bool lies_on_room(const Surface& surface, const raycast::PlacedObject& ro
   bool holes = false;
   std::uint32_t hull = 0;
   std::vector<std::uint32_t> sheets;  // flat surfaces that block no segment
+  plan.outer.assign(surfaces.size(), false);
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
     const raycast::PlacedObject& object = *surfaces[o].object;
     if (object.inside() && room == nullptr) { room = &surfaces[o]; }
@@ -125,6 +127,7 @@ inline bool lies_on_room(const Surface& surface, const raycast::PlacedObject& ro
     const bool on_hull = object.flat() && !object.solid() && detail::on_the_hull(surfaces, o);
     if (on_hull) {
       ++hull;
+      plan.outer[o] = true;
       sheets.push_back(o);
       continue;
     }

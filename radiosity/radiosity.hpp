@@ -155,10 +155,11 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   const bool needs_links = plan.lit && plan.reflects;
   if (needs_links && options.refinement == Refinement::a_posteriori) {
     BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, evaluator, options.target,
-                            link_limit, threads, options.seed, control);
+                            Deadline{options.time}, link_limit, threads, options.seed, control);
     refined = std::move(bf.refined);
     evaluated = bf.evaluated;
     audit.estimated_error = bf.estimate;
+    audit.target = options.time ? 0.0 : options.target;
     audit.generations = bf.generations;
   } else if (needs_links) {
     refined =
@@ -244,16 +245,18 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
 
 }  // namespace detail
 
-// Solves the scene. With an error target the run starts coarse and halves epsilon and min_area until the audit of the picture
-// witnesses the target, its standard error included; times are those of all rounds together. A run whose error stays above
-// says so by audit.converged; it gives up before it would need more than 20 million links (720 MB).
+// Solves the scene. With an error target the run starts coarse and refines until the audit of the picture witnesses the target, twice its
+// standard error included; times are those of all rounds together. A run whose error stays above says so by audit.converged; it gives up
+// before it would need more than 20 million links (480 MB).
 [[nodiscard]] inline Outcome solve(const Scene& scene, const Options& options = {}, const Control& control = {}) {
   std::vector<std::string> sentences = faults(options);
   if (!sentences.empty()) { return detail::failed(Failure::Kind::invalid_options, std::move(sentences)); }
   if (!options.error) { return detail::solve_at(scene, options, control); }
+  const double wanted = *options.error;
   Options round = options;
   round.epsilon = 0.04;
   round.min_area = 2.4e-4;
+  round.target = wanted;
   std::vector<StageTime> stages;
   for (;;) {
     Outcome outcome = detail::solve_at(scene, round, control);
@@ -262,15 +265,16 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     detail::add_times(stages, audit.stages);
     constexpr double unknown = std::numeric_limits<double>::infinity();
     const ErrorEstimate error = audit.picture_error.value_or(ErrorEstimate{unknown, unknown});
-    const bool met = error.relative_l2 + error.standard_error <= *options.error;
+    const bool met = error.relative_l2 + 2.0 * error.standard_error <= wanted;
     // An estimate that drowns in its own noise needs more points; else, and in any case where noise is not to blame, a finer mesh.
-    const bool noisy = error.standard_error > 0.5 * *options.error && round.audit_points < 200'000;
+    const bool noisy = error.standard_error > 0.25 * wanted && round.audit_points < 200'000;
     if (noisy) { round.audit_points *= 4; }
-    if (!noisy || error.relative_l2 > 0.5 * *options.error) {
+    if (!noisy || error.relative_l2 > 0.5 * wanted) {
       round.epsilon *= 0.5;
       round.min_area *= 0.5;
+      round.target *= std::clamp(0.7 * wanted / error.relative_l2, 0.25, 0.8);
     }
-    if (met || 4 * audit.links > 20'000'000 || round.epsilon < 1e-5) {
+    if (met || 4 * audit.links > 20'000'000 || round.epsilon < 1e-5 || round.target < 1e-6) {
       audit.converged = audit.converged && met;
       audit.stages = std::move(stages);
       detail::sum_times(audit);

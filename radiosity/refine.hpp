@@ -75,8 +75,8 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
 // Asks `oracle(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
 // the others keep their list and are shown to `look(pair, list, decision)`, in parallel.
 template <class Oracle, class Look>
-std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& objects, const Patches& patches, RefineResult& result,
-                             unsigned threads, const Oracle& oracle, const Look& look) {
+std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& objects, const Plan& plan, const Patches& patches,
+                             RefineResult& result, unsigned threads, const Oracle& oracle, const Look& look) {
   std::vector<Decision> decisions(pairs.size(), Decision::drop);
   constexpr std::size_t batch = 1 << 14;  // lists of full length that live at a time
   std::vector<raycast::OccluderList> lists(std::min(batch, pairs.size()));
@@ -87,7 +87,7 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
       Decision& decision = decisions[first + k];
       decision = oracle(pair.p, pair.q);
       if (decision == Decision::drop) { return; }
-      lists[k] = result.occluders.of(pair.p, pair.q, pair.list, objects, patches);
+      lists[k] = result.occluders.of(pair.p, pair.q, pair.list, objects, plan, patches);
       if (lists[k].blocked()) {
         decision = Decision::hide;
       } else {
@@ -140,7 +140,7 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
     patches.extend(threads);
     rays.assign(pairs.size(), {});
     const std::vector<Decision> decisions = detail::decide(
-        pairs, objects, patches, result, threads,
+        pairs, objects, plan, patches, result, threads,
         [&](std::uint32_t p, std::uint32_t q) { return f_oracle(hierarchy[p], hierarchy[q], epsilon, min_area); },
         [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
           const auto [p, q, index] = pairs[i];

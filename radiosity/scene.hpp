@@ -45,7 +45,7 @@ struct InputSurface {
     const std::uint32_t sheets = object.shape->sheet_count();
     for (std::uint32_t s = 0; s < sheets; ++s) {
       std::string name = object.name;
-      if (sheets > 1) { name += "." + std::string{object.shape->sheet_name(s)}; }
+      if (sheets > 1) { name.append(".").append(object.shape->sheet_name(s)); }
       result.push_back({o, s, object.material[object.material.size() == 1 ? 0 : s], std::move(name)});
     }
   }

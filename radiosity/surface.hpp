@@ -23,7 +23,7 @@
 #include <brep/refine.hpp>
 #include <brep/split.hpp>
 #include <brep/tag.hpp>
-#include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
 
 #include <radiosity/form_factor.hpp>
 #include <radiosity/hierarchy.hpp>

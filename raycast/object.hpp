@@ -74,8 +74,9 @@ class Object {
   // An object that consists of shapes which the fast lanes know tells them (compile.hpp). Whatever says nothing is asked through spans().
   virtual void compile(Compiler&) const {}
 
-  // Of objects that compile to faces: where the line crosses the face, which it is known to do. Bit for bit what spans() says.
-  [[nodiscard]] virtual double crossing(const Segment&, std::uint32_t) const { return 0.0; }
+  // Of objects that compile to faces: where the line crosses the face, which it is known to do, and the sheet that the face belongs to.
+  // Bit for bit what spans() says.
+  [[nodiscard]] virtual Crossing crossing(const Segment&, std::uint32_t face) const { return {0.0, face}; }
 
   // A single planar polygon returns its corners, counter-clockwise seen from the air, and a scene keeps it in array form.
   // Everything else returns nothing.

@@ -191,8 +191,8 @@ HALFLIGHT_INLINE void Scene::approach_bounded(const Line& line, const End& a, Ne
   HALFLIGHT_DISPATCH(isa_, first(compiled_, rays, asker, entries));
   if (entries.count == 1 && entries.complete && entries.entry[0].sure) {
     const Entries::Entry& e = entries.entry[0];
-    const double t = objects_[e.object].crossing(line.segment, e.face);
-    if (t > 0.0 && t <= nearest.limit) offer(line, Hit{t, e.object, e.face, true}, nearest);
+    const Crossing at = objects_[e.object].crossing(line.segment, e.face);
+    if (at.t > 0.0 && at.t <= nearest.limit) offer(line, Hit{at.t, e.object, at.sheet, true}, nearest);
     return;
   }
   if (!entries.complete) {

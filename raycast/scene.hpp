@@ -76,6 +76,7 @@ class Scene {
   // What may occlude segments between two patches (shaft.hpp), from the whole scene or from the list of a pair of their ancestors.
   [[nodiscard]] OccluderList occluders(const PatchShape& a, const PatchShape& b) const;
   [[nodiscard]] OccluderList filter(const OccluderList& parent, const PatchShape& a, const PatchShape& b) const;
+  [[nodiscard]] std::uint32_t object_of(std::uint32_t shape) const { return compiled_.object_of(shape); }  // of a shape in a list
   // As above, for segments between the patches of the list: the same answers.
   [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const OccluderList& list, std::uint32_t& hint) const;
 

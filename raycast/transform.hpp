@@ -102,7 +102,7 @@ class PlacedObject {
     if (placement_.inside) out.complement();
   }
 
-  [[nodiscard]] double crossing(const Segment& line, std::uint32_t sheet) const { return object_->crossing(to_object(line), sheet); }
+  [[nodiscard]] Crossing crossing(const Segment& line, std::uint32_t face) const { return object_->crossing(to_object(line), face); }
 
   // The corners of a single planar polygon in the world, counter-clockwise seen from the air; empty for everything else.
   [[nodiscard]] std::vector<glm::dvec3> outline() const {

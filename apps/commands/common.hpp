@@ -14,6 +14,9 @@ namespace apps {
 // Reads and parses; on failure prints every error to stderr and sets `code`.
 [[nodiscard]] std::optional<SceneFile> load_scene(const std::string& path, ExitCode& code);
 
+// One name for one file, however it was written: through '.', '..' and symbolic links.
+[[nodiscard]] std::string resolved(const std::string& path);
+
 // One line on stderr: "halflight: sentence".
 void complain(const std::string& sentence);
 

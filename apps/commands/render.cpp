@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 #include <map>
 #include <utility>
 
@@ -72,13 +71,6 @@ std::optional<Camera> choose_camera(const SceneFile& file, const std::string& na
   }
   complain("there is no camera '" + name + "' in the scene; " + (known.empty() ? "it has none" : "it has: " + known));
   return std::nullopt;
-}
-
-// One name for one file, however it was written: through '.', '..' and symbolic links.
-std::string resolved(const std::string& path) {
-  std::error_code error;
-  const std::filesystem::path canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
-  return error ? path : canonical.string();
 }
 
 // Outputs that cannot become files are refused before any work.
@@ -196,6 +188,19 @@ void describe(CLI::App& command, RenderOptions& options) {
       ->excludes(error);
   command.add_option("--min-area", solver.min_area, "smallest patch, relative to the area of the scene")
       ->check(above_zero(1.0))
+      ->excludes(error);
+  command
+      .add_option(
+          "--refinement", solver.refinement,
+          "f: split by form factors and by what lights do, before anything is solved; bf: split by the light that links carry (paper 4.4)")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, radiosity::Refinement>{{name(radiosity::Refinement::a_priori), radiosity::Refinement::a_priori},
+                                                       {name(radiosity::Refinement::a_posteriori), radiosity::Refinement::a_posteriori}}));
+  command.add_option("--target", solver.target, "bf: refine until the estimated relative L2 error is at most this (default 0.02)")
+      ->check(above_zero(1.0))
+      ->excludes(error);
+  command.add_option("--time", solver.time, "bf: refine, what promises most first, for this many seconds; the audit comes on top")
+      ->check(above_zero(1e6))
       ->excludes(error);
   command.add_option("--camera", options.camera, "camera of the scene (default: the first; without any, an automatic view)");
   command

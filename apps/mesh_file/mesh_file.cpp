@@ -30,13 +30,15 @@ void put_position(std::string& out, const glm::dvec3& p) {
   out += '\n';
 }
 
-std::string to_obj(const brep::Builder& builder) {
+std::string to_obj(const brep::Builder& builder, std::span<const MeshGroup> groups) {
   std::string out;
   for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) {
     out += "v ";
     put_position(out, builder.position(v));
   }
+  auto group = groups.begin();
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
+    for (; group != groups.end() && group->first_face <= f; ++group) { out += "o " + group->name + '\n'; }
     out += 'f';
     for (std::uint32_t v : builder.corners(f)) { out += ' ' + std::to_string(std::uint64_t{v} + 1); }
     out += '\n';
@@ -120,8 +122,8 @@ std::string to_text(const MeshResult& result, std::string_view name) {
   return text;
 }
 
-std::string write_mesh(const brep::Builder& builder, MeshFormat format) {
-  return format == MeshFormat::obj ? to_obj(builder) : format == MeshFormat::ply ? to_ply(builder) : to_off(builder);
+std::string write_mesh(const brep::Builder& builder, MeshFormat format, std::span<const MeshGroup> groups) {
+  return format == MeshFormat::obj ? to_obj(builder, groups) : format == MeshFormat::ply ? to_ply(builder) : to_off(builder);
 }
 
 }  // namespace apps

@@ -39,7 +39,10 @@ class Builder {
   void unique_names(const std::vector<Item>& items);
   void make(const std::vector<Item>& items);
   std::optional<std::uint32_t> material_index(const Name& name);
-  std::vector<std::uint32_t> sheet_materials(const ObjectSyntax& object, const raycast::Object& shape);
+  std::vector<std::uint32_t> sheet_materials(const ObjectSyntax& object, const raycast::Object& shape, const Name* around = nullptr);
+  Made make(const ObjectSyntax& object);
+  void operand_materials(const ObjectSyntax& object, const Name* around, const CsgShape& csg, std::size_t& leaf,
+                         std::vector<std::uint32_t>& out);
   std::uint32_t sheet_index(const Name& sheet, const raycast::Object& shape, const SheetNames& names);
   void place(const Groups& groups);
   void place(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at);
@@ -66,7 +69,8 @@ SceneFile Builder::build() {
   if (errors_.count() == 0 && file_.scene.objects.empty()) {
     errors_.add(
         {1, 1},
-        "the scene is empty; expected at least one object (polygon, disk, box, sphere, cylinder, cone, torus, superquadric, mesh or use)");
+        "the scene is empty; expected at least one object (polygon, disk, box, sphere, cylinder, cone, torus, superquadric, mesh, union, "
+        "intersection, difference or use)");
   }
   return std::move(file_);
 }
@@ -121,14 +125,41 @@ void Builder::make(const std::vector<Item>& items) {
   for (const Item& item : items) {
     const auto* object = std::get_if<ObjectSyntax>(&item);
     if (object == nullptr || !object->sound || errors_.full()) { continue; }
-    Made made{make_shape(*object, errors_), {}};
+    Made made = make(*object);
     if (made.shape == nullptr) { continue; }
     if (object->inside && !made.shape->solid()) {
       errors_.add(*object->inside, "'inside' needs a closed solid; " + quoted(object->name.text) + " has no inside");
     }
-    made.material = sheet_materials(*object, *made.shape);
     made_.emplace(object, std::move(made));
   }
+}
+
+Made Builder::make(const ObjectSyntax& object) {
+  if (!is_csg(object.kind)) {
+    Made made{make_shape(object, errors_), {}};
+    if (made.shape != nullptr) { made.material = sheet_materials(object, *made.shape); }
+    return made;
+  }
+  const CsgShape csg = make_csg(object, errors_);
+  Made made{csg.whole, {}};
+  std::size_t leaf = 0;
+  operand_materials(object, nullptr, csg, leaf, made.material);
+  return made;
+}
+
+// One material for every sheet of every leaf, in their order: the leaf's own, or that of the nearest statement around it.
+void Builder::operand_materials(const ObjectSyntax& object, const Name* around, const CsgShape& csg, std::size_t& leaf,
+                                std::vector<std::uint32_t>& out) {
+  if (is_csg(object.kind)) {
+    const Name* const own = object.material ? &*object.material : around;
+    for (const ObjectSyntax& operand : object.operands) { operand_materials(operand, own, csg, leaf, out); }
+    return;
+  }
+  const raycast::Object* const shape = csg.leaves[leaf++].get();
+  if (shape == nullptr) { return; }
+  const std::vector<std::uint32_t> list = sheet_materials(object, *shape, around);
+  out.insert(out.end(), list.begin(), list.end());
+  if (list.size() == 1) { out.insert(out.end(), shape->sheet_count() - 1, list[0]); }
 }
 
 std::optional<std::uint32_t> Builder::material_index(const Name& name) {
@@ -160,10 +191,14 @@ std::uint32_t Builder::sheet_index(const Name& sheet, const raycast::Object& sha
   return count;
 }
 
-std::vector<std::uint32_t> Builder::sheet_materials(const ObjectSyntax& object, const raycast::Object& shape) {
+std::vector<std::uint32_t> Builder::sheet_materials(const ObjectSyntax& object, const raycast::Object& shape, const Name* around) {
   constexpr std::uint32_t none = 0xffffffff;
-  const std::uint32_t whole = object.material ? material_index(*object.material).value_or(0) : none;
-  if (object.sheets.empty()) { return {whole}; }
+  const Name* const given_material = object.material ? &*object.material : around;
+  const std::uint32_t whole = given_material != nullptr ? material_index(*given_material).value_or(0) : none;
+  if (object.sheets.empty()) {
+    if (whole == none) { errors_.add(object.name.place, quoted(object.name.text) + " has no material, and nothing around it has one"); }
+    return {whole};
+  }
   std::vector<std::uint32_t> result(shape.sheet_count(), whole);
   const SheetNames names = sheet_names(shape);
   std::vector<bool> given(shape.sheet_count(), false);

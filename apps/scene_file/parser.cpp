@@ -6,100 +6,10 @@
 #include <array>
 #include <utility>
 
+#include "apps/scene_file/keywords.hpp"
 #include "apps/scene_file/words.hpp"
 
 namespace apps::scene_file {
-namespace {
-
-using Words = std::span<const std::string_view>;
-
-constexpr std::array<std::string_view, 13> statements = {"material", "camera", "polygon",      "disk", "box",    "sphere", "cylinder",
-                                                         "cone",     "torus",  "superquadric", "mesh", "define", "use"};
-constexpr std::array<std::string_view, 2> material_words = {"reflectance", "emission"};
-constexpr std::array<std::string_view, 6> camera_words = {"eye", "target", "look", "up", "fov", "size"};
-constexpr std::array<std::string_view, 3> use_words = {"move", "rotate", "scale"};
-constexpr std::array<std::string_view, 6> polygon_words = {"vertex", "material", "move", "rotate", "scale", "sheet"};
-constexpr std::array<std::string_view, 8> box_words = {"from", "to", "material", "sheet", "move", "rotate", "scale", "inside"};
-constexpr std::array<std::string_view, 8> sphere_words = {"center", "radius", "material", "sheet", "move", "rotate", "scale", "inside"};
-constexpr std::array<std::string_view, 9> cylinder_words = {"base", "axis",   "radius", "material", "sheet",
-                                                            "move", "rotate", "scale",  "inside"};
-constexpr std::array<std::string_view, 8> disk_words = {"center", "normal", "radius", "material", "sheet", "move", "rotate", "scale"};
-constexpr std::array<std::string_view, 10> cone_words = {"base",  "axis", "radius", "top",   "material",
-                                                         "sheet", "move", "rotate", "scale", "inside"};
-constexpr std::array<std::string_view, 10> torus_words = {"center", "axis", "radius", "tube",  "material",
-                                                          "sheet",  "move", "rotate", "scale", "inside"};
-constexpr std::array<std::string_view, 10> superquadric_words = {"center", "radii", "exponents", "ring",  "material",
-                                                                 "sheet",  "move",  "rotate",    "scale", "inside"};
-constexpr std::array<std::string_view, 8> mesh_words = {"vertex", "face", "material", "sheet", "move", "rotate", "scale", "inside"};
-
-Words words_of(Kind kind) {
-  switch (kind) {
-    case Kind::polygon:
-      return polygon_words;
-    case Kind::box:
-      return box_words;
-    case Kind::sphere:
-      return sphere_words;
-    case Kind::cylinder:
-      return cylinder_words;
-    case Kind::disk:
-      return disk_words;
-    case Kind::cone:
-      return cone_words;
-    case Kind::torus:
-      return torus_words;
-    case Kind::superquadric:
-      return superquadric_words;
-    case Kind::mesh:
-      break;
-  }
-  return mesh_words;
-}
-
-// Clauses that may stand several times; any other one is refused the second time.
-constexpr std::array<std::string_view, 6> repeatable = {"vertex", "face", "sheet", "move", "rotate", "scale"};
-
-bool contains(Words words, std::string_view word) { return std::find(words.begin(), words.end(), word) != words.end(); }
-
-std::size_t index_in(Words words, std::string_view word) {
-  return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin());
-}
-
-constexpr std::array<Kind, 9> kinds = {Kind::polygon, Kind::disk,  Kind::box,          Kind::sphere, Kind::cylinder,
-                                       Kind::cone,    Kind::torus, Kind::superquadric, Kind::mesh};
-
-std::optional<Kind> kind_of(std::string_view word) {
-  for (const Kind kind : kinds) {
-    if (word == to_string(kind)) { return kind; }
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-std::string_view to_string(Kind kind) {
-  switch (kind) {
-    case Kind::polygon:
-      return "polygon";
-    case Kind::box:
-      return "box";
-    case Kind::sphere:
-      return "sphere";
-    case Kind::cylinder:
-      return "cylinder";
-    case Kind::disk:
-      return "disk";
-    case Kind::cone:
-      return "cone";
-    case Kind::torus:
-      return "torus";
-    case Kind::superquadric:
-      return "superquadric";
-    case Kind::mesh:
-      break;
-  }
-  return "mesh";
-}
 
 Parser::Parser(std::string_view text, Errors& errors) : errors_(errors), lexer_(text, errors) { next(); }
 
@@ -123,8 +33,8 @@ void Parser::statement(SceneSyntax& out) {
     group(out);
   } else if (word == "use") {
     use(out.items);
-  } else {
-    object(*kind_of(word), out.items);
+  } else if (auto read = object(*kind_of(word))) {
+    out.items.emplace_back(std::move(*read));
   }
   if (at(Token::Kind::close)) { unknown_statement(); }
 }
@@ -151,7 +61,7 @@ template <class Clause>
 void Parser::clauses(std::string_view statement, Words known, Clause&& clause) {
   std::optional<Place> block;
   bool line_begins = false;
-  std::array<std::optional<Place>, 9> given;
+  std::array<std::optional<Place>, most_words> given;
   while (true) {
     const bool first_of_line = std::exchange(line_begins, false);
     if (at(Token::Kind::end_of_file)) { return block ? unclosed(*block) : void(); }
@@ -171,15 +81,19 @@ void Parser::clauses(std::string_view statement, Words known, Clause&& clause) {
         block = token_.place;
         next();
       }
-    } else if (at(Token::Kind::word) && contains(known, token_.text)) {
+    } else if (at(Token::Kind::word) && contains(known, token_.text) && (block || !kind_of(token_.text))) {
       const Token keyword = token_;
-      std::optional<Place>& earlier = given[index_in(known, keyword.text)];
-      if (earlier && !contains(repeatable, keyword.text)) {
+      std::optional<Place>& earlier = given[static_cast<std::size_t>(std::find(known.begin(), known.end(), keyword.text) - known.begin())];
+      line_begins = kind_of(keyword.text).has_value();  // an operand reads the end of its line, too
+      if (earlier && !line_begins && !is_repeatable(keyword.text)) {
         error(keyword.place, quoted(keyword.text) + " is given twice; the first one stands at " + to_string(*earlier));
       }
       earlier = keyword.place;
       next();
       clause(keyword);
+    } else if (!block && at(Token::Kind::word) && contains(known, token_.text)) {
+      error(token_.place, "operands stand in a block; expected '{' before " + quoted(token_.text));
+      skip_statement();
     } else if (block && first_of_line && at(Token::Kind::word) && contains(statements, token_.text)) {
       return error(token_.place, "expected '}' before " + quoted(token_.text) + ", to close the block that begins at " + to_string(*block));
     } else {
@@ -228,42 +142,66 @@ void Parser::camera(SceneSyntax& out) {
   out.cameras.push_back(std::move(syntax));
 }
 
-void Parser::object(Kind kind, std::vector<Item>& out) {
+// Nothing when there is no name. `depth`: unions, intersections and differences around it.
+std::optional<ObjectSyntax> Parser::object(Kind kind, std::size_t depth) {
   const std::size_t before = errors_.count();
   ObjectSyntax syntax;
   syntax.kind = kind;
   if (!name(to_string(kind), syntax.name)) {
     skip_statement();
+    expect_end_of_line();
+    return std::nullopt;
+  }
+  clauses(to_string(kind), clause_words(kind), [&](const Token& keyword) {
+    if (const auto operand_kind = kind_of(keyword.text)) {
+      operand(*operand_kind, syntax, depth + 1);
+    } else {
+      object_clause(keyword, syntax);
+    }
+  });
+  if (errors_.count() == before) { require_clauses(syntax, depth > 0); }
+  syntax.sound = errors_.count() == before;
+  return syntax;
+}
+
+void Parser::operand(Kind kind, ObjectSyntax& out, std::size_t depth) {
+  if (depth >= max_use_depth) {
+    error(token_.place, "unions, intersections and differences are nested deeper than " + std::to_string(max_use_depth));
+    skip_statement();
     return expect_end_of_line();
   }
-  clauses(to_string(kind), words_of(kind), [&](const Token& keyword) { object_clause(keyword, syntax); });
+  if (auto read = object(kind, depth)) { out.operands.push_back(std::move(*read)); }
+}
+
+// What each kind of object cannot be without. Operands may get their material from around.
+void Parser::require_clauses(const ObjectSyntax& object, bool operand) {
+  const Kind kind = object.kind;
   const auto require = [&](bool given, std::string_view what) {
     if (!given) {
-      error(syntax.name.place, std::string(to_string(kind)) + " " + quoted(syntax.name.text) + " has no " + std::string(what));
+      error(object.name.place, std::string(to_string(kind)) + " " + quoted(object.name.text) + " has no " + std::string(what));
     }
   };
-  if (errors_.count() == before) {
-    if (kind == Kind::box) {
-      require(syntax.from.has_value(), "'from'");
-      require(syntax.to.has_value(), "'to'");
-    }
-    const auto is_one_of = [kind](std::initializer_list<Kind> list) { return std::find(list.begin(), list.end(), kind) != list.end(); };
-    if (is_one_of({Kind::sphere, Kind::disk, Kind::torus, Kind::superquadric})) { require(syntax.center.has_value(), "'center'"); }
-    if (is_one_of({Kind::cylinder, Kind::cone})) { require(syntax.base.has_value(), "'base'"); }
-    if (is_one_of({Kind::cylinder, Kind::cone, Kind::torus})) { require(syntax.axis.has_value(), "'axis'"); }
-    if (kind == Kind::disk) { require(syntax.normal.has_value(), "'normal'"); }
-    if (is_one_of({Kind::sphere, Kind::disk, Kind::cylinder, Kind::cone, Kind::torus})) { require(syntax.radius.has_value(), "'radius'"); }
-    if (kind == Kind::torus) { require(syntax.tube.has_value(), "'tube'"); }
-    if (kind == Kind::superquadric) {
-      require(syntax.radii.has_value(), "'radii'");
-      require(syntax.exponents.has_value(), "'exponents'");
-    }
-    if (kind == Kind::polygon || kind == Kind::mesh) { require(!syntax.vertices.empty(), "'vertex'"); }
-    if (kind == Kind::mesh) { require(!syntax.faces.empty(), "'face'"); }
-    require(syntax.material.has_value() || !syntax.sheets.empty(), "'material'");
+  const auto is_one_of = [kind](std::initializer_list<Kind> list) { return std::find(list.begin(), list.end(), kind) != list.end(); };
+  if (is_one_of({Kind::unite, Kind::intersection, Kind::difference})) {
+    return require(!object.operands.empty(), "operands; expected solids between '{' and '}'");
   }
-  syntax.sound = errors_.count() == before;
-  out.emplace_back(std::move(syntax));
+  if (kind == Kind::box) {
+    require(object.from.has_value(), "'from'");
+    require(object.to.has_value(), "'to'");
+  }
+  if (is_one_of({Kind::sphere, Kind::disk, Kind::torus, Kind::superquadric})) { require(object.center.has_value(), "'center'"); }
+  if (is_one_of({Kind::cylinder, Kind::cone})) { require(object.base.has_value(), "'base'"); }
+  if (is_one_of({Kind::cylinder, Kind::cone, Kind::torus})) { require(object.axis.has_value(), "'axis'"); }
+  if (kind == Kind::disk) { require(object.normal.has_value(), "'normal'"); }
+  if (is_one_of({Kind::sphere, Kind::disk, Kind::cylinder, Kind::cone, Kind::torus})) { require(object.radius.has_value(), "'radius'"); }
+  if (kind == Kind::torus) { require(object.tube.has_value(), "'tube'"); }
+  if (kind == Kind::superquadric) {
+    require(object.radii.has_value(), "'radii'");
+    require(object.exponents.has_value(), "'exponents'");
+  }
+  if (kind == Kind::polygon || kind == Kind::mesh) { require(!object.vertices.empty(), "'vertex'"); }
+  if (kind == Kind::mesh) { require(!object.faces.empty(), "'face'"); }
+  if (!operand) { require(object.material.has_value() || !object.sheets.empty(), "'material'"); }
 }
 
 void Parser::use(std::vector<Item>& out) {
@@ -309,10 +247,10 @@ void Parser::group(SceneSyntax& out) {
       next();
     } else if (found.kind == Token::Kind::word && (kind || found.text == "use")) {
       next();
-      if (kind) {
-        object(*kind, syntax.items);
-      } else {
+      if (!kind) {
         use(syntax.items);
+      } else if (auto read = object(*kind)) {
+        syntax.items.emplace_back(std::move(*read));
       }
     } else if (found.kind == Token::Kind::word && contains(statements, found.text)) {
       error(found.place, quoted(found.text) +

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Reads tokens into statements. The grammar (examples/scenes/README.md) needs one token of look-ahead and two levels
-// of braces, so the parser is a loop, not a recursion: a million open braces cost no stack.
+// Reads tokens into statements. The grammar (examples/scenes/README.md) needs one token of look-ahead. Braces of groups and clauses are
+// loops, so a million of them cost no stack; operands of unions, intersections and differences are read by recursion, 64 deep at most.
 //
 // Recovery: after an error the rest of the line is skipped; inside a block reading goes on with the next line. An
 // unexpected block is skipped to its closing brace. A word that can only begin a statement, at the beginning of a
 // line inside a block, shows that a closing brace is missing.
 
+#include <cstddef>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,7 +31,7 @@ class Parser {
   void material(SceneSyntax& out);
   void camera(SceneSyntax& out);
   void group(SceneSyntax& out);
-  void object(Kind kind, std::vector<Item>& out);
+  [[nodiscard]] std::optional<ObjectSyntax> object(Kind kind, std::size_t depth = 0);
   void use(std::vector<Item>& out);
   void unknown_statement();
 
@@ -39,6 +41,8 @@ class Parser {
   void material_clause(const Token& keyword, MaterialSyntax& out);
   void camera_clause(const Token& keyword, CameraSyntax& out);
   void object_clause(const Token& keyword, ObjectSyntax& out);
+  void operand(Kind kind, ObjectSyntax& out, std::size_t depth);
+  void require_clauses(const ObjectSyntax& object, bool operand);
   void sheet_clause(ObjectSyntax& out);
   void face_clause(const Token& keyword, ObjectSyntax& out);
   void length_clause(const Token& keyword, std::optional<Placed<double>>& out);

@@ -182,9 +182,13 @@ Shape make_shape(const ObjectSyntax& syntax, Errors& errors) {
     case Kind::superquadric:
       return make_superquadric(syntax, errors);
     case Kind::mesh:
-      break;
+      return make_mesh(syntax, errors);
+    case Kind::unite:
+    case Kind::intersection:
+    case Kind::difference:
+      break;  // make_csg
   }
-  return make_mesh(syntax, errors);
+  return nullptr;
 }
 
 }  // namespace apps::scene_file

@@ -44,7 +44,7 @@ struct CameraSyntax {
   bool sound = true;
 };
 
-enum class Kind { polygon, disk, box, sphere, cylinder, cone, torus, superquadric, mesh };
+enum class Kind { polygon, disk, box, sphere, cylinder, cone, torus, superquadric, mesh, unite, intersection, difference };
 [[nodiscard]] std::string_view to_string(Kind kind);
 
 struct SheetSyntax {
@@ -67,13 +67,15 @@ struct ObjectSyntax {
   raycast::Placement placement;
   std::optional<Place> inside;
   // box: from, to; sphere: center, radius; disk: center, normal, radius; cylinder: base, axis, radius; cone: base, axis, radius, top;
-  // torus: center, axis, radius, tube; superquadric: center, radii, exponents, ring; polygon: vertices; mesh: vertices, faces
+  // torus: center, axis, radius, tube; superquadric: center, radii, exponents, ring; polygon: vertices; mesh: vertices, faces;
+  // unite, intersection, difference: operands
   std::optional<Placed<glm::dvec3>> from, to, center, base, axis, normal, radii;
   std::optional<Placed<double>> radius, top, tube, ring;
   std::optional<Placed<std::array<double, 2>>> exponents;
   std::vector<Placed<glm::dvec3>> vertices;
   std::vector<std::uint32_t> corners;
   std::vector<FaceSyntax> faces;
+  std::vector<ObjectSyntax> operands;
 };
 
 struct UseSyntax {

@@ -110,10 +110,10 @@ class Mesh final : public Object {
     }
   }
 
-  [[nodiscard]] double crossing(const Segment& line, std::uint32_t sheet) const override {
+  [[nodiscard]] Crossing crossing(const Segment& line, std::uint32_t face) const override {
     double shift = 0.0;
     const Segment near = nearer(line, shift);
-    return shift + crossing_near(near, sheet);
+    return {shift + crossing_near(near, face), face};
   }
 
   // The mesh itself, whatever the tolerance; each border loop is closed by one face of brep::no_sheet.

@@ -53,6 +53,21 @@ std::vector<Case> cases() {
       {g + "sphere s { center 0 0 0 { radius 1 } material grey }\n", 2, 25, "inside the block that begins at 2:10"},
       {g + "sphere s { center 0 0 0 radius 1 material grey } inside\n", 2, 50, "expected the end of the line, found 'inside'"},
       {g + "sphere s center 0 0 0 radius 1 material grey }\n", 2, 46, "without an open block"},
+      // unions, intersections, differences
+      {g + "union u material grey\n" + ball, 2, 7, "union 'u' has no operands"},
+      {g + "difference d material grey {\n}\n", 2, 12, "expected solids between '{' and '}'"},
+      {g + "union u material grey box b from 0 0 0 to 1 1 1\n", 2, 23, "operands stand in a block; expected '{' before 'box'"},
+      {g + "union u {\n box b from 0 0 0 to 1 1 1\n}\n", 3, 6, "'b' has no material, and nothing around it has one"},
+      {g + "union u material grey {\n polygon p {\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1 0\n }\n}\n", 3, 10, "has no inside"},
+      {g + "union u material grey {\n box b from 0 0 0 to 1 1 1 inside\n}\n", 3, 28, "'inside' cannot stand at an operand"},
+      {g + "union u material grey {\n sphere b center 0 0 0 radius 1\n box b from 0 0 0 to 1 1 1\n}\n", 4, 6, "'b' is taken"},
+      {g + "union u material grey {\n sphere b center 0 0 0\n}\n", 3, 9, "sphere 'b' has no 'radius'"},
+      {g + "union u material grey {\n sphere b center 0 0 0 radius 1 material gray\n}\n", 3, 42, "did you mean 'grey'?"},
+      {g + "union u material grey {\n sphere b center 0 0 0 radius 1\n use a as b\n}\n", 4, 2, "expected '}' before 'use'"},
+      {g + "union u material grey {\n shpere b center 0 0 0 radius 1\n}\n", 3, 2, "did you mean 'sphere'?"},
+      {g + "union u material grey {\n sphere b center 0 0 0 radius 1\n", 4, 1, "to close the block that begins at 2:23"},
+      {g + "intersection i material grey {\n box a from 0 0 0 to 1 1 1\n box b from 2 0 0 to 3 1 1\n}\n", 2, 14, "nothing is left"},
+      {g + "difference d material grey {\n box a from 0 0 0 to 1 1 1\n box b from 0 0 0 to 1 1 1\n}\n", 2, 12, "nothing is left"},
       // objects
       {g + "sphere s center 0 0 radius 1 material grey\n", 2, 21, "'center' takes 3 numbers; expected number 3, found 'radius'"},
       {g + "sphere s center 0 0 0 0 radius 1 material grey\n", 2, 23, "found one more"},
@@ -172,4 +187,16 @@ TEST_CASE("reading goes on after an error, in the order of the file, up to a lim
   CHECK(many.errors.size() == apps::max_errors);
   CHECK(many.more_errors);
   CHECK(apps::to_text(many, "x").find("given up after 20 errors") != std::string::npos);
+}
+
+TEST_CASE("unions nested beyond the limit are refused once, however deep they are") {
+  for (const int depth : {65, 100'000}) {
+    std::string text = grey;
+    for (int i = 0; i < depth; ++i) text += "union u material grey {\n";
+    text += "box b from 0 0 0 to 1 1 1\n";
+    for (int i = 0; i < depth; ++i) text += "}\n";
+    const apps::SceneResult result = apps::parse_scene(text);
+    REQUIRE(result.errors.size() == 1);
+    CHECK(result.errors[0].sentence.find("nested deeper than 64") != std::string::npos);
+  }
 }

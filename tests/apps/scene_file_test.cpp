@@ -77,6 +77,36 @@ TEST_CASE("sheets have materials of their own, by name or by number, given befor
   for (std::uint32_t i = 0; i < 3; ++i) { CHECK(cylinder.material[i] == (cylinder.shape->sheet_name(i) == "side" ? 1U : 0U)); }
 }
 
+TEST_CASE("leaves of unions, intersections and differences keep their materials, or take that of what is around them") {
+  const auto file = parsed(grey +
+                           "material red reflectance 0.6 0 0\n"
+                           "difference wall material grey move 0 0 5 {\n"
+                           "  box slab from 0 0 0 to 4 1 3 { sheet y1 material red\n material grey }\n"
+                           "  union holes material red {\n"
+                           "    box window from 1 -1 1 to 2 2 2\n"
+                           "    cylinder eye base 3 -1 2 axis 0 3 0 radius 0.4 material grey\n"
+                           "    move 0.5 0 0\n"
+                           "  }\n"
+                           "}\n");
+  REQUIRE(file.scene.objects.size() == 1);
+  const auto& wall = file.scene.objects[0];
+  CHECK(file.origins[0].kind == "difference");
+  CHECK(wall.placement.translation == glm::dvec3(0.0, 0.0, 5.0));
+  CHECK(wall.shape->bounds().hi == glm::dvec3(4.0, 1.0, 3.0));
+  std::string sheets;
+  for (std::uint32_t i = 0; i < wall.shape->sheet_count(); ++i) {
+    sheets += std::string(wall.shape->sheet_name(i)) + (wall.material[i] == 0 ? " grey, " : " red, ");
+  }
+  CHECK(sheets ==
+        "slab.x0 grey, slab.x1 grey, slab.y0 grey, slab.y1 red, slab.z0 grey, slab.z1 grey, "
+        "holes.window.x0 red, holes.window.x1 red, holes.window.y0 red, holes.window.y1 red, holes.window.z0 red, holes.window.z1 red, "
+        "holes.eye.side grey, holes.eye.bottom grey, holes.eye.top grey, ");
+  // The placement of the union of holes stays within the tree: the window begins at x = 1.5.
+  const auto left = wall.shape->project(6, {0.0, 0.0, 0.0});
+  CHECK(left.position.x == 1.5);
+  CHECK(left.normal.x == 1.0);  // into the hole
+}
+
 TEST_CASE("placement clauses act in the order of the file, about the origin of the scene") {
   const auto file = parsed(grey +
                            "box a from 0 0 0 to 1 1 1 material grey move 2 0 0 rotate 0 0 1 90 scale 1 2 3\n"
@@ -162,6 +192,6 @@ TEST_CASE("the example in the README of the scenes is sound") {
   const std::size_t end = readme.find("## Grammar");
   REQUIRE(begin < end);
   const auto file = parsed(readme.substr(begin, end - begin));
-  CHECK(file.scene.objects.size() == 13);
+  CHECK(file.scene.objects.size() == 14);
   CHECK(file.scene.objects.back().name == "second.back");
 }

@@ -8,6 +8,7 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/conditions.hpp>
+#include <brep/csg/csg.hpp>
 #include <brep/diagnosis.hpp>
 #include <brep/dual.hpp>
 #include <brep/edge_uses.hpp>

@@ -61,7 +61,7 @@ TEST_CASE("segments of a pair are occluded as its list says, from whichever ance
       std::uint32_t index = OccluderLists::none;
       raycast::OccluderList list;
       for (std::uint64_t up = random.bits() % 6 + 1; up-- > 0 && !list.blocked();) {
-        list = lists.of(ancestor(nodes, p, up), ancestor(nodes, q, up), index, r.prepared.objects, patches);
+        list = lists.of(ancestor(nodes, p, up), ancestor(nodes, q, up), index, r.prepared.objects, r.prepared.plan, patches);
         if (!list.blocked()) { index = lists.keep(list, index); }
       }
       if (!list.blocked()) { list = lists[index]; }

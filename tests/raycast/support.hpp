@@ -63,6 +63,7 @@ inline raycast::Placement room(const glm::dmat3& linear = glm::dmat3(1.0), const
 }
 template <class T>
 raycast::PlacedObject placed(const raycast::Made<T>& made, const raycast::Placement& placement = {}) {
+  INFO(made.refusal);
   REQUIRE(made);
   REQUIRE_FALSE(raycast::check(*made, placement));
   return raycast::PlacedObject(made.object, placement);

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include "apps/commands/mesh.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include <brep/statistics.hpp>
+#include <radiosity/surface.hpp>
+
+#include "apps/commands/common.hpp"
+#include "apps/files.hpp"
+#include "apps/json.hpp"
+#include "apps/mesh_file.hpp"
+#include "apps/version.hpp"
+
+namespace apps {
+namespace {
+
+struct Measure {
+  std::size_t vertices = 0, edges = 0, faces = 0, shells = 0, borders = 0;
+  long genus = 0;
+  double area = 0.0;
+  std::optional<double> volume;  // of the closed shells; nothing when there is none
+
+  Measure& operator+=(const Measure& other) {
+    vertices += other.vertices, edges += other.edges, faces += other.faces, shells += other.shells, borders += other.borders;
+    genus += other.genus;
+    area += other.area;
+    if (other.volume) { volume = volume.value_or(0.0) + *other.volume; }
+    return *this;
+  }
+  [[nodiscard]] long euler() const { return static_cast<long>(vertices) - static_cast<long>(edges) + static_cast<long>(faces); }
+};
+
+// The faces of a surface that belong to a sheet, and the vertices that they use.
+brep::Builder radiating(const radiosity::Surface& surface) {
+  brep::Builder out;
+  const radiosity::SurfaceBRep& brep = surface.brep;
+  std::vector<std::uint32_t> number(brep.vertex_end(), brep::invalid_index);
+  std::vector<std::uint32_t> corners;
+  for (const brep::FaceId f : brep::faces(brep)) {
+    if (brep.data(f).sheet == brep::no_sheet) { continue; }
+    corners.clear();
+    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
+      const brep::VertexId v = brep.vertex(h);
+      if (number[v.index] == brep::invalid_index) { number[v.index] = out.vertex(brep.data(v).position); }
+      corners.push_back(number[v.index]);
+    }
+    out.face(corners, brep.data(f).sheet);
+  }
+  return out;
+}
+
+Measure measure(const brep::Builder& mesh) {
+  Measure result;
+  const brep::Statistics statistics = brep::statistics(mesh);
+  for (const brep::Component& c : statistics.components) {
+    result += {c.vertices, c.edges, c.faces, 1, c.borders, c.genus.value_or(0), 0.0, c.volume};
+  }
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    std::vector<glm::dvec3> corners;
+    for (const std::uint32_t v : mesh.corners(f)) { corners.push_back(mesh.position(v)); }
+    result.area += brep::area(corners);
+  }
+  return result;
+}
+
+void append(brep::Builder& out, const brep::Builder& part) {
+  const std::uint32_t first = out.vertex_count();
+  for (std::uint32_t v = 0; v < part.vertex_count(); ++v) { out.vertex(part.position(v)); }
+  std::vector<std::uint32_t> corners;
+  for (std::uint32_t f = 0; f < part.face_count(); ++f) {
+    corners.assign(part.corners(f).begin(), part.corners(f).end());
+    for (std::uint32_t& v : corners) { v += first; }
+    out.face(corners, part.sheet(f));
+  }
+}
+
+struct SceneMesh {
+  brep::Builder builder;
+  std::vector<MeshGroup> groups;  // one an object
+  std::vector<Measure> measures;  // one an object
+  Measure total;
+};
+
+std::optional<SceneMesh> make_mesh(const SceneFile& file, const std::string& name) {
+  SceneMesh result;
+  bool sound = true;
+  for (const radiosity::SceneObject& object : file.scene.objects) {
+    const raycast::PlacedObject placed(object.shape, object.placement);
+    const radiosity::SurfaceResult made = radiosity::make_surface(placed, 0);
+    if (!made.surface) {
+      std::fprintf(stderr, "%s: error: object '%s': %s\n", name.c_str(), object.name.c_str(), made.fault.c_str());
+      sound = false;
+      continue;
+    }
+    const brep::Builder part = radiating(*made.surface);
+    result.groups.push_back({result.builder.face_count(), object.name});
+    result.measures.push_back(measure(part));
+    result.total += result.measures.back();
+    append(result.builder, part);
+  }
+  return sound ? std::optional(std::move(result)) : std::nullopt;
+}
+
+std::string number(double x) {
+  char text[40] = "";
+  std::snprintf(text, sizeof text, "%.9g", x);
+  return text;
+}
+
+std::string row(const std::string& name, const Measure& m, std::size_t width, bool room) {
+  std::string line = "  " + name + std::string(width - name.size(), ' ');
+  const auto cell = [&line](const std::string& text, std::size_t size) {
+    line += std::string(size > text.size() ? size - text.size() : 1, ' ') + text;
+  };
+  cell(std::to_string(m.vertices), 10);
+  cell(std::to_string(m.edges), 10);
+  cell(std::to_string(m.faces), 10);
+  cell(std::to_string(m.euler()), 9);
+  cell(std::to_string(m.shells), 8);
+  cell(std::to_string(m.borders), 9);
+  cell(std::to_string(m.genus), 7);
+  cell(number(m.area), 15);
+  cell(m.volume ? number(*m.volume) : "-", 15);
+  return line + (room ? "  (seen from inside)\n" : "\n");
+}
+
+std::string to_text(const SceneFile& file, const SceneMesh& mesh, const MeshOptions& options) {
+  constexpr std::size_t most = 200;  // lines of the list
+  std::size_t width = 6;
+  const std::size_t shown = std::min(most, mesh.measures.size());
+  for (std::size_t i = 0; i < shown; ++i) { width = std::max(width, file.scene.objects[i].name.size()); }
+  std::string text = options.scene + "\n  object" + std::string(width - 6, ' ') +
+                     "  vertices     edges     faces    v-e+f  shells  borders  genus           area         volume\n";
+  for (std::size_t i = 0; i < shown; ++i) {
+    text += row(file.scene.objects[i].name, mesh.measures[i], width, file.scene.objects[i].placement.inside);
+  }
+  if (shown < mesh.measures.size()) { text += "  ... and " + std::to_string(mesh.measures.size() - shown) + " more; --json has all\n"; }
+  text += row("total", mesh.total, width, false);
+  return text + (options.output.empty() ? "" : "written: " + options.output + "\n");
+}
+
+void write(JsonWriter& json, const Measure& m) {
+  json.key("vertices").count(m.vertices);
+  json.key("edges").count(m.edges);
+  json.key("faces").count(m.faces);
+  json.key("shells").count(m.shells);
+  json.key("borders").count(m.borders);
+  json.key("genus").number(static_cast<double>(m.genus));
+  json.key("area").number(m.area);
+  json.key("volume");
+  m.volume ? json.number(*m.volume) : json.null();
+}
+
+std::string to_json(const SceneFile& file, const SceneMesh& mesh, const MeshOptions& options) {
+  JsonWriter json;
+  json.open_object();
+  json.key("program").string("halflight");
+  json.key("version").string(version);
+  json.key("scene").string(options.scene);
+  json.key("objects").open_array();
+  for (std::size_t i = 0; i < mesh.measures.size(); ++i) {
+    json.open_object();
+    json.key("name").string(file.scene.objects[i].name);
+    json.key("kind").string(file.origins[i].kind);
+    json.key("inside").boolean(file.scene.objects[i].placement.inside);
+    write(json, mesh.measures[i]);
+    json.close();
+  }
+  json.close();
+  json.key("total").open_object();
+  write(json, mesh.total);
+  json.close();
+  json.key("files").open_array();
+  if (!options.output.empty()) { json.string(options.output); }
+  json.close();
+  json.close();
+  return json.text();
+}
+
+// Outputs that cannot become files are refused before any work.
+ExitCode check_outputs(const MeshOptions& options) {
+  if (!options.output.empty() && !mesh_format(options.output)) {
+    complain("--output " + options.output + ": expected a name that ends with .obj, .ply or .off");
+    return ExitCode::usage;
+  }
+  std::vector<std::string> paths;
+  if (!options.output.empty()) { paths.push_back(options.output); }
+  if (options.json && !options.json->empty()) { paths.push_back(*options.json); }
+  for (const std::string& path : paths) {
+    const auto same = [&](const std::string& other) { return resolved(path) == resolved(other); };
+    if (same(options.scene) || (&path != &paths[0] && same(paths[0]))) {
+      complain(path + (same(options.scene) ? " is the scene itself" : " is named twice") + "; each output needs a file of its own");
+      return ExitCode::usage;
+    }
+    if (const auto fault = check_writable(path)) {
+      complain(*fault);
+      return ExitCode::failure;
+    }
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void describe(CLI::App& command, MeshOptions& options) {
+  command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
+  command.add_option("-o,--output", options.output, "where to write the mesh: .obj, .ply or .off")->type_name("FILE");
+  command.add_option("--json", options.json, "the numbers as JSON: into FILE, or in place of the text")
+      ->type_name("[FILE]")
+      ->expected(0, 1);
+}
+
+ExitCode run(const MeshOptions& options) {
+  ExitCode code = check_outputs(options);
+  if (code != ExitCode::ok) { return code; }
+  const auto file = load_scene(options.scene, code);
+  if (!file) { return code; }
+  const auto mesh = make_mesh(*file, options.scene);
+  if (!mesh) { return ExitCode::invalid_input; }
+  const bool json_file = options.json && !options.json->empty();
+  const auto write = [](const std::string& path, const std::string& bytes) {
+    const auto fault = write_file(path, bytes);
+    if (fault) { complain(*fault); }
+    return !fault;
+  };
+  if (!options.output.empty() && !write(options.output, write_mesh(mesh->builder, *mesh_format(options.output), mesh->groups))) {
+    return ExitCode::failure;
+  }
+  if (json_file && !write(*options.json, to_json(*file, *mesh, options))) { return ExitCode::failure; }
+  std::fputs((options.json && !json_file ? to_json(*file, *mesh, options) : to_text(*file, *mesh, options)).c_str(), stdout);
+  if (std::fflush(stdout) != 0) {
+    complain("cannot write to standard output");
+    return ExitCode::failure;
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace apps

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Unions, intersections and differences. A file of its own: no other one needs brep/csg.
+#include <raycast/objects/csg.hpp>
+
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "apps/scene_file/shapes.hpp"
+
+namespace apps::scene_file {
+namespace {
+
+class Operands {
+ public:
+  Operands(CsgShape& out, Errors& errors) : out_(out), errors_(errors) {}
+
+  // The tree of the statement; without solid or parts after an error. It is at most max_use_depth deep. Leaves are called by the way to
+  // them; `prefix` is the part of it above the statement.
+  raycast::CsgNode node(const ObjectSyntax& syntax, const std::string& prefix, bool root) {
+    raycast::CsgNode result;
+    result.name = prefix + syntax.name.text;
+    if (!root) {
+      result.placement = syntax.placement;
+      if (syntax.inside) {
+        errors_.add(*syntax.inside, "'inside' cannot stand at an operand: " + quoted(syntax.name.text) +
+                                        " takes part as a solid; turn the outermost union, intersection or difference");
+      }
+      if (const auto sentence = raycast::check(result.placement)) {
+        errors_.add(syntax.name.place, quoted(syntax.name.text) + ": " + *sentence);
+      }
+    }
+    if (!is_csg(syntax.kind)) {
+      result.solid = make_shape(syntax, errors_);
+      out_.leaves.push_back(result.solid);
+      if (result.solid && !result.solid->solid()) {
+        errors_.add(syntax.name.place, quoted(syntax.name.text) + " has no inside; operands are closed solids");
+      }
+      return result;
+    }
+    result.operation = syntax.kind == Kind::unite          ? raycast::CsgOperation::unite
+                       : syntax.kind == Kind::intersection ? raycast::CsgOperation::intersect
+                                                           : raycast::CsgOperation::subtract;
+    std::unordered_map<std::string_view, Place> names;
+    for (const ObjectSyntax& operand : syntax.operands) {
+      const auto [earlier, is_new] = names.emplace(operand.name.text, operand.name.place);
+      if (!is_new) {
+        errors_.add(operand.name.place,
+                    "the name " + quoted(operand.name.text) + " is taken; the first one stands at " + to_string(earlier->second));
+      }
+      result.parts.push_back(node(operand, root ? std::string() : result.name + ".", false));
+    }
+    return result;
+  }
+
+ private:
+  CsgShape& out_;
+  Errors& errors_;
+};
+
+}  // namespace
+
+CsgShape make_csg(const ObjectSyntax& syntax, Errors& errors) {
+  CsgShape result;
+  const std::size_t before = errors.count();
+  const raycast::CsgNode tree = Operands(result, errors).node(syntax, {}, true);
+  if (errors.count() > before) { return result; }
+  auto made = raycast::Csg::make(tree);
+  if (!made) { errors.add(syntax.name.place, std::string(to_string(syntax.kind)) + " " + quoted(syntax.name.text) + ": " + made.refusal); }
+  result.whole = std::move(made.object);
+  return result;
+}
+
+}  // namespace apps::scene_file

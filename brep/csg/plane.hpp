@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Integer planes a x + b y + c z + d = 0, each kept once: equal planes have equal numbers, so coplanar is a comparison of numbers.
+//
+// Canonical: gcd(a, b, c, d) = 1 and the first of a, b, c that is not zero is positive. Bits, with |coordinates| < 2^25: a normal from
+// three points of the grid has |a|, |b|, |c| <= 2^53 and with it |d| < 2^80. An operation never makes a plane, therefore depth costs no
+// bits.
+//
+// A face names its plane together with the side to which it looks: `Side of a plane` = number * 2 + (1 when the face looks against the
+// canonical normal).
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <brep/csg/wide.hpp>
+#include <brep/handles.hpp>
+
+#ifdef __FAST_MATH__
+#error "the filter of brep/csg needs IEEE arithmetic: compile without -ffast-math"
+#endif
+
+namespace brep::csg {
+
+struct Plane {
+  std::array<std::int64_t, 3> n{};  // |n| <= 2^53
+  Int128 d = 0;                     // |d| < 2^80
+  std::array<double, 3> normal{};   // n itself: doubles hold 2^53
+  double offset = 0.0;              // d, rounded
+  double bound = 0.0;               // the filter's: see predicates.hpp
+
+  friend bool operator==(const Plane& p, const Plane& q) { return p.n == q.n && p.d == q.d; }
+};
+
+using PlaneNumber = std::uint32_t;
+
+struct OrientedPlane {
+  std::uint32_t code = invalid_index;
+
+  [[nodiscard]] PlaneNumber number() const { return code >> 1; }
+  [[nodiscard]] int sign() const { return (code & 1) != 0 ? -1 : 1; }  // of the face's normal against the canonical one
+  [[nodiscard]] OrientedPlane flipped() const { return {code ^ 1}; }
+  friend bool operator==(OrientedPlane, OrientedPlane) = default;
+};
+
+namespace detail {
+
+inline Int128 size(Int128 x) { return x < 0 ? -x : x; }
+inline Int128 gcd(Int128 x, Int128 y) {
+  x = size(x), y = size(y);
+  while (y != 0) {
+    if (x <= INT64_MAX && y <= INT64_MAX) {
+      std::uint64_t u = static_cast<std::uint64_t>(x), w = static_cast<std::uint64_t>(y);
+      while (w != 0) {
+        const std::uint64_t rest = u % w;
+        u = w, w = rest;
+      }
+      return static_cast<Int128>(u);
+    }
+    const Int128 rest = x % y;
+    x = y, y = rest;
+  }
+  return x;
+}
+
+}  // namespace detail
+
+class PlaneTable {
+ public:
+  [[nodiscard]] const Plane& operator[](PlaneNumber p) const { return planes_[p]; }
+  [[nodiscard]] std::size_t size() const { return planes_.size(); }
+
+  // The plane with this normal, not zero, and offset, looking where the normal points.
+  OrientedPlane insert(std::array<std::int64_t, 3> n, Int128 d) {
+    const Int128 divisor = detail::gcd(detail::gcd(n[0], n[1]), detail::gcd(n[2], d));
+    const bool flip = n[0] != 0 ? n[0] < 0 : n[1] != 0 ? n[1] < 0 : n[2] < 0;
+    Plane plane;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int64_t reduced = static_cast<std::int64_t>(n[i] / divisor);
+      plane.n[i] = flip ? -reduced : reduced;
+      plane.normal[i] = static_cast<double>(plane.n[i]);
+    }
+    plane.d = flip ? -(d / divisor) : d / divisor;
+    plane.offset = static_cast<double>(plane.d);
+    plane.bound = (std::abs(plane.normal[0]) + std::abs(plane.normal[1]) + std::abs(plane.normal[2])) * 0x1p-24;
+    if (2 * planes_.size() >= slots_.size()) grow();
+    std::uint32_t& slot = find(plane);
+    if (slot == invalid_index) {
+      slot = static_cast<std::uint32_t>(planes_.size());
+      planes_.push_back(plane);
+    }
+    return {2 * slot + (flip ? 1u : 0u)};
+  }
+
+ private:
+  static std::uint64_t hash(const Plane& p) {
+    std::uint64_t h = static_cast<std::uint64_t>(p.d) * 0x9e3779b97f4a7c15u;
+    for (std::int64_t x : p.n) h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(x)) * 0xbf58476d1ce4e5b9u;
+    return h ^ (h >> 32);
+  }
+  // The slot of the plane, or the free one where it belongs.
+  std::uint32_t& find(const Plane& plane) {
+    std::size_t i = hash(plane) & (slots_.size() - 1);
+    while (slots_[i] != invalid_index && !(planes_[slots_[i]] == plane)) i = (i + 1) & (slots_.size() - 1);
+    return slots_[i];
+  }
+  void grow() {
+    slots_.assign(slots_.empty() ? 64 : 2 * slots_.size(), invalid_index);
+    for (std::uint32_t p = 0; p < planes_.size(); ++p) find(planes_[p]) = p;
+  }
+
+  std::vector<Plane> planes_;
+  std::vector<std::uint32_t> slots_;  // open addressing, a power of two
+};
+
+}  // namespace brep::csg

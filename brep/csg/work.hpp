@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Both operands of one operation in one set of arrays, where they are cut along each other. The operands themselves stay as they are.
+//
+// The half-edges, faces and points of a come first, then those of b (turned inside out on request), then what the operation adds. A face
+// that was touched keeps its half-edges in a list; the others have them side by side. Faces are connected: a face that falls into pieces
+// becomes several.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <brep/csg/boundary.hpp>
+#include <brep/csg/predicates.hpp>
+
+namespace brep::csg::detail {
+
+struct WorkHalf {
+  std::uint32_t point, next, prev, twin, face;
+  PlaneNumber across;
+};
+
+struct WorkFace {
+  OrientedPlane plane;
+  std::uint32_t first = 0, count = 0;  // half-edges, or places in Work::lists
+  std::uint32_t attribute = 0;
+  bool of_b = false, listed = false;
+  Box box;
+};
+
+struct Work {
+  Predicates predicates;
+  std::vector<Point> points;
+  std::vector<WorkHalf> halves;
+  std::vector<WorkFace> faces;
+  std::vector<std::uint32_t> lists;
+  std::uint32_t faces_a = 0, halves_given = 0;
+
+  explicit Work(const PlaneTable& planes) : predicates(planes) {}
+
+  // Appends a boundary, turned inside out if `reversed`; its attributes are numbered from `attributes` on.
+  void add(const Boundary& b, bool of_b, bool reversed, std::uint32_t attributes) {
+    const auto p0 = static_cast<std::uint32_t>(points.size()), h0 = static_cast<std::uint32_t>(halves.size());
+    const auto f0 = static_cast<std::uint32_t>(faces.size());
+    points.insert(points.end(), b.points.begin(), b.points.end());
+    halves.resize(h0 + b.halves.size());
+    WorkHalf* const added = halves.data() + h0;
+    for (std::uint32_t h = 0; h < b.halves.size(); ++h) {
+      const Half& given = b.halves[h];
+      WorkHalf& half = added[h];
+      half.twin = h0 + given.twin, half.face = f0 + given.face, half.across = given.across;
+      if (reversed) {
+        half.point = p0 + b.halves[given.next].point;
+        half.prev = h0 + given.next;
+        added[given.next].next = h0 + h;
+      } else {
+        half.point = p0 + given.point;
+        half.next = h0 + given.next;
+        added[given.next].prev = h0 + h;
+      }
+    }
+    faces.reserve(f0 + b.faces.size());
+    for (const Face& f : b.faces) {
+      faces.push_back({reversed ? f.plane.flipped() : f.plane, h0 + f.first, f.count, attributes + f.attribute, of_b, false, f.box});
+    }
+    if (!of_b) faces_a = static_cast<std::uint32_t>(faces.size());
+    halves_given = static_cast<std::uint32_t>(halves.size());
+  }
+
+  [[nodiscard]] std::uint32_t half(const WorkFace& f, std::uint32_t i) const { return f.listed ? lists[f.first + i] : f.first + i; }
+  [[nodiscard]] std::uint32_t target(std::uint32_t h) const { return halves[halves[h].next].point; }
+  [[nodiscard]] const Plane& plane(const WorkFace& f) const { return predicates.plane(f.plane.number()); }
+  [[nodiscard]] const Point& from(std::uint32_t h) const { return points[halves[h].point]; }
+  [[nodiscard]] const Point& to(std::uint32_t h) const { return points[target(h)]; }
+
+  void link(std::uint32_t before, std::uint32_t after) {
+    halves[before].next = after;
+    halves[after].prev = before;
+  }
+};
+
+}  // namespace brep::csg::detail

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The boundary of a CSG tree as polygons: every leaf is approximated, brep/csg cuts and glues the approximations exactly, faces that are not
+// convex (a wall with windows) are cut by diagonals, and the vertices are put back from the grid onto the true sheets.
+//
+// Each face carries the sheet that it lies on, numbered as the tree numbers them. Putting back restores the coordinates that the user wrote:
+// a vertex of three planes is their common point, not the nearest point of the grid. Where chords of a curved sheet meet another one the
+// vertex moves to the curve in which the two sheets themselves meet. Where that would turn a sliver over, it stays on the chords.
+
+#include <brep/builder.hpp>
+#include <brep/csg/csg.hpp>
+#include <brep/geometry.hpp>
+#include <brep/split.hpp>
+
+#include "csg_tree.hpp"
+
+namespace raycast {
+
+struct CsgVertex {
+  glm::dvec3 position{0.0};
+};
+struct CsgFace {
+  std::uint32_t sheet = brep::no_sheet;
+};
+using CsgBRep = brep::BRep<CsgVertex, brep::NoData, CsgFace>;
+
+struct CsgBoundary {
+  CsgBRep brep;       // without faces when nothing is left
+  double off = 0.0;   // how far its vertices are off the sheets of their faces, at most
+  double near = 0.0;  // four cells of the coarsest grid: what is closer may have become one
+};
+struct CsgBoundaryResult {
+  std::optional<CsgBoundary> boundary;
+  std::string refusal;
+};
+
+namespace detail {
+
+// Moves p towards all planes at once: the shortest way to their common points; those beyond the third independent one are left out.
+inline glm::dvec3 towards(const glm::dvec3& p, const std::vector<SurfacePoint>& planes) {
+  glm::dvec3 axis[3], way(0.0);
+  int count = 0;
+  for (const SurfacePoint& plane : planes) {
+    glm::dvec3 n = plane.normal;
+    for (int i = 0; i < count; ++i) n -= glm::dot(n, axis[i]) * axis[i];
+    const double length = glm::length(n);
+    if (!(length > 1e-3)) continue;  // nearly parallel to what is there: its position along them is not known
+    axis[count] = n / length;
+    way += (glm::dot(plane.normal, plane.position - p - way) / length) * axis[count];
+    if (++count == 3) break;
+  }
+  return p + way;
+}
+
+// The rotation in a placement that keeps angles and does not mirror: what its first column and the plane of the first two say.
+inline std::optional<glm::dmat3> rotation_of(const glm::dmat3& m) {
+  const glm::dmat3 square = glm::transpose(m) * m;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (!(std::abs(square[i][j] - (i == j ? square[0][0] : 0.0)) <= 1e-12 * square[0][0])) return std::nullopt;
+  return m / std::copysign(std::sqrt(square[0][0]), glm::determinant(m));
+}
+
+class CsgEvaluation {
+ public:
+  using Solid = brep::csg::Solid<std::uint32_t>;
+
+  CsgEvaluation(const CsgTree& tree, double tolerance) : tree_(tree), tolerance_(tolerance) {}
+
+  CsgBoundaryResult run() {
+    CsgBoundary result;
+    if (!attempt(result.brep)) {  // what was finished in a frame of its own may not bear to be snapped again: all on one grid
+      nested_ = false;
+      refusal_.clear();
+      if (!attempt(result.brep)) return {std::nullopt, std::move(refusal_)};
+    }
+    for (const brep::FaceId f : brep::faces(result.brep))
+      for (const brep::HalfedgeId h : brep::halfedges_of(result.brep, f)) {
+        const glm::dvec3& p = result.brep.data(result.brep.vertex(h)).position;
+        result.off = std::max(result.off, glm::length(tree_.project(result.brep.data(f).sheet, p).position - p));
+      }
+    result.near = near_;
+    return {std::move(result), {}};
+  }
+
+ private:
+  bool attempt(CsgBRep& out) {
+    const Exact whole = evaluate(0);
+    return refusal_.empty() && finish(whole, out);
+  }
+
+  // A solid on a grid that is turned against the tree's coordinates.
+  struct Exact {
+    Solid solid;
+    glm::dmat3 frame{1.0};
+  };
+
+  // The frame of a node: that of the first leaf with flat sheets, so that faces which coincide there lie on the grid together.
+  [[nodiscard]] glm::dmat3 frame_of(std::uint32_t index) const {
+    const CsgTree::Node& node = tree_.nodes()[index];
+    for (const std::uint32_t part : node.parts) {
+      const glm::dmat3 frame = frame_of(part);
+      if (frame != glm::dmat3(1.0)) return frame;
+      if (tree_.nodes()[part].parts.empty() && leaf_of(part).solid.flat()) return frame;
+    }
+    if (!node.parts.empty() || !leaf_of(index).solid.flat()) return glm::dmat3(1.0);
+    return rotation_of(leaf_of(index).solid.placement().linear).value_or(glm::dmat3(1.0));
+  }
+  [[nodiscard]] const CsgTree::Leaf& leaf_of(std::uint32_t node) const { return tree_.leaves()[tree_.nodes()[node].leaf]; }
+  static bool same(const glm::dmat3& a, const glm::dmat3& b) {
+    double difference = 0.0;
+    for (int i = 0; i < 3; ++i) difference = std::max(difference, glm::length(a[i] - b[i]));
+    return difference < 1e-9;
+  }
+
+  // Parts on the node's own grid are leaves and inner nodes of the same frame; inner nodes of another frame are evaluated in theirs,
+  // finished, and snapped anew.
+  Exact evaluate(std::uint32_t index) {
+    Exact result{{}, frame_of(index)};
+    std::vector<Operand> operands;
+    collect(index, result.frame, operands);
+    if (!refusal_.empty()) return result;
+    Box box;
+    const glm::dmat3 back = glm::transpose(result.frame);
+    for (Operand& operand : operands)
+      for (const brep::VertexId v : brep::vertices(operand.mesh)) box.extend(back * operand.mesh.data(v).position);
+    const brep::csg::Grid grid(box.lo, box.hi);
+    near_ = std::max(near_, 4 * grid.spacing());
+    std::vector<Solid> solids(operands.size());
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+      const CsgBRep& mesh = operands[i].mesh;
+      auto made = brep::csg::make_solid<std::uint32_t>(
+          mesh, grid, [&](brep::VertexId v) { return back * mesh.data(v).position; }, [&](brep::FaceId f) { return mesh.data(f).sheet; });
+      if (!made) {
+        refusal_ = "'" + operands[i].name + "': " + made.refusal().sentence();
+        return result;
+      }
+      solids[i] = std::move(*made);
+    }
+    std::size_t next = 0;
+    result.solid = combine(index, result.frame, solids, next);
+    return result;
+  }
+
+  struct Operand {
+    CsgBRep mesh;  // in the tree's coordinates
+    std::string name;
+  };
+
+  // In the order in which combine() takes them.
+  void collect(std::uint32_t index, const glm::dmat3& frame, std::vector<Operand>& out) {
+    const CsgTree::Node& node = tree_.nodes()[index];
+    if (!refusal_.empty()) return;
+    if (node.parts.empty()) {
+      out.emplace_back();
+      const CsgTree::Leaf& leaf = tree_.leaves()[node.leaf];
+      out.back().name = tree_.sheet_name(leaf.first_sheet);
+      brep::Builder builder;
+      leaf.solid.approximate(tolerance_, builder);
+      auto closed = brep::close<CsgBRep>(fans(builder));
+      if (!closed.brep) {
+        refusal_ = "'" + out.back().name + "': its approximation is not a closed boundary: " + closed.defects.front().sentence;
+        return;
+      }
+      out.back().mesh = std::move(*closed.brep);
+      for (const brep::FaceId f : brep::faces(out.back().mesh)) out.back().mesh.data(f).sheet += leaf.first_sheet;
+    } else if (own_grid(index, frame)) {
+      out.emplace_back();
+      Exact part = evaluate(index);
+      if (refusal_.empty()) finish(part, out.back().mesh);
+      out.back().name = "a nested part";
+    } else {
+      for (const std::uint32_t part : node.parts) collect(part, frame, out);
+    }
+  }
+  // Convex faces of more than four corners as triangles: turned, they do not stay plane on the grid. Where they do, brep/csg unites them again.
+  static brep::Builder fans(const brep::Builder& polygons) {
+    brep::Builder result;
+    for (std::uint32_t v = 0; v < polygons.vertex_count(); ++v) result.vertex(polygons.position(v));
+    std::vector<glm::dvec3> positions;
+    for (std::uint32_t f = 0; f < polygons.face_count(); ++f) {
+      const std::span<const std::uint32_t> corners = polygons.corners(f);
+      positions.clear();
+      for (const std::uint32_t v : corners) positions.push_back(polygons.position(v));
+      if (corners.size() <= 4 || !brep::is_convex(positions)) {
+        result.face(corners, polygons.sheet(f));
+        continue;
+      }
+      for (std::size_t i = 2; i < corners.size(); ++i) result.face({corners[0], corners[i - 1], corners[i]}, polygons.sheet(f));
+    }
+    return result;
+  }
+  [[nodiscard]] bool own_grid(std::uint32_t index, const glm::dmat3& frame) const { return nested_ && !same(frame_of(index), frame); }
+
+  template <class Operation>
+  Solid apply(Operation&& operation, const Solid& a, const Solid& b) {
+    auto result = operation(a, b);
+    if (result) return std::move(*result);
+    if (refusal_.empty()) refusal_ = result.refusal().sentence();
+    return a;
+  }
+
+  // Two at a time, so that no solid takes part in more than log n operations.
+  template <class Operation>
+  Solid reduce(std::vector<Solid> parts, Operation&& operation) {
+    while (parts.size() > 1) {
+      std::vector<Solid> pairs;
+      for (std::size_t i = 0; i + 1 < parts.size(); i += 2) pairs.push_back(apply(operation, parts[i], parts[i + 1]));
+      if (parts.size() % 2 == 1) pairs.push_back(parts.back());
+      parts = std::move(pairs);
+    }
+    return parts[0];
+  }
+
+  Solid combine(std::uint32_t index, const glm::dmat3& frame, const std::vector<Solid>& solids, std::size_t& next) {
+    const CsgTree::Node& node = tree_.nodes()[index];
+    if (node.parts.empty()) return solids[next++];
+    std::vector<Solid> parts;
+    for (const std::uint32_t part : node.parts) {
+      const bool leaf = tree_.nodes()[part].parts.empty() || own_grid(part, frame);
+      parts.push_back(leaf ? solids[next++] : combine(part, frame, solids, next));
+    }
+    const auto unite = [](const Solid& a, const Solid& b) { return brep::csg::unite(a, b); };
+    if (node.operation == CsgOperation::unite) return reduce(std::move(parts), unite);
+    if (node.operation == CsgOperation::intersect)
+      return reduce(std::move(parts), [](const Solid& a, const Solid& b) { return brep::csg::intersect(a, b); });
+    if (parts.size() == 1) return parts[0];
+    const Solid away = reduce({parts.begin() + 1, parts.end()}, unite);
+    return apply([](const Solid& a, const Solid& b) { return brep::csg::subtract(a, b); }, parts[0], away);
+  }
+
+  // From the exact solid to convex faces on the true sheets, in the tree's coordinates.
+  bool finish(const Exact& exact, CsgBRep& out) {
+    out = brep::csg::to_brep<CsgBRep>(exact.solid);
+    for (const brep::VertexId v : brep::vertices(out)) out.data(v).position = exact.frame * out.data(v).position;
+    if (!cut_into_convex_parts(out)) return false;
+    put_back(out, near_);
+    return true;
+  }
+
+  bool cut_into_convex_parts(CsgBRep& brep) {
+    std::vector<brep::FaceId> concave;
+    for (const brep::FaceId f : brep::faces(brep))
+      if (!brep::is_convex(brep, f)) concave.push_back(f);
+    for (const brep::FaceId f : concave)
+      if (const auto parts = brep::split_until_convex(brep, f); !parts) {
+        refusal_ = "a face of '" + std::string(tree_.sheet_name(brep.data(f).sheet)) +
+                   "' is too thin to be cut into convex parts: " + parts.refusal().sentence();
+        return false;
+      }
+    return true;
+  }
+
+  // `near`: a vertex of flat sheets is moved no farther, because it is off them only by the grid.
+  void put_back(CsgBRep& brep, double near) {
+    std::vector<std::pair<brep::VertexId, glm::dvec3>> moved;
+    std::vector<brep::FaceId> slivers;
+    std::vector<std::uint32_t> sheets;
+    for (const brep::VertexId v : brep::vertices(brep)) {
+      sheets.clear();
+      bool curved = false;
+      for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) {
+        const std::uint32_t sheet = brep.data(brep.face(h)).sheet;
+        if (std::find(sheets.begin(), sheets.end(), sheet) == sheets.end()) sheets.push_back(sheet);
+        curved = curved || !tree_.flat_sheet(sheet);
+      }
+      std::sort(sheets.begin(), sheets.end());
+      const glm::dvec3 before = brep.data(v).position;
+      const glm::dvec3 after = onto(sheets, before);
+      if (!(glm::length(after - before) <= (curved ? 2 * tolerance_ : 0.0) + near)) continue;
+      brep.data(v).position = after;
+      if (curved) moved.push_back({v, before});
+    }
+    // Every round takes at least one vertex back, so this ends.
+    for (bool again = true; again;) {
+      again = false;
+      for (auto& [v, before] : moved) {
+        if (brep.data(v).position == before) continue;
+        bool turned = false;
+        for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) turned = turned || turned_over(brep, brep.face(h));
+        if (!turned) continue;
+        brep.data(v).position = before;
+        again = true;
+      }
+    }
+  }
+
+  [[nodiscard]] glm::dvec3 onto(const std::vector<std::uint32_t>& sheets, glm::dvec3 p) const {
+    std::vector<SurfacePoint> planes;
+    for (int round = 0; round < 8; ++round) {
+      const glm::dvec3 before = p;
+      planes.clear();
+      for (const std::uint32_t s : sheets) planes.push_back(tree_.project(s, p));
+      if (round > 0 || planes.size() > 1) p = towards(p, planes);
+      for (const std::uint32_t s : sheets) p = tree_.project(s, p).position;
+      if (p == before) break;
+    }
+    return p;
+  }
+
+  // Does the face look away from the side that its sheet looks to?
+  [[nodiscard]] bool turned_over(const CsgBRep& brep, brep::FaceId f) const {
+    const glm::dvec3 area = brep::vector_area(brep, f), centre = brep.data(brep.vertex(brep.halfedge(f))).position;
+    return !(glm::dot(area, tree_.project(brep.data(f).sheet, centre).normal) > 0.25 * glm::length(area));
+  }
+
+  const CsgTree& tree_;
+  double tolerance_, near_ = 0.0;
+  bool nested_ = true;
+  std::string refusal_;
+};
+
+}  // namespace detail
+
+// The boundary of the tree with chords within `tolerance` of curved sheets; no faces when nothing is left. Refused, with a sentence: what
+// make_solid of brep/csg refuses in a leaf (it crosses itself once it is snapped to the grid), faces too thin for the grid.
+[[nodiscard]] inline CsgBoundaryResult csg_boundary(const CsgTree& tree, double tolerance) {
+  return detail::CsgEvaluation(tree, tolerance).run();
+}
+
+}  // namespace raycast
