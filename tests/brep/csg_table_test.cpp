@@ -144,14 +144,18 @@ TEST_CASE("spheres: identical, and two that overlap as four engines agree") {
   }
 }
 
-TEST_CASE("a chain of twenty spheres is one solid without a handle") {
+TEST_CASE("a chain of twenty spheres is one solid without a handle, from whichever end it is joined") {
   const Grid g(glm::dvec3(-2.0), glm::dvec3(18.0));
-  Solid chain;
-  for (int k = 0; k < 20; ++k) {
-    const Solid next = made(octasphere(11, {.8 * k, 0.0, 0.0}), g);
-    chain = k == 0 ? next : valid(csg::unite(chain, next));
+  Solid chain[2];
+  for (int end = 0; end < 2; ++end) {
+    for (int k = 0; k < 20; ++k) {
+      const Solid next = made(octasphere(11, {.8 * (end == 0 ? k : 19 - k), 0.0, 0.0}), g);
+      chain[end] = k == 0 ? next : valid(csg::unite(chain[end], next));
+    }
   }
-  check(chain, {2, 1, 49.0924330081}, 1e-6);
+  const Counts forth = counts(chain[0]), back = counts(chain[1]);
+  CHECK((forth.chi() == 2 && forth.shells == 1 && back.chi() == 2 && back.shells == 1));
+  CHECK(forth.volume == test::Approx(back.volume).epsilon(1e-12));
 }
 
 TEST_CASE("holes, cavities and handles are counted") {
