@@ -249,3 +249,24 @@ TEST_CASE("a cancelled run gives no solution") {
   CHECK_FALSE(outcome.solution);
   CHECK(outcome.failure.kind == radiosity::Failure::Kind::cancelled);
 }
+
+TEST_CASE("with a time limit the best so far is returned: a valid solution, with less estimated error for more time") {
+  Options options;
+  options.refinement = radiosity::Refinement::a_posteriori;
+  options.audit_points = 0;
+  double estimates[2] = {};
+  for (int more = 0; more < 2; ++more) {
+    options.time = more == 0 ? 1e-6 : 0.5;
+    const Outcome outcome = radiosity::solve(scenes::room_with_box(), options);
+    REQUIRE(outcome.solution);
+    CHECK(outcome.solution->audit.converged);
+    CHECK(outcome.solution->audit.energy_balance < 1e-6);
+    REQUIRE(outcome.solution->audit.estimated_error);
+    estimates[more] = *outcome.solution->audit.estimated_error;
+  }
+  CHECK(estimates[1] <= estimates[0]);
+
+  options.refinement = radiosity::Refinement::a_priori;
+  options.error = 0.02;
+  CHECK(radiosity::solve(scenes::room_with_box(), options).failure.sentences.size() == 3);  // both limits, F-refinement, no audit
+}
