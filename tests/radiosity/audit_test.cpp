@@ -172,7 +172,7 @@ TEST_CASE("ground under a box is buried: it takes no part, and the ground beside
   CHECK(floor_area == test::Approx(0.91).margin(2e-3));
 }
 
-TEST_CASE("an error target is met, and a tighter one takes more links") {
+TEST_CASE("an error target is met, and a tighter one takes more links", "[slow]") {
   std::uint64_t links = 0;
   for (const double target : {0.1, 0.01}) {
     Options options;
