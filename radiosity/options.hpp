@@ -21,8 +21,7 @@ inline constexpr const char* name(Solver solver) {
   return names[static_cast<int>(solver)];
 }
 enum class Refinement { a_posteriori, a_priori };  // BF- and F-refinement (paper 4.4)
-inline constexpr const char* name(Refinement refinement) { return refinement == Refinement::a_priori ? "f" : "bf"; }
-enum class Reconstruction { weighted, simple };  // paper fig. 5; simple ignores the normals (figs. 6-8)
+enum class Reconstruction { weighted, simple };    // paper fig. 5; simple ignores the normals (figs. 6-8)
 
 struct Options {
   Refinement refinement = Refinement::a_priori;

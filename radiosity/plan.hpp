@@ -36,7 +36,7 @@ struct Plan {
   bool lossless = false;        // closed, lit, and nothing absorbs in some channel that is lit: no steady state
   std::uint32_t occluders = 0;  // objects that can stand between two patches
   std::vector<bool> outer;      // by object: the whole scene lies on one side of it, it blocks nothing
-  bool rooms_convex = true;     // nobody sees through the wall of a convex room
+  bool rooms_convex = true;     // every room is: nobody sees through the wall of a convex room
   std::vector<LeftOut> left_out;
 };
 

@@ -183,25 +183,33 @@ void describe(CLI::App& command, RenderOptions& options) {
       ->allow_extra_args(false);
   auto* error =
       command.add_option("--error", solver.error, "refine until the measured relative L2 error is at most this")->check(above_zero(1.0));
+  // BF-refinement is asked for by what ends it.
+  const auto bf = [&solver](const std::string&) { solver.refinement = radiosity::Refinement::a_posteriori; };
+  auto* target =
+      command
+          .add_option(
+              "--target", solver.target,
+              "BF-refinement (paper 4.4), split by the light that links carry, until the estimated relative L2 error is at most this")
+          ->check(above_zero(1.0))
+          ->each(bf)
+          ->excludes(error);
+  auto* time = command
+                   .add_option("--time", solver.time,
+                               "BF-refinement, what promises most first, for this many seconds; the audit and the picture come on top")
+                   ->check(above_zero(1e6))
+                   ->each(bf)
+                   ->excludes(error)
+                   ->excludes(target);
   command.add_option("--epsilon", solver.epsilon, "largest form factor of a link (default " + CLI::detail::to_string(solver.epsilon) + ")")
       ->check(above_zero(1.0))
-      ->excludes(error);
+      ->excludes(error)
+      ->excludes(target)
+      ->excludes(time);
   command.add_option("--min-area", solver.min_area, "smallest patch, relative to the area of the scene")
       ->check(above_zero(1.0))
-      ->excludes(error);
-  command
-      .add_option(
-          "--refinement", solver.refinement,
-          "f: split by form factors and by what lights do, before anything is solved; bf: split by the light that links carry (paper 4.4)")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, radiosity::Refinement>{{name(radiosity::Refinement::a_priori), radiosity::Refinement::a_priori},
-                                                       {name(radiosity::Refinement::a_posteriori), radiosity::Refinement::a_posteriori}}));
-  command.add_option("--target", solver.target, "bf: refine until the estimated relative L2 error is at most this (default 0.02)")
-      ->check(above_zero(1.0))
-      ->excludes(error);
-  command.add_option("--time", solver.time, "bf: refine, what promises most first, for this many seconds; the audit comes on top")
-      ->check(above_zero(1e6))
-      ->excludes(error);
+      ->excludes(error)
+      ->excludes(target)
+      ->excludes(time);
   command.add_option("--camera", options.camera, "camera of the scene (default: the first; without any, an automatic view)");
   command
       .add_option_function<std::string>(

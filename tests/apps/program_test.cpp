@@ -51,6 +51,21 @@ TEST_CASE("render draws the objects when asked to, and says so") {
   CHECK(report["wall_seconds"]["picture"].number() > 0.0);
 }
 
+TEST_CASE("a target or a time asks for BF-refinement, and the report says what ended it") {
+  const Place place;
+  const std::string arguments = "render " + scene("two_plates") + " -o a.png --json a.json --size 64x48 --audit 0";
+  const Run target = place.run(arguments + " --target 0.05");
+  INFO(target.err);
+  REQUIRE(target.code == 0);
+  CHECK(target.out.find("bf, estimate at most 0.05") != std::string::npos);
+  CHECK(json::parse(place.read("a.json"))["estimated_error"].number() <= 0.05);
+  const Run time = place.run(arguments + " --time 0.1");
+  REQUIRE(time.code == 0);
+  CHECK(time.out.find("until the time was used") != std::string::npos);
+  REQUIRE(place.run(arguments).code == 0);
+  CHECK(json::parse(place.read("a.json"))["estimated_error"].is_null());
+}
+
 TEST_CASE("quiet is quiet on stderr, the report stays") {
   const Place place;
   const Run run = place.run("render " + scene("two_plates") + " -o a.ply --audit 0 --quiet --solver jacobi --reconstruction simple");
@@ -69,15 +84,27 @@ TEST_CASE("info says what is in a scene") {
 
 TEST_CASE("wrong usage is exit code 2 and writes nothing") {
   const Place place;
-  for (const std::string& arguments :
-       {std::string(), std::string("--foo"), std::string("draw x"), std::string("render"), "render " + scene("room"),
-        "render " + scene("room") + " -o a.jpg", "render " + scene("room") + " -o a.png -o a.png",
-        "render " + scene("room") + " -o a.png --size 0x5", "render " + scene("room") + " -o a.png --size 5",
-        "render " + scene("room") + " -o a.png --epsilon nan", "render " + scene("room") + " -o a.png --epsilon 0",
-        "render " + scene("room") + " -o a.png --error 0.1 --epsilon 0.1", "render " + scene("room") + " -o a.png --error 0.1 --audit 0",
-        "render " + scene("room") + " -o a.png --camera none", "render " + scene("room") + " -o a.png --threads 0",
-        "render " + scene("room") + " -o a.png --exposure -1", "render " + scene("room") + " -o a.png --solver magic",
-        "render " + scene("room") + " -o a.png --method paint"}) {
+  for (const std::string& arguments : {std::string(),
+                                       std::string("--foo"),
+                                       std::string("draw x"),
+                                       std::string("render"),
+                                       "render " + scene("room"),
+                                       "render " + scene("room") + " -o a.jpg",
+                                       "render " + scene("room") + " -o a.png -o a.png",
+                                       "render " + scene("room") + " -o a.png --size 0x5",
+                                       "render " + scene("room") + " -o a.png --size 5",
+                                       "render " + scene("room") + " -o a.png --epsilon nan",
+                                       "render " + scene("room") + " -o a.png --epsilon 0",
+                                       "render " + scene("room") + " -o a.png --error 0.1 --epsilon 0.1",
+                                       "render " + scene("room") + " -o a.png --error 0.1 --audit 0",
+                                       "render " + scene("room") + " -o a.png --target 0.1 --epsilon 0.1",
+                                       "render " + scene("room") + " -o a.png --time 1 --target 0.1",
+                                       "render " + scene("room") + " -o a.png --time 0",
+                                       "render " + scene("room") + " -o a.png --camera none",
+                                       "render " + scene("room") + " -o a.png --threads 0",
+                                       "render " + scene("room") + " -o a.png --exposure -1",
+                                       "render " + scene("room") + " -o a.png --solver magic",
+                                       "render " + scene("room") + " -o a.png --method paint"}) {
     const Run run = place.run(arguments);
     INFO(arguments << "\n" << run.err);
     CHECK(run.code == 2);

@@ -6,24 +6,11 @@
 #include <numeric>
 #include <random>
 
+#include "csg_answers.hpp"
 #include "csg_random.hpp"
-#include "csg_solids.hpp"
-
-#include "catch.hpp"
 
 using namespace solids;
 using namespace brep;
-
-namespace {
-
-Solid valid(const Result<Solid>& result) {
-  INFO(result.refusal().sentence());
-  REQUIRE(result);
-  CHECK(faults(*result) == "");
-  return *result;
-}
-
-}  // namespace
 
 TEST_CASE("wide integers calculate as 128-bit integers do, and beyond them by their laws") {
   std::mt19937_64 random(7);

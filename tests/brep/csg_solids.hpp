@@ -23,6 +23,8 @@
 #include <brep/shells.hpp>
 #include <brep/validate.hpp>
 
+#include "box.hpp"
+
 namespace solids {
 
 struct Vertex {
@@ -35,17 +37,7 @@ using Mesh = brep::BRep<Vertex, brep::NoData, Face>;
 using Solid = brep::csg::Solid<std::uint32_t>;
 using brep::csg::Grid;
 
-inline brep::Builder box(const glm::dvec3& lo, const glm::dvec3& hi) {
-  brep::Builder b;
-  for (unsigned i = 0; i < 8; ++i) b.vertex({(i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y, (i & 4) != 0 ? hi.z : lo.z});
-  b.face({0, 2, 3, 1}, 0);
-  b.face({4, 5, 7, 6}, 1);
-  b.face({0, 1, 5, 4}, 2);
-  b.face({2, 6, 7, 3}, 3);
-  b.face({0, 4, 6, 2}, 4);
-  b.face({1, 3, 7, 5}, 5);
-  return b;
-}
+using shapes::box;
 // A prism over a simple polygon in the plane z = 0, counter-clockwise seen from above.
 inline brep::Builder prism(const std::vector<glm::dvec2>& outline, double z0, double z1) {
   brep::Builder b;

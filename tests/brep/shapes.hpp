@@ -15,6 +15,7 @@
 #include <brep/tag.hpp>
 #include <brep/validate.hpp>
 
+#include "box.hpp"
 #include "catch.hpp"
 
 namespace shapes {
@@ -29,17 +30,7 @@ using Mesh = brep::BRep<Vertex, brep::NoData, Face>;
 
 constexpr double pi = 3.14159265358979323846;
 
-inline brep::Builder cube_builder() {
-  brep::Builder b;
-  for (unsigned i = 0; i < 8; ++i) b.vertex({i & 1, i >> 1 & 1, i >> 2 & 1});
-  b.face({0, 2, 3, 1}, 0);
-  b.face({4, 5, 7, 6}, 1);
-  b.face({0, 1, 5, 4}, 2);
-  b.face({2, 6, 7, 3}, 3);
-  b.face({0, 4, 6, 2}, 4);
-  b.face({1, 3, 7, 5}, 5);
-  return b;
-}
+inline brep::Builder cube_builder() { return box(glm::dvec3(0.0), glm::dvec3(1.0)); }
 inline brep::Builder tetrahedron_builder() {
   brep::Builder b;
   b.vertex({0, 0, 0});
