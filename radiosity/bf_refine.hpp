@@ -292,7 +292,7 @@ class Deadline {
         [&](std::uint32_t p, std::uint32_t q) { return f_oracle(hierarchy[p], hierarchy[q], 1.0, min_area); },
         [](std::size_t, const raycast::OccluderList&, Decision&) {});
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (decisions[i] == Decision::drop || decisions[i] == Decision::hide) { continue; }
+      if (decisions[i] < first_seeing) { continue; }
       links.push_back({pairs[i].p, pairs[i].q});
       lists.push_back(pairs[i].list);
     }

@@ -10,6 +10,8 @@
 
 #include <raycast/scene.hpp>
 
+#include <radiosity/cluster_exchange.hpp>
+#include <radiosity/clusters.hpp>
 #include <radiosity/exchange.hpp>
 #include <radiosity/exposure.hpp>
 #include <radiosity/hierarchy.hpp>
@@ -57,18 +59,22 @@ struct LinkShape {
   End p, q;
 };
 
+// Pairs of points, in rounds of 16, for each link of a cluster: a mean over many faces that hide each other, so never few.
+inline constexpr std::uint32_t cluster_rounds = 4;
+
 // Evaluates links one by one.
 class LinkEvaluator {
  public:
-  // The references must outlive the evaluator. `emits` tells for each input surface whether it is a light: its links make the
+  // The references must outlive the evaluator. `shown`: by exposed areas. `emits` tells for each input surface whether it is a light: its links make the
   // shadows and get four times the segments where they are partly blocked.
   LinkEvaluator(const raycast::Scene& scene, const Plan& plan, const Hierarchy& hierarchy, const Patches& patches, const Exposure& exposure,
-                std::vector<bool> emits, std::uint64_t seed)
+                const ShownAreas& shown, std::vector<bool> emits, std::uint64_t seed)
       : scene_{&scene},
         plan_{&plan},
         hierarchy_{&hierarchy},
         patches_{&patches},
         exposure_{&exposure},
+        sampler_{scene, hierarchy, patches, &exposure, shown},
         emits_{std::move(emits)},
         seed_{seed} {}
 
@@ -81,6 +87,10 @@ class LinkEvaluator {
     const double area_q = exposure_->area[link.q];
     link.exchange = 0.0f;
     if (!(area_p > 0.0) || !(area_q > 0.0)) { return {}; }
+    if ((*hierarchy_)[link.p].is_cluster() || (*hierarchy_)[link.q].is_cluster()) {
+      const Random random{seed_, (std::uint64_t{link.p} << 32) | link.q};
+      return {evaluate_cluster_link(sampler_, *hierarchy_, link, cluster_rounds, random).rays, 0};
+    }
     const double unoccluded = exchange(p, q);
     if (!(unoccluded > 0.0)) { return {}; }
     const Node& node_p = (*hierarchy_)[link.p];
@@ -115,6 +125,7 @@ class LinkEvaluator {
   const Hierarchy* hierarchy_;
   const Patches* patches_;
   const Exposure* exposure_;
+  ClusterSampler sampler_;
   std::vector<bool> emits_;
   std::uint64_t seed_;
 };

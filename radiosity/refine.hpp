@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include <radiosity/cluster_oracle.hpp>
+#include <radiosity/clusters.hpp>
 #include <radiosity/hierarchy.hpp>
 #include <radiosity/light_oracle.hpp>
 #include <radiosity/links.hpp>
@@ -39,10 +41,11 @@ struct RefineResult {
   std::uint32_t generations = 0;
   std::vector<std::uint32_t> inner;  // leaves of concave curved objects: their children will see each other
   bool cancelled = false;
-  bool too_many = false;  // more links than `link_limit` would be needed
+  std::uint64_t too_many = 0;  // links that would be needed, at least, when that is more than `link_limit`
 };
 
-// 100 million links are 3.6 GB; a scene that asks for more is refused rather than left to exhaust the memory.
+// 100 million links are 2.4 GB, and 2.8 GB until they are evaluated; a scene that asks for more is refused rather than left to exhaust
+// the memory.
 inline constexpr std::size_t link_limit = 100'000'000;
 
 namespace detail {
@@ -52,18 +55,55 @@ struct Pair {
   std::uint32_t list = OccluderLists::none;  // of the pair, or of the pair of ancestors from which it comes
 };
 
-// All pairs of roots that may face each other, and in `inner` the roots whose own parts may.
-inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& roots, std::vector<Pair>& pairs,
-                       std::vector<std::uint32_t>& inner, std::uint64_t& convex) {
-  const auto count = static_cast<std::uint32_t>(roots.size());
-  for (std::uint32_t p = 0; p < count; ++p) {
-    const raycast::PlacedObject& object = *surfaces[roots[p].object].object;
+// What every pair is asked.
+class PairOracle {
+ public:
+  // The references must outlive the oracle; the hierarchy holds clusters and input faces when it is made, and may grow.
+  PairOracle(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy)
+      : surfaces_{&surfaces}, hierarchy_{&hierarchy}, shown_{hierarchy, [&](std::size_t i) { return hierarchy[i].area; }} {}
+
+  [[nodiscard]] const ShownAreas& shown() const { return shown_; }
+
+  // Do both lie in one plane or on one convex solid?
+  [[nodiscard]] bool convex(const Node& a, const Node& b) const {
+    if (a.object != b.object || a.object == no_node) { return false; }
+    const raycast::PlacedObject& object = *(*surfaces_)[a.object].object;
     const bool sees_itself = object.inside() || !object.convex();
-    if (sees_itself && !object.flat()) { inner.push_back(p); }
+    return !sees_itself || (object.flat() && a.surface == b.surface && a.surface != no_node);
+  }
+  // A patch with itself: dropped. A cluster with itself: split.
+  [[nodiscard]] Decision operator()(std::uint32_t p, std::uint32_t q, double epsilon, double min_area) const {
+    const Node& a = (*hierarchy_)[p];
+    const Node& b = (*hierarchy_)[q];
+    if (convex(a, b)) { return Decision::convex; }
+    if (p == q) { return a.is_cluster() ? Decision::split_p : Decision::drop; }
+    if (a.is_cluster() || b.is_cluster()) { return cluster_oracle(*hierarchy_, p, q, shown_, epsilon, min_area); }
+    return f_oracle(a, b, epsilon, min_area);
+  }
+
+ private:
+  const std::vector<Surface>* surfaces_;
+  const Hierarchy* hierarchy_;
+  ShownAreas shown_;
+};
+
+// Where refinement begins: with the pair of the root cluster with itself, or all pairs of input faces. In `inner` the input faces whose own
+// parts may face each other.
+inline void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const PairOracle& oracle,
+                        std::vector<Pair>& pairs, std::vector<std::uint32_t>& inner, std::uint64_t& convex) {
+  const auto count = static_cast<std::uint32_t>(hierarchy.size());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (hierarchy[i].is_cluster()) { continue; }
+    const raycast::PlacedObject& object = *surfaces[hierarchy[i].object].object;
+    if ((object.inside() || !object.convex()) && !object.flat()) { inner.push_back(i); }
+  }
+  if (count > 0 && hierarchy[0].is_cluster()) {
+    pairs.push_back({0, 0});
+    return;
+  }
+  for (std::uint32_t p = 0; p < count; ++p) {
     for (std::uint32_t q = p + 1; q < count; ++q) {
-      const bool same_object = roots[p].object == roots[q].object;
-      const bool same_flat_sheet = object.flat() && roots[p].surface == roots[q].surface;
-      if (same_object && (!sees_itself || same_flat_sheet)) {
+      if (oracle.convex(hierarchy[p], hierarchy[q])) {
         ++convex;
       } else {
         pairs.push_back({p, q});
@@ -86,7 +126,7 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
       const Pair& pair = pairs[first + k];
       Decision& decision = decisions[first + k];
       decision = oracle(pair.p, pair.q);
-      if (decision == Decision::drop) { return; }
+      if (decision == Decision::drop || decision == Decision::convex) { return; }
       lists[k] = result.occluders.of(pair.p, pair.q, pair.list, objects, plan, patches);
       if (lists[k].blocked()) {
         decision = Decision::hide;
@@ -97,8 +137,9 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
     for (std::size_t k = 0; k < count; ++k) {
       const Decision decision = decisions[first + k];
       result.pairs_dropped += decision == Decision::drop ? 1 : 0;
+      result.pairs_convex += decision == Decision::convex ? 1 : 0;
       result.pairs_hidden += decision == Decision::hide ? 1 : 0;
-      if (decision == Decision::drop || decision == Decision::hide) { continue; }
+      if (decision < first_seeing) { continue; }
       pairs[first + k].list = result.occluders.keep(lists[k], pairs[first + k].list);
     }
   }
@@ -115,17 +156,19 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
                                          double min_area, bool ask_light, unsigned threads, std::uint64_t seed,
                                          const Control& control = {}) {
   RefineResult result;
-  const LightOracle light{scene, objects, plan, patches, hierarchy, epsilon, seed};
+  const detail::PairOracle oracle{surfaces, hierarchy};
+  const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), epsilon, seed};
   min_area *= light.scene_area();
   std::vector<RayCount> rays;
 
-  if (hierarchy.size() * hierarchy.size() / 2 > link_limit) {
-    result.too_many = true;
+  const bool clustered = !hierarchy.empty() && hierarchy[0].is_cluster();
+  if (!clustered && hierarchy.size() * hierarchy.size() / 2 > link_limit) {
+    result.too_many = hierarchy.size() * hierarchy.size() / 2;
     return result;
   }
   std::vector<detail::Pair> pairs;
   std::vector<std::uint32_t>& inner = result.inner;
-  detail::root_pairs(surfaces, hierarchy, pairs, inner, result.pairs_convex);
+  detail::first_pairs(surfaces, hierarchy, oracle, pairs, inner, result.pairs_convex);
 
   std::vector<bool> stuck;  // leaves that the BRep refused to split
   while (!pairs.empty()) {
@@ -134,14 +177,13 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
       return result;
     }
     if (result.links.size() + pairs.size() > link_limit) {
-      result.too_many = true;
+      result.too_many = result.links.size() + pairs.size();
       return result;
     }
     patches.extend(threads);
     rays.assign(pairs.size(), {});
     const std::vector<Decision> decisions = detail::decide(
-        pairs, objects, plan, patches, result, threads,
-        [&](std::uint32_t p, std::uint32_t q) { return f_oracle(hierarchy[p], hierarchy[q], epsilon, min_area); },
+        pairs, objects, plan, patches, result, threads, [&](std::uint32_t p, std::uint32_t q) { return oracle(p, q, epsilon, min_area); },
         [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
           const auto [p, q, index] = pairs[i];
           if (decision != Decision::link || !ask_light) { return; }
@@ -164,13 +206,25 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
 
     std::vector<detail::Pair> next;
     const auto descend = [&](std::uint32_t split, std::uint32_t other, std::uint32_t list) {
-      for (std::uint32_t k = 0; k < hierarchy[split].child_count; ++k) { next.push_back({hierarchy[split].first_child + k, other, list}); }
+      const std::uint32_t first = hierarchy[split].first_child;
+      const std::uint32_t last = first + hierarchy[split].child_count;
+      for (std::uint32_t a = first; a < last; ++a) {
+        if (split != other) {
+          next.push_back({a, other, list});
+        } else {  // a cluster with itself
+          for (std::uint32_t b = a; b < last; ++b) { next.push_back({a, b}); }
+        }
+      }
     };
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const auto [p, q, list] = pairs[i];
-      if (decisions[i] == Decision::drop || decisions[i] == Decision::hide) { continue; }
-      const bool split_p = decisions[i] == Decision::split_p && !stuck[p];
-      const bool split_q = decisions[i] == Decision::split_q && !stuck[q];
+      if (decisions[i] < first_seeing) { continue; }
+      bool split_p = decisions[i] == Decision::split_p && !stuck[p];
+      bool split_q = decisions[i] == Decision::split_q && !stuck[q];
+      if (decisions[i] != Decision::link && !split_p && !split_q) {  // stuck: up to the other, if that is a cluster
+        split_p = hierarchy[p].is_cluster();
+        split_q = hierarchy[q].is_cluster();
+      }
       if (split_p || split_q) {
         split_p ? descend(p, q, list) : descend(q, p, list);
       } else {

@@ -3,8 +3,14 @@
 
 // Small scenes with known answers.
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
 #include <string>
 #include <vector>
+
+#include <glm/geometric.hpp>
 
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/cylinder.hpp>
@@ -66,6 +72,39 @@ inline radiosity::Scene two_plates(double rho) {
   scene.materials = {{"lamp", radiosity::Color{rho}, radiosity::Color{1.0}}, {"wall", radiosity::Color{rho}, radiosity::Color{0.0}}};
   scene.objects = {object("lower", polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}), 0),
                    object("upper", polygon({{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}), 1)};
+  return scene;
+}
+
+// A unit room with a lamp in its ceiling and, in it, k - 7 polygons turned and placed at random, boxes or single ones, of total area 2
+// whatever their number. With `furnace` everything is E = 1 - rho instead, and the scene closed.
+inline radiosity::Scene many(std::uint32_t k, bool boxes, std::optional<double> furnace = std::nullopt) {
+  std::mt19937_64 engine{k};
+  std::uniform_real_distribution<double> uniform{0.0, 1.0};
+  std::normal_distribution<double> normal;
+  const auto vector = [&] {
+    const double x = normal(engine), y = normal(engine), z = normal(engine);
+    return glm::dvec3{x, y, z};
+  };
+  radiosity::Scene scene;
+  scene.materials = {{"wall", radiosity::Color{0.6}, radiosity::Color{0.0}},
+                     {"thing", radiosity::Color{0.5}, radiosity::Color{0.0}},
+                     {"lamp", radiosity::Color{0.0}, radiosity::Color{5.0}}};
+  if (furnace) { scene.materials.assign(3, furnace_material(*furnace)); }
+  scene.objects = {object("room", box({0, 0, 0}, {1, 1, 1}), 0, true),
+                   object("lamp", polygon({{0.25, 0.25, 1.0}, {0.25, 0.75, 1.0}, {0.75, 0.75, 1.0}, {0.75, 0.25, 1.0}}), 2)};
+  const std::uint32_t things = std::max(1u, (k - 7) / (boxes ? 6 : 1));
+  const double side = std::sqrt(2.0 / (boxes ? 6.0 * things : things));
+  const auto unit =
+      boxes ? box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}) : polygon({{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}});
+  const double margin = std::min(0.499, 0.867 * side);  // half a diagonal: nothing sticks in a wall
+  for (std::uint32_t i = 0; i < things; ++i) {
+    radiosity::SceneObject thing = object("thing" + std::to_string(i), unit, 1);
+    const glm::dvec3 x = glm::normalize(vector());
+    const glm::dvec3 y = glm::normalize(glm::cross(x, vector()));
+    thing.placement.linear = glm::dmat3{x, y, glm::cross(x, y)} * side;
+    for (int axis = 0; axis < 3; ++axis) { thing.placement.translation[axis] = margin + (1.0 - 2.0 * margin) * uniform(engine); }
+    scene.objects.push_back(std::move(thing));
+  }
   return scene;
 }
 

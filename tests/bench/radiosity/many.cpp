@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+
+// How links and time grow with the number k of input polygons: random boxes, or single polygons, in a room. Error by the audit.
+//
+//     bench_many [boxes|polygons [epsilon [threads [least k [most k [cluster from]]]]]]
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include <radiosity/scenes.hpp>
+
+int main(int argc, char** argv) {
+  const auto number = [&](int i, double otherwise) { return argc > i ? std::atof(argv[i]) : otherwise; };
+  const bool boxes = argc < 2 || std::string{argv[1]} != "polygons";
+  radiosity::Options options;
+  options.epsilon = number(2, 0.02);
+  options.min_area = 0.01 * options.epsilon;
+  options.threads = static_cast<unsigned>(number(3, 1));
+  options.cluster_from = static_cast<std::uint32_t>(number(6, options.cluster_from));
+  std::printf("%8s %8s %9s %9s %9s %9s %8s %7s %7s   %-14s  slope of links, time\n", "polygons", "clusters", "leaves", "links", "of clust.",
+              "rays", "MB", "CPU s", "wall s", "L2 of leaves");
+  double before_k = 0.0, before_links = 0.0, before_time = 0.0;
+  for (const std::uint32_t k : {13u, 31u, 103u, 307u, 1003u, 3001u, 10003u, 30001u, 100003u}) {
+    if (k < number(4, 0) || k > number(5, 1e9)) { continue; }
+    const radiosity::Outcome outcome = radiosity::solve(scenes::many(k, boxes), options);
+    if (!outcome.solution) {
+      std::printf("%8u  %s\n", k, outcome.failure.sentences.front().c_str());
+      continue;
+    }
+    const radiosity::Audit& audit = outcome.solution->audit;
+    const radiosity::ErrorEstimate error = audit.leaf_error.value_or(radiosity::ErrorEstimate{});
+    const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+    std::printf("%8u %8llu %9llu %9llu %9llu %9llu %8.1f %7.2f %7.2f   %5.2f %% +- %4.2f ", k, count(audit.clusters), count(audit.leaves),
+                count(audit.links), count(audit.cluster_links), count(audit.rays), static_cast<double>(audit.bytes) * 1e-6,
+                audit.cpu_seconds, audit.wall_seconds, 100.0 * error.relative_l2, 100.0 * error.standard_error);
+    const auto links = static_cast<double>(audit.links);
+    if (before_k > 0.0) {
+      const double octaves = std::log(k / before_k);
+      std::printf("  %5.2f %5.2f", std::log(links / before_links) / octaves, std::log(audit.cpu_seconds / before_time) / octaves);
+    }
+    std::printf("\n");
+    if (std::getenv("STAGES")) {
+      for (const auto& s : audit.stages) { std::printf("  %s %.2f/%.2f", s.name.c_str(), s.cpu_seconds, s.wall_seconds); }
+      std::printf(" it %u closure %g rows %g %g %g energy %g\n", audit.iterations, audit.closure.value_or(-1), audit.computed_row_sum.min,
+                  audit.computed_row_sum.mean, audit.computed_row_sum.max, audit.energy_balance);
+    }
+    std::fflush(stdout);
+    before_k = k;
+    before_links = links;
+    before_time = audit.cpu_seconds;
+  }
+}
