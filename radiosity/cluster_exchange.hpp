@@ -59,13 +59,15 @@ class ClusterSampler {
     return {node, towards, shown_->of(n, towards)};
   }
 
-  // Rounds of 16 pairs of points; `rounds` in all. Nothing is known of the occluders.
+  // Rounds of 16 pairs of points: one when all are clear or all are blocked, and count about the same, else `rounds`.
   [[nodiscard]] ClusterExchange operator()(const ClusterEnd& p, const ClusterEnd& q, std::uint32_t rounds, Random random) const {
     ClusterExchange result;
     if (!(p.shown > 0.0) || !(q.shown > 0.0)) { return result; }
     double all = 0.0;
     double arrived = 0.0;
     double square = 0.0;
+    double n = 0.0;
+    std::uint32_t blocked = 0;
     std::uint32_t hint = raycast::no_shape;
     for (std::uint32_t round = 0; round < rounds; ++round) {
       const auto shift = static_cast<std::uint32_t>(random.bits() & 15u);
@@ -86,12 +88,17 @@ class ClusterSampler {
         if (!(weights[i] > 0.0)) { continue; }
         ++result.rays;
         all += weights[i];
-        if ((occluded >> i & 1u) != 0) { continue; }
+        if ((occluded >> i & 1u) != 0) {
+          ++blocked;
+          continue;
+        }
         arrived += weights[i];
         square += weights[i] * weights[i];
       }
+      n += 16.0;
+      const double variance = square * n - arrived * arrived;  // relative to the square of the sum
+      if (blocked == 0 ? variance < 0.25 * arrived * arrived : blocked == result.rays && blocked >= 8) { break; }
     }
-    const double n = 16.0 * rounds;
     const double mean = arrived / n;
     result.exchange = p.shown * q.shown * mean;
     result.fraction = all > 0.0 ? arrived / all : 1.0;
@@ -150,17 +157,17 @@ class ClusterSampler {
 // Sets the exchange and the directions of a link with a cluster at one end or both.
 inline ClusterExchange evaluate_cluster_link(const ClusterSampler& sampler, const Hierarchy& hierarchy, Link& link, std::uint32_t rounds,
                                              Random random) {
-  const glm::dvec3 d = glm::normalize(hierarchy[link.q].centre - hierarchy[link.p].centre);
+  link.exchange = 0.0f;
+  const glm::dvec3 apart = hierarchy[link.q].centre - hierarchy[link.p].centre;
+  if (!(glm::length(apart) > 0.0)) { return {}; }  // a cluster and itself, of which no part sees another
+  const glm::dvec3 d = glm::normalize(apart);
   const Slope to_q{glm::vec3{d}};  // as the link will know it
   const Slope to_p{glm::vec3{-d}};
   const ClusterEnd p = sampler.end(link.p, to_q.vector());
   const ClusterEnd q = sampler.end(link.q, to_p.vector());
   const ClusterExchange result = sampler(p, q, rounds, random);
   link.exchange = static_cast<float>(result.exchange);
-  if (!(link.exchange > 0.0f)) {
-    link.exchange = 0.0f;
-    return result;
-  }
+  if (!(link.exchange > 0.0f)) { return result; }
   // The end of a cluster keeps where the other lies, over the area shown there: the weights of transport.hpp then sum to 1.
   link.slope_p = hierarchy[link.p].is_cluster() ? Slope{glm::vec3{to_q.vector() / p.shown}} : Slope{};
   link.slope_q = hierarchy[link.q].is_cluster() ? Slope{glm::vec3{to_p.vector() / q.shown}} : Slope{};

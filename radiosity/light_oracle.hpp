@@ -62,12 +62,15 @@ class LightOracle {
     for (std::size_t i = hierarchy.size(); i-- > 0;) {
       const Node& node = hierarchy[i];
       if (!node.is_cluster()) { continue; }
-      if (of_cluster_.size() <= node.cluster) { of_cluster_.resize(node.cluster + 1, 0.0); }
+      if (of_cluster_.size() <= node.cluster) { of_cluster_.resize(node.cluster + 1); }
       double sum = 0.0;
+      double& brightest = of_cluster_[node.cluster].brightest;
       for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
-        sum += hierarchy[c].area * emission(hierarchy[c]);
+        const Node& child = hierarchy[c];
+        sum += child.area * emission(child);
+        brightest = std::max(brightest, child.is_cluster() ? of_cluster_[child.cluster].brightest : emission(child));
       }
-      of_cluster_[node.cluster] = node.area > 0.0 ? sum / node.area : 0.0;
+      of_cluster_[node.cluster].mean = node.area > 0.0 ? sum / node.area : 0.0;
     }
   }
 
@@ -110,19 +113,24 @@ class LightOracle {
   }
 
  private:
-  [[nodiscard]] double emission(const Node& node) const { return node.is_cluster() ? of_cluster_[node.cluster] : emission_[node.surface]; }
+  [[nodiscard]] double emission(const Node& node) const {
+    return node.is_cluster() ? of_cluster_[node.cluster].mean : emission_[node.surface];
+  }
 
   [[nodiscard]] std::uint32_t wants_cluster_split(std::uint32_t receiver, std::uint32_t source, double weight, RayCount& rays) const {
     const Node& to = (*hierarchy_)[receiver];
     const Node& from = (*hierarchy_)[source];
     const glm::dvec3 d = from.centre - to.centre;
     const double r = glm::length(d);
+    // A lamp among other things is taken by itself, before its light is looked at.
+    const bool mixed = from.is_cluster() && of_cluster_[from.cluster].brightest > 2.0 * of_cluster_[from.cluster].mean;
     const double area = most_shown(from, *shown_, -d / r, 0.0);
     const auto at = [&](double distance) { return area / (std::numbers::pi * distance * distance + area); };
     const double high = at(r - to.radius);
     const double low = at(r + to.radius);
-    if (weight * (high - low) > std::sqrt(12.0) * epsilon_) { return receiver; }
+    if (weight * (high - low) > std::sqrt(12.0) * epsilon_) { return mixed ? source : receiver; }
     if (!(weight * high * 0.5 > epsilon_)) { return no_node; }
+    if (mixed) { return source; }
     const ClusterExchange seen = sampler_(sampler_.end(receiver, d), sampler_.end(source, -d), 1,
                                           Random{seed_, (std::uint64_t{receiver} << 32) | source, 0x736861646f77ull});
     rays.cast += seen.rays;
@@ -142,8 +150,11 @@ class LightOracle {
   ClusterSampler sampler_;
   double epsilon_;
   std::uint64_t seed_;
-  std::vector<double> emission_;    // one an input surface: the largest channel, relative to the mean over the scene's area
-  std::vector<double> of_cluster_;  // the mean over its faces
+  std::vector<double> emission_;  // one an input surface: the largest channel, relative to the mean over the scene's area
+  struct ClusterLight {
+    double mean = 0.0, brightest = 0.0;  // of its faces
+  };
+  std::vector<ClusterLight> of_cluster_;
   double scene_area_ = 0.0;
 };
 

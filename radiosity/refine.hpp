@@ -6,6 +6,9 @@
 // for all open pairs in parallel, then links and splits are carried out in the order of the pairs and of the nodes. So the
 // result is the same for any number of threads, and a split asked for by many pairs happens once.
 //
+// Where there are clusters (clusters.hpp) the work begins with the pair of their root with itself, and clusters are opened as patches are
+// split.
+//
 // Each pair knows what can stand between its patches (occlusion.hpp): a pair that is proven hidden is dropped with all pairs below it.
 //
 // Invariant: after each generation every BRep is valid and every unordered pair of leaves that can face and see each other is
@@ -15,14 +18,13 @@
 #include <utility>
 #include <vector>
 
-#include <radiosity/cluster_oracle.hpp>
-#include <radiosity/clusters.hpp>
 #include <radiosity/hierarchy.hpp>
 #include <radiosity/light_oracle.hpp>
 #include <radiosity/links.hpp>
 #include <radiosity/occlusion.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/oracle.hpp>
+#include <radiosity/pair_oracle.hpp>
 #include <radiosity/parallel.hpp>
 #include <radiosity/plan.hpp>
 #include <radiosity/surface.hpp>
@@ -36,6 +38,7 @@ struct RefineResult {
   std::uint64_t pairs_tested = 0;   // questions to the oracle
   std::uint64_t pairs_dropped = 0;  // proven to face away from each other
   std::uint64_t pairs_hidden = 0;   // proven to be hidden from each other by one object
+  std::uint64_t pairs_dark = 0;     // of input faces: neither emits, and light that reflects reaches neither
   std::uint64_t pairs_convex = 0;   // never asked: faces of one flat sheet or one convex solid cannot see each other
   RayCount rays;                    // segments cast to find shadow boundaries
   std::uint32_t generations = 0;
@@ -55,47 +58,15 @@ struct Pair {
   std::uint32_t list = OccluderLists::none;  // of the pair, or of the pair of ancestors from which it comes
 };
 
-// What every pair is asked.
-class PairOracle {
- public:
-  // The references must outlive the oracle; the hierarchy holds clusters and input faces when it is made, and may grow.
-  PairOracle(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy)
-      : surfaces_{&surfaces}, hierarchy_{&hierarchy}, shown_{hierarchy, [&](std::size_t i) { return hierarchy[i].area; }} {}
-
-  [[nodiscard]] const ShownAreas& shown() const { return shown_; }
-
-  // Do both lie in one plane or on one convex solid?
-  [[nodiscard]] bool convex(const Node& a, const Node& b) const {
-    if (a.object != b.object || a.object == no_node) { return false; }
-    const raycast::PlacedObject& object = *(*surfaces_)[a.object].object;
-    const bool sees_itself = object.inside() || !object.convex();
-    return !sees_itself || (object.flat() && a.surface == b.surface && a.surface != no_node);
-  }
-  // A patch with itself: dropped. A cluster with itself: split.
-  [[nodiscard]] Decision operator()(std::uint32_t p, std::uint32_t q, double epsilon, double min_area) const {
-    const Node& a = (*hierarchy_)[p];
-    const Node& b = (*hierarchy_)[q];
-    if (convex(a, b)) { return Decision::convex; }
-    if (p == q) { return a.is_cluster() ? Decision::split_p : Decision::drop; }
-    if (a.is_cluster() || b.is_cluster()) { return cluster_oracle(*hierarchy_, p, q, shown_, epsilon, min_area); }
-    return f_oracle(a, b, epsilon, min_area);
-  }
-
- private:
-  const std::vector<Surface>* surfaces_;
-  const Hierarchy* hierarchy_;
-  ShownAreas shown_;
-};
-
 // Where refinement begins: with the pair of the root cluster with itself, or all pairs of input faces. In `inner` the input faces whose own
 // parts may face each other.
-inline void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const PairOracle& oracle,
-                        std::vector<Pair>& pairs, std::vector<std::uint32_t>& inner, std::uint64_t& convex) {
+inline void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const Plan& plan, const PairOracle& oracle,
+                        std::vector<Pair>& pairs, RefineResult& result) {
   const auto count = static_cast<std::uint32_t>(hierarchy.size());
   for (std::uint32_t i = 0; i < count; ++i) {
     if (hierarchy[i].is_cluster()) { continue; }
     const raycast::PlacedObject& object = *surfaces[hierarchy[i].object].object;
-    if ((object.inside() || !object.convex()) && !object.flat()) { inner.push_back(i); }
+    if ((object.inside() || !object.convex()) && !object.flat()) { result.inner.push_back(i); }
   }
   if (count > 0 && hierarchy[0].is_cluster()) {
     pairs.push_back({0, 0});
@@ -103,17 +74,20 @@ inline void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& h
   }
   for (std::uint32_t p = 0; p < count; ++p) {
     for (std::uint32_t q = p + 1; q < count; ++q) {
-      if (oracle.convex(hierarchy[p], hierarchy[q])) {
-        ++convex;
-      } else {
+      if (!oracle.convex(hierarchy[p], hierarchy[q])) {
         pairs.push_back({p, q});
+      } else if (plan.shortcuts) {
+        ++result.pairs_convex;
+      } else {
+        result.links.push_back({p, q});
+        result.lists.push_back(OccluderLists::none);
       }
     }
   }
 }
 
 // Asks `oracle(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
-// the others keep their list and are shown to `look(pair, list, decision)`, in parallel.
+// the others keep their list and are shown to `look(pair, list, decision)`, in parallel. Without shortcuts what would be dropped is linked.
 template <class Oracle, class Look>
 std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& objects, const Plan& plan, const Patches& patches,
                              RefineResult& result, unsigned threads, const Oracle& oracle, const Look& look) {
@@ -126,12 +100,19 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
       const Pair& pair = pairs[first + k];
       Decision& decision = decisions[first + k];
       decision = oracle(pair.p, pair.q);
-      if (decision == Decision::drop || decision == Decision::convex) { return; }
+      lists[k] = {};
+      if (decision == Decision::drop || decision == Decision::convex) {
+        if (!plan.shortcuts) { decision = Decision::link; }
+        return;
+      }
       lists[k] = result.occluders.of(pair.p, pair.q, pair.list, objects, plan, patches);
-      if (lists[k].blocked()) {
+      if (!lists[k].blocked()) {
+        look(first + k, lists[k], decision);
+      } else if (plan.shortcuts) {
         decision = Decision::hide;
       } else {
-        look(first + k, lists[k], decision);
+        decision = Decision::link;
+        lists[k] = {};
       }
     });
     for (std::size_t k = 0; k < count; ++k) {
@@ -147,6 +128,28 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
   return decisions;
 }
 
+// Which roots send light: those that emit, and those that reflect and are reached, over pairs that may be linked, from one that sends.
+inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& roots, const std::vector<Pair>& pairs,
+                                       const std::vector<Decision>& decisions) {
+  std::vector<bool> sends(roots.size(), false), reflects(roots.size(), false);
+  const std::vector<InputSurface> inputs = radiosity::surfaces(scene);
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    const Material& material = scene.materials[inputs[roots[i].surface].material];
+    sends[i] = !is_black(material.emission);
+    reflects[i] = !is_black(material.reflectance);
+  }
+  for (bool grew = true; grew;) {
+    grew = false;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const auto [p, q, list] = pairs[i];
+      if (decisions[i] < first_seeing || sends[p] == sends[q]) { continue; }
+      const std::uint32_t reached = sends[p] ? q : p;
+      if (reflects[reached]) { sends[reached] = grew = true; }
+    }
+  }
+  return sends;
+}
+
 }  // namespace detail
 
 // Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots. The light oracle is asked
@@ -156,7 +159,7 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
                                          double min_area, bool ask_light, unsigned threads, std::uint64_t seed,
                                          const Control& control = {}) {
   RefineResult result;
-  const detail::PairOracle oracle{surfaces, hierarchy};
+  const PairOracle oracle{surfaces, hierarchy};
   const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), epsilon, seed};
   min_area *= light.scene_area();
   std::vector<RayCount> rays;
@@ -168,7 +171,7 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
   }
   std::vector<detail::Pair> pairs;
   std::vector<std::uint32_t>& inner = result.inner;
-  detail::first_pairs(surfaces, hierarchy, oracle, pairs, inner, result.pairs_convex);
+  detail::first_pairs(surfaces, hierarchy, plan, oracle, pairs, result);
 
   std::vector<bool> stuck;  // leaves that the BRep refused to split
   while (!pairs.empty()) {
@@ -182,7 +185,7 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
     }
     patches.extend(threads);
     rays.assign(pairs.size(), {});
-    const std::vector<Decision> decisions = detail::decide(
+    std::vector<Decision> decisions = detail::decide(
         pairs, objects, plan, patches, result, threads, [&](std::uint32_t p, std::uint32_t q) { return oracle(p, q, epsilon, min_area); },
         [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
           const auto [p, q, index] = pairs[i];
@@ -191,6 +194,17 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
           if (split != no_node && hierarchy[split].area > min_area) { decision = split == p ? Decision::split_p : Decision::split_q; }
         });
     for (const RayCount& r : rays) { result.rays += r; }
+
+    // No light passes between two that send none. A closed scene keeps such pairs, for its row sums.
+    if (result.generations == 0 && !plan.closed && !clustered) {
+      const std::vector<bool> sends = detail::sending_roots(scene, hierarchy, pairs, decisions);
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (sends[pairs[i].p] || sends[pairs[i].q] || decisions[i] < first_seeing) { continue; }
+        result.pairs_dark += plan.shortcuts ? 1 : 0;
+        decisions[i] = plan.shortcuts ? Decision::drop : Decision::link;
+      }
+      std::erase_if(inner, [&](std::uint32_t i) { return !sends[i]; });
+    }
 
     // Leaves are split in the order of their index.
     std::vector<bool> asked(hierarchy.size(), false);
@@ -211,9 +225,10 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
       for (std::uint32_t a = first; a < last; ++a) {
         if (split != other) {
           next.push_back({a, other, list});
-        } else {  // a cluster with itself
-          for (std::uint32_t b = a; b < last; ++b) { next.push_back({a, b}); }
+          continue;
         }
+        // A cluster with itself: all pairs of its children, and the clusters among them with themselves.
+        for (std::uint32_t b = hierarchy[a].is_cluster() ? a : a + 1; b < last; ++b) { next.push_back({a, b}); }
       }
     };
     for (std::size_t i = 0; i < pairs.size(); ++i) {
