@@ -78,9 +78,11 @@ class ClusterSampler {
         const Point y = draw(q, ((i * 5u ^ shift) % 16u + random.uniform()) / 16.0, random);
         const glm::dvec3 d = y.position - x.position;
         const double r2 = glm::dot(d, d);
-        const double cosines = std::max(0.0, glm::dot(x.normal, d)) * std::max(0.0, -glm::dot(y.normal, d));
-        if (!(cosines > 0.0)) { continue; }
-        weights[i] = std::min(cosines / r2 * x.per_shown * y.per_shown, most_weight) / (std::numbers::pi * r2);
+        const double leaves = glm::dot(x.normal, d);
+        const double arrives = -glm::dot(y.normal, d);
+        const double edge_on = 1e-12 * std::sqrt(r2);  // of one plane, but for rounding
+        if (!(leaves > edge_on && arrives > edge_on)) { continue; }
+        weights[i] = std::min(leaves * arrives / r2 * x.per_shown * y.per_shown, most_weight) / (std::numbers::pi * r2);
         segments.set(i, {x.position, d}, x.object, y.object);
       }
       const std::uint32_t occluded = scene_->occluded16(segments, hint);

@@ -104,7 +104,8 @@ TEST_CASE("what a face shows in a direction is never too little, and nothing whe
 
 TEST_CASE("the tree of clusters holds every input face once and bounds what is below") {
   for (const std::uint32_t k : {2u, 13u, 97u, 1003u}) {
-    radiosity::PrepareResult prepared = radiosity::prepare(k == 2 ? scenes::two_plates(0.5) : scenes::many(k, k % 2 == 1));
+    radiosity::PrepareResult prepared =
+        radiosity::prepare(k == 2 ? scenes::two_plates(0.5) : scenes::many(k, k == 97 ? scenes::Things::mesh : scenes::Things::boxes));
     REQUIRE(prepared.prepared);
     auto& surfaces = prepared.prepared->surfaces;
     const Hierarchy roots = radiosity::make_roots(surfaces);
@@ -167,7 +168,7 @@ TEST_CASE("face clusters of a cylinder keep its caps apart from its side until t
 }
 
 TEST_CASE("transport with clusters is symmetric and never negative") {
-  const radiosity::Solution solution = solved(scenes::many(301, true), clustered(0.1));
+  const radiosity::Solution solution = solved(scenes::many(301, scenes::Things::boxes), clustered(0.1));
   REQUIRE(solution.audit.cluster_links > 0);
   radiosity::Exposure exposure;
   exposure.area = solution.area;
@@ -250,7 +251,7 @@ TEST_CASE("a cluster lights no face that looks away") {
 }
 
 TEST_CASE("furnace with many things: B = 1 on every leaf, whatever stands in the way") {
-  const radiosity::Solution solution = solved(scenes::many(301, true, 0.7), clustered(0.1));
+  const radiosity::Solution solution = solved(scenes::many(301, scenes::Things::boxes, 0.7), clustered(0.1));
   REQUIRE(solution.audit.cluster_links > 0);
   REQUIRE(solution.audit.closure);
   INFO("closure " << *solution.audit.closure << " rows " << solution.audit.computed_row_sum.min << " ... "
@@ -264,7 +265,7 @@ TEST_CASE("furnace with many things: B = 1 on every leaf, whatever stands in the
 }
 
 TEST_CASE("with clusters the result converges to the one without") {
-  const radiosity::Scene scene = scenes::many(61, true);
+  const radiosity::Scene scene = scenes::many(61, scenes::Things::boxes);
   double before = 1.0;
   for (const double epsilon : {0.4, 0.1, 0.025}) {
     const radiosity::Solution with = solved(scene, clustered(epsilon));
@@ -280,7 +281,7 @@ TEST_CASE("with clusters the result converges to the one without") {
 }
 
 TEST_CASE("clusters: the same bits for any number of threads, and energy is conserved") {
-  const radiosity::Scene scene = scenes::many(601, false);
+  const radiosity::Scene scene = scenes::many(601, scenes::Things::polygons);
   Options options = clustered(0.05);
   const radiosity::Solution one = solved(scene, options);
   options.threads = 3;
@@ -300,7 +301,7 @@ TEST_CASE("where clusters do not pay, none are built and the report says so") {
 
 TEST_CASE("a scene that would need too many links is refused with their number, before any is made") {
   Options options = clustered(0.1, never);
-  const radiosity::Outcome outcome = radiosity::solve(scenes::many(14'507, false), options);
+  const radiosity::Outcome outcome = radiosity::solve(scenes::many(14'507, scenes::Things::polygons), options);
   REQUIRE(!outcome.solution);
   CHECK(outcome.failure.sentences.front().find("105 million links") != std::string::npos);
 }

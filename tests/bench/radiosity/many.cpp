@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-// How links and time grow with the number k of input polygons: random boxes, or single polygons, in a room. Error by the audit.
+// How links and time grow with the number k of input polygons: random boxes, single polygons, or one mesh, in a room. Error by the audit.
 //
-//     bench_many [boxes|polygons [epsilon [threads [least k [most k [cluster from]]]]]]
+//     bench_many [boxes|polygons|mesh [epsilon [threads [least k [most k [cluster from]]]]]]
 
 #include <cmath>
 #include <cstdio>
@@ -13,7 +13,10 @@
 
 int main(int argc, char** argv) {
   const auto number = [&](int i, double otherwise) { return argc > i ? std::atof(argv[i]) : otherwise; };
-  const bool boxes = argc < 2 || std::string{argv[1]} != "polygons";
+  const std::string kind = argc > 1 ? argv[1] : "boxes";
+  const scenes::Things things = kind == "polygons" ? scenes::Things::polygons
+                                : kind == "mesh"   ? scenes::Things::mesh
+                                                   : scenes::Things::boxes;
   radiosity::Options options;
   options.epsilon = number(2, 0.02);
   options.min_area = 0.01 * options.epsilon;
@@ -24,7 +27,7 @@ int main(int argc, char** argv) {
   double before_k = 0.0, before_links = 0.0, before_time = 0.0;
   for (const std::uint32_t k : {13u, 31u, 103u, 307u, 1003u, 3001u, 10003u, 30001u, 100003u}) {
     if (k < number(4, 0) || k > number(5, 1e9)) { continue; }
-    const radiosity::Outcome outcome = radiosity::solve(scenes::many(k, boxes), options);
+    const radiosity::Outcome outcome = radiosity::solve(scenes::many(k, things), options);
     if (!outcome.solution) {
       std::printf("%8u  %s\n", k, outcome.failure.sentences.front().c_str());
       continue;
