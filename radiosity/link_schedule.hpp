@@ -68,7 +68,7 @@ class LinkSchedule {
   [[nodiscard]] std::size_t link(std::size_t k) const { return order_.empty() ? k : order_[k]; }
 
  private:
-  static constexpr std::size_t tiles = 32, few = 1 << 14;
+  static constexpr std::size_t tiles = 16, few = 1 << 14;
 
   // Bounds between tiles lie where the running count of link ends passes a multiple of the mean.
   static std::vector<std::uint8_t> tiles_of(std::size_t nodes, const Links& links) {

@@ -78,7 +78,8 @@ TEST_CASE("what a face shows in a direction is never too little, and nothing whe
   std::mt19937_64 engine{2};
   const double mesh = std::atan(std::sqrt(0.5));  // from the middle of a side of the cube to the far corner of the next cell
   const auto& lattice = radiosity::detail::direction_lattice;
-  int lit_from_behind = 0;
+  double all = 0.0;
+  double from_behind = 0.0;
   for (int i = 0; i < 100'000; ++i) {
     const glm::dvec3 n = glm::normalize(random_vector(engine));
     const glm::dvec3 d = glm::normalize(random_vector(engine));
@@ -86,6 +87,7 @@ TEST_CASE("what a face shows in a direction is never too little, and nothing whe
     const double shown = radiosity::shown(n, radiosity::aim(d));
     REQUIRE(shown >= cosine - 1e-14);
     if (cosine < -std::sin(mesh)) { REQUIRE(shown == 0.0); }
+    all += shown;
     if (cosine > 0.0 || shown == 0.0) { continue; }
     // The parts of n . d_k across d sum to 0, so what is positive of them is at most half of sum w |d_k| sin(angle to d); the parts along
     // d take away from that.
@@ -97,9 +99,9 @@ TEST_CASE("what a face shows in a direction is never too little, and nothing whe
     }
     REQUIRE(shown <= most + 1e-14);
     REQUIRE(most < 0.25);
-    ++lit_from_behind;
+    from_behind += shown;
   }
-  CHECK(lit_from_behind < 10'000);
+  CHECK(from_behind < 0.015 * all);  // measured over a million: 1.24 %
 }
 
 TEST_CASE("the tree of clusters holds every input face once and bounds what is below") {
