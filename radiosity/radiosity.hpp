@@ -224,6 +224,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.cluster_links = static_cast<std::uint64_t>(std::count_if(solution.links.begin(), solution.links.end(), [&](const Link& link) {
     return hierarchy[link.p].is_cluster() || hierarchy[link.q].is_cluster();
   }));
+  audit.proportion = summarise_proportions(hierarchy, patches);
   RayCount rays = refined.rays;
   rays += evaluated.rays;
   audit.rays = rays.cast;
