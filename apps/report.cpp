@@ -130,7 +130,8 @@ void left_out_and_surfaces(std::string& out, const Report& report) {
   out += "left out\n";
   if (audit.left_out.empty()) { out += "  nothing\n"; }
   for (const radiosity::LeftOut& item : audit.left_out) {
-    out += "  " + item.what + ": " + item.why + (item.saved.empty() ? "" : "; saved " + item.saved) + "\n";
+    out += "  " + item.what + ": " + item.why + (item.saved.empty() ? "" : "; saved " + item.saved) +
+           (item.seconds > 0.0 ? format(", about %.2g s", item.seconds) : "") + "\n";
   }
   constexpr std::size_t most = 40;
   out += "mean radiosity (W/m2)         area (m2)   R G B\n";
@@ -204,7 +205,7 @@ void write_lists(JsonWriter& json, const Report& report) {
   json.key("left_out").open_array();
   for (const radiosity::LeftOut& item : report.audit.left_out) {
     json.open_object();
-    json.key("what").string(item.what).key("why").string(item.why).key("saved").string(item.saved);
+    json.key("what").string(item.what).key("why").string(item.why).key("saved").string(item.saved).key("seconds").number(item.seconds);
     json.close();
   }
   json.close();
@@ -232,7 +233,7 @@ void write_settings(JsonWriter& json, const Report& report) {
     json.null();
   }
   json.key("solver").string(name(report.options.solver));
-  json.key("reconstruction").string(report.options.reconstruction == radiosity::Reconstruction::simple ? "simple" : "weighted");
+  json.key("reconstruction").string(name(report.options.reconstruction));
   json.key("channels").count(audit.channels).key("threads").count(audit.threads).key("seed").count(audit.seed);
   json.close();
   json.key("picture");

@@ -45,10 +45,9 @@ class LeafExchange {
     count_ = roots.size();
     lists_.assign(count_ * count_, nothing);
     std::vector<detail::Pair> pairs;
-    std::vector<std::uint32_t> inner;
-    std::uint64_t convex = 0;
-    detail::root_pairs(surfaces, roots, pairs, inner, convex);
-    for (const std::uint32_t r : inner) { lists_[r * count_ + r] = OccluderLists::none; }
+    RefineResult found;
+    detail::root_pairs(surfaces, roots, plan, pairs, found);
+    for (const std::uint32_t r : found.inner) { lists_[r * count_ + r] = OccluderLists::none; }
     for (const auto& [p, q, unknown] : pairs) {
       const raycast::OccluderList list = occluders_.of(p, q, unknown, objects, plan, patches);
       if (list.blocked() || f_oracle(roots[p], roots[q], 1.0, 0.0) == Decision::drop) { continue; }

@@ -87,6 +87,7 @@ inline void reconstruct(std::vector<Surface>& surfaces, const Hierarchy& hierarc
         for (const brep::HalfedgeId l : brep::halfedges_from(brep, brep.vertex(e))) {
           const std::uint32_t node = brep.data(brep.face(l)).node;
           if (node == no_node || !(exposure.area[node] > 0.0) || material(node) != material(own)) { continue; }
+          if (kind == Reconstruction::constant && node != own) { continue; }
           double weight = detail::corner_angle(brep, l);
           if (kind == Reconstruction::weighted) { weight *= std::max(0.0, glm::dot(brep.data(e).normal, brep.data(l).normal)); }
           sum += weight * radiosity[node];

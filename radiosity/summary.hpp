@@ -17,6 +17,7 @@
 #include <radiosity/options.hpp>
 #include <radiosity/plan.hpp>
 #include <radiosity/refine.hpp>
+#include <radiosity/saving.hpp>
 #include <radiosity/scene.hpp>
 #include <radiosity/transport.hpp>
 
@@ -76,31 +77,39 @@ inline void summarise_surfaces(Audit& audit, const std::vector<InputSurface>& in
   }
 }
 
-// What the run left out, beyond what the plan had proven before it.
+// What the run left out, beyond what the plan had proven before it. `cost`: of what was not left out.
 inline void report_left_out(Audit& audit, const Plan& plan, const RefineResult& refined, const EvaluateResult& evaluated,
-                            const Exposure& exposure, const Options& options) {
+                            const Exposure& exposure, const Options& options, const LinkCost& cost) {
   audit.left_out = plan.left_out;
-  const auto add = [&](std::string what, std::string why, std::string saved) {
-    audit.left_out.push_back({std::move(what), std::move(why), std::move(saved)});
+  const auto add = [&](std::string what, std::string why, std::string saved, double seconds = 0.0) {
+    audit.left_out.push_back({std::move(what), std::move(why), std::move(saved), seconds});
   };
+  const auto times = [](std::uint64_t count, double each) { return static_cast<double>(count) * each; };
   if (!plan.lit || !plan.reflects) { return; }
   if (evaluated.proven_clear > 0) {
     add("visibility of " + std::to_string(evaluated.proven_clear) + " links", "no object can stand between the patches",
-        std::to_string(evaluated.rays.avoided) + " rays");
+        std::to_string(evaluated.rays.avoided) + " rays", times(evaluated.rays.avoided, cost.ray));
   }
   if (refined.pairs_convex > 0) {
     add(std::to_string(refined.pairs_convex) + " pairs of input faces", "faces of one plane or of one convex solid do not see each other",
-        std::to_string(refined.pairs_convex) + " questions to the oracle");
+        std::to_string(refined.pairs_convex) + " questions to the oracle", times(refined.pairs_convex, cost.form_factor));
   }
   if (refined.pairs_dropped > 0) {
     add(std::to_string(refined.pairs_dropped) + " pairs of patches", "proven to face away from each other",
-        std::to_string(refined.pairs_dropped) + " links");
+        std::to_string(refined.pairs_dropped) + " links", times(refined.pairs_dropped, cost.form_factor));
+  }
+  if (refined.pairs_dark > 0) {
+    add(std::to_string(refined.pairs_dark) + " pairs of input faces", "no light leaves either: black, or reached by none",
+        "their patches and links", times(refined.pairs_dark, cost.link));
   }
   if (refined.pairs_hidden > 0) {
     add(std::to_string(refined.pairs_hidden) + " pairs of patches", "proven to be hidden from each other by one convex object",
-        "their links and rays");
+        "their links and rays", times(refined.pairs_hidden, cost.link));
   }
   if (exposure.buried_leaves > 0) { add(std::to_string(exposure.buried_leaves) + " leaves", "buried under another object", "their links"); }
+  if (options.reconstruction == Reconstruction::constant) {
+    add("T-vertex elimination and interpolation", "one colour a leaf is asked for", "their time");
+  }
   if (options.audit_points == 0) { add("the error estimate", "not asked for (audit of 0 points)", "the time of the audit"); }
 }
 

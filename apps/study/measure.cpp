@@ -52,6 +52,7 @@ Measured errors_of_run(const radiosity::Scene& scene, const TrueRadiosity& truth
   Run& run = measured.run;
   run.setting = std::move(setting);
   run.cpu_seconds = solution.audit.cpu_seconds;
+  for (const radiosity::LeftOut& item : solution.audit.left_out) { run.seconds_saved += item.seconds; }
   run.bytes = solution.audit.bytes;
   run.links = solution.audit.links;
   run.leaves = solution.audit.leaves;

@@ -43,7 +43,7 @@ struct ErrorParts {
 struct Run {
   std::string setting;  // as on the command line: "epsilon .01"
   double cpu_seconds = 0.0;
-  double seconds_saved = 0.0;  // against the same run with every shortcut off
+  double seconds_saved = 0.0;  // by shortcuts, about: the run times what some of what it left out would have taken
   std::uint64_t bytes = 0;
   std::uint64_t links = 0;  // or matrix entries, for a dense matrix
   std::uint64_t leaves = 0;
