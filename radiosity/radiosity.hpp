@@ -243,7 +243,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.bytes = hierarchy.capacity() * sizeof(Node) + solution.links.capacity() * sizeof(Link) + objects.bytes();
   for (const Surface& surface : boundary) { audit.bytes += surface.brep.bytes(); }
   report_left_out(audit, plan, refined, evaluated, exposure, options, link_cost(evaluator, solution.links));
-  if (!cut && !constant && options.topology == Topology::shared) { audit.left_out.push_back({"T-vertex elimination", "no leaf has a finer neighbour", ""}); }
+  if (!cut && !constant && options.topology == Topology::shared) {
+    audit.left_out.push_back({"T-vertex elimination", "no leaf has a finer neighbour", ""});
+  }
   if (plan.closed && !solution.links.empty() && !audit.closure) {
     audit.left_out.push_back({"closing the scene", "its row sums would need a correction beyond 10 % RMS; refine more", ""});
   }

@@ -17,7 +17,7 @@ struct StudyOptions {
   std::vector<std::string> scenes;
   std::string folder;
   double seconds = 12.0;       // CPU time of one run
-  std::uint64_t paths = 2048;  // a point of the reference
+  std::uint64_t paths = 8192;  // a point of the reference
   std::uint32_t dense = 1000;  // leaves up to which the parts of an error are told apart
   bool quick = false;
   bool quiet = false;

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <limits>
 #include <thread>
@@ -18,6 +19,12 @@ namespace {
 using radiosity::Color;
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+std::string seconds_text(double seconds) {
+  char text[32] = "";
+  std::snprintf(text, sizeof text, "%.3g", seconds);
+  return text;
+}
 
 // Stops a run that takes too long, or when the study itself is to stop.
 class RunLimit {
@@ -83,8 +90,7 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
       Measured none;
       none.run.setting = setting.text;
       const bool stopped = again.failure.kind == radiosity::Failure::Kind::cancelled;
-      none.run.refused =
-          stopped ? "takes more than " + std::to_string(std::lround(limit)) + " s of CPU time" : again.failure.sentences.front();
+      none.run.refused = stopped ? "takes more than " + seconds_text(limit) + " s of CPU time" : again.failure.sentences.front();
       return none;
     }
     const double before = outcome.solution ? outcome.solution->audit.cpu_seconds : std::numeric_limits<double>::infinity();

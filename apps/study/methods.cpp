@@ -111,12 +111,12 @@ MethodPlan uniform(std::string name, std::string summary, const MethodOptions& s
 }  // namespace
 
 std::vector<MethodPlan> methods(const MethodOptions& study) {
-  const std::vector<double> epsilons{0.32, 0.16, 0.08, 0.04, 0.02, 0.01, 0.005};
+  const std::vector<double> epsilons{0.16, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025};
   std::vector<MethodPlan> all;
   all.push_back(hierarchical("hierarchical F", "a pair is linked where its form factor is small (paper 4.4); split by Euler operators",
                              "epsilon", epsilons, common(study), set_epsilon));
   all.push_back(hierarchical("hierarchical BF", "solve, then refine the links that carry the most error (paper 4.4)", "target",
-                             {0.16, 0.08, 0.04, 0.02, 0.01, 0.005}, common(study), set_target));
+                             {0.08, 0.04, 0.02, 0.01, 0.005, 0.0025}, common(study), set_target));
   all.push_back(accuracy_target(study));
   Options separate = common(study);
   separate.topology = radiosity::Topology::separate;

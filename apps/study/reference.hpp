@@ -53,7 +53,7 @@ struct TrueRadiosity {
 
 struct ReferenceOptions {
   std::uint32_t cells = 300;   // at least, all surfaces together
-  std::uint64_t paths = 2048;  // a point; eight powers of two are spent best
+  std::uint64_t paths = 8192;  // a point; eight powers of two are spent best
   std::uint64_t seed = 1;
   unsigned threads = 0;
 };
