@@ -92,6 +92,8 @@ void sizes_and_checks(std::string& out, const Report& report) {
   const radiosity::Audit& audit = report.audit;
   out += "size\n";
   row(out, "nodes, leaves", grouped(audit.nodes) + ", " + grouped(audit.leaves));
+  row(out, "proportions",
+      format("%.2f to %.2f, mean %.2f (regular polygon: 1)", audit.proportion.min, audit.proportion.max, audit.proportion.mean));
   row(out, "links", grouped(audit.links));
   row(out, "rays",
       grouped(audit.rays) + " cast, " + grouped(audit.rays_avoided) + " avoided: " + grouped(audit.pairs_clear) + " pairs proven clear, " +
@@ -271,6 +273,7 @@ std::string to_json(const Report& report) {
   json.key("nodes").count(audit.nodes).key("leaves").count(audit.leaves).key("links").count(audit.links);
   json.key("rays").count(audit.rays).key("rays_avoided").count(audit.rays_avoided);
   json.key("pairs_clear").count(audit.pairs_clear).key("pairs_blocked").count(audit.pairs_hidden).key("bytes").count(audit.bytes);
+  write_range(json, "proportion", audit.proportion);
   write_range(json, "row_sum", audit.row_sum);
   write_range(json, "computed_row_sum", audit.computed_row_sum);
   json.key("closure");

@@ -234,6 +234,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.nodes = hierarchy.size();
   audit.leaves = static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.leaf(); }));
   audit.links = solution.links.size();
+  audit.proportion = summarise_proportions(hierarchy, patches);
   RayCount rays = refined.rays;
   rays += evaluated.rays;
   audit.rays = rays.cast;

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
+
+#include <brep/proportion.hpp>
 
 #include <radiosity/audit.hpp>
 #include <radiosity/evaluate.hpp>
@@ -60,6 +63,24 @@ inline Audit::Range summarise_rows(const Hierarchy& hierarchy, const std::vector
     total += area[i];
   }
   return total > 0.0 ? Audit::Range{range.min, range.mean / total, range.max} : Audit::Range{};
+}
+
+// A square and an equilateral triangle have proportion 1 here: that of each kind is taken relative to its best.
+inline Audit::Range summarise_proportions(const Hierarchy& hierarchy, const Patches& patches) {
+  Audit::Range range{1.0, 0.0, 0.0};
+  double count = 0.0;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (!hierarchy[i].leaf()) { continue; }
+    const Polygon& contour = patches[i].contour;
+    const double best = std::cos(std::numbers::pi / static_cast<double>(contour.size()));  // of the regular polygon
+    const double proportion = brep::proportion(contour) / best;
+    range.min = std::min(range.min, proportion);
+    range.max = std::max(range.max, proportion);
+    range.mean += proportion;
+    count += 1.0;
+  }
+  range.mean = count > 0.0 ? range.mean / count : 0.0;
+  return range;
 }
 
 inline void summarise_surfaces(Audit& audit, const std::vector<InputSurface>& inputs, const Frame& frame, const Hierarchy& hierarchy,
