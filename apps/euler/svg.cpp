@@ -217,29 +217,6 @@ std::string sized(double width, double height) {
 
 }  // namespace
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::vector<Layout> lay_out(const Story& story, double smallest) {
   std::vector<Layout> layouts;
   for (const Frame& frame : story.frames) {

@@ -14,6 +14,8 @@
 
 #include <radiosity/plan.hpp>
 
+#include "apps/scene_file.hpp"
+
 namespace study {
 
 // Errors of radiosity over the surfaces that do not emit, weighted by area: L1 and L2 relative to the same norm of the reference,
@@ -81,8 +83,9 @@ struct Reference {
 };
 
 struct SceneStudy {
-  std::string scene;  // its file's name without folder and ending
-  std::string title;  // the difficulty that it isolates: the scene file's first comment line
+  std::string scene;    // its file's name without folder and ending
+  std::string title;    // the difficulty that it isolates: the scene file's first comment line
+  apps::Camera camera;  // for the error pictures: the file's first, or the automatic one
   Reference reference;
   std::vector<Method> methods;
   std::vector<ErrorPicture> pictures;  // one a method, at the setting nearest to 1 % in time or error
