@@ -10,6 +10,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "apps/markup.hpp"
+
 namespace apps::euler {
 namespace {
 

@@ -160,7 +160,9 @@ Drawing error_scale(double limit) {
   drawing.height = 62.0;
   for (int i = 0; i < steps; ++i) {
     const double x = left + bar * i / steps;
-    drawing.add(rectangle({x, 8.0}, {left + bar * (i + 1) / steps, 22.0}, error_tone(2.0 * (i + 0.5) / steps - 1.0)));
+    // Each reaches a little under the next: no seam.
+    drawing.add(
+        rectangle({x, 8.0}, {left + bar * std::min<double>(i + 1.2, steps) / steps, 22.0}, error_tone(2.0 * (i + 0.5) / steps - 1.0)));
   }
   for (int i = -2; i <= 2; ++i) {
     const double x = left + bar * (0.5 + 0.25 * i);

@@ -6,11 +6,11 @@
 namespace study {
 namespace {
 
-// A '|' would end the cell, a line end the table.
+// A '|' would end the cell, a line end the table, and '<' begin a tag.
 std::string cell(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '|') { result += '\\'; }
+    if (c == '|' || c == '<' || c == '*' || c == '_') { result += '\\'; }
     result += c == '\n' ? ' ' : c;
   }
   return result;
@@ -47,11 +47,11 @@ std::string to_markdown(const Study& study) {
   for (const SceneStudy& scene : study.scenes) {
     std::string words;
     for (const std::string& sentence : findings(scene)) { words += (words.empty() ? "" : " ") + sentence; }
-    text += "\n## " + scene.scene + "\n\n" + scene.title + "\n\nReference: " + reference_text(scene.reference) + "\n\n" + words + "\n\n" +
-            markdown(summary_table(scene)) + "\n### All runs\n\n" + markdown(run_table(scene));
+    text += "\n## " + cell(scene.scene) + "\n\n" + cell(scene.title) + "\n\nReference: " + reference_text(scene.reference) + "\n\n" + words + "\n\n" +
+            markdown(summary_table(scene)) + "\n### All runs (errors in %)\n\n" + markdown(run_table(scene));
     const Table parts = part_table(scene);
-    if (!parts.rows.empty()) { text += "\n### Where the error comes from\n\n" + markdown(parts); }
-    text += "\n### Other norms\n\n" + markdown(norm_table(scene));
+    if (!parts.rows.empty()) { text += "\n### Where the error comes from (%)\n\n" + markdown(parts); }
+    text += "\n### Other norms (%)\n\n" + markdown(norm_table(scene));
     if (!scene.left_out.empty()) { text += "\n### Left out\n\n"; }
     for (const radiosity::LeftOut& item : scene.left_out) {
       text += "- " + item.what + ": " + item.why + (item.saved.empty() ? "" : " (saved: " + item.saved + ")") + "\n";

@@ -71,8 +71,15 @@ namespace study {
   return (i == 0 ? fixed(x, 0) : figure(x)) + units[i];
 }
 
-// Thousands apart: 12 345 (with a narrow space that does not break).
+// 9 876, 12.3 k, 1.23 M; the space of the first is narrow and does not break.
 [[nodiscard]] inline std::string count_text(std::uint64_t count) {
+  if (count >= 10000) {
+    static constexpr std::array<const char*, 4> units = {" k", " M", " G", " T"};
+    double x = static_cast<double>(count) / 1000.0;
+    std::size_t i = 0;
+    for (; x >= 999.5 && i + 1 < units.size(); ++i) { x /= 1000.0; }
+    return figure(x) + units[i];
+  }
   std::string digits = std::to_string(count);
   for (std::size_t i = digits.size(); i > 3; i -= 3) { digits.insert(i - 3, "\u202f"); }
   return digits;

@@ -27,14 +27,15 @@ struct KnownError {
   return measured < noise ? KnownError{noise, true} : KnownError{measured, false};
 }
 
-// "1.2 %", "< 0.4 %", "–".
-[[nodiscard]] inline std::string to_text(const KnownError& error) { return (error.limited ? "< " : "") + percent(error.value); }
+// In per cent: "1.20", "< 0.400", "–" in tables that name the unit, "1.20 %" elsewhere.
+[[nodiscard]] inline std::string to_number(const KnownError& error) { return (error.limited ? "< " : "") + figure(100.0 * error.value); }
+[[nodiscard]] inline std::string to_text(const KnownError& error) { return to_number(error) + (std::isfinite(error.value) ? " %" : ""); }
 
 // What the error is the error of.
 enum class Stage { leaves, simple, weighted };
 inline constexpr std::array<Stage, 3> stages = {Stage::leaves, Stage::simple, Stage::weighted};
 [[nodiscard]] inline const char* name(Stage stage) {
-  return stage == Stage::leaves ? "constant leaves" : stage == Stage::simple ? "simple reconstruction" : "weighted reconstruction";
+  return stage == Stage::leaves ? "constant leaves" : stage == Stage::simple ? "simple" : "weighted";
 }
 [[nodiscard]] inline const Errors& errors(const Run& run, Stage stage) {
   return stage == Stage::leaves ? run.leaves_error : stage == Stage::simple ? run.simple_error : run.weighted_error;

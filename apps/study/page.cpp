@@ -120,27 +120,28 @@ class Page {
     add_plot(plots[0]);
     table(summary_table(s), "summary",
           "What each method needs to come within an error, by its cheapest run in time, and the run of its least error.");
-    text_ += "<div class=\"pair\">\n";
     add_plot(plots[1]);
     add_plot(plots[2]);
-    text_ += "</div>\n";
     add_plot(plots[3]);
     maps(s);
     text_ += "<h3>Methods</h3>\n<dl>";
     for (const Method& m : s.methods) { text_ += "<dt>" + escaped(m.name) + "</dt><dd>" + escaped(m.summary) + "</dd>"; }
     text_ += "</dl>\n";
     table(run_table(s), "wide",
-          "All runs: cost, and the relative L2 error of cell means and at points, before and after reconstruction. “s saved” is what the "
+          "All runs: cost, and the relative L2 error of cell means and at points, in per cent, before and after reconstruction. “s saved” "
+          "is what the "
           "same run takes "
           "longer when nothing is left out. ★ and shade: on the Pareto front of error and CPU time.");
     const Table parts = part_table(s);
     if (!parts.rows.empty()) {
       table(parts, "",
-            "Where the error comes from, each a relative L2 error of its own: a dense solution on the run's leaves against the reference; "
+            "Where the error comes from, each a relative L2 error of its own, in per cent: a dense solution on the run's leaves against "
+            "the reference; "
             "the run's "
             "links and visibility against that solution; the solver's residual; the picture against the leaves.");
     }
-    table(norm_table(s), "wide", "The other norms: relative L1, and the worst cell or point relative to the brightest of the reference.");
+    table(norm_table(s), "wide",
+          "The other norms, in per cent: relative L1, and the worst cell or point relative to the brightest of the reference.");
     if (s.left_out.empty()) { return; }
     text_ += "<h3>What this scene does not need</h3>\n<ul class=\"omitted\">\n";
     for (const radiosity::LeftOut& item : s.left_out) {

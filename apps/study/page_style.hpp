@@ -24,7 +24,6 @@ figure{margin:18px 0;break-inside:avoid}
 figure svg{display:block;width:100%;height:auto;max-width:820px}
 figcaption{font-size:14.5px;color:var(--pale);max-width:52em;margin-top:4px}
 figcaption b,caption b{color:var(--ink)}
-.pair{display:grid;grid-template-columns:1fr 1fr;gap:20px}
 .maps{display:grid;grid-template-columns:repeat(3,1fr);gap:14px}
 .maps figure{margin:0}.maps img{display:block;width:100%;height:auto}
 .maps figcaption{font-size:13px;line-height:1.35}
@@ -34,14 +33,14 @@ table{border-collapse:collapse;font:13px/1.35 'Helvetica Neue',Arial,'Liberation
  border-top:1.5px solid var(--ink);border-bottom:1.5px solid var(--ink)}
 caption{text-align:left;font:14.5px/1.45 Georgia,'Liberation Serif','DejaVu Serif',serif;color:var(--pale);padding-bottom:6px;max-width:66em}
 th{font-weight:600;vertical-align:bottom;border-bottom:1px solid var(--ink)}
-th,td{padding:2px 8px;text-align:right}
-th.name,td.name{text-align:left}td.name{white-space:nowrap}
+th,td{padding:2px 8px;text-align:right}td{white-space:nowrap}
+th.name,td.name{text-align:left}
 tr.begins td{border-top:1px solid var(--faint)}
 tr.front td:nth-child(2)::after{content:' \2605'}
 tr.front td{background:var(--strong)}
 td.best{font-weight:bold}
-td.remark{text-align:left;font-style:italic;color:var(--pale)}
-@media (max-width:760px){.pair{grid-template-columns:1fr}.maps{grid-template-columns:1fr 1fr}dl{grid-template-columns:1fr}}
+td.remark{text-align:left;white-space:normal;font-style:italic;color:var(--pale)}
+@media screen and (max-width:760px){.maps{grid-template-columns:1fr 1fr}dl{grid-template-columns:1fr}}
 @media screen and (prefers-color-scheme:dark){
  :root{--paper:#16181b;--ink:#e8e8e4;--pale:#a2a29c;--faint:#3a3d42;--strong:#22282f}
  svg [fill="#222222"]{fill:var(--ink)}svg [stroke="#222222"]{stroke:var(--ink)}
@@ -59,7 +58,6 @@ td.remark{text-align:left;font-style:italic;color:var(--pale)}
  h2.first{break-before:auto}
  h3{break-after:avoid}
  .wide{page:wide}
- .pair{display:block}
  figure svg{max-width:170mm}
  .scroll{overflow:visible}
  table{font-size:7pt}.summary table{font-size:8pt}th,td{padding:1px 4px}

@@ -90,13 +90,13 @@ void draw_front(Drawing& drawing, const PlotFrame& frame, const std::vector<Curv
   for (const Curve& curve : curves) { all.insert(all.end(), curve.points.begin(), curve.points.end()); }
   const std::vector<std::size_t> front = pareto_front(all);
   if (front.empty()) { return; }
-  std::vector<glm::dvec2> steps{frame.at(all[front[0]].cost, frame.error_high)};
+  std::vector<glm::dvec2> steps{frame.at(all[front[0]].cost, frame.error_high) + glm::dvec2(0.0, 4.0)};
   for (const std::size_t i : front) {
     const glm::dvec2 p = frame.at(all[i].cost, all[i].error);
     steps.emplace_back(p.x, steps.back().y);
     steps.push_back(p);
   }
-  steps.emplace_back(frame.right(), steps.back().y);
+  steps.emplace_back(frame.right() - 4.0, steps.back().y);
   drawing.add(front_line(std::move(steps)));
 }
 

@@ -81,9 +81,9 @@ Table run_table(const SceneStudy& scene) {
                                count_text(run.leaves), count_text(run.rays)}) {
         row.cells.push_back(std::move(cell));
       }
-      for (const Stage stage : stages) { row.cells.push_back(to_text(known_error(errors(run, stage).cells.l2, scene.reference.noise))); }
+      for (const Stage stage : stages) { row.cells.push_back(to_number(known_error(errors(run, stage).cells.l2, scene.reference.noise))); }
       for (const Stage stage : stages) {
-        row.cells.push_back(to_text(known_error(errors(run, stage).points.l2, scene.reference.point_noise)));
+        row.cells.push_back(to_number(known_error(errors(run, stage).points.l2, scene.reference.point_noise)));
       }
     }
     table.rows.push_back(std::move(row));
@@ -104,7 +104,7 @@ Table norm_table(const SceneStudy& scene) {
       for (const auto& [where, noise] :
            {std::pair{&Errors::cells, scene.reference.noise}, std::pair{&Errors::points, scene.reference.point_noise}}) {
         for (const Stage stage : stages) {
-          if (row.remark.empty()) { row.cells.push_back(to_text(known_error(errors(run, stage).*where.*norm, noise))); }
+          if (row.remark.empty()) { row.cells.push_back(to_number(known_error(errors(run, stage).*where.*norm, noise))); }
         }
       }
     }
@@ -120,8 +120,10 @@ Table part_table(const SceneStudy& scene) {
     if (!run.parts || !run.refused.empty()) { return; }
     TableRow row = first_cells(method, run, &method != last, strong);
     last = &method;
-    row.cells.push_back(to_text(known_error(run.parts->discretisation, scene.reference.noise)));
-    for (const double part : {run.parts->links, run.parts->solver, run.parts->reconstruction}) { row.cells.push_back(percent(part)); }
+    row.cells.push_back(to_number(known_error(run.parts->discretisation, scene.reference.noise)));
+    for (const double part : {run.parts->links, run.parts->solver, run.parts->reconstruction}) {
+      row.cells.push_back(figure(100.0 * part));
+    }
     table.rows.push_back(std::move(row));
   });
   return table;
@@ -141,8 +143,7 @@ std::vector<std::string> findings(const SceneStudy& scene) {
         "Within " + percent(target) + ": " + reached[0].second->name + " needs least time, " + seconds(reached[0].first) + " s";
     if (reached.size() > 1) { text += ", then " + reached[1].second->name + ", " + seconds(reached[1].first) + " s"; }
     if (reached.size() < scene.methods.size()) {
-      text += "; " + std::to_string(scene.methods.size() - reached.size()) + " of " + std::to_string(scene.methods.size()) +
-              " methods do not get there";
+      text += "; " + std::to_string(reached.size()) + " of " + std::to_string(scene.methods.size()) + " methods get there";
     }
     result.push_back(text + ".");
   }
