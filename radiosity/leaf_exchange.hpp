@@ -12,8 +12,9 @@
 
 #include <radiosity/evaluate.hpp>
 #include <radiosity/material.hpp>
+#include <radiosity/occlusion.hpp>
 #include <radiosity/oracle.hpp>
-#include <radiosity/refine.hpp>
+#include <radiosity/surface.hpp>
 
 namespace radiosity {
 
@@ -30,12 +31,18 @@ class LeafExchange {
   LeafExchange(const raycast::Scene& objects, const Plan& plan, const std::vector<Surface>& surfaces, const Hierarchy& hierarchy,
                const Patches& patches, const Exposure& exposure, const LinkEvaluator& evaluator)
       : objects_{&objects}, plan_{&plan}, hierarchy_{&hierarchy}, patches_{&patches}, evaluator_{&evaluator} {
-    std::vector<std::uint32_t> root_of(hierarchy.size());
+    std::vector<std::uint32_t> root_of(hierarchy.size());  // as an index of roots
+    std::vector<std::uint32_t> root_nodes;
     Hierarchy roots;
     for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
       const Node& node = hierarchy[i];
-      root_of[i] = node.parent == no_node ? i : root_of[node.parent];
-      if (node.parent == no_node) { roots.push_back(node); }
+      if (node.parent == no_node) {
+        root_of[i] = static_cast<std::uint32_t>(roots.size());
+        roots.push_back(node);
+        root_nodes.push_back(i);
+      } else {
+        root_of[i] = root_of[node.parent];
+      }
       if (!node.leaf() || !(exposure.area[i] > 0.0)) { continue; }
       leaves_.push_back(i);
       area_.push_back(exposure.area[i]);
@@ -44,14 +51,18 @@ class LeafExchange {
     // What can stand between two input faces is looked up once for all their leaves.
     count_ = roots.size();
     lists_.assign(count_ * count_, nothing);
-    std::vector<detail::Pair> pairs;
-    RefineResult found;
-    detail::root_pairs(surfaces, roots, plan, pairs, found);
-    for (const std::uint32_t r : found.inner) { lists_[r * count_ + r] = OccluderLists::none; }
-    for (const auto& [p, q, unknown] : pairs) {
-      const raycast::OccluderList list = occluders_.of(p, q, unknown, objects, plan, patches);
-      if (list.blocked() || f_oracle(roots[p], roots[q], 1.0, 0.0) == Decision::drop) { continue; }
-      lists_[p * count_ + q] = lists_[q * count_ + p] = occluders_.keep(list, unknown);
+    for (std::size_t p = 0; p < count_; ++p) {
+      for (std::size_t q = p; q < count_; ++q) {
+        if (!may_exchange(surfaces, roots[p], roots[q], p == q)) { continue; }
+        std::uint32_t& index = lists_[p * count_ + q];
+        if (p == q) {
+          index = OccluderLists::none;
+          continue;
+        }
+        const raycast::OccluderList list = occluders_.of(root_nodes[p], root_nodes[q], OccluderLists::none, objects, plan, patches);
+        if (list.blocked() || f_oracle(roots[p], roots[q], 1.0, 0.0) == Decision::drop) { continue; }
+        index = lists_[q * count_ + p] = occluders_.keep(list, OccluderLists::none);
+      }
     }
   }
 
@@ -76,6 +87,14 @@ class LeafExchange {
  private:
   static constexpr std::uint32_t nothing = 0xfffffffd;  // of two roots: they exchange no light
 
+  // Faces of one flat sheet or of one convex solid do not see each other, and no flat face sees itself.
+  [[nodiscard]] static bool may_exchange(const std::vector<Surface>& surfaces, const Node& a, const Node& b, bool same) {
+    if (a.object != b.object) { return true; }
+    const raycast::PlacedObject& object = *surfaces[a.object].object;
+    if (object.convex() && !object.inside()) { return false; }
+    return !object.flat() || !(same || a.surface == b.surface);
+  }
+
   const raycast::Scene* objects_;
   const Plan* plan_;
   const Hierarchy* hierarchy_;
@@ -83,7 +102,7 @@ class LeafExchange {
   const LinkEvaluator* evaluator_;
   std::vector<std::uint32_t> leaves_, roots_;
   std::vector<double> area_;
-  std::size_t count_ = 0;             // of roots; they come first in the hierarchy
+  std::size_t count_ = 0;             // of roots
   std::vector<std::uint32_t> lists_;  // of each pair of roots
   OccluderLists occluders_;
 };

@@ -56,8 +56,9 @@ TEST_CASE("shooting converges to the solution of the full matrix") {
   options.max_area = 0.02;
   const Solution dense = solved(solve_uniform(scene, options));
   options.solver = UniformSolver::progressive;
+  options.threads = 1;  // a row is too short to share
   double before = 1.0;
-  for (const double unshot : {0.1, 0.01, 1e-4, 1e-6}) {
+  for (const double unshot : {0.1, 0.01, 1e-4}) {
     CAPTURE(unshot);
     options.unshot = unshot;
     const Solution shot = solved(solve_uniform(scene, options));
@@ -106,11 +107,10 @@ TEST_CASE("the parts of a separate polygon stay in its plane, those of a shared 
     for (const glm::dvec3& p : solution.mesh.positions) { least = std::min(least, glm::length(p)); }
     return least;
   };
-  options.epsilon = 0.01;
   CHECK(farthest_in(solved(solve(scene, options))) > 1.0 - 1e-9);
   options.topology = Topology::separate;
   const double chord = farthest_in(solved(solve(scene, options)));
-  CHECK(chord < 1.0 - 1e-4);
+  CHECK(chord < 1.0 - 1e-3);  // the first approximation has a chord error of 1 % of the ball's bounds
   CHECK(chord > 0.9);
 }
 
