@@ -4,6 +4,7 @@
 #include "catch.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -15,6 +16,7 @@
 
 #include "apps/scene_file.hpp"
 #include "generations.hpp"
+#include "program.hpp"
 
 namespace {
 
@@ -57,6 +59,28 @@ TEST_CASE("every scene: valid BReps after every generation, v - e + f = 2 (s - h
   REQUIRE(all_scenes().size() >= 6);
   for (const std::string& name : all_scenes()) {
     if (name != "primitives.scene") { solve_with_checks(name, 0.02, 1e-4); }
+  }
+}
+
+TEST_CASE(
+    "scenes with parameters: the files are what make_scenes.sh writes, begin with their difficulty, and other parameters parse, too") {
+  const program::Place place;
+  const auto made = [&](const std::string& arguments) {
+    const std::string out = (place.path() / "made.scene").string();
+    REQUIRE(std::system(("sh '" HALFLIGHT_SCENES "/make_scenes.sh' " + arguments + " >'" + out + "' 2>&1").c_str()) == 0);
+    return program::content(out);
+  };
+  for (const std::string name : {"perpendicular_plates", "penumbra", "corridor", "nested_rooms", "boxes"}) {
+    CAPTURE(name);
+    const std::string text = made(name);
+    CHECK(text == program::content(std::string(HALFLIGHT_SCENES) + "/" + name + ".scene"));
+    CHECK(text.substr(0, 2) == "# ");
+  }
+  for (const char* arguments :
+       {"perpendicular_plates 150", "penumbra 1.9", "corridor 40 0.99", "nested_rooms 0.1 4", "boxes 1 3", "boxes 300 2"}) {
+    const apps::SceneResult result = apps::parse_scene(made(arguments));
+    INFO(apps::to_text(result, arguments));
+    CHECK(result.file);
   }
 }
 
