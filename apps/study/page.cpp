@@ -127,18 +127,17 @@ class Page {
     text_ += "<h3>Methods</h3>\n<dl>";
     for (const Method& m : s.methods) { text_ += "<dt>" + escaped(m.name) + "</dt><dd>" + escaped(m.summary) + "</dd>"; }
     text_ += "</dl>\n";
-    table(run_table(s), "wide",
-          "All runs: cost, and the relative L2 error of cell means and at points, in per cent, before and after reconstruction. “s saved” "
-          "is what the "
-          "same run takes "
-          "longer when nothing is left out. ★ and shade: on the Pareto front of error and CPU time.");
+    table(
+        run_table(s), "wide",
+        "All runs: cost, and the relative L2 error of cell means and at points, in per cent, before and after reconstruction. “s saved” is "
+        "about what the run would take longer if nothing were left out. ★ and shade: on the Pareto front of error and CPU time.");
     const Table parts = part_table(s);
     if (!parts.rows.empty()) {
       table(parts, "",
-            "Where the error comes from, each a relative L2 error of its own, in per cent: a dense solution on the run's leaves against "
-            "the reference; "
+            "Where the error comes from, each a relative L2 error of its own at the reference's points, in per cent: a dense solution on "
             "the run's "
-            "links and visibility against that solution; the solver's residual; the picture against the leaves.");
+            "leaves against the reference; the run's links and visibility against that solution; the solver's residual; the picture "
+            "against the leaves.");
     }
     table(norm_table(s), "wide",
           "The other norms, in per cent: relative L1, and the worst cell or point relative to the brightest of the reference.");
@@ -167,9 +166,9 @@ class Page {
     }
     text_ += "</div>\n<figure class=\"scale\">" + to_svg(error_scale(limit), "scale of the error pictures") + "<figcaption><b>Fig. " +
              std::to_string(++figures_) +
-             ".</b> Error of each cell's mean, relative to the brightest cell of the reference; one scale for all. What is grey emits "
-             "light or is no part "
-             "of the scene.</figcaption></figure>\n";
+             ".</b> Error of each cell's mean in the picture, after weighted reconstruction, relative to the brightest cell of the "
+             "reference; one scale for all. "
+             "What is grey emits light or is no part of the scene.</figcaption></figure>\n";
   }
 
   void table(const Table& table, const std::string& kind, const std::string& caption) {
@@ -201,7 +200,8 @@ class Page {
         "radiosity at single points. "
         "“Before” is the constant radiosity of the solution's leaves, “simple” and “weighted” are what a picture shows.");
     paragraph(
-        "A reference that was traced has noise of its own: the relative L2 norm of its standard errors. No error is reported below it: a "
+        "A reference that was traced has noise of its own, which is also in the errors: the relative L2 norm of its standard errors. No "
+        "error is reported below it: a "
         "hollow mark, and “<” in a "
         "table, say that the error is at most the noise. A slope is the exponent p of error = c · costᵖ by least squares in log-log, with "
         "its standard error, and needs "

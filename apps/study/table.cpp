@@ -120,7 +120,7 @@ Table part_table(const SceneStudy& scene) {
     if (!run.parts || !run.refused.empty()) { return; }
     TableRow row = first_cells(method, run, &method != last, strong);
     last = &method;
-    row.cells.push_back(to_number(known_error(run.parts->discretisation, scene.reference.noise)));
+    row.cells.push_back(to_number(known_error(run.parts->discretisation, scene.reference.point_noise)));
     for (const double part : {run.parts->links, run.parts->solver, run.parts->reconstruction}) {
       row.cells.push_back(figure(100.0 * part));
     }

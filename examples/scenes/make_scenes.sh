@@ -5,7 +5,7 @@
 #   sh make_scenes.sh perpendicular_plates [DEGREES]      angle between two plates that share an edge     90
 #   sh make_scenes.sh penumbra [HEIGHT]                   of the blocker, above 0 and below 2             0.5
 #   sh make_scenes.sh corridor [LENGTH [REFLECTANCE]]     of a corridor 2 m wide, lit at one end          16 0.8
-#   sh make_scenes.sh nested_rooms [DOOR [ROOMS]]         width of the doors, rooms around the lamp       0.4 2
+#   sh make_scenes.sh nested_rooms [DOOR [ROOMS]]         width of the doors, rooms inside the hall       0.6 1
 #   sh make_scenes.sh boxes [NUMBER [SEED]]               of boxes that stand about at random             25 1
 #
 # The files beside this one are made with the values at the right:  sh make_scenes.sh corridor > corridor.scene
@@ -23,7 +23,7 @@ perpendicular_plates() {
     print "material lamp   reflectance 0  emission 1"
     print "material plate  reflectance 0.5"
     print ""
-    print "camera side  eye 2.2 -1.3 1.5  target 0.3 0.5 0.35  fov 38"
+    print "camera side  eye 2.7 -1.7 1.9  target 0.35 0.5 0.38  fov 38"
     print ""
     print "polygon lower material lamp {"
     print "    vertex 0 0 0\n    vertex 1 0 0\n    vertex 1 1 0\n    vertex 0 1 0\n}"
@@ -68,15 +68,15 @@ corridor() {
 }
 
 nested_rooms() {
-  awk -v door="${1:-0.4}" -v rooms="${2:-2}" 'BEGIN {
-    print "# Narrow passages: a lamp in the innermost of " rooms + 1 " rooms, each inside the next, with doors of " door " m on alternating sides."
+  awk -v door="${1:-0.6}" -v rooms="${2:-1}" 'BEGIN {
+    print "# Narrow passages: a lamp in the innermost of " rooms + 1 " rooms, each inside the next, with doors " door " m wide on alternating sides."
     print ""
     print "material wall   reflectance 0.75"
     print "material stone  reflectance 0.6 0.5 0.4"
     print "material lamp   reflectance 0  emission 60 55 45"
     print ""
     size = 1.4 * (rooms + 1)
-    printf "camera inside  eye %g %g 1.7  target 0 0 0.9  fov 75\n\n", size - 0.2, 0.2 - size
+    printf "camera inside  eye %g %g 1.9  target %g 0.3 0.9  fov 75\n\n", size - 0.2, 0.2 - size, size - 1.1
     printf "box hall  from %g %g 0  to %g %g 3.2  inside  material wall\n", -size, -size, size, size
     for (i = 1; i <= rooms; ++i) {
       size = 1.4 * (rooms + 1 - i)
