@@ -92,6 +92,16 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
     result.norm += area[i] * glm::dot(reflected, reflected);
   }
   const std::vector<NodeLight> light = light_of_nodes(hierarchy, area, radiosity);
+  std::vector<Color> of_clusters;  // mean reflectance
+  const auto rho = [&](const Node& node) { return node.is_cluster() ? of_clusters[node.cluster] : reflectance[node.surface]; };
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {
+    const Node& node = hierarchy[i];
+    if (!node.is_cluster()) { continue; }
+    if (of_clusters.size() <= node.cluster) { of_clusters.resize(node.cluster + 1, Color{0.0}); }
+    Color sum{0.0};
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { sum += area[c] * rho(hierarchy[c]); }
+    of_clusters[node.cluster] = area[i] > 0.0 ? sum / area[i] : sum;
+  }
   const auto square = [](double x) { return x * x; };
   const auto unmended = [&](const LinkShape::End& shape, bool leaf) {  // of the light received
     return (leaf ? square(leaf_linear * shape.linear) : 0.0) + square(shape.rest) + square(shape.shadow);
@@ -101,8 +111,8 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
     const Link& link = links[i];
     const Node& p = hierarchy[link.p];
     const Node& q = hierarchy[link.q];
-    const Color rho_p = reflectance[p.surface];
-    const Color rho_q = reflectance[q.surface];
+    const Color rho_p = rho(p);
+    const Color rho_q = rho(q);
     const double g2 = square(link.exchange);
     const Color to_p = g2 / area[link.p] * rho_p * rho_p;
     const Color to_q = g2 / area[link.q] * rho_q * rho_q;
@@ -118,6 +128,24 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
     result.sum += mend_p + mend_q;
   }
   return result;
+}
+
+// The estimate for links that were not made by BF-refinement, from at most 4096 of them, spread evenly; their shapes are found now.
+inline double sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Exposure& exposure, const Links& links,
+                               const std::vector<Color>& reflectance, const std::vector<Color>& emission,
+                               const std::vector<Color>& radiosity, unsigned threads) {
+  const std::size_t count = std::min<std::size_t>(links.size(), 4096);
+  Links sample(count);
+  std::vector<LinkShape> shapes(count);
+  parallel_for(count, threads, [&](std::size_t i) {
+    sample[i] = links[static_cast<std::size_t>(static_cast<double>(i) / static_cast<double>(count) * static_cast<double>(links.size()))];
+    const float closed = sample[i].exchange;
+    (void)evaluator(sample[i], {}, &shapes[i]);
+    sample[i].exchange = closed;
+  });
+  ErrorEstimation errors = estimate_errors(hierarchy, exposure, sample, shapes, reflectance, emission, radiosity);
+  if (count > 0) { errors.sum *= static_cast<double>(links.size()) / static_cast<double>(count); }
+  return errors.relative();
 }
 
 // The least error of a link that is to be refined: the links above it hold all of the sum but `keep`, within a factor of sqrt 2.

@@ -57,6 +57,21 @@ inline std::vector<std::uint32_t> sizes_of(const Grouping& tree) {
   return sizes;
 }
 
+// Bounds of every item, the nodes from `first` on, and group.
+inline std::vector<raycast::Box> bounds_of(const Grouping& tree, const Hierarchy& faces, std::uint32_t first) {
+  std::vector<raycast::Box> boxes;
+  for (std::uint32_t i = 0; i < tree.items; ++i) {
+    const Node& node = faces[first + i];
+    boxes.push_back({node.centre - node.radius, node.centre + node.radius});
+  }
+  for (const std::vector<std::uint32_t>& members : tree.groups) {
+    raycast::Box box;
+    for (const std::uint32_t m : members) { box.extend(boxes[m]); }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
 // The groups of a bounding volume hierarchy.
 inline Grouping group_boxes(const std::vector<raycast::Box>& boxes) {
   const raycast::Bvh bvh{boxes};
@@ -181,20 +196,24 @@ class ClusterWriter {
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t i = first; i < end; ++i) { numbers.push_back(i); }
     std::vector<std::uint32_t> tops;
+    std::vector<raycast::Box> bounds;  // of the tops
     const bool room = surfaces[o].object->inside();
     if (numbers.size() <= 8) {
       tops = !room && numbers.size() > 1 ? std::vector{writer.group(numbers)} : numbers;
+      bounds.assign(tops.size(), surfaces[o].object->bounds());
     } else {
       const Grouping tree = cluster_faces(surfaces[o], roots, first, end - first);
-      for (const std::uint32_t top : tree.tops) { tops.push_back(enter(tree, top, numbers)); }
+      const std::vector<raycast::Box> boxes_of_tree = detail::bounds_of(tree, roots, first);
+      for (const std::uint32_t top : tree.tops) {
+        tops.push_back(enter(tree, top, numbers));
+        bounds.push_back(boxes_of_tree[top]);
+      }
     }
     if (room) {
       under_root.insert(under_root.end(), tops.begin(), tops.end());
     } else {
-      for (const std::uint32_t top : tops) {
-        parts.push_back(top);
-        boxes.push_back(surfaces[o].object->bounds());
-      }
+      parts.insert(parts.end(), tops.begin(), tops.end());
+      boxes.insert(boxes.end(), bounds.begin(), bounds.end());
     }
     first = end;
   }

@@ -89,7 +89,9 @@ class LinkEvaluator {
     if (!(area_p > 0.0) || !(area_q > 0.0)) { return {}; }
     if (!between_patches(link)) {
       const Random random{seed_, (std::uint64_t{link.p} << 32) | link.q};
-      return {evaluate_cluster_link(sampler_, *hierarchy_, link, cluster_rounds, random).rays, 0};
+      const ClusterExchange seen = evaluate_cluster_link(sampler_, *hierarchy_, link, cluster_rounds, random);
+      if (shape != nullptr) { *shape = shape_of_cluster_link(link, seen.fraction); }
+      return {seen.rays, 0};
     }
     const double unoccluded = exchange(p, q);
     if (!(unoccluded > 0.0)) { return {}; }
@@ -128,6 +130,18 @@ class LinkEvaluator {
   }
   [[nodiscard]] static LinkShape::End shape_of(const Variation& v, double shadow) {
     return {static_cast<float>(v.linear), static_cast<float>(v.rest), static_cast<float>(shadow)};
+  }
+  // Each face of a cluster is lit as if it stood at the centre, and sees all or nothing of the other end.
+  [[nodiscard]] LinkShape shape_of_cluster_link(const Link& link, double fraction) const {
+    const Node& p = (*hierarchy_)[link.p];
+    const Node& q = (*hierarchy_)[link.q];
+    const double r = glm::length(q.centre - p.centre);
+    const double shadow = fraction > 0.0 ? std::sqrt((1.0 - fraction) / fraction) : 0.0;
+    const auto end = [&](const Node& node) {
+      const double near = r > 0.0 ? 2.0 * node.radius / (std::sqrt(12.0) * r) : 0.0;
+      return LinkShape::End{0.0f, static_cast<float>(near), node.is_cluster() ? static_cast<float>(shadow) : 0.0f};
+    };
+    return {end(p), end(q)};
   }
   [[nodiscard]] PatchEnd end(std::uint32_t i) const { return {&(*patches_)[i], (*hierarchy_)[i].object, exposure_->points(i)}; }
 
