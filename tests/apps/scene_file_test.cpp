@@ -236,6 +236,7 @@ TEST_CASE("the example in the README of the scenes is sound") {
   const std::size_t end = readme.find("## Grammar");
   REQUIRE(begin < end);
   const auto file = parsed(readme.substr(begin, end - begin));
-  CHECK(file.scene.objects.size() == 14);
-  CHECK(file.scene.objects.back().name == "second.back");
+  REQUIRE(file.scene.objects.size() == 15);
+  CHECK(file.scene.objects[13].name == "second.back");
+  CHECK(file.scene.objects[14].name == "bench");
 }
