@@ -13,6 +13,7 @@
 #include "apps/commands/info.hpp"
 #include "apps/commands/mesh.hpp"
 #include "apps/commands/render.hpp"
+#include "apps/commands/study.hpp"
 #include "apps/version.hpp"
 
 namespace {
@@ -28,12 +29,15 @@ int run(int argc, char** argv) {
   apps::CheckOptions check;
   apps::EulerOptions euler;
   apps::FactorsOptions factors;
+  apps::StudyOptions study;
   CLI::App* const render_command = app.add_subcommand("render", "solve a scene; write a picture or a mesh and the report");
   CLI::App* const info_command = app.add_subcommand("info", "say what is in a scene without solving it");
   CLI::App* const mesh_command = app.add_subcommand("mesh", "the polygons of each object: counts, genus, area, volume, and a mesh file");
   CLI::App* const check_command = app.add_subcommand("check", "say what a polygon mesh is and everything that is wrong with it");
   CLI::App* const factors_command = app.add_subcommand("factors", "the form factors between the surfaces of a scene, each with its error");
   CLI::App* const euler_command = app.add_subcommand("euler", "play a script of Euler operators; draw each step");
+  CLI::App* const study_command = app.add_subcommand("study", "error against time, memory and links for every method on each scene");
+  apps::describe(*study_command, study);
   apps::describe(*render_command, render);
   apps::describe(*info_command, info);
   apps::describe(*mesh_command, mesh);
@@ -46,6 +50,7 @@ int run(int argc, char** argv) {
   if (render_command->parsed()) { return static_cast<int>(apps::run(render)); }
   if (mesh_command->parsed()) { return static_cast<int>(apps::run(mesh)); }
   if (check_command->parsed()) { return static_cast<int>(apps::run(check)); }
+  if (study_command->parsed()) { return static_cast<int>(apps::run(study)); }
   if (factors_command->parsed()) { return static_cast<int>(apps::run(factors)); }
   return static_cast<int>(euler_command->parsed() ? apps::run(euler) : apps::run(info));
 }

@@ -18,11 +18,13 @@
 
 #include <radiosity/audit.hpp>
 #include <radiosity/bf_refine.hpp>
+#include <radiosity/comparison.hpp>
 #include <radiosity/evaluate.hpp>
 #include <radiosity/exposure.hpp>
 #include <radiosity/frame.hpp>
 #include <radiosity/mesh.hpp>
 #include <radiosity/options.hpp>
+#include <radiosity/polygons.hpp>
 #include <radiosity/prepare.hpp>
 #include <radiosity/reconstruct.hpp>
 #include <radiosity/refine.hpp>
@@ -44,6 +46,8 @@ struct Solution {
   std::vector<double> area;      // exposed, one a node
   std::vector<double> row_sum;   // of the system that was solved, one a node; 0 at inner nodes
   std::vector<Color> radiosity;  // W/m2, one a node
+
+  std::optional<Comparison> comparison;  // when asked for
 };
 
 struct Failure {
@@ -90,21 +94,18 @@ inline void add_times(std::vector<StageTime>& total, const std::vector<StageTime
   }
 }
 
-// The total, of which the audit is no part.
+// The total, of which neither the audit nor a comparison is a part.
 inline void sum_times(Audit& audit) {
   audit.wall_seconds = 0.0;
   audit.cpu_seconds = 0.0;
   for (const StageTime& stage : audit.stages) {
-    if (stage.name == "audit") { continue; }
+    if (stage.name == "audit" || stage.name == "compare") { continue; }
     audit.wall_seconds += stage.wall_seconds;
     audit.cpu_seconds += stage.cpu_seconds;
   }
 }
 
 inline Outcome failed(Failure::Kind kind, std::vector<std::string> sentences) { return {std::nullopt, {kind, std::move(sentences)}}; }
-
-// A closed scene whose rows need a larger RMS correction is too coarse for it.
-inline constexpr double closing_limit = 0.1;
 
 // One run at a given fineness.
 inline Outcome solve_at(const Scene& scene, const Options& options, const Control& control) {
@@ -123,6 +124,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   const Frame frame = preparation.prepared->frame;
   const raycast::Scene& objects = preparation.prepared->objects;
   std::vector<Surface>& boundary = preparation.prepared->surfaces;
+  if (options.topology == Topology::separate) {
+    for (Surface& surface : boundary) { surface = separate_polygons(surface); }
+  }
   const Plan& plan = preparation.prepared->plan;
   const std::vector<InputSurface> inputs = surfaces(scene);
   solution.frame = frame;
@@ -201,15 +205,35 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.converged = solved.converged;
   audit.histories = std::move(solved.histories);
   solution.radiosity = std::move(solved.radiosity);
+  if (needs_links && options.refinement == Refinement::a_priori && options.audit_points > 0) {
+    audit.estimated_error =
+        detail::sampled_estimate(evaluator, hierarchy, exposure, solution.links, reflectance, emission, solution.radiosity, threads);
+  }
   balance_energy(audit, scene, inputs, hierarchy, transport, exposure.area, solution.radiosity);
   summarise_surfaces(audit, inputs, frame, hierarchy, exposure.area, solution.radiosity);
   watch.lap("solve");
+  if (options.compare) {
+    solution.comparison.emplace();
+    if (exposed_leaves(hierarchy, exposure) <= *options.compare) {
+      const LeafExchange exchange{objects, plan, boundary, hierarchy, patches, exposure, evaluator};
+      solution.comparison->dense = dense_radiosity(exchange, leaf_materials(exchange, hierarchy, reflectance, emission), plan.closed,
+                                                   hierarchy.size(), options.residual, threads, control);
+    }
+    if (control.cancelled()) { return cancelled(); }
+    watch.lap("compare");
+  }
 
   const bool constant = options.reconstruction == Reconstruction::constant;
   const bool cut = (!constant || !plan.shortcuts) && eliminate_t_vertices(boundary) > 0;
   reconstruct(boundary, hierarchy, exposure, solution.radiosity, materials, options.reconstruction);
   solution.mesh = make_mesh(boundary, hierarchy, exposure, solution.radiosity);
   watch.lap("reconstruct");
+  if (solution.comparison) {
+    reconstruct(boundary, hierarchy, exposure, solution.radiosity, materials, other(options.reconstruction));
+    solution.comparison->other = make_mesh(boundary, hierarchy, exposure, solution.radiosity);
+    for (glm::dvec3& p : solution.comparison->other.positions) { p = frame.to_scene(p); }
+    watch.lap("compare");
+  }
 
   audit.polygons =
       static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.parent == no_node; }));
@@ -226,7 +250,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.bytes = hierarchy.capacity() * sizeof(Node) + solution.links.capacity() * sizeof(Link) + objects.bytes();
   for (const Surface& surface : boundary) { audit.bytes += surface.brep.bytes(); }
   report_left_out(audit, plan, refined, evaluated, exposure, options, link_cost(evaluator, solution.links));
-  if (!cut && !constant) { audit.left_out.push_back({"T-vertex elimination", "no leaf has a finer neighbour", ""}); }
+  if (!cut && !constant && options.topology == Topology::shared) {
+    audit.left_out.push_back({"T-vertex elimination", "no leaf has a finer neighbour", ""});
+  }
   if (plan.closed && !solution.links.empty() && !audit.closure) {
     audit.left_out.push_back({"closing the scene", "its row sums would need a correction beyond 10 % RMS; refine more", ""});
   }
