@@ -9,7 +9,9 @@
 // as it gets finer; on an edge between two sheets it is placed on both.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -214,41 +216,55 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   return true;
 }
 
-// The contour of an input face in convex parts, none of them refined yet, with a bridge to each hole. Diagonals that span the
-// parts, each joining two that were not connected, vanish: the parts become one disk. The others are the bridges.
-[[nodiscard]] inline Polygon contour_of_parts(const SurfaceBRep& brep, const Hierarchy& hierarchy, std::uint32_t index) {
-  const Node& node = hierarchy[index];
-  const auto part = [&](brep::HalfedgeId h) {  // child_count for what lies beyond the face
-    const std::uint32_t leaf = brep.data(brep.face(h)).node;
-    return leaf != no_node && hierarchy[leaf].parent == index ? leaf - node.first_child : node.child_count;
+// The contour of a polygon in convex parts that share corners, bit by bit, with a bridge to each hole. Diagonals that span the parts, each
+// joining two that were not connected, vanish: the parts become one disk. The others are the bridges.
+[[nodiscard]] inline Polygon contour_of_parts(const std::vector<Polygon>& parts) {
+  struct Side {
+    std::array<double, 6> ends;
+    std::size_t part, corner;
+    bool vanished = false;
+    bool operator<(const Side& other) const { return ends < other.ends; }
   };
-  std::vector<std::uint32_t> group;
-  for (std::uint32_t k = 0; k < node.child_count; ++k) { group.push_back(k); }
-  const auto find = [&](std::uint32_t k) {
+  const auto ends = [](const glm::dvec3& a, const glm::dvec3& b) { return std::array<double, 6>{a.x, a.y, a.z, b.x, b.y, b.z}; };
+  const auto next = [&](std::size_t part, std::size_t corner) { return corner + 1 < parts[part].size() ? corner + 1 : 0; };
+  std::vector<Side> sides;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    for (std::size_t i = 0; i < parts[k].size(); ++i) { sides.push_back({ends(parts[k][i], parts[k][next(k, i)]), k, i}); }
+  }
+  std::sort(sides.begin(), sides.end());
+  const auto find_side = [&](const glm::dvec3& a, const glm::dvec3& b) {
+    const auto found = std::lower_bound(sides.begin(), sides.end(), Side{ends(a, b), 0, 0});
+    return found != sides.end() && found->ends == ends(a, b) ? &*found : nullptr;
+  };
+  std::vector<std::size_t> group(parts.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const auto root = [&](std::size_t k) {
     while (group[k] != k) { k = group[k] = group[group[k]]; }
     return k;
   };
-  std::vector<std::uint32_t> vanished;  // edges
-  brep::HalfedgeId start;
-  for (std::uint32_t k = 0; k < node.child_count; ++k) {
-    for (const brep::HalfedgeId h : brep::halfedges_of(brep, hierarchy[node.first_child + k].face)) {
-      const std::uint32_t beyond = part(brep::twin(h));
-      if (beyond == node.child_count) {
-        start = h;
-      } else if (find(k) != find(beyond)) {
-        group[find(k)] = find(beyond);
-        vanished.push_back(brep::edge(h).index);
-      }
+  const Side* start = nullptr;
+  for (Side& side : sides) {
+    Side* const back = find_side(parts[side.part][next(side.part, side.corner)], parts[side.part][side.corner]);
+    if (back == nullptr) {
+      start = &side;
+    } else if (root(side.part) != root(back->part)) {
+      group[root(side.part)] = root(back->part);
+      side.vanished = back->vanished = true;
     }
   }
-  std::sort(vanished.begin(), vanished.end());
   Polygon polygon;
-  brep::HalfedgeId h = start;
+  const Side* side = start;
   do {
-    polygon.push_back(brep.data(brep.vertex(h)).position);
-    h = brep.next(h);
-    while (std::binary_search(vanished.begin(), vanished.end(), brep::edge(h).index)) { h = brep.next(brep::twin(h)); }
-  } while (h != start);
+    polygon.push_back(parts[side->part][side->corner]);
+    for (std::size_t part = side->part, corner = side->corner;;) {
+      corner = next(part, corner);
+      const glm::dvec3 &from = parts[part][corner], &to = parts[part][next(part, corner)];
+      side = find_side(from, to);
+      if (!side->vanished) { break; }
+      const Side* const back = find_side(to, from);
+      part = back->part, corner = back->corner;
+    }
+  } while (side != start);
   return polygon;
 }
 
@@ -262,7 +278,11 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   };
   const Node& node = hierarchy[index];
   if (node.leaf()) { return corner_polygon(surfaces[node.object].brep, node.face); }
-  if (node.in_parts()) { return contour_of_parts(surfaces[node.object].brep, hierarchy, index); }
+  if (node.in_parts()) {
+    std::vector<Polygon> parts;
+    for (std::uint32_t k = 0; k < node.child_count; ++k) { parts.push_back(contour(surfaces, hierarchy, node.first_child + k)); }
+    return contour_of_parts(parts);
+  }
   Polygon polygon;
   for (std::uint32_t k = 0; k < node.corners; ++k) { polygon.push_back(corner0(node.first_child + k)); }
   return polygon;

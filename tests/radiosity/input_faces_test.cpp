@@ -95,6 +95,29 @@ TEST_CASE("input faces: a wall with windows is one root, with the area, the ligh
   CHECK(whole == 2);
 }
 
+TEST_CASE("input faces: the contour of a whole face does not depend on how far its parts are refined") {
+  const radiosity::Scene scene{{scenes::furnace_material(0.5)}, {scenes::object("wall", wall())}};
+  radiosity::PrepareResult made = radiosity::prepare(scene);
+  REQUIRE(made.prepared);
+  radiosity::Prepared prepared = std::move(*made.prepared);
+  radiosity::Hierarchy hierarchy = radiosity::make_roots(prepared.surfaces);
+  const auto contours = [&] {
+    std::vector<radiosity::Polygon> all;
+    for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
+      if (hierarchy[i].in_parts()) { all.push_back(radiosity::contour(prepared.surfaces, hierarchy, i)); }
+    }
+    return all;
+  };
+  const auto before = contours();
+  REQUIRE(before.size() == 2);
+  for (const radiosity::Polygon& p : before) { CHECK(p.size() == 4 + 3 * 4 + 3 * 2); }  // three windows, a bridge to each
+  radiosity::split_evenly(prepared.surfaces, hierarchy, 0.02 * radiosity::root_area(hierarchy));
+  const auto after = contours();
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    CHECK((before[i].size() == after[i].size() && std::equal(before[i].begin(), before[i].end(), after[i].begin())));
+  }
+}
+
 TEST_CASE("input faces: in a concave room of concave faces a furnace glows evenly, linked at whole faces or at fine parts") {
   raycast::CsgNode room;
   room.operation = raycast::CsgOperation::subtract;
