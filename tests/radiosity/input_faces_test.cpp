@@ -91,6 +91,15 @@ TEST_CASE("input faces: a wall with windows is one root, with the area, the ligh
       // Far rules err by up to 6 (.1/3)^4 = 7e-6, 4 (.35/3)^6 = 1e-5 and 3 (.65/3)^8 = 1.5e-5, on both sides; contours by less.
       CHECK(radiosity::exchange(patch, other) == test::Approx(sum).epsilon(3e-5).margin(1e-7 * std::min(node.area, other.area)));
     }
+    // A link to it costs what its contour costs: with very many parts they are linked one by one.
+    Node far;
+    far.centre = node.centre + 1e3 * node.normal;
+    far.normal = -node.normal;
+    far.area = far.radius = 1e-3;
+    Node many = node;
+    CHECK(radiosity::f_oracle(far, many, 0.1, 0.0) == radiosity::Decision::link);
+    many.child_count = radiosity::most_linked_parts + 1;
+    CHECK(radiosity::f_oracle(far, many, 0.1, 0.0) == radiosity::Decision::split_q);
   }
   CHECK(whole == 2);
 }
