@@ -73,7 +73,8 @@ void error_and_time(std::string& out, const Report& report) {
   row(out, "picture", error_text(audit.picture_error));
   row(out, "leaf constants", error_text(audit.leaf_error));
   if (audit.estimated_error) {
-    row(out, "estimated from links", percent(*audit.estimated_error) + ", after " + std::to_string(audit.generations) + " generations");
+    row(out, "estimated from links",
+        percent(*audit.estimated_error) + (audit.generations > 0 ? ", after " + std::to_string(audit.generations) + " generations" : ""));
   }
   if (audit.picture_error) { row(out, "path-traced points", grouped(audit.audit_points) + ", " + grouped(audit.audit_rays) + " rays"); }
   out += "time (s)                      wall       CPU\n";
@@ -111,7 +112,7 @@ void sizes_and_checks(std::string& out, const Report& report) {
       format("%.2e after %u iterations%s", audit.residual, static_cast<unsigned>(audit.iterations),
              audit.converged ? "" : " - NOT CONVERGED"));
   out += "settings\n";
-  if (audit.estimated_error) {
+  if (report.options.refinement == radiosity::Refinement::a_posteriori) {
     row(out, "refinement",
         audit.target > 0.0 ? format("bf, estimate at most %.3g", audit.target) : std::string("bf, until the time was used"));
   } else {

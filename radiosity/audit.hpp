@@ -66,7 +66,7 @@ struct Audit {
   std::vector<std::vector<double>> histories;  // of each channel: the relative residual at the start and after each iteration
   bool converged = true;                       // solver below its residual and, when asked for, error below its target
   // error
-  std::optional<double> estimated_error;  // relative L2, by the links of BF-refinement
+  std::optional<double> estimated_error;  // relative L2, by what the links cannot express (bf_refine.hpp)
   std::uint32_t generations = 0;          // of BF-refinement
   std::uint32_t audit_points = 0;
   std::optional<ErrorEstimate> leaf_error;     // of the constant on each leaf

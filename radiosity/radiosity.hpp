@@ -205,6 +205,10 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.converged = solved.converged;
   audit.histories = std::move(solved.histories);
   solution.radiosity = std::move(solved.radiosity);
+  if (needs_links && options.refinement == Refinement::a_priori && options.audit_points > 0) {
+    audit.estimated_error =
+        detail::sampled_estimate(evaluator, hierarchy, exposure, solution.links, reflectance, emission, solution.radiosity, threads);
+  }
   balance_energy(audit, scene, inputs, hierarchy, transport, exposure.area, solution.radiosity);
   summarise_surfaces(audit, inputs, frame, hierarchy, exposure.area, solution.radiosity);
   watch.lap("solve");
