@@ -92,6 +92,8 @@ void sizes_and_checks(std::string& out, const Report& report) {
   const radiosity::Audit& audit = report.audit;
   out += "size\n";
   row(out, "nodes, leaves", grouped(audit.nodes) + ", " + grouped(audit.leaves));
+  row(out, "proportions",
+      format("%.2f to %.2f, mean %.2f (regular polygon: 1)", audit.proportion.min, audit.proportion.max, audit.proportion.mean));
   row(out, "links", grouped(audit.links));
   row(out, "rays",
       grouped(audit.rays) + " cast, " + grouped(audit.rays_avoided) + " avoided: " + grouped(audit.pairs_clear) + " pairs proven clear, " +
@@ -141,7 +143,8 @@ void left_out_and_surfaces(std::string& out, const Report& report) {
   out += "left out\n";
   if (audit.left_out.empty()) { out += "  nothing\n"; }
   for (const radiosity::LeftOut& item : audit.left_out) {
-    out += "  " + item.what + ": " + item.why + (item.saved.empty() ? "" : "; saved " + item.saved) + "\n";
+    out += "  " + item.what + ": " + item.why + (item.saved.empty() ? "" : "; saved " + item.saved) +
+           (item.seconds > 0.0 ? format(", about %.2g s", item.seconds) : "") + "\n";
   }
   constexpr std::size_t most = 40;
   out += "mean radiosity (W/m2)         area (m2)   R G B\n";
@@ -231,7 +234,7 @@ void write_lists(JsonWriter& json, const Report& report) {
   json.key("left_out").open_array();
   for (const radiosity::LeftOut& item : report.audit.left_out) {
     json.open_object();
-    json.key("what").string(item.what).key("why").string(item.why).key("saved").string(item.saved);
+    json.key("what").string(item.what).key("why").string(item.why).key("saved").string(item.saved).key("seconds").number(item.seconds);
     json.close();
   }
   json.close();
@@ -259,7 +262,7 @@ void write_settings(JsonWriter& json, const Report& report) {
     json.null();
   }
   json.key("solver").string(name(report.options.solver));
-  json.key("reconstruction").string(report.options.reconstruction == radiosity::Reconstruction::simple ? "simple" : "weighted");
+  json.key("reconstruction").string(name(report.options.reconstruction));
   json.key("channels").count(audit.channels).key("threads").count(audit.threads).key("seed").count(audit.seed);
   json.close();
   json.key("picture");
@@ -297,6 +300,7 @@ std::string to_json(const Report& report) {
   json.key("nodes").count(audit.nodes).key("leaves").count(audit.leaves).key("links").count(audit.links);
   json.key("rays").count(audit.rays).key("rays_avoided").count(audit.rays_avoided);
   json.key("pairs_clear").count(audit.pairs_clear).key("pairs_blocked").count(audit.pairs_hidden).key("bytes").count(audit.bytes);
+  write_range(json, "proportion", audit.proportion);
   write_range(json, "row_sum", audit.row_sum);
   write_range(json, "computed_row_sum", audit.computed_row_sum);
   json.key("closure");

@@ -56,6 +56,7 @@ struct Audit {
   struct Range {
     double min = 0.0, mean = 0.0, max = 0.0;
   };
+  Range proportion;               // of the leaves: inscribed over circumscribed circle, relative to that of a regular polygon
   Range row_sum;                  // of the form factors of a leaf, area-weighted mean; of the system that was solved
   Range computed_row_sum;         // the same before a closed scene was corrected
   std::optional<double> closure;  // RMS correction that made all row sums of a closed scene 1

@@ -88,11 +88,10 @@ class LinkEvaluator {
     if (!(unoccluded > 0.0)) { return {}; }
     const Node& node_p = (*hierarchy_)[link.p];
     const Node& node_q = (*hierarchy_)[link.q];
-    const bool light = emits_[node_p.surface] || emits_[node_q.surface];
-    const std::uint64_t key = (std::uint64_t{link.p} << 32) | link.q;
+    const std::uint64_t key = key_of(link);
     const PatchEnd end_p = end(link.p);
     const PatchEnd end_q = end(link.q);
-    const VisibilityEstimate seen = visibility(*scene_, *plan_, list, end_p, end_q, light ? 16 : 4, Random{seed_, key});
+    const VisibilityEstimate seen = visibility(*scene_, *plan_, list, end_p, end_q, rounds(link), Random{seed_, key});
     // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
     const double share = exposed_share(end_p, area_p, q, Random{seed_, key, 1}) * exposed_share(end_q, area_q, p, Random{seed_, key, 2});
     link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
@@ -107,6 +106,11 @@ class LinkEvaluator {
     }
     doubt = doubt_of(link, unoccluded * share, seen, light_varies);
     return seen.rays;
+  }
+
+  // Casts the segments of a link with exposed ends as if nothing were known of what can block them.
+  [[nodiscard]] RayCount segments(const Link& link) const {
+    return visibility(*scene_, *plan_, {}, end(link.p), end(link.q), rounds(link), Random{seed_, key_of(link)}).rays;
   }
 
  private:
@@ -130,6 +134,10 @@ class LinkEvaluator {
         (unseen + square(arrives) * buried(link.q, area_q)) / area_p + (unseen + square(arrives) * buried(link.p, area_p)) / area_q;
     return {across(p, varies.p, seen.spread_p, area_p), across(q, varies.q, seen.spread_q, area_q), static_cast<float>(independent),
             static_cast<float>(2.0 * arrives * depth), static_cast<float>(depth)};
+  }
+  [[nodiscard]] static std::uint64_t key_of(const Link& link) { return (std::uint64_t{link.p} << 32) | link.q; }
+  [[nodiscard]] std::uint32_t rounds(const Link& link) const {
+    return emits_[(*hierarchy_)[link.p].surface] || emits_[(*hierarchy_)[link.q].surface] ? 16 : 4;
   }
   [[nodiscard]] static LinkShape::End shape_of(const Variation& v, double shadow) {
     return {static_cast<float>(v.linear), static_cast<float>(v.rest), static_cast<float>(shadow)};

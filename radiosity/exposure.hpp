@@ -16,6 +16,7 @@
 #include <raycast/box.hpp>
 #include <raycast/scene.hpp>
 
+#include <radiosity/curved_area.hpp>
 #include <radiosity/hierarchy.hpp>
 #include <radiosity/occlusion.hpp>
 #include <radiosity/parallel.hpp>
@@ -78,7 +79,9 @@ inline void extend(Exposure& exposure, const raycast::Scene& scene, const std::v
     const Node& node = hierarchy[i];
     if (!node.leaf()) { return; }
     const SurfaceBRep& brep = surfaces[node.object].brep;
-    area[i] = glm::length(brep::vector_area(brep, node.face));
+    const bool curved = node.deviation > 0.0;
+    area[i] =
+        curved ? curved_area(scene.object(node.object), sheet(i), patches[i].contour) : glm::length(brep::vector_area(brep, node.face));
     const Patch& patch = patches[i];
     centroid[i] = patch.centroid;
     exposed[i] = area[i];

@@ -21,7 +21,12 @@ inline constexpr const char* name(Solver solver) {
   return names[static_cast<int>(solver)];
 }
 enum class Refinement { a_posteriori, a_priori };  // BF- and F-refinement (paper 4.4)
-enum class Reconstruction { weighted, simple };    // paper fig. 5; simple ignores the normals (figs. 6-8)
+// Paper fig. 5; simple ignores the normals (figs. 6-8); constant shows the solution itself, one colour a leaf.
+enum class Reconstruction { weighted, simple, constant };
+inline constexpr const char* name(Reconstruction reconstruction) {
+  constexpr const char* names[] = {"weighted", "simple", "constant"};
+  return names[static_cast<int>(reconstruction)];
+}
 
 struct Options {
   Refinement refinement = Refinement::a_priori;
@@ -41,6 +46,7 @@ struct Options {
   double residual = 1e-8;  // relative to the residual of B = 0
   std::uint32_t max_iterations = 1000;
   Reconstruction reconstruction = Reconstruction::weighted;
+  bool shortcuts = true;  // false: what the plan proves needless (plan.hpp) is done all the same, for the same result
 
   std::uint32_t audit_points = 2000;  // 0: no error estimate
   unsigned threads = 0;               // 0: as many as the machine has; results do not depend on it

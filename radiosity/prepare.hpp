@@ -30,7 +30,7 @@ struct PrepareResult {
   std::vector<std::string> faults;  // every reason why there is none
 };
 
-[[nodiscard]] inline PrepareResult prepare(const Scene& scene) {
+[[nodiscard]] inline PrepareResult prepare(const Scene& scene, bool shortcuts = true) {
   std::vector<std::string> sentences = faults(scene);
   if (!sentences.empty()) { return {std::nullopt, std::move(sentences)}; }
   const std::optional<Frame> frame = make_frame(scene);
@@ -47,7 +47,7 @@ struct PrepareResult {
     }
   }
   if (!sentences.empty()) { return {std::nullopt, std::move(sentences)}; }
-  prepared.plan = make_plan(scene, prepared.surfaces);
+  prepared.plan = make_plan(scene, prepared.surfaces, shortcuts);
   return {std::move(prepared), {}};
 }
 

@@ -127,7 +127,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.seed = options.seed;
   const auto cancelled = [] { return failed(Failure::Kind::cancelled, {"the run was interrupted before there was a solution"}); };
 
-  PrepareResult preparation = prepare(scene);
+  PrepareResult preparation = prepare(scene, options.shortcuts);
   if (!preparation.prepared) { return failed(Failure::Kind::invalid_scene, std::move(preparation.faults)); }
   const Frame frame = preparation.prepared->frame;
   const raycast::Scene& objects = preparation.prepared->objects;
@@ -163,7 +163,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   RefineResult refined;
   EvaluateResult evaluated;
   // Without light, or without reflection, B = E on the input faces.
-  const bool needs_links = plan.lit && plan.reflects;
+  const bool needs_links = (plan.lit && plan.reflects) || !plan.shortcuts;
   if (needs_links && options.refinement == Refinement::a_posteriori) {
     BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, evaluator, options.target,
                             Deadline{options.time}, link_limit, threads, options.seed, control);
@@ -224,7 +224,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   summarise_surfaces(audit, inputs, frame, hierarchy, exposure.area, solution.radiosity);
   watch.lap("solve");
 
-  eliminate_t_vertices(boundary);
+  const bool constant = options.reconstruction == Reconstruction::constant;
+  const bool cut = (!constant || !plan.shortcuts) && eliminate_t_vertices(boundary) > 0;
   reconstruct(boundary, hierarchy, exposure, solution.radiosity, materials, options.reconstruction);
   solution.mesh = make_mesh(boundary, hierarchy, exposure, solution.radiosity);
   watch.lap("reconstruct");
@@ -232,6 +233,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.nodes = hierarchy.size();
   audit.leaves = static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.leaf(); }));
   audit.links = solution.links.size();
+  audit.proportion = summarise_proportions(hierarchy, patches);
   RayCount rays = refined.rays;
   rays += evaluated.rays;
   audit.rays = rays.cast;
@@ -240,7 +242,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.pairs_hidden = refined.pairs_hidden;
   audit.bytes = hierarchy.capacity() * sizeof(Node) + solution.links.capacity() * sizeof(Link) + objects.bytes();
   for (const Surface& surface : boundary) { audit.bytes += surface.brep.bytes(); }
-  report_left_out(audit, plan, refined, evaluated, exposure, options);
+  report_left_out(audit, plan, refined, evaluated, exposure, options, link_cost(evaluator, solution.links));
+  if (!cut && !constant) { audit.left_out.push_back({"T-vertex elimination", "no leaf has a finer neighbour", ""}); }
   if (plan.closed && !solution.links.empty() && !audit.closure) {
     audit.left_out.push_back({"closing the scene", "its row sums need a larger correction than quadrature and sampling explain", ""});
   }

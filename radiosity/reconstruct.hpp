@@ -9,6 +9,7 @@
 //   simple    w_l = angle of face(l) at the vertex
 //   weighted  w_l = angle * max(0, N_e . N_l), the paper's fig. 5: smooth over a curved surface, and no bleeding over
 //             the edge of a box. N is the normal of the true surface there, stored in the half-edge.
+//   constant  that of face(e) alone: the solution as it is
 //
 // The angle makes the average independent of how a T-vertex was connected. Faces of another material, and faces that
 // are buried under another object, do not count; a corner with buried faces alone takes the mean of its face's others.
@@ -81,6 +82,10 @@ inline void reconstruct(std::vector<Surface>& surfaces, const Hierarchy& hierarc
       int coloured = 0;
       std::vector<brep::HalfedgeId> bare;
       for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) {
+        if (kind == Reconstruction::constant) {
+          brep.data(e).radiosity = radiosity[own];
+          continue;
+        }
         Color sum{0.0};
         double weights = 0.0;
         for (const brep::HalfedgeId l : brep::halfedges_from(brep, brep.vertex(e))) {

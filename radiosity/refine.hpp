@@ -34,6 +34,7 @@ struct RefineResult {
   std::uint64_t pairs_tested = 0;   // questions to the oracle
   std::uint64_t pairs_dropped = 0;  // proven to face away from each other
   std::uint64_t pairs_hidden = 0;   // proven to be hidden from each other by one object
+  std::uint64_t pairs_dark = 0;     // of input faces: neither emits, and light that reflects reaches neither
   std::uint64_t pairs_convex = 0;   // never asked: faces of one flat sheet or one convex solid cannot see each other
   RayCount rays;                    // segments cast to find shadow boundaries
   std::uint32_t generations = 0;
@@ -53,27 +54,30 @@ struct Pair {
 };
 
 // All pairs of roots that may face each other, and in `inner` the roots whose own parts may.
-inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& roots, std::vector<Pair>& pairs,
-                       std::vector<std::uint32_t>& inner, std::uint64_t& convex) {
+inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& roots, const Plan& plan, std::vector<Pair>& pairs,
+                       RefineResult& result) {
   const auto count = static_cast<std::uint32_t>(roots.size());
   for (std::uint32_t p = 0; p < count; ++p) {
     const raycast::PlacedObject& object = *surfaces[roots[p].object].object;
     const bool sees_itself = object.inside() || !object.convex();
-    if (sees_itself && !object.flat()) { inner.push_back(p); }
+    if (sees_itself && !object.flat()) { result.inner.push_back(p); }
     for (std::uint32_t q = p + 1; q < count; ++q) {
       const bool same_object = roots[p].object == roots[q].object;
       const bool same_flat_sheet = object.flat() && roots[p].surface == roots[q].surface;
-      if (same_object && (!sees_itself || same_flat_sheet)) {
-        ++convex;
-      } else {
+      if (!same_object || (sees_itself && !same_flat_sheet)) {
         pairs.push_back({p, q});
+      } else if (plan.shortcuts) {
+        ++result.pairs_convex;
+      } else {
+        result.links.push_back({p, q});
+        result.lists.push_back(OccluderLists::none);
       }
     }
   }
 }
 
 // Asks `oracle(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
-// the others keep their list and are shown to `look(pair, list, decision)`, in parallel.
+// the others keep their list and are shown to `look(pair, list, decision)`, in parallel. Without shortcuts what would be dropped is linked.
 template <class Oracle, class Look>
 std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& objects, const Plan& plan, const Patches& patches,
                              RefineResult& result, unsigned threads, const Oracle& oracle, const Look& look) {
@@ -86,12 +90,19 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
       const Pair& pair = pairs[first + k];
       Decision& decision = decisions[first + k];
       decision = oracle(pair.p, pair.q);
-      if (decision == Decision::drop) { return; }
+      lists[k] = {};
+      if (decision == Decision::drop) {
+        if (!plan.shortcuts) { decision = Decision::link; }
+        return;
+      }
       lists[k] = result.occluders.of(pair.p, pair.q, pair.list, objects, plan, patches);
-      if (lists[k].blocked()) {
+      if (!lists[k].blocked()) {
+        look(first + k, lists[k], decision);
+      } else if (plan.shortcuts) {
         decision = Decision::hide;
       } else {
-        look(first + k, lists[k], decision);
+        decision = Decision::link;
+        lists[k] = {};
       }
     });
     for (std::size_t k = 0; k < count; ++k) {
@@ -104,6 +115,28 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
   }
   result.pairs_tested += pairs.size();
   return decisions;
+}
+
+// Which roots send light: those that emit, and those that reflect and are reached, over pairs that may be linked, from one that sends.
+inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& roots, const std::vector<Pair>& pairs,
+                                       const std::vector<Decision>& decisions) {
+  std::vector<bool> sends(roots.size(), false), reflects(roots.size(), false);
+  const std::vector<InputSurface> inputs = radiosity::surfaces(scene);
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    const Material& material = scene.materials[inputs[roots[i].surface].material];
+    sends[i] = !is_black(material.emission);
+    reflects[i] = !is_black(material.reflectance);
+  }
+  for (bool grew = true; grew;) {
+    grew = false;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const auto [p, q, list] = pairs[i];
+      if (decisions[i] == Decision::drop || decisions[i] == Decision::hide || sends[p] == sends[q]) { continue; }
+      const std::uint32_t reached = sends[p] ? q : p;
+      if (reflects[reached]) { sends[reached] = grew = true; }
+    }
+  }
+  return sends;
 }
 
 }  // namespace detail
@@ -125,7 +158,7 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
   }
   std::vector<detail::Pair> pairs;
   std::vector<std::uint32_t>& inner = result.inner;
-  detail::root_pairs(surfaces, hierarchy, pairs, inner, result.pairs_convex);
+  detail::root_pairs(surfaces, hierarchy, plan, pairs, result);
 
   std::vector<bool> stuck;  // leaves that the BRep refused to split
   while (!pairs.empty()) {
@@ -139,7 +172,7 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
     }
     patches.extend(threads);
     rays.assign(pairs.size(), {});
-    const std::vector<Decision> decisions = detail::decide(
+    std::vector<Decision> decisions = detail::decide(
         pairs, objects, plan, patches, result, threads,
         [&](std::uint32_t p, std::uint32_t q) { return f_oracle(hierarchy[p], hierarchy[q], epsilon, min_area); },
         [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
@@ -149,6 +182,17 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
           if (split != no_node && hierarchy[split].area > min_area) { decision = split == p ? Decision::split_p : Decision::split_q; }
         });
     for (const RayCount& r : rays) { result.rays += r; }
+
+    // No light passes between two that send none. A closed scene keeps such pairs, for its row sums.
+    if (result.generations == 0 && !plan.closed) {
+      const std::vector<bool> sends = detail::sending_roots(scene, hierarchy, pairs, decisions);
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (sends[pairs[i].p] || sends[pairs[i].q] || decisions[i] == Decision::drop || decisions[i] == Decision::hide) { continue; }
+        result.pairs_dark += plan.shortcuts ? 1 : 0;
+        decisions[i] = plan.shortcuts ? Decision::drop : Decision::link;
+      }
+      std::erase_if(inner, [&](std::uint32_t i) { return !sends[i]; });
+    }
 
     // Leaves are split in the order of their index.
     std::vector<bool> asked(hierarchy.size(), false);

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
+
+#include <brep/proportion.hpp>
 
 #include <radiosity/audit.hpp>
 #include <radiosity/evaluate.hpp>
@@ -17,6 +20,7 @@
 #include <radiosity/options.hpp>
 #include <radiosity/plan.hpp>
 #include <radiosity/refine.hpp>
+#include <radiosity/saving.hpp>
 #include <radiosity/scene.hpp>
 #include <radiosity/transport.hpp>
 
@@ -61,6 +65,24 @@ inline Audit::Range summarise_rows(const Hierarchy& hierarchy, const std::vector
   return total > 0.0 ? Audit::Range{range.min, range.mean / total, range.max} : Audit::Range{};
 }
 
+// A square and an equilateral triangle have proportion 1 here: that of each kind is taken relative to its best.
+inline Audit::Range summarise_proportions(const Hierarchy& hierarchy, const Patches& patches) {
+  Audit::Range range{1.0, 0.0, 0.0};
+  double count = 0.0;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (!hierarchy[i].leaf()) { continue; }
+    const Polygon& contour = patches[i].contour;
+    const double best = std::cos(std::numbers::pi / static_cast<double>(contour.size()));  // of the regular polygon
+    const double proportion = brep::proportion(contour) / best;
+    range.min = std::min(range.min, proportion);
+    range.max = std::max(range.max, proportion);
+    range.mean += proportion;
+    count += 1.0;
+  }
+  range.mean = count > 0.0 ? range.mean / count : 0.0;
+  return range;
+}
+
 inline void summarise_surfaces(Audit& audit, const std::vector<InputSurface>& inputs, const Frame& frame, const Hierarchy& hierarchy,
                                const std::vector<double>& area, const std::vector<Color>& radiosity) {
   for (const InputSurface& input : inputs) { audit.surfaces.push_back({input.name, 0.0, Color{0.0}}); }
@@ -76,31 +98,39 @@ inline void summarise_surfaces(Audit& audit, const std::vector<InputSurface>& in
   }
 }
 
-// What the run left out, beyond what the plan had proven before it.
+// What the run left out, beyond what the plan had proven before it. `cost`: of what was not left out.
 inline void report_left_out(Audit& audit, const Plan& plan, const RefineResult& refined, const EvaluateResult& evaluated,
-                            const Exposure& exposure, const Options& options) {
+                            const Exposure& exposure, const Options& options, const LinkCost& cost) {
   audit.left_out = plan.left_out;
-  const auto add = [&](std::string what, std::string why, std::string saved) {
-    audit.left_out.push_back({std::move(what), std::move(why), std::move(saved)});
+  const auto add = [&](std::string what, std::string why, std::string saved, double seconds = 0.0) {
+    audit.left_out.push_back({std::move(what), std::move(why), std::move(saved), seconds});
   };
+  const auto times = [](std::uint64_t count, double each) { return static_cast<double>(count) * each; };
   if (!plan.lit || !plan.reflects) { return; }
   if (evaluated.proven_clear > 0) {
     add("visibility of " + std::to_string(evaluated.proven_clear) + " links", "no object can stand between the patches",
-        std::to_string(evaluated.rays.avoided) + " rays");
+        std::to_string(evaluated.rays.avoided) + " rays", times(evaluated.rays.avoided, cost.ray));
   }
   if (refined.pairs_convex > 0) {
     add(std::to_string(refined.pairs_convex) + " pairs of input faces", "faces of one plane or of one convex solid do not see each other",
-        std::to_string(refined.pairs_convex) + " questions to the oracle");
+        std::to_string(refined.pairs_convex) + " questions to the oracle", times(refined.pairs_convex, cost.form_factor));
   }
   if (refined.pairs_dropped > 0) {
     add(std::to_string(refined.pairs_dropped) + " pairs of patches", "proven to face away from each other",
-        std::to_string(refined.pairs_dropped) + " links");
+        std::to_string(refined.pairs_dropped) + " links", times(refined.pairs_dropped, cost.form_factor));
+  }
+  if (refined.pairs_dark > 0) {
+    add(std::to_string(refined.pairs_dark) + " pairs of input faces", "no light leaves either: black, or reached by none",
+        "their patches and links", times(refined.pairs_dark, cost.link));
   }
   if (refined.pairs_hidden > 0) {
     add(std::to_string(refined.pairs_hidden) + " pairs of patches", "proven to be hidden from each other by one convex object",
-        "their links and rays");
+        "their links and rays", times(refined.pairs_hidden, cost.link));
   }
   if (exposure.buried_leaves > 0) { add(std::to_string(exposure.buried_leaves) + " leaves", "buried under another object", "their links"); }
+  if (options.reconstruction == Reconstruction::constant) {
+    add("T-vertex elimination and interpolation", "one colour a leaf is asked for", "their time");
+  }
   if (options.audit_points == 0) { add("the error estimate", "not asked for (audit of 0 points)", "the time of the audit"); }
 }
 

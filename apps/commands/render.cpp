@@ -235,9 +235,13 @@ void describe(CLI::App& command, RenderOptions& options) {
     solvers.emplace(name(s), s);
   }
   command.add_option("--solver", solver.solver, "cg, jacobi, gauss-seidel or southwell")->transform(CLI::CheckedTransformer(solvers));
-  command.add_option("--reconstruction", solver.reconstruction, "weighted or simple (paper fig. 5)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, radiosity::Reconstruction>{
-          {"weighted", radiosity::Reconstruction::weighted}, {"simple", radiosity::Reconstruction::simple}}));
+  command.add_option("--reconstruction", solver.reconstruction, "weighted or simple (paper fig. 5), or constant: one colour a leaf")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, radiosity::Reconstruction>{{"weighted", radiosity::Reconstruction::weighted},
+                                                                                   {"simple", radiosity::Reconstruction::simple},
+                                                                                   {"constant", radiosity::Reconstruction::constant}}));
+  command.add_flag("!--no-shortcuts", solver.shortcuts,
+                   "do all that the report would tell as left out; the result is the same, to the bit");
   command.add_option("--json", options.json, "write the report as JSON, too")->type_name("FILE");
   command.add_flag("--quiet", options.quiet, "no narration and no progress bar");
 }

@@ -4,37 +4,16 @@
 #include "catch.hpp"
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <radiosity/radiosity.hpp>
 
-#include "apps/scene_file.hpp"
+#include "example_scenes.hpp"
 #include "generations.hpp"
 
 namespace {
-
-radiosity::Scene scene(const std::string& name) {
-  std::ifstream file{std::string{HALFLIGHT_SCENES} + "/" + name};
-  std::ostringstream text;
-  text << file.rdbuf();
-  apps::SceneResult result = apps::parse_scene(text.str());
-  INFO(apps::to_text(result, name));
-  REQUIRE(result.file);
-  return std::move(result.file->scene);
-}
-
-std::vector<std::string> all_scenes() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator{HALFLIGHT_SCENES}) {
-    if (entry.path().extension() == ".scene") { names.push_back(entry.path().filename().string()); }
-  }
-  return names;
-}
 
 void solve_with_checks(const std::string& name, double epsilon, double min_area) {
   CAPTURE(name);
@@ -44,7 +23,7 @@ void solve_with_checks(const std::string& name, double epsilon, double min_area)
   options.audit_points = 0;
   int generations = 0;
   const radiosity::Control control = watch_generations(generations);
-  const auto outcome = radiosity::solve(scene(name), options, control);
+  const auto outcome = radiosity::solve(example_scene(name), options, control);
   REQUIRE(outcome.solution);
   CHECK(generations > 0);
   CHECK(outcome.solution->audit.converged);
@@ -54,8 +33,8 @@ void solve_with_checks(const std::string& name, double epsilon, double min_area)
 }  // namespace
 
 TEST_CASE("every scene: valid BReps after every generation, v - e + f = 2 (s - h), converged, energy conserved") {
-  REQUIRE(all_scenes().size() >= 6);
-  for (const std::string& name : all_scenes()) {
+  REQUIRE(example_scenes().size() >= 6);
+  for (const std::string& name : example_scenes()) {
     if (name != "primitives.scene") { solve_with_checks(name, 0.02, 1e-4); }
   }
 }
@@ -101,7 +80,7 @@ TEST_CASE("Cornell box and room agree with path tracing surface by surface", "[s
   for (const auto& [name, means] : traced) {
     radiosity::Options options;
     options.audit_points = 0;
-    const auto outcome = radiosity::solve(scene(name), options);
+    const auto outcome = radiosity::solve(example_scene(name), options);
     REQUIRE(outcome.solution);
     std::map<std::string, radiosity::Color> solved;
     for (const auto& mean : outcome.solution->audit.surfaces) { solved[mean.name] = mean.radiosity; }

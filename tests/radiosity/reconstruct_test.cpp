@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Reconstruction into half-edge colours (paper 4.5, fig. 5): smooth over a curved surface, no bleeding over the edge of a box.
+
+#include <algorithm>
+#include <cmath>
+
+#include "catch.hpp"
+#include "radiosity/scenes.hpp"
+
+using radiosity::Reconstruction;
+
+namespace {
+
+struct Reconstructed {
+  radiosity::Prepared prepared;  // surfaces with colours
+  radiosity::Hierarchy hierarchy;
+  std::vector<radiosity::Color> radiosity;
+};
+
+// Leaves of a few levels with the radiosity that `light` gives at their centres, reconstructed.
+template <class Light>
+Reconstructed reconstructed(const radiosity::Scene& scene, Reconstruction kind, const Light& light) {
+  Reconstructed r{std::move(*radiosity::prepare(scene).prepared), {}, {}};
+  std::vector<radiosity::Surface>& surfaces = r.prepared.surfaces;
+  r.hierarchy = radiosity::make_roots(surfaces);
+  for (int level = 0; level < 2; ++level) {
+    const auto count = static_cast<std::uint32_t>(r.hierarchy.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (r.hierarchy[i].leaf()) { REQUIRE(radiosity::subdivide(surfaces, r.hierarchy, i)); }
+    }
+  }
+  radiosity::Patches patches{surfaces, r.hierarchy};
+  patches.extend(1);
+  radiosity::Exposure exposure;
+  radiosity::extend(exposure, r.prepared.objects, surfaces, r.hierarchy, patches, 1, 1);
+  for (const radiosity::Node& node : r.hierarchy) { r.radiosity.push_back(radiosity::Color{light(node)}); }
+  const std::vector<std::uint32_t> materials(radiosity::surfaces(scene).size(), 0);
+  radiosity::eliminate_t_vertices(surfaces);
+  radiosity::reconstruct(surfaces, r.hierarchy, exposure, r.radiosity, materials, kind);
+  return r;
+}
+
+// Calls visit(brep, half-edge) for every corner of a radiating face of the first object.
+template <class Visit>
+void for_corners(const Reconstructed& r, const Visit& visit) {
+  const radiosity::SurfaceBRep& brep = r.prepared.surfaces[0].brep;
+  for (const brep::FaceId f : brep::faces(brep)) {
+    if (brep.data(f).node == radiosity::no_node) { continue; }
+    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) { visit(brep, h); }
+  }
+}
+
+radiosity::Scene lone(std::shared_ptr<const raycast::Object> shape) {
+  return {{{"grey", radiosity::Color{0.5}, radiosity::Color{0.0}}}, {scenes::object("thing", std::move(shape))}};
+}
+
+// Each side of a box has its own brightness, 1 to 6.
+double by_side(const radiosity::Node& node) { return 1.0 + node.surface; }
+
+}  // namespace
+
+TEST_CASE("weighted reconstruction: no colour bleeds over the edge of a box; simple reconstruction mixes both sides") {
+  const radiosity::Scene scene = lone(scenes::box({0, 0, 0}, {1, 2, 1}));
+  for (const auto kind : {Reconstruction::weighted, Reconstruction::simple}) {
+    const Reconstructed r = reconstructed(scene, kind, by_side);
+    double worst = 0.0;
+    for_corners(r, [&](const radiosity::SurfaceBRep& brep, brep::HalfedgeId h) {
+      const double own = r.radiosity[brep.data(brep.face(h)).node].x;
+      worst = std::max(worst, std::abs(brep.data(h).radiosity.x - own));
+    });
+    CAPTURE(name(kind));
+    // Simple: the corner of the box has the mean of three sides.
+    CHECK((kind == Reconstruction::weighted ? worst == 0.0 : worst >= 1.0));
+  }
+}
+
+TEST_CASE("weighted reconstruction: on the side of a cylinder all faces at a vertex have one colour there, and its caps have theirs") {
+  const radiosity::Scene scene = lone(raycast::Cylinder::make({0, 0, 0}, {0, 0, 2}, 1.0).object);
+  const auto light = [](const radiosity::Node& node) { return node.surface == 0 ? 1.0 + std::max(0.0, node.normal.x) : 10.0; };
+  const Reconstructed r = reconstructed(scene, Reconstruction::weighted, light);
+  std::size_t compared = 0;
+  for_corners(r, [&](const radiosity::SurfaceBRep& brep, brep::HalfedgeId h) {
+    for (const brep::HalfedgeId l : brep::halfedges_from(brep, brep.vertex(h))) {
+      if (brep.data(brep.face(l)).sheet != brep.data(brep.face(h)).sheet) { continue; }
+      // The weights are the same up to the rounding of the normals.
+      CHECK(std::abs(brep.data(l).radiosity.x - brep.data(h).radiosity.x) <= 1e-12);
+      compared += l != h ? 1 : 0;
+    }
+    if (brep.data(brep.face(h)).sheet != 0) { CHECK(brep.data(h).radiosity.x == test::Approx(10.0).epsilon(1e-12)); }
+  });
+  CHECK(compared > 100);
+}
+
+TEST_CASE("reconstruction of a cosine over a cylinder is at least four times nearer at the vertices than constant leaves are") {
+  const radiosity::Scene scene = lone(raycast::Cylinder::make({0, 0, 0}, {0, 0, 2}, 1.0).object);
+  const auto wave = [](const glm::dvec3& normal) { return 2.0 + normal.x; };
+  const auto worst = [&](Reconstruction kind) {
+    const Reconstructed r = reconstructed(scene, kind, [&](const radiosity::Node& node) { return wave(node.normal); });
+    double error = 0.0;
+    for_corners(r, [&](const radiosity::SurfaceBRep& brep, brep::HalfedgeId h) {
+      if (brep.data(brep.face(h)).sheet != 0) { return; }
+      const glm::dvec3& p = brep.data(brep.vertex(h)).position;
+      const glm::dvec3 axis = -r.prepared.frame.centre * r.prepared.frame.scale;
+      error = std::max(error, std::abs(brep.data(h).radiosity.x - wave(glm::normalize(glm::dvec3{p.x - axis.x, p.y - axis.y, 0.0}))));
+    });
+    return error;
+  };
+  // Over a leaf of the angle a the cosine changes by up to a, and what interpolation misses is of the order a^2.
+  CHECK(4.0 * worst(Reconstruction::weighted) < worst(Reconstruction::constant));
+}
+
+TEST_CASE("constant reconstruction shows the leaves as they are") {
+  const Reconstructed r = reconstructed(lone(raycast::Sphere::make({0, 0, 0}, 1.0).object), Reconstruction::constant,
+                                        [](const radiosity::Node& node) { return node.centre.x; });
+  for_corners(r, [&](const radiosity::SurfaceBRep& brep, brep::HalfedgeId h) {
+    CHECK(brep.data(h).radiosity == r.radiosity[brep.data(brep.face(h)).node]);
+  });
+}
