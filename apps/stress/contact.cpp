@@ -112,10 +112,15 @@ void gap(Findings& findings) {
   const Solution narrow = findings.solve(scene_of(1e-12), coarse());
   findings.at_most("gap of 1e-12 against none, relative", apart(narrow, none), 1e-3);
   findings.at_most("face over the gap: B", mean(narrow, "box.z0"), 0.0);
-  const Solution open = findings.solve(scene_of(1e-6), coarse());  // wide enough to be one
-  findings.at_most("gap of 1e-6 against none, relative",
-                   std::max(relative(mean(open, "room.x0"), mean(none, "room.x0")), relative(mean(open, "box.y0"), mean(none, "box.y0"))),
-                   1e-2);
+  // Wide enough to be one. The floor is not cut at a box that does not stand on it, so the meshes differ, and are made finer for that.
+  Options finer = coarse();
+  finer.epsilon = 0.02;
+  finer.min_area = 1e-4;
+  const Solution open = findings.solve(scene_of(1e-6), finer);
+  const Solution closed = findings.solve(scene_of(0.0), finer);
+  findings.at_most(
+      "gap of 1e-6 against none, relative",
+      std::max(relative(mean(open, "room.x0"), mean(closed, "room.x0")), relative(mean(open, "box.y0"), mean(closed, "box.y0"))), 2e-2);
 }
 
 // A room of 2 x 1 x 1 cut in two by a wall, made of three boxes that touch and stand on the floor; a lamp in one half.
