@@ -14,6 +14,7 @@
 #include "apps/commands/mesh.hpp"
 #include "apps/commands/render.hpp"
 #include "apps/commands/stress.hpp"
+#include "apps/commands/study.hpp"
 #include "apps/version.hpp"
 
 namespace {
@@ -30,6 +31,7 @@ int run(int argc, char** argv) {
   apps::EulerOptions euler;
   apps::FactorsOptions factors;
   apps::StressOptions stress;
+  apps::StudyOptions study;
   CLI::App* const render_command = app.add_subcommand("render", "solve a scene; write a picture or a mesh and the report");
   CLI::App* const info_command = app.add_subcommand("info", "say what is in a scene without solving it");
   CLI::App* const mesh_command = app.add_subcommand("mesh", "the polygons of each object: counts, genus, area, volume, and a mesh file");
@@ -37,6 +39,8 @@ int run(int argc, char** argv) {
   CLI::App* const factors_command = app.add_subcommand("factors", "the form factors between the surfaces of a scene, each with its error");
   CLI::App* const stress_command = app.add_subcommand("stress", "solve stiff and extreme scenes, each figure against its bound");
   CLI::App* const euler_command = app.add_subcommand("euler", "play a script of Euler operators; draw each step");
+  CLI::App* const study_command = app.add_subcommand("study", "error against time, memory and links for every method on each scene");
+  apps::describe(*study_command, study);
   apps::describe(*render_command, render);
   apps::describe(*info_command, info);
   apps::describe(*mesh_command, mesh);
@@ -50,6 +54,7 @@ int run(int argc, char** argv) {
   if (render_command->parsed()) { return static_cast<int>(apps::run(render)); }
   if (mesh_command->parsed()) { return static_cast<int>(apps::run(mesh)); }
   if (check_command->parsed()) { return static_cast<int>(apps::run(check)); }
+  if (study_command->parsed()) { return static_cast<int>(apps::run(study)); }
   if (factors_command->parsed()) { return static_cast<int>(apps::run(factors)); }
   if (stress_command->parsed()) { return static_cast<int>(apps::run(stress)); }
   return static_cast<int>(euler_command->parsed() ? apps::run(euler) : apps::run(info));

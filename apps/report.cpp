@@ -73,7 +73,8 @@ void error_and_time(std::string& out, const Report& report) {
   row(out, "picture", error_text(audit.picture_error));
   row(out, "leaf constants", error_text(audit.leaf_error));
   if (audit.estimated_error) {
-    row(out, "estimated from links", percent(*audit.estimated_error) + ", after " + std::to_string(audit.generations) + " generations");
+    row(out, "estimated from links",
+        percent(*audit.estimated_error) + (audit.generations > 0 ? ", after " + std::to_string(audit.generations) + " generations" : ""));
   }
   if (audit.picture_error) { row(out, "path-traced points", grouped(audit.audit_points) + ", " + grouped(audit.audit_rays) + " rays"); }
   out += "time (s)                      wall       CPU\n";
@@ -120,7 +121,7 @@ void sizes_and_checks(std::string& out, const Report& report) {
              : audit.interrupted ? " - INTERRUPTED, the best so far"
                                  : " - NOT CONVERGED"));
   out += "settings\n";
-  if (audit.estimated_error) {
+  if (report.options.refinement == radiosity::Refinement::a_posteriori) {
     row(out, "refinement",
         audit.target > 0.0 ? format("bf, estimate at most %.3g", audit.target) : std::string("bf, until the time was used"));
   } else {

@@ -120,6 +120,24 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
   return result;
 }
 
+// The estimate for links that were not made by BF-refinement, from at most 4096 of them, spread evenly; their shapes are found now.
+inline double sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Exposure& exposure, const Links& links,
+                               const std::vector<Color>& reflectance, const std::vector<Color>& emission,
+                               const std::vector<Color>& radiosity, unsigned threads) {
+  const std::size_t count = std::min<std::size_t>(links.size(), 4096);
+  Links sample(count);
+  std::vector<LinkShape> shapes(count);
+  parallel_for(count, threads, [&](std::size_t i) {
+    sample[i] = links[static_cast<std::size_t>(static_cast<double>(i) / static_cast<double>(count) * static_cast<double>(links.size()))];
+    const float closed = sample[i].exchange;
+    (void)evaluator(sample[i], {}, &shapes[i]);
+    sample[i].exchange = closed;
+  });
+  ErrorEstimation errors = estimate_errors(hierarchy, exposure, sample, shapes, reflectance, emission, radiosity);
+  if (count > 0) { errors.sum *= static_cast<double>(links.size()) / static_cast<double>(count); }
+  return errors.relative();
+}
+
 // The least error of a link that is to be refined: the links above it hold all of the sum but `keep`, within a factor of sqrt 2.
 inline double refinement_threshold(const std::vector<LinkError>& errors, double keep) {
   constexpr int half_octaves = 512;

@@ -77,7 +77,7 @@ class LinkEvaluator {
 
   // Sets the exchange, 0 when nothing arrives, and the slopes where they have an effect, or anyhow when the shape is asked for. Returns
   // its segments. Depends on the ends of the link and the seed alone; `list` saves time.
-  RayCount operator()(Link& link, const raycast::OccluderList& list, Doubt& doubt, LinkShape* shape = nullptr) const {
+  RayCount operator()(Link& link, const raycast::OccluderList& list, LinkShape* shape = nullptr, Doubt* doubt = nullptr) const {
     const Patch& p = (*patches_)[link.p];
     const Patch& q = (*patches_)[link.q];
     const double area_p = exposure_->area[link.p];
@@ -104,7 +104,7 @@ class LinkEvaluator {
         *shape = {shape_of(light_varies.p, seen.spread_p / seen.fraction), shape_of(light_varies.q, seen.spread_q / seen.fraction), {}};
       }
     }
-    doubt = doubt_of(link, unoccluded * share, seen, light_varies);
+    if (doubt != nullptr) { *doubt = doubt_of(link, unoccluded * share, seen, light_varies); }
     return seen.rays;
   }
 
@@ -173,7 +173,7 @@ class LinkEvaluator {
     parallel_for(doubts.size(), threads, [&](std::size_t offset) {
       if (control.cancelled()) { return; }
       const std::size_t i = first + done + offset;
-      rays[done + offset] = evaluator(links[i], occluders[lists[i]], doubts[offset], shapes != nullptr ? &(*shapes)[i] : nullptr);
+      rays[done + offset] = evaluator(links[i], occluders[lists[i]], shapes != nullptr ? &(*shapes)[i] : nullptr, &doubts[offset]);
     });
     for (std::size_t offset = 0; offset < doubts.size(); ++offset) {
       const std::size_t i = first + done + offset;

@@ -68,9 +68,14 @@ namespace detail {
       if (node == no_node) { continue; }
       const bool buried = !(exposure.area[node] > 0.0);
       if (buried && !detail::touches_exposed(brep, f, exposure)) { continue; }
-      // Four corners at most; T-vertex elimination leaves no others, the rest would be cut as a fan.
+      // Four corners at most; T-vertex elimination leaves no others, the rest would be cut as a fan. Separate polygons keep their
+      // T-vertices, and a leaf is shaded from its own corners.
       std::vector<brep::HalfedgeId> loop;
-      for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) { loop.push_back(h); }
+      if (surface.topology == Topology::separate) {
+        for (const brep::HalfedgeId h : brep::corners(brep, f)) { loop.push_back(h); }
+      } else {
+        for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) { loop.push_back(h); }
+      }
       const auto add = [&](std::initializer_list<std::size_t> corners) {
         const auto first = static_cast<std::uint32_t>(mesh.corners.size());
         Color mean{0.0};

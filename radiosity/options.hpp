@@ -15,6 +15,9 @@ namespace radiosity {
 
 struct Surface;
 
+// How the faces of an object hang together: neighbours share their vertices, or each is a polygon of its own, the root of a classical
+// quad-tree (polygons.hpp).
+enum class Topology { shared, separate };
 enum class Solver { conjugate_gradients, jacobi, gauss_seidel, southwell };
 inline constexpr const char* name(Solver solver) {
   constexpr const char* names[] = {"cg", "jacobi", "gauss-seidel", "southwell"};
@@ -47,6 +50,9 @@ struct Options {
   std::uint32_t max_iterations = 1000;
   Reconstruction reconstruction = Reconstruction::weighted;
   bool shortcuts = true;  // false: what the plan proves needless (plan.hpp) is done all the same, for the same result
+  Topology topology = Topology::shared;
+  // For studies: the solution brings a Comparison (comparison.hpp), with a dense solution when it has no more leaves than this.
+  std::optional<std::uint32_t> compare;
 
   std::uint32_t audit_points = 2000;  // 0: no error estimate
   unsigned threads = 0;               // 0: as many as the machine has; results do not depend on it

@@ -6,7 +6,7 @@
 //
 // Without shortcuts all of it is done, so that the proofs can be tested: the result is the same, bit for bit. A pair of patches that was
 // dropped because no light can pass is linked, and the link must be found to carry nothing; a segment that nothing can block
-// is asked of every object, one by one.
+// is asked of the whole scene.
 
 #include <algorithm>
 #include <cstdint>

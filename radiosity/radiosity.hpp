@@ -18,11 +18,13 @@
 
 #include <radiosity/audit.hpp>
 #include <radiosity/bf_refine.hpp>
+#include <radiosity/comparison.hpp>
 #include <radiosity/evaluate.hpp>
 #include <radiosity/exposure.hpp>
 #include <radiosity/frame.hpp>
 #include <radiosity/mesh.hpp>
 #include <radiosity/options.hpp>
+#include <radiosity/polygons.hpp>
 #include <radiosity/prepare.hpp>
 #include <radiosity/reconstruct.hpp>
 #include <radiosity/refine.hpp>
@@ -46,6 +48,8 @@ struct Solution {
   std::vector<double> area;      // exposed, one a node
   std::vector<double> row_sum;   // of the system that was solved, one a node; 0 at inner nodes
   std::vector<Color> radiosity;  // W/m2, one a node
+
+  std::optional<Comparison> comparison;  // when asked for
 };
 
 struct Failure {
@@ -92,12 +96,12 @@ inline void add_times(std::vector<StageTime>& total, const std::vector<StageTime
   }
 }
 
-// The total, of which the audit is no part.
+// The total, of which neither the audit nor a comparison is a part.
 inline void sum_times(Audit& audit) {
   audit.wall_seconds = 0.0;
   audit.cpu_seconds = 0.0;
   for (const StageTime& stage : audit.stages) {
-    if (stage.name == "audit") { continue; }
+    if (stage.name == "audit" || stage.name == "compare") { continue; }
     audit.wall_seconds += stage.wall_seconds;
     audit.cpu_seconds += stage.cpu_seconds;
   }
@@ -107,7 +111,7 @@ inline Outcome failed(Failure::Kind kind, std::vector<std::string> sentences) { 
 
 // The largest RMS correction by which a scene is closed: what its links explain (doubt.hpp) with a margin of one half, and the rounding of
 // their numbers. Measured, corrections are .24 to 1.16 times what is expected (the rooms of `halflight stress`, 1200 to 154 000 links).
-[[nodiscard]] inline double closing_limit(const DoubtSum& doubt, const std::vector<double>& exposed_area, const Hierarchy& hierarchy) {
+[[nodiscard]] inline double explained_closure(const DoubtSum& doubt, const std::vector<double>& exposed_area, const Hierarchy& hierarchy) {
   double total = 0.0;
   for (std::size_t i = 0; i < hierarchy.size(); ++i) { total += hierarchy[i].parent == no_node ? exposed_area[i] : 0.0; }
   return 1.5 * doubt.rms(exposed_area, total) + 0x1p-20;
@@ -133,6 +137,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   const Frame frame = preparation.prepared->frame;
   const raycast::Scene& objects = preparation.prepared->objects;
   std::vector<Surface>& boundary = preparation.prepared->surfaces;
+  if (options.topology == Topology::separate) {
+    for (Surface& surface : boundary) { surface = separate_polygons(surface); }
+  }
   const Plan& plan = preparation.prepared->plan;
   const std::vector<InputSurface> inputs = surfaces(scene);
   solution.frame = frame;
@@ -209,7 +216,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   solution.row_sum = transport.row_sums();
   audit.computed_row_sum = summarise_rows(hierarchy, exposure.area, solution.row_sum);
   if (plan.closed && !solution.links.empty()) {
-    audit.closure_limit = detail::closing_limit(evaluated.doubt, exposure.area, hierarchy);
+    audit.closure_limit = detail::explained_closure(evaluated.doubt, exposure.area, hierarchy);
     audit.closure = transport.close(audit.closure_limit);
   }
   solution.row_sum = transport.row_sums();
@@ -221,15 +228,35 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.converged = solved.converged && !audit.interrupted;
   audit.histories = std::move(solved.histories);
   solution.radiosity = std::move(solved.radiosity);
+  if (needs_links && options.refinement == Refinement::a_priori && options.audit_points > 0) {
+    audit.estimated_error =
+        detail::sampled_estimate(evaluator, hierarchy, exposure, solution.links, reflectance, emission, solution.radiosity, threads);
+  }
   balance_energy(audit, scene, inputs, hierarchy, transport, exposure.area, solution.radiosity);
   summarise_surfaces(audit, inputs, frame, hierarchy, exposure.area, solution.radiosity);
   watch.lap("solve");
+  if (options.compare) {
+    solution.comparison.emplace();
+    if (exposed_leaves(hierarchy, exposure) <= *options.compare) {
+      const LeafExchange exchange{objects, plan, boundary, hierarchy, patches, exposure, evaluator};
+      solution.comparison->dense = dense_radiosity(exchange, leaf_materials(exchange, hierarchy, reflectance, emission), plan.closed,
+                                                   hierarchy.size(), options.residual, threads, control);
+    }
+    if (control.cancelled()) { return cancelled(); }
+    watch.lap("compare");
+  }
 
   const bool constant = options.reconstruction == Reconstruction::constant;
   const bool cut = (!constant || !plan.shortcuts) && eliminate_t_vertices(boundary) > 0;
   reconstruct(boundary, hierarchy, exposure, solution.radiosity, materials, options.reconstruction);
   solution.mesh = make_mesh(boundary, hierarchy, exposure, solution.radiosity);
   watch.lap("reconstruct");
+  if (solution.comparison) {
+    reconstruct(boundary, hierarchy, exposure, solution.radiosity, materials, other(options.reconstruction));
+    solution.comparison->other = make_mesh(boundary, hierarchy, exposure, solution.radiosity);
+    for (glm::dvec3& p : solution.comparison->other.positions) { p = frame.to_scene(p); }
+    watch.lap("compare");
+  }
 
   audit.nodes = hierarchy.size();
   audit.leaves = static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.leaf(); }));
@@ -244,7 +271,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.bytes = hierarchy.capacity() * sizeof(Node) + solution.links.capacity() * sizeof(Link) + objects.bytes();
   for (const Surface& surface : boundary) { audit.bytes += surface.brep.bytes(); }
   report_left_out(audit, plan, refined, evaluated, exposure, options, link_cost(evaluator, solution.links));
-  if (!cut && !constant) { audit.left_out.push_back({"T-vertex elimination", "no leaf has a finer neighbour", ""}); }
+  if (!cut && !constant && options.topology == Topology::shared) {
+    audit.left_out.push_back({"T-vertex elimination", "no leaf has a finer neighbour", ""});
+  }
   if (plan.closed && !solution.links.empty() && !audit.closure) {
     audit.left_out.push_back({"closing the scene", "its row sums need a larger correction than quadrature and sampling explain", ""});
   }

@@ -32,10 +32,11 @@
 
 namespace radiosity {
 
-// Connects every T-vertex of the leaves to a corner of its face. Returns the number of new faces.
+// Connects every T-vertex of the leaves to a corner of its face, but for separate polygons. Returns the number of new faces.
 inline std::uint64_t eliminate_t_vertices(std::vector<Surface>& surfaces) {
   std::uint64_t added = 0;
   for (Surface& surface : surfaces) {
+    if (surface.topology == Topology::separate) { continue; }
     std::vector<brep::FaceId> faces;
     for (const brep::FaceId f : brep::faces(surface.brep)) {
       if (surface.brep.data(f).sheet != brep::no_sheet) { faces.push_back(f); }

@@ -46,8 +46,10 @@ class PathTracer {
   // Largest reflectance of the scene.
   [[nodiscard]] double brightest() const { return brightest_; }
 
-  // One independent estimate of B at the point x of a surface with unit normal n (into the air).
-  [[nodiscard]] Color radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Random& random,
+  // One estimate of B at the point x of a surface with unit normal n (into the air). `random` gives numbers by uniform(): independent
+  // ones, or those of a path of an even sequence (sobol.hpp).
+  template <class Numbers>
+  [[nodiscard]] Color radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Numbers& random,
                                 std::uint64_t& rays) const {
     const Material* material = materials_[first_surface_[object] + sheet];
     Color result = material->emission;
@@ -122,7 +124,8 @@ class PathTracer {
   }
 
   // Irradiance / 1 from one point on the lights: E cos cos / (pi r^2) times the area, when nothing blocks it.
-  [[nodiscard]] Color direct(const glm::dvec3& x, const glm::dvec3& n, std::uint32_t object, Random& random, std::uint64_t& rays) const {
+  template <class Numbers>
+  [[nodiscard]] Color direct(const glm::dvec3& x, const glm::dvec3& n, std::uint32_t object, Numbers& random, std::uint64_t& rays) const {
     const double pick = random.uniform() * light_area_;
     auto light = std::upper_bound(lights_.begin(), lights_.end(), pick, [](double p, const Light& l) { return p < l.cumulative_area; });
     if (light == lights_.end()) { --light; }

@@ -86,4 +86,23 @@ class Sobol4 {
   std::array<std::uint32_t, 4> keys_{};
 };
 
+// The numbers of path `index` of a family: the first eight, which decide most, are coordinates of two Sobol points, all further ones are
+// independent. The second point is that of another index (Burley 2020), so that both together are even, too.
+class PathNumbers {
+ public:
+  PathNumbers(const Sobol4& first, const Sobol4& second, std::uint32_t index, Random rest)
+      : points_{first(index), second(detail::owen_scramble(index, 0x9e3779b9u))}, rest_{rest} {}
+
+  [[nodiscard]] double uniform() {
+    if (used_ == 8) { return rest_.uniform(); }
+    const std::size_t k = used_++;
+    return points_[k / 4][k % 4];
+  }
+
+ private:
+  std::array<std::array<double, 4>, 2> points_;
+  std::size_t used_ = 0;
+  Random rest_;
+};
+
 }  // namespace radiosity

@@ -28,6 +28,7 @@
 #include <radiosity/form_factor.hpp>
 #include <radiosity/hierarchy.hpp>
 #include <radiosity/material.hpp>
+#include <radiosity/options.hpp>
 #include <radiosity/patch.hpp>
 
 namespace radiosity {
@@ -52,6 +53,7 @@ struct Surface {
   const raycast::PlacedObject* object = nullptr;
   std::uint32_t first_surface = 0;  // input surface of sheet 0
   SurfaceBRep brep;
+  Topology topology = Topology::shared;
 };
 
 // The approximation of a placed object with convex faces, or a sentence that says why there is none.
@@ -73,7 +75,7 @@ inline constexpr double first_chord_error = 0.01;
     for (const auto& defect : closed.defects) { sentence += "; " + defect.sentence; }
     return {std::nullopt, std::move(sentence)};
   }
-  Surface surface{&object, first_surface, std::move(*closed.brep)};
+  Surface surface{&object, first_surface, std::move(*closed.brep), Topology::shared};
   std::vector<brep::FaceId> concave;
   for (const brep::FaceId f : brep::faces(surface.brep)) {
     if (surface.brep.data(f).sheet != brep::no_sheet && !brep::is_convex(surface.brep, f)) { concave.push_back(f); }
@@ -155,7 +157,9 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
 [[nodiscard]] inline bool subdivide(std::vector<Surface>& surfaces, Hierarchy& hierarchy, std::uint32_t index) {
   const std::uint32_t object = hierarchy[index].object;
   Surface& surface = surfaces[object];
-  const auto place = [&](SurfaceBRep& brep, brep::VertexId v) { place_on_object(*surface.object, brep, v); };
+  const auto place = [&](SurfaceBRep& brep, brep::VertexId v) {
+    if (surface.topology == Topology::shared) { place_on_object(*surface.object, brep, v); }
+  };
   const auto faces = brep::refine(surface.brep, hierarchy[index].face, place);
   if (!faces) { return false; }
   const auto first = static_cast<std::uint32_t>(hierarchy.size());

@@ -152,17 +152,6 @@ class CellCounts {
 
 inline constexpr std::uint32_t segments_per_round = 16;
 
-// The lanes whose segment some object blocks: the law asked of each object, without tree, lists or single precision.
-[[nodiscard]] inline std::uint32_t occluded_by_any(const raycast::Scene& scene, const raycast::Segments16& segments) {
-  std::uint32_t occluded = 0;
-  for (std::uint32_t i = 0; i < segments_per_round; ++i) {
-    for (std::uint32_t o = 0; (segments.lanes >> i & 1u) != 0 && (occluded >> i & 1u) == 0 && o < scene.size(); ++o) {
-      if (scene.occluded_by(o, segments.at(i), segments.source[i], segments.target[i])) { occluded |= 1u << i; }
-    }
-  }
-  return occluded;
-}
-
 // One round of 16 segments decides when they agree; else `rounds` rounds are averaged. So a patch of which the part p is hidden
 // passes for wholly visible with probability (1 - p)^16, and the fraction is too large by p (1 - p)^16 <= 0.022 on average.
 // The numbers drawn depend on `random` alone. `list` is that of the pair.
@@ -194,7 +183,7 @@ inline constexpr std::uint32_t segments_per_round = 16;
       weights[i] = std::max(0.0, glm::dot(p.patch->normal, d)) * std::max(0.0, -glm::dot(q.patch->normal, d)) / (r2 * r2);
       if (weights[i] > 0.0) { segments.set(i, {x, d}, p.object, q.object); }
     }
-    const std::uint32_t occluded = plan.shortcuts ? scene.occluded16(segments, list, last_occluder) : occluded_by_any(scene, segments);
+    const std::uint32_t occluded = scene.occluded16(segments, plan.shortcuts ? list : raycast::OccluderList{}, last_occluder);
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
       if (!(weights[i] > 0.0)) { continue; }
       const bool arrives = (occluded >> i & 1u) == 0;

@@ -4,6 +4,7 @@
 #include "apps/euler/html_page.hpp"
 #include "apps/euler/svg.hpp"
 #include "apps/json.hpp"
+#include "apps/markup.hpp"
 
 namespace apps::euler {
 namespace {

@@ -15,9 +15,6 @@
 
 namespace apps::euler {
 
-// Text for SVG and HTML: & < > " are written as entities.
-[[nodiscard]] std::string escaped(const std::string& text);
-
 // The layouts of all frames, one after the other.
 [[nodiscard]] std::vector<Layout> lay_out(const Story& story, double smallest);
 

@@ -14,10 +14,12 @@
 
 #include <radiosity/plan.hpp>
 
+#include "apps/scene_file.hpp"
+
 namespace study {
 
-// Errors of radiosity over the surfaces that do not emit, weighted by area: L1 and L2 relative to the same norm of the reference,
-// the worst relative to the reference's greatest value.
+// Errors of radiosity over the surfaces that do not emit (in a scene where all do, over all), weighted by area: L1 and L2 relative to
+// the same norm of the reference, the worst relative to the reference's greatest value. The reference's noise is in them.
 struct Norms {
   double l1 = 0.0;
   double l2 = 0.0;
@@ -29,7 +31,8 @@ struct Errors {
   Norms points;  // at the reference's points
 };
 
-// Where the error comes from, each a relative L2 error of its own.
+// Where the error comes from, each a relative L2 error of its own at the reference's points. By the triangle inequality the error of
+// the leaves is at most the sum of the first two.
 struct ErrorParts {
   double discretisation = 0.0;  // a dense solution on the run's leaves against the reference
   double links = 0.0;           // the run's links and visibility against that dense solution
@@ -40,7 +43,7 @@ struct ErrorParts {
 struct Run {
   std::string setting;  // as on the command line: "epsilon .01"
   double cpu_seconds = 0.0;
-  double seconds_saved = 0.0;  // against the same run with every shortcut off
+  double seconds_saved = 0.0;  // by shortcuts, about: the run times what some of what it left out would have taken
   std::uint64_t bytes = 0;
   std::uint64_t links = 0;  // or matrix entries, for a dense matrix
   std::uint64_t leaves = 0;
@@ -81,8 +84,9 @@ struct Reference {
 };
 
 struct SceneStudy {
-  std::string scene;  // its file's name without folder and ending
-  std::string title;  // the difficulty that it isolates: the scene file's first comment line
+  std::string scene;    // its file's name without folder and ending
+  std::string title;    // the difficulty that it isolates: the scene file's first comment line
+  apps::Camera camera;  // for the error pictures: the file's first, or the automatic one
   Reference reference;
   std::vector<Method> methods;
   std::vector<ErrorPicture> pictures;  // one a method, at the setting nearest to 1 % in time or error

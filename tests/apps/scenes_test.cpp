@@ -4,6 +4,7 @@
 #include "catch.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 
 #include "example_scenes.hpp"
 #include "generations.hpp"
+#include "program.hpp"
 
 namespace {
 
@@ -33,9 +35,31 @@ void solve_with_checks(const std::string& name, double epsilon, double min_area)
 }  // namespace
 
 TEST_CASE("every scene: valid BReps after every generation, v - e + f = 2 (s - h), converged, energy conserved") {
-  REQUIRE(example_scenes().size() >= 6);
+  REQUIRE(example_scenes().size() >= 11);
   for (const std::string& name : example_scenes()) {
     if (name != "primitives.scene") { solve_with_checks(name, 0.02, 1e-4); }
+  }
+}
+
+TEST_CASE(
+    "scenes with parameters: the files are what make_scenes.sh writes, begin with their difficulty, and other parameters parse, too") {
+  const program::Place place;
+  const auto made = [&](const std::string& arguments) {
+    const std::string out = (place.path() / "made.scene").string();
+    REQUIRE(std::system(("sh '" HALFLIGHT_SCENES "/make_scenes.sh' " + arguments + " >'" + out + "' 2>&1").c_str()) == 0);
+    return program::content(out);
+  };
+  for (const std::string name : {"perpendicular_plates", "penumbra", "corridor", "nested_rooms", "boxes"}) {
+    CAPTURE(name);
+    const std::string text = made(name);
+    CHECK(text == program::content(std::string(HALFLIGHT_SCENES) + "/" + name + ".scene"));
+    CHECK(text.substr(0, 2) == "# ");
+  }
+  for (const char* arguments :
+       {"perpendicular_plates 150", "penumbra 1.9", "corridor 40 0.99", "nested_rooms 0.1 4", "boxes 1 3", "boxes 300 2"}) {
+    const apps::SceneResult result = apps::parse_scene(made(arguments));
+    INFO(apps::to_text(result, arguments));
+    CHECK(result.file);
   }
 }
 

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "apps/commands/study.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "apps/commands/common.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/progress.hpp"
+#include "apps/scene_file.hpp"
+#include "apps/study/measure.hpp"
+#include "apps/study/pages.hpp"
+#include "apps/study/reference.hpp"
+#include "apps/version.hpp"
+#include "apps/view.hpp"
+
+namespace apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "AMD EPYC 7763, 2 cores"
+std::string machine() {
+  std::string name = "unknown processor";
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) {
+      name = line.substr(colon + 2);
+      break;
+    }
+  }
+  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+  return name + ", " + std::to_string(cores) + (cores == 1 ? " core" : " cores");
+}
+
+std::string compiler() {
+#if defined(__clang__)
+  return "clang " __clang_version__;
+#elif defined(__GNUC__)
+  return "gcc " __VERSION__;
+#else
+  return "unknown compiler";
+#endif
+}
+
+// The first comment of the text, without its mark: what the scene says of itself.
+std::string title_of(const std::string& text) {
+  const std::size_t mark = text.find_first_not_of(" \t\r\n");
+  if (mark == std::string::npos || text[mark] != '#') { return {}; }
+  const std::size_t end = std::min(text.size(), text.find('\n', mark));
+  const std::size_t first = text.find_first_not_of("# \t\r", mark);
+  return first < end ? text.substr(first, text.find_last_not_of(" \t\r", end - 1) + 1 - first) : std::string();
+}
+
+std::string percent(double x) {
+  char text[32] = "";
+  std::snprintf(text, sizeof text, "%.3g %%", 100.0 * x);
+  return text;
+}
+
+// One scene; false when there is nothing to show of it. `code` says why.
+bool study_scene(const std::string& path, const StudyOptions& options, const radiosity::Control& control, Progress& progress,
+                 study::SceneStudy& result, ExitCode& code) {
+  std::string fault;
+  const auto text = read_text(path, fault);
+  const auto file = load_scene(path, code);
+  if (!text || !file) { return false; }
+  result.scene = fs::path(path).stem().string();
+  result.title = title_of(*text);
+  result.camera = file->cameras.empty() ? automatic_camera(file->scene) : file->cameras.front();
+
+  study::ReferenceOptions reference;
+  reference.paths = options.paths;
+  reference.threads = options.threads;
+  const std::string name = result.scene + ".reference.json";
+  const std::vector<std::string> caches{(fs::path(path).parent_path() / name).string(), (fs::path(options.folder) / name).string()};
+  const auto truth = study::make_reference(file->scene, *text, caches, reference, control, fault);
+  if (!truth) {
+    complain(path + ": " + fault);
+    code = control.cancelled() ? ExitCode::failure : ExitCode::invalid_input;
+    return false;
+  }
+  const study::Reference about = study::describe(*truth);
+  progress.say(result.scene + ": reference " + about.kind + (about.cached ? " (kept from before), " : ", ") + std::to_string(about.points) +
+               " points in " + std::to_string(about.cells) + " cells, noise " + percent(about.noise));
+
+  study::MeasureOptions measuring;
+  measuring.cpu_seconds_per_run = options.seconds;
+  measuring.finished = [&](const study::Method& method, const study::Run& run) {
+    char line[160] = "";
+    std::snprintf(line, sizeof line, "  %-20s %-26s %8.3f s  %s", method.name.c_str(), run.setting.c_str(), run.cpu_seconds,
+                  run.refused.empty() ? percent(run.weighted_error.cells.l2).c_str() : run.refused.c_str());
+    progress.say(line);
+  };
+  study::measure(file->scene, *truth, study::methods({options.dense, options.threads, 1}), measuring, control, result);
+  return !result.methods.empty();
+}
+
+}  // namespace
+
+void describe(CLI::App& command, StudyOptions& options) {
+  command.add_option("scenes", options.scenes, "the .scene files")->required()->type_name("SCENE");
+  command.add_option("-o,--output", options.folder, "folder for tables, plots, pictures and the page; made when there is none")
+      ->required()
+      ->type_name("DIR");
+  auto* seconds = command.add_option("--time-per-run", options.seconds, "CPU seconds after which a run is stopped")
+                      ->check(CLI::PositiveNumber)
+                      ->capture_default_str();
+  auto* paths = command.add_option("--paths", options.paths, "paths at each point of a path-traced reference")
+                    ->check(CLI::Range(std::uint64_t{8}, std::uint64_t{100'000'000}))
+                    ->capture_default_str();
+  command.add_option("--dense", options.dense, "leaves up to which a dense solution tells the parts of an error apart")
+      ->check(CLI::Range(0u, 20'000u))
+      ->capture_default_str();
+  command.add_flag("--quick", options.quick, "a first look: short runs, a noisy reference")->excludes(seconds)->excludes(paths);
+  command.add_option("--threads", options.threads, "0: as many as the machine has; results do not depend on it");
+  command.add_flag("-q,--quiet", options.quiet, "no narration on stderr");
+}
+
+ExitCode run(const StudyOptions& given) {
+  StudyOptions options = given;
+  if (options.quick) {
+    options.seconds = 1.5;
+    options.paths = 256;
+    options.dense = 300;
+  }
+  std::error_code failed;
+  fs::create_directories(options.folder, failed);
+  if (!fs::is_directory(options.folder)) {
+    complain("cannot make the folder " + options.folder);
+    return ExitCode::failure;
+  }
+  for (std::size_t i = 0; i < options.scenes.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (fs::path(options.scenes[i]).stem() == fs::path(options.scenes[k]).stem()) {
+        complain(options.scenes[i] + " and " + options.scenes[k] + " would write the same files; study them into two folders");
+        return ExitCode::usage;
+      }
+    }
+  }
+  Progress progress(options.quiet);
+  radiosity::Control control;
+  control.cancel = &watch_interrupts();
+  control.progress = [&](std::string_view stage, double fraction) { progress.report(stage, fraction); };
+
+  study::Study study;
+  study.machine = machine();
+  study.compiler = compiler();
+  study.version = version;
+  ExitCode code = ExitCode::ok;
+  for (const std::string& path : options.scenes) {
+    if (control.cancelled()) { break; }
+    study::SceneStudy scene;
+    if (study_scene(path, options, control, progress, scene, code)) { study.scenes.push_back(std::move(scene)); }
+  }
+  progress.done();
+  if (control.cancelled()) {
+    complain(study.scenes.empty() ? "interrupted; nothing was written" : "interrupted; what was finished is written");
+    code = ExitCode::failure;
+  }
+  if (study.scenes.empty()) { return code; }
+  if (const auto fault = study::write_pages(study, options.folder)) {
+    complain(*fault);
+    return ExitCode::failure;
+  }
+  for (const std::string& file : study::page_files(study)) { std::printf("written: %s\n", (fs::path(options.folder) / file).c_str()); }
+  if (std::fflush(stdout) != 0) {
+    complain("cannot write to standard output");
+    return ExitCode::failure;
+  }
+  return code;
+}
+
+}  // namespace apps

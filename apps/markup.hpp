@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Text inside SVG and HTML.
+
+#include <string>
+#include <string_view>
+
+namespace apps {
+
+// & < > " ' are written as entities, so the text may stand between tags and in an attribute; bytes that XML forbids are left out.
+[[nodiscard]] inline std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '\'':
+        result += "&#39;";
+        break;
+      default:
+        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') { result += c; }
+    }
+  }
+  return result;
+}
+
+}  // namespace apps

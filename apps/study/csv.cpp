@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <charconv>
+
+#include "apps/study/outcome.hpp"
+#include "apps/study/tables.hpp"
+
+namespace study {
+namespace {
+
+constexpr const char* head =
+    "scene,reference,noise,point_noise,method,setting,reconstruction,cpu_seconds,seconds_saved,bytes,links,leaves,rays,"
+    "cells_l1,cells_l2,cells_worst,points_l1,points_l2,points_worst,below_noise,"
+    "part_discretisation,part_links,part_solver,part_reconstruction,refused\n";
+
+// The fewest digits that read back as the same double.
+std::string number(double x) {
+  if (!std::isfinite(x)) { return ""; }
+  std::array<char, 40> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
+}
+
+class Line {
+ public:
+  void field(std::string_view text) {
+    text_ += (first_ ? "" : ",") + csv_field(text);
+    first_ = false;
+  }
+  void empty(int count) {
+    for (; count > 0; --count) { field(""); }
+  }
+  [[nodiscard]] std::string end() const { return text_ + "\n"; }
+
+ private:
+  std::string text_;
+  bool first_ = true;
+};
+
+void add_errors(Line& line, const Errors& errors, const Reference& reference) {
+  std::string limited;
+  const auto add = [&](double measured, double noise, const char* column) {
+    const KnownError error = known_error(measured, noise);
+    line.field(number(error.value));
+    if (error.limited) { limited += (limited.empty() ? "" : " ") + std::string(column); }
+  };
+  add(errors.cells.l1, reference.noise, "cells_l1");
+  add(errors.cells.l2, reference.noise, "cells_l2");
+  add(errors.cells.worst, reference.noise, "cells_worst");
+  add(errors.points.l1, reference.point_noise, "points_l1");
+  add(errors.points.l2, reference.point_noise, "points_l2");
+  add(errors.points.worst, reference.point_noise, "points_worst");
+  line.field(limited);
+}
+
+std::string run_line(const SceneStudy& scene, const Method& method, const Run& run, Stage stage) {
+  static constexpr std::array<const char*, 3> names = {"none", "simple", "weighted"};
+  Line line;
+  line.field(scene.scene);
+  line.field(scene.reference.kind);
+  line.field(number(scene.reference.noise));
+  line.field(number(scene.reference.point_noise));
+  line.field(method.name);
+  line.field(run.setting);
+  line.field(names[static_cast<std::size_t>(stage)]);
+  if (!run.refused.empty()) {
+    line.empty(17);
+    line.field(run.refused);
+    return line.end();
+  }
+  line.field(number(run.cpu_seconds));
+  line.field(number(run.seconds_saved));
+  for (const std::uint64_t n : {run.bytes, run.links, run.leaves, run.rays}) { line.field(std::to_string(n)); }
+  add_errors(line, errors(run, stage), scene.reference);
+  if (run.parts) {
+    for (const double part : {run.parts->discretisation, run.parts->links, run.parts->solver, run.parts->reconstruction}) {
+      line.field(number(part));
+    }
+  } else {
+    line.empty(4);
+  }
+  line.field("");
+  return line.end();
+}
+
+}  // namespace
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) { return std::string(text); }
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') { quoted += '"'; }
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string to_csv(const Study& study) {
+  std::string text = head;
+  for (const SceneStudy& scene : study.scenes) {
+    for (const Method& method : scene.methods) {
+      for (const Run& run : method.runs) {
+        for (const Stage stage : stages) { text += run_line(scene, method, run, stage); }
+      }
+    }
+  }
+  return text;
+}
+
+}  // namespace study

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A drawing as data: shapes and labels in the order in which they cover each other. What draws (plot.hpp, error_picture.hpp) fills one;
+// to_svg() (svg.hpp) and rasterize() (raster.hpp) write the same drawing as vectors and as pixels.
+//
+// Units are CSS pixels; x to the right, y down. Three tones have a meaning, so that a page may exchange them in the dark.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace study {
+
+using Tone = std::uint32_t;  // 0xrrggbb, sRGB
+
+inline constexpr Tone ink = 0x222222;    // text and axes
+inline constexpr Tone paper = 0xffffff;  // the background
+inline constexpr Tone faint = 0xdddddd;  // grid lines
+
+// A polygon or a polyline.
+struct Shape {
+  std::vector<glm::dvec2> points;
+  bool closed = false;
+  bool filled = false;
+  Tone fill = paper;
+  double stroke_width = 0.0;  // 0: no outline
+  Tone stroke = ink;
+  std::vector<double> dashes;  // lengths on, off, on, ...; empty: solid
+  double opacity = 1.0;
+  std::string title;  // shown by a browser when one points at the shape
+};
+
+enum class Anchor { start, middle, end };
+
+// One line of text; `at` lies on its baseline.
+struct Label {
+  glm::dvec2 at{0.0};
+  std::string text;  // UTF-8
+  double size = 12.0;
+  Anchor anchor = Anchor::start;
+  Tone tone = ink;
+  bool bold = false;
+  bool upright = true;  // or it runs from the bottom to the top
+};
+
+struct Drawing {
+  double width = 0.0;
+  double height = 0.0;
+  std::vector<std::variant<Shape, Label>> items;
+
+  Shape& add(Shape shape) { return std::get<Shape>(items.emplace_back(std::move(shape))); }
+  Label& add(Label label) { return std::get<Label>(items.emplace_back(std::move(label))); }
+};
+
+[[nodiscard]] inline Shape line(const glm::dvec2& from, const glm::dvec2& to, double width, Tone tone = ink) {
+  Shape shape;
+  shape.points = {from, to};
+  shape.stroke_width = width;
+  shape.stroke = tone;
+  return shape;
+}
+
+[[nodiscard]] inline Shape rectangle(const glm::dvec2& low, const glm::dvec2& high, Tone fill) {
+  Shape shape;
+  shape.points = {low, {high.x, low.y}, high, {low.x, high.y}};
+  shape.closed = true;
+  shape.filled = true;
+  shape.fill = fill;
+  return shape;
+}
+
+}  // namespace study

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "apps/study/error_picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "apps/study/numbers.hpp"
+#include "apps/study/raster.hpp"
+
+namespace study {
+namespace {
+
+constexpr Tone background = 0xb4b4b4;
+constexpr double scale_width = 480.0;
+
+// Radiosity that draw() shows as exactly this tone at exposure 1: pi times the linear value.
+radiosity::Color shown_as(Tone tone) {
+  radiosity::Color result(0.0);
+  for (int c = 0; c < 3; ++c) {
+    const double encoded = ((tone >> (16 - 8 * c)) & 255U) / 255.0;
+    result[c] = std::numbers::pi * (encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+  }
+  return result;
+}
+
+void add_face(radiosity::Mesh& mesh, const std::vector<glm::dvec3>& corners, const radiosity::Color& color) {
+  radiosity::MeshFace face;
+  face.first_corner = static_cast<std::uint32_t>(mesh.corners.size());
+  face.corner_count = static_cast<std::uint32_t>(corners.size());
+  for (const glm::dvec3& p : corners) {
+    mesh.corners.push_back({static_cast<std::uint32_t>(mesh.positions.size()), color});
+    mesh.positions.push_back(p);
+  }
+  mesh.faces.push_back(face);
+}
+
+glm::dvec3 normal_of(const std::vector<glm::dvec3>& corners) {
+  glm::dvec3 area(0.0);
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) { area += glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]); }
+  const double length = glm::length(area);
+  return length > 0.0 ? area / length : glm::dvec3(0.0);
+}
+
+// The cells, each in the colour that tone(cell) gives, before a wall of the background's that fills the view.
+template <class ColorOf>
+radiosity::Mesh mesh_of(const ErrorPicture& errors, const apps::View& view, const ColorOf& color) {
+  radiosity::Mesh mesh;
+  double farthest = 0.0;
+  for (const ErrorCell& cell : errors.cells) {
+    if (cell.corners.size() < 3) { continue; }
+    add_face(mesh, cell.corners, color(cell));
+    for (const glm::dvec3& p : cell.corners) { farthest = std::max(farthest, view.to_view(p).z); }
+  }
+  const double z = farthest > 0.0 ? 4.0 * farthest : 1.0;
+  const double x = 1.5 * z * view.half_width;
+  const double y = 1.5 * z * view.half_height();
+  std::vector<glm::dvec3> wall;
+  for (const auto& [right, down] : {std::pair{-x, y}, std::pair{x, y}, std::pair{x, -y}, std::pair{-x, -y}}) {
+    wall.push_back(view.eye + right * view.right + down * view.down + z * view.forward);
+  }
+  add_face(mesh, wall, shown_as(background));
+  return mesh;
+}
+
+// Darkens what lies at a crease or an outline: neighbours whose normals differ.
+void draw_creases(apps::Picture& picture, const apps::Picture& normals) {
+  const auto differ = [&](std::uint32_t x, std::uint32_t y, std::uint32_t u, std::uint32_t v) {
+    const apps::Rgb8 a = normals.pixel(x, y);
+    const apps::Rgb8 b = normals.pixel(u, v);
+    int sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) { sum += std::abs(int{a[c]} - int{b[c]}); }
+    return sum > 48;
+  };
+  for (std::uint32_t y = 0; y < picture.height; ++y) {
+    for (std::uint32_t x = 0; x < picture.width; ++x) {
+      if ((x == 0 || !differ(x, y, x - 1, y)) && (y == 0 || !differ(x, y, x, y - 1))) { continue; }
+      for (std::size_t c = 0; c < 3; ++c) {
+        std::uint8_t& value = picture.rgb[3 * (std::size_t{y} * picture.width + x) + c];
+        value = static_cast<std::uint8_t>(value * 2 / 5);
+      }
+    }
+  }
+}
+
+apps::Picture below(const apps::Picture& upper, const apps::Picture& lower) {
+  apps::Picture result{std::max(upper.width, lower.width), upper.height + lower.height, {}};
+  result.rgb.assign(std::size_t{3} * result.width * result.height, 255);
+  std::uint32_t top = 0;
+  for (const apps::Picture* part : {&upper, &lower}) {
+    for (std::uint32_t y = 0; y < part->height; ++y) {
+      const auto first = part->rgb.begin() + static_cast<std::ptrdiff_t>(std::size_t{3} * y * part->width);
+      std::copy(first, first + std::ptrdiff_t{3} * part->width,
+                result.rgb.begin() + static_cast<std::ptrdiff_t>(std::size_t{3} * (top + y) * result.width));
+    }
+    top += part->height;
+  }
+  return result;
+}
+
+}  // namespace
+
+double error_limit(const SceneStudy& scene) {
+  std::vector<double> sizes;
+  for (const ErrorPicture& picture : scene.pictures) {
+    for (const ErrorCell& cell : picture.cells) {
+      if (std::isfinite(cell.error)) { sizes.push_back(std::abs(cell.error)); }
+    }
+  }
+  if (sizes.empty()) { return 0.01; }
+  const auto nth = sizes.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(sizes.size() - 1));
+  std::nth_element(sizes.begin(), nth, sizes.end());
+  for (int decade = -6; decade < 3; ++decade) {
+    for (const double k : {1.0, 2.0, 5.0}) {
+      if (k * std::pow(10.0, decade) >= *nth) { return k * std::pow(10.0, decade); }
+    }
+  }
+  return 1000.0;
+}
+
+Tone error_tone(double part) {
+  static constexpr std::array<Tone, 7> tones = {0x08306b, 0x2171b5, 0x8dbfe0, 0xf7f7f7, 0xfbc48a, 0xf08432, 0xb33c00};
+  if (!std::isfinite(part)) { return background; }
+  const double at = (std::clamp(part, -1.0, 1.0) + 1.0) * 3.0;
+  const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(at), 5);
+  Tone result = 0;
+  for (unsigned shift = 0; shift <= 16; shift += 8) {
+    const double a = (tones[i] >> shift) & 255U;
+    const double b = (tones[i + 1] >> shift) & 255U;
+    result |= static_cast<Tone>(std::lround(a + (at - static_cast<double>(i)) * (b - a))) << shift;
+  }
+  return result;
+}
+
+apps::Picture error_picture(const ErrorPicture& errors, const apps::Camera& camera, double limit, std::uint32_t width) {
+  const apps::PictureSize shape = camera.size.value_or(apps::PictureSize{});
+  const auto height = static_cast<std::uint32_t>(std::max(1L, std::lround(static_cast<double>(width) * shape.height / shape.width)));
+  const apps::View view = apps::make_view(camera, {width, height});
+  const auto by_error = mesh_of(errors, view, [&](const ErrorCell& cell) { return shown_as(error_tone(cell.error / limit)); });
+  const auto by_normal =
+      mesh_of(errors, view, [](const ErrorCell& cell) { return std::numbers::pi * (0.5 + 0.5 * normal_of(cell.corners)); });
+  apps::Picture picture = *apps::draw(by_error, view, 1.0);
+  draw_creases(picture, *apps::draw(by_normal, view, 1.0, 1));
+  return picture;
+}
+
+Drawing error_scale(double limit) {
+  constexpr double left = 20.0;
+  constexpr double bar = scale_width - 2.0 * left;
+  constexpr int steps = 88;
+  Drawing drawing;
+  drawing.width = scale_width;
+  drawing.height = 62.0;
+  for (int i = 0; i < steps; ++i) {
+    const double x = left + bar * i / steps;
+    // Each reaches a little under the next: no seam.
+    drawing.add(
+        rectangle({x, 8.0}, {left + bar * std::min<double>(i + 1.2, steps) / steps, 22.0}, error_tone(2.0 * (i + 0.5) / steps - 1.0)));
+  }
+  for (int i = -2; i <= 2; ++i) {
+    const double x = left + bar * (0.5 + 0.25 * i);
+    drawing.add(line({x, 22.0}, {x, 26.0}, 1.0));
+    const std::string sign = i > 0 ? "+" : i < 0 ? "−" : "";
+    const Anchor anchor = i == -2 ? Anchor::start : i == 2 ? Anchor::end : Anchor::middle;
+    drawing.add(Label{.at = {x + (i == -2  ? -12.0
+                                  : i == 2 ? 12.0
+                                           : 0.0),
+                             39.0},
+                      .text = (std::abs(i) == 2 ? (i < 0 ? "≤ " : "≥ ") : "") + sign + percent(std::abs(0.5 * i * limit)),
+                      .size = 11.0,
+                      .anchor = anchor});
+  }
+  drawing.add(Label{.at = {left - 12.0, 55.0}, .text = "too dark", .size = 11.0});
+  drawing.add(Label{
+      .at = {0.5 * scale_width, 55.0}, .text = "error of the cell mean, of the brightest cell", .size = 11.0, .anchor = Anchor::middle});
+  drawing.add(Label{.at = {left + bar + 12.0, 55.0}, .text = "too bright", .size = 11.0, .anchor = Anchor::end});
+  return drawing;
+}
+
+apps::Picture error_figure(const ErrorPicture& errors, const apps::Camera& camera, double limit) {
+  Drawing head;
+  head.width = scale_width;
+  head.height = 28.0;
+  head.add(Label{.at = {8.0, 19.0}, .text = errors.method + ", " + errors.setting, .size = 13.0, .bold = true});
+  constexpr double density = 1.5;
+  constexpr auto width = static_cast<std::uint32_t>(density * scale_width);
+  return below(below(rasterize(head, density), error_picture(errors, camera, limit, width)), rasterize(error_scale(limit), density));
+}
+
+}  // namespace study

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A logarithmic axis: the range of its values, where each falls, and its ticks. Decades are labelled; in less than three decades also
+// 2 and 5, so that every axis has at least two labels.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace study {
+
+struct Tick {
+  double value = 1.0;
+  bool labelled = false;
+};
+
+class LogAxis {
+ public:
+  LogAxis() = default;
+  // From `low` to `high`, both positive, with a margin of 6 % of the axis at both ends and at least half a decade in all.
+  LogAxis(double low, double high) : LogAxis(between(low, high)) {
+    const double missing = std::max(0.0, 0.5 - (high_ - low_));
+    const double margin = 0.06 * (high_ - low_) + 0.5 * missing;
+    low_ -= margin;
+    high_ += margin;
+  }
+
+  // Without a margin.
+  [[nodiscard]] static LogAxis between(double low, double high) {
+    LogAxis axis;
+    axis.low_ = std::log10(low);
+    axis.high_ = std::log10(high);
+    return axis;
+  }
+
+  // 0 at the low end, 1 at the high end.
+  [[nodiscard]] double place(double value) const { return (std::log10(value) - low_) / (high_ - low_); }
+  [[nodiscard]] double low() const { return std::pow(10.0, low_); }
+  [[nodiscard]] double high() const { return std::pow(10.0, high_); }
+
+  [[nodiscard]] std::vector<Tick> ticks() const {
+    std::vector<Tick> result;
+    const bool few = high_ - low_ < 3.0;
+    const bool fewer = high_ - low_ < 1.0;
+    const int every = std::max(1, static_cast<int>(std::ceil((high_ - low_) / 8.0)));  // decades between labels
+    for (int decade = static_cast<int>(std::floor(low_)); decade <= static_cast<int>(std::floor(high_)); ++decade) {
+      for (int k = 1; k < 10; ++k) {
+        const double value = k * std::pow(10.0, decade);
+        if (place(value) < 0.0 || place(value) > 1.0) { continue; }
+        const bool labelled = k == 1 ? decade % every == 0 : (few && (k == 2 || k == 5)) || (fewer && (k == 3 || k == 7));
+        result.push_back({value, labelled});
+      }
+    }
+    return result;
+  }
+
+ private:
+  double low_ = 0.0;  // powers of ten
+  double high_ = 1.0;
+};
+
+}  // namespace study

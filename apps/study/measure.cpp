@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "apps/study/measure.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <limits>
+#include <thread>
+#include <utility>
+
+#include <radiosity/lookup.hpp>
+
+namespace study {
+namespace {
+
+using radiosity::Color;
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+std::string seconds_text(double seconds) {
+  char text[32] = "";
+  std::snprintf(text, sizeof text, "%.3g", seconds);
+  return text;
+}
+
+// Stops a run that takes too long, or when the study itself is to stop.
+class RunLimit {
+ public:
+  RunLimit(double seconds, const radiosity::Control& outer)
+      : end_{cpu_seconds() + seconds}, watcher_{[this, &outer](const std::stop_token& done) {
+          while (!done.stop_requested()) {
+            if (outer.cancelled() || cpu_seconds() > end_) { stop_ = true; }
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          }
+        }} {}
+  RunLimit(const RunLimit&) = delete;
+  RunLimit& operator=(const RunLimit&) = delete;
+
+  [[nodiscard]] radiosity::Control control() const { return {&stop_, {}, {}}; }
+
+ private:
+  std::atomic<bool> stop_{false};
+  double end_;
+  std::jthread watcher_;  // last: it looks at the others
+};
+
+// Of one run: what the study keeps until it knows which run becomes the picture.
+struct Measured {
+  Run run;
+  std::vector<double> cells;  // signed errors of the picture
+};
+
+Measured errors_of_run(const radiosity::Scene& scene, const TrueRadiosity& truth, const radiosity::Solution& solution,
+                       std::string setting) {
+  Measured measured;
+  Run& run = measured.run;
+  run.setting = std::move(setting);
+  run.cpu_seconds = solution.audit.cpu_seconds;
+  for (const radiosity::LeftOut& item : solution.audit.left_out) { run.seconds_saved += item.seconds; }
+  run.bytes = solution.audit.bytes;
+  run.links = solution.audit.links;
+  run.leaves = solution.audit.leaves;
+  run.rays = solution.audit.rays;
+  const std::vector<Color> leaves = values_at(scene, solution, solution.mesh, truth, &solution.radiosity);
+  const std::vector<Color> weighted = values_at(scene, solution, solution.mesh, truth);
+  const radiosity::Comparison& comparison = *solution.comparison;
+  run.leaves_error = errors_of(truth, leaves);
+  run.weighted_error = errors_of(truth, weighted, &measured.cells);
+  run.simple_error = errors_of(truth, values_at(scene, solution, comparison.other, truth));
+  if (!comparison.dense.empty()) {
+    const std::vector<Color> dense = values_at(scene, solution, solution.mesh, truth, &comparison.dense);
+    run.parts = ErrorParts{errors_of(truth, dense).points.l2, distance(truth, leaves, dense), solution.audit.residual,
+                           distance(truth, weighted, leaves)};
+  }
+  return measured;
+}
+
+// A run with a result, or with the reason why there is none.
+Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, const Setting& setting, double limit,
+                  const radiosity::Control& control, std::vector<radiosity::LeftOut>& left_out) {
+  constexpr double brief = 0.3;  // seconds; what takes less is run three times, and the shortest time counts
+  radiosity::Outcome outcome;
+  for (int k = 0; k < 3; ++k) {
+    const RunLimit run_limit{limit, control};
+    radiosity::Outcome again = setting.run(scene, run_limit.control());
+    if (!again.solution) {
+      Measured none;
+      none.run.setting = setting.text;
+      const bool stopped = again.failure.kind == radiosity::Failure::Kind::cancelled;
+      none.run.refused = stopped ? "takes more than " + seconds_text(limit) + " s of CPU time" : again.failure.sentences.front();
+      return none;
+    }
+    const double before = outcome.solution ? outcome.solution->audit.cpu_seconds : std::numeric_limits<double>::infinity();
+    if (again.solution->audit.cpu_seconds < before) { outcome = std::move(again); }
+    if (outcome.solution->audit.cpu_seconds > brief) { break; }
+  }
+  left_out = outcome.solution->audit.left_out;
+  return errors_of_run(scene, truth, *outcome.solution, setting.text);
+}
+
+// The run whose picture comes nearest to an error of one per cent.
+std::optional<ErrorPicture> picture_of(const TrueRadiosity& truth, const Method& method, const std::vector<Measured>& runs) {
+  const Measured* best = nullptr;
+  const auto away = [](const Measured& m) { return std::abs(std::log(std::max(1e-12, m.run.weighted_error.cells.l2) / 0.01)); };
+  for (const Measured& m : runs) {
+    if (m.run.refused.empty() && (best == nullptr || away(m) < away(*best))) { best = &m; }
+  }
+  if (best == nullptr) { return std::nullopt; }
+  ErrorPicture picture{method.name, best->run.setting, {}};
+  for (std::size_t i = 0; i < truth.cells.size(); ++i) { picture.cells.push_back({truth.cells[i].corners, best->cells[i]}); }
+  return picture;
+}
+
+}  // namespace
+
+std::vector<Color> values_at(const radiosity::Scene& scene, const radiosity::Solution& solution, const radiosity::Mesh& mesh,
+                             const TrueRadiosity& truth, const std::vector<Color>* leaf_values) {
+  radiosity::Mesh constant;
+  if (leaf_values != nullptr) {
+    constant = mesh;
+    for (const radiosity::MeshFace& face : mesh.faces) {
+      for (std::uint32_t c = 0; c < face.corner_count; ++c) {
+        constant.corners[face.first_corner + c].radiosity = (*leaf_values)[face.node];
+      }
+    }
+  }
+  const radiosity::Lookup lookup{scene, leaf_values != nullptr ? constant : mesh, solution.frame};
+  std::vector<Color> values;
+  values.reserve(truth.points.size());
+  for (const ReferencePoint& p : truth.points) { values.push_back(lookup.at(p.object, p.sheet, p.position).value_or(Color{0.0})); }
+  return values;
+}
+
+void measure(const radiosity::Scene& scene, const TrueRadiosity& truth, const std::vector<MethodPlan>& methods,
+             const MeasureOptions& options, const radiosity::Control& control, SceneStudy& study) {
+  study.reference = describe(truth);
+  study.left_out = truth.left_out;
+  for (const MethodPlan& plan : methods) {
+    if (control.cancelled()) { return; }
+    Method method{plan.name, plan.summary, {}};
+    std::vector<Measured> runs;
+    std::vector<radiosity::LeftOut> left_out;
+    for (const Setting& setting : plan.settings) {
+      Measured measured;
+      if (!runs.empty() && !runs.back().run.refused.empty()) {
+        measured.run.setting = setting.text;
+        measured.run.refused = "not tried: a coarser setting has no result";
+      } else {
+        measured = run_once(scene, truth, setting, options.cpu_seconds_per_run, control, left_out);
+        if (control.cancelled()) { break; }
+        if (options.finished) { options.finished(method, measured.run); }
+      }
+      method.runs.push_back(measured.run);
+      runs.push_back(std::move(measured));
+    }
+    if (method.runs.empty()) { return; }
+    if (auto picture = picture_of(truth, method, runs)) { study.pictures.push_back(std::move(*picture)); }
+    if (study.methods.empty() && !left_out.empty()) { study.left_out = std::move(left_out); }
+    study.methods.push_back(std::move(method));
+  }
+}
+
+}  // namespace study

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "apps/study/methods.hpp"
+
+#include <charconv>
+#include <utility>
+
+#include <radiosity/uniform.hpp>
+
+namespace study {
+namespace {
+
+using radiosity::Control;
+using radiosity::Options;
+using radiosity::Outcome;
+using radiosity::Scene;
+
+std::string text(const char* name, double value) {
+  char digits[32] = "";
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  return std::string(name) + " " + std::string(digits, end);
+}
+
+Options common(const MethodOptions& study) {
+  Options options;
+  options.audit_points = 0;
+  options.compare = study.dense_leaves;
+  options.threads = study.threads;
+  options.seed = study.seed;
+  return options;
+}
+
+// A hierarchical method whose settings are values of one option.
+MethodPlan hierarchical(std::string name, std::string summary, const char* option, const std::vector<double>& values, const Options& base,
+                        void (*set)(Options&, double)) {
+  MethodPlan method{std::move(name), std::move(summary), {}};
+  for (const double value : values) {
+    Options options = base;
+    set(options, value);
+    method.settings.push_back(
+        {text(option, value), [options](const Scene& scene, const Control& control) { return radiosity::solve(scene, options, control); }});
+  }
+  return method;
+}
+
+// The smallest patch shrinks with epsilon, so that shadows get finer, too.
+void set_epsilon(Options& options, double epsilon) {
+  options.epsilon = epsilon;
+  options.min_area = 0.006 * epsilon;
+}
+
+void set_target(Options& options, double target) {
+  options.refinement = radiosity::Refinement::a_posteriori;
+  options.target = target;
+}
+
+// The rounds with their audits are what the method costs. The comparison is made on the last round alone, run again.
+Outcome run_to_error(const Scene& scene, Options options, const Control& control) {
+  const std::optional<std::uint32_t> compare = std::exchange(options.compare, std::nullopt);
+  Outcome outcome = radiosity::solve(scene, options, control);
+  if (!outcome.solution || !compare) { return outcome; }
+  options.error.reset();
+  options.target = outcome.solution->audit.target;
+  options.audit_points = 0;
+  options.compare = compare;
+  Outcome again = radiosity::solve(scene, options, control);
+  if (!again.solution) { return again; }
+  outcome.solution->comparison = std::move(again.solution->comparison);
+  radiosity::Audit& audit = outcome.solution->audit;
+  audit.cpu_seconds = 0.0;
+  for (const radiosity::StageTime& stage : audit.stages) { audit.cpu_seconds += stage.cpu_seconds; }
+  return outcome;
+}
+
+MethodPlan accuracy_target(const MethodOptions& study) {
+  MethodPlan method{
+      "BF, accuracy target",
+      "BF-refinement until a path-traced audit of the picture witnesses the relative L2 error asked for; all rounds and audits "
+      "count",
+      {}};
+  for (const double error : {0.16, 0.08, 0.056, 0.04, 0.028, 0.02}) {
+    Options options = common(study);
+    options.refinement = radiosity::Refinement::a_posteriori;
+    options.audit_points = 1000;
+    options.error = error;
+    method.settings.push_back(
+        {text("error", error), [options](const Scene& scene, const Control& control) { return run_to_error(scene, options, control); }});
+  }
+  return method;
+}
+
+MethodPlan uniform(std::string name, std::string summary, const MethodOptions& study, radiosity::UniformSolver solver) {
+  MethodPlan method{std::move(name), std::move(summary), {}};
+  double unshot = 0.16;
+  for (const int leaves : {32, 64, 128, 256, 512, 1024, 2048}) {
+    radiosity::UniformOptions options;
+    options.solver = solver;
+    options.max_area = 1.0 / leaves;
+    options.unshot = unshot /= 2.0;
+    options.compare = study.dense_leaves;
+    options.threads = study.threads;
+    options.seed = study.seed;
+    std::string setting = "area 1/" + std::to_string(leaves);
+    if (solver == radiosity::UniformSolver::progressive) { setting += text(", unshot", unshot); }
+    method.settings.push_back({std::move(setting), [options](const Scene& scene, const Control& control) {
+                                 return radiosity::solve_uniform(scene, options, control);
+                               }});
+  }
+  return method;
+}
+
+}  // namespace
+
+std::vector<MethodPlan> methods(const MethodOptions& study) {
+  const std::vector<double> epsilons{0.16, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025};
+  std::vector<MethodPlan> all;
+  all.push_back(hierarchical("hierarchical F", "a pair is linked where its form factor is small (paper 4.4); split by Euler operators",
+                             "epsilon", epsilons, common(study), set_epsilon));
+  all.push_back(hierarchical("hierarchical BF", "solve, then refine the links that carry the most error (paper 4.4)", "target",
+                             {0.08, 0.04, 0.02, 0.01, 0.005, 0.0025}, common(study), set_target));
+  all.push_back(accuracy_target(study));
+  Options separate = common(study);
+  separate.topology = radiosity::Topology::separate;
+  all.push_back(hierarchical("quad-tree",
+                             "classical hierarchical radiosity: F-refinement on separate polygons without shared topology (Hanrahan 1991)",
+                             "epsilon", epsilons, separate, set_epsilon));
+  all.push_back(uniform("uniform, matrix", "every face cut evenly, the full matrix solved by Gauss-Seidel", study,
+                        radiosity::UniformSolver::gauss_seidel));
+  all.push_back(uniform("progressive", "every face cut evenly, the brightest leaf shoots (Cohen 1988); no matrix is stored", study,
+                        radiosity::UniformSolver::progressive));
+  return all;
+}
+
+}  // namespace study

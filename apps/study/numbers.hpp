@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Numbers as text, for people. What was not measured (NaN) is a dash.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+namespace study {
+
+// With a true minus sign.
+[[nodiscard]] inline std::string fixed(double x, int decimals) {
+  if (!std::isfinite(x)) { return "–"; }
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, std::abs(x));
+  const bool zero = std::string(text.data()).find_first_of("123456789") == std::string::npos;
+  return (x < 0.0 && !zero ? "−" : "") + std::string(text.data());
+}
+
+[[nodiscard]] inline std::string signed_number(double x) { return (std::isfinite(x) && x >= 0.0 ? "+" : "") + fixed(x, 2); }
+
+// Three significant digits, plain between 0.001 and a million.
+[[nodiscard]] inline std::string figure(double x) {
+  if (!std::isfinite(x)) { return "–"; }
+  const double size = std::abs(x);
+  if (size >= 0.001 && size < 999500.0) {
+    const int digits = static_cast<int>(std::floor(std::log10(size * (1.0 + 1e-9))));
+    const int decimals = digits >= 2 ? 0 : 2 - digits;
+    return fixed(x, decimals);
+  }
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", x);
+  return text.data();
+}
+
+// At the ticks of an axis: as few characters as say the value.
+[[nodiscard]] inline std::string short_number(double x) {
+  static constexpr std::array<const char*, 5> prefixes = {"", " k", " M", " G", " T"};
+  std::size_t i = 0;
+  while (x >= 1000.0 * (1.0 - 1e-9) && i + 1 < prefixes.size()) { x /= 1000.0, ++i; }
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", x);
+  return text.data() + std::string(prefixes[i]);
+}
+
+// 0.0123 -> "1.23 %".
+[[nodiscard]] inline std::string percent(double fraction) {
+  if (!std::isfinite(fraction)) { return "–"; }
+  if (std::abs(fraction) >= 9.995) { return fixed(100.0 * fraction, 0) + " %"; }
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", 100.0 * fraction);
+  std::string number = text.data();
+  if (number.find('e') != std::string::npos && std::abs(fraction) > 1e-9 && std::abs(fraction) < 1.0) {
+    std::snprintf(text.data(), text.size(), "%.*f", 2 - static_cast<int>(std::floor(std::log10(std::abs(100.0 * fraction)))),
+                  100.0 * fraction);
+    number = text.data();
+    while (number.back() == '0') { number.pop_back(); }
+  }
+  return number + " %";
+}
+
+// 12 300 000 -> "12.3 MB": thousands, as of disks.
+[[nodiscard]] inline std::string bytes_text(std::uint64_t bytes) {
+  static constexpr std::array<const char*, 5> units = {" B", " kB", " MB", " GB", " TB"};
+  auto x = static_cast<double>(bytes);
+  std::size_t i = 0;
+  while (x >= 999.5 && i + 1 < units.size()) { x /= 1000.0, ++i; }
+  return (i == 0 ? fixed(x, 0) : figure(x)) + units[i];
+}
+
+// 9 876, 12.3 k, 1.23 M; the space of the first is narrow and does not break.
+[[nodiscard]] inline std::string count_text(std::uint64_t count) {
+  if (count >= 10000) {
+    static constexpr std::array<const char*, 4> units = {" k", " M", " G", " T"};
+    double x = static_cast<double>(count) / 1000.0;
+    std::size_t i = 0;
+    for (; x >= 999.5 && i + 1 < units.size(); ++i) { x /= 1000.0; }
+    return figure(x) + units[i];
+  }
+  std::string digits = std::to_string(count);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) { digits.insert(i - 3, "\u202f"); }
+  return digits;
+}
+
+}  // namespace study

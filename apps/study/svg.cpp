@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "apps/study/svg.hpp"
+
+#include <cstdio>
+
+#include "apps/markup.hpp"
+
+namespace study {
+namespace {
+
+// With at most two decimals, without trailing zeros.
+std::string number(double x) {
+  char text[40] = "";
+  std::snprintf(text, sizeof text, "%.2f", x);
+  std::string result = text;
+  while (result.back() == '0') { result.pop_back(); }
+  if (result.back() == '.') { result.pop_back(); }
+  return result == "-0" ? "0" : result;
+}
+
+std::string hex(Tone tone) {
+  char text[16] = "";
+  std::snprintf(text, sizeof text, "#%06x", static_cast<unsigned>(tone & 0xffffffU));
+  return text;
+}
+
+std::string element(const Shape& shape) {
+  std::string path;
+  for (std::size_t i = 0; i < shape.points.size(); ++i) {
+    path += (i == 0 ? "M" : "L") + number(shape.points[i].x) + " " + number(shape.points[i].y);
+  }
+  std::string result = "<path d=\"" + path + (shape.closed ? "Z\"" : "\"");
+  result += " fill=\"" + (shape.filled ? hex(shape.fill) : "none") + "\"";
+  if (shape.stroke_width > 0.0) { result += " stroke=\"" + hex(shape.stroke) + "\" stroke-width=\"" + number(shape.stroke_width) + "\""; }
+  if (!shape.dashes.empty()) {
+    std::string dashes;
+    for (const double d : shape.dashes) { dashes += (dashes.empty() ? "" : " ") + number(d); }
+    result += " stroke-dasharray=\"" + dashes + "\"";
+  }
+  if (shape.opacity < 1.0) { result += " opacity=\"" + number(shape.opacity) + "\""; }
+  return result + (shape.title.empty() ? "/>\n" : "><title>" + apps::escaped(shape.title) + "</title></path>\n");
+}
+
+std::string element(const Label& label) {
+  static constexpr const char* anchors[] = {"start", "middle", "end"};
+  std::string result = "<text x=\"" + number(label.at.x) + "\" y=\"" + number(label.at.y) + "\" font-size=\"" + number(label.size) +
+                       "\" fill=\"" + hex(label.tone) + "\"";
+  if (label.anchor != Anchor::start) { result += std::string(" text-anchor=\"") + anchors[static_cast<int>(label.anchor)] + "\""; }
+  if (label.bold) { result += " font-weight=\"bold\""; }
+  if (!label.upright) { result += " transform=\"rotate(-90 " + number(label.at.x) + " " + number(label.at.y) + ")\""; }
+  return result + ">" + apps::escaped(label.text) + "</text>\n";
+}
+
+}  // namespace
+
+std::string to_svg(const Drawing& drawing, const std::string& description) {
+  const std::string width = number(drawing.width);
+  const std::string height = number(drawing.height);
+  std::string result = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height + "\" viewBox=\"0 0 " +
+                       width + " " + height + "\" role=\"img\" aria-label=\"" + apps::escaped(description) +
+                       "\" font-family=\"Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif\" stroke-linecap=\"round\" "
+                       "stroke-linejoin=\"round\">\n";
+  result += "<rect width=\"" + width + "\" height=\"" + height + "\" fill=\"" + hex(paper) + "\"/>\n";
+  for (const auto& item : drawing.items) {
+    result += std::visit([](const auto& shape) { return element(shape); }, item);
+  }
+  return result + "</svg>\n";
+}
+
+std::string to_svg_file(const Drawing& drawing, const std::string& description) {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + to_svg(drawing, description);
+}
+
+}  // namespace study

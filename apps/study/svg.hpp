@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A drawing as SVG 1.1: self-contained, text stays text, coordinates to 1/100 pixel.
+//
+// Colours are attributes and not a style sheet, so that every program reads them; a page that wants other tones in the dark selects
+// them by their value, as in  svg [fill="#222222"] { fill: white }.
+
+#include <string>
+
+#include "apps/study/drawing.hpp"
+
+namespace study {
+
+// The <svg> element, to stand in a page; `description` is what a screen reader says.
+[[nodiscard]] std::string to_svg(const Drawing& drawing, const std::string& description);
+
+// A file of its own.
+[[nodiscard]] std::string to_svg_file(const Drawing& drawing, const std::string& description);
+
+}  // namespace study

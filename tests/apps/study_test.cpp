@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+
+// The measuring half of `halflight study`: the reference and its cache, the norms, and the command as its user meets it.
+
+#include "apps/study/reference.hpp"
+
+#include <cmath>
+
+#include "apps/scene_file.hpp"
+#include "json.hpp"
+#include "program.hpp"
+
+namespace {
+
+using radiosity::Color;
+using test::Approx;
+using study::TrueRadiosity;
+
+const std::string plates = program::content(HALFLIGHT_SCENES "/two_plates.scene");
+
+radiosity::Scene scene_of(const std::string& text) {
+  const auto result = apps::parse_scene(text);
+  REQUIRE(result.file);
+  return result.file->scene;
+}
+
+// The reference points of two plates with made-up values.
+TrueRadiosity made_up() {
+  std::string fault;
+  study::ReferenceOptions options;
+  options.cells = 8;
+  auto truth = study::reference_points(scene_of(plates), options, fault);
+  REQUIRE(truth);
+  REQUIRE(truth->points.size() >= 16);
+  for (std::size_t i = 0; i < truth->points.size(); ++i) {
+    const double x = 1.0 + static_cast<double>(i) / 3.0;
+    truth->points[i].radiosity = {x, 0.1 * x, 1e-9 * x};
+    truth->points[i].standard_error = {0.01, 1e-3 / x, 0.0};
+  }
+  truth->paths = 64;
+  return *truth;
+}
+
+std::vector<Color> values(const TrueRadiosity& truth) {
+  std::vector<Color> result;
+  for (const auto& point : truth.points) { result.push_back(point.radiosity); }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a kept reference is read back bit for bit") {
+  const TrueRadiosity truth = made_up();
+  const std::string file = study::to_cache(truth, "0123456789abcdef");
+  CHECK_NOTHROW(json::parse(file));
+  TrueRadiosity read = truth;
+  for (auto& point : read.points) { point.radiosity = point.standard_error = Color{0.0}; }
+  REQUIRE(study::from_cache(file, "0123456789abcdef", 64, read));
+  CHECK(read.cached);
+  CHECK(read.paths == 64);
+  for (std::size_t i = 0; i < truth.points.size(); ++i) {
+    CHECK(read.points[i].radiosity == truth.points[i].radiosity);
+    CHECK(read.points[i].standard_error == truth.points[i].standard_error);
+  }
+}
+
+TEST_CASE("a kept reference that is damaged, of another scene or too coarse is not believed") {
+  const TrueRadiosity truth = made_up();
+  const std::string key = "0123456789abcdef";
+  const std::string file = study::to_cache(truth, key);
+  TrueRadiosity read = truth;
+  CHECK_FALSE(study::from_cache(file, "0123456789abcdee", 64, read));
+  CHECK_FALSE(study::from_cache(file, key, 65, read));
+  TrueRadiosity fewer = truth;
+  fewer.points.pop_back();
+  CHECK_FALSE(study::from_cache(file, key, 64, fewer));
+  for (std::size_t length = 0; length < file.size(); length += 3) {
+    CAPTURE(length);
+    REQUIRE_FALSE(study::from_cache(file.substr(0, length), key, 1, read));
+  }
+  for (std::size_t at = 0; at < file.size(); ++at) {
+    CAPTURE(at, file[at]);
+    std::string damaged = file;
+    damaged[at] = damaged[at] == '7' ? '8' : '7';
+    REQUIRE_FALSE(study::from_cache(damaged, key, 1, read));
+  }
+  CHECK_FALSE(read.cached);
+  CHECK(values(read) == values(truth));
+}
+
+TEST_CASE("norms of a known offset") {
+  const TrueRadiosity truth = made_up();
+  const std::vector<Color> exact = values(truth);
+  std::vector<Color> brighter = exact;
+  for (Color& c : brighter) { c *= 1.01; }
+  std::vector<double> cells;
+  const study::Errors errors = study::errors_of(truth, brighter, &cells);
+  for (const double e : {errors.cells.l1, errors.cells.l2, errors.cells.worst, errors.points.l1, errors.points.l2, errors.points.worst}) {
+    CHECK(e == Approx(0.01).epsilon(1e-9));
+  }
+  CHECK(study::distance(truth, exact, brighter) == Approx(0.01).epsilon(1e-9));
+  REQUIRE(cells.size() == truth.cells.size());
+  for (const double e : cells) {
+    CHECK(e > 0.0);
+    CHECK(e < 0.01 + 1e-12);
+  }
+  CHECK(study::errors_of(truth, exact).points.l1 == 0.0);
+
+  // Errors that cancel within each cell: none of the mean, some at the points.
+  std::vector<Color> ragged = exact;
+  for (const auto& cell : truth.cells) {
+    REQUIRE(cell.points == 4);
+    for (std::uint32_t i = 0; i < 4; ++i) { ragged[cell.first_point + i].x += i % 2 == 0 ? 0.1 : -0.1; }
+  }
+  CHECK(study::errors_of(truth, ragged).cells.l2 < 1e-12);
+  CHECK(study::errors_of(truth, ragged).points.l2 > 1e-3);
+}
+
+TEST_CASE("a furnace has an analytic reference: B = E / (1 - rho), whatever stands in it") {
+  std::string fault;
+  const std::string text =
+      "material a reflectance 0.5 0.25 0 emission 1 1.5 2\nmaterial b reflectance 0.75 0 0.5 emission 0.5 2 1\n"
+      "box room from 0 0 0 to 1 1 1 inside material a\nsphere ball center 0.5 0.5 0.5 radius 0.2 material b\n";
+  study::ReferenceOptions options;
+  options.cells = 10;
+  const auto truth = study::make_reference(scene_of(text), text, {}, options, {}, fault);
+  REQUIRE(truth);
+  CHECK(truth->analytic);
+  for (const auto& point : truth->points) { CHECK(glm::length(point.radiosity - Color{2.0}) < 1e-12); }
+  CHECK(study::describe(*truth).noise == 0.0);
+  CHECK(study::describe(*truth).kind == "analytic");
+}
+
+TEST_CASE("path-traced values lie within their standard errors of the truth") {
+  // A furnace whose walls are six polygons is not proven closed, so it is path-traced; B = 1 all the same.
+  std::string text = "material wall reflectance 0.5 emission 0.5\n";
+  const char* const corners[6] = {"0 0 0|1 0 0|1 1 0|0 1 0", "0 0 1|0 1 1|1 1 1|1 0 1", "0 0 0|0 1 0|0 1 1|0 0 1",
+                                  "1 0 0|1 0 1|1 1 1|1 1 0", "0 0 0|0 0 1|1 0 1|1 0 0", "0 1 0|1 1 0|1 1 1|0 1 1"};
+  for (int k = 0; k < 6; ++k) {
+    text += "polygon wall" + std::to_string(k) + " material wall {\n vertex ";
+    for (const char* c = corners[k]; *c != '\0'; ++c) { text += *c == '|' ? std::string("\n vertex ") : std::string(1, *c); }
+    text += "\n}\n";
+  }
+  study::ReferenceOptions options;
+  options.cells = 30;
+  options.paths = 256;
+  std::string fault;
+  const auto truth = study::make_reference(scene_of(text), text, {}, options, {}, fault);
+  INFO(fault);
+  REQUIRE(truth);
+  REQUIRE_FALSE(truth->analytic);
+  double sum = 0.0;
+  for (const auto& point : truth->points) { sum += std::pow((point.radiosity.x - 1.0) / point.standard_error.x, 2); }
+  const auto n = static_cast<double>(truth->points.size());
+  REQUIRE(n >= 200.0);
+  // The square of Student's t with 7 degrees of freedom: mean 7/5, variance 2 * 49 * 6 / (25 * 3) = 7.8. Five standard errors.
+  CHECK(std::abs(sum / n - 1.4) < 5.0 * std::sqrt(7.8 / n));
+}
+
+TEST_CASE("the reference is kept beside the scene, and made anew when it does not fit") {
+  const program::Place place;
+  const std::string path = (place.path() / "plates.reference.json").string();
+  study::ReferenceOptions options;
+  options.cells = 8;
+  options.paths = 16;
+  std::string fault;
+  const auto make = [&](const std::string& text) {
+    const auto truth = study::make_reference(scene_of(text), text, {path, (place.path() / "second.json").string()}, options, {}, fault);
+    INFO(fault);
+    REQUIRE(truth);
+    return *truth;
+  };
+  const TrueRadiosity first = make(plates);
+  CHECK_FALSE(first.cached);
+  CHECK(place.has("plates.reference.json"));
+  CHECK_FALSE(place.has("second.json"));
+  const TrueRadiosity again = make(plates);
+  CHECK(again.cached);
+  CHECK(values(again) == values(first));
+
+  const std::string kept = place.read("plates.reference.json");
+  place.write("plates.reference.json", kept.substr(0, kept.size() / 2));
+  const TrueRadiosity remade = make(plates);
+  CHECK_FALSE(remade.cached);
+  CHECK(values(remade) == values(first));
+  CHECK(place.read("plates.reference.json") == kept);
+
+  CHECK_FALSE(make(plates + "\n# a comment more\n").cached);
+}
+
+TEST_CASE("halflight study: every method at six settings or more, the parts of an error, a reference that is kept") {
+  const program::Place place;
+  place.write("plates.scene", plates);
+  const std::string arguments = "study plates.scene -o out --time-per-run 0.03 --paths 64 --dense 100 -q";
+  const program::Run run = place.run(arguments);
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(place.has("plates.reference.json"));
+  CHECK(place.has("out/index.html"));
+  const json::Value results = json::parse(place.read("out/results.json"));
+  const json::Value& scene = results["scenes"].array().at(0);
+  CHECK_FALSE(scene["reference"]["cached"].boolean());
+  const double noise = scene["reference"]["point_noise"].number();
+  CHECK(noise > 0.0);
+  CHECK(scene["methods"].size() >= 6);
+  int parts = 0;
+  for (const json::Value& method : scene["methods"].array()) {
+    CAPTURE(method["name"].string());
+    CHECK(method["runs"].size() >= 6);
+    for (const json::Value& one : method["runs"].array()) {
+      if (!one["refused"].is_null() || one["parts"].is_null()) { continue; }
+      CAPTURE(one["setting"].string());
+      ++parts;
+      const json::Value& part = one["parts"];
+      // All at the same points in the same norm: the triangle inequality holds to rounding, but for errors given as the noise.
+      CHECK(one["errors"]["leaves"]["points"]["l2"].number() <= part["discretisation"].number() + part["links"].number() + noise);
+      CHECK(one["errors"]["weighted"]["points"]["l2"].number() <=
+            one["errors"]["leaves"]["points"]["l2"].number() + part["reconstruction"].number() + noise);
+      if (method["name"].string() == "uniform, matrix") { CHECK(part["links"].number() == 0.0); }
+    }
+  }
+  CHECK(parts >= 10);
+  REQUIRE(place.run(arguments).code == 0);
+  CHECK(json::parse(place.read("out/results.json"))["scenes"].array().at(0)["reference"]["cached"].boolean());
+}
+
+TEST_CASE("halflight study refuses what it cannot measure") {
+  const program::Place place;
+  place.write("dark.scene", "material m reflectance 0.5\nbox room from 0 0 0 to 1 1 1 inside material m\n");
+  place.write("wrong.scene", "material\n");
+  const program::Run dark = place.run("study dark.scene -o out");
+  CHECK(dark.code == 3);
+  CHECK(dark.err.find("nothing emits light") != std::string::npos);
+  CHECK(place.run("study wrong.scene -o out").code == 3);
+  CHECK(place.run("study missing.scene -o out").code == 3);
+  CHECK(place.run("study dark.scene").code == 2);
+  CHECK(place.run("study dark.scene ./dark.scene -o out").code == 2);
+  CHECK(place.run("study dark.scene -o out --paths 0").code == 2);
+  CHECK(place.run("study dark.scene -o dark.scene").code == 1);
+}
