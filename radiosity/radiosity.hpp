@@ -109,12 +109,12 @@ inline void sum_times(Audit& audit) {
 
 inline Outcome failed(Failure::Kind kind, std::vector<std::string> sentences) { return {std::nullopt, {kind, std::move(sentences)}}; }
 
-// The largest RMS correction by which a scene is closed: what its links explain (doubt.hpp) with a margin of one half, and the rounding of
-// their numbers. Measured, corrections are .24 to 1.16 times what is expected (the rooms of `halflight stress`, 1200 to 154 000 links).
+// The largest RMS correction by which a scene is closed: what its links explain (doubt.hpp) with a margin of one half, and the error
+// of a form factor (exchange.hpp). Measured, corrections are .24 to 1.16 times what is expected (the rooms of `halflight stress`, 1200 to 154 000 links).
 [[nodiscard]] inline double explained_closure(const DoubtSum& doubt, const std::vector<double>& exposed_area, const Hierarchy& hierarchy) {
   double total = 0.0;
   for (std::size_t i = 0; i < hierarchy.size(); ++i) { total += hierarchy[i].parent == no_node ? exposed_area[i] : 0.0; }
-  return 1.5 * doubt.rms(exposed_area, total) + 0x1p-20;
+  return 1.5 * doubt.rms(exposed_area, total) + 2e-5;
 }
 
 // Their fractions are known to 1 %.

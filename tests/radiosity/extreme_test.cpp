@@ -72,17 +72,26 @@ TEST_CASE("many duplicates are warned of in few sentences") {
   CHECK(warnings_of(scene).size() <= 21);
 }
 
-TEST_CASE("a scene is closed by no more than its links explain: where a twentieth of the light is missing it is refused") {
+TEST_CASE("a scene is closed by no more than its links explain: where a thousandth of the light is missing it is refused") {
   radiosity::Options options;
+  options.audit_points = 0;
+  // Links that reach over many leaves err by what their linear kernels leave, some per cent in the corners of a room.
   options.epsilon = 0.1;
   options.min_area = 1e-3;
-  options.audit_points = 0;
+  const radiosity::Outcome coarse = radiosity::solve(scenes::furnace_cube(0.5), options);
+  REQUIRE(coarse.solution);
+  REQUIRE(coarse.solution->audit.closure);
+  CHECK(coarse.solution->audit.closure_limit < 0.1);
+
+  // On an even mesh every link joins two leaves, and is as exact as its form factor (exchange.hpp).
+  options.epsilon = 1e-6;
+  options.min_area = 0.02;
   radiosity::Outcome outcome = radiosity::solve(scenes::furnace_cube(0.5), options);
   REQUIRE(outcome.solution);
   radiosity::Solution& solution = *outcome.solution;
   REQUIRE(solution.audit.closure);
   CHECK(*solution.audit.closure <= solution.audit.closure_limit);
-  CHECK(solution.audit.closure_limit < 0.01);
+  CHECK(solution.audit.closure_limit < 1e-4);
 
   radiosity::Exposure exposure;
   exposure.area = exposure.whole = solution.area;
@@ -91,7 +100,7 @@ TEST_CASE("a scene is closed by no more than its links explain: where a twentiet
   double all = 0.0;
   for (const radiosity::Link& link : solution.links) { all += static_cast<double>(link.exchange); }
   radiosity::Links fewer = solution.links;
-  for (double rest = all; rest > 0.95 * all; fewer.pop_back()) { rest -= static_cast<double>(fewer.back().exchange); }
+  for (double rest = all; rest > 0.999 * all; fewer.pop_back()) { rest -= static_cast<double>(fewer.back().exchange); }
   radiosity::Transport whole{solution.hierarchy, solution.links, exposure};
   radiosity::Transport less{solution.hierarchy, fewer, exposure};
   CHECK(whole.close(solution.audit.closure_limit));
