@@ -57,11 +57,11 @@ inline std::vector<std::uint32_t> sizes_of(const Grouping& tree) {
   return sizes;
 }
 
-// Bounds of every item, the nodes from `first` on, and group.
-inline std::vector<raycast::Box> bounds_of(const Grouping& tree, const Hierarchy& faces, std::uint32_t first) {
+// Bounds of every item, the roots with these numbers, and group.
+inline std::vector<raycast::Box> bounds_of(const Grouping& tree, const Hierarchy& roots, const std::vector<std::uint32_t>& numbers) {
   std::vector<raycast::Box> boxes;
-  for (std::uint32_t i = 0; i < tree.items; ++i) {
-    const Node& node = faces[first + i];
+  for (const std::uint32_t i : numbers) {
+    const Node& node = roots[i];
     boxes.push_back({node.centre - node.radius, node.centre + node.radius});
   }
   for (const std::vector<std::uint32_t>& members : tree.groups) {
@@ -109,10 +109,7 @@ class ClusterWriter {
     std::vector<std::uint32_t> number{root};  // of each node
     hierarchy.push_back(node_of(root, no_node));
     for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
-      if (number[i] < faces_.size()) {
-        (*surfaces_)[hierarchy[i].object].brep.data(hierarchy[i].face).node = i;
-        continue;
-      }
+      if (number[i] < faces_.size()) { continue; }
       const std::vector<std::uint32_t>& members = groups_[number[i] - faces_.size()];
       hierarchy[i].cluster = clusters_++;
       hierarchy[i].first_child = static_cast<std::uint32_t>(hierarchy.size());
@@ -121,6 +118,19 @@ class ClusterWriter {
         hierarchy.push_back(node_of(m, i));
         number.push_back(m);
       }
+    }
+    // The convex parts of input faces come after all that is above them.
+    const auto above = static_cast<std::uint32_t>(hierarchy.size());
+    for (std::uint32_t i = 0; i < above; ++i) {
+      if (hierarchy[i].is_cluster() || hierarchy[i].leaf()) { continue; }
+      const std::uint32_t part = std::exchange(hierarchy[i].first_child, static_cast<std::uint32_t>(hierarchy.size()));
+      for (std::uint32_t k = 0; k < hierarchy[i].child_count; ++k) {
+        hierarchy.push_back(faces_[part + k]);
+        hierarchy.back().parent = i;
+      }
+    }
+    for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
+      if (hierarchy[i].leaf()) { (*surfaces_)[hierarchy[i].object].brep.data(hierarchy[i].face).node = i; }
     }
     for (std::size_t i = hierarchy.size(); i-- > 0;) {
       if (hierarchy[i].is_cluster()) { surround(hierarchy, hierarchy[i]); }
@@ -194,7 +204,9 @@ class ClusterWriter {
     std::uint32_t end = first;
     while (end < roots.size() && roots[end].object == o) { ++end; }
     std::vector<std::uint32_t> numbers;
-    for (std::uint32_t i = first; i < end; ++i) { numbers.push_back(i); }
+    for (std::uint32_t i = first; i < end; ++i) {
+      if (roots[i].parent == no_node) { numbers.push_back(i); }
+    }
     std::vector<std::uint32_t> tops;
     std::vector<raycast::Box> bounds;  // of the tops
     const bool room = surfaces[o].object->inside();
@@ -202,8 +214,8 @@ class ClusterWriter {
       tops = !room && numbers.size() > 1 ? std::vector{writer.group(numbers)} : numbers;
       bounds.assign(tops.size(), surfaces[o].object->bounds());
     } else {
-      const Grouping tree = cluster_faces(surfaces[o], roots, first, end - first);
-      const std::vector<raycast::Box> boxes_of_tree = detail::bounds_of(tree, roots, first);
+      const Grouping tree = cluster_faces(surfaces[o], roots, numbers);
+      const std::vector<raycast::Box> boxes_of_tree = detail::bounds_of(tree, roots, numbers);
       for (const std::uint32_t top : tree.tops) {
         tops.push_back(enter(tree, top, numbers));
         bounds.push_back(boxes_of_tree[top]);

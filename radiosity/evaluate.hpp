@@ -12,6 +12,7 @@
 
 #include <radiosity/cluster_exchange.hpp>
 #include <radiosity/clusters.hpp>
+#include <radiosity/doubt.hpp>
 #include <radiosity/exchange.hpp>
 #include <radiosity/exposure.hpp>
 #include <radiosity/hierarchy.hpp>
@@ -29,6 +30,7 @@ struct EvaluateResult {
   RayCount rays;
   std::uint64_t proven_clear = 0;  // links for which no segment was cast
   std::uint64_t blocked = 0;       // links removed because nothing arrives
+  DoubtSum doubt;                  // of the links removed, and, unless shapes hold theirs, of all
   bool cancelled = false;
 };
 
@@ -57,6 +59,7 @@ struct LinkShape {
     float shadow = 0.0f;               // of the visible fraction
   };
   End p, q;
+  Doubt doubt;
 };
 
 // Pairs of points, in rounds of 16, for each link of a cluster: a mean over many faces that hide each other, so never few.
@@ -80,7 +83,7 @@ class LinkEvaluator {
 
   // Sets the exchange, 0 when nothing arrives, and the slopes where they have an effect, or anyhow when the shape is asked for. Returns
   // its segments. Depends on the ends of the link and the seed alone; `list` saves time.
-  RayCount operator()(Link& link, const raycast::OccluderList& list, LinkShape* shape = nullptr) const {
+  RayCount operator()(Link& link, const raycast::OccluderList& list, LinkShape* shape = nullptr, Doubt* doubt = nullptr) const {
     const Patch& p = (*patches_)[link.p];
     const Patch& q = (*patches_)[link.q];
     const double area_p = exposure_->area[link.p];
@@ -90,7 +93,9 @@ class LinkEvaluator {
     if (!between_patches(link)) {
       const Random random{seed_, (std::uint64_t{link.p} << 32) | link.q};
       const ClusterExchange seen = evaluate_cluster_link(sampler_, *hierarchy_, link, cluster_rounds, random);
-      if (shape != nullptr) { *shape = shape_of_cluster_link(link, seen.fraction); }
+      const LinkShape of_link = shape_of_cluster_link(link, seen.fraction);
+      if (shape != nullptr) { *shape = of_link; }
+      if (doubt != nullptr) { doubt->square = static_cast<float>(doubt_of_cluster_link(link, of_link, seen)); }
       return {seen.rays, 0};
     }
     const double unoccluded = exchange(p, q);
@@ -104,14 +109,16 @@ class LinkEvaluator {
     // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
     const double share = exposed_share(end_p, area_p, q, Random{seed_, key, 1}) * exposed_share(end_q, area_q, p, Random{seed_, key, 2});
     link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
+    Variations light_varies;
     if (shape != nullptr || !node_p.leaf() || !node_q.leaf()) {
-      const Variations light_varies = variations(p, q);
+      light_varies = variations(p, q);
       link.slope_p = glm::vec3{light_varies.p.slope};
       link.slope_q = glm::vec3{light_varies.q.slope};
       if (shape != nullptr && seen.fraction > 0.0) {
-        *shape = {shape_of(light_varies.p, seen.spread_p / seen.fraction), shape_of(light_varies.q, seen.spread_q / seen.fraction)};
+        *shape = {shape_of(light_varies.p, seen.spread_p / seen.fraction), shape_of(light_varies.q, seen.spread_q / seen.fraction), {}};
       }
     }
+    if (doubt != nullptr) { *doubt = doubt_of(link, unoccluded * share, seen, light_varies); }
     return seen.rays;
   }
 
@@ -124,6 +131,27 @@ class LinkEvaluator {
   }
 
  private:
+  // doubt.hpp. `sent`: what would arrive if nothing stood between.
+  [[nodiscard]] Doubt doubt_of(const Link& link, double sent, const VisibilityEstimate& seen, const Variations& varies) const {
+    const auto square = [](double x) { return x * x; };
+    const Node& p = (*hierarchy_)[link.p];
+    const Node& q = (*hierarchy_)[link.q];
+    const double area_p = exposure_->area[link.p];
+    const double area_q = exposure_->area[link.q];
+    const double arrives = sent * seen.fraction;
+    const auto across = [&](const Node& node, const Variation& v, double spread, double area) {
+      return node.leaf() ? 0.0f : static_cast<float>(std::sqrt(square(arrives * v.rest) + square(sent * spread)) / area);
+    };
+    const double unseen = seen.rays.cast > 0 ? square(sent) * visibility_variance(seen.fraction, static_cast<double>(seen.rays.cast)) : 0.0;
+    const auto buried = [&](std::uint32_t i, double area) {  // variance of the exposed area, relative
+      return exposure_->partly_buried[i] ? std::max(0.0, (exposure_->whole[i] - area) / (256.0 * area)) : 0.0;
+    };
+    const double depth = 0.5 * (square(p.deviation) + square(q.deviation));
+    const double independent =
+        (unseen + square(arrives) * buried(link.q, area_q)) / area_p + (unseen + square(arrives) * buried(link.p, area_p)) / area_q;
+    return {across(p, varies.p, seen.spread_p, area_p), across(q, varies.q, seen.spread_q, area_q), static_cast<float>(independent),
+            static_cast<float>(2.0 * arrives * depth), static_cast<float>(depth)};
+  }
   [[nodiscard]] static std::uint64_t key_of(const Link& link) { return (std::uint64_t{link.p} << 32) | link.q; }
   [[nodiscard]] std::uint32_t rounds(const Link& link) const {
     return emits_[(*hierarchy_)[link.p].surface] || emits_[(*hierarchy_)[link.q].surface] ? 16 : 4;
@@ -141,7 +169,17 @@ class LinkEvaluator {
       const double near = r > 0.0 ? 2.0 * node.radius / (std::sqrt(12.0) * r) : 0.0;
       return LinkShape::End{0.0f, static_cast<float>(near), node.is_cluster() ? static_cast<float>(shadow) : 0.0f};
     };
-    return {end(p), end(q)};
+    return {end(p), end(q), {}};
+  }
+  // Every face and every link errs for itself: by its place, by what it sees, by the lattice of directions (a tenth) and by sampling.
+  [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkShape& shape, const ClusterExchange& seen) const {
+    const double exchange = static_cast<double>(link.exchange);
+    const auto end = [&](std::uint32_t i, const LinkShape::End& e) {
+      const double relative = 0.01 + static_cast<double>(e.rest * e.rest + e.shadow * e.shadow) +
+                              seen.spread * seen.spread / std::max(16.0, static_cast<double>(seen.rays));
+      return exchange * exchange * relative / exposure_->area[i];
+    };
+    return exchange > 0.0 ? end(link.p, shape.p) + end(link.q, shape.q) : 0.0;
   }
   [[nodiscard]] PatchEnd end(std::uint32_t i) const { return {&(*patches_)[i], (*hierarchy_)[i].object, exposure_->points(i)}; }
 
@@ -164,17 +202,27 @@ class LinkEvaluator {
   const std::size_t count = links.size() - first;
   if (shapes != nullptr) { shapes->resize(links.size()); }
   std::vector<RayCount> rays(count);
+  std::vector<Doubt> doubts;
   constexpr std::size_t batch = 1 << 16;  // between two looks at the cancel flag
   for (std::size_t done = 0; done < count; done += batch) {
     if (control.cancelled()) {
       result.cancelled = true;
       return result;
     }
-    parallel_for(std::min(batch, count - done), threads, [&](std::size_t offset) {
+    doubts.assign(std::min(batch, count - done), {});
+    parallel_for(doubts.size(), threads, [&](std::size_t offset) {
       if (control.cancelled()) { return; }
       const std::size_t i = first + done + offset;
-      rays[done + offset] = evaluator(links[i], occluders[lists[i]], shapes != nullptr ? &(*shapes)[i] : nullptr);
+      rays[done + offset] = evaluator(links[i], occluders[lists[i]], shapes != nullptr ? &(*shapes)[i] : nullptr, &doubts[offset]);
     });
+    for (std::size_t offset = 0; offset < doubts.size(); ++offset) {
+      const std::size_t i = first + done + offset;
+      if (shapes != nullptr && links[i].exchange > 0.0f) {
+        (*shapes)[i].doubt = doubts[offset];
+      } else {
+        result.doubt.add(links[i].p, links[i].q, doubts[offset]);
+      }
+    }
     if (shapes == nullptr) { control.report("link", static_cast<double>(std::min(done + batch, count)) / static_cast<double>(count)); }
   }
 

@@ -39,9 +39,15 @@ struct Grouping {
   [[nodiscard]] const std::vector<std::uint32_t>& members(std::uint32_t i) const { return groups[i - items]; }
 };
 
-// The items are the nodes [first, first + items) of `faces`, the leaves that stand on the faces of the surface. Groups have two members; a
-// shell of the surface is one tree. O(n log n).
-[[nodiscard]] inline Grouping cluster_faces(const Surface& surface, const Hierarchy& faces, std::uint32_t first, std::uint32_t items) {
+// The items are input faces of the surface: the roots with these numbers. Groups have two members; a shell of the surface is one tree.
+// O(n log n).
+[[nodiscard]] inline Grouping cluster_faces(const Surface& surface, const Hierarchy& roots, const std::vector<std::uint32_t>& numbers) {
+  const auto items = static_cast<std::uint32_t>(numbers.size());
+  std::vector<std::uint32_t> item_of(roots.size(), no_node);  // of the roots, and of the parts of those that have parts
+  for (std::uint32_t i = 0; i < items; ++i) {
+    item_of[numbers[i]] = i;
+    for (std::uint32_t c = 0; c < roots[numbers[i]].child_count; ++c) { item_of[roots[numbers[i]].first_child + c] = i; }
+  }
   struct Cluster {
     glm::dvec3 vector_area{0.0};
     double area = 0.0, perimeter = 0.0;
@@ -51,21 +57,22 @@ struct Grouping {
   std::vector<Cluster> clusters(items);
   std::vector<std::uint32_t> up(items);  // towards the cluster that holds it now
   for (std::uint32_t i = 0; i < items; ++i) {
-    const Node& node = faces[first + i];
+    const Node& node = roots[numbers[i]];
     clusters[i].vector_area = node.area * node.normal;
     clusters[i].area = node.area;
     up[i] = i;
   }
   const SurfaceBRep& brep = surface.brep;
   for (const brep::FaceId f : brep::faces(brep)) {
-    const std::uint32_t own = brep.data(f).node;
     if (brep.data(f).sheet == brep::no_sheet) { continue; }
+    const std::uint32_t own = item_of[brep.data(f).node];
     for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
       const double length = glm::length(brep.data(brep.target(h)).position - brep.data(brep.vertex(h)).position);
-      clusters[own - first].perimeter += length;
       const SurfaceFace& beyond = brep.data(brep.face(twin(h)));
-      if (beyond.sheet == brep::no_sheet || beyond.node == own) { continue; }
-      clusters[own - first].borders.push_back({beyond.node - first, length});
+      const std::uint32_t other = beyond.sheet == brep::no_sheet ? no_node : item_of[beyond.node];
+      if (other == own) { continue; }  // between convex parts of one input face
+      clusters[own].perimeter += length;
+      if (other != no_node) { clusters[own].borders.push_back({other, length}); }
     }
   }
   const auto holder = [&](std::uint32_t i) {

@@ -6,8 +6,10 @@
 // neighbours. Children lie side by side and always after their parent, so one pass over the array forwards goes
 // from roots to leaves and one pass backwards from leaves to roots.
 //
-// Where a scene has many input faces the tree goes on upwards (clusters.hpp): node 0 is then a cluster of all, and the input faces
-// are the first nodes below that are patches. A cluster has a centre, a radius and an area, and no normal, corners or face.
+// A root is an input face. One that is not convex, a wall with windows, is an inner node from the start: its children are its convex parts.
+//
+// Where a scene has many input faces the tree goes on upwards (clusters.hpp): node 0 is then a cluster of all, and clusters and input
+// faces come before everything else. A cluster has a centre, a radius and an area, and no normal, corners or face.
 
 #include <cstdint>
 #include <vector>
@@ -31,11 +33,13 @@ struct Node {
   std::uint32_t object = 0;         // index of the object and of its Surface
   std::uint32_t first_child = 0;    // when child_count > 0
   std::uint32_t child_count = 0;    // 0: a leaf
-  std::uint32_t corners = 0;        // corners of the patch; child k holds corner k of its parent as its corner 0
+  std::uint32_t corners = 0;        // corners of the patch; child k holds corner k of its parent as its corner 0.
+                                    // 0: a face in convex parts, its children
   brep::FaceId face;                // when a leaf
   std::uint32_t cluster = no_node;  // of a cluster: its number; its surface and object are no_node unless all below share them
 
   [[nodiscard]] bool leaf() const { return child_count == 0; }
+  [[nodiscard]] bool in_parts() const { return child_count > 0 && corners == 0 && !is_cluster(); }
   [[nodiscard]] bool is_cluster() const { return cluster != no_node; }
 };
 

@@ -53,8 +53,9 @@ class LightOracle {
       emission_.push_back(std::max({emission.x, emission.y, emission.z}));
     }
     double power = 0.0;
-    for (const Node& root : hierarchy) {
-      if (root.is_cluster()) { continue; }
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+      if (!is_input_face(hierarchy, i)) { continue; }
+      const Node& root = hierarchy[i];
       power += root.area * emission_[root.surface];
       scene_area_ += root.area;
     }

@@ -64,7 +64,7 @@ inline void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& h
                         std::vector<Pair>& pairs, RefineResult& result) {
   const auto count = static_cast<std::uint32_t>(hierarchy.size());
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (hierarchy[i].is_cluster()) { continue; }
+    if (!is_input_face(hierarchy, i)) { continue; }
     const raycast::PlacedObject& object = *surfaces[hierarchy[i].object].object;
     if ((object.inside() || !object.convex()) && !object.flat()) { result.inner.push_back(i); }
   }
@@ -73,7 +73,9 @@ inline void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& h
     return;
   }
   for (std::uint32_t p = 0; p < count; ++p) {
+    if (!is_input_face(hierarchy, p)) { continue; }
     for (std::uint32_t q = p + 1; q < count; ++q) {
+      if (!is_input_face(hierarchy, q)) { continue; }
       if (!oracle.convex(hierarchy[p], hierarchy[q])) {
         pairs.push_back({p, q});
       } else if (plan.shortcuts) {

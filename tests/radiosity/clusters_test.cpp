@@ -2,13 +2,16 @@
 
 // Laws of the hierarchy above the input faces: what clusters may change and what they may not.
 
+#include <numeric>
 #include <radiosity/clusters.hpp>
 #include <radiosity/link_schedule.hpp>
 #include <radiosity/radiosity.hpp>
 #include <random>
 
+#include <raycast/objects/cylinder.hpp>
 #include "catch.hpp"
-#include "scenes.hpp"
+
+#include "radiosity/many_scene.hpp"
 
 using radiosity::Hierarchy;
 using radiosity::Node;
@@ -149,7 +152,9 @@ TEST_CASE("face clusters of a cylinder keep its caps apart from its side until t
   auto& surfaces = prepared.prepared->surfaces;
   const Hierarchy roots = radiosity::make_roots(surfaces);
   const auto items = static_cast<std::uint32_t>(roots.size());
-  const radiosity::Grouping tree = radiosity::cluster_faces(surfaces[0], roots, 0, items);
+  std::vector<std::uint32_t> numbers(items);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  const radiosity::Grouping tree = radiosity::cluster_faces(surfaces[0], roots, numbers);
   REQUIRE(tree.tops.size() == 1);
   REQUIRE(tree.groups.size() == items - 1);
   // Each group is connected and flatter than what is above it: a binary tree whose lower half never mixes a cap and the side.

@@ -13,7 +13,7 @@
 #include <ctime>
 #include <string>
 
-#include <radiosity/scenes.hpp>
+#include "radiosity/many_scene.hpp"
 
 int main(int argc, char** argv) {
   const auto number = [&](int i, double otherwise) { return argc > i ? std::atof(argv[i]) : otherwise; };
