@@ -279,12 +279,13 @@ namespace detail {
   // Extent over distance. Gauss rules of 2, 3, 4 points a side err by less than 6 (ratio/3)^4, 4 (ratio/3)^6, 3 (ratio/3)^8.
   const double distance = glm::length(q.centre - p.centre);
   const double extent = p.radius + q.radius;
-  if (extent < 0.1 * distance) { return detail::kernel_exchange(p.rule2, p.normal, q.rule2, q.normal); }
-  if (extent < 0.35 * distance) { return detail::kernel_exchange(p.rule3, p.normal, q.rule3, q.normal); }
-  if (extent < 0.65 * distance) { return detail::kernel_exchange(p.rule4, p.normal, q.rule4, q.normal); }
+  // Round ratios would be met as equalities by the patches of regular meshes, and rounding would choose the rule.
+  if (extent < 0.0997 * distance) { return detail::kernel_exchange(p.rule2, p.normal, q.rule2, q.normal); }
+  if (extent < 0.3493 * distance) { return detail::kernel_exchange(p.rule3, p.normal, q.rule3, q.normal); }
+  if (extent < 0.6491 * distance) { return detail::kernel_exchange(p.rule4, p.normal, q.rule4, q.normal); }
   // Against a patch a thousand times its size a patch is hardly more than a point, and the difference of both contours cancels.
-  if (p.radius < 1e-3 * q.radius) { return detail::point_exchange(p, q); }
-  if (q.radius < 1e-3 * p.radius) { return detail::point_exchange(q, p); }
+  if (p.radius < 0.997e-3 * q.radius) { return detail::point_exchange(p, q); }
+  if (q.radius < 0.997e-3 * p.radius) { return detail::point_exchange(q, p); }
   const double scale = extent + distance;
   const double tolerance = 1e-8 * std::min(p.area, q.area) / (scale * scale);
   return std::max(0.0, detail::contour_exchange(p.contour, q.contour, scale, tolerance));
