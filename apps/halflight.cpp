@@ -13,6 +13,7 @@
 #include "apps/commands/info.hpp"
 #include "apps/commands/mesh.hpp"
 #include "apps/commands/render.hpp"
+#include "apps/commands/stress.hpp"
 #include "apps/commands/study.hpp"
 #include "apps/version.hpp"
 
@@ -29,12 +30,14 @@ int run(int argc, char** argv) {
   apps::CheckOptions check;
   apps::EulerOptions euler;
   apps::FactorsOptions factors;
+  apps::StressOptions stress;
   apps::StudyOptions study;
   CLI::App* const render_command = app.add_subcommand("render", "solve a scene; write a picture or a mesh and the report");
   CLI::App* const info_command = app.add_subcommand("info", "say what is in a scene without solving it");
   CLI::App* const mesh_command = app.add_subcommand("mesh", "the polygons of each object: counts, genus, area, volume, and a mesh file");
   CLI::App* const check_command = app.add_subcommand("check", "say what a polygon mesh is and everything that is wrong with it");
   CLI::App* const factors_command = app.add_subcommand("factors", "the form factors between the surfaces of a scene, each with its error");
+  CLI::App* const stress_command = app.add_subcommand("stress", "solve stiff and extreme scenes, each figure against its bound");
   CLI::App* const euler_command = app.add_subcommand("euler", "play a script of Euler operators; draw each step");
   CLI::App* const study_command = app.add_subcommand("study", "error against time, memory and links for every method on each scene");
   apps::describe(*study_command, study);
@@ -44,6 +47,7 @@ int run(int argc, char** argv) {
   apps::describe(*check_command, check);
   apps::describe(*euler_command, euler);
   apps::describe(*factors_command, factors);
+  apps::describe(*stress_command, stress);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : static_cast<int>(apps::ExitCode::usage); }
@@ -52,6 +56,7 @@ int run(int argc, char** argv) {
   if (check_command->parsed()) { return static_cast<int>(apps::run(check)); }
   if (study_command->parsed()) { return static_cast<int>(apps::run(study)); }
   if (factors_command->parsed()) { return static_cast<int>(apps::run(factors)); }
+  if (stress_command->parsed()) { return static_cast<int>(apps::run(stress)); }
   return static_cast<int>(euler_command->parsed() ? apps::run(euler) : apps::run(info));
 }
 

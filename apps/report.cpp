@@ -92,6 +92,7 @@ void error_and_time(std::string& out, const Report& report) {
 void sizes_and_checks(std::string& out, const Report& report) {
   const radiosity::Audit& audit = report.audit;
   out += "size\n";
+  row(out, "input polygons", grouped(audit.polygons));
   row(out, "nodes, leaves", grouped(audit.nodes) + ", " + grouped(audit.leaves));
   row(out, "proportions",
       format("%.2f to %.2f, mean %.2f (regular polygon: 1)", audit.proportion.min, audit.proportion.max, audit.proportion.mean));
@@ -105,12 +106,21 @@ void sizes_and_checks(std::string& out, const Report& report) {
   row(out, "row sums", range(audit.row_sum));
   if (audit.closure) {
     row(out, "  as computed", range(audit.computed_row_sum));
-    row(out, "  correction", percent(*audit.closure) + " RMS: the scene is proven closed, so each row must sum to 1");
+    row(out, "  correction",
+        percent(*audit.closure) + " RMS (quadrature and sampling explain " + percent(audit.closure_limit) +
+            "): the scene is proven closed, so each row must sum to 1");
   }
   row(out, "energy balance", percent(audit.energy_balance) + " amiss, " + percent(audit.escaped) + " escaped");
+  if (audit.stray) {
+    row(out, "open scene",
+        percent(audit.stray->escaping) + " of the rays from its surfaces meet nothing, " + percent(audit.stray->to_backs) +
+            " a black back (+- " + percent(audit.stray->standard_error) + ")");
+  }
   row(out, "residual",
       format("%.2e after %u iterations%s", audit.residual, static_cast<unsigned>(audit.iterations),
-             audit.converged ? "" : " - NOT CONVERGED"));
+             audit.converged     ? ""
+             : audit.interrupted ? " - INTERRUPTED, the best so far"
+                                 : " - NOT CONVERGED"));
   out += "settings\n";
   if (report.options.refinement == radiosity::Refinement::a_posteriori) {
     row(out, "refinement",
@@ -130,6 +140,8 @@ void sizes_and_checks(std::string& out, const Report& report) {
 
 void left_out_and_surfaces(std::string& out, const Report& report) {
   const radiosity::Audit& audit = report.audit;
+  if (!audit.warnings.empty()) { out += "warnings\n"; }
+  for (const std::string& sentence : audit.warnings) { out += "  " + sentence + "\n"; }
   out += "left out\n";
   if (audit.left_out.empty()) { out += "  nothing\n"; }
   for (const radiosity::LeftOut& item : audit.left_out) {
@@ -205,6 +217,22 @@ void write_range(JsonWriter& json, const char* key, const radiosity::Audit::Rang
 }
 
 void write_lists(JsonWriter& json, const Report& report) {
+  json.key("warnings").open_array();
+  for (const std::string& sentence : report.audit.warnings) { json.string(sentence); }
+  json.close();
+  json.key("stray_rays");
+  if (const auto& stray = report.audit.stray) {
+    json.open_object();
+    json.key("escaping")
+        .number(stray->escaping)
+        .key("to_backs")
+        .number(stray->to_backs)
+        .key("standard_error")
+        .number(stray->standard_error);
+    json.close();
+  } else {
+    json.null();
+  }
   json.key("left_out").open_array();
   for (const radiosity::LeftOut& item : report.audit.left_out) {
     json.open_object();
@@ -271,6 +299,7 @@ std::string to_json(const Report& report) {
   write_errors(json, audit);
   write_times(json, "cpu_seconds", report, &radiosity::StageTime::cpu_seconds, audit.cpu_seconds);
   write_times(json, "wall_seconds", report, &radiosity::StageTime::wall_seconds, audit.wall_seconds);
+  json.key("polygons").count(audit.polygons);
   json.key("nodes").count(audit.nodes).key("leaves").count(audit.leaves).key("links").count(audit.links);
   json.key("rays").count(audit.rays).key("rays_avoided").count(audit.rays_avoided);
   json.key("pairs_clear").count(audit.pairs_clear).key("pairs_blocked").count(audit.pairs_hidden).key("bytes").count(audit.bytes);

@@ -21,6 +21,7 @@
 #include <radiosity/plan.hpp>
 #include <radiosity/reference.hpp>
 #include <radiosity/visibility.hpp>
+#include <radiosity/warnings.hpp>
 
 namespace radiosity {
 
@@ -46,6 +47,7 @@ struct Audit {
   std::vector<StageTime> stages;
   double wall_seconds = 0.0, cpu_seconds = 0.0;  // of all stages but the audit
   // size
+  std::uint64_t polygons = 0;  // input faces: the roots of the hierarchy, whatever their number of corners and holes
   std::uint64_t nodes = 0, leaves = 0, links = 0, rays = 0;
   std::uint64_t rays_avoided = 0;                   // at least; by the two proofs:
   std::uint64_t pairs_clear = 0, pairs_hidden = 0;  // links that nothing can block; pairs, with all below, that one object hides
@@ -59,12 +61,14 @@ struct Audit {
   Range row_sum;                  // of the form factors of a leaf, area-weighted mean; of the system that was solved
   Range computed_row_sum;         // the same before a closed scene was corrected
   std::optional<double> closure;  // RMS correction that made all row sums of a closed scene 1
+  double closure_limit = 0.0;     // what quadrature and sampling explain of one (doubt.hpp); beyond, it is refused
   double energy_balance = 0.0;    // |emitted - absorbed - escaped| / emitted
   double escaped = 0.0;           // fraction of the emitted power that leaves an open scene
   double residual = 0.0;
   std::uint32_t iterations = 0;
   std::vector<std::vector<double>> histories;  // of each channel: the relative residual at the start and after each iteration
   bool converged = true;                       // solver below its residual and, when asked for, error below its target
+  bool interrupted = false;                    // the best that the run had when it was told to stop; its error may not be measured
   // error
   std::optional<double> estimated_error;  // relative L2, by what the links cannot express (bf_refine.hpp)
   std::uint32_t generations = 0;          // of BF-refinement
@@ -73,6 +77,8 @@ struct Audit {
   std::optional<ErrorEstimate> picture_error;  // of the reconstructed radiosity that the picture shows
   // what was done
   std::vector<LeftOut> left_out;
+  std::vector<std::string> warnings;  // what in the scene may not be what was meant (warnings.hpp)
+  std::optional<StrayRays> stray;     // of a scene that is not proven closed
   std::vector<SurfaceMean> surfaces;
   double epsilon = 0.0, min_area = 0.0;  // as used
   double target = 0.0;                   // of BF-refinement; 0 when the time was the limit

@@ -172,6 +172,7 @@ struct BfResult {
   std::uint64_t evaluations = 0;  // of links
   std::uint32_t generations = 0;
   double estimate = 0.0;  // relative L2 error
+  bool interrupted = false;
 };
 
 // Seconds that refinement may take, from some beginning.
@@ -216,16 +217,22 @@ class Deadline {
   Links& links = result.refined.links;
   std::vector<std::uint32_t>& lists = result.refined.lists;
   std::vector<LinkShape> shapes;
+  DoubtSum removed;  // of links that carry nothing
   std::size_t evaluated = 0;
   for (;;) {
     patches.extend(threads);
     extend(exposure, objects, surfaces, hierarchy, patches, threads, seed);
     const std::size_t new_links = links.size() - evaluated;
-    const EvaluateResult round = evaluate(evaluator, result.refined.occluders, links, lists, evaluated, &shapes, threads, control);
+    // Once there is a solution, a generation is brought to its end: half evaluated it would be none.
+    const EvaluateResult round = evaluate(evaluator, result.refined.occluders, links, lists, evaluated, &shapes, threads,
+                                          result.generations == 0 ? control : control.unstoppable());
     result.evaluations += new_links;
     result.evaluated.rays += round.rays;
     result.evaluated.proven_clear += round.proven_clear;
     result.evaluated.blocked += round.blocked;
+    removed.add(round.doubt);
+    result.evaluated.doubt = removed;
+    for (std::size_t i = 0; i < links.size(); ++i) { result.evaluated.doubt.add(links[i].p, links[i].q, shapes[i].doubt); }
     result.evaluated.cancelled = round.cancelled;
     if (round.cancelled) { return result; }
 
@@ -237,6 +244,10 @@ class Deadline {
         detail::estimate_errors(hierarchy, exposure, links, shapes, reflectance, emission, light.radiosity);
     result.estimate = errors.relative();
     if ((!deadline.limited() && result.estimate <= target) || links.size() > most_links) { return result; }
+    if (control.cancelled()) {
+      result.interrupted = true;
+      return result;
+    }
     const double excess = errors.sum - (deadline.limited() ? 0.0 : target * target * errors.norm);
     double threshold = detail::refinement_threshold(errors.links, errors.sum - std::min(0.8 * errors.sum, 1.1 * excess));
     if (deadline.limited()) {

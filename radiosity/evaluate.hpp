@@ -10,6 +10,7 @@
 
 #include <raycast/scene.hpp>
 
+#include <radiosity/doubt.hpp>
 #include <radiosity/exchange.hpp>
 #include <radiosity/exposure.hpp>
 #include <radiosity/hierarchy.hpp>
@@ -27,6 +28,7 @@ struct EvaluateResult {
   RayCount rays;
   std::uint64_t proven_clear = 0;  // links for which no segment was cast
   std::uint64_t blocked = 0;       // links removed because nothing arrives
+  DoubtSum doubt;                  // of the links removed, and, unless shapes hold theirs, of all
   bool cancelled = false;
 };
 
@@ -55,6 +57,7 @@ struct LinkShape {
     float shadow = 0.0f;               // of the visible fraction
   };
   End p, q;
+  Doubt doubt;
 };
 
 // Evaluates links one by one.
@@ -74,7 +77,7 @@ class LinkEvaluator {
 
   // Sets the exchange, 0 when nothing arrives, and the slopes where they have an effect, or anyhow when the shape is asked for. Returns
   // its segments. Depends on the ends of the link and the seed alone; `list` saves time.
-  RayCount operator()(Link& link, const raycast::OccluderList& list, LinkShape* shape = nullptr) const {
+  RayCount operator()(Link& link, const raycast::OccluderList& list, LinkShape* shape = nullptr, Doubt* doubt = nullptr) const {
     const Patch& p = (*patches_)[link.p];
     const Patch& q = (*patches_)[link.q];
     const double area_p = exposure_->area[link.p];
@@ -92,14 +95,16 @@ class LinkEvaluator {
     // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
     const double share = exposed_share(end_p, area_p, q, Random{seed_, key, 1}) * exposed_share(end_q, area_q, p, Random{seed_, key, 2});
     link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
+    Variations light_varies;
     if (shape != nullptr || !node_p.leaf() || !node_q.leaf()) {
-      const Variations light_varies = variations(p, q);
+      light_varies = variations(p, q);
       link.slope_p = glm::vec3{light_varies.p.slope};
       link.slope_q = glm::vec3{light_varies.q.slope};
       if (shape != nullptr && seen.fraction > 0.0) {
-        *shape = {shape_of(light_varies.p, seen.spread_p / seen.fraction), shape_of(light_varies.q, seen.spread_q / seen.fraction)};
+        *shape = {shape_of(light_varies.p, seen.spread_p / seen.fraction), shape_of(light_varies.q, seen.spread_q / seen.fraction), {}};
       }
     }
+    if (doubt != nullptr) { *doubt = doubt_of(link, unoccluded * share, seen, light_varies); }
     return seen.rays;
   }
 
@@ -109,6 +114,27 @@ class LinkEvaluator {
   }
 
  private:
+  // doubt.hpp. `sent`: what would arrive if nothing stood between.
+  [[nodiscard]] Doubt doubt_of(const Link& link, double sent, const VisibilityEstimate& seen, const Variations& varies) const {
+    const auto square = [](double x) { return x * x; };
+    const Node& p = (*hierarchy_)[link.p];
+    const Node& q = (*hierarchy_)[link.q];
+    const double area_p = exposure_->area[link.p];
+    const double area_q = exposure_->area[link.q];
+    const double arrives = sent * seen.fraction;
+    const auto across = [&](const Node& node, const Variation& v, double spread, double area) {
+      return node.leaf() ? 0.0f : static_cast<float>(std::sqrt(square(arrives * v.rest) + square(sent * spread)) / area);
+    };
+    const double unseen = seen.rays.cast > 0 ? square(sent) * visibility_variance(seen.fraction, static_cast<double>(seen.rays.cast)) : 0.0;
+    const auto buried = [&](std::uint32_t i, double area) {  // variance of the exposed area, relative
+      return exposure_->partly_buried[i] ? std::max(0.0, (exposure_->whole[i] - area) / (256.0 * area)) : 0.0;
+    };
+    const double depth = 0.5 * (square(p.deviation) + square(q.deviation));
+    const double independent =
+        (unseen + square(arrives) * buried(link.q, area_q)) / area_p + (unseen + square(arrives) * buried(link.p, area_p)) / area_q;
+    return {across(p, varies.p, seen.spread_p, area_p), across(q, varies.q, seen.spread_q, area_q), static_cast<float>(independent),
+            static_cast<float>(2.0 * arrives * depth), static_cast<float>(depth)};
+  }
   [[nodiscard]] static std::uint64_t key_of(const Link& link) { return (std::uint64_t{link.p} << 32) | link.q; }
   [[nodiscard]] std::uint32_t rounds(const Link& link) const {
     return emits_[(*hierarchy_)[link.p].surface] || emits_[(*hierarchy_)[link.q].surface] ? 16 : 4;
@@ -136,17 +162,27 @@ class LinkEvaluator {
   const std::size_t count = links.size() - first;
   if (shapes != nullptr) { shapes->resize(links.size()); }
   std::vector<RayCount> rays(count);
+  std::vector<Doubt> doubts;
   constexpr std::size_t batch = 1 << 16;  // between two looks at the cancel flag
   for (std::size_t done = 0; done < count; done += batch) {
     if (control.cancelled()) {
       result.cancelled = true;
       return result;
     }
-    parallel_for(std::min(batch, count - done), threads, [&](std::size_t offset) {
+    doubts.assign(std::min(batch, count - done), {});
+    parallel_for(doubts.size(), threads, [&](std::size_t offset) {
       if (control.cancelled()) { return; }
       const std::size_t i = first + done + offset;
-      rays[done + offset] = evaluator(links[i], occluders[lists[i]], shapes != nullptr ? &(*shapes)[i] : nullptr);
+      rays[done + offset] = evaluator(links[i], occluders[lists[i]], shapes != nullptr ? &(*shapes)[i] : nullptr, &doubts[offset]);
     });
+    for (std::size_t offset = 0; offset < doubts.size(); ++offset) {
+      const std::size_t i = first + done + offset;
+      if (shapes != nullptr && links[i].exchange > 0.0f) {
+        (*shapes)[i].doubt = doubts[offset];
+      } else {
+        result.doubt.add(links[i].p, links[i].q, doubts[offset]);
+      }
+    }
     if (shapes == nullptr) { control.report("link", static_cast<double>(std::min(done + batch, count)) / static_cast<double>(count)); }
   }
 

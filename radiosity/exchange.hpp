@@ -246,19 +246,32 @@ template <std::size_t N>
   return result;
 }
 
+namespace detail {
+
+// The part of a patch above the plane of another one.
+[[nodiscard]] inline Patch above(const Patch& patch, const Patch& other) {
+  Polygon contour;
+  clip_to_horizon(patch.contour, other.centre, other.normal, contour);
+  if (contour.size() < 3) { return {}; }
+  std::vector<Polygon> parts;
+  for (const Polygon& part : patch.parts) {
+    Polygon upper;
+    clip_to_horizon(part, other.centre, other.normal, upper);
+    if (upper.size() >= 3) { parts.push_back(std::move(upper)); }
+  }
+  return make_patch(std::move(contour), std::move(parts));
+}
+
+}  // namespace detail
+
 // G = A_p F_pq in the unit of the squared coordinates; 0 when the patches do not face each other.
 [[nodiscard]] inline double exchange(const Patch& p, const Patch& q) {
   const int q_side = above_horizon(p, q);
   const int p_side = above_horizon(q, p);
   if (p_side < 0 || q_side < 0 || !(p.area > 0.0) || !(q.area > 0.0)) { return 0.0; }
   if (p_side == 0 || q_side == 0) {
-    Polygon upper_p;
-    Polygon upper_q;
-    clip_to_horizon(p.contour, q.centre, q.normal, upper_p);
-    clip_to_horizon(q.contour, p.centre, p.normal, upper_q);
-    if (upper_p.size() < 3 || upper_q.size() < 3) { return 0.0; }
-    Patch cut_p = make_patch(std::move(upper_p));
-    Patch cut_q = make_patch(std::move(upper_q));
+    const Patch cut_p = detail::above(p, q);
+    const Patch cut_q = detail::above(q, p);
     if (!(cut_p.area > 0.0) || !(cut_q.area > 0.0)) { return 0.0; }
     if (above_horizon(cut_p, cut_q) != 1 || above_horizon(cut_q, cut_p) != 1) { return 0.0; }
     return exchange(cut_p, cut_q);
@@ -266,12 +279,13 @@ template <std::size_t N>
   // Extent over distance. Gauss rules of 2, 3, 4 points a side err by less than 6 (ratio/3)^4, 4 (ratio/3)^6, 3 (ratio/3)^8.
   const double distance = glm::length(q.centre - p.centre);
   const double extent = p.radius + q.radius;
-  if (extent < 0.1 * distance) { return detail::kernel_exchange(p.rule2, p.normal, q.rule2, q.normal); }
-  if (extent < 0.35 * distance) { return detail::kernel_exchange(p.rule3, p.normal, q.rule3, q.normal); }
-  if (extent < 0.65 * distance) { return detail::kernel_exchange(p.rule4, p.normal, q.rule4, q.normal); }
+  // Round ratios would be met as equalities by the patches of regular meshes, and rounding would choose the rule.
+  if (extent < 0.0997 * distance) { return detail::kernel_exchange(p.rule2, p.normal, q.rule2, q.normal); }
+  if (extent < 0.3493 * distance) { return detail::kernel_exchange(p.rule3, p.normal, q.rule3, q.normal); }
+  if (extent < 0.6491 * distance) { return detail::kernel_exchange(p.rule4, p.normal, q.rule4, q.normal); }
   // Against a patch a thousand times its size a patch is hardly more than a point, and the difference of both contours cancels.
-  if (p.radius < 1e-3 * q.radius) { return detail::point_exchange(p, q); }
-  if (q.radius < 1e-3 * p.radius) { return detail::point_exchange(q, p); }
+  if (p.radius < 0.997e-3 * q.radius) { return detail::point_exchange(p, q); }
+  if (q.radius < 0.997e-3 * p.radius) { return detail::point_exchange(q, p); }
   const double scale = extent + distance;
   const double tolerance = 1e-8 * std::min(p.area, q.area) / (scale * scale);
   return std::max(0.0, detail::contour_exchange(p.contour, q.contour, scale, tolerance));

@@ -85,12 +85,16 @@ struct Options {
 
 // How the caller watches and stops a run. `progress` is called from the thread that called solve().
 struct Control {
+  // Once true the run ends soon: with the best solution that it has, which says so by audit.interrupted, or, when none is complete, without
+  // (Failure::Kind::cancelled). BF-refinement has one after each generation, an error target after each round; F-refinement only at its end.
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(std::string_view stage, double fraction)> progress;
   // Called with the valid BReps of all objects after each generation of refinement.
   std::function<void(const std::vector<Surface>&)> after_generation;
 
   [[nodiscard]] bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
+  // The same, but nothing stops the run.
+  [[nodiscard]] Control unstoppable() const { return {nullptr, progress, after_generation}; }
   void report(std::string_view stage, double fraction) const {
     if (progress) { progress(stage, fraction); }
   }

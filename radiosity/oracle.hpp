@@ -44,29 +44,38 @@ enum class Decision : unsigned char {
 // across it, and the cosine of its highest point stands for that of its centre. Where the disks are closer than
 // their size, the point of the larger one that is nearest to the smaller is looked at as well: a small lamp just above a large
 // floor is far from its centre.
+//
+// Patches of regular meshes meet the conditions in here as equalities: a wall that stands on a floor has its lowest point in the floor's
+// plane, squares lie at simple multiples of their size. `even` keeps rounding from deciding, so that scale and place do not matter.
 [[nodiscard]] inline double form_factor_estimate(const Node& p, const Node& q) {
   const glm::dvec3 d = q.centre - p.centre;
   const double r = glm::length(d);
   if (!(r > 0.0)) { return 1.0; }
+  constexpr double even = 1.0 - 0x1p-30;
   const auto cosine = [&](const Node& from, const Node& to) {
     const double centre = glm::dot(from.normal, to.centre - from.centre);
     const double highest = reach_above(from, to);
-    const bool crosses = 2.0 * centre < highest;  // the lowest point lies as far below the centre as the highest above
+    const bool crosses = 2.0 * centre < even * highest;  // the lowest point lies as far below the centre as the highest above
     return std::clamp((crosses ? highest : centre) / r, 0.0, 1.0);
   };
   const double area = std::max(p.area, q.area);
   const double estimate = cosine(p, q) * cosine(q, p) * area / (std::numbers::pi * r * r + area);
-  if (r >= 2.0 * (p.radius + q.radius)) { return estimate; }
-  const Node& large = p.radius >= q.radius ? p : q;
+  if (r >= 2.0 * even * (p.radius + q.radius)) { return estimate; }
+  const Node& large = p.radius >= even * q.radius ? p : q;
   const Node& small = &large == &p ? q : p;
   return std::max(estimate, disk_estimate(small.centre, small.normal, nearest_point(large, small.centre), large.normal, large.area));
 }
+
+// Input faces of more convex parts are always split into them: their contour is so long that a link costs more than the links of the parts.
+inline constexpr std::uint32_t most_linked_parts = 64;
 
 // F-oracle. `min_area` in the unit of the node areas. The larger patch is split; patches of equal size within
 // one part in a million count as equal, so that rounding never decides.
 [[nodiscard]] inline Decision f_oracle(const Node& p, const Node& q, double epsilon, double min_area) {
   const double slack = 1e-9 * (p.radius + q.radius + glm::length(q.centre - p.centre));
   if (reach_above(p, q) <= slack || reach_above(q, p) <= slack) { return Decision::drop; }
+  if (p.in_parts() && p.child_count > most_linked_parts) { return Decision::split_p; }
+  if (q.in_parts() && q.child_count > most_linked_parts) { return Decision::split_q; }
   if (form_factor_estimate(p, q) <= epsilon) { return Decision::link; }
   if (std::max(p.area, q.area) <= min_area) { return Decision::link; }
   return q.area > p.area * (1.0 + 0x1p-20) ? Decision::split_q : Decision::split_p;

@@ -264,6 +264,7 @@ ExitCode run(const RenderOptions& options) {
   control.cancel = &cancel;
   control.progress = [&](std::string_view stage, double part) { progress.report(stage, part); };
   const radiosity::Outcome outcome = radiosity::solve(file->scene, options.solver, control);
+  if (outcome.solution && outcome.solution->audit.interrupted) { control = control.unstoppable(); }  // what there is, is written
   progress.done();
   if (!outcome.solution) { return report_failure(outcome.failure, options.scene); }
 
@@ -282,6 +283,10 @@ ExitCode run(const RenderOptions& options) {
   if (std::fflush(stdout) != 0) {
     complain("cannot write the report to standard output");
     return ExitCode::failure;
+  }
+  if (solution.audit.interrupted) {
+    complain("interrupted: the outputs show the best solution so far");
+    return ExitCode::not_converged;
   }
   if (solution.audit.converged) { return ExitCode::ok; }
   complain("not converged: the outputs show what was reached");

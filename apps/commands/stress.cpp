@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "apps/commands/stress.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <utility>
+
+#include "apps/commands/common.hpp"
+#include "apps/files.hpp"
+#include "apps/json.hpp"
+#include "apps/stress/case.hpp"
+
+namespace apps {
+namespace {
+
+using stress::Case;
+using stress::Figure;
+using stress::Findings;
+
+std::string number(double x) {
+  char text[40] = "";
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return text;
+}
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size() + 1, width), ' ');
+  return text;
+}
+
+const char* sign(Figure::Bound kind) { return kind == Figure::Bound::at_most ? "<= " : kind == Figure::Bound::at_least ? ">= " : "=  "; }
+
+// What was done, from what happened.
+std::string done(const Findings& findings) {
+  const auto count = [](std::size_t n, const char* what) { return n == 0 ? std::string{} : std::to_string(n) + " " + what; };
+  std::string text;
+  for (const std::string& part : {count(findings.solved(), findings.solved() == 1 ? "scene solved" : "scenes solved"),
+                                  count(findings.warnings().size(), "warned"), count(findings.refusals().size(), "refused")}) {
+    if (!part.empty()) { text += (text.empty() ? "" : ", ") + part; }
+  }
+  return text;
+}
+
+std::string to_text(const Case& which, const Findings& findings) {
+  std::string text = padded(std::string{which.name}, 18) + std::string{which.what} + "\n";
+  for (const Figure& f : findings.figures()) {
+    text += "  " + padded(f.what, 66) + padded(number(f.measured), 11) + sign(f.kind) + padded(number(f.bound), 9) +
+            (f.holds() ? "ok" : "FAILED") + "\n";
+  }
+  text += "  " + done(findings) + ": " + std::string{which.why} + "\n";
+  if (!findings.refusals().empty()) { text += "  refusal: " + findings.refusals().front() + "\n"; }
+  if (!findings.warnings().empty()) { text += "  warning: " + findings.warnings().front() + "\n"; }
+  return text + "\n";
+}
+
+void write(JsonWriter& json, const Case& which, const Findings& findings) {
+  json.open_object();
+  json.key("case").string(which.name).key("what").string(which.what).key("why").string(which.why).key("holds").boolean(findings.hold());
+  json.key("solved").count(findings.solved());
+  for (const auto& [key, sentences] : {std::pair{"refusals", &findings.refusals()}, std::pair{"warnings", &findings.warnings()}}) {
+    json.key(key).open_array();
+    for (const std::string& sentence : *sentences) { json.string(sentence); }
+    json.close();
+  }
+  json.key("figures").open_array();
+  for (const Figure& f : findings.figures()) {
+    constexpr const char* kinds[] = {"at most", "at least", "exactly"};
+    json.open_object();
+    json.key("what").string(f.what).key("measured").number(f.measured).key("kind").string(kinds[static_cast<int>(f.kind)]);
+    json.key("bound").number(f.bound).key("holds").boolean(f.holds());
+    json.close();
+  }
+  json.close();
+  json.close();
+}
+
+// The cases named, in their own order and each once; every name that is none is complained of.
+std::vector<const Case*> choose(const std::vector<std::string>& names, bool& known) {
+  std::vector<const Case*> chosen;
+  for (const Case& c : stress::cases()) {
+    if (names.empty() || std::find(names.begin(), names.end(), c.name) != names.end()) { chosen.push_back(&c); }
+  }
+  known = true;
+  for (const std::string& name : names) {
+    if (std::any_of(chosen.begin(), chosen.end(), [&](const Case* c) { return c->name == name; })) { continue; }
+    std::string all;
+    for (const Case& c : stress::cases()) { all += (all.empty() ? "" : ", ") + std::string{c.name}; }
+    complain("there is no case '" + name + "'; there are: " + all);
+    known = false;
+  }
+  return chosen;
+}
+
+}  // namespace
+
+void describe(CLI::App& command, StressOptions& options) {
+  command.add_option("case", options.cases, "cases to run (default: all)")->type_name("CASE");
+  command.add_flag("--list", options.list, "name the cases and run none");
+  command.add_option("--json", options.json, "write figures, bounds and verdicts as JSON, too")->type_name("FILE");
+}
+
+ExitCode run(const StressOptions& options) {
+  bool known = true;
+  const std::vector<const Case*> chosen = choose(options.cases, known);
+  if (!known) { return ExitCode::usage; }
+  if (options.list) {
+    for (const Case* c : chosen) { std::printf("%s%s\n", padded(std::string{c->name}, 18).c_str(), std::string{c->what}.c_str()); }
+    return std::fflush(stdout) == 0 ? ExitCode::ok : ExitCode::failure;
+  }
+  if (!options.json.empty()) {
+    if (const auto fault = check_writable(options.json)) {
+      complain(*fault);
+      return ExitCode::failure;
+    }
+  }
+  JsonWriter json;
+  json.open_array();
+  std::string failed;
+  std::size_t figures = 0;
+  const std::clock_t start = std::clock();
+  for (const Case* c : chosen) {
+    Findings findings;
+    c->run(findings);
+    std::fputs(to_text(*c, findings).c_str(), stdout);
+    std::fflush(stdout);
+    write(json, *c, findings);
+    figures += findings.figures().size();
+    if (!findings.hold()) { failed += (failed.empty() ? "" : ", ") + std::string{c->name}; }
+  }
+  json.close();
+  std::printf("%zu cases, %zu figures: %s\n", chosen.size(), figures, failed.empty() ? "all hold" : ("FAILED: " + failed).c_str());
+  std::fprintf(stderr, "CPU time %.1f s\n", static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);  // stdout is the same every time
+  if (!options.json.empty()) {
+    if (const auto fault = write_file(options.json, json.text())) {
+      complain(*fault);
+      return ExitCode::failure;
+    }
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    complain("cannot write to standard output");
+    return ExitCode::failure;
+  }
+  return failed.empty() ? ExitCode::ok : ExitCode::failure;
+}
+
+}  // namespace apps

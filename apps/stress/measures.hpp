@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the cases measure of a solution.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include <radiosity/radiosity.hpp>
+
+namespace apps::stress {
+
+// Coarse and fast: what is measured does not depend on the mesh, or only within the bound of its case.
+inline radiosity::Options coarse() {
+  radiosity::Options options;
+  options.epsilon = 0.1;
+  options.min_area = 1e-3;
+  options.audit_points = 0;
+  return options;
+}
+
+// Mean radiosity of a named surface; NaN, which keeps no bound, when there is none.
+inline radiosity::Color mean_color(const radiosity::Solution& solution, std::string_view surface) {
+  for (const radiosity::SurfaceMean& s : solution.audit.surfaces) {
+    if (s.name == surface) { return s.radiosity; }
+  }
+  return radiosity::Color{std::numeric_limits<double>::quiet_NaN()};
+}
+inline double mean(const radiosity::Solution& solution, std::string_view surface) { return mean_color(solution, surface).x; }
+
+inline double relative(double value, double reference) { return std::abs(value / reference - 1.0); }
+
+// The largest difference of any exposed leaf from the value that all should have, in any channel.
+inline double worst(const radiosity::Solution& solution, double value) {
+  double difference = solution.mesh.faces.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+  for (const radiosity::MeshFace& face : solution.mesh.faces) {
+    if (!(solution.area[face.node] > 0.0)) { continue; }
+    for (int c = 0; c < 3; ++c) { difference = std::max(difference, std::abs(face.radiosity[c] - value)); }
+  }
+  return difference;
+}
+
+// The largest relative difference of the means of two solutions of the same surfaces, where the second has light.
+inline double apart(const radiosity::Solution& a, const radiosity::Solution& b, double factor = 1.0) {
+  double difference = a.audit.surfaces.size() == b.audit.surfaces.size() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < a.audit.surfaces.size() && i < b.audit.surfaces.size(); ++i) {
+    const double reference = factor * b.audit.surfaces[i].radiosity.x;
+    if (reference > 0.0) { difference = std::max(difference, relative(a.audit.surfaces[i].radiosity.x, reference)); }
+  }
+  return difference;
+}
+
+// Leaves whose radiosity is not bit by bit that of the other solution times `factor`; all when the meshes differ.
+inline double other_bits(const radiosity::Solution& a, const radiosity::Solution& b, double factor = 1.0) {
+  if (a.radiosity.size() != b.radiosity.size()) { return static_cast<double>(std::max(a.radiosity.size(), b.radiosity.size())); }
+  double count = 0.0;
+  for (std::size_t i = 0; i < a.radiosity.size(); ++i) { count += a.radiosity[i] == factor * b.radiosity[i] ? 0.0 : 1.0; }
+  return count;
+}
+
+}  // namespace apps::stress

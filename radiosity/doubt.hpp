@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How far row sums can be expected to be off because links are what they are: what quadrature and sampling explain of a correction that
+// makes a scene exactly closed (Transport::close). What goes beyond has another cause, and a scene is not closed by force.
+//
+// The row sum of a leaf is the sum of what the links above it bring, and each link is off
+//   - on a patch with children, by what its linear kernel leaves of the light's change across the patch (rest), and of the shadow's: RMS
+//     values over the patch, times G / A. The links of one node err alike, as in a corner of a room, so here they add up as they are;
+//     from node to node their squares do;
+//   - by what is not known of its visible fraction, of n segments of which k arrive: variance (k + 1)(n - k + 1) / ((n + 2)^2 (n + 3))
+//     (Laplace 1774), and of the exposed area of its other end, of 256 points: independent, squares add up;
+//   - on curved objects, by the chord: all links err alike there, and add up as they are.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace radiosity {
+
+// Of one link.
+struct Doubt {
+  float p = 0.0f, q = 0.0f;  // RMS error of the rows below each end by what the link cannot express
+  float square = 0.0f;       // sum over the rows of their independent errors, squared, weighted by area
+  float chord = 0.0f;        // sum over the rows of the errors by chords, weighted by area
+  float depth = 0.0f;        // of the chord, relative to the light of the link
+};
+
+class DoubtSum {
+ public:
+  void add(std::uint32_t p, std::uint32_t q, const Doubt& doubt) {
+    add(p, static_cast<double>(doubt.p));
+    add(q, static_cast<double>(doubt.q));
+    square_ += static_cast<double>(doubt.square);
+    chord_ += static_cast<double>(doubt.chord);
+    depth_ = std::max(depth_, static_cast<double>(doubt.depth));
+  }
+  void add(const DoubtSum& other) {
+    for (std::uint32_t i = 0; i < other.across_.size(); ++i) { add(i, other.across_[i]); }
+    square_ += other.square_;
+    chord_ += other.chord_;
+    depth_ = std::max(depth_, other.depth_);
+  }
+  // Expected RMS error of the row sums; `area` of each node, `total` of the scene. The mean of what the chords take, times the most that
+  // they can take, bounds its mean square.
+  [[nodiscard]] double rms(const std::vector<double>& area, double total) const {
+    double sum = square_ + chord_ * depth_;
+    for (std::size_t i = 0; i < across_.size(); ++i) { sum += area[i] * across_[i] * across_[i]; }
+    return total > 0.0 ? std::sqrt(sum / total) : 0.0;
+  }
+
+ private:
+  void add(std::uint32_t node, double error) {
+    if (!(error > 0.0)) { return; }
+    if (node >= across_.size()) { across_.resize(node + 1, 0.0); }
+    across_[node] += error;
+  }
+
+  std::vector<double> across_;  // of each node
+  double square_ = 0.0, chord_ = 0.0, depth_ = 0.0;
+};
+
+// Variance of the visible fraction when `fraction` of `segments` arrived.
+[[nodiscard]] inline double visibility_variance(double fraction, double segments) {
+  const double clear = fraction * segments;
+  return (clear + 1.0) * (segments - clear + 1.0) / ((segments + 2.0) * (segments + 2.0) * (segments + 3.0));
+}
+
+}  // namespace radiosity
