@@ -213,13 +213,6 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   return hierarchy;
 }
 
-// Faces that belong to a sheet: those that give and receive light.
-[[nodiscard]] inline std::size_t radiating_faces(const Surface& surface) {
-  std::size_t count = 0;
-  for (const brep::FaceId f : brep::faces(surface.brep)) { count += surface.brep.data(f).sheet != brep::no_sheet ? 1 : 0; }
-  return count;
-}
-
 // Splits a leaf: its face is refined by Euler operators and the new faces become its children. False when the
 // BRep refuses (the level tag is full); then nothing has changed.
 [[nodiscard]] inline bool subdivide(std::vector<Surface>& surfaces, Hierarchy& hierarchy, std::uint32_t index) {
