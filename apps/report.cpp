@@ -92,6 +92,7 @@ void error_and_time(std::string& out, const Report& report) {
 void sizes_and_checks(std::string& out, const Report& report) {
   const radiosity::Audit& audit = report.audit;
   out += "size\n";
+  row(out, "input polygons", grouped(audit.polygons));
   row(out, "nodes, leaves", grouped(audit.nodes) + ", " + grouped(audit.leaves));
   row(out, "proportions",
       format("%.2f to %.2f, mean %.2f (regular polygon: 1)", audit.proportion.min, audit.proportion.max, audit.proportion.mean));
@@ -298,6 +299,7 @@ std::string to_json(const Report& report) {
   write_errors(json, audit);
   write_times(json, "cpu_seconds", report, &radiosity::StageTime::cpu_seconds, audit.cpu_seconds);
   write_times(json, "wall_seconds", report, &radiosity::StageTime::wall_seconds, audit.wall_seconds);
+  json.key("polygons").count(audit.polygons);
   json.key("nodes").count(audit.nodes).key("leaves").count(audit.leaves).key("links").count(audit.links);
   json.key("rays").count(audit.rays).key("rays_avoided").count(audit.rays_avoided);
   json.key("pairs_clear").count(audit.pairs_clear).key("pairs_blocked").count(audit.pairs_hidden).key("bytes").count(audit.bytes);

@@ -47,6 +47,7 @@ struct Audit {
   std::vector<StageTime> stages;
   double wall_seconds = 0.0, cpu_seconds = 0.0;  // of all stages but the audit
   // size
+  std::uint64_t polygons = 0;  // input faces: the roots of the hierarchy, whatever their number of corners and holes
   std::uint64_t nodes = 0, leaves = 0, links = 0, rays = 0;
   std::uint64_t rays_avoided = 0;                   // at least; by the two proofs:
   std::uint64_t pairs_clear = 0, pairs_hidden = 0;  // links that nothing can block; pairs, with all below, that one object hides

@@ -246,19 +246,32 @@ template <std::size_t N>
   return result;
 }
 
+namespace detail {
+
+// The part of a patch above the plane of another one.
+[[nodiscard]] inline Patch above(const Patch& patch, const Patch& other) {
+  Polygon contour;
+  clip_to_horizon(patch.contour, other.centre, other.normal, contour);
+  if (contour.size() < 3) { return {}; }
+  std::vector<Polygon> parts;
+  for (const Polygon& part : patch.parts) {
+    Polygon upper;
+    clip_to_horizon(part, other.centre, other.normal, upper);
+    if (upper.size() >= 3) { parts.push_back(std::move(upper)); }
+  }
+  return make_patch(std::move(contour), std::move(parts));
+}
+
+}  // namespace detail
+
 // G = A_p F_pq in the unit of the squared coordinates; 0 when the patches do not face each other.
 [[nodiscard]] inline double exchange(const Patch& p, const Patch& q) {
   const int q_side = above_horizon(p, q);
   const int p_side = above_horizon(q, p);
   if (p_side < 0 || q_side < 0 || !(p.area > 0.0) || !(q.area > 0.0)) { return 0.0; }
   if (p_side == 0 || q_side == 0) {
-    Polygon upper_p;
-    Polygon upper_q;
-    clip_to_horizon(p.contour, q.centre, q.normal, upper_p);
-    clip_to_horizon(q.contour, p.centre, p.normal, upper_q);
-    if (upper_p.size() < 3 || upper_q.size() < 3) { return 0.0; }
-    Patch cut_p = make_patch(std::move(upper_p));
-    Patch cut_q = make_patch(std::move(upper_q));
+    const Patch cut_p = detail::above(p, q);
+    const Patch cut_q = detail::above(q, p);
     if (!(cut_p.area > 0.0) || !(cut_q.area > 0.0)) { return 0.0; }
     if (above_horizon(cut_p, cut_q) != 1 || above_horizon(cut_q, cut_p) != 1) { return 0.0; }
     return exchange(cut_p, cut_q);

@@ -79,7 +79,8 @@ inline void extend(Exposure& exposure, const raycast::Scene& scene, const std::v
     const Node& node = hierarchy[i];
     if (!node.leaf()) { return; }
     const SurfaceBRep& brep = surfaces[node.object].brep;
-    const bool curved = node.deviation > 0.0;
+    // A separate polygon is all that its quad-tree knows of the surface.
+    const bool curved = node.deviation > 0.0 && surfaces[node.object].topology == Topology::shared;
     area[i] =
         curved ? curved_area(scene.object(node.object), sheet(i), patches[i].contour) : glm::length(brep::vector_area(brep, node.face));
     const Patch& patch = patches[i];

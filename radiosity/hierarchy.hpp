@@ -5,6 +5,8 @@
 // holds the centre, normal and area of its patch and either its children or its face; no vertex data and no
 // neighbours. Children lie side by side and always after their parent, so one pass over the array forwards goes
 // from roots to leaves and one pass backwards from leaves to roots.
+//
+// A root is an input face. One that is not convex, a wall with windows, is an inner node from the start: its children are its convex parts.
 
 #include <cstdint>
 #include <vector>
@@ -28,10 +30,12 @@ struct Node {
   std::uint32_t object = 0;       // index of the object and of its Surface
   std::uint32_t first_child = 0;  // when child_count > 0
   std::uint32_t child_count = 0;  // 0: a leaf
-  std::uint32_t corners = 0;      // corners of the patch; child k holds corner k of its parent as its corner 0
+  std::uint32_t corners = 0;      // corners of the patch; child k holds corner k of its parent as its corner 0.
+                                  // 0: a face in convex parts, its children
   brep::FaceId face;              // when a leaf
 
   [[nodiscard]] bool leaf() const { return child_count == 0; }
+  [[nodiscard]] bool in_parts() const { return child_count > 0 && corners == 0; }
 };
 
 using Hierarchy = std::vector<Node>;

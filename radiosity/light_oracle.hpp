@@ -42,6 +42,7 @@ class LightOracle {
     }
     double power = 0.0;
     for (const Node& root : hierarchy) {
+      if (root.parent != no_node) { continue; }
       power += root.area * emission_[root.surface];
       scene_area_ += root.area;
     }

@@ -33,7 +33,13 @@ class Patches {
     const std::size_t first = patches_.size();
     patches_.resize(hierarchy_->size());
     parallel_for(patches_.size() - first, threads, [&](std::size_t i) {
-      patches_[first + i] = make_patch(contour(*surfaces_, *hierarchy_, static_cast<std::uint32_t>(first + i)));
+      const auto index = static_cast<std::uint32_t>(first + i);
+      const Node& node = (*hierarchy_)[index];
+      std::vector<Polygon> parts;
+      if (node.in_parts()) {
+        for (std::uint32_t k = 0; k < node.child_count; ++k) { parts.push_back(contour(*surfaces_, *hierarchy_, node.first_child + k)); }
+      }
+      patches_[index] = make_patch(contour(*surfaces_, *hierarchy_, index), std::move(parts));
     });
   }
   [[nodiscard]] const Patch& operator[](std::size_t i) const { return patches_[i]; }

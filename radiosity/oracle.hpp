@@ -66,11 +66,16 @@ enum class Decision : unsigned char {
   return std::max(estimate, disk_estimate(small.centre, small.normal, nearest_point(large, small.centre), large.normal, large.area));
 }
 
+// Input faces of more convex parts are always split into them: their contour is so long that a link costs more than the links of the parts.
+inline constexpr std::uint32_t most_linked_parts = 64;
+
 // F-oracle. `min_area` in the unit of the node areas. The larger patch is split; patches of equal size within
 // one part in a million count as equal, so that rounding never decides.
 [[nodiscard]] inline Decision f_oracle(const Node& p, const Node& q, double epsilon, double min_area) {
   const double slack = 1e-9 * (p.radius + q.radius + glm::length(q.centre - p.centre));
   if (reach_above(p, q) <= slack || reach_above(q, p) <= slack) { return Decision::drop; }
+  if (p.in_parts() && p.child_count > most_linked_parts) { return Decision::split_p; }
+  if (q.in_parts() && q.child_count > most_linked_parts) { return Decision::split_q; }
   if (form_factor_estimate(p, q) <= epsilon) { return Decision::link; }
   if (std::max(p.area, q.area) <= min_area) { return Decision::link; }
   return q.area > p.area * (1.0 + 0x1p-20) ? Decision::split_q : Decision::split_p;

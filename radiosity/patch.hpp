@@ -28,7 +28,7 @@ struct QuadraturePoint {
 };
 
 struct Patch {
-  Polygon contour;         // counter-clockwise seen from the bright side, convex, (nearly) planar
+  Polygon contour;         // counter-clockwise seen from the bright side, (nearly) planar; convex when there are no parts
   glm::dvec3 centre{0.0};  // mean of the corners
   glm::dvec3 normal{0.0};
   double area = 0.0;
@@ -36,6 +36,7 @@ struct Patch {
   glm::dvec3 centroid{0.0};                          // of the area
   glm::dmat3 inverse_inertia{0.0};                   // inverse, in the plane, of the mean of (x - centroid)(x - centroid)'
   std::vector<QuadraturePoint> rule2, rule3, rule4;  // 2x2, 3x3 and 4x4 Gauss points on each quadrilateral piece
+  std::vector<Polygon> parts;                        // convex, of a contour that is not; holes are reached by bridges, run through twice
 };
 
 namespace detail {
@@ -111,24 +112,34 @@ inline void set_inertia(Patch& patch) {
   return 0.5 * sum;
 }
 
-// The patch with this contour. A contour of no area gives a patch of area 0 without quadrature points.
-[[nodiscard]] inline Patch make_patch(Polygon contour) {
+namespace detail {
+
+// Quadrilaterals around corner 0; a triangle is left over when the number of corners is odd.
+inline void append_rules(Patch& patch, const Polygon& q) {
+  for (std::size_t i = 1; i + 1 < q.size(); i += 2) {
+    const glm::dvec3& last = i + 2 < q.size() ? q[i + 2] : q[i + 1];
+    append_gauss(q[0], q[i], q[i + 1], last, patch.normal, gauss2_x, gauss2_w, patch.rule2);
+    append_gauss(q[0], q[i], q[i + 1], last, patch.normal, gauss3_x, gauss3_w, patch.rule3);
+    append_gauss(q[0], q[i], q[i + 1], last, patch.normal, gauss4_x, gauss4_w, patch.rule4);
+  }
+}
+
+}  // namespace detail
+
+// The patch with this contour; one that is not convex comes with its convex parts. A contour of no area gives a patch of area 0 without
+// quadrature points.
+[[nodiscard]] inline Patch make_patch(Polygon contour, std::vector<Polygon> parts = {}) {
   Patch patch;
   patch.contour = std::move(contour);
+  patch.parts = std::move(parts);
   for (const glm::dvec3& p : patch.contour) { patch.centre += p / static_cast<double>(patch.contour.size()); }
   const glm::dvec3 area = vector_area(patch.contour);
   patch.area = glm::length(area);
   for (const glm::dvec3& p : patch.contour) { patch.radius = std::max(patch.radius, glm::length(p - patch.centre)); }
   if (!(patch.area > 0.0)) { return patch; }
   patch.normal = area / patch.area;
-  // Quadrilaterals around corner 0; a triangle is left over when the number of corners is odd.
-  const Polygon& q = patch.contour;
-  for (std::size_t i = 1; i + 1 < q.size(); i += 2) {
-    const glm::dvec3& last = i + 2 < q.size() ? q[i + 2] : q[i + 1];
-    detail::append_gauss(q[0], q[i], q[i + 1], last, patch.normal, detail::gauss2_x, detail::gauss2_w, patch.rule2);
-    detail::append_gauss(q[0], q[i], q[i + 1], last, patch.normal, detail::gauss3_x, detail::gauss3_w, patch.rule3);
-    detail::append_gauss(q[0], q[i], q[i + 1], last, patch.normal, detail::gauss4_x, detail::gauss4_w, patch.rule4);
-  }
+  if (patch.parts.empty()) { detail::append_rules(patch, patch.contour); }
+  for (const Polygon& part : patch.parts) { detail::append_rules(patch, part); }
   detail::set_inertia(patch);
   return patch;
 }

@@ -79,21 +79,44 @@ inline bool on_the_hull(const std::vector<Surface>& surfaces, std::uint32_t obje
   return true;
 }
 
-// Does a flat surface lie on one plane of a room and face into it, so that its black back is never seen? Slack: 1e-9 of the scene.
-inline bool lies_on_room(const Surface& surface, const raycast::PlacedObject& room) {
-  if (!room.flat()) { return false; }
+// How much of a convex polygon a convex polygon in the same plane covers, both counter-clockwise about `normal`.
+inline double covered_area(Polygon polygon, const Polygon& cover, const glm::dvec3& normal) {
+  Polygon part;
+  for (std::size_t i = 0; i < cover.size() && polygon.size() > 2; ++i) {
+    const glm::dvec3 inwards = glm::cross(normal, cover[(i + 1) % cover.size()] - cover[i]);
+    const double length = glm::length(inwards);
+    if (!(length > 0.0)) { continue; }
+    part.clear();
+    clip_to_horizon(polygon, cover[i], inwards / length, part);
+    std::swap(polygon, part);
+  }
+  return polygon.size() > 2 ? std::max(0.0, glm::dot(normal, vector_area(polygon))) : 0.0;
+}
+
+// Does a flat surface lie on the walls of a room and face into it, so that its black back is never seen? The walls in its plane must cover
+// it, not their planes alone: a lamp may lie in the plane of a wall and outside the room. Slack: 1e-9 of the scene, off the plane and
+// as a strip along the borders.
+inline bool lies_on_room(const Surface& surface, const Surface& room) {
+  if (!room.object->flat()) { return false; }
   for (const brep::FaceId f : brep::faces(surface.brep)) {
     if (surface.brep.data(f).sheet == brep::no_sheet) { continue; }
     const Polygon polygon = corner_polygon(surface.brep, f);
-    const glm::dvec3 normal = glm::normalize(vector_area(polygon));
-    bool on_a_sheet = false;
-    for (std::uint32_t s = 0; s < room.sheet_count() && !on_a_sheet; ++s) {
-      on_a_sheet = std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) {
-        const raycast::SurfacePoint wall = room.project(s, p);
-        return glm::length(wall.position - p) <= 1e-9 && glm::dot(wall.normal, normal) > 0.999;
-      });
+    const glm::dvec3 area = vector_area(polygon);
+    const double whole = glm::length(area);
+    if (!(whole > 0.0)) { return false; }
+    double border = 0.0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) { border += glm::length(polygon[(i + 1) % polygon.size()] - polygon[i]); }
+    double covered = 0.0;
+    for (const brep::FaceId w : brep::faces(room.brep)) {
+      const Polygon wall = corner_polygon(room.brep, w);
+      const glm::dvec3 wall_area = vector_area(wall);
+      if (!(glm::dot(wall_area, area) > 0.999 * glm::length(wall_area) * whole)) { continue; }
+      const glm::dvec3 normal = glm::normalize(wall_area);
+      const bool in_plane =
+          std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return std::abs(glm::dot(normal, p - wall[0])) <= 1e-9; });
+      if (in_plane) { covered += covered_area(polygon, wall, normal); }
     }
-    if (!on_a_sheet) { return false; }
+    if (covered < whole - 1e-9 * border) { return false; }
   }
   return true;
 }
@@ -140,9 +163,8 @@ inline bool lies_on_room(const Surface& surface, const raycast::PlacedObject& ro
     holes = holes || !object.solid();
     ++plan.occluders;
   }
-  plan.closed = room != nullptr && !holes && std::all_of(sheets.begin(), sheets.end(), [&](std::uint32_t o) {
-                  return detail::lies_on_room(surfaces[o], *room->object);
-                });
+  plan.closed = room != nullptr && !holes &&
+                std::all_of(sheets.begin(), sheets.end(), [&](std::uint32_t o) { return detail::lies_on_room(surfaces[o], *room); });
   for (const Material& material : scene.materials) {
     const Color& rho = material.reflectance;
     plan.traceable = plan.traceable && (!plan.closed || std::max({rho.x, rho.y, rho.z}) <= 1.0 - 1.0 / most_bounces);

@@ -258,6 +258,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     watch.lap("compare");
   }
 
+  audit.polygons =
+      static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.parent == no_node; }));
   audit.nodes = hierarchy.size();
   audit.leaves = static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.leaf(); }));
   audit.links = solution.links.size();

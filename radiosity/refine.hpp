@@ -58,10 +58,12 @@ inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& ro
                        RefineResult& result) {
   const auto count = static_cast<std::uint32_t>(roots.size());
   for (std::uint32_t p = 0; p < count; ++p) {
+    if (roots[p].parent != no_node) { continue; }  // a convex part of a root
     const raycast::PlacedObject& object = *surfaces[roots[p].object].object;
     const bool sees_itself = object.inside() || !object.convex();
     if (sees_itself && !object.flat()) { result.inner.push_back(p); }
     for (std::uint32_t q = p + 1; q < count; ++q) {
+      if (roots[q].parent != no_node) { continue; }
       const bool same_object = roots[p].object == roots[q].object;
       const bool same_flat_sheet = object.flat() && roots[p].surface == roots[q].surface;
       if (!same_object || (sees_itself && !same_flat_sheet)) {

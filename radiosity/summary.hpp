@@ -83,15 +83,23 @@ inline Audit::Range summarise_proportions(const Hierarchy& hierarchy, const Patc
   return range;
 }
 
+// A sheet of which nothing is left (a window that was cut out ends outside the wall) is no surface; one that is buried has area 0.
 inline void summarise_surfaces(Audit& audit, const std::vector<InputSurface>& inputs, const Frame& frame, const Hierarchy& hierarchy,
                                const std::vector<double>& area, const std::vector<Color>& radiosity) {
   for (const InputSurface& input : inputs) { audit.surfaces.push_back({input.name, 0.0, Color{0.0}}); }
+  std::vector<bool> exists(inputs.size(), false);
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
     if (!hierarchy[i].leaf()) { continue; }
+    exists[hierarchy[i].surface] = true;
     SurfaceMean& mean = audit.surfaces[hierarchy[i].surface];
     mean.area += area[i];
     mean.radiosity += area[i] * radiosity[i];
   }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (exists[i]) { std::swap(audit.surfaces[kept++], audit.surfaces[i]); }
+  }
+  audit.surfaces.resize(kept, SurfaceMean{});
   for (SurfaceMean& mean : audit.surfaces) {
     if (mean.area > 0.0) { mean.radiosity /= mean.area; }
     mean.area = frame.to_scene_area(mean.area);

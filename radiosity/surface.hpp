@@ -8,7 +8,10 @@
 // A vertex that refinement inserts is placed on the object by Object::project, so the mesh follows the true shape
 // as it gets finer; on an edge between two sheets it is placed on both.
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,7 +47,8 @@ struct SurfaceHalfedge {
 
 struct SurfaceFace : brep::Tag {
   std::uint32_t sheet = brep::no_sheet;
-  std::uint32_t node = no_node;  // the hierarchy leaf that stands on this face
+  std::uint32_t node = no_node;              // the hierarchy leaf that stands on this face
+  std::uint32_t part = brep::invalid_index;  // the face of the boundary, once all are convex, from which this one was cut
 };
 
 using SurfaceBRep = brep::BRep<SurfaceVertex, SurfaceHalfedge, SurfaceFace>;
@@ -84,6 +88,7 @@ inline constexpr double first_chord_error = 0.01;
     const auto parts = brep::split_until_convex(surface.brep, f);
     if (!parts) { return {std::nullopt, parts.refusal().sentence()}; }
   }
+  for (const brep::FaceId f : brep::faces(surface.brep)) { surface.brep.data(f).part = f.index; }
   return {std::move(surface), {}};
 }
 
@@ -140,13 +145,69 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   return count;
 }
 
-// One root for each face of each surface (paper 4.2), holes and backs left out.
+// The input faces of a surface, each by its convex parts: a face that is not convex was cut by diagonals, and of an object with flat sheets
+// the parts are known again by their sheet. One that was cut at a wall (wall_cuts.hpp) falls into all its parts: no patch spans the wall.
+// Holes and backs are left out.
+[[nodiscard]] inline std::vector<std::vector<brep::FaceId>> input_faces(const Surface& surface) {
+  const SurfaceBRep& brep = surface.brep;
+  std::vector<std::vector<brep::FaceId>> result;
+  std::vector<bool> seen(brep.face_end(), false);
+  for (const brep::FaceId f : brep::faces(brep)) {
+    if (seen[f.index] || brep.data(f).sheet == brep::no_sheet) { continue; }
+    std::vector<brep::FaceId>& parts = result.emplace_back(1, f);
+    seen[f.index] = true;
+    if (!surface.object->flat()) { continue; }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (const brep::HalfedgeId h : brep::halfedges_of(brep, parts[i])) {
+        const brep::FaceId across = brep.face(brep::twin(h));
+        if (seen[across.index] || brep.data(across).sheet != brep.data(f).sheet) { continue; }
+        seen[across.index] = true;
+        parts.push_back(across);
+      }
+    }
+    std::vector<std::uint32_t> from;
+    for (const brep::FaceId part : parts) { from.push_back(brep.data(part).part); }
+    std::sort(from.begin(), from.end());
+    if (std::adjacent_find(from.begin(), from.end()) == from.end()) { continue; }
+    const std::vector<brep::FaceId> cut = std::move(parts);
+    result.pop_back();
+    for (const brep::FaceId part : cut) { result.emplace_back(1, part); }
+  }
+  return result;
+}
+
+// One root for each input face of each surface (paper 4.2); below that of a face in convex parts are the leaves of the parts.
 [[nodiscard]] inline Hierarchy make_roots(std::vector<Surface>& surfaces) {
   Hierarchy hierarchy;
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
-    for (const brep::FaceId f : brep::faces(surfaces[o].brep)) {
-      if (surfaces[o].brep.data(f).sheet == brep::no_sheet) { continue; }
-      hierarchy.push_back(make_leaf(surfaces[o], o, f, no_node, static_cast<std::uint32_t>(hierarchy.size())));
+    for (const std::vector<brep::FaceId>& parts : input_faces(surfaces[o])) {
+      const auto root = static_cast<std::uint32_t>(hierarchy.size());
+      if (parts.size() == 1) {
+        hierarchy.push_back(make_leaf(surfaces[o], o, parts[0], no_node, root));
+        continue;
+      }
+      hierarchy.emplace_back();
+      glm::dvec3 area{0.0};
+      Node whole;
+      for (const brep::FaceId f : parts) {
+        const auto index = static_cast<std::uint32_t>(hierarchy.size());
+        hierarchy.push_back(make_leaf(surfaces[o], o, f, root, index));
+        area += hierarchy[index].area * hierarchy[index].normal;
+        whole.centre += hierarchy[index].area * hierarchy[index].centre;
+        whole.area += hierarchy[index].area;
+      }
+      whole.centre = whole.area > 0.0 ? whole.centre / whole.area : hierarchy[root + 1].centre;
+      whole.normal = glm::length(area) > 0.0 ? glm::normalize(area) : glm::dvec3{0.0};
+      for (std::size_t i = root + 1; i < hierarchy.size(); ++i) {
+        for (const glm::dvec3& p : corner_polygon(surfaces[o].brep, hierarchy[i].face)) {
+          whole.radius = std::max(whole.radius, glm::length(p - whole.centre));
+        }
+      }
+      whole.surface = hierarchy[root + 1].surface;
+      whole.object = o;
+      whole.first_child = root + 1;
+      whole.child_count = static_cast<std::uint32_t>(parts.size());
+      hierarchy[root] = whole;
     }
   }
   return hierarchy;
@@ -172,7 +233,60 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   return true;
 }
 
-// The corners of any node: those of its face when it is a leaf, else corner 0 of its first children.
+// The contour of a polygon in convex parts that share corners, bit by bit, with a bridge to each hole. Diagonals that span the parts, each
+// joining two that were not connected, vanish: the parts become one disk. The others are the bridges.
+[[nodiscard]] inline Polygon contour_of_parts(const std::vector<Polygon>& parts) {
+  struct Side {
+    std::array<double, 6> ends;
+    std::size_t part, corner;
+    bool vanished = false;
+    bool operator<(const Side& other) const { return ends < other.ends; }
+  };
+  const auto ends = [](const glm::dvec3& a, const glm::dvec3& b) { return std::array<double, 6>{a.x, a.y, a.z, b.x, b.y, b.z}; };
+  const auto next = [&](std::size_t part, std::size_t corner) { return corner + 1 < parts[part].size() ? corner + 1 : 0; };
+  std::vector<Side> sides;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    for (std::size_t i = 0; i < parts[k].size(); ++i) { sides.push_back({ends(parts[k][i], parts[k][next(k, i)]), k, i}); }
+  }
+  std::sort(sides.begin(), sides.end());
+  const auto find_side = [&](const glm::dvec3& a, const glm::dvec3& b) {
+    const auto found = std::lower_bound(sides.begin(), sides.end(), Side{ends(a, b), 0, 0});
+    return found != sides.end() && found->ends == ends(a, b) ? &*found : nullptr;
+  };
+  std::vector<std::size_t> group(parts.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const auto root = [&](std::size_t k) {
+    while (group[k] != k) { k = group[k] = group[group[k]]; }
+    return k;
+  };
+  const Side* start = nullptr;
+  for (Side& side : sides) {
+    Side* const back = find_side(parts[side.part][next(side.part, side.corner)], parts[side.part][side.corner]);
+    if (back == nullptr) {
+      start = &side;
+    } else if (root(side.part) != root(back->part)) {
+      group[root(side.part)] = root(back->part);
+      side.vanished = back->vanished = true;
+    }
+  }
+  Polygon polygon;
+  const Side* side = start;
+  do {
+    polygon.push_back(parts[side->part][side->corner]);
+    for (std::size_t part = side->part, corner = side->corner;;) {
+      corner = next(part, corner);
+      const glm::dvec3 &from = parts[part][corner], &to = parts[part][next(part, corner)];
+      side = find_side(from, to);
+      if (!side->vanished) { break; }
+      const Side* const back = find_side(to, from);
+      part = back->part, corner = back->corner;
+    }
+  } while (side != start);
+  return polygon;
+}
+
+// The corners of any node: those of its face when it is a leaf, the contour of its parts when it has some, else corner 0 of its first
+// children.
 [[nodiscard]] inline Polygon contour(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, std::uint32_t index) {
   const auto corner0 = [&](std::uint32_t i) {
     while (!hierarchy[i].leaf()) { i = hierarchy[i].first_child; }
@@ -181,6 +295,11 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   };
   const Node& node = hierarchy[index];
   if (node.leaf()) { return corner_polygon(surfaces[node.object].brep, node.face); }
+  if (node.in_parts()) {
+    std::vector<Polygon> parts;
+    for (std::uint32_t k = 0; k < node.child_count; ++k) { parts.push_back(contour(surfaces, hierarchy, node.first_child + k)); }
+    return contour_of_parts(parts);
+  }
   Polygon polygon;
   for (std::uint32_t k = 0; k < node.corners; ++k) { polygon.push_back(corner0(node.first_child + k)); }
   return polygon;

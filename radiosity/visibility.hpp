@@ -28,15 +28,18 @@ namespace radiosity {
 
 // A point of the patch, uniform in area for uniform (u, v); strata of (u, v) are strata of the patch.
 [[nodiscard]] inline glm::dvec3 sample(const Patch& patch, double u, double v) {
-  const Polygon& q = patch.contour;
   double rest = u * patch.area;
-  for (std::size_t i = 1; i + 1 < q.size(); ++i) {
-    const double area = 0.5 * glm::dot(glm::cross(q[i] - q[0], q[i + 1] - q[0]), patch.normal);
-    if (rest < area || i + 2 == q.size()) {
-      const double root = std::sqrt(std::clamp(area > 0.0 ? rest / area : 0.0, 0.0, 1.0));
-      return q[0] + root * (1.0 - v) * (q[i] - q[0]) + root * v * (q[i + 1] - q[0]);
+  const std::size_t parts = std::max<std::size_t>(1, patch.parts.size());
+  for (std::size_t k = 0; k < parts; ++k) {
+    const Polygon& q = patch.parts.empty() ? patch.contour : patch.parts[k];
+    for (std::size_t i = 1; i + 1 < q.size(); ++i) {
+      const double area = 0.5 * glm::dot(glm::cross(q[i] - q[0], q[i + 1] - q[0]), patch.normal);
+      if (rest < area || (i + 2 == q.size() && k + 1 == parts)) {
+        const double root = std::sqrt(std::clamp(area > 0.0 ? rest / area : 0.0, 0.0, 1.0));
+        return q[0] + root * (1.0 - v) * (q[i] - q[0]) + root * v * (q[i + 1] - q[0]);
+      }
+      rest -= area;
     }
-    rest -= area;
   }
   return patch.centre;
 }

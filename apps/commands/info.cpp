@@ -42,10 +42,23 @@ std::string materials(const radiosity::Scene& scene) {
   return out + and_more(scene.materials.size());
 }
 
-std::string objects(const SceneFile& file) {
+// Sheets of which something is left.
+std::size_t surfaces(const radiosity::Prepared& prepared) {
+  std::size_t count = 0;
+  for (const radiosity::Surface& surface : prepared.surfaces) {
+    std::vector<bool> exists(surface.object->sheet_count(), false);
+    for (const brep::FaceId f : brep::faces(surface.brep)) {
+      const std::uint32_t sheet = surface.brep.data(f).sheet;
+      if (sheet != brep::no_sheet) { exists[sheet] = true; }
+    }
+    count += static_cast<std::size_t>(std::count(exists.begin(), exists.end(), true));
+  }
+  return count;
+}
+
+std::string objects(const SceneFile& file, const radiosity::Prepared& prepared) {
   const radiosity::Scene& scene = file.scene;
-  std::string out =
-      "objects: " + std::to_string(scene.objects.size()) + " with " + std::to_string(radiosity::surfaces(scene).size()) + " surfaces\n";
+  std::string out = "objects: " + std::to_string(scene.objects.size()) + " with " + std::to_string(surfaces(prepared)) + " surfaces\n";
   for (std::size_t i = 0; i < scene.objects.size() && i < most; ++i) {
     const radiosity::SceneObject& o = scene.objects[i];
     const auto first = o.material.front();
@@ -72,7 +85,7 @@ std::string cameras(const SceneFile& file) {
 std::string plan(const radiosity::Prepared& prepared) {
   const radiosity::Plan& plan = prepared.plan;
   std::size_t faces = 0;
-  for (const radiosity::Surface& surface : prepared.surfaces) { faces += radiosity::radiating_faces(surface); }
+  for (const radiosity::Surface& surface : prepared.surfaces) { faces += radiosity::input_faces(surface).size(); }
   std::string out = "input faces: " + std::to_string(faces) + "\n";
   out += std::string("closed: ") + (plan.closed ? "proven, no light leaves the scene\n" : "not proven\n");
   out +=
@@ -84,8 +97,8 @@ std::string plan(const radiosity::Prepared& prepared) {
 
 std::string summary(const SceneFile& file, const radiosity::Prepared& prepared, const std::string& name) {
   const raycast::Box bounds = scene_bounds(file.scene);
-  return name + "\n" + "bounds: " + triple(bounds.lo) + "  to  " + triple(bounds.hi) + "\n" + materials(file.scene) + objects(file) +
-         cameras(file) + plan(prepared);
+  return name + "\n" + "bounds: " + triple(bounds.lo) + "  to  " + triple(bounds.hi) + "\n" + materials(file.scene) +
+         objects(file, prepared) + cameras(file) + plan(prepared);
 }
 
 }  // namespace

@@ -92,13 +92,14 @@ bool study_scene(const std::string& path, const StudyOptions& options, const rad
 
   study::MeasureOptions measuring;
   measuring.cpu_seconds_per_run = options.seconds;
+  measuring.dense_leaves = options.dense;
   measuring.finished = [&](const study::Method& method, const study::Run& run) {
     char line[160] = "";
     std::snprintf(line, sizeof line, "  %-20s %-26s %8.3f s  %s", method.name.c_str(), run.setting.c_str(), run.cpu_seconds,
                   run.refused.empty() ? percent(run.weighted_error.cells.l2).c_str() : run.refused.c_str());
     progress.say(line);
   };
-  study::measure(file->scene, *truth, study::methods({options.dense, options.threads, 1}), measuring, control, result);
+  study::measure(file->scene, *truth, study::methods({options.threads, 1}), measuring, control, result);
   return !result.methods.empty();
 }
 

@@ -18,7 +18,7 @@ struct StudyOptions {
   std::string folder;
   double seconds = 12.0;       // CPU time of one run
   std::uint64_t paths = 8192;  // a point of the reference
-  std::uint32_t dense = 1000;  // leaves up to which the parts of an error are told apart
+  std::uint32_t dense = 3000;  // leaves up to which the parts of an error are told apart
   bool quick = false;
   bool quiet = false;
   unsigned threads = 0;

@@ -30,7 +30,7 @@ using SheetNames = std::unordered_map<std::string_view, std::uint32_t>;
 
 class Builder {
  public:
-  Builder(const SceneSyntax& syntax, Errors& errors) : syntax_(syntax), errors_(errors) {}
+  Builder(const SceneSyntax& syntax, Errors& errors) : syntax_(syntax), errors_(errors), groups_(syntax, errors) {}
   SceneFile build();
 
  private:
@@ -44,11 +44,12 @@ class Builder {
   void operand_materials(const ObjectSyntax& object, const Name* around, const CsgShape& csg, std::size_t& leaf,
                          std::vector<std::uint32_t>& out);
   std::uint32_t sheet_index(const Name& sheet, const raycast::Object& shape, const SheetNames& names);
-  void place(const Groups& groups);
+  void place();
   void place(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at);
 
   const SceneSyntax& syntax_;
   Errors& errors_;
+  const Groups groups_;
   SceneFile file_;
   std::unordered_map<std::string_view, std::uint32_t> material_index_;
   std::vector<std::string_view> material_names_;
@@ -64,8 +65,7 @@ SceneFile Builder::build() {
     unique_names(group.items);
     make(group.items);
   }
-  const Groups groups(syntax_, errors_);
-  if (errors_.count() == 0) { place(groups); }
+  if (errors_.count() == 0) { place(); }
   if (errors_.count() == 0 && file_.scene.objects.empty()) {
     errors_.add(
         {1, 1},
@@ -140,10 +140,12 @@ Made Builder::make(const ObjectSyntax& object) {
     if (made.shape != nullptr) { made.material = sheet_materials(object, *made.shape); }
     return made;
   }
-  const CsgShape csg = make_csg(object, errors_);
+  ObjectSyntax whole = object;
+  if (!groups_.expand(whole, errors_)) { return {}; }
+  const CsgShape csg = make_csg(whole, errors_);
   Made made{csg.whole, {}};
   std::size_t leaf = 0;
-  operand_materials(object, nullptr, csg, leaf, made.material);
+  operand_materials(whole, nullptr, csg, leaf, made.material);
   return made;
 }
 
@@ -219,7 +221,7 @@ std::vector<std::uint32_t> Builder::sheet_materials(const ObjectSyntax& object, 
 }
 
 // Walks the uses with its own stack, in the order of the file.
-void Builder::place(const Groups& groups) {
+void Builder::place() {
   struct Level {
     const std::vector<Item>* items;
     std::size_t next;
@@ -240,7 +242,7 @@ void Builder::place(const Groups& groups) {
     const auto* use = std::get_if<UseSyntax>(&item);
     if (levels.size() == 1) {
       at = std::visit([](const auto& it) { return it.name.place; }, item);
-      placed += use == nullptr ? 1 : groups.size(*groups.find(*use));
+      placed += use == nullptr ? 1 : groups_.size(*groups_.find(use->group));
       if (placed > max_objects) {
         errors_.add(at, "the scene grows beyond " + std::to_string(max_objects) + " objects here");
         return;
@@ -250,7 +252,7 @@ void Builder::place(const Groups& groups) {
       place(std::get<ObjectSyntax>(item), level.prefix, level.placement, at);
     } else {
       levels.push_back(
-          {&groups.find(*use)->items, 0, level.prefix + use->name.text + ".", raycast::compose(level.placement, use->placement)});
+          {&groups_.find(use->group)->items, 0, level.prefix + use->name.text + ".", raycast::compose(level.placement, use->placement)});
     }
   }
 }

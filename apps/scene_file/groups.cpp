@@ -25,12 +25,12 @@ Groups::Groups(const SceneSyntax& syntax, Errors& errors) : syntax_(&syntax), en
   }
   for (const Item& item : syntax.items) {
     const auto* use = std::get_if<UseSyntax>(&item);
-    if (use != nullptr && find(*use) == nullptr) { report_unknown(*use, errors); }
+    if (use != nullptr && find(use->group) == nullptr) { report_unknown(use->group, errors); }
   }
 }
 
-const GroupSyntax* Groups::find(const UseSyntax& use) const {
-  const auto found = index_.find(use.group.text);
+const GroupSyntax* Groups::find(const Name& group) const {
+  const auto found = index_.find(group.text);
   return found == index_.end() ? nullptr : &syntax_->groups[found->second];
 }
 
@@ -38,12 +38,59 @@ std::size_t Groups::size(const GroupSyntax& group) const {
   return entries_[static_cast<std::size_t>(&group - syntax_->groups.data())].size;
 }
 
-void Groups::report_unknown(const UseSyntax& use, Errors& errors) const {
-  std::vector<std::string_view> known;
-  for (const GroupSyntax& group : syntax_->groups) {
-    if (known.size() < 1000) { known.push_back(group.name.text); }
+bool Groups::expand(ObjectSyntax& syntax, Errors& errors) const {
+  Expansion expansion;
+  return expand(syntax, 0, expansion, errors);
+}
+
+bool Groups::expand(ObjectSyntax& syntax, std::size_t depth, Expansion& expansion, Errors& errors) const {
+  if (depth == max_use_depth) {
+    errors.add(syntax.name.place, "unions, intersections and differences are nested deeper than " + std::to_string(max_use_depth));
+    return false;
   }
-  errors.add(use.group.place, "there is no group " + quoted(use.group.text) + suggestion(use.group.text, known));
+  if (!expansion.open.empty() && ++expansion.operands > max_used_operands) {
+    errors.add(syntax.name.place, "the solid grows beyond " + std::to_string(max_used_operands) + " operands from groups here");
+    return false;
+  }
+  if (syntax.group) {
+    const GroupSyntax* const group = find(*syntax.group);
+    if (group == nullptr) {
+      report_unknown(*syntax.group, errors);
+      return false;
+    }
+    if (std::find(expansion.open.begin(), expansion.open.end(), group) != expansion.open.end()) {
+      errors.add(syntax.group->place, "cyclic use: " + quoted(syntax.group->text) + " takes part in itself");
+      return false;
+    }
+    expansion.open.push_back(group);
+    for (const Item& item : group->items) {
+      if (const auto* object = std::get_if<ObjectSyntax>(&item)) {
+        if (!object->sound) { return false; }
+        syntax.operands.push_back(*object);
+      } else {
+        const UseSyntax& use = std::get<UseSyntax>(item);
+        ObjectSyntax inner;
+        inner.kind = Kind::unite;
+        inner.name = use.name;
+        inner.placement = use.placement;
+        inner.group = use.group;
+        syntax.operands.push_back(std::move(inner));
+      }
+    }
+  }
+  for (ObjectSyntax& operand : syntax.operands) {
+    if (!expand(operand, depth + 1, expansion, errors)) { return false; }
+  }
+  if (syntax.group) { expansion.open.pop_back(); }
+  return true;
+}
+
+void Groups::report_unknown(const Name& group, Errors& errors) const {
+  std::vector<std::string_view> known;
+  for (const GroupSyntax& other : syntax_->groups) {
+    if (known.size() < 1000) { known.push_back(other.name.text); }
+  }
+  errors.add(group.place, "there is no group " + quoted(group.text) + suggestion(group.text, known));
 }
 
 // Depth-first with its own stack; a group is done after all that it uses.
@@ -88,7 +135,7 @@ void Groups::visit(std::size_t root, Errors& errors) {
       entry.depth = std::max(entry.depth, used.depth + 1);
       if (used.depth == max_use_depth) { errors.add(use->group.place, "groups are nested deeper than " + std::to_string(max_use_depth)); }
     } else if (use != nullptr) {
-      report_unknown(*use, errors);
+      report_unknown(use->group, errors);
     }
     entry.size = std::min(entry.size + inner, max_objects + 1);
   }

@@ -2,7 +2,8 @@
 #pragma once
 
 // Which group uses which. A group that uses itself, however indirectly, is refused; so is nesting beyond
-// max_use_depth and a scene that would grow beyond max_objects: both are found by counting, before anything is placed.
+// max_use_depth and a scene that would grow beyond max_objects: both are found by counting, before anything is placed. An operand that is a
+// use stands for the union of what is in the group.
 
 #include <cstddef>
 #include <string_view>
@@ -14,15 +15,22 @@
 
 namespace apps::scene_file {
 
+// Operands that uses may give one solid: uses of uses multiply, and the solid is evaluated while the file is read.
+inline constexpr std::size_t max_used_operands = 2000;
+
 class Groups {
  public:
   // Reports duplicate names, empty groups, uses of unknown groups, cycles and nesting that is too deep.
   Groups(const SceneSyntax& syntax, Errors& errors);
 
-  // The group that `use` names, or null.
-  [[nodiscard]] const GroupSyntax* find(const UseSyntax& use) const;
+  // The group of this name, or null.
+  [[nodiscard]] const GroupSyntax* find(const Name& group) const;
   // Objects and uses that one use of the group places, counting the use; saturates above max_objects.
   [[nodiscard]] std::size_t size(const GroupSyntax& group) const;
+
+  // Gives the uses among the operands of a union, intersection or difference, and among their operands, the objects of their groups.
+  // False after an error: unknown groups, cycles, nesting that is too deep, too many operands.
+  bool expand(ObjectSyntax& syntax, Errors& errors) const;
 
  private:
   enum class State : unsigned char { unseen, open, done };
@@ -32,7 +40,12 @@ class Groups {
     std::size_t depth = 1;
   };
   void visit(std::size_t root, Errors& errors);
-  void report_unknown(const UseSyntax& use, Errors& errors) const;
+  struct Expansion {
+    std::vector<const GroupSyntax*> open;  // around the operand
+    std::size_t operands = 0;
+  };
+  bool expand(ObjectSyntax& syntax, std::size_t depth, Expansion& expansion, Errors& errors) const;
+  void report_unknown(const Name& group, Errors& errors) const;
 
   const SceneSyntax* syntax_;
   std::unordered_map<std::string_view, std::size_t> index_;

@@ -22,9 +22,9 @@ constexpr std::array<std::string_view, 10> superquadric_words = {"center", "radi
 constexpr std::array<std::string_view, 8> mesh_words = {"vertex", "face", "material", "sheet", "move", "rotate", "scale", "inside"};
 
 // What may stand in a union, intersection or difference: clauses first, then operands.
-constexpr std::array<std::string_view, most_words> csg_words = {"material", "move",         "rotate",     "scale",   "inside",       "box",
-                                                                "sphere",   "cylinder",     "cone",       "torus",   "superquadric", "mesh",
-                                                                "union",    "intersection", "difference", "polygon", "disk"};
+constexpr std::array<std::string_view, most_words> csg_words = {"material", "move",         "rotate",     "scale", "inside",       "box",
+                                                                "sphere",   "cylinder",     "cone",       "torus", "superquadric", "mesh",
+                                                                "union",    "intersection", "difference", "use",   "polygon",      "disk"};
 
 // Clauses that may stand several times; any other one is refused the second time.
 constexpr std::array<std::string_view, 6> repeatable = {"vertex", "face", "sheet", "move", "rotate", "scale"};
@@ -63,6 +63,8 @@ Words clause_words(Kind kind) {
 }
 
 bool is_repeatable(std::string_view word) { return contains(repeatable, word); }
+
+bool is_operand(std::string_view word) { return word == "use" || kind_of(word).has_value(); }
 
 bool contains(Words words, std::string_view word) { return std::find(words.begin(), words.end(), word) != words.end(); }
 

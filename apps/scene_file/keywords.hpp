@@ -22,13 +22,16 @@ inline constexpr std::array<std::string_view, 6> camera_words = {"eye", "target"
 inline constexpr std::array<std::string_view, 3> use_words = {"move", "rotate", "scale"};
 
 // No statement has more clauses than this.
-inline constexpr std::size_t most_words = 17;
+inline constexpr std::size_t most_words = 18;
 
 // What may follow the name of an object: its clauses; of unions, intersections and differences operands, too.
 [[nodiscard]] Words clause_words(Kind kind);
 
 // May the clause stand several times in one statement?
 [[nodiscard]] bool is_repeatable(std::string_view word);
+
+// Does the word begin an operand, where operands may stand?
+[[nodiscard]] bool is_operand(std::string_view word);
 
 [[nodiscard]] bool contains(Words words, std::string_view word);
 

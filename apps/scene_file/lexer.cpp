@@ -53,6 +53,11 @@ std::vector<SceneError> Errors::take_sorted() {
   std::stable_sort(list_.begin(), list_.end(), [](const SceneError& a, const SceneError& b) {
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
   });
+  // What is in a group is looked at once for every use as an operand.
+  const auto same = [](const SceneError& a, const SceneError& b) {
+    return a.place.line == b.place.line && a.place.column == b.place.column && a.sentence == b.sentence;
+  };
+  list_.erase(std::unique(list_.begin(), list_.end(), same), list_.end());
   return std::move(list_);
 }
 

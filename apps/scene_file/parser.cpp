@@ -32,7 +32,7 @@ void Parser::statement(SceneSyntax& out) {
   } else if (word == "define") {
     group(out);
   } else if (word == "use") {
-    use(out.items);
+    if (auto read = use()) { out.items.emplace_back(std::move(*read)); }
   } else if (auto read = object(*kind_of(word))) {
     out.items.emplace_back(std::move(*read));
   }
@@ -81,10 +81,10 @@ void Parser::clauses(std::string_view statement, Words known, Clause&& clause) {
         block = token_.place;
         next();
       }
-    } else if (at(Token::Kind::word) && contains(known, token_.text) && (block || !kind_of(token_.text))) {
+    } else if (at(Token::Kind::word) && contains(known, token_.text) && (block || !is_operand(token_.text))) {
       const Token keyword = token_;
       std::optional<Place>& earlier = given[static_cast<std::size_t>(std::find(known.begin(), known.end(), keyword.text) - known.begin())];
-      line_begins = kind_of(keyword.text).has_value();  // an operand reads the end of its line, too
+      line_begins = is_operand(keyword.text);  // an operand reads the end of its line, too
       if (earlier && !line_begins && !is_repeatable(keyword.text)) {
         error(keyword.place, quoted(keyword.text) + " is given twice; the first one stands at " + to_string(*earlier));
       }
@@ -155,6 +155,8 @@ std::optional<ObjectSyntax> Parser::object(Kind kind, std::size_t depth) {
   clauses(to_string(kind), clause_words(kind), [&](const Token& keyword) {
     if (const auto operand_kind = kind_of(keyword.text)) {
       operand(*operand_kind, syntax, depth + 1);
+    } else if (keyword.text == "use") {
+      operand_use(syntax);
     } else {
       object_clause(keyword, syntax);
     }
@@ -171,6 +173,18 @@ void Parser::operand(Kind kind, ObjectSyntax& out, std::size_t depth) {
     return expect_end_of_line();
   }
   if (auto read = object(kind, depth)) { out.operands.push_back(std::move(*read)); }
+}
+
+void Parser::operand_use(ObjectSyntax& out) {
+  auto read = use();
+  if (!read) { return; }
+  ObjectSyntax syntax;
+  syntax.kind = Kind::unite;
+  syntax.name = std::move(read->name);
+  syntax.placement = read->placement;
+  syntax.sound = read->sound;
+  syntax.group = std::move(read->group);
+  out.operands.push_back(std::move(syntax));
 }
 
 // What each kind of object cannot be without. Operands may get their material from around.
@@ -204,7 +218,8 @@ void Parser::require_clauses(const ObjectSyntax& object, bool operand) {
   if (!operand) { require(object.material.has_value() || !object.sheets.empty(), "'material'"); }
 }
 
-void Parser::use(std::vector<Item>& out) {
+// Nothing when there is no group or no name.
+std::optional<UseSyntax> Parser::use() {
   const std::size_t before = errors_.count();
   UseSyntax syntax;
   bool named = name("group", syntax.group);
@@ -215,11 +230,12 @@ void Parser::use(std::vector<Item>& out) {
   if (named) { next(); }
   if (!named || !name("use", syntax.name)) {
     skip_statement();
-    return expect_end_of_line();
+    expect_end_of_line();
+    return std::nullopt;
   }
   clauses("use", use_words, [&](const Token& keyword) { placement_clause(keyword, syntax.placement); });
   syntax.sound = errors_.count() == before;
-  out.emplace_back(std::move(syntax));
+  return syntax;
 }
 
 void Parser::group(SceneSyntax& out) {
@@ -248,7 +264,7 @@ void Parser::group(SceneSyntax& out) {
     } else if (found.kind == Token::Kind::word && (kind || found.text == "use")) {
       next();
       if (!kind) {
-        use(syntax.items);
+        if (auto read = use()) { syntax.items.emplace_back(std::move(*read)); }
       } else if (auto read = object(*kind)) {
         syntax.items.emplace_back(std::move(*read));
       }

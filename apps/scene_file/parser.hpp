@@ -32,7 +32,7 @@ class Parser {
   void camera(SceneSyntax& out);
   void group(SceneSyntax& out);
   [[nodiscard]] std::optional<ObjectSyntax> object(Kind kind, std::size_t depth = 0);
-  void use(std::vector<Item>& out);
+  [[nodiscard]] std::optional<UseSyntax> use();
   void unknown_statement();
 
   // Clauses of a statement, on its line and in its block; `clause` reads what follows the word `keyword`.
@@ -42,6 +42,7 @@ class Parser {
   void camera_clause(const Token& keyword, CameraSyntax& out);
   void object_clause(const Token& keyword, ObjectSyntax& out);
   void operand(Kind kind, ObjectSyntax& out, std::size_t depth);
+  void operand_use(ObjectSyntax& out);
   void require_clauses(const ObjectSyntax& object, bool operand);
   void sheet_clause(ObjectSyntax& out);
   void face_clause(const Token& keyword, ObjectSyntax& out);

@@ -76,6 +76,7 @@ struct ObjectSyntax {
   std::vector<std::uint32_t> corners;
   std::vector<FaceSyntax> faces;
   std::vector<ObjectSyntax> operands;
+  std::optional<Name> group;  // of a union that is written as a use, among operands: its operands are what is in the group
 };
 
 struct UseSyntax {

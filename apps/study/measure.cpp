@@ -79,26 +79,34 @@ Measured errors_of_run(const radiosity::Scene& scene, const TrueRadiosity& truth
 }
 
 // A run with a result, or with the reason why there is none.
-Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, const Setting& setting, double limit,
+Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, const Setting& setting, const MeasureOptions& options,
                   const radiosity::Control& control, std::vector<radiosity::LeftOut>& left_out) {
   constexpr double brief = 0.3;  // seconds; what takes less is run three times, and the shortest time counts
   radiosity::Outcome outcome;
   for (int k = 0; k < 3; ++k) {
-    const RunLimit run_limit{limit, control};
+    const RunLimit run_limit{options.cpu_seconds_per_run, control};
     radiosity::Outcome again = setting.run(scene, run_limit.control());
     if (!again.solution) {
       Measured none;
       none.run.setting = setting.text;
       const bool stopped = again.failure.kind == radiosity::Failure::Kind::cancelled;
-      none.run.refused = stopped ? "takes more than " + seconds_text(limit) + " s of CPU time" : again.failure.sentences.front();
+      none.run.refused =
+          stopped ? "takes more than " + seconds_text(options.cpu_seconds_per_run) + " s of CPU time" : again.failure.sentences.front();
       return none;
     }
     const double before = outcome.solution ? outcome.solution->audit.cpu_seconds : std::numeric_limits<double>::infinity();
     if (again.solution->audit.cpu_seconds < before) { outcome = std::move(again); }
     if (outcome.solution->audit.cpu_seconds > brief) { break; }
   }
-  left_out = outcome.solution->audit.left_out;
-  return errors_of_run(scene, truth, *outcome.solution, setting.text);
+  radiosity::Solution& solution = *outcome.solution;
+  if (solution.comparison->dense.empty() && solution.audit.leaves <= options.dense_leaves) {
+    radiosity::Outcome dense = setting.dense(scene, solution, {control.cancel, {}, {}});
+    if (dense.solution && dense.solution->hierarchy.size() == solution.hierarchy.size()) {
+      solution.comparison->dense = std::move(dense.solution->comparison->dense);
+    }
+  }
+  left_out = solution.audit.left_out;
+  return errors_of_run(scene, truth, solution, setting.text);
 }
 
 // The run whose picture comes nearest to an error of one per cent.
@@ -149,7 +157,7 @@ void measure(const radiosity::Scene& scene, const TrueRadiosity& truth, const st
         measured.run.setting = setting.text;
         measured.run.refused = "not tried: a coarser setting has no result";
       } else {
-        measured = run_once(scene, truth, setting, options.cpu_seconds_per_run, control, left_out);
+        measured = run_once(scene, truth, setting, options, control, left_out);
         if (control.cancelled()) { break; }
         if (options.finished) { options.finished(method, measured.run); }
       }

@@ -16,6 +16,7 @@ namespace study {
 
 struct MeasureOptions {
   double cpu_seconds_per_run = 12.0;  // a run that takes longer is stopped, and finer settings of its method are not tried
+  std::uint32_t dense_leaves = 3000;  // the parts of an error are told apart on at most so many leaves
   // Called when a run ends: method, run.
   std::function<void(const Method&, const Run&)> finished;
 };

@@ -2,6 +2,7 @@
 #include "apps/study/methods.hpp"
 
 #include <charconv>
+#include <limits>
 #include <utility>
 
 #include <radiosity/uniform.hpp>
@@ -13,6 +14,7 @@ using radiosity::Control;
 using radiosity::Options;
 using radiosity::Outcome;
 using radiosity::Scene;
+using radiosity::Solution;
 
 std::string text(const char* name, double value) {
   char digits[32] = "";
@@ -23,10 +25,16 @@ std::string text(const char* name, double value) {
 Options common(const MethodOptions& study) {
   Options options;
   options.audit_points = 0;
-  options.compare = study.dense_leaves;
+  options.compare = 0;
   options.threads = study.threads;
   options.seed = study.seed;
   return options;
+}
+
+// The same run with a dense solution on its leaves.
+Outcome run_dense(const Scene& scene, Options options, const Control& control) {
+  options.compare = std::numeric_limits<std::uint32_t>::max();
+  return radiosity::solve(scene, options, control);
 }
 
 // A hierarchical method whose settings are values of one option.
@@ -37,7 +45,8 @@ MethodPlan hierarchical(std::string name, std::string summary, const char* optio
     Options options = base;
     set(options, value);
     method.settings.push_back(
-        {text(option, value), [options](const Scene& scene, const Control& control) { return radiosity::solve(scene, options, control); }});
+        {text(option, value), [options](const Scene& scene, const Control& control) { return radiosity::solve(scene, options, control); },
+         [options](const Scene& scene, const Solution&, const Control& control) { return run_dense(scene, options, control); }});
   }
   return method;
 }
@@ -53,21 +62,12 @@ void set_target(Options& options, double target) {
   options.target = target;
 }
 
-// The rounds with their audits are what the method costs. The comparison is made on the last round alone, run again.
-Outcome run_to_error(const Scene& scene, Options options, const Control& control) {
-  const std::optional<std::uint32_t> compare = std::exchange(options.compare, std::nullopt);
+// The rounds with their audits are what the method costs.
+Outcome run_to_error(const Scene& scene, const Options& options, const Control& control) {
   Outcome outcome = radiosity::solve(scene, options, control);
-  if (!outcome.solution || !compare) { return outcome; }
-  options.error.reset();
-  options.target = outcome.solution->audit.target;
-  options.audit_points = 0;
-  options.compare = compare;
-  Outcome again = radiosity::solve(scene, options, control);
-  if (!again.solution) { return again; }
-  outcome.solution->comparison = std::move(again.solution->comparison);
+  if (!outcome.solution) { return outcome; }
   radiosity::Audit& audit = outcome.solution->audit;
-  audit.cpu_seconds = 0.0;
-  for (const radiosity::StageTime& stage : audit.stages) { audit.cpu_seconds += stage.cpu_seconds; }
+  for (const radiosity::StageTime& stage : audit.stages) { audit.cpu_seconds += stage.name == "audit" ? stage.cpu_seconds : 0.0; }
   return outcome;
 }
 
@@ -82,8 +82,16 @@ MethodPlan accuracy_target(const MethodOptions& study) {
     options.refinement = radiosity::Refinement::a_posteriori;
     options.audit_points = 1000;
     options.error = error;
-    method.settings.push_back(
-        {text("error", error), [options](const Scene& scene, const Control& control) { return run_to_error(scene, options, control); }});
+    Options last = options;  // of the rounds
+    last.error.reset();
+    last.audit_points = 0;
+    method.settings.push_back({text("error", error),
+                               [options](const Scene& scene, const Control& control) { return run_to_error(scene, options, control); },
+                               [last](const Scene& scene, const Solution& found, const Control& control) {
+                                 Options round = last;
+                                 round.target = found.audit.target;
+                                 return run_dense(scene, round, control);
+                               }});
   }
   return method;
 }
@@ -96,14 +104,19 @@ MethodPlan uniform(std::string name, std::string summary, const MethodOptions& s
     options.solver = solver;
     options.max_area = 1.0 / leaves;
     options.unshot = unshot /= 2.0;
-    options.compare = study.dense_leaves;
+    options.compare = 0;
     options.threads = study.threads;
     options.seed = study.seed;
+    radiosity::UniformOptions matrix = options;  // the dense solution of this mesh
+    matrix.solver = radiosity::UniformSolver::gauss_seidel;
     std::string setting = "area 1/" + std::to_string(leaves);
     if (solver == radiosity::UniformSolver::progressive) { setting += text(", unshot", unshot); }
-    method.settings.push_back({std::move(setting), [options](const Scene& scene, const Control& control) {
-                                 return radiosity::solve_uniform(scene, options, control);
-                               }});
+    method.settings.push_back(
+        {std::move(setting),
+         [options](const Scene& scene, const Control& control) { return radiosity::solve_uniform(scene, options, control); },
+         [matrix](const Scene& scene, const Solution&, const Control& control) {
+           return radiosity::solve_uniform(scene, matrix, control);
+         }});
   }
   return method;
 }

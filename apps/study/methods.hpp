@@ -14,7 +14,10 @@ namespace study {
 
 struct Setting {
   std::string text;  // "epsilon 0.01"
+  // Timed; the solution brings a comparison, as a rule without a dense solution.
   std::function<radiosity::Outcome(const radiosity::Scene&, const radiosity::Control&)> run;
+  // A solution with the same leaves as `found`, which this setting has given, whose comparison has a dense solution.
+  std::function<radiosity::Outcome(const radiosity::Scene&, const radiosity::Solution& found, const radiosity::Control&)> dense;
 };
 
 struct MethodPlan {
@@ -24,7 +27,6 @@ struct MethodPlan {
 };
 
 struct MethodOptions {
-  std::uint32_t dense_leaves = 1000;  // the parts of an error are told apart on at most so many leaves
   unsigned threads = 0;
   std::uint64_t seed = 1;
 };

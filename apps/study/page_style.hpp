@@ -9,7 +9,7 @@ namespace study {
 inline constexpr const char* page_style = R"~(
 :root{--paper:#fff;--ink:#222;--pale:#666;--faint:#ddd;--strong:#f0f4f8}
 *{box-sizing:border-box}
-body{margin:0 auto;padding:28px 24px 60px;max-width:1060px;color:var(--ink);background:var(--paper);
+body{margin:0 auto;padding:28px 24px 60px;max-width:1120px;color:var(--ink);background:var(--paper);
  font:16px/1.5 Georgia,'Liberation Serif','DejaVu Serif',serif}
 h1{font-size:30px;line-height:1.2;margin:0 0 6px}
 h2{font-size:23px;margin:48px 0 4px;padding-top:14px;border-top:2px solid var(--ink)}
@@ -33,7 +33,7 @@ table{border-collapse:collapse;font:13px/1.35 'Helvetica Neue',Arial,'Liberation
  border-top:1.5px solid var(--ink);border-bottom:1.5px solid var(--ink)}
 caption{text-align:left;font:14.5px/1.45 Georgia,'Liberation Serif','DejaVu Serif',serif;color:var(--pale);padding-bottom:6px;max-width:66em}
 th{font-weight:600;vertical-align:bottom;border-bottom:1px solid var(--ink)}
-th,td{padding:2px 8px;text-align:right}td{white-space:nowrap}
+th,td{padding:2px 6px;text-align:right}td{white-space:nowrap}
 th.name,td.name{text-align:left}
 tr.begins td{border-top:1px solid var(--faint)}
 tr.front td:nth-child(2)::after{content:' \2605'}

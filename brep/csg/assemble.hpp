@@ -111,7 +111,12 @@ class Assemble {
       if (root != f && keep_[f]) next_of[f] = std::exchange(next_of[root], f);
     }
     std::vector<std::uint32_t> new_half(work_.halves.size(), invalid_index), new_point(work_.points.size(), invalid_index), source;
-    source.reserve(work_.halves.size());
+    std::size_t faces = 0, halves = 0;
+    for (std::uint32_t f = 0; f < work_.faces.size(); ++f) {
+      if (keep_[f]) ++faces, halves += work_.faces[f].count;
+    }
+    result.faces.reserve(faces);
+    source.reserve(halves);
     for (std::uint32_t f = 0; f < work_.faces.size(); ++f) {
       if (!keep_[f] || groups_.find(f) != f) continue;
       Face face{work_.faces[f].plane, static_cast<std::uint32_t>(source.size()), 0, work_.faces[f].attribute, work_.faces[f].box};
@@ -133,6 +138,7 @@ class Assemble {
       result.faces.push_back(face);
     }
     result.halves.resize(source.size());
+    result.points.reserve(source.size() / 5);  // a sixth in meshes of triangles
     std::uint32_t f = 0;
     for (std::uint32_t i = 0; i < source.size(); ++i) {
       while (i >= result.faces[f].first + result.faces[f].count) ++f;

@@ -27,6 +27,7 @@ class Labels {
   void run(const Radial& radial) {
     known_.assign(work_.faces.size(), 0);
     sides.assign(work_.faces.size(), Side::outside);
+    waiting_.reserve(work_.faces.size());
     common_.assign(work_.halves.size(), 0);
     for (const Spine& s : radial.spines) {
       common_[s.half] = 1;
@@ -53,9 +54,8 @@ class Labels {
     waiting_.push_back(f);
   }
   void spread() {
-    while (!waiting_.empty()) {
-      const std::uint32_t f = waiting_.back();
-      waiting_.pop_back();
+    for (; next_ < waiting_.size(); ++next_) {
+      const std::uint32_t f = waiting_[next_];
       const WorkFace& face = work_.faces[f];
       for (std::uint32_t i = 0; i < face.count; ++i) {
         const std::uint32_t h = work_.half(face, i);
@@ -100,7 +100,8 @@ class Labels {
   const PointTable& contacts_;
   bool b_reversed_;
   std::vector<std::uint8_t> known_, common_;
-  std::vector<std::uint32_t> waiting_;
+  std::vector<std::uint32_t> waiting_;  // the faces in the order in which they got their labels
+  std::size_t next_ = 0;                // the first whose neighbours have none from it
 };
 
 }  // namespace brep::csg::detail

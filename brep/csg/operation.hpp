@@ -54,6 +54,10 @@ class Arrangement {
  private:
   static Work both(const PlaneTable& planes, const Boundary& a, const Boundary& b, bool reverse_b, std::uint32_t attributes_of_a) {
     Work w(planes);
+    const auto room = [](auto& list, std::size_t given) { list.reserve(given + given / 8 + 64); };  // an eighth for what the cut adds
+    room(w.points, a.points.size() + b.points.size());
+    room(w.halves, a.halves.size() + b.halves.size());
+    room(w.faces, a.faces.size() + b.faces.size());
     w.add(a, false, false, 0);
     w.add(b, true, reverse_b, attributes_of_a);
     return w;

@@ -60,7 +60,6 @@ struct Work {
         added[given.next].prev = h0 + h;
       }
     }
-    faces.reserve(f0 + b.faces.size());
     for (const Face& f : b.faces) {
       faces.push_back({reversed ? f.plane.flipped() : f.plane, h0 + f.first, f.count, attributes + f.attribute, of_b, false, f.box});
     }

@@ -4,26 +4,16 @@
 // The boundary of a CSG tree as polygons: every leaf is approximated, brep/csg cuts and glues the approximations exactly, faces that are not
 // convex (a wall with windows) are cut by diagonals, and the vertices are put back from the grid onto the true sheets.
 //
-// Each face carries the sheet that it lies on, numbered as the tree numbers them. Putting back restores the coordinates that the user wrote:
-// a vertex of three planes is their common point, not the nearest point of the grid. Where chords of a curved sheet meet another one the
-// vertex moves to the curve in which the two sheets themselves meet. Where that would turn a sliver over, it stays on the chords.
+// Each face carries the sheet that it lies on, numbered as the tree numbers them. How vertices are put back: csg_place.hpp.
 
 #include <brep/builder.hpp>
 #include <brep/csg/csg.hpp>
 #include <brep/geometry.hpp>
 #include <brep/split.hpp>
 
-#include "csg_tree.hpp"
+#include "csg_place.hpp"
 
 namespace raycast {
-
-struct CsgVertex {
-  glm::dvec3 position{0.0};
-};
-struct CsgFace {
-  std::uint32_t sheet = brep::no_sheet;
-};
-using CsgBRep = brep::BRep<CsgVertex, brep::NoData, CsgFace>;
 
 struct CsgBoundary {
   CsgBRep brep;       // without faces when nothing is left
@@ -36,22 +26,6 @@ struct CsgBoundaryResult {
 };
 
 namespace detail {
-
-// Moves p towards all planes at once: the shortest way to their common points; those beyond the third independent one are left out.
-inline glm::dvec3 towards(const glm::dvec3& p, const std::vector<SurfacePoint>& planes) {
-  glm::dvec3 axis[3], way(0.0);
-  int count = 0;
-  for (const SurfacePoint& plane : planes) {
-    glm::dvec3 n = plane.normal;
-    for (int i = 0; i < count; ++i) n -= glm::dot(n, axis[i]) * axis[i];
-    const double length = glm::length(n);
-    if (!(length > 1e-3)) continue;  // nearly parallel to what is there: its position along them is not known
-    axis[count] = n / length;
-    way += (glm::dot(plane.normal, plane.position - p - way) / length) * axis[count];
-    if (++count == 3) break;
-  }
-  return p + way;
-}
 
 // The rotation in a placement that keeps angles and does not mirror: what its first column and the plane of the first two say.
 inline std::optional<glm::dmat3> rotation_of(const glm::dmat3& m) {
@@ -235,7 +209,7 @@ class CsgEvaluation {
     out = brep::csg::to_brep<CsgBRep>(exact.solid);
     for (const brep::VertexId v : brep::vertices(out)) out.data(v).position = exact.frame * out.data(v).position;
     if (!cut_into_convex_parts(out)) return false;
-    put_back(out, near_);
+    CsgPlacement(tree_, tolerance_).put_back(out, near_);
     return true;
   }
 
@@ -250,59 +224,6 @@ class CsgEvaluation {
         return false;
       }
     return true;
-  }
-
-  // `near`: a vertex of flat sheets is moved no farther, because it is off them only by the grid.
-  void put_back(CsgBRep& brep, double near) {
-    std::vector<std::pair<brep::VertexId, glm::dvec3>> moved;
-    std::vector<brep::FaceId> slivers;
-    std::vector<std::uint32_t> sheets;
-    for (const brep::VertexId v : brep::vertices(brep)) {
-      sheets.clear();
-      bool curved = false;
-      for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) {
-        const std::uint32_t sheet = brep.data(brep.face(h)).sheet;
-        if (std::find(sheets.begin(), sheets.end(), sheet) == sheets.end()) sheets.push_back(sheet);
-        curved = curved || !tree_.flat_sheet(sheet);
-      }
-      std::sort(sheets.begin(), sheets.end());
-      const glm::dvec3 before = brep.data(v).position;
-      const glm::dvec3 after = onto(sheets, before);
-      if (!(glm::length(after - before) <= (curved ? 2 * tolerance_ : 0.0) + near)) continue;
-      brep.data(v).position = after;
-      if (curved) moved.push_back({v, before});
-    }
-    // Every round takes at least one vertex back, so this ends.
-    for (bool again = true; again;) {
-      again = false;
-      for (auto& [v, before] : moved) {
-        if (brep.data(v).position == before) continue;
-        bool turned = false;
-        for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) turned = turned || turned_over(brep, brep.face(h));
-        if (!turned) continue;
-        brep.data(v).position = before;
-        again = true;
-      }
-    }
-  }
-
-  [[nodiscard]] glm::dvec3 onto(const std::vector<std::uint32_t>& sheets, glm::dvec3 p) const {
-    std::vector<SurfacePoint> planes;
-    for (int round = 0; round < 8; ++round) {
-      const glm::dvec3 before = p;
-      planes.clear();
-      for (const std::uint32_t s : sheets) planes.push_back(tree_.project(s, p));
-      if (round > 0 || planes.size() > 1) p = towards(p, planes);
-      for (const std::uint32_t s : sheets) p = tree_.project(s, p).position;
-      if (p == before) break;
-    }
-    return p;
-  }
-
-  // Does the face look away from the side that its sheet looks to?
-  [[nodiscard]] bool turned_over(const CsgBRep& brep, brep::FaceId f) const {
-    const glm::dvec3 area = brep::vector_area(brep, f), centre = brep.data(brep.vertex(brep.halfedge(f))).position;
-    return !(glm::dot(area, tree_.project(brep.data(f).sheet, centre).normal) > 0.25 * glm::length(area));
   }
 
   const CsgTree& tree_;

@@ -82,7 +82,7 @@ TEST_CASE("the report has its documented keys") {
   CHECK(value["cpu_seconds"]["picture"].number() == 0.1);
   CHECK(value["wall_seconds"]["solve"].number() == 0.25);
   for (const char* const key :
-       {"nodes", "leaves", "links", "rays", "bytes", "energy_balance", "escaped", "residual", "iterations", "exposure"}) {
+       {"polygons", "nodes", "leaves", "links", "rays", "bytes", "energy_balance", "escaped", "residual", "iterations", "exposure"}) {
     CHECK(value[key].is_number());
   }
   CHECK(value["row_sum"]["mean"].number() == 0.5);

@@ -73,6 +73,43 @@ TEST_CASE("mesh: the written file has the counts that were told, in the coordina
   CHECK(obj.find("o ring\n") != std::string::npos);
 }
 
+TEST_CASE("mesh: every example scene, as text and JSON; what is written is read back with the same counts, closed where it was told so") {
+  const Place place;
+  int scenes = 0;
+  for (const auto& entry : program::fs::directory_iterator(HALFLIGHT_SCENES)) {
+    if (entry.path().extension() != ".scene") continue;
+    ++scenes;
+    const std::string scene = "'" + entry.path().string() + "'";
+    CAPTURE(scene);
+    const std::string type = scenes % 3 == 0 ? "obj" : scenes % 3 == 1 ? "ply" : "off";
+    const Run text = place.run("mesh " + scene);
+    REQUIRE(text.code == 0);
+    const Run run = place.run("mesh " + scene + " -o a." + type + " --json");
+    REQUIRE(run.code == 0);
+    const json::Value report = json::parse(run.out);
+    const json::Value& total = report["total"];
+    bool closed = true;
+    for (std::size_t i = 0; i < report["objects"].size(); ++i) {
+      const json::Value& object = report["objects"][i];
+      const std::string name = object["name"].string();
+      CAPTURE(name);
+      CHECK(text.out.find("\n  " + name + " ") != std::string::npos);
+      if (object["borders"].number() == 0) {
+        CHECK(object["vertices"].number() - object["edges"].number() + object["faces"].number() ==
+              2 * (object["shells"].number() - object["genus"].number()));
+      }
+      closed = closed && object["borders"].number() == 0;
+      CHECK(object["area"].number() > 0.0);
+    }
+    const Run check = place.run("check a." + type);
+    const auto count = [&](const char* key) { return std::to_string(static_cast<int>(total[key].number())); };
+    CHECK(check.out.find(count("vertices") + " vertices, " + count("edges") + " edges, " + count("faces") + " faces") != std::string::npos);
+    CHECK(check.out.find("components: " + count("shells") + "\n") != std::string::npos);
+    if (closed) { CHECK(check.code == 0); }
+  }
+  CHECK(scenes >= 10);
+}
+
 TEST_CASE("mesh: what cannot be done is told before anything is written") {
   const Place place;
   place.write("s.scene", shapes);

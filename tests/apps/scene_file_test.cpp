@@ -107,6 +107,50 @@ TEST_CASE("leaves of unions, intersections and differences keep their materials,
   CHECK(left.normal.x == 1.0);  // into the hole
 }
 
+TEST_CASE("a use among operands is the union of what is in its group, placed, with the group's materials") {
+  const auto file = parsed(grey +
+                           "material red reflectance 0.6 0 0\n"
+                           "define frame {\n"
+                           "  box wide from 0 0 0 to 2 1 1 material red\n"
+                           "  box high from 0 0 0 to 1 1 3 material grey\n"
+                           "}\n"
+                           "define two {\n"
+                           "  use frame as a\n"
+                           "  difference b { box all from 4 0 0 to 5 1 1 material red\n use frame as c scale 0.5 move 4 0 0\n }\n"
+                           "}\n"
+                           "difference wall {\n"
+                           "  box slab from -1 -1 -1 to 9 2 5 material grey\n"
+                           "  use two as holes move 0 0 1\n"
+                           "}\n"
+                           "use frame as alone\n");
+  REQUIRE(file.scene.objects.size() == 3);  // wall, alone.wide, alone.high
+  const auto& wall = file.scene.objects[0];
+  std::string leaves;
+  for (std::uint32_t i = 0; i < wall.shape->sheet_count(); i += 6) {
+    leaves += std::string(wall.shape->sheet_name(i)) + (wall.material[i] == 0 ? " grey, " : " red, ");
+  }
+  CHECK(leaves ==
+        "slab.x0 grey, holes.a.wide.x0 red, holes.a.high.x0 grey, holes.b.all.x0 red, holes.b.c.wide.x0 red, holes.b.c.high.x0 grey, ");
+  // Along z: at x = .5 the hole is the high box of the frame, from 1 to 4. At x = 4.2 the small frame takes all of the hole away.
+  const auto at = [&](double x) {
+    raycast::Spans spans;
+    wall.shape->spans({{x, 0.25, 0.0}, {0.0, 0.0, 1.0}}, spans);
+    std::vector<double> crossings;
+    for (const raycast::Span& span : spans) {
+      crossings.push_back(span.in.t);
+      crossings.push_back(span.out.t);
+    }
+    return crossings;
+  };
+  const auto near = [](const std::vector<double>& a, const std::vector<double>& b) {
+    REQUIRE(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) { CHECK(a[i] == test::Approx(b[i]).margin(1e-9)); }
+  };
+  near(at(0.5), {-1, 1, 4, 5});
+  near(at(4.2), {-1, 5});
+  near(at(4.8), {-1, 1.5, 2, 5});  // the small frame is half as high here
+}
+
 TEST_CASE("placement clauses act in the order of the file, about the origin of the scene") {
   const auto file = parsed(grey +
                            "box a from 0 0 0 to 1 1 1 material grey move 2 0 0 rotate 0 0 1 90 scale 1 2 3\n"
@@ -192,6 +236,7 @@ TEST_CASE("the example in the README of the scenes is sound") {
   const std::size_t end = readme.find("## Grammar");
   REQUIRE(begin < end);
   const auto file = parsed(readme.substr(begin, end - begin));
-  CHECK(file.scene.objects.size() == 14);
-  CHECK(file.scene.objects.back().name == "second.back");
+  REQUIRE(file.scene.objects.size() == 15);
+  CHECK(file.scene.objects[13].name == "second.back");
+  CHECK(file.scene.objects[14].name == "bench");
 }

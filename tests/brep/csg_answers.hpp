@@ -48,6 +48,15 @@ inline All all(const Solid& a, const Solid& b, double facing = -1.0) {
   CHECK(counts(i).chi() == counts(x.i).chi());
   const auto again = valid(csg::subtract(x.u, b));
   CHECK(csg::volume(again) == test::Approx(csg::volume(x.d)).epsilon(0).margin(eps * scale));
+  // A - B = A n ~B, the complement of B within the box that holds the whole grid.
+  const glm::dvec3 reach(a.grid().spacing() * (0x1p25 - 2.0));
+  const Solid everything = made(box(a.grid().centre() - reach, a.grid().centre() + reach), a.grid());
+  const auto complement = csg::subtract(everything, b);
+  REQUIRE(complement);
+  const auto without = csg::intersect(a, *complement);
+  REQUIRE(without);
+  CHECK(csg::volume(*without) == test::Approx(csg::volume(x.d)).epsilon(0).margin(eps * scale));
+  CHECK(counts(*without) == counts(x.d));
   CHECK(valid(csg::subtract(x.d, x.d)).empty());
   CHECK(valid(csg::subtract(csg::subtract(x.u, a).has_value() ? *csg::subtract(x.u, a) : x.u, b)).empty());
   if (facing >= 0.0) {

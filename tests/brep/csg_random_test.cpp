@@ -201,6 +201,29 @@ TEST_CASE("a result goes through a BRep and back, with its holes, and turned") {
   CHECK(csg::volume(valid(csg::make_solid(csg::to_brep<Mesh>(drilled), g))) == test::Approx(csg::volume(drilled)).epsilon(1e-6));
 }
 
+TEST_CASE("turned cones: bases of many corners that are not plane on the grid fall into triangles, and no volume is lost") {
+  const Grid g(glm::dvec3(-2.0), glm::dvec3(2.0));
+  std::mt19937 random(8);
+  const auto any = [&] { return 2.0 * static_cast<double>(random()) / 0x1p32 - 1.0; };
+  for (const std::uint32_t n : {5u, 8u, 24u, 64u}) {
+    Builder cone;
+    std::vector<std::uint32_t> base;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const double angle = 6.283185307179586 * i / n;
+      base.insert(base.begin(), cone.vertex({std::cos(angle), std::sin(angle), -.5}));
+    }
+    const std::uint32_t apex = cone.vertex({.3, .2, 1});  // where n faces meet: planes cannot come first
+    cone.face(base, 0);
+    for (std::uint32_t i = 0; i < n; ++i) cone.face({i, (i + 1) % n, apex}, 1 + i);
+    const double volume = n / 2.0 * std::sin(6.283185307179586 / n) * 1.5 / 3.0;
+    for (int k = 0; k < 25; ++k) {
+      INFO(n << " corners, rotation " << k);
+      const Solid turned = valid(leaf(moved(cone, rotation({any(), any(), any()}, 3.0 * any()), glm::dvec3(.1 * any())), g));
+      CHECK(csg::volume(turned) == test::Approx(volume).epsilon(1e-6));
+    }
+  }
+}
+
 TEST_CASE("imprint cuts both solids along each other and selects nothing") {
   const Grid g(glm::dvec3(-4.0), glm::dvec3(4.0));
   const Solid a = valid(leaf(box(glm::dvec3(0.0), glm::dvec3(1.0)), g)), b = valid(leaf(box({.25, .25, .5}, {.75, .75, 1.5}), g));

@@ -168,6 +168,28 @@ TEST_CASE("the smaller the perturbation, the same the combinatorics") {
   }
 }
 
+TEST_CASE("perturbations below the grid are none: the operands are equal, or the laws hold all the same") {
+  const Grid g(glm::dvec3(-1.0), glm::dvec3(1.0));
+  const Solid c = made(box(glm::dvec3(-.5), glm::dvec3(.5)), g);
+  for (int k = 7; k <= 17; ++k) {
+    INFO("10^-" << k);
+    const double t = std::pow(10.0, -k);
+    const Solid turned = made(moved(box(glm::dvec3(-.5), glm::dvec3(.5)), rotation({1, 2, 3}, t), glm::dvec3(0.0)), g);
+    const All x = all(c, turned);
+    const glm::dvec3 shift = t * glm::dvec3{1, 1.0 / 3.0, 1.0 / 7.0};
+    const All s = all(c, made(box(glm::dvec3(-.5) + shift, glm::dvec3(.5) + shift), g), 0.0);
+    // A slab that would vanish is not taken for nothing, it is refused.
+    const auto slab = leaf(box({-.9, -.9, 0}, {.9, .9, t}), g);
+    CHECK(slab.has_value() == (t > 0.5 * g.spacing()));
+    if (!slab) CHECK(slab.refusal().code == Code::collapsed);
+    check(x.u, {2, 1, 1.0}, 6 * g.spacing());
+    check(x.i, {2, 1, 1.0}, 6 * g.spacing());
+    if (t > 0.5 * g.spacing()) continue;
+    for (const Solid& r : {s.u, s.i}) check(r, {2, 1, 1.0});
+    CHECK(s.d.empty());
+  }
+}
+
 TEST_CASE("walls, slabs and gaps down to one spacing of the grid") {
   const Grid g(glm::dvec3(-1.0), glm::dvec3(2.0));
   const Solid c = made(box(glm::dvec3(0.0), glm::dvec3(1.0)), g);

@@ -129,3 +129,30 @@ TEST_CASE("a wall cuts the faces on which it stands, and what does not divide th
                     scenes::plate("below", {{0.5, 0, 0}, {0.5, 1, 0}, {0.5, 1, -1}, {0.5, 0, -1}})};
   CHECK(faces_of(corner)[0] == 1);
 }
+
+TEST_CASE("extreme: a plate in the plane of a wall, but beyond the wall, does not pass for lying on it: the scene is not proven closed") {
+  // An L of unit arms, two high; the notch is x, y > 1. The plate lies in the plane of the wall y = 2.
+  const auto plate_from = [](double x0, double x1) {
+    Scene scene;
+    scene.materials = {{"white", Color{0.7}, Color{0.0}}, {"lamp", Color{0.0}, Color{5.0}}};
+    const std::vector<glm::dvec3> corners{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0},
+                                          {0, 0, 2}, {2, 0, 2}, {2, 1, 2}, {1, 1, 2}, {1, 2, 2}, {0, 2, 2}};
+    std::vector<std::vector<std::uint32_t>> faces{{5, 4, 3, 2, 1, 0}, {6, 7, 8, 9, 10, 11}};
+    for (std::uint32_t i = 0; i < 6; ++i) { faces.push_back({i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i}); }
+    scene.objects = {scenes::object("room", raycast::Mesh::make(corners, faces).object, 0, true),
+                     plate("lamp", {{x0, 2, 0.5}, {x1, 2, 0.5}, {x1, 2, 1.5}, {x0, 2, 1.5}}, 1)};
+    Options options = coarse();
+    options.min_area = 0.02;
+    return solved(scene, options);
+  };
+  CHECK(plate_from(0.2, 0.8).audit.closure);
+  CHECK(plate_from(0.0, 1.0).audit.closure);  // up to the borders of the wall
+  CHECK_FALSE(plate_from(0.8, 1.4).audit.closure);
+  CHECK_FALSE(plate_from(0.2, 1.001).audit.closure);
+  // All of it behind the wall x = 1, or beyond the whole room: it is buried, and so is its light.
+  for (const double x : {1.2, 2.2}) {
+    const Solution solution = plate_from(x, x + 0.6);
+    CHECK_FALSE(solution.audit.closure);
+    CHECK(mean(solution, "room.f0") == 0.0);
+  }
+}

@@ -190,6 +190,7 @@ TEST_CASE("csg: rays meet the evaluated faces of polyhedral leaves where the mer
 TEST_CASE("csg: its mesh is closed, its vertices lie on their sheets, and it holds the volume that its spans hold") {
   SEEDED(random);
   const std::vector<test::Primitive> primitives = tame();
+  long corners = 0, on_chords = 0;
   for (int round = 0; round < 20; ++round) {
     const RandomTree random_solid = random_tree(random, primitives, 2);
     const Made<Csg> csg = Csg::make(random_solid.node);
@@ -209,7 +210,10 @@ TEST_CASE("csg: its mesh is closed, its vertices lie on their sheets, and it hol
         area += glm::length(vector_area);
         for (const brep::HalfedgeId h : brep::halfedges_of(*closed.brep, f)) {
           const dvec3& p = closed.brep->data(closed.brep->vertex(h)).position;
-          CHECK(glm::length(csg->project(closed.brep->data(f).sheet, p).position - p) <= 0.03 * csg->bounds().diameter());
+          const double off = glm::length(csg->project(closed.brep->data(f).sheet, p).position - p);
+          CHECK(off <= 0.03 * csg->bounds().diameter());
+          ++corners;
+          on_chords += off > 1e-7 ? 1 : 0;  // a cell of the grid
         }
         volume += glm::dot(vector_area, brep::centroid(*closed.brep, f)) / 3.0;
       }
@@ -230,6 +234,8 @@ TEST_CASE("csg: its mesh is closed, its vertices lie on their sheets, and it hol
       CHECK(std::abs(volume - measured) < chord * area + 0.3 * step.x * area);
     }
   }
+  INFO(on_chords << " of " << corners);
+  CHECK(on_chords * 50 < corners);  // where surfaces graze each other
 }
 
 TEST_CASE("csg: in a scene, occluded = the law = closest < 1 from the air, for faces and for merged spans") {

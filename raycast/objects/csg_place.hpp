@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Puts the vertices of a CSG tree's boundary back from the grid, and from the chords of the approximations, onto the true sheets.
+//
+// A vertex of three planes goes to their common point, which restores the coordinates that the user wrote; where chords of a curved sheet
+// meet another one the vertex moves to the curve in which the two sheets themselves meet. That may turn over a sliver: chords cross each
+// other not quite where the surfaces do, and two vertices that lie closer together than that change places. Such vertices slide along their
+// curve or surface until nothing is turned over, or one of them goes into the other. What neither mends stays on the chords.
+
+#include <algorithm>
+#include <vector>
+
+#include <brep/geometry.hpp>
+#include <brep/unchecked.hpp>
+
+#include "csg_tree.hpp"
+
+namespace raycast {
+
+struct CsgVertex {
+  glm::dvec3 position{0.0};
+};
+struct CsgFace {
+  std::uint32_t sheet = brep::no_sheet;
+};
+using CsgBRep = brep::BRep<CsgVertex, brep::NoData, CsgFace>;
+
+namespace detail {
+
+// Moves p towards all planes at once: the shortest way to their common points; those beyond the third independent one are left out.
+inline glm::dvec3 towards(const glm::dvec3& p, const std::vector<SurfacePoint>& planes) {
+  glm::dvec3 axis[3], way(0.0);
+  int count = 0;
+  for (const SurfacePoint& plane : planes) {
+    glm::dvec3 n = plane.normal;
+    for (int i = 0; i < count; ++i) n -= glm::dot(n, axis[i]) * axis[i];
+    const double length = glm::length(n);
+    if (!(length > 1e-3)) continue;  // nearly parallel to what is there: its position along them is not known
+    axis[count] = n / length;
+    way += (glm::dot(plane.normal, plane.position - p - way) / length) * axis[count];
+    if (++count == 3) break;
+  }
+  return p + way;
+}
+
+class CsgPlacement {
+ public:
+  // `tolerance`: of the chords.
+  CsgPlacement(const CsgTree& tree, double tolerance) : tree_(tree), tolerance_(tolerance) {}
+
+  // `near`: a vertex of flat sheets is moved no farther, because it is off them only by the grid.
+  void put_back(CsgBRep& brep, double near) const {
+    std::vector<glm::dvec3> chord(brep.vertex_end(), glm::dvec3(0.0));
+    std::vector<double> slides(brep.vertex_end(), 0.0);  // how far from its chord; those that may not stay where they are
+    for (const brep::VertexId v : brep::vertices(brep)) {
+      const std::vector<std::uint32_t> sheets = sheets_of(brep, v);
+      const bool curved = std::any_of(sheets.begin(), sheets.end(), [&](std::uint32_t s) { return !tree_.flat_sheet(s); });
+      const glm::dvec3 before = brep.data(v).position;
+      const glm::dvec3 after = onto(sheets, before);
+      const double reach = (curved ? 2 * tolerance_ / sine(sheets, after) : 0.0) + near;
+      if (!(glm::length(after - before) <= reach)) continue;
+      brep.data(v).position = after;
+      if (!curved) continue;
+      chord[v.index] = before;
+      slides[v.index] = 3 * reach;
+    }
+    slide(brep, chord, slides);
+    collapse(brep, slides);
+    // Every round takes at least one vertex back, so this ends.
+    for (bool again = true; again;) {
+      again = false;
+      for (const brep::VertexId v : brep::vertices(brep)) {
+        if (slides[v.index] == 0.0 || brep.data(v).position == chord[v.index]) continue;
+        bool turned = false;
+        for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) turned = turned || turned_over(brep, brep.face(h));
+        if (!turned) continue;
+        brep.data(v).position = chord[v.index];
+        again = true;
+      }
+    }
+  }
+
+ private:
+  // Chords cross each other where the true surfaces do not quite: put back, the ends of a sliver may change places and turn it over. Such
+  // vertices slide on their surface or curve to between their neighbours.
+  void slide(CsgBRep& brep, const std::vector<glm::dvec3>& chord, const std::vector<double>& slides) const {
+    std::vector<brep::FaceId> look;
+    for (const brep::VertexId v : brep::vertices(brep)) {
+      if (slides[v.index] == 0.0) continue;
+      for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) look.push_back(brep.face(h));
+    }
+    std::vector<brep::VertexId> vertices;
+    const auto unique = [](auto& list) {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    };
+    unique(look);
+    for (int round = 0; round < 40 && !look.empty(); ++round) {
+      vertices.clear();
+      for (const brep::FaceId f : look) {
+        if (!turned_over(brep, f)) continue;
+        for (const brep::HalfedgeId h : brep::halfedges_of(brep, f))
+          if (slides[brep.vertex(h).index] > 0.0) vertices.push_back(brep.vertex(h));
+      }
+      unique(vertices);
+      look.clear();
+      for (const brep::VertexId v : vertices) {
+        const std::vector<std::uint32_t> sheets = sheets_of(brep, v);
+        glm::dvec3 sum(0.0);
+        int count = 0;
+        for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) {
+          look.push_back(brep.face(h));
+          const bool along = brep.data(brep.face(h)).sheet != brep.data(brep.face(brep::twin(h))).sheet;
+          if (sheets.size() > 1 && !along) continue;
+          sum += brep.data(brep.target(h)).position;
+          ++count;
+        }
+        if (sheets.size() > 1 && count != 2) continue;  // curves meet here
+        const glm::dvec3 p = onto(sheets, 0.5 * brep.data(v).position + 0.5 / count * sum);
+        if (glm::length(p - chord[v.index]) <= slides[v.index]) brep.data(v).position = p;
+      }
+      unique(look);
+    }
+  }
+
+  // Where a face is turned over still, one of its edges is as short as the chords are inexact: it shrinks to a point.
+  void collapse(CsgBRep& brep, const std::vector<double>& slides) const {
+    for (bool again = true; again;) {  // every round takes at least one vertex away
+      again = false;
+      std::vector<brep::FaceId> turned;
+      for (const brep::FaceId f : brep::faces(brep))
+        if (turned_over(brep, f)) turned.push_back(f);
+      for (const brep::FaceId f : turned) {
+        if (!brep.alive(f)) continue;
+        std::vector<std::pair<double, brep::HalfedgeId>> edges;
+        for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
+          const double length = glm::length(brep.data(brep.target(h)).position - brep.data(brep.vertex(h)).position);
+          if (length > 2 * tolerance_) continue;
+          edges.push_back({length, h});
+          edges.push_back({length, brep::twin(h)});
+        }
+        std::sort(edges.begin(), edges.end());
+        const auto found = std::find_if(edges.begin(), edges.end(), [&](const auto& edge) {
+          return slides[brep.vertex(edge.second).index] > 0.0 && may_shrink(brep, edge.second);
+        });
+        if (found == edges.end()) continue;
+        shrink(brep, found->second);
+        again = true;
+      }
+    }
+  }
+
+  // May the vertex where h starts move into the one where it ends? Not if that changed the topology, left a sheet, or turned a face over.
+  [[nodiscard]] bool may_shrink(const CsgBRep& brep, brep::HalfedgeId h) const {
+    const brep::VertexId v = brep.vertex(h), w = brep.target(h);
+    const std::vector<std::uint32_t> from = sheets_of(brep, v), to = sheets_of(brep, w);
+    if (!std::includes(to.begin(), to.end(), from.begin(), from.end())) return false;
+    const brep::HalfedgeId sides[2] = {h, brep::twin(h)};
+    if (from.size() > 1 && brep.data(brep.face(sides[0])).sheet == brep.data(brep.face(sides[1])).sheet) return false;
+    const auto triangle = [&](brep::HalfedgeId x) { return brep.next(brep.next(brep.next(x))) == x; };
+    std::size_t across = 0, common = 0;  // corners that both triangles at h have across of it; neighbours of both ends
+    for (const brep::HalfedgeId side : sides) {
+      if (!triangle(side)) continue;
+      ++across;
+      if (brep::degree(brep, brep.target(brep.next(side))) <= 3) return false;
+    }
+    for (const brep::HalfedgeId x : brep::halfedges_from(brep, v)) {
+      for (const brep::HalfedgeId y : brep::halfedges_from(brep, w)) {
+        if (brep.target(x) == brep.target(y)) ++common;
+        if (brep.face(x) == brep.face(y) && brep.face(x) != brep.face(h) && brep.face(x) != brep.face(brep::twin(h))) return false;
+      }
+      if (brep.target(x) == w && x != h) return false;
+    }
+    if (common != across) return false;
+    std::vector<glm::dvec3> corners;
+    for (const brep::HalfedgeId x : brep::halfedges_from(brep, v)) {
+      if ((brep.face(x) == brep.face(sides[0]) && triangle(sides[0])) || (brep.face(x) == brep.face(sides[1]) && triangle(sides[1])))
+        continue;
+      corners.clear();
+      for (const brep::HalfedgeId y : brep::halfedges_of(brep, brep.face(x)))
+        corners.push_back(brep.data(brep.vertex(y) == v ? w : brep.vertex(y)).position);
+      if (turned_over(brep::vector_area(corners), corners[0], brep.data(brep.face(x)).sheet)) return false;
+    }
+    return true;
+  }
+
+  static void shrink(CsgBRep& brep, brep::HalfedgeId h) {
+    const brep::HalfedgeId sides[2] = {brep.next(h), brep.next(brep::twin(h))};
+    brep::unchecked::join_vertices(brep, brep::twin(h));
+    for (const brep::HalfedgeId side : sides)
+      if (brep.next(brep.next(side)) == side) brep::unchecked::join_faces(brep, brep::twin(side));
+  }
+
+  // Of the smallest angle at which two of the sheets meet, no less than an eighth: where they graze each other, a small error of the chords
+  // moves their common curve far.
+  [[nodiscard]] double sine(const std::vector<std::uint32_t>& sheets, const glm::dvec3& p) const {
+    double least = 1.0;
+    for (std::size_t i = 0; i < sheets.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        least = std::min(least, glm::length(glm::cross(tree_.project(sheets[i], p).normal, tree_.project(sheets[k], p).normal)));
+    return std::max(least, 0.125);
+  }
+
+  [[nodiscard]] static std::vector<std::uint32_t> sheets_of(const CsgBRep& brep, brep::VertexId v) {
+    std::vector<std::uint32_t> sheets;
+    for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) sheets.push_back(brep.data(brep.face(h)).sheet);
+    std::sort(sheets.begin(), sheets.end());
+    sheets.erase(std::unique(sheets.begin(), sheets.end()), sheets.end());
+    return sheets;
+  }
+
+  [[nodiscard]] glm::dvec3 onto(const std::vector<std::uint32_t>& sheets, glm::dvec3 p) const {
+    std::vector<SurfacePoint> planes;
+    for (int round = 0; round < 8; ++round) {
+      const glm::dvec3 before = p;
+      planes.clear();
+      for (const std::uint32_t s : sheets) planes.push_back(tree_.project(s, p));
+      if (round > 0 || planes.size() > 1) p = towards(p, planes);
+      for (const std::uint32_t s : sheets) p = tree_.project(s, p).position;
+      if (p == before) break;
+    }
+    return p;
+  }
+
+  // Does the face look away from the side that its sheet looks to?
+  [[nodiscard]] bool turned_over(const CsgBRep& brep, brep::FaceId f) const {
+    return turned_over(brep::vector_area(brep, f), brep.data(brep.vertex(brep.halfedge(f))).position, brep.data(f).sheet);
+  }
+  [[nodiscard]] bool turned_over(const glm::dvec3& area, const glm::dvec3& corner, std::uint32_t sheet) const {
+    return !(glm::dot(area, tree_.project(sheet, corner).normal) > 0.25 * glm::length(area));
+  }
+
+  const CsgTree& tree_;
+  double tolerance_;
+};
+
+}  // namespace detail
+
+}  // namespace raycast

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+
+// Input faces that are not convex: a wall with windows is one root of the hierarchy, above its convex parts.
+
+#include <raycast/objects/csg.hpp>
+
+#include "catch.hpp"
+#include "scenes.hpp"
+
+using radiosity::Color;
+using radiosity::Node;
+using radiosity::Patch;
+
+namespace {
+
+raycast::CsgNode leaf(const glm::dvec3& lo, const glm::dvec3& hi) {
+  raycast::CsgNode node;
+  node.solid = scenes::box(lo, hi);
+  return node;
+}
+
+// A wall 6 x .3 x 3 with three windows.
+std::shared_ptr<const raycast::Object> wall() {
+  raycast::CsgNode root;
+  root.operation = raycast::CsgOperation::subtract;
+  root.parts = {leaf({0, -0.3, 0}, {6, 0, 3}), leaf({0.8, -1, 0.9}, {1.8, 1, 2.3}), leaf({2.5, -1, 0.9}, {3.5, 1, 2.3}),
+                leaf({4.2, -1, 0.9}, {5.2, 1, 2.3})};
+  return raycast::Csg::make(root).object;
+}
+
+struct Faces {
+  radiosity::Prepared prepared;
+  radiosity::Hierarchy hierarchy;
+  radiosity::Patches patches{prepared.surfaces, hierarchy};
+
+  explicit Faces(radiosity::Prepared p) : prepared(std::move(p)), hierarchy(radiosity::make_roots(prepared.surfaces)) { patches.extend(1); }
+};
+
+}  // namespace
+
+TEST_CASE("input faces: a wall with windows is one root, with the area, the light and the points of its convex parts") {
+  const radiosity::Scene scene{{scenes::furnace_material(0.5)}, {scenes::object("wall", wall())}};
+  radiosity::PrepareResult made = radiosity::prepare(scene);
+  REQUIRE(made.prepared);
+  const Faces faces(std::move(*made.prepared));
+  const double scale = faces.prepared.frame.to_scene_area(1.0);
+  std::vector<std::uint32_t> roots;
+  for (std::uint32_t i = 0; i < faces.hierarchy.size(); ++i) {
+    if (faces.hierarchy[i].parent == radiosity::no_node) { roots.push_back(i); }
+  }
+  CHECK(roots.size() == 6 + 3 * 4);
+  int whole = 0;
+  for (const std::uint32_t r : roots) {
+    const Node& node = faces.hierarchy[r];
+    if (!node.in_parts()) { continue; }
+    ++whole;
+    const Patch& patch = faces.patches[r];
+    // Sums of a dozen areas of the order of the scene.
+    CHECK(node.area * scale == test::Approx(18.0 - 3 * 1.4).epsilon(1e-12));
+    CHECK(patch.area == test::Approx(node.area).epsilon(1e-12));
+    double weights = 0.0;
+    for (const radiosity::QuadraturePoint& q : patch.rule3) { weights += q.weight; }
+    CHECK(weights == test::Approx(node.area).epsilon(1e-12));
+
+    // Points of the patch lie in no window and, evenly spread, have its centroid.
+    glm::dvec3 mean(0.0);
+    for (int u = 0; u < 512; ++u) {
+      for (int v = 0; v < 8; ++v) {
+        const glm::dvec3 p = radiosity::sample(patch, (u + 0.5) / 512, (v + 0.5) / 8);
+        const glm::dvec3 x = faces.prepared.frame.to_scene(p);
+        mean += p / 4096.0;
+        for (const double left : {0.8, 2.5, 4.2}) {
+          CHECK_FALSE((x.x > left + 1e-9 && x.x < left + 1 - 1e-9 && x.z > 0.9 + 1e-9 && x.z < 2.3 - 1e-9));
+        }
+      }
+    }
+    CHECK(glm::length(mean - patch.centroid) < 0.005 * node.radius);  // some 20 triangles, each by at least 16 x 8 points of its own
+
+    // What it exchanges with a square is the sum over its parts: far, near, touching its plane, cut by it and cutting it.
+    radiosity::Random random{7, r};
+    for (int i = 0; i < 60; ++i) {
+      const double size = node.radius * std::exp2(-5.0 * random.uniform()), distance = 4 * node.radius * random.uniform();
+      const auto vector = [&] { return glm::dvec3(random.uniform(), random.uniform(), random.uniform()) - 0.5; };
+      const glm::dvec3 centre = node.centre + node.normal * distance + 2 * node.radius * vector();
+      const glm::dvec3 normal = glm::normalize(0.8 * vector() - node.normal), t = radiosity::detail::tangent(normal) * size;
+      const glm::dvec3 s = glm::cross(normal, t);
+      const Patch other = radiosity::make_patch({centre - t - s, centre + t - s, centre + t + s, centre - t + s});
+      double sum = 0.0;
+      for (std::uint32_t k = 0; k < node.child_count; ++k) { sum += radiosity::exchange(faces.patches[node.first_child + k], other); }
+      CAPTURE(i, size, distance);
+      // Far rules err by up to 6 (.1/3)^4 = 7e-6, 4 (.35/3)^6 = 1e-5 and 3 (.65/3)^8 = 1.5e-5, on both sides; contours by less.
+      CHECK(radiosity::exchange(patch, other) == test::Approx(sum).epsilon(3e-5).margin(1e-7 * std::min(node.area, other.area)));
+    }
+    // A link to it costs what its contour costs: with very many parts they are linked one by one.
+    Node far;
+    far.centre = node.centre + 1e3 * node.normal;
+    far.normal = -node.normal;
+    far.area = far.radius = 1e-3;
+    Node many = node;
+    CHECK(radiosity::f_oracle(far, many, 0.1, 0.0) == radiosity::Decision::link);
+    many.child_count = radiosity::most_linked_parts + 1;
+    CHECK(radiosity::f_oracle(far, many, 0.1, 0.0) == radiosity::Decision::split_q);
+  }
+  CHECK(whole == 2);
+}
+
+TEST_CASE("input faces: the contour of a whole face does not depend on how far its parts are refined") {
+  const radiosity::Scene scene{{scenes::furnace_material(0.5)}, {scenes::object("wall", wall())}};
+  radiosity::PrepareResult made = radiosity::prepare(scene);
+  REQUIRE(made.prepared);
+  radiosity::Prepared prepared = std::move(*made.prepared);
+  radiosity::Hierarchy hierarchy = radiosity::make_roots(prepared.surfaces);
+  const auto contours = [&] {
+    std::vector<radiosity::Polygon> all;
+    for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
+      if (hierarchy[i].in_parts()) { all.push_back(radiosity::contour(prepared.surfaces, hierarchy, i)); }
+    }
+    return all;
+  };
+  const auto before = contours();
+  REQUIRE(before.size() == 2);
+  for (const radiosity::Polygon& p : before) { CHECK(p.size() == 4 + 3 * 4 + 3 * 2); }  // three windows, a bridge to each
+  radiosity::split_evenly(prepared.surfaces, hierarchy, 0.02 * radiosity::root_area(hierarchy));
+  const auto after = contours();
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    CHECK((before[i].size() == after[i].size() && std::equal(before[i].begin(), before[i].end(), after[i].begin())));
+  }
+}
+
+TEST_CASE("input faces: a face that is cut at a wall falls into parts, so that no patch spans the wall") {
+  raycast::CsgNode room;
+  room.operation = raycast::CsgOperation::subtract;
+  room.parts = {leaf({0, 0, 0}, {3, 3, 1}), leaf({2, 2, -1}, {4, 4, 2})};
+  radiosity::Scene scene{{scenes::furnace_material(0.5)}, {scenes::object("room", raycast::Csg::make(room).object, 0, true)}};
+  const auto whole = [&] {
+    radiosity::PrepareResult made = radiosity::prepare(scene);
+    REQUIRE(made.prepared);
+    radiosity::Prepared prepared = std::move(*made.prepared);
+    radiosity::cut_at_walls(prepared.surfaces, prepared.objects.diameter());
+    const radiosity::Hierarchy roots = radiosity::make_roots(prepared.surfaces);
+    return std::count_if(roots.begin(), roots.end(), [](const Node& n) { return n.in_parts(); });
+  };
+  CHECK(whole() == 2);
+  scene.objects.push_back(scenes::object("wall", scenes::box({1, 0, 0}, {1.1, 3, 1})));
+  CHECK(whole() == 0);
+}
+
+TEST_CASE("input faces: in a concave room of concave faces a furnace glows evenly, linked at whole faces or at fine parts") {
+  raycast::CsgNode room;
+  room.operation = raycast::CsgOperation::subtract;
+  room.parts = {leaf({0, 0, 0}, {3, 3, 1}), leaf({1, 1, -1}, {2, 4, 2}), leaf({2, 2, -1}, {4, 4, 2})};
+  radiosity::Scene scene{{scenes::furnace_material(0.6)}, {scenes::object("room", raycast::Csg::make(room).object, 0, true)}};
+  for (const double epsilon : {0.5, 0.05}) {
+    CAPTURE(epsilon);
+    radiosity::Options options;
+    options.epsilon = epsilon;
+    options.min_area = 1e-3;
+    options.audit_points = 0;
+    const radiosity::Outcome outcome = radiosity::solve(scene, options);
+    REQUIRE(outcome.solution);
+    const radiosity::Solution& solution = *outcome.solution;
+    CHECK(solution.audit.polygons == 2 + 8);  // floor and ceiling are one each, with eight corners
+    CHECK(solution.audit.closure);
+    for (std::size_t i = 0; i < solution.hierarchy.size(); ++i) {
+      if (solution.hierarchy[i].leaf() && solution.area[i] > 0.0) { CHECK(solution.radiosity[i].x == test::Approx(1.0).epsilon(1e-3)); }
+    }
+    const bool at_whole_faces = std::any_of(solution.links.begin(), solution.links.end(), [&](const radiosity::Link& link) {
+      return solution.hierarchy[link.p].in_parts() || solution.hierarchy[link.q].in_parts();
+    });
+    CHECK(at_whole_faces == (epsilon == 0.5));
+  }
+}
+
+TEST_CASE("input faces: a sheet of which nothing is left is no surface of the report") {
+  const radiosity::Scene scene{{scenes::furnace_material(0.5)}, {scenes::object("wall", wall())}};
+  radiosity::Options options;
+  options.audit_points = 0;
+  const radiosity::Outcome outcome = radiosity::solve(scene, options);
+  REQUIRE(outcome.solution);
+  CHECK(outcome.solution->audit.surfaces.size() == 6 + 3 * 4);
+  for (const radiosity::SurfaceMean& surface : outcome.solution->audit.surfaces) { CHECK(surface.area > 0.0); }
+}
