@@ -144,7 +144,7 @@ inline std::size_t open_edges(const Surface& surface) {
   more(count, "duplicates");
   count = 0;
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
-    if (surfaces[o].object->solid() || radiating_faces(surfaces[o]) < 2) { continue; }
+    if (surfaces[o].object->solid() || input_faces(surfaces[o]).size() < 2) { continue; }
     add(count, "object " + name(o) + " is an open shell with " + std::to_string(detail::open_edges(surfaces[o])) +
                    " open edges: its back is black and takes no light");
   }
