@@ -11,8 +11,11 @@
 // the corners is farthest away. A point in no prism (beyond the chord of a cap's rim) takes the nearest point of the mesh.
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -44,6 +47,13 @@ class Lookup {
   // room from outside, and out of a solid.
   [[nodiscard]] std::optional<Color> seen(const glm::dvec3& eye, const glm::dvec3& direction) const;
 
+  struct Seen {
+    std::uint32_t surface;  // number of the input surface
+    Color radiosity{0.0};
+  };
+  // As above in up to sixteen directions: faster when they are close to each other.
+  [[nodiscard]] std::array<std::optional<Seen>, 16> seen16(const glm::dvec3& eye, std::span<const glm::dvec3> directions) const;
+
  private:
   struct Corner {
     glm::dvec3 position{0.0};
@@ -60,6 +70,11 @@ class Lookup {
 
   // At a place of the sheet of which the normal is known.
   [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const;
+  // Where a ray has met something: nothing at a back, and where another object covers the place.
+  [[nodiscard]] std::optional<Color> shade(const raycast::Hit& hit, const raycast::SurfacePoint& place) const {
+    if (!hit.front || objects_.covered(place.position, place.normal, hit.object)) { return std::nullopt; }
+    return at(hit.object, hit.sheet, place);
+  }
   [[nodiscard]] ChordTriangle chord(const Triangle& triangle) const;
   [[nodiscard]] raycast::Box region(const Triangle& triangle, const raycast::PlacedObject& object, std::uint32_t sheet) const;
   [[nodiscard]] Color blend(const Triangle& triangle, const glm::dvec3& weight) const;
@@ -169,20 +184,35 @@ inline std::optional<Color> Lookup::at(std::uint32_t object, std::uint32_t sheet
 }
 
 inline std::optional<Color> Lookup::seen(const glm::dvec3& eye, const glm::dvec3& direction) const {
-  raycast::Segment ray{(eye - frame_.centre) * frame_.scale, direction};
-  std::uint32_t owner = raycast::no_object;
-  constexpr int most = 10'000;  // surfaces passed: only backs and buried ones are, so this ends what rounding might not
-  for (int passed = 0; passed < most; ++passed) {
-    const std::optional<raycast::Hit> hit = objects_.closest(ray, owner);
-    if (!hit) { return std::nullopt; }
-    const raycast::SurfacePoint point = objects_.object(hit->object).project(hit->sheet, ray.at(hit->t));
-    if (hit->front && !objects_.covered(point.position, point.normal, hit->object)) {
-      if (const std::optional<Color> color = at(hit->object, hit->sheet, point)) { return color; }
-    }
-    ray.origin = point.position;
-    owner = hit->object;
+  const auto found = seen16(eye, std::span(&direction, 1))[0];
+  if (!found) { return std::nullopt; }
+  return found->radiosity;
+}
+
+inline std::array<std::optional<Lookup::Seen>, 16> Lookup::seen16(const glm::dvec3& eye, std::span<const glm::dvec3> directions) const {
+  std::array<std::optional<Seen>, 16> result;
+  raycast::Segments16 rays;
+  for (unsigned i = 0; i < directions.size(); ++i) {
+    rays.set(i, {(eye - frame_.centre) * frame_.scale, directions[i]}, raycast::no_object, raycast::no_object);
   }
-  return std::nullopt;
+  constexpr int most = 10'000;  // surfaces passed: only backs and buried ones are, so this ends what rounding might not
+  for (int passed = 0; passed < most && rays.lanes != 0; ++passed) {
+    const raycast::Hits16 hits = objects_.closest16(rays);
+    rays.lanes &= hits.met;
+    for (std::uint32_t rest = rays.lanes; rest != 0; rest &= rest - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(rest));
+      const raycast::Hit& hit = hits.hit[i];
+      const raycast::Segment ray = rays.at(i);
+      const raycast::SurfacePoint place = objects_.object(hit.object).project(hit.sheet, ray.at(hit.t));
+      if (const std::optional<Color> color = shade(hit, place)) {
+        result[i] = Seen{first_sheet_[hit.object] + hit.sheet, *color};
+        rays.lanes &= ~(1u << i);
+      } else {
+        rays.set(i, {place.position, ray.direction}, hit.object, raycast::no_object);
+      }
+    }
+  }
+  return result;
 }
 
 }  // namespace radiosity

@@ -47,7 +47,8 @@ struct SurfaceHalfedge {
 
 struct SurfaceFace : brep::Tag {
   std::uint32_t sheet = brep::no_sheet;
-  std::uint32_t node = no_node;  // the hierarchy leaf that stands on this face
+  std::uint32_t node = no_node;              // the hierarchy leaf that stands on this face
+  std::uint32_t part = brep::invalid_index;  // the face of the boundary, once all are convex, from which this one was cut
 };
 
 using SurfaceBRep = brep::BRep<SurfaceVertex, SurfaceHalfedge, SurfaceFace>;
@@ -87,6 +88,7 @@ inline constexpr double first_chord_error = 0.01;
     const auto parts = brep::split_until_convex(surface.brep, f);
     if (!parts) { return {std::nullopt, parts.refusal().sentence()}; }
   }
+  for (const brep::FaceId f : brep::faces(surface.brep)) { surface.brep.data(f).part = f.index; }
   return {std::move(surface), {}};
 }
 
@@ -136,8 +138,16 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   return node;
 }
 
+// Faces that belong to a sheet: those that give and receive light.
+[[nodiscard]] inline std::size_t radiating_faces(const Surface& surface) {
+  std::size_t count = 0;
+  for (const brep::FaceId f : brep::faces(surface.brep)) { count += surface.brep.data(f).sheet != brep::no_sheet ? 1 : 0; }
+  return count;
+}
+
 // The input faces of a surface, each by its convex parts: a face that is not convex was cut by diagonals, and of an object with flat sheets
-// the parts are known again by their sheet. Holes and backs are left out.
+// the parts are known again by their sheet. One that was cut at a wall (wall_cuts.hpp) falls into all its parts: no patch spans the wall.
+// Holes and backs are left out.
 [[nodiscard]] inline std::vector<std::vector<brep::FaceId>> input_faces(const Surface& surface) {
   const SurfaceBRep& brep = surface.brep;
   std::vector<std::vector<brep::FaceId>> result;
@@ -155,6 +165,13 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
         parts.push_back(across);
       }
     }
+    std::vector<std::uint32_t> from;
+    for (const brep::FaceId part : parts) { from.push_back(brep.data(part).part); }
+    std::sort(from.begin(), from.end());
+    if (std::adjacent_find(from.begin(), from.end()) == from.end()) { continue; }
+    const std::vector<brep::FaceId> cut = std::move(parts);
+    result.pop_back();
+    for (const brep::FaceId part : cut) { result.emplace_back(1, part); }
   }
   return result;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Sixteen segments, as they run between two patches: what Scene::occluded16 is asked.
+// Sixteen segments, as they run between two patches or through a pixel: what Scene::occluded16 and closest16 are asked.
 
 #include "ray.hpp"
 
@@ -22,6 +22,18 @@ struct alignas(64) Segments16 {
     lanes |= 1u << lane;
   }
   [[nodiscard]] Segment at(unsigned lane) const { return {{ox[lane], oy[lane], oz[lane]}, {dx[lane], dy[lane], dz[lane]}}; }
+};
+
+struct Hit {
+  double t;
+  std::uint32_t object, sheet;
+  bool front;  // the ray meets the air side; false: the back of a polygon or of an open mesh
+};
+
+// What sixteen rays meet first. A lane that meets nothing has no bit in `met`.
+struct Hits16 {
+  Hit hit[16];
+  std::uint32_t met = 0;
 };
 
 }  // namespace raycast

@@ -49,18 +49,21 @@ struct Corners16 {
 };
 enum class Relevance : std::uint8_t { none, some, blocks_all };
 
-// Where a ray enters solids kept as faces, as far as single precision knows.
+// Where a ray crosses polygons and enters solids kept as faces, as far as single precision knows.
 struct Entries {
   static constexpr unsigned capacity = 8;
   struct Entry {
     float from, to;  // bounds of the parameter
     std::uint32_t object, face;
-    bool sure;
+    bool sure;   // that it is crossed
+    bool timed;  // the bounds say something
   };
   Entry entry[capacity];
   unsigned count = 0;
   bool complete = true;  // false: there were more
+  float exit = 1.0f;     // no solid kept as faces is left before this
 
+  [[nodiscard]] bool full() const { return count == capacity; }
   void add(const Entry& e) {
     if (e.sure) {  // what certainly comes later does not matter
       unsigned kept = 0;

@@ -3,8 +3,8 @@
 
 // The law of scene.hpp, and how its objects are compiled.
 //
-// A program of many files may compile this, occlusion.hpp and lists.hpp once: with HALFLIGHT_RAYCAST_APART defined, scene.hpp only
-// declares, and apart.cpp must be linked. By default everything is inline and nothing needs to be linked.
+// A program of many files may compile this, occlusion.hpp, first_hit.hpp and lists.hpp once: with HALFLIGHT_RAYCAST_APART defined,
+// scene.hpp only declares, and apart.cpp must be linked. By default everything is inline and nothing needs to be linked.
 
 #include "compile.hpp"
 #include "kernels.hpp"
@@ -122,13 +122,11 @@ HALFLIGHT_INLINE bool Scene::within_owner(const Segment& s, const End& end, bool
 
 HALFLIGHT_INLINE std::optional<Hit> Scene::closest(const Segment& ray, std::uint32_t source_owner) const {
   if (!has_line(ray)) return std::nullopt;
-  const Line line(ray);
-  const End a = end_at(source_owner);
-  Nearest nearest;
-  for (const std::uint32_t i : compiled_.rooms) approach(line, a, i, nearest);
-  approach_bounded(line, a, nearest);
-  if (nearest.hit.object == no_object) return std::nullopt;
-  return nearest.hit;
+  Search search{ray, end_at(source_owner)};
+  for (const std::uint32_t i : compiled_.rooms) approach(Line(ray), search.source, i, search.nearest);
+  approach_bounded(search);
+  if (search.nearest.hit.object == no_object) return std::nullopt;
+  return search.nearest.hit;
 }
 
 HALFLIGHT_INLINE void Scene::approach(const Line& line, const End& a, std::uint32_t i, Nearest& nearest) const {
@@ -139,7 +137,7 @@ HALFLIGHT_INLINE void Scene::approach(const Line& line, const End& a, std::uint3
     const double from = glm::dot(r.normal, s.origin - r.point), step = glm::dot(r.normal, s.direction);
     if (step == 0.0 || (from > 0.0) == (step > 0.0) || !(std::abs(from) > skin(a, i))) return;
     const double t = -from / step;
-    if (t <= nearest.limit && passes(line, r)) offer(line, Hit{t, i, 0, step < 0.0}, nearest);
+    if (t <= nearest.limit && passes(line, r)) offer(s, Hit{t, i, 0, step < 0.0}, nearest);
     return;
   }
   const PlacedObject& object = objects_[i];
@@ -153,21 +151,21 @@ HALFLIGHT_INLINE void Scene::approach(const Line& line, const End& a, std::uint3
     if (!(span.in.t > 0.0)) continue;
     if (near_a && depth(i, s, span.out, span.out.t) <= skin_a) continue;
     if (near_a && i == a.owner && depth(i, s, span.in, span.in.t) <= skin_a) continue;
-    if (span.in.t <= nearest.limit) offer(line, Hit{span.in.t, i, span.in.sheet, object.solid() || along(i, s, span.in) < 0.0}, nearest);
+    if (span.in.t <= nearest.limit) offer(s, Hit{span.in.t, i, span.in.sheet, object.solid() || along(i, s, span.in) < 0.0}, nearest);
     return;
   }
 }
 
 // Takes the hit if it is nearer, or as near as rounding can tell and covering. Ties are looked for within 1000 skins along the ray: beyond
 // that the ray grazes at less than a thousandth of a right angle, and the nearer parameter decides.
-HALFLIGHT_INLINE void Scene::offer(const Line& line, const Hit& hit, Nearest& nearest) const {
-  const double length = glm::length(line.segment.direction);
+HALFLIGHT_INLINE void Scene::offer(const Segment& ray, const Hit& hit, Nearest& nearest) const {
+  const double length = glm::length(ray.direction);
   Hit& best = nearest.hit;
   bool take = best.object == no_object || hit.t < best.t;
   if (best.object != no_object) {
     const End other = end_at(best.object);
     const double tolerance = skin(other, hit.object), gap = std::abs(hit.t - best.t);
-    if (gap * length <= 1000 * tolerance && gap * std::abs(along(hit.object, line.segment, {hit.t, hit.sheet})) <= tolerance)
+    if (gap * length <= 1000 * tolerance && gap * std::abs(along(hit.object, ray, {hit.t, hit.sheet})) <= tolerance)
       take = hit.front != best.front ? hit.front : hit.object > best.object;
   }
   if (!take) return;

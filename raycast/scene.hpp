@@ -40,12 +40,7 @@
 namespace raycast {
 
 struct Rays16;
-
-struct Hit {
-  double t;
-  std::uint32_t object, sheet;
-  bool front;  // the ray meets the air side; false: the back of a polygon or of an open mesh
-};
+struct Entries;
 
 class Scene {
  public:
@@ -90,6 +85,9 @@ class Scene {
   // covers is met: the later object when they face the same way, the front when they stand back to back.
   [[nodiscard]] std::optional<Hit> closest(const Segment& ray, std::uint32_t source_owner = no_object) const;
 
+  // As above for sixteen rays, bit for bit; the targets' owners do not matter. Rays that run close to each other are faster so.
+  [[nodiscard]] Hits16 closest16(const Segments16& rays) const;
+
   // Is the point p with air normal n (unit) of an object's surface buried: does another object fill the air just in front of p (p is
   // inside it, or it stands on p), or does a later object's surface coincide and face the same way? Surfaces without thickness
   // that stand back to back (a sheet with two sides) do not bury each other.
@@ -115,6 +113,15 @@ class Scene {
   struct Nearest {
     Hit hit{infinity, no_object, 0, true};
     double limit = infinity;
+  };
+  struct Search {  // for the first hit of a ray
+    Segment ray;
+    End source;
+    Nearest nearest{};
+    double t0 = 0.0, t1 = infinity;  // of the ray: the part that runs through the compiled scene
+
+    // The part within a cube around everything. False: there is none.
+    [[nodiscard]] bool clip(const Compiled& scene);
   };
 
   struct Exact;
@@ -156,8 +163,9 @@ class Scene {
   [[nodiscard]] bool blocks_by_spans(const Line& line, const End& a, const End& b, std::uint32_t i) const;
   [[nodiscard]] bool within_owner(const Segment& s, const End& end, bool source, const Span& span, std::uint32_t i) const;
   void approach(const Line& line, const End& a, std::uint32_t i, Nearest& nearest) const;
-  void approach_bounded(const Line& line, const End& a, Nearest& nearest) const;
-  void offer(const Line& line, const Hit& hit, Nearest& nearest) const;
+  void approach_bounded(Search& search) const;
+  void decide(Search& search, const Entries& entries, float limit) const;
+  void offer(const Segment& ray, const Hit& hit, Nearest& nearest) const;
 
   std::vector<PlacedObject> objects_;
   std::vector<Record> records_;
@@ -173,6 +181,7 @@ class Scene {
 }  // namespace raycast
 
 #ifndef HALFLIGHT_RAYCAST_APART
+#include "first_hit.hpp"
 #include "law.hpp"
 #include "lists.hpp"
 #include "occlusion.hpp"

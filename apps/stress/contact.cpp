@@ -175,7 +175,7 @@ std::vector<Case> contact_cases() {
       {"interpenetrating", "solids that overlap", "what lies in another solid is buried: its area takes no part", interpenetrating},
       {"gap", "solids 1e-12 apart", "closer than coordinates can tell is touching: no light goes through, nothing is counted twice", gap},
       {"leak", "a wall of boxes that stands on the floor",
-       "patches on which something stands are split, and what lies behind gets no light", leak},
+       "faces are cut where a wall divides them, so no patch takes light on one side and gives it on the other", leak},
       {"grazing", "rays along a wall", "a ray that only touches a solid is not stopped: spans decide, not epsilons along the ray", grazing},
   };
 }

@@ -75,8 +75,7 @@ class Mesh final : public Object {
     const RayFrame frame(near);
     InlineVector<Crossing, 16> in, leave;
     const auto visit = [&](std::uint32_t f) {
-      const std::span<const std::uint32_t> face = corners(f);
-      const int w = frame.winding(face.size(), [&](std::size_t i) -> const glm::dvec3& { return positions_[face[i]]; });
+      const int w = winding(frame, f);
       if (w != 0) (w < 0 ? in : leave).push(Crossing{shift + crossing_near(near, f), f});
       return false;
     };
@@ -114,6 +113,10 @@ class Mesh final : public Object {
     double shift = 0.0;
     const Segment near = nearer(line, shift);
     return {shift + crossing_near(near, face), face};
+  }
+  [[nodiscard]] bool enters(const Segment& line, std::uint32_t face) const override {
+    double shift = 0.0;
+    return winding(RayFrame(nearer(line, shift)), face) < 0;
   }
 
   // The mesh itself, whatever the tolerance; each border loop is closed by one face of brep::no_sheet.
@@ -169,25 +172,40 @@ class Mesh final : public Object {
     out.push(span);  // drops an empty span
   }
   [[nodiscard]] std::span<const std::uint32_t> corners(std::uint32_t f) const {
+    if (triangles_) return std::span<const std::uint32_t>(corners_).subspan(3 * std::size_t{f}, 3);
     return std::span<const std::uint32_t>(corners_).subspan(first_corner_[f], first_corner_[f + 1] - first_corner_[f]);
+  }
+  [[nodiscard]] int winding(const RayFrame& frame, std::uint32_t f) const {
+    const std::span<const std::uint32_t> face = corners(f);
+    return frame.winding(face.size(), [&](std::size_t i) -> const glm::dvec3& { return positions_[face[i]]; });
   }
   [[nodiscard]] Segment nearer(const Segment& line, double& shift) const {
     shift = nearest_parameter(line, box_.centre());
     return {line.at(shift), line.direction};
   }
   // Where the line meets the plane of face f; kept within the face's own extent along the line, because the quotient is unbounded when
-  // the face is seen edge-on.
+  // the face is seen edge-on. A triangle's plane is found from its corners, which are needed anyway: to fetch it would take longer.
   [[nodiscard]] double crossing_near(const Segment& line, std::uint32_t f) const {
     const double dd = glm::dot(line.direction, line.direction);
-    double lowest = infinity, highest = -infinity;
-    for (const std::uint32_t v : corners(f)) {
-      const double t = glm::dot(positions_[v] - line.origin, line.direction) / dd;
-      lowest = std::min(lowest, t);
-      highest = std::max(highest, t);
+    const std::span<const std::uint32_t> face = corners(f);
+    double lowest = infinity, highest = -infinity;  // times dd
+    for (const std::uint32_t v : face) {
+      const double along = glm::dot(positions_[v] - line.origin, line.direction);
+      lowest = std::min(lowest, along);
+      highest = std::max(highest, along);
     }
-    const Plane& plane = planes_[f];
-    const double t = glm::dot(plane.normal, plane.point - line.origin) / glm::dot(plane.normal, line.direction);
-    return t >= lowest ? std::min(t, highest) : lowest;  // NaN gives lowest
+    double t = 0.0;
+    if (triangles_) {
+      const glm::dvec3 &a = positions_[face[0]], &b = positions_[face[1]], &c = positions_[face[2]];
+      const glm::dvec3 normal = glm::cross(b - a, c - a);
+      t = glm::dot(normal, a - line.origin) / glm::dot(normal, line.direction);
+    } else {
+      const Plane& plane = planes_[f];
+      t = glm::dot(plane.normal, plane.point - line.origin) / glm::dot(plane.normal, line.direction);
+    }
+    const double at = t * dd;
+    if (!(at >= lowest)) return lowest / dd;  // NaN as well
+    return at <= highest ? t : highest / dd;
   }
   [[nodiscard]] double volume() const {
     double six = 0.0;
@@ -265,6 +283,8 @@ class Mesh final : public Object {
 
   void prepare() {
     for (const glm::dvec3& p : positions_) box_.extend(p);
+    triangles_ = true;
+    for (std::size_t f = 0; f < planes_.size(); ++f) triangles_ = triangles_ && first_corner_[f + 1] == 3 * (f + 1);
     if (planes_.size() > 8) {
       // Grown by what the line test rounds: projections of vertices seen from the middle are exact to 8 u of the distances.
       const double margin = 16 * unit_roundoff * (box_.magnitude() + box_.diameter()) + slack_;
@@ -291,6 +311,7 @@ class Mesh final : public Object {
   Bvh bvh_;
   Box box_;
   double slack_ = 0.0;
+  bool triangles_ = false;  // nothing but
   bool convex_ = false, few_planes_ = false;
 };
 

@@ -72,6 +72,38 @@ TEST_CASE("Menger sponges by bars, flush and sticking out") {
   }
 }
 
+TEST_CASE("the Menger sponge of level 4: 2460 bars united two by two, then taken away at once", "[slow]") {
+  const int side = 81;
+  const Grid g(glm::dvec3(-2.0), glm::dvec3(side + 2.0));
+  std::vector<Solid> bars;
+  for (int step = side; step > 1; step /= 3) {
+    for (int bar = 0; bar < 3 * (side / step) * (side / step); ++bar) {
+      const int axis = bar % 3, i = bar / 3 % (side / step), j = bar / 3 / (side / step);
+      glm::dvec3 lo(0.0);
+      lo[(axis + 1) % 3] = i * step + step / 3, lo[(axis + 2) % 3] = j * step + step / 3;
+      glm::dvec3 hi = lo + glm::dvec3(step / 3);
+      lo[axis] = -1.0, hi[axis] = side + 1.0;
+      bars.push_back(made(box(lo, hi), g));
+    }
+  }
+  while (bars.size() > 1) {
+    std::vector<Solid> pairs;
+    for (std::size_t i = 0; i + 1 < bars.size(); i += 2) {
+      const auto both = csg::unite(bars[i], bars[i + 1]);
+      REQUIRE(both);
+      pairs.push_back(*both);
+    }
+    if (bars.size() % 2 == 1) pairs.push_back(bars.back());
+    bars = std::move(pairs);
+  }
+  const auto sponge = csg::subtract(made(box(glm::dvec3(0.0), glm::dvec3(side)), g), bars[0]);
+  REQUIRE(sponge);
+  const Counts c = counts(*sponge);
+  CHECK((c.shells == 1 && c.genus == 26433));
+  CHECK(c.volume == test::Approx(160000.0));
+  CHECK(c.area == test::Approx(2 * 160000.0 + 4 * 4096.0));  // 2 20^n + 4 8^n
+}
+
 TEST_CASE("a Menger sponge of 400 cubes is the sponge that bars cut out") {
   Solid r;
   const Grid g(glm::dvec3(0.0), glm::dvec3(9.0));

@@ -14,6 +14,7 @@
 #include "catch.hpp"
 #include "scenes.hpp"
 
+using radiosity::Color;
 using radiosity::Scene;
 
 namespace {

@@ -127,6 +127,24 @@ TEST_CASE("input faces: the contour of a whole face does not depend on how far i
   }
 }
 
+TEST_CASE("input faces: a face that is cut at a wall falls into parts, so that no patch spans the wall") {
+  raycast::CsgNode room;
+  room.operation = raycast::CsgOperation::subtract;
+  room.parts = {leaf({0, 0, 0}, {3, 3, 1}), leaf({2, 2, -1}, {4, 4, 2})};
+  radiosity::Scene scene{{scenes::furnace_material(0.5)}, {scenes::object("room", raycast::Csg::make(room).object, 0, true)}};
+  const auto whole = [&] {
+    radiosity::PrepareResult made = radiosity::prepare(scene);
+    REQUIRE(made.prepared);
+    radiosity::Prepared prepared = std::move(*made.prepared);
+    radiosity::cut_at_walls(prepared.surfaces, prepared.objects.diameter());
+    const radiosity::Hierarchy roots = radiosity::make_roots(prepared.surfaces);
+    return std::count_if(roots.begin(), roots.end(), [](const Node& n) { return n.in_parts(); });
+  };
+  CHECK(whole() == 2);
+  scene.objects.push_back(scenes::object("wall", scenes::box({1, 0, 0}, {1.1, 3, 1})));
+  CHECK(whole() == 0);
+}
+
 TEST_CASE("input faces: in a concave room of concave faces a furnace glows evenly, linked at whole faces or at fine parts") {
   raycast::CsgNode room;
   room.operation = raycast::CsgOperation::subtract;

@@ -54,7 +54,16 @@ TEST_CASE("bundle = single = the law for every object, on every instruction set,
   CHECK(blocked < all - all / 10);
 }
 
-TEST_CASE("the first hit is the same on every instruction set, and no object is met before it") {
+bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->t == b->t && a->object == b->object && a->sheet == b->sheet && a->front == b->front;
+}
+std::optional<Hit> lane_of(const Hits16& hits, unsigned lane) {
+  if (!(hits.met >> lane & 1u)) return std::nullopt;
+  return hits.hit[lane];
+}
+
+TEST_CASE("the first hit is the same alone and among sixteen, on every instruction set, and no object is met before it") {
   SEEDED(random);
   std::size_t met = 0;
   for (int turn = 0; turn < 40; ++turn) {
@@ -63,40 +72,90 @@ TEST_CASE("the first hit is the same on every instruction set, and no object is 
     const World w = world(random, turn % 4 == 0 ? 4 : turn % 4 == 1 ? 30 : 150, scale, shift, turn % 2);
     std::vector<Scene> scenes;
     for (const Isa isa : instruction_sets()) scenes.emplace_back(w.objects, isa);
-    for (int i = 0; i < 400; ++i) {
-      const Place a = place(random, w, scale, shift), b = place(random, w, scale, shift);
-      Segment ray = between(a.at, b.at);
-      if (i % 9 == 0) ray.direction[static_cast<int>(random.below(3))] = 0.0;
-      if (i % 5 == 0) ray.direction *= random.magnitude(6);
-      const auto hit = scenes[0].closest(ray, a.owner);
-      met += hit.has_value();
-      for (const Scene& other : scenes) {
-        const auto same = other.closest(ray, a.owner);
-        INFO("turn " << turn << " ray " << i);
-        REQUIRE(hit.has_value() == same.has_value());
-        if (!hit) continue;
-        REQUIRE(hit->t == same->t);
-        REQUIRE(hit->object == same->object);
-        REQUIRE(hit->sheet == same->sheet);
-        REQUIRE(hit->front == same->front);
+    for (unsigned i = 0; i < 25; ++i) {
+      Segments16 rays;
+      Place a = place(random, w, scale, shift), b = place(random, w, scale, shift);
+      for (unsigned lane = 0; lane < 16; ++lane) {
+        if (lane == 13 && i % 3 == 0) continue;  // not all lanes are set
+        if (i % 2 == 0)                          // all over the scene, or close together as through a pixel
+          a = place(random, w, scale, shift), b = place(random, w, scale, shift);
+        else
+          b.at += 0.02 * scale * random.in_cube();
+        Segment ray = between(a.at, b.at);
+        if ((lane + i) % 9 == 0) ray.direction[static_cast<int>(random.below(3))] = 0.0;
+        if ((lane + i) % 5 == 0) ray.direction *= random.magnitude(6);
+        if ((lane + i) % 41 == 0) ray.origin -= 1e8 * ray.direction;
+        if ((lane + i) % 43 == 0) ray.direction = dvec3(lane % 2 ? 0.0 : std::nan(""));
+        rays.set(lane, ray, a.owner, no_object);
       }
-      if (!hit || a.owner != no_object) continue;
-      // From the air far from any surface: the nearest entry of all spans; polygons, which the scene places with other roundings, may
-      // be met before it.
-      double nearest = infinity;
-      bool touching = false;
-      for (const PlacedObject& object : w.objects) {
-        touching = touching || object.bounds().contains(ray.origin, 1e-3 * scale);
-        if (!object.object().outline().empty()) continue;
-        for (const Span& span : spans(object, ray))
-          if (span.in.t > 0.0) nearest = std::min(nearest, span.in.t);
+      std::vector<Hits16> bundles;
+      for (const Scene& scene : scenes) bundles.push_back(scene.closest16(rays));
+      for (std::uint32_t rest = rays.lanes; rest; rest &= rest - 1) {
+        const auto lane = static_cast<unsigned>(std::countr_zero(rest));
+        const Segment ray = rays.at(lane);
+        const std::optional<Hit> hit = scenes[0].closest(ray, rays.source[lane]);
+        INFO("turn " << turn << " bundle " << i << " lane " << lane);
+        met += hit.has_value();
+        if (hit) REQUIRE((hit->t > 0.0 && hit->t < infinity));
+        for (std::size_t k = 0; k < scenes.size(); ++k) {
+          REQUIRE(same(hit, scenes[k].closest(ray, rays.source[lane])));
+          REQUIRE(same(hit, lane_of(bundles[k], lane)));
+        }
+        if (!hit || rays.source[lane] != no_object) continue;
+        // From the air far from any surface: the nearest entry of all spans; polygons, which the scene places with other roundings, may
+        // be met before it.
+        double nearest = infinity;
+        bool touching = false;
+        for (const PlacedObject& object : w.objects) {
+          touching = touching || object.bounds().contains(ray.origin, 1e-3 * scale);
+          if (!object.object().outline().empty()) continue;
+          for (const Span& span : spans(object, ray))
+            if (span.in.t > 0.0) nearest = std::min(nearest, span.in.t);
+        }
+        if (touching) continue;
+        REQUIRE(hit->t <= nearest * (1.0 + 1e-9));
+        if (w.objects[hit->object].object().outline().empty()) REQUIRE(hit->t == test::Approx(nearest).epsilon(1e-9));
       }
-      if (touching) continue;
-      REQUIRE(hit->t <= nearest * (1.0 + 1e-9));
-      if (w.objects[hit->object].object().outline().empty()) REQUIRE(hit->t == test::Approx(nearest).epsilon(1e-9));
+      for (const Hits16& hits : bundles) REQUIRE((hits.met & ~rays.lanes) == 0);
     }
   }
   CHECK(met > 5000);
+}
+
+// Twice the same: the later one covers. For segments between surfaces see self_shadow_test.
+TEST_CASE("of two equal objects in one place the later is met, and both together occlude as one does") {
+  SEEDED(random);
+  std::size_t met = 0, blocked = 0;
+  for (int turn = 0; turn < 12; ++turn) {
+    const double scale = random.magnitude(8);
+    const dvec3 shift = scale * random.in_cube();
+    const World w = world(random, 40, scale, shift, false);
+    std::vector<PlacedObject> twice = w.objects;
+    twice.insert(twice.end(), w.objects.begin(), w.objects.end());
+    for (const Isa isa : instruction_sets()) {
+      const Scene one(w.objects, isa), two(twice, isa);
+      for (int i = 0; i < 20; ++i) {
+        Segments16 segments;
+        for (unsigned lane = 0; lane < 16; ++lane)
+          segments.set(lane, between(shift + scale * random.in_cube(), shift + scale * random.in_cube()), no_object, no_object);
+        const Hits16 first = one.closest16(segments), again = two.closest16(segments);
+        const std::uint32_t occluded = one.occluded16(segments);
+        INFO("turn " << turn << " bundle " << i);
+        CHECK(two.occluded16(segments) == occluded);
+        blocked += static_cast<std::size_t>(std::popcount(occluded));
+        REQUIRE(first.met == again.met);
+        for (std::uint32_t rest = first.met; rest; rest &= rest - 1) {
+          const auto lane = static_cast<unsigned>(std::countr_zero(rest));
+          ++met;
+          CHECK(first.hit[lane].t < infinity);
+          CHECK(again.hit[lane].t == first.hit[lane].t);
+          CHECK(again.hit[lane].object >= w.objects.size());
+        }
+      }
+    }
+  }
+  CHECK(met > 500);
+  CHECK(blocked > 500);
 }
 
 TEST_CASE("a scene may be asked by many threads at once") {

@@ -190,7 +190,16 @@ TEST_CASE("zero-length and non-finite rays meet nothing; an empty scene is empty
     CHECK_FALSE(scene.occluded(Segment{{0.5, 0, 0}, d}));
     CHECK_FALSE(scene.closest(Segment{{0.5, 0, 0}, d}));
   }
+  // An origin that is no place: no answer is right, but there is one, and it is the same alone and among sixteen.
+  for (const dvec3& o : {dvec3(nan, 0, 0), dvec3(0, infinity, 0), dvec3(-infinity, nan, 0), dvec3(1e300, 0, 0)})
+    for (const dvec3& d : {dvec3(1, 0.5, 0.25), dvec3(nan, 0, 1), dvec3(1e300, 0, 0)}) {
+      Segments16 segments;
+      segments.set(3, {o, d}, no_object, no_object);
+      CHECK(scene.occluded(Segment{o, d}) == (scene.occluded16(segments) != 0));
+      CHECK(scene.closest(Segment{o, d}).has_value() == (scene.closest16(segments).met != 0));
+    }
   const Scene nothing({});
+  CHECK(nothing.closest16(Segments16{}).met == 0);
   CHECK_FALSE(nothing.occluded(between({0, 0, 0}, {1, 1, 1})));
   CHECK_FALSE(nothing.closest(between({0, 0, 0}, {1, 1, 1})));
   CHECK_FALSE(nothing.covered({0, 0, 0}, {0, 0, 1}, no_object));

@@ -49,12 +49,13 @@ void spread(std::uint32_t mask, std::uint8_t* out) {
 }
 
 // Sixteen at a time, without knowledge of where they come from.
-bool bundles(const raycast::Scene& scene, const Set& set, std::vector<std::uint8_t>& verdicts) {
-  if (set.closest) return false;
+void bundles(const raycast::Scene& scene, const Set& set, std::vector<std::uint8_t>& verdicts) {
   verdicts.resize(set.rays.size());
   std::uint32_t hint = raycast::no_shape;
-  for (std::size_t at = 0; at < set.rays.size(); at += 16) spread(scene.occluded16(sixteen(set, at), hint), &verdicts[at]);
-  return true;
+  for (std::size_t at = 0; at < set.rays.size(); at += 16) {
+    const raycast::Segments16 segments = sixteen(set, at);
+    spread(set.closest ? scene.closest16(segments).met : scene.occluded16(segments, hint), &verdicts[at]);
+  }
 }
 
 raycast::PatchShape shape(const Patch& p) { return {p.contour, p.owner, p.bulge}; }
@@ -104,7 +105,7 @@ void compare(const World& world, const std::string& only, const std::string& onl
   const raycast::Scene scene(world.objects);
   std::vector<Engine> engines;
   engines.push_back({"halflight single", false, builds[2], [&](const Set& s, auto& v) { return single(scene, s, v), true; }});
-  engines.push_back({"halflight 16", false, builds[2], [&](const Set& s, auto& v) { return bundles(scene, s, v); }});
+  engines.push_back({"halflight 16", false, builds[2], [&](const Set& s, auto& v) { return bundles(scene, s, v), true; }});
   Count count;
   engines.push_back({"halflight 16, occluder lists", false, builds[2], [&](const Set& s, auto& v) { return lists(scene, s, v, count); }});
 #ifdef HALFLIGHT_EMBREE
