@@ -94,9 +94,15 @@ void sizes_and_checks(std::string& out, const Report& report) {
   out += "size\n";
   row(out, "input polygons", grouped(audit.polygons));
   row(out, "nodes, leaves", grouped(audit.nodes) + ", " + grouped(audit.leaves));
+<<<<<<< HEAD
+  row(out, "links", grouped(audit.links) + (audit.clusters > 0 ? ", " + grouped(audit.cluster_links) + " of them with one of " +
+                                                                     grouped(audit.clusters) + " clusters"
+                                                               : ""));
+=======
   row(out, "proportions",
       format("%.2f to %.2f, mean %.2f (regular polygon: 1)", audit.proportion.min, audit.proportion.max, audit.proportion.mean));
   row(out, "links", grouped(audit.links));
+>>>>>>> main
   row(out, "rays",
       grouped(audit.rays) + " cast, " + grouped(audit.rays_avoided) + " avoided: " + grouped(audit.pairs_clear) + " pairs proven clear, " +
           grouped(audit.pairs_hidden) + " proven blocked");
@@ -301,6 +307,7 @@ std::string to_json(const Report& report) {
   write_times(json, "wall_seconds", report, &radiosity::StageTime::wall_seconds, audit.wall_seconds);
   json.key("polygons").count(audit.polygons);
   json.key("nodes").count(audit.nodes).key("leaves").count(audit.leaves).key("links").count(audit.links);
+  json.key("clusters").count(audit.clusters).key("cluster_links").count(audit.cluster_links);
   json.key("rays").count(audit.rays).key("rays_avoided").count(audit.rays_avoided);
   json.key("pairs_clear").count(audit.pairs_clear).key("pairs_blocked").count(audit.pairs_hidden).key("bytes").count(audit.bytes);
   write_range(json, "proportion", audit.proportion);

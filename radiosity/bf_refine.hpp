@@ -92,6 +92,16 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
     result.norm += area[i] * glm::dot(reflected, reflected);
   }
   const std::vector<NodeLight> light = light_of_nodes(hierarchy, area, radiosity);
+  std::vector<Color> of_clusters;  // mean reflectance
+  const auto rho = [&](const Node& node) { return node.is_cluster() ? of_clusters[node.cluster] : reflectance[node.surface]; };
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {
+    const Node& node = hierarchy[i];
+    if (!node.is_cluster()) { continue; }
+    if (of_clusters.size() <= node.cluster) { of_clusters.resize(node.cluster + 1, Color{0.0}); }
+    Color sum{0.0};
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { sum += area[c] * rho(hierarchy[c]); }
+    of_clusters[node.cluster] = area[i] > 0.0 ? sum / area[i] : sum;
+  }
   const auto square = [](double x) { return x * x; };
   const auto unmended = [&](const LinkShape::End& shape, bool leaf) {  // of the light received
     return (leaf ? square(leaf_linear * shape.linear) : 0.0) + square(shape.rest) + square(shape.shadow);
@@ -101,8 +111,8 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
     const Link& link = links[i];
     const Node& p = hierarchy[link.p];
     const Node& q = hierarchy[link.q];
-    const Color rho_p = reflectance[p.surface];
-    const Color rho_q = reflectance[q.surface];
+    const Color rho_p = rho(p);
+    const Color rho_q = rho(q);
     const double g2 = square(link.exchange);
     const Color to_p = g2 / area[link.p] * rho_p * rho_p;
     const Color to_q = g2 / area[link.q] * rho_q * rho_q;
@@ -321,7 +331,7 @@ class Deadline {
         [&](std::uint32_t p, std::uint32_t q) { return f_oracle(hierarchy[p], hierarchy[q], 1.0, min_area); },
         [](std::size_t, const raycast::OccluderList&, Decision&) {});
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (decisions[i] == Decision::drop || decisions[i] == Decision::hide) { continue; }
+      if (decisions[i] < first_seeing) { continue; }
       links.push_back({pairs[i].p, pairs[i].q});
       lists.push_back(pairs[i].list);
     }

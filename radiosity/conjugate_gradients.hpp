@@ -34,7 +34,8 @@ inline Rooms rooms_of(const Channel& channel) {
   std::vector<std::uint32_t> up(n);  // of a root: towards the first root of its room
   std::vector<bool> reflects(n, false);
   for (std::uint32_t i = 0; i < n; ++i) {
-    root[i] = hierarchy[i].parent == no_node ? i : root[hierarchy[i].parent];
+    const std::uint32_t parent = hierarchy[i].parent;
+    root[i] = parent == no_node || hierarchy[parent].is_cluster() ? i : root[parent];
     up[i] = i;
     if (channel.counts(i) && channel.reflectance[i] > 0.0) { reflects[root[i]] = true; }
   }
@@ -42,6 +43,23 @@ inline Rooms rooms_of(const Channel& channel) {
     while (up[i] != i) { i = up[i] = up[up[i]]; }
     return i;
   };
+  for (std::size_t i = n; i-- > 0;) {  // a cluster reflects when anything in it does
+    if (hierarchy[i].parent != no_node && reflects[root[i]]) { reflects[root[hierarchy[i].parent]] = true; }
+  }
+  // The link of a cluster reaches everything in it.
+  std::vector<bool> joined(n, false);
+  for (const Link& link : channel.transport->links()) {
+    for (const std::uint32_t i : {link.p, link.q}) { joined[i] = joined[i] || hierarchy[i].is_cluster(); }
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t parent = hierarchy[i].parent;
+    if (parent == no_node || !joined[parent]) { continue; }
+    joined[i] = hierarchy[i].is_cluster();
+    if (!reflects[i]) { continue; }
+    const std::uint32_t a = first(parent);
+    const std::uint32_t b = first(i);
+    up[std::max(a, b)] = std::min(a, b);
+  }
   for (const Link& link : channel.transport->links()) {
     const std::uint32_t p = root[link.p];
     const std::uint32_t q = root[link.q];

@@ -10,6 +10,8 @@
 
 #include <raycast/scene.hpp>
 
+#include <radiosity/cluster_exchange.hpp>
+#include <radiosity/clusters.hpp>
 #include <radiosity/doubt.hpp>
 #include <radiosity/exchange.hpp>
 #include <radiosity/exposure.hpp>
@@ -60,18 +62,22 @@ struct LinkShape {
   Doubt doubt;
 };
 
+// Pairs of points, in rounds of 16, for each link of a cluster: a mean over many faces that hide each other, so never few.
+inline constexpr std::uint32_t cluster_rounds = 4;
+
 // Evaluates links one by one.
 class LinkEvaluator {
  public:
-  // The references must outlive the evaluator. `emits` tells for each input surface whether it is a light: its links make the
+  // The references must outlive the evaluator. `shown`: by exposed areas. `emits` tells for each input surface whether it is a light: its links make the
   // shadows and get four times the segments where they are partly blocked.
   LinkEvaluator(const raycast::Scene& scene, const Plan& plan, const Hierarchy& hierarchy, const Patches& patches, const Exposure& exposure,
-                std::vector<bool> emits, std::uint64_t seed)
+                const ShownAreas& shown, std::vector<bool> emits, std::uint64_t seed)
       : scene_{&scene},
         plan_{&plan},
         hierarchy_{&hierarchy},
         patches_{&patches},
         exposure_{&exposure},
+        sampler_{scene, hierarchy, patches, &exposure, shown},
         emits_{std::move(emits)},
         seed_{seed} {}
 
@@ -84,6 +90,14 @@ class LinkEvaluator {
     const double area_q = exposure_->area[link.q];
     link.exchange = 0.0f;
     if (!(area_p > 0.0) || !(area_q > 0.0)) { return {}; }
+    if (!between_patches(link)) {
+      const Random random{seed_, (std::uint64_t{link.p} << 32) | link.q};
+      const ClusterExchange seen = evaluate_cluster_link(sampler_, *hierarchy_, link, cluster_rounds, random);
+      const LinkShape of_link = shape_of_cluster_link(link, seen.fraction);
+      if (shape != nullptr) { *shape = of_link; }
+      if (doubt != nullptr) { doubt->square = static_cast<float>(doubt_of_cluster_link(link, of_link, seen)); }
+      return {seen.rays, 0};
+    }
     const double unoccluded = exchange(p, q);
     if (!(unoccluded > 0.0)) { return {}; }
     const Node& node_p = (*hierarchy_)[link.p];
@@ -108,7 +122,10 @@ class LinkEvaluator {
     return seen.rays;
   }
 
-  // Casts the segments of a link with exposed ends as if nothing were known of what can block them.
+  [[nodiscard]] bool between_patches(const Link& link) const {
+    return !(*hierarchy_)[link.p].is_cluster() && !(*hierarchy_)[link.q].is_cluster();
+  }
+  // Casts the segments of a link between patches with exposed ends as if nothing were known of what can block them.
   [[nodiscard]] RayCount segments(const Link& link) const {
     return visibility(*scene_, *plan_, {}, end(link.p), end(link.q), rounds(link), Random{seed_, key_of(link)}).rays;
   }
@@ -142,6 +159,28 @@ class LinkEvaluator {
   [[nodiscard]] static LinkShape::End shape_of(const Variation& v, double shadow) {
     return {static_cast<float>(v.linear), static_cast<float>(v.rest), static_cast<float>(shadow)};
   }
+  // Each face of a cluster is lit as if it stood at the centre, and sees all or nothing of the other end.
+  [[nodiscard]] LinkShape shape_of_cluster_link(const Link& link, double fraction) const {
+    const Node& p = (*hierarchy_)[link.p];
+    const Node& q = (*hierarchy_)[link.q];
+    const double r = glm::length(q.centre - p.centre);
+    const double shadow = fraction > 0.0 ? std::sqrt((1.0 - fraction) / fraction) : 0.0;
+    const auto end = [&](const Node& node) {
+      const double near = r > 0.0 ? 2.0 * node.radius / (std::sqrt(12.0) * r) : 0.0;
+      return LinkShape::End{0.0f, static_cast<float>(near), node.is_cluster() ? static_cast<float>(shadow) : 0.0f};
+    };
+    return {end(p), end(q), {}};
+  }
+  // Every face and every link errs for itself: by its place, by what it sees, by the lattice of directions (a tenth) and by sampling.
+  [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkShape& shape, const ClusterExchange& seen) const {
+    const double exchange = static_cast<double>(link.exchange);
+    const auto end = [&](std::uint32_t i, const LinkShape::End& e) {
+      const double relative = 0.01 + static_cast<double>(e.rest * e.rest + e.shadow * e.shadow) +
+                              seen.spread * seen.spread / std::max(16.0, static_cast<double>(seen.rays));
+      return exchange * exchange * relative / exposure_->area[i];
+    };
+    return exchange > 0.0 ? end(link.p, shape.p) + end(link.q, shape.q) : 0.0;
+  }
   [[nodiscard]] PatchEnd end(std::uint32_t i) const { return {&(*patches_)[i], (*hierarchy_)[i].object, exposure_->points(i)}; }
 
   const raycast::Scene* scene_;
@@ -149,6 +188,7 @@ class LinkEvaluator {
   const Hierarchy* hierarchy_;
   const Patches* patches_;
   const Exposure* exposure_;
+  ClusterSampler sampler_;
   std::vector<bool> emits_;
   std::uint64_t seed_;
 };

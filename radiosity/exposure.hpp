@@ -14,6 +14,7 @@
 #include <glm/vector_relational.hpp>
 
 #include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
 #include <raycast/scene.hpp>
 
 #include <radiosity/curved_area.hpp>
@@ -42,20 +43,50 @@ struct Exposure {
   }
 };
 
-// Can anything lie on or over this patch? Not when the bounds of all other objects stay clear of it.
-[[nodiscard]] inline bool may_be_buried(const raycast::Scene& scene, std::uint32_t object, const Patch& patch) {
-  const double margin = 1e-6 * scene.diameter();  // far beyond any skin of raycast/scene.hpp
-  raycast::Box box;
-  for (const glm::dvec3& p : patch.contour) { box.extend(p); }
-  box = box.grown(margin);
-  for (std::uint32_t i = 0; i < scene.size(); ++i) {
-    if (i == object) { continue; }
-    if (scene.object(i).inside()) { return true; }
-    const raycast::Box other = scene.object(i).bounds();
-    if (glm::all(glm::lessThanEqual(box.lo, other.hi)) && glm::all(glm::lessThanEqual(other.lo, box.hi))) { return true; }
+// The bounds of all objects, to find those near a patch.
+class Neighbourhood {
+ public:
+  Neighbourhood() = default;
+  explicit Neighbourhood(const raycast::Scene& scene) {
+    for (std::uint32_t i = 0; i < scene.size(); ++i) {
+      boxes_.push_back(scene.object(i).bounds());
+      if (scene.object(i).inside()) { rooms_.push_back(i); }
+    }
+    tree_ = raycast::Bvh{boxes_};
+    margin_ = 1e-6 * scene.diameter();  // far beyond any skin of raycast/scene.hpp
   }
-  return false;
-}
+
+  // Can anything lie on or over this patch of the object? Not when the bounds of all other objects stay clear of it.
+  [[nodiscard]] bool may_be_buried(std::uint32_t object, const Patch& patch) const {
+    if (rooms_.size() > 1 || (rooms_.size() == 1 && rooms_.front() != object)) { return true; }
+    raycast::Box box;
+    for (const glm::dvec3& p : patch.contour) { box.extend(p); }
+    box = box.grown(margin_);
+    const auto meets = [&](const raycast::Box& other) {
+      return glm::all(glm::lessThanEqual(box.lo, other.hi)) && glm::all(glm::lessThanEqual(other.lo, box.hi));
+    };
+    std::vector<std::uint32_t> stack{0};
+    while (!stack.empty()) {
+      const raycast::Bvh::Node& node = tree_.nodes()[stack.back()];
+      stack.pop_back();
+      if (!meets(node.box)) { continue; }
+      if (node.count == 0) {
+        stack.insert(stack.end(), {node.first, node.first + 1});
+        continue;
+      }
+      for (const std::uint32_t item : tree_.items(node)) {
+        if (item != object && meets(boxes_[item])) { return true; }
+      }
+    }
+    return false;
+  }
+
+ private:
+  std::vector<raycast::Box> boxes_;  // one an object
+  std::vector<std::uint32_t> rooms_;
+  raycast::Bvh tree_;
+  double margin_ = 0.0;
+};
 
 // Measures the leaves among the nodes that are new since the last call and sums all up. Leaves near other objects are measured by 16
 // stratified points, 256 where these disagree: the standard error of the area is at most 1/32 of a leaf at the border of what is hidden.
@@ -64,6 +95,7 @@ inline void extend(Exposure& exposure, const raycast::Scene& scene, const std::v
                    const Patches& patches, unsigned threads, std::uint64_t seed) {
   const std::size_t first_new = exposure.area.size();
   const std::size_t new_nodes = hierarchy.size() - first_new;
+  const Neighbourhood neighbourhood{scene};
   std::vector<double>& area = exposure.whole;
   std::vector<double>& exposed = exposure.area;
   std::vector<glm::dvec3>& centroid = exposure.centroid;
@@ -86,7 +118,7 @@ inline void extend(Exposure& exposure, const raycast::Scene& scene, const std::v
     const Patch& patch = patches[i];
     centroid[i] = patch.centroid;
     exposed[i] = area[i];
-    if (!may_be_buried(scene, node.object, patch)) { return; }
+    if (!neighbourhood.may_be_buried(node.object, patch)) { return; }
     Random random{key(i), 16};
     std::uint32_t count = 0;
     for (std::uint32_t c = 0; c < 16; ++c) {
@@ -133,7 +165,9 @@ inline void extend(Exposure& exposure, const raycast::Scene& scene, const std::v
   nodes.clear();
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
     exposure.partly_buried[i] = exposed[i] > 0.0 && exposed[i] < area[i];
-    if (exposure.partly_buried[i] && exposure.drawn_of[i] == no_node) { nodes.push_back(static_cast<std::uint32_t>(i)); }
+    if (exposure.partly_buried[i] && exposure.drawn_of[i] == no_node && !hierarchy[i].is_cluster()) {
+      nodes.push_back(static_cast<std::uint32_t>(i));
+    }
   }
   draw(nodes);
   exposure.all_buried = std::none_of(exposed.begin(), exposed.end(), [](double a) { return a > 0.0; });

@@ -36,7 +36,8 @@ class LeafExchange {
     Hierarchy roots;
     for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
       const Node& node = hierarchy[i];
-      if (node.parent == no_node) {
+      if (node.is_cluster()) { continue; }
+      if (is_input_face(hierarchy, i)) {
         root_of[i] = static_cast<std::uint32_t>(roots.size());
         roots.push_back(node);
         root_nodes.push_back(i);

@@ -11,7 +11,8 @@
 // with G = A_p F_pq = A_q F_qp (visibility included) and c the area centroids. The constant term is the paper's link. The
 // slopes make the light fall off across a large patch as it should: without them a leaf in the corner of a room inherits
 // from each level above the mean over a patch that reaches far out of the corner, and its row sum errs by tens of
-// per cent however deep the hierarchy is. The slope of an end that is a leaf has no effect.
+// per cent however deep the hierarchy is. The slope of an end that is a leaf has no effect. A link that has a cluster at an end has no
+// slopes: the end that is a cluster keeps the direction to the other instead (cluster_exchange.hpp).
 
 #include <array>
 #include <bit>

@@ -35,6 +35,7 @@ class Patches {
     parallel_for(patches_.size() - first, threads, [&](std::size_t i) {
       const auto index = static_cast<std::uint32_t>(first + i);
       const Node& node = (*hierarchy_)[index];
+      if (node.is_cluster()) { return; }  // no patch
       std::vector<Polygon> parts;
       if (node.in_parts()) {
         for (std::uint32_t k = 0; k < node.child_count; ++k) { parts.push_back(contour(*surfaces_, *hierarchy_, node.first_child + k)); }
@@ -43,6 +44,8 @@ class Patches {
     });
   }
   [[nodiscard]] const Patch& operator[](std::size_t i) const { return patches_[i]; }
+
+  [[nodiscard]] bool is_cluster(std::uint32_t i) const { return (*hierarchy_)[i].is_cluster(); }
 
   // The patch as the occluder lists see it. Its descendants leave its plane by at most the tilt of the true surface over its radius.
   [[nodiscard]] raycast::PatchShape shape(std::uint32_t i) const {
@@ -68,9 +71,10 @@ class OccluderLists {
     return {std::span{words_}.subspan(index + 1, head >> 1), (head & 1u) != 0};
   }
 
-  // The list of a pair of nodes; `ancestors` is the index of a pair of their ancestors.
+  // The list of a pair of nodes; `ancestors` is the index of a pair of their ancestors. Of clusters nothing is known.
   [[nodiscard]] raycast::OccluderList of(std::uint32_t p, std::uint32_t q, std::uint32_t ancestors, const raycast::Scene& scene,
                                          const Plan& plan, const Patches& patches) const {
+    if (patches.is_cluster(p) || patches.is_cluster(q)) { return {}; }
     if (ancestors != none) { return scene.filter((*this)[ancestors], patches.shape(p), patches.shape(q)); }
     const raycast::OccluderList all = scene.occluders(patches.shape(p), patches.shape(q));
     if (!all.known() || all.blocked()) { return all; }

@@ -45,6 +45,9 @@ struct Options {
   // Accuracy target: target, or epsilon and min_area, are chosen anew until the audited relative L2 error of the picture is at most this.
   std::optional<double> error;
 
+  // Input faces from which on clusters are built above them; below, all pairs of input faces are looked at.
+  std::uint32_t cluster_from = 300;
+
   Solver solver = Solver::conjugate_gradients;
   double residual = 1e-8;  // relative to the residual of B = 0
   std::uint32_t max_iterations = 1000;

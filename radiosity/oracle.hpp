@@ -16,11 +16,14 @@ namespace radiosity {
 
 enum class Decision : unsigned char {
   drop,     // proven: the patches cannot face each other
+  convex,   // proven: they lie in one plane or on one convex solid
   hide,     // proven: they cannot see each other
   link,     // exchange light at this level
   split_p,  // too much light for one link: split the first,
   split_q,  // or the second patch
 };
+
+inline constexpr Decision first_seeing = Decision::link;  // those before it end the matter
 
 // The point of the disk around a patch that is nearest to x.
 [[nodiscard]] inline glm::dvec3 nearest_point(const Node& patch, const glm::dvec3& x) {

@@ -19,6 +19,7 @@
 #include <raycast/box.hpp>
 #include <raycast/scene.hpp>
 
+#include <radiosity/extremes.hpp>
 #include <radiosity/reference.hpp>
 #include <radiosity/scene.hpp>
 #include <radiosity/surface.hpp>
@@ -50,31 +51,14 @@ namespace detail {
 
 // Does everything in the scene lie on one side of every face of this flat object? Then no segment between two
 // points of the scene can pass through it. Slack: 1e-9 of the scene.
-inline bool on_the_hull(const std::vector<Surface>& surfaces, std::uint32_t object) {
-  const SurfaceBRep& own = surfaces[object].brep;
+inline bool on_the_hull(const Extremes& scene, const SurfaceBRep& own) {
   for (const brep::FaceId f : brep::faces(own)) {
     if (own.data(f).sheet == brep::no_sheet) { continue; }
     const Polygon polygon = corner_polygon(own, f);
     const glm::dvec3 area = vector_area(polygon);
     if (!(glm::length(area) > 0.0)) { return false; }
     const glm::dvec3 normal = glm::normalize(area);
-    double low = 0.0;
-    double high = 0.0;
-    const auto extend = [&](const glm::dvec3& p) {
-      low = std::min(low, glm::dot(normal, p - polygon[0]));
-      high = std::max(high, glm::dot(normal, p - polygon[0]));
-    };
-    for (const Surface& surface : surfaces) {
-      if (surface.object->exact()) {
-        for (const brep::VertexId v : brep::vertices(surface.brep)) { extend(surface.brep.data(v).position); }
-      } else {
-        const raycast::Box box = surface.object->bounds();
-        for (int corner = 0; corner < 8; ++corner) {
-          extend({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z});
-        }
-      }
-    }
-    if (low < -1e-9 && high > 1e-9) { return false; }
+    if (scene.any_above(polygon[0], normal, 1e-9) && scene.any_above(polygon[0], -normal, 1e-9)) { return false; }
   }
   return true;
 }
@@ -148,12 +132,15 @@ inline bool lies_on_room(const Surface& surface, const Surface& room) {
   std::uint32_t hull = 0;
   std::vector<std::uint32_t> sheets;  // flat surfaces that block no segment
   plan.outer.assign(surfaces.size(), false);
+  const bool sheets_at_all =
+      std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.object->flat() && !s.object->solid(); });
+  const Extremes extremes = sheets_at_all ? Extremes{surfaces} : Extremes{};
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
     const raycast::PlacedObject& object = *surfaces[o].object;
     if (object.inside() && room == nullptr) { room = &surfaces[o]; }
     if (object.inside() && object.convex()) { continue; }
     plan.rooms_convex = plan.rooms_convex && !object.inside();
-    const bool on_hull = object.flat() && !object.solid() && detail::on_the_hull(surfaces, o);
+    const bool on_hull = object.flat() && !object.solid() && detail::on_the_hull(extremes, surfaces[o].brep);
     if (on_hull) {
       ++hull;
       plan.outer[o] = true;

@@ -18,6 +18,8 @@
 
 #include <radiosity/audit.hpp>
 #include <radiosity/bf_refine.hpp>
+#include <radiosity/cluster_choice.hpp>
+#include <radiosity/clusters.hpp>
 #include <radiosity/comparison.hpp>
 #include <radiosity/evaluate.hpp>
 #include <radiosity/exposure.hpp>
@@ -148,6 +150,10 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.warnings = warnings(scene, frame, objects, boundary);
   cut_at_walls(boundary, objects.diameter());
   hierarchy = make_roots(boundary);
+  const ClusterChoice clusters = choose_clusters(hierarchy.size(), options);
+  if (clusters.build) { hierarchy = make_clusters(boundary, hierarchy); }
+  audit.clusters =
+      static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.is_cluster(); }));
   if (plan.lossless) {
     return failed(Failure::Kind::invalid_scene, {"the scene is closed and nothing in it absorbs light in some channel in which it emits: "
                                                  "the light would grow without end; give some surface a reflectance below 1"});
@@ -167,7 +173,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   }
   Exposure exposure;
   Patches patches{boundary, hierarchy};
-  const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, emits, options.seed};
+  ShownAreas shown;
+  const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, shown, emits, options.seed};
   RefineResult refined;
   EvaluateResult evaluated;
   // Without light, or without reflection, B = E on the input faces.
@@ -186,10 +193,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
         refine(scene, objects, plan, boundary, hierarchy, patches, options.epsilon, options.min_area, true, threads, options.seed, control);
   }
   if (refined.cancelled || evaluated.cancelled) { return cancelled(); }
-  if (refined.too_many) {
-    return failed(Failure::Kind::invalid_options, {"epsilon and min_area ask for more than " + std::to_string(link_limit / 1'000'000) +
-                                                   " million links; a larger epsilon or min_area, or an error target, needs fewer"});
-  }
+  if (refined.too_many > 0) { return failed(Failure::Kind::invalid_options, {too_many_links(refined.too_many, clusters)}); }
   solution.links = std::move(refined.links);
   watch.lap("refine");
 
@@ -207,12 +211,15 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   watch.lap("expose");
 
   if (needs_links && options.refinement == Refinement::a_priori) {
+    if (clusters.build) {
+      shown = ShownAreas{hierarchy, [&](std::size_t i) { return exposure.area[i]; }};
+    }
     evaluated = evaluate(evaluator, refined.occluders, solution.links, refined.lists, 0, nullptr, threads, control);
     if (evaluated.cancelled) { return cancelled(); }
   }
   watch.lap("link");
 
-  Transport transport{hierarchy, solution.links, exposure};
+  Transport transport{hierarchy, solution.links, exposure, threads};
   solution.row_sum = transport.row_sums();
   audit.computed_row_sum = summarise_rows(hierarchy, exposure.area, solution.row_sum);
   if (plan.closed && !solution.links.empty()) {
@@ -258,11 +265,13 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     watch.lap("compare");
   }
 
-  audit.polygons =
-      static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.parent == no_node; }));
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) { audit.polygons += is_input_face(hierarchy, i) ? 1 : 0; }
   audit.nodes = hierarchy.size();
   audit.leaves = static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.leaf(); }));
   audit.links = solution.links.size();
+  audit.cluster_links = static_cast<std::uint64_t>(std::count_if(solution.links.begin(), solution.links.end(), [&](const Link& link) {
+    return hierarchy[link.p].is_cluster() || hierarchy[link.q].is_cluster();
+  }));
   audit.proportion = summarise_proportions(hierarchy, patches);
   RayCount rays = refined.rays;
   rays += evaluated.rays;
@@ -276,6 +285,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   if (!cut && !constant && options.topology == Topology::shared) {
     audit.left_out.push_back({"T-vertex elimination", "no leaf has a finer neighbour", ""});
   }
+  if (needs_links && !clusters.build) { audit.left_out.push_back({"clusters above the input faces", clusters.why, ""}); }
   if (plan.closed && !solution.links.empty() && !audit.closure) {
     audit.left_out.push_back({"closing the scene", "its row sums need a larger correction than quadrature and sampling explain", ""});
   }

@@ -6,6 +6,9 @@
 // for all open pairs in parallel, then links and splits are carried out in the order of the pairs and of the nodes. So the
 // result is the same for any number of threads, and a split asked for by many pairs happens once.
 //
+// Where there are clusters (clusters.hpp) the work begins with the pair of their root with itself, and clusters are opened as patches are
+// split.
+//
 // Each pair knows what can stand between its patches (occlusion.hpp): a pair that is proven hidden is dropped with all pairs below it.
 //
 // Invariant: after each generation every BRep is valid and every unordered pair of leaves that can face and see each other is
@@ -21,6 +24,7 @@
 #include <radiosity/occlusion.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/oracle.hpp>
+#include <radiosity/pair_oracle.hpp>
 #include <radiosity/parallel.hpp>
 #include <radiosity/plan.hpp>
 #include <radiosity/surface.hpp>
@@ -40,10 +44,11 @@ struct RefineResult {
   std::uint32_t generations = 0;
   std::vector<std::uint32_t> inner;  // leaves of concave curved objects: their children will see each other
   bool cancelled = false;
-  bool too_many = false;  // more links than `link_limit` would be needed
+  std::uint64_t too_many = 0;  // links that would be needed, at least, when that is more than `link_limit`
 };
 
-// 100 million links are 3.6 GB; a scene that asks for more is refused rather than left to exhaust the memory.
+// 100 million links are 2.4 GB, and 2.8 GB until they are evaluated; a scene that asks for more is refused rather than left to exhaust
+// the memory.
 inline constexpr std::size_t link_limit = 100'000'000;
 
 namespace detail {
@@ -53,20 +58,25 @@ struct Pair {
   std::uint32_t list = OccluderLists::none;  // of the pair, or of the pair of ancestors from which it comes
 };
 
-// All pairs of roots that may face each other, and in `inner` the roots whose own parts may.
-inline void root_pairs(const std::vector<Surface>& surfaces, const Hierarchy& roots, const Plan& plan, std::vector<Pair>& pairs,
-                       RefineResult& result) {
-  const auto count = static_cast<std::uint32_t>(roots.size());
+// Where refinement begins: with the pair of the root cluster with itself, or all pairs of input faces. In `inner` the input faces whose own
+// parts may face each other.
+inline void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const Plan& plan, const PairOracle& oracle,
+                        std::vector<Pair>& pairs, RefineResult& result) {
+  const auto count = static_cast<std::uint32_t>(hierarchy.size());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!is_input_face(hierarchy, i)) { continue; }
+    const raycast::PlacedObject& object = *surfaces[hierarchy[i].object].object;
+    if ((object.inside() || !object.convex()) && !object.flat()) { result.inner.push_back(i); }
+  }
+  if (count > 0 && hierarchy[0].is_cluster()) {
+    pairs.push_back({0, 0});
+    return;
+  }
   for (std::uint32_t p = 0; p < count; ++p) {
-    if (roots[p].parent != no_node) { continue; }  // a convex part of a root
-    const raycast::PlacedObject& object = *surfaces[roots[p].object].object;
-    const bool sees_itself = object.inside() || !object.convex();
-    if (sees_itself && !object.flat()) { result.inner.push_back(p); }
+    if (!is_input_face(hierarchy, p)) { continue; }
     for (std::uint32_t q = p + 1; q < count; ++q) {
-      if (roots[q].parent != no_node) { continue; }
-      const bool same_object = roots[p].object == roots[q].object;
-      const bool same_flat_sheet = object.flat() && roots[p].surface == roots[q].surface;
-      if (!same_object || (sees_itself && !same_flat_sheet)) {
+      if (!is_input_face(hierarchy, q)) { continue; }
+      if (!oracle.convex(hierarchy[p], hierarchy[q])) {
         pairs.push_back({p, q});
       } else if (plan.shortcuts) {
         ++result.pairs_convex;
@@ -93,7 +103,7 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
       Decision& decision = decisions[first + k];
       decision = oracle(pair.p, pair.q);
       lists[k] = {};
-      if (decision == Decision::drop) {
+      if (decision == Decision::drop || decision == Decision::convex) {
         if (!plan.shortcuts) { decision = Decision::link; }
         return;
       }
@@ -110,8 +120,9 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
     for (std::size_t k = 0; k < count; ++k) {
       const Decision decision = decisions[first + k];
       result.pairs_dropped += decision == Decision::drop ? 1 : 0;
+      result.pairs_convex += decision == Decision::convex ? 1 : 0;
       result.pairs_hidden += decision == Decision::hide ? 1 : 0;
-      if (decision == Decision::drop || decision == Decision::hide) { continue; }
+      if (decision < first_seeing) { continue; }
       pairs[first + k].list = result.occluders.keep(lists[k], pairs[first + k].list);
     }
   }
@@ -133,7 +144,7 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
     grew = false;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const auto [p, q, list] = pairs[i];
-      if (decisions[i] == Decision::drop || decisions[i] == Decision::hide || sends[p] == sends[q]) { continue; }
+      if (decisions[i] < first_seeing || sends[p] == sends[q]) { continue; }
       const std::uint32_t reached = sends[p] ? q : p;
       if (reflects[reached]) { sends[reached] = grew = true; }
     }
@@ -150,17 +161,19 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
                                          double min_area, bool ask_light, unsigned threads, std::uint64_t seed,
                                          const Control& control = {}) {
   RefineResult result;
-  const LightOracle light{scene, objects, plan, patches, hierarchy, epsilon, seed};
+  const PairOracle oracle{surfaces, hierarchy};
+  const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), epsilon, seed};
   min_area *= light.scene_area();
   std::vector<RayCount> rays;
 
-  if (hierarchy.size() * hierarchy.size() / 2 > link_limit) {
-    result.too_many = true;
+  const bool clustered = !hierarchy.empty() && hierarchy[0].is_cluster();
+  if (!clustered && hierarchy.size() * hierarchy.size() / 2 > link_limit) {
+    result.too_many = hierarchy.size() * hierarchy.size() / 2;
     return result;
   }
   std::vector<detail::Pair> pairs;
   std::vector<std::uint32_t>& inner = result.inner;
-  detail::root_pairs(surfaces, hierarchy, plan, pairs, result);
+  detail::first_pairs(surfaces, hierarchy, plan, oracle, pairs, result);
 
   std::vector<bool> stuck;  // leaves that the BRep refused to split
   while (!pairs.empty()) {
@@ -169,14 +182,13 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
       return result;
     }
     if (result.links.size() + pairs.size() > link_limit) {
-      result.too_many = true;
+      result.too_many = result.links.size() + pairs.size();
       return result;
     }
     patches.extend(threads);
     rays.assign(pairs.size(), {});
     std::vector<Decision> decisions = detail::decide(
-        pairs, objects, plan, patches, result, threads,
-        [&](std::uint32_t p, std::uint32_t q) { return f_oracle(hierarchy[p], hierarchy[q], epsilon, min_area); },
+        pairs, objects, plan, patches, result, threads, [&](std::uint32_t p, std::uint32_t q) { return oracle(p, q, epsilon, min_area); },
         [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
           const auto [p, q, index] = pairs[i];
           if (decision != Decision::link || !ask_light) { return; }
@@ -186,10 +198,10 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
     for (const RayCount& r : rays) { result.rays += r; }
 
     // No light passes between two that send none. A closed scene keeps such pairs, for its row sums.
-    if (result.generations == 0 && !plan.closed) {
+    if (result.generations == 0 && !plan.closed && !clustered) {
       const std::vector<bool> sends = detail::sending_roots(scene, hierarchy, pairs, decisions);
       for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (sends[pairs[i].p] || sends[pairs[i].q] || decisions[i] == Decision::drop || decisions[i] == Decision::hide) { continue; }
+        if (sends[pairs[i].p] || sends[pairs[i].q] || decisions[i] < first_seeing) { continue; }
         result.pairs_dark += plan.shortcuts ? 1 : 0;
         decisions[i] = plan.shortcuts ? Decision::drop : Decision::link;
       }
@@ -210,13 +222,26 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
 
     std::vector<detail::Pair> next;
     const auto descend = [&](std::uint32_t split, std::uint32_t other, std::uint32_t list) {
-      for (std::uint32_t k = 0; k < hierarchy[split].child_count; ++k) { next.push_back({hierarchy[split].first_child + k, other, list}); }
+      const std::uint32_t first = hierarchy[split].first_child;
+      const std::uint32_t last = first + hierarchy[split].child_count;
+      for (std::uint32_t a = first; a < last; ++a) {
+        if (split != other) {
+          next.push_back({a, other, list});
+          continue;
+        }
+        // A cluster with itself: all pairs of its children, and the clusters among them with themselves.
+        for (std::uint32_t b = hierarchy[a].is_cluster() ? a : a + 1; b < last; ++b) { next.push_back({a, b}); }
+      }
     };
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const auto [p, q, list] = pairs[i];
-      if (decisions[i] == Decision::drop || decisions[i] == Decision::hide) { continue; }
-      const bool split_p = decisions[i] == Decision::split_p && !stuck[p];
-      const bool split_q = decisions[i] == Decision::split_q && !stuck[q];
+      if (decisions[i] < first_seeing) { continue; }
+      bool split_p = decisions[i] == Decision::split_p && !stuck[p];
+      bool split_q = decisions[i] == Decision::split_q && !stuck[q];
+      if (decisions[i] != Decision::link && !split_p && !split_q) {  // stuck: up to the other, if that is a cluster
+        split_p = hierarchy[p].is_cluster();
+        split_q = hierarchy[q].is_cluster();
+      }
       if (split_p || split_q) {
         split_p ? descend(p, q, list) : descend(q, p, list);
       } else {

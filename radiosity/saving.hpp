@@ -13,7 +13,7 @@
 
 namespace radiosity {
 
-// Seconds of CPU time, averages; 0 when there is no link.
+// Seconds of CPU time, averages over links between patches; 0 when there is none.
 struct LinkCost {
   double form_factor = 0.0;
   double ray = 0.0;   // one segment
@@ -22,21 +22,21 @@ struct LinkCost {
 
 // Times at most 256 links, spread evenly; a millisecond or two. To be called when no other thread works.
 [[nodiscard]] inline LinkCost link_cost(const LinkEvaluator& evaluator, const Links& links) {
-  const std::size_t count = std::min<std::size_t>(links.size(), 256);
-  if (count == 0) { return {}; }
+  constexpr std::size_t most = 256;
+  Links chosen;
+  for (std::size_t i = 0; i < links.size(); i += 1 + links.size() / most) {
+    if (evaluator.between_patches(links[i])) { chosen.push_back(links[i]); }
+  }
+  if (chosen.empty()) { return {}; }
   const auto seconds = [](std::clock_t from) { return static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC; };
-  const auto chosen = [&](std::size_t i) { return links[i * (links.size() / count)]; };
   RayCount rays;
   const std::clock_t start = std::clock();
-  for (std::size_t i = 0; i < count; ++i) { rays += evaluator.segments(chosen(i)); }
+  for (const Link& link : chosen) { rays += evaluator.segments(link); }
   const double casting = seconds(start);
   const std::clock_t middle = std::clock();
-  for (std::size_t i = 0; i < count; ++i) {
-    Link link = chosen(i);
-    (void)evaluator(link, {});
-  }
+  for (Link& link : chosen) { (void)evaluator(link, {}); }
   const double all = seconds(middle);
-  const auto n = static_cast<double>(count);
+  const auto n = static_cast<double>(chosen.size());
   return {std::max(0.0, all - casting) / n, rays.cast > 0 ? casting / static_cast<double>(rays.cast) : 0.0, all / n};
 }
 

@@ -6,6 +6,10 @@
 // averages and first moments, carries it over every link both ways, and pushes what arrived down to the leaves
 // (Hanrahan 1991; here with the slopes of links.hpp).
 //
+// A cluster (clusters.hpp) has no radiosity of its own but sends what its faces show in each direction of a lattice, and hands
+// what arrives from there to its faces by what they show of themselves to it: P has one row for each direction of each cluster, and
+// the link of a cluster picks the three rows around the direction of its other end.
+//
 // In matrix form M = D P' G P D with P the pull, G the symmetric links, P' the transpose of P, and a diagonal D that is
 // 1 unless the scene is closed: there D makes every row sum exactly what a closed scene demands.
 
@@ -15,17 +19,30 @@
 #include <optional>
 #include <vector>
 
+#include <radiosity/directions.hpp>
 #include <radiosity/exposure.hpp>
 #include <radiosity/hierarchy.hpp>
+#include <radiosity/link_schedule.hpp>
 #include <radiosity/links.hpp>
+#include <radiosity/parallel.hpp>
 
 namespace radiosity {
 
 class Transport {
  public:
   // The references must outlive the operator.
-  Transport(const Hierarchy& hierarchy, const Links& links, const Exposure& exposure)
-      : hierarchy_{&hierarchy}, links_{&links}, exposure_{&exposure}, scale_(hierarchy.size(), 1.0) {}
+  Transport(const Hierarchy& hierarchy, const Links& links, const Exposure& exposure, unsigned threads = 1)
+      : hierarchy_{&hierarchy},
+        links_{&links},
+        exposure_{&exposure},
+        threads_{threads},
+        schedule_{hierarchy.size(), links},
+        scale_(hierarchy.size(), 1.0) {
+    while (above_ < hierarchy.size() && (hierarchy[above_].is_cluster() || is_input_face(hierarchy, above_))) { ++above_; }
+    for (std::size_t i = 0; i < above_; ++i) { clusters_ += hierarchy[i].is_cluster() ? 1 : 0; }
+    if (clusters_ == 0) { above_ = 0; }
+    for (const auto& round : schedule_.rounds()) { round_sizes_.push_back(round.size()); }
+  }
 
   // Light on its way, of a node: what it sends (mean of B over its area, and of B (x - c)), or what arrives at it (irradiance at the
   // centroid c, and its gradient).
@@ -43,14 +60,33 @@ class Transport {
   // y = M x. Both have one value a node; x is read and y written at the leaves, the rest of y is 0.
   void apply(const std::vector<double>& x, std::vector<double>& y) {
     sent_.resize(x.size());
-    for (std::size_t i = x.size(); i-- > 0;) { pull(i, x, sent_); }
     arrived_.assign(x.size(), {});
-    for (const Link& link : *links_) {
-      carry(link, sent_[link.p], arrived_[link.q], link.slope_p.vector(), link.slope_q.vector());
-      carry(link, sent_[link.q], arrived_[link.p], link.slope_q.vector(), link.slope_p.vector());
+    sent_bins_.assign(clusters_ * direction_count, 0.0);
+    arrived_bins_.assign(clusters_ * direction_count, 0.0);
+    for (std::size_t i = x.size(); i-- > 0;) {
+      if (!is_cluster(i)) { pull(i, x, sent_); }
+      if (i < above_) { gather_into_cluster(i); }
     }
+    parallel_rounds(round_sizes_, threads_, [&](std::size_t round, std::size_t b) {
+      const LinkSchedule::Block block = schedule_.rounds()[round][b];
+      for (std::size_t k = block.begin; k < block.end; ++k) {
+        const Link& link = (*links_)[schedule_.link(k)];
+        if (is_cluster(link.p) || is_cluster(link.q)) {
+          const double from_p = sent_by(link.p, link.slope_p);
+          const double from_q = sent_by(link.q, link.slope_q);
+          arrive_at(link.q, link.slope_q, static_cast<double>(link.exchange) * from_p);
+          arrive_at(link.p, link.slope_p, static_cast<double>(link.exchange) * from_q);
+        } else {
+          carry(link, sent_[link.p], arrived_[link.q], link.slope_p.vector(), link.slope_q.vector());
+          carry(link, sent_[link.q], arrived_[link.p], link.slope_q.vector(), link.slope_p.vector());
+        }
+      }
+    });
     y.assign(x.size(), 0.0);
-    for (std::size_t i = 0; i < x.size(); ++i) { push(i, arrived_, y); }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (i < above_) { hand_out_from_cluster(i); }
+      if (!is_cluster(i)) { push(i, arrived_, y); }
+    }
   }
 
   // The three steps of apply(), for those who go through the scene in another order.
@@ -81,7 +117,7 @@ class Transport {
     const Node& node = (*hierarchy_)[i];
     const std::vector<glm::dvec3>& centroid = exposure_->centroid;
     Moments& own = arrived[i];  // of a child, its parent has divided it
-    if (node.parent == no_node) { own.divide(exposure_->area[i]); }
+    if (node.parent == no_node || is_cluster(node.parent)) { own.divide(exposure_->area[i]); }
     if (node.leaf()) { y[i] += own.value * exposure_->area[i] * scale_[i]; }
     for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
       arrived[c].divide(exposure_->area[c]);
@@ -134,11 +170,61 @@ class Transport {
   }
 
  private:
+  [[nodiscard]] bool is_cluster(std::size_t i) const { return i < above_ && (*hierarchy_)[i].is_cluster(); }
+  [[nodiscard]] double* bins(std::vector<double>& of, std::size_t i) const { return &of[(*hierarchy_)[i].cluster * direction_count]; }
+
+  // What the cluster or input face i sends, added to what its cluster sends. Children before their parents.
+  void gather_into_cluster(std::size_t i) {
+    const Node& node = (*hierarchy_)[i];
+    if (node.parent == no_node) { return; }
+    double* const to = bins(sent_bins_, node.parent);
+    if (node.is_cluster()) {
+      const double* const from = bins(sent_bins_, i);
+      for (std::size_t k = 0; k < direction_count; ++k) { to[k] += from[k]; }
+    } else {
+      add_shown(node.normal, exposure_->area[i] * sent_[i].value, to);
+    }
+  }
+  // What arrived at the cluster of i from all directions, added to what arrives at i. Parents first.
+  void hand_out_from_cluster(std::size_t i) {
+    const Node& node = (*hierarchy_)[i];
+    if (node.parent == no_node) { return; }
+    const double* const from = bins(arrived_bins_, node.parent);
+    if (node.is_cluster()) {
+      double* const to = bins(arrived_bins_, i);
+      for (std::size_t k = 0; k < direction_count; ++k) { to[k] += from[k]; }
+    } else {
+      arrived_[i].value += exposure_->area[i] * dot_shown(node.normal, from);
+    }
+  }
+  // Mean radiosity that an end of a cluster link sends along it. `towards` of a cluster: cluster_exchange.hpp.
+  [[nodiscard]] double sent_by(std::uint32_t i, const Slope& towards) {
+    if (!is_cluster(i)) { return sent_[i].value; }
+    const Aim at = aim(towards.vector());
+    const double* const from = bins(sent_bins_, i);
+    return at.weight[0] * from[at.direction[0]] + at.weight[1] * from[at.direction[1]] + at.weight[2] * from[at.direction[2]];
+  }
+  void arrive_at(std::uint32_t i, const Slope& towards, double power) {
+    if (!is_cluster(i)) {
+      arrived_[i].value += power;
+      return;
+    }
+    const Aim at = aim(towards.vector());
+    double* const to = bins(arrived_bins_, i);
+    for (std::size_t j = 0; j < 3; ++j) { to[at.direction[j]] += at.weight[j] * power; }
+  }
+
   const Hierarchy* hierarchy_;
   const Links* links_;
   const Exposure* exposure_;
-  std::vector<double> scale_;            // D, at the leaves
-  std::vector<Moments> sent_, arrived_;  // scratch of apply(), kept because it is asked for many times
+  unsigned threads_;
+  LinkSchedule schedule_;
+  std::vector<std::size_t> round_sizes_;
+  std::size_t above_ = 0;  // clusters and input faces, when there are clusters
+  std::size_t clusters_ = 0;
+  std::vector<double> scale_;                     // D, at the leaves
+  std::vector<Moments> sent_, arrived_;           // scratch of apply(), kept because it is asked for many times
+  std::vector<double> sent_bins_, arrived_bins_;  // of the clusters, direction by direction
 };
 
 }  // namespace radiosity

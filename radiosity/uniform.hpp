@@ -79,7 +79,8 @@ struct UniformOptions {
   extend(exposure, objects, boundary, hierarchy, patches, threads, options.seed);
   watch.lap("expose");
 
-  const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, emits, options.seed};
+  const ShownAreas shown;  // there are no clusters
+  const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, shown, emits, options.seed};
   const LeafExchange exchange{objects, plan, boundary, hierarchy, patches, exposure, evaluator};
   const LeafMaterials leaves = leaf_materials(exchange, hierarchy, reflectance, emission);
   const std::uint64_t n = exchange.size();

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// In which order the links carry light, so that several threads can work and the bits of the result do not depend on how many.
+//
+// The nodes are cut into tiles with about equally many ends of links. The links between two tiles are a block. Blocks go in rounds, as in a
+// tournament: in one round no tile is in two blocks, so nobody writes where another does, and what arrives at a node is summed in
+// the order of the rounds and, within a block, of the links. Blocks are given to rounds largest first, so that those
+// of one round are about equally large. Few links are one block.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include <radiosity/links.hpp>
+
+namespace radiosity {
+
+class LinkSchedule {
+ public:
+  struct Block {
+    std::size_t begin = 0, end = 0;  // in order()
+  };
+
+  LinkSchedule(std::size_t nodes, const Links& links) {
+    if (links.size() < few) {
+      rounds_.push_back({{0, links.size()}});
+      return;
+    }
+    const std::vector<std::uint8_t> tile = tiles_of(nodes, links);
+    const auto block_of = [&](const Link& link) {
+      const std::size_t a = tile[link.p];
+      const std::size_t b = tile[link.q];
+      return std::max(a, b) * tiles + std::min(a, b);
+    };
+    std::vector<std::size_t> first(tiles * tiles + 1, 0);
+    for (const Link& link : links) { ++first[block_of(link) + 1]; }
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::size_t> next(first.begin(), first.end() - 1);
+    order_.resize(links.size());
+    for (std::uint32_t i = 0; i < links.size(); ++i) { order_[next[block_of(links[i])]++] = i; }
+
+    std::vector<std::size_t> blocks;
+    for (std::size_t b = 0; b < tiles * tiles; ++b) {
+      if (first[b] < first[b + 1]) { blocks.push_back(b); }
+    }
+    const auto size = [&](std::size_t b) { return first[b + 1] - first[b]; };
+    std::stable_sort(blocks.begin(), blocks.end(), [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
+    std::vector<std::uint64_t> busy;  // the tiles of each round, one bit each
+    for (const std::size_t b : blocks) {
+      const std::uint64_t both = std::uint64_t{1} << b / tiles | std::uint64_t{1} << b % tiles;
+      std::size_t round = 0;
+      while (round < busy.size() && (busy[round] & both) != 0) { ++round; }
+      if (round == busy.size()) {
+        busy.push_back(0);
+        rounds_.emplace_back();
+      }
+      busy[round] |= both;
+      rounds_[round].push_back({first[b], first[b + 1]});
+    }
+  }
+
+  [[nodiscard]] const std::vector<std::vector<Block>>& rounds() const { return rounds_; }
+  // The links of place k of the order.
+  [[nodiscard]] std::size_t link(std::size_t k) const { return order_.empty() ? k : order_[k]; }
+
+ private:
+  static constexpr std::size_t tiles = 16, few = 1 << 14;
+
+  // Bounds between tiles lie where the running count of link ends passes a multiple of the mean.
+  static std::vector<std::uint8_t> tiles_of(std::size_t nodes, const Links& links) {
+    std::vector<std::uint32_t> ends(nodes, 0);
+    for (const Link& link : links) {
+      ++ends[link.p];
+      ++ends[link.q];
+    }
+    std::vector<std::uint8_t> tile(nodes);
+    std::size_t before = 0;
+    for (std::size_t i = 0; i < nodes; ++i) {
+      tile[i] = static_cast<std::uint8_t>(std::min(tiles - 1, before * tiles / (2 * links.size())));
+      before += ends[i];
+    }
+    return tile;
+  }
+
+  std::vector<std::uint32_t> order_;  // empty: as they stand
+  std::vector<std::vector<Block>> rounds_;
+};
+
+}  // namespace radiosity
