@@ -164,7 +164,9 @@ inline std::size_t open_edges(const Surface& surface) {
 // Objects of which nothing is exposed, those that a warning of duplicates names included.
 [[nodiscard]] inline std::vector<std::string> warnings_of_buried(const Scene& scene, const Hierarchy& hierarchy, const Exposure& exposure) {
   std::vector<double> area(scene.objects.size(), 0.0);
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) { area[hierarchy[i].object] += hierarchy[i].leaf() ? exposure.area[i] : 0.0; }
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (hierarchy[i].leaf()) { area[hierarchy[i].object] += exposure.area[i]; }
+  }
   std::vector<std::string> sentences;
   for (std::size_t o = 0; o < area.size() && sentences.size() < detail::most_warnings; ++o) {
     if (area[o] > 0.0) { continue; }
