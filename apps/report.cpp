@@ -94,15 +94,12 @@ void sizes_and_checks(std::string& out, const Report& report) {
   out += "size\n";
   row(out, "input polygons", grouped(audit.polygons));
   row(out, "nodes, leaves", grouped(audit.nodes) + ", " + grouped(audit.leaves));
-<<<<<<< HEAD
-  row(out, "links", grouped(audit.links) + (audit.clusters > 0 ? ", " + grouped(audit.cluster_links) + " of them with one of " +
-                                                                     grouped(audit.clusters) + " clusters"
-                                                               : ""));
-=======
   row(out, "proportions",
       format("%.2f to %.2f, mean %.2f (regular polygon: 1)", audit.proportion.min, audit.proportion.max, audit.proportion.mean));
-  row(out, "links", grouped(audit.links));
->>>>>>> main
+  const std::string of_clusters =
+      audit.clusters > 0 ? ", " + grouped(audit.cluster_links) + " of them with one of " + grouped(audit.clusters) + " clusters"
+                         : std::string{};
+  row(out, "links", grouped(audit.links) + of_clusters);
   row(out, "rays",
       grouped(audit.rays) + " cast, " + grouped(audit.rays_avoided) + " avoided: " + grouped(audit.pairs_clear) + " pairs proven clear, " +
           grouped(audit.pairs_hidden) + " proven blocked");

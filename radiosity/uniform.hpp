@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <radiosity/radiosity.hpp>
+#include <radiosity/wall_cuts.hpp>
 
 namespace radiosity {
 
@@ -49,6 +50,7 @@ struct UniformOptions {
   audit.channels = plan.channels;
   audit.left_out = plan.left_out;
   Hierarchy& hierarchy = solution.hierarchy;
+  cut_at_walls(boundary, objects.diameter());
   hierarchy = make_roots(boundary);
   watch.lap("build");
 
