@@ -47,8 +47,8 @@ std::string to_markdown(const Study& study) {
   for (const SceneStudy& scene : study.scenes) {
     std::string words;
     for (const std::string& sentence : findings(scene)) { words += (words.empty() ? "" : " ") + sentence; }
-    text += "\n## " + cell(scene.scene) + "\n\n" + cell(scene.title) + "\n\nReference: " + reference_text(scene.reference) + "\n\n" + words + "\n\n" +
-            markdown(summary_table(scene)) + "\n### All runs (errors in %)\n\n" + markdown(run_table(scene));
+    text += "\n## " + cell(scene.scene) + "\n\n" + cell(scene.title) + "\n\nReference: " + reference_text(scene.reference) + "\n\n" +
+            words + "\n\n" + markdown(summary_table(scene)) + "\n### All runs (errors in %)\n\n" + markdown(run_table(scene));
     const Table parts = part_table(scene);
     if (!parts.rows.empty()) { text += "\n### Where the error comes from (%)\n\n" + markdown(parts); }
     text += "\n### Other norms (%)\n\n" + markdown(norm_table(scene));

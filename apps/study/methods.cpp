@@ -37,6 +37,12 @@ Outcome run_dense(const Scene& scene, Options options, const Control& control) {
   return radiosity::solve(scene, options, control);
 }
 
+Outcome run_without_shortcuts(const Scene& scene, Options options, const Control& control) {
+  options.shortcuts = false;
+  options.compare.reset();
+  return radiosity::solve(scene, options, control);
+}
+
 // A hierarchical method whose settings are values of one option.
 MethodPlan hierarchical(std::string name, std::string summary, const char* option, const std::vector<double>& values, const Options& base,
                         void (*set)(Options&, double)) {
@@ -46,7 +52,8 @@ MethodPlan hierarchical(std::string name, std::string summary, const char* optio
     set(options, value);
     method.settings.push_back(
         {text(option, value), [options](const Scene& scene, const Control& control) { return radiosity::solve(scene, options, control); },
-         [options](const Scene& scene, const Solution&, const Control& control) { return run_dense(scene, options, control); }});
+         [options](const Scene& scene, const Solution&, const Control& control) { return run_dense(scene, options, control); },
+         [options](const Scene& scene, const Control& control) { return run_without_shortcuts(scene, options, control); }});
   }
   return method;
 }
@@ -91,7 +98,8 @@ MethodPlan accuracy_target(const MethodOptions& study) {
                                  Options round = last;
                                  round.target = found.audit.target;
                                  return run_dense(scene, round, control);
-                               }});
+                               },
+                               {}});
   }
   return method;
 }
@@ -114,9 +122,8 @@ MethodPlan uniform(std::string name, std::string summary, const MethodOptions& s
     method.settings.push_back(
         {std::move(setting),
          [options](const Scene& scene, const Control& control) { return radiosity::solve_uniform(scene, options, control); },
-         [matrix](const Scene& scene, const Solution&, const Control& control) {
-           return radiosity::solve_uniform(scene, matrix, control);
-         }});
+         [matrix](const Scene& scene, const Solution&, const Control& control) { return radiosity::solve_uniform(scene, matrix, control); },
+         {}});
   }
   return method;
 }
@@ -126,13 +133,20 @@ MethodPlan uniform(std::string name, std::string summary, const MethodOptions& s
 std::vector<MethodPlan> methods(const MethodOptions& study) {
   const std::vector<double> epsilons{0.16, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025};
   std::vector<MethodPlan> all;
+  Options faces = common(study);
+  faces.cluster_from = std::numeric_limits<std::uint32_t>::max();
   all.push_back(hierarchical("hierarchical F", "a pair is linked where its form factor is small (paper 4.4); split by Euler operators",
-                             "epsilon", epsilons, common(study), set_epsilon));
+                             "epsilon", epsilons, faces, set_epsilon));
+  Options clusters = common(study);
+  clusters.cluster_from = 2;
+  all.push_back(hierarchical("F, clusters", "the same with clusters above the input faces, also where they do not pay", "epsilon", epsilons,
+                             clusters, set_epsilon));
   all.push_back(hierarchical("hierarchical BF", "solve, then refine the links that carry the most error (paper 4.4)", "target",
                              {0.08, 0.04, 0.02, 0.01, 0.005, 0.0025}, common(study), set_target));
   all.push_back(accuracy_target(study));
   Options separate = common(study);
   separate.topology = radiosity::Topology::separate;
+  separate.cluster_from = std::numeric_limits<std::uint32_t>::max();
   all.push_back(hierarchical("quad-tree",
                              "classical hierarchical radiosity: F-refinement on separate polygons without shared topology (Hanrahan 1991)",
                              "epsilon", epsilons, separate, set_epsilon));

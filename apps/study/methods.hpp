@@ -18,6 +18,8 @@ struct Setting {
   std::function<radiosity::Outcome(const radiosity::Scene&, const radiosity::Control&)> run;
   // A solution with the same leaves as `found`, which this setting has given, whose comparison has a dense solution.
   std::function<radiosity::Outcome(const radiosity::Scene&, const radiosity::Solution& found, const radiosity::Control&)> dense;
+  // The same run with nothing left out; empty where the method leaves nothing out.
+  std::function<radiosity::Outcome(const radiosity::Scene&, const radiosity::Control&)> without_shortcuts;
 };
 
 struct MethodPlan {

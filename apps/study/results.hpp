@@ -6,6 +6,7 @@
 // 1997: the same scene, the same reference, the same clock, and several settings for every method.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,7 +44,8 @@ struct ErrorParts {
 struct Run {
   std::string setting;  // as on the command line: "epsilon .01"
   double cpu_seconds = 0.0;
-  double seconds_saved = 0.0;  // by shortcuts, about: the run times what some of what it left out would have taken
+  // CPU time of the same run with nothing left out, less its own; NaN where the method has no shortcuts or that run takes too long.
+  double seconds_saved = std::numeric_limits<double>::quiet_NaN();
   std::uint64_t bytes = 0;
   std::uint64_t links = 0;  // or matrix entries, for a dense matrix
   std::uint64_t leaves = 0;
