@@ -84,7 +84,7 @@ MethodPlan accuracy_target(const MethodOptions& study) {
       "BF-refinement until a path-traced audit of the picture witnesses the relative L2 error asked for; all rounds and audits "
       "count",
       {}};
-  for (const double error : {0.16, 0.08, 0.056, 0.04, 0.028, 0.02}) {
+  for (const double error : {0.32, 0.16, 0.112, 0.08, 0.056, 0.04, 0.028}) {
     Options options = common(study);
     options.refinement = radiosity::Refinement::a_posteriori;
     options.audit_points = 1000;
@@ -142,7 +142,7 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
   all.push_back(hierarchical("F, clusters", "the same with clusters above the input faces, also where they do not pay", "epsilon", epsilons,
                              clusters, set_epsilon));
   all.push_back(hierarchical("hierarchical BF", "solve, then refine the links that carry the most error (paper 4.4)", "target",
-                             {0.08, 0.04, 0.02, 0.01, 0.005, 0.0025}, common(study), set_target));
+                             {0.16, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025}, common(study), set_target));
   all.push_back(accuracy_target(study));
   Options separate = common(study);
   separate.topology = radiosity::Topology::separate;

@@ -101,7 +101,7 @@ TEST_CASE("CSV: every run and reconstruction has a line of the same columns; num
         CHECK(field("links") == std::to_string(run.links));
         CHECK(field("part_discretisation").empty() == !run.parts.has_value());
         const double error = errors(run, stage).cells.l2;
-        const bool below = (" " + field("below_noise") + " ").find(" cells_l2 ") != std::string::npos;
+        const bool below = (' ' + field("below_noise") + ' ').find(" cells_l2 ") != std::string::npos;
         CHECK(below == (error < made_up::noise));
         CHECK(to_double(field("cells_l2")) == std::max(error, made_up::noise));
         limited += below ? 1 : 0;
