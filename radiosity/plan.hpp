@@ -5,9 +5,8 @@
 // that each names; what it leaves out cannot change the result. Each omission says what, why and, after the run, what it saved.
 //
 // Without shortcuts all of it is done, so that the proofs can be tested: the result is the same, bit for bit, unless a segment grazes
-// within the skin of the law of occlusion. A pair of patches that was
-// dropped because no light can pass is linked, and the link must be found to carry nothing; a segment that nothing can block
-// is asked of the whole scene.
+// within the skin of the law of occlusion. A pair of patches that was dropped because no light can pass is linked, and the link must be
+// found to carry nothing; a segment that nothing can block is asked of the whole scene.
 
 #include <algorithm>
 #include <cstdint>
