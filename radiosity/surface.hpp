@@ -24,6 +24,7 @@
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>
 #include <brep/refine.hpp>
+#include <brep/ring.hpp>
 #include <brep/split.hpp>
 #include <brep/tag.hpp>
 #include <raycast/transform.hpp>
@@ -213,15 +214,17 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   return hierarchy;
 }
 
-// Splits a leaf: its face is refined by Euler operators and the new faces become its children. False when the
-// BRep refuses (the level tag is full); then nothing has changed.
+// Splits a leaf: its face is refined by Euler operators and the new faces become its children. A face of many corners is first cut into a
+// ring and what it surrounds: its children are parts of it. False when the BRep refuses (the level tag is full); then nothing has changed.
 [[nodiscard]] inline bool subdivide(std::vector<Surface>& surfaces, Hierarchy& hierarchy, std::uint32_t index) {
   const std::uint32_t object = hierarchy[index].object;
   Surface& surface = surfaces[object];
   const auto place = [&](SurfaceBRep& brep, brep::VertexId v) {
     if (surface.topology == Topology::shared) { place_on_object(*surface.object, brep, v); }
   };
-  const auto faces = brep::refine(surface.brep, hierarchy[index].face, place);
+  const bool ring = surface.topology == Topology::shared && hierarchy[index].corners > brep::most_regular_corners;
+  const auto faces =
+      ring ? brep::cut_ring(surface.brep, hierarchy[index].face, place) : brep::refine(surface.brep, hierarchy[index].face, place);
   if (!faces) { return false; }
   const auto first = static_cast<std::uint32_t>(hierarchy.size());
   for (const brep::FaceId f : *faces) {
@@ -230,6 +233,7 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   hierarchy[index].first_child = first;
   hierarchy[index].child_count = static_cast<std::uint32_t>(faces->size());
   hierarchy[index].face = brep::FaceId{};
+  if (ring) { hierarchy[index].corners = 0; }
   return true;
 }
 
