@@ -238,7 +238,8 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
 }
 
 // The contour of a polygon in convex parts that share corners, bit by bit, with a bridge to each hole. Diagonals that span the parts, each
-// joining two that were not connected, vanish: the parts become one disk. The others are the bridges.
+// joining two that were not connected, vanish: the parts become one disk. The others are the bridges, and slits that lead to a corner
+// inside; these are left out.
 [[nodiscard]] inline Polygon contour_of_parts(const std::vector<Polygon>& parts) {
   struct Side {
     std::array<double, 6> ends;
@@ -276,7 +277,12 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   Polygon polygon;
   const Side* side = start;
   do {
-    polygon.push_back(parts[side->part][side->corner]);
+    const glm::dvec3& corner_of_side = parts[side->part][side->corner];
+    if (polygon.size() > 1 && polygon[polygon.size() - 2] == corner_of_side) {
+      polygon.pop_back();  // to the end of a slit and back
+    } else {
+      polygon.push_back(corner_of_side);
+    }
     for (std::size_t part = side->part, corner = side->corner;;) {
       corner = next(part, corner);
       const glm::dvec3 &from = parts[part][corner], &to = parts[part][next(part, corner)];
@@ -286,6 +292,9 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
       part = back->part, corner = back->corner;
     }
   } while (side != start);
+  while (polygon.size() > 2 && polygon[polygon.size() - 2] == polygon.front()) {
+    polygon.resize(polygon.size() - 2);
+  }  // a slit at the start
   return polygon;
 }
 
