@@ -30,6 +30,7 @@ struct FactorRow {
   std::uint32_t object = 0;
   bool exact = false;         // `facets` are all that is exposed of it
   std::vector<Facet> facets;  // of a flat object with straight borders
+  std::uint32_t material = 0;
 };
 
 struct FactorRows {
@@ -63,7 +64,7 @@ struct FlatFace {
         std::string name = object.name;
         if (numbered && several) { name.append(1, '.').append(scene.materials[material(s)].name); }
         if (!numbered && sheets > 1) { name.append(1, '.').append(sheet); }
-        result.rows.push_back({std::move(name), o, false, {}});
+        result.rows.push_back({std::move(name), o, false, {}, material(s)});
       }
       result.row_of.back().push_back(row);
     }

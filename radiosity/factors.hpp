@@ -10,7 +10,8 @@
 //
 // Every factor has an error: an estimate from above for the first, a standard error for the second. One exchange A_i F_ij = A_j F_ji is
 // kept for each pair; what the rays of both ends say is weighted by its variance. So reciprocity is exact, and how far the row sums of a
-// closed scene are from 1 is an independent check. Areas are the exposed ones: what is buried under another object has no part in it.
+// closed scene are from 1 is an independent check. Areas are the exposed ones: what is buried under another object has no part in it. A sheet
+// of which a union, intersection or difference leaves nothing is no surface.
 
 #include <cmath>
 #include <cstdint>
@@ -32,6 +33,7 @@ struct Factors {
     std::string name;
     Estimate area;  // exposed, in the squared unit of the scene
     Estimate row_sum;
+    std::uint32_t material = 0;
   };
   std::vector<Surface> surfaces;
   std::vector<Estimate> factor;  // [from * surfaces.size() + to]
@@ -73,35 +75,52 @@ inline constexpr std::size_t most_surfaces = 2000;
   run.by_meshes();
   const std::vector<std::shared_ptr<RayCounter>> counters = run.by_rays();
 
+  // A sheet of which nothing is left is no surface; one that is buried has area 0.
+  std::vector<bool> exists(n, false);
+  for (std::uint32_t o = 0; o < prepared.surfaces.size(); ++o) {
+    const SurfaceBRep& brep = prepared.surfaces[o].brep;
+    for (const brep::FaceId f : brep::faces(brep)) {
+      if (brep.data(f).sheet != brep::no_sheet) { exists[run.rows.row_of[o][brep.data(f).sheet]] = true; }
+    }
+  }
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    if (exists[i] || run.area[i].value > 0.0) { kept.push_back(i); }
+  }
+
+  const std::size_t m = kept.size();
   Factors result;
   result.points = run.points;
-  result.factor.resize(std::size_t{n} * n);
-  result.method.resize(std::size_t{n} * n, FactorMethod::rays);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    for (std::uint32_t j = i; j < n; ++j) {
+  result.factor.resize(m * m);
+  result.method.resize(m * m, FactorMethod::rays);
+  for (std::size_t k = 0; k < m; ++k) {
+    for (std::size_t l = k; l < m; ++l) {
+      const std::uint32_t i = kept[k];
+      const std::uint32_t j = kept[l];
       const bool faces = run.known(i, j);
       const Estimate exchange = faces ? *run.exchange[std::size_t{i} * n + j] : detail::weighted(counters, run.area, i, j);
-      for (const auto& [from, to] : {std::pair{i, j}, std::pair{j, i}}) {
-        const Estimate& area = run.area[from];
-        Estimate& factor = result.factor[std::size_t{from} * n + to];
+      const bool flat = run.rows.rows[i].exact && run.rows.rows[j].exact;
+      for (const auto& [at, area] : {std::pair{k * m + l, run.area[i]}, std::pair{l * m + k, run.area[j]}}) {
+        Estimate& factor = result.factor[at];
         if (area.value > 0.0) {
           factor.value = exchange.value / area.value;
           factor.error = std::hypot(exchange.error / area.value, factor.value * area.error / area.value);
         }
         result.converged = result.converged && factor.error <= options.error;
-        const bool flat = run.rows.rows[i].exact && run.rows.rows[j].exact;
-        if (faces) { result.method[std::size_t{from} * n + to] = flat ? FactorMethod::faces : FactorMethod::meshes; }
+        if (faces) { result.method[at] = flat ? FactorMethod::faces : FactorMethod::meshes; }
       }
     }
   }
   const double unit = prepared.frame.to_scene_area(1.0);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const Estimate* const row = result.factor.data() + std::size_t{i} * n;
-    Factors::Surface surface{run.rows.rows[i].name, {run.area[i].value * unit, run.area[i].error * unit}, {}};
+  for (std::size_t k = 0; k < m; ++k) {
+    const std::uint32_t i = kept[k];
+    const FactorRow& row = run.rows.rows[i];
+    Factors::Surface surface{row.name, {run.area[i].value * unit, run.area[i].error * unit}, {}, row.material};
     double square = 0.0;
-    for (std::uint32_t j = 0; j < n; ++j) {
-      surface.row_sum.value += row[j].value;
-      square += row[j].error * row[j].error;
+    for (std::size_t l = 0; l < m; ++l) {
+      const Estimate& factor = result.factor[k * m + l];
+      surface.row_sum.value += factor.value;
+      square += factor.error * factor.error;
     }
     surface.row_sum.error = std::sqrt(square);
     if (counters[i] != nullptr) { result.rays += counters[i]->rays(i); }

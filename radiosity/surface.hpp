@@ -24,6 +24,7 @@
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>
 #include <brep/refine.hpp>
+#include <brep/ring.hpp>
 #include <brep/split.hpp>
 #include <brep/tag.hpp>
 #include <raycast/transform.hpp>
@@ -213,15 +214,17 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   return hierarchy;
 }
 
-// Splits a leaf: its face is refined by Euler operators and the new faces become its children. False when the
-// BRep refuses (the level tag is full); then nothing has changed.
+// Splits a leaf: its face is refined by Euler operators and the new faces become its children. A face of many corners is first cut into a
+// ring and what it surrounds: its children are parts of it. False when the BRep refuses (the level tag is full); then nothing has changed.
 [[nodiscard]] inline bool subdivide(std::vector<Surface>& surfaces, Hierarchy& hierarchy, std::uint32_t index) {
   const std::uint32_t object = hierarchy[index].object;
   Surface& surface = surfaces[object];
   const auto place = [&](SurfaceBRep& brep, brep::VertexId v) {
     if (surface.topology == Topology::shared) { place_on_object(*surface.object, brep, v); }
   };
-  const auto faces = brep::refine(surface.brep, hierarchy[index].face, place);
+  const bool ring = surface.topology == Topology::shared && hierarchy[index].corners > brep::most_regular_corners;
+  const auto faces =
+      ring ? brep::cut_ring(surface.brep, hierarchy[index].face, place) : brep::refine(surface.brep, hierarchy[index].face, place);
   if (!faces) { return false; }
   const auto first = static_cast<std::uint32_t>(hierarchy.size());
   for (const brep::FaceId f : *faces) {
@@ -230,11 +233,13 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   hierarchy[index].first_child = first;
   hierarchy[index].child_count = static_cast<std::uint32_t>(faces->size());
   hierarchy[index].face = brep::FaceId{};
+  if (ring) { hierarchy[index].corners = 0; }
   return true;
 }
 
 // The contour of a polygon in convex parts that share corners, bit by bit, with a bridge to each hole. Diagonals that span the parts, each
-// joining two that were not connected, vanish: the parts become one disk. The others are the bridges.
+// joining two that were not connected, vanish: the parts become one disk. The others are the bridges, and slits that lead to a corner
+// inside; these are left out.
 [[nodiscard]] inline Polygon contour_of_parts(const std::vector<Polygon>& parts) {
   struct Side {
     std::array<double, 6> ends;
@@ -272,7 +277,12 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   Polygon polygon;
   const Side* side = start;
   do {
-    polygon.push_back(parts[side->part][side->corner]);
+    const glm::dvec3& corner_of_side = parts[side->part][side->corner];
+    if (polygon.size() > 1 && polygon[polygon.size() - 2] == corner_of_side) {
+      polygon.pop_back();  // to the end of a slit and back
+    } else {
+      polygon.push_back(corner_of_side);
+    }
     for (std::size_t part = side->part, corner = side->corner;;) {
       corner = next(part, corner);
       const glm::dvec3 &from = parts[part][corner], &to = parts[part][next(part, corner)];
@@ -282,6 +292,9 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
       part = back->part, corner = back->corner;
     }
   } while (side != start);
+  while (polygon.size() > 2 && polygon[polygon.size() - 2] == polygon.front()) {
+    polygon.resize(polygon.size() - 2);
+  }  // a slit at the start
   return polygon;
 }
 

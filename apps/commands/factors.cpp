@@ -12,12 +12,20 @@
 #include "apps/files.hpp"
 #include "apps/json.hpp"
 
-#include <radiosity/factors.hpp>
+#include <radiosity/total_exchange.hpp>
 
 namespace apps {
 namespace {
 
 using radiosity::Factors;
+using radiosity::TotalExchange;
+
+// The total exchange factors of one channel, or of all when every surface is grey.
+struct Channel {
+  std::string name;
+  std::vector<double> emissivity;
+  TotalExchange exchange;
+};
 
 struct Seconds {
   double wall = 0.0, cpu = 0.0;
@@ -47,14 +55,58 @@ const char* name(radiosity::FactorMethod method) {
   return names[static_cast<std::size_t>(method)];
 }
 
-double worst(const Factors& f) {
+double worst(const std::vector<radiosity::Estimate>& factors) {
   double error = 0.0;
-  for (const radiosity::Estimate& e : f.factor) { error = std::max(error, e.error); }
+  for (const radiosity::Estimate& e : factors) { error = std::max(error, e.error); }
   return error;
 }
 
+// What a surface does not reflect it absorbs, and emits (Kirchhoff 1860).
+std::vector<Channel> total_exchange_of(const Factors& f, const radiosity::Scene& scene, std::string& refusal) {
+  const auto reflectance = [&](const Factors::Surface& s) { return scene.materials[s.material].reflectance; };
+  const bool grey =
+      std::all_of(f.surfaces.begin(), f.surfaces.end(), [&](const Factors::Surface& s) { return radiosity::is_grey(reflectance(s)); });
+  std::vector<Channel> channels;
+  for (int c = 0; c < (grey ? 1 : 3); ++c) {
+    constexpr const char* names[] = {"red", "green", "blue"};
+    Channel channel{grey ? "grey" : names[c], {}, {}};
+    for (const auto& s : f.surfaces) { channel.emissivity.push_back(1.0 - reflectance(s)[c]); }
+    radiosity::TotalExchangeResult result = radiosity::total_exchange(f, channel.emissivity);
+    if (!result.exchange) {
+      refusal = result.refusal;
+      return {};
+    }
+    channel.exchange = std::move(*result.exchange);
+    channels.push_back(std::move(channel));
+  }
+  return channels;
+}
+
+constexpr std::size_t widest = 10;  // columns that a terminal shows
+
+std::string table(const Factors& f, const Channel& channel) {
+  const std::size_t n = f.surfaces.size();
+  const TotalExchange& exchange = channel.exchange;
+  std::string text;
+  if (n <= widest) {
+    std::size_t width = 10;
+    for (const auto& s : f.surfaces) { width = std::max(width, s.name.size() + 2); }
+    text = left("script F, " + channel.name, width) + right("emissivity", 12) + right("row sum", 12) + right("+-", 9);
+    for (const auto& s : f.surfaces) { text += right(s.name, 12); }
+    text += "\n";
+    for (std::size_t i = 0; i < n; ++i) {
+      text += left(f.surfaces[i].name, width) + right(formatted("%.6g", channel.emissivity[i]), 12) +
+              right(formatted("%.7f", exchange.row_sum[i].value), 12) + right(formatted("%.0e", exchange.row_sum[i].error), 9);
+      for (std::size_t j = 0; j < n; ++j) {
+        text += right(formatted("%.7f", exchange.factor[i * n + j].value), std::max<std::size_t>(12, f.surfaces[j].name.size() + 2));
+      }
+      text += "\n";
+    }
+  }
+  return text + "largest error of a total exchange factor (" + channel.name + "): " + formatted("%.1e", worst(exchange.factor)) + "\n";
+}
+
 std::string summary(const Factors& f, const FactorsOptions& options, const Seconds& seconds) {
-  constexpr std::size_t widest = 10;  // columns that a terminal shows
   const std::size_t n = f.surfaces.size();
   std::size_t width = 10;
   for (const auto& s : f.surfaces) { width = std::max(width, s.name.size() + 2); }
@@ -77,7 +129,7 @@ std::string summary(const Factors& f, const FactorsOptions& options, const Secon
   text += "factors: " + std::to_string(counts[0]) + " between flat faces (" + std::to_string(f.points) + " points behind others), " +
           std::to_string(counts[1]) + " by meshes extrapolated to curved surfaces, " + std::to_string(counts[2]) + " by " +
           std::to_string(f.rays) + " rays\n";
-  text += "largest error of a factor: " + formatted("%.1e", worst(f)) + ", wanted " + formatted("%.1e", options.error) +
+  text += "largest error of a factor: " + formatted("%.1e", worst(f.factor)) + ", wanted " + formatted("%.1e", options.error) +
           (f.converged ? "\n" : ": NOT REACHED\n");
   return text + "time: " + formatted("%.3f", seconds.wall) + " s, CPU " + formatted("%.3f", seconds.cpu) + " s\n";
 }
@@ -99,13 +151,34 @@ std::string csv(const Factors& f) {
   return text;
 }
 
-std::string json(const Factors& f, const FactorsOptions& options, const Seconds& seconds) {
+std::string csv(const Factors& f, const std::vector<Channel>& channels) {
+  const std::size_t n = f.surfaces.size();
+  std::string text = "channel,surface,area,emissivity,row sum,row sum error";
+  for (const auto& s : f.surfaces) { text += "," + s.name; }
+  for (const auto& s : f.surfaces) { text += "," + s.name + " error"; }
+  text += "\n";
+  for (const Channel& channel : channels) {
+    const TotalExchange& exchange = channel.exchange;
+    for (std::size_t i = 0; i < n; ++i) {
+      text += channel.name + "," + f.surfaces[i].name;
+      for (const double x : {f.surfaces[i].area.value, channel.emissivity[i], exchange.row_sum[i].value, exchange.row_sum[i].error}) {
+        text += "," + exact(x);
+      }
+      for (std::size_t j = 0; j < n; ++j) { text += "," + exact(exchange.factor[i * n + j].value); }
+      for (std::size_t j = 0; j < n; ++j) { text += "," + exact(exchange.factor[i * n + j].error); }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+std::string json(const Factors& f, const std::vector<Channel>& channels, const FactorsOptions& options, const Seconds& seconds) {
   JsonWriter out;
   const std::size_t n = f.surfaces.size();
   out.open_object();
   out.key("scene").string(options.scene);
   out.key("error_wanted").number(options.error);
-  out.key("error_reached").number(worst(f));
+  out.key("error_reached").number(worst(f.factor));
   out.key("converged").boolean(f.converged);
   out.key("points").count(f.points);
   out.key("rays").count(f.rays);
@@ -134,6 +207,23 @@ std::string json(const Factors& f, const FactorsOptions& options, const Seconds&
   matrix("factors", [&](std::size_t i, std::size_t j) { out.number(f(i, j).value); });
   matrix("errors", [&](std::size_t i, std::size_t j) { out.number(f(i, j).error); });
   matrix("methods", [&](std::size_t i, std::size_t j) { out.string(name(f.method[i * n + j])); });
+  if (!channels.empty()) {
+    out.key("total_exchange").open_array();
+    for (const Channel& channel : channels) {
+      out.open_object();
+      out.key("channel").string(channel.name);
+      out.key("emissivities").open_array();
+      for (const double e : channel.emissivity) { out.number(e); }
+      out.close();
+      out.key("row_sums").open_array();
+      for (const radiosity::Estimate& sum : channel.exchange.row_sum) { out.number(sum.value); }
+      out.close();
+      matrix("factors", [&](std::size_t i, std::size_t j) { out.number(channel.exchange.factor[i * n + j].value); });
+      matrix("errors", [&](std::size_t i, std::size_t j) { out.number(channel.exchange.factor[i * n + j].error); });
+      out.close();
+    }
+    out.close();
+  }
   out.close();
   return out.text();
 }
@@ -144,12 +234,16 @@ void describe(CLI::App& command, FactorsOptions& options) {
   command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
   command.add_option("--csv", options.csv, "write the matrix: one line a surface, its factors, then their errors")->type_name("FILE");
   command.add_option("--json", options.json, "write the matrix, its errors and how each was found")->type_name("FILE");
+  command
+      .add_option("--total-exchange", options.total_exchange,
+                  "write the total exchange factors, reflections included (script F; emissivity = 1 - reflectance); --json gets them, too")
+      ->type_name("FILE");
   command.add_option("--error", options.error, "wanted error of each factor")->capture_default_str();
   command.add_option("--threads", options.threads, "0: as many as the machine has; results do not depend on it");
 }
 
 ExitCode run(const FactorsOptions& options) {
-  for (const std::string& path : {options.csv, options.json}) {
+  for (const std::string& path : {options.csv, options.json, options.total_exchange}) {
     if (path.empty()) { continue; }
     if (const auto fault = check_writable(path)) {
       complain(*fault);
@@ -173,11 +267,20 @@ ExitCode run(const FactorsOptions& options) {
     for (const std::string& fault : result.faults) { std::fprintf(stderr, "%s: error: %s\n", options.scene.c_str(), fault.c_str()); }
     return ExitCode::invalid_input;
   }
+  std::string refusal;
+  std::vector<Channel> channels;
+  if (!options.total_exchange.empty()) { channels = total_exchange_of(*result.factors, file->scene, refusal); }
+  if (!refusal.empty()) {
+    std::fprintf(stderr, "%s: error: no total exchange factors: %s\n", options.scene.c_str(), refusal.c_str());
+    return ExitCode::invalid_input;
+  }
   const Seconds seconds{std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count(),
                         static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC};
   std::string text = summary(*result.factors, options, seconds);
+  for (const Channel& channel : channels) { text += table(*result.factors, channel); }
   for (const auto& [path, bytes] :
-       {std::pair{options.csv, csv(*result.factors)}, std::pair{options.json, json(*result.factors, options, seconds)}}) {
+       {std::pair{options.csv, csv(*result.factors)}, std::pair{options.total_exchange, csv(*result.factors, channels)},
+        std::pair{options.json, json(*result.factors, channels, options, seconds)}}) {
     if (path.empty()) { continue; }
     if (const auto fault = write_file(path, bytes)) {
       complain(*fault);

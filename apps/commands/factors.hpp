@@ -13,7 +13,7 @@
 namespace apps {
 
 struct FactorsOptions {
-  std::string scene, csv, json;
+  std::string scene, csv, json, total_exchange;
   double error = 1e-3;
   unsigned threads = 0;
 };

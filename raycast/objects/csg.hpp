@@ -27,7 +27,7 @@ class Csg final : public Object {
   [[nodiscard]] const CsgTree& tree() const { return *tree_; }
 
   [[nodiscard]] Box bounds() const override { return mesh_ ? mesh_->bounds() : tree_->bounds(); }
-  [[nodiscard]] bool convex() const override { return mesh_ != nullptr && mesh_->convex(); }
+  [[nodiscard]] bool convex() const override { return mesh_ ? mesh_->convex() : tree_->convex(); }
   [[nodiscard]] bool flat() const override { return mesh_ != nullptr; }
   [[nodiscard]] double slack() const override { return slack_; }
   [[nodiscard]] std::uint32_t sheet_count() const override { return tree_->sheet_count(); }

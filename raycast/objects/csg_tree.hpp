@@ -71,6 +71,12 @@ class CsgTree {
     if (leaf.taken_away) result.normal = -result.normal;
     return result;
   }
+  // What convex solids have in common is convex.
+  [[nodiscard]] bool convex() const {
+    return std::all_of(nodes_.begin(), nodes_.end(),
+                       [](const Node& n) { return n.parts.size() <= 1 || n.operation == CsgOperation::intersect; }) &&
+           std::all_of(leaves_.begin(), leaves_.end(), [](const Leaf& leaf) { return leaf.solid.convex(); });
+  }
   [[nodiscard]] bool flat_sheet(std::uint32_t sheet) const { return leaves_[leaf_of_sheet_[sheet]].solid.flat(); }
 
   // As Object::spans. Uses no heap while no more than 32 crossings, 8 leaves and 16 nodes take part.

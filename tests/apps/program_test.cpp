@@ -195,6 +195,25 @@ TEST_CASE("factors prints the matrix and writes it as CSV and JSON") {
   CHECK(report["converged"].boolean());
 }
 
+TEST_CASE("factors --total-exchange writes script F, one matrix of grey surfaces, three of coloured ones") {
+  const Place place;
+  const Run run = place.run("factors " + scene("two_plates") + " --total-exchange t.csv --json f.json");
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(run.out.find("script F, grey") != std::string::npos);
+  CHECK(place.read("t.csv").starts_with(
+      "channel,surface,area,emissivity,row sum,row sum error,lower,upper,lower error,upper error\ngrey,lower,1,1,"));
+  const json::Value matrix = json::parse(place.read("f.json"))["total_exchange"][0]["factors"];
+  // The lower plate is black: the upper one absorbs half of what arrives and sends back half, of which F arrives.
+  constexpr double f = 0.19982489569838738;
+  CHECK(matrix[0][1].number() == test::Approx(0.5 * f).epsilon(1e-7));
+  CHECK(matrix[0][0].number() == test::Approx(0.5 * f * f).epsilon(1e-7));
+  CHECK(matrix[1][1].number() == 0.0);
+  const Run red = place.run("factors " + scene("cornell") + " --total-exchange t.csv --error 1e-2");
+  INFO(red.err);
+  CHECK(place.read("t.csv").find("\nblue,") != std::string::npos);
+}
+
 TEST_CASE("factors: exit code 2 for an error that makes no sense, 3 for a bad scene, 4 when the error is not reached") {
   const Place place;
   CHECK(place.run("factors " + scene("two_plates") + " --error 0").code == 2);

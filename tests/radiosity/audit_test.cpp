@@ -195,3 +195,33 @@ TEST_CASE("an error target is met, and a tighter one takes more links", "[slow]"
   blind.audit_points = 0;
   CHECK_FALSE(radiosity::solve(scenes::room_with_box(), blind).solution);
 }
+
+TEST_CASE("row sums of an open scene are those of what is exposed: leaves under a box on a plate have none and do not count") {
+  // Every exposed face of plate and box sees one of the two large lamps, in part or whole.
+  Scene scene{{{"grey", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}}}, {}};
+  scene.objects = {scenes::object("plate", scenes::box({-1, -1, -0.5}, {1, 1, 0})),
+                   scenes::object("box", scenes::box({-0.55, -0.55, 0}, {0.55, 0.55, 1})),
+                   scenes::square("above", {0, 0, 3}, 6.0, false, 1), scenes::square("below", {0, 0, -3}, 6.0, true, 1)};
+  Options options;
+  options.audit_points = 0;
+  const radiosity::Outcome outcome = radiosity::solve(scene, options);
+  REQUIRE(outcome.solution);
+  const Solution& solution = *outcome.solution;
+  int buried = 0;
+  double least = 1.0;
+  for (std::size_t i = 0; i < solution.hierarchy.size(); ++i) {
+    if (!solution.hierarchy[i].leaf()) { continue; }
+    if (solution.area[i] > 0.0) { least = std::min(least, solution.row_sum[i]); }
+    if (solution.area[i] > 0.0) { continue; }
+    ++buried;
+    CHECK(solution.row_sum[i] == 0.0);
+  }
+  CHECK(buried > 100);
+  CHECK(least > 0.0);
+  CHECK(solution.audit.row_sum.min == least);
+  CHECK(solution.audit.row_sum.max <= 1.05);
+  for (const radiosity::SurfaceMean& surface : solution.audit.surfaces) {
+    if (surface.name == "box.z0") { CHECK(surface.area == 0.0); }
+    if (surface.name == "plate.z1") { CHECK(surface.area == test::Approx(4.0 - 1.21).epsilon(0.01)); }
+  }
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-// Input faces that are not convex: a wall with windows is one root of the hierarchy, above its convex parts.
+// Input faces that are not convex, or of many corners: a wall with windows is one root of the hierarchy, above its convex parts, and the cap of
+// a cylinder one above a ring of cells.
 
 #include <raycast/objects/csg.hpp>
 
@@ -179,4 +180,41 @@ TEST_CASE("input faces: a sheet of which nothing is left is no surface of the re
   REQUIRE(outcome.solution);
   CHECK(outcome.solution->audit.surfaces.size() == 6 + 3 * 4);
   for (const radiosity::SurfaceMean& surface : outcome.solution->audit.surfaces) { CHECK(surface.area > 0.0); }
+}
+
+TEST_CASE("input faces: the cap of a cylinder falls into a ring of cells and an inner face, and stays what it was for links to the whole") {
+  const radiosity::Scene scene{{scenes::furnace_material(0.5)},
+                               {scenes::object("can", raycast::Cylinder::make({0, 0, 0}, {0, 0, 1}, 1.0).object)}};
+  radiosity::PrepareResult made = radiosity::prepare(scene);
+  REQUIRE(made.prepared);
+  Faces faces(std::move(*made.prepared));
+  int caps = 0;
+  const std::size_t roots = faces.hierarchy.size();
+  for (std::uint32_t i = 0; i < roots; ++i) {
+    const Node before = faces.hierarchy[i];
+    const std::uint32_t n = before.corners;
+    if (n <= brep::most_regular_corners) { continue; }
+    ++caps;
+    REQUIRE(radiosity::subdivide(faces.prepared.surfaces, faces.hierarchy, i));
+    const Node& cap = faces.hierarchy[i];
+    CHECK(cap.in_parts());
+    CHECK(cap.child_count == n / 2 + 1);
+    double area = 0.0;
+    for (std::uint32_t k = 0; k < cap.child_count; ++k) { area += faces.hierarchy[cap.first_child + k].area; }
+    CHECK(area == test::Approx(before.area).epsilon(1e-12));
+    const radiosity::Patch whole = radiosity::make_patch(radiosity::contour(faces.prepared.surfaces, faces.hierarchy, i));
+    CHECK(whole.contour.size() == n);
+    CHECK(whole.area == test::Approx(before.area).epsilon(1e-12));
+    // Refined on, cells and inner face give four-sided patches, and the whole is still the same polygon.
+    for (std::uint32_t k = 0; k < cap.child_count; ++k) {
+      const std::uint32_t child = faces.hierarchy[i].first_child + k;
+      REQUIRE(radiosity::subdivide(faces.prepared.surfaces, faces.hierarchy, child));
+      if (faces.hierarchy[child].in_parts()) { continue; }
+      for (std::uint32_t c = 0; c < faces.hierarchy[child].child_count; ++c) {
+        CHECK(faces.hierarchy[faces.hierarchy[child].first_child + c].corners == 4);
+      }
+    }
+    CHECK(radiosity::contour(faces.prepared.surfaces, faces.hierarchy, i).size() == n);
+  }
+  CHECK(caps == 2);
 }

@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include <raycast/objects/cone.hpp>
+#include <raycast/objects/csg.hpp>
 #include <raycast/objects/disk.hpp>
 
 #include "json.hpp"
@@ -32,7 +33,7 @@ struct WantedFactor {
 };
 struct CurvedCase {
   radiosity::Scene scene;
-  std::vector<WantedFactor> wanted;  // empty: the file's family is no scene
+  std::vector<WantedFactor> wanted;  // empty: the family is not known
 };
 
 inline CurvedCase curved_case(const json::Value& c) {
@@ -64,6 +65,11 @@ inline CurvedCase curved_case(const json::Value& c) {
   } else if (family == "cone_interior") {
     add("cone", raycast::Cone::make({0, 0, 0}, {0, 0, 1}, 1.0, 0.0).object, true);
     wanted = {{1, 0, "F_base_cone"}, {0, 1, "F_cone_base"}, {0, 0, "F_cone_cone"}};
+  } else if (family == "hemisphere_interior") {
+    const raycast::CsgNode ball{raycast::Sphere::make({0, 0, 0}, 1.0).object, "ball", {}, {}, {}};
+    const raycast::CsgNode above{scenes::box({-2, -2, 0}, {2, 2, 2}), "above", {}, {}, {}};
+    add("half", raycast::Csg::make({{}, {}, raycast::CsgOperation::intersect, {ball, above}, {}}).object, true);
+    wanted = {{0, 0, "F_hemi_hemi"}, {0, 1, "F_hemi_disk"}, {1, 0, "F_disk_hemi"}};  // the other sides of the box are cut away
   } else if (family == "concentric_spheres") {
     add("inner", raycast::Sphere::make({0, 0, 0}, 1.0).object, false);
     add("outer", raycast::Sphere::make({0, 0, 0}, 2.0).object, true);

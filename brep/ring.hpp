@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A face of many corners, such as the cap of a cylinder, cut into a ring of faces around an inner one of half as many corners.
+//
+// Regular refinement (refine.hpp) makes n wedges around the centre of a face of n corners, and a wedge stays thin however often it is
+// refined. Here two edges of the face make one cell, about as deep as it is wide, and what is left in the middle has ceil(n / 2)
+// corners; it can be cut so again, until regular refinement does well.
+//
+//         *-----*                *-----*
+//       /         \            /  \   /  \       every second corner is joined to the inner corner on its way to the centroid;
+//      *           *          *    *-*    *      cells have five corners, two of the face and one between them, two of the inner face
+//      |     f     |   ==>    |    |f|    |      (of an odd face the last cell has four);
+//      *           *          *    *-*    *      all keep the level of f, so nothing changes for its neighbours, and T-vertices
+//       \         /            \  /   \  /       on its edges stay what they are.
+//         *-----*                *-----*
+//
+// The inner face is the polygon of every second corner, shrunk towards the centroid. So of a convex face all parts are convex and cover it.
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include <brep/refine.hpp>
+
+namespace brep {
+
+// Regular refinement does well up to so many corners: the wedges of an octagon have 3/4 of the proportion of a square.
+inline constexpr std::size_t most_regular_corners = 8;
+
+// Cuts f into the cells of the ring, in the order of its corners, and the inner face, which keeps the FaceId and comes last. The cells start
+// with a copy of its data. place(brep, v) as in refine.
+// Refused (nothing changes): f is dead or has fewer than six corners; no handle is left.
+// Counts, m = ceil(n / 2): v + m, e + 2 m, f + m. Time: O(edges of f).
+template <class B, class Place>
+Result<std::vector<FaceId>> cut_ring(B& brep, FaceId f, Place&& place) {
+  if (!brep.alive(f)) return Refusal{Code::dead, {f}};
+  const Corners corner = corners(brep, f);
+  const std::size_t n = corner.size(), m = (n + 1) / 2;
+  if (n < 6) return Refusal{Code::few_corners, {f}};
+  if (detail::Raw::halfedges(brep).size() > 0x7ffffff0u - 8 * static_cast<std::uint32_t>(n)) return Refusal{Code::full, {}};
+  const unsigned level = brep.data(f).level;
+
+  std::vector<glm::dvec3> outline;
+  for (std::size_t k = 0; k < n; ++k) outline.push_back(brep.data(brep.vertex(corner[k])).position);
+  const glm::dvec3 centre = centroid(Polygon(outline));
+  double width = 0.0, radius = 0.0;
+  for (std::size_t k = 0; k < m; ++k) {
+    width += glm::distance(outline[2 * k], outline[2 * k + 2 < n ? 2 * k + 2 : 0]);
+    radius += glm::distance(outline[2 * k], centre);
+  }
+  // Depth radius (1 - x), mean width width (1 + x) / 2, both the same; narrow faces keep an inner face.
+  const double a = 0.5 * width / radius, x = a < 0.8 ? (1.0 - a) / (1.0 + a) : 1.0 / 9.0;
+  const auto inner = [&](std::size_t k) { return centre + x * (outline[2 * k] - centre); };
+
+  std::vector<FaceId> cells;
+  cells.reserve(m + 1);
+  const auto insert = [&](HalfedgeId h, std::size_t k) {
+    const HalfedgeId from = unchecked::split_edge(brep, h);
+    detail::put(brep, brep.vertex(from), inner(k), level, place);
+    return from;
+  };
+  HalfedgeId h = detail::cut_child(brep, corner[0], corner[2], cells);  // corner 0 -> corner 2
+  const HalfedgeId first = insert(h, 0);
+  HalfedgeId spoke = insert(first, 1);  // inner corner k -> corner 2 k
+  for (std::size_t k = 1; k + 1 < m; ++k) {
+    h = detail::cut_child(brep, spoke, corner[2 * k + 2], cells);
+    spoke = insert(h, k + 1);
+  }
+  detail::cut_child(brep, spoke, first, cells);
+  for (std::size_t k = 0; k < m; ++k) brep.set_anchor(cells[k], corner[2 * k]);
+  brep.set_anchor(f, first);
+  cells.push_back(f);
+  return cells;
+}
+
+}  // namespace brep
