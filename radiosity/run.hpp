@@ -93,8 +93,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   // Without light, or without reflection, B = E on the input faces.
   const bool needs_links = (plan.lit && plan.reflects) || !plan.shortcuts;
   if (needs_links && options.refinement == Refinement::a_posteriori) {
-    BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, evaluator, options.target,
-                            Deadline{options.time}, link_limit, threads, options.seed, control);
+    BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, shown, evaluator,
+                            options.target, Deadline{options.time}, link_limit, threads, options.seed, control);
     refined = std::move(bf.refined);
     evaluated = bf.evaluated;
     audit.estimated_error = bf.estimate;
