@@ -166,11 +166,12 @@ class LinkEvaluator {
   [[nodiscard]] static LinkShape::End shape_of(const Variation& v, double shadow) {
     return {static_cast<float>(v.linear), static_cast<float>(v.rest), static_cast<float>(shadow)};
   }
-  // Each face of a cluster is lit as if it stood at the centre, and sees all or nothing of the other end; a patch sees parts of the
-  // faces of a cluster, everywhere other ones, for which half of that stands. Light that reaches a cluster at all reaches few of its
-  // faces: over random normals the mean of the squares of cosines above 0 is 8 / 3 of the square of their mean. The lattice of directions
-  // adds a seventh.
+  // Everything at an end is lit as if it stood at the centre, and what is seen of the other end varies: most of all where the end is large
+  // from there, for the things in between then hide it from some and not from others. Light that reaches a cluster at all reaches few of
+  // its faces: over random normals the mean of the squares of cosines above 0 is 8 / 3 of the square of their mean. The lattice of
+  // directions adds a seventh. Measured on links of random boxes, polygons and a mesh, errors are .5 to 1.3 times these.
   [[nodiscard]] LinkShape shape_of_cluster_link(const Link& link, const ClusterExchange& seen) const {
+    const auto square = [](double x) { return x * x; };
     const Node& p = (*hierarchy_)[link.p];
     const Node& q = (*hierarchy_)[link.q];
     const glm::dvec3 d = q.centre - p.centre;
@@ -180,11 +181,11 @@ class LinkEvaluator {
       const double most = sampler_.end(link.p, d).shown * sampler_.end(link.q, -d).shown / (std::numbers::pi * r * r);
       return {{}, {}, static_cast<float>(most / (segments_per_round + 2)), {}};
     }
-    const double shadow = seen.fraction > 0.0 ? std::sqrt((1.0 - seen.fraction) / seen.fraction) : 0.0;
+    const double hidden = (1.0 - seen.fraction) / seen.fraction;
     const auto end = [&](const Node& node) {
-      const double near = 2.0 * node.radius / (std::sqrt(12.0) * r);
-      const double rest = node.is_cluster() ? std::sqrt(8.0 / 3.0 * near * near + 0.02) : near;
-      return LinkShape::End{0.0f, static_cast<float>(rest), static_cast<float>(node.is_cluster() ? shadow : 0.5 * shadow)};
+      const double near = square(2.0 * node.radius / r) / 12.0;
+      const double rest = node.is_cluster() ? 8.0 / 3.0 * near + 0.02 : near;
+      return LinkShape::End{0.0f, static_cast<float>(std::sqrt(rest)), static_cast<float>(std::sqrt(hidden * std::min(1.0, 20.0 * near)))};
     };
     const double error = seen.exchange * seen.spread / std::sqrt(std::max(16.0, static_cast<double>(seen.rays)));
     return {end(p), end(q), static_cast<float>(error), {}};

@@ -7,11 +7,11 @@
 //
 //     e_p^2 = A_p rho^2 H^2 (rest_p^2 + shadow_p^2 + [p is a leaf] (leaf_linear linear_p)^2)     mends: splitting p
 //           + A_p rho^2 S^2 (rest_q^2 + shadow_q^2)                                             mends: splitting q
-//           + A_p rho^2 (sampling B_q / A_p)^2                                                   mends: splitting the larger
+//           + A_p rho^2 (sampling B_q / A_p)^2                                                   mends: splitting the cluster
 //
 // summed over the channels, and the same for q receiving from p. An inner node passes the linear part of the light on to its children;
 // a leaf does not, but the picture interpolates between leaves. A cluster shows other faces to each direction: there the mean of B^2
-// stands for the square of what it sends. The estimate of the whole is sqrt(sum of all e^2) over the norm of the reflected radiosity:
+// stands for the square of what it sends; and of two clusters it is the source whose parts average their noise. The estimate of the whole is sqrt(sum of all e^2) over the norm of the reflected radiosity:
 // errors of different links count as independent.
 
 #include <algorithm>
@@ -116,9 +116,8 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
     double mend_q = glm::dot(to_q, bright_p) * unmended(shapes[i].q, q.leaf()) + glm::dot(to_p, from_q.variance) * sent_q;
     if (shapes[i].sampling > 0.0f) {
       const double noise = square(shapes[i].sampling);
-      const double unsure =
-          noise / area[link.p] * glm::dot(rho_p * rho_p, bright_q) + noise / area[link.q] * glm::dot(rho_q * rho_q, bright_p);
-      (p.radius >= q.radius ? mend_p : mend_q) += unsure;
+      (q.is_cluster() ? mend_q : mend_p) += noise / area[link.p] * glm::dot(rho_p * rho_p, bright_q);
+      (p.is_cluster() ? mend_p : mend_q) += noise / area[link.q] * glm::dot(rho_q * rho_q, bright_p);
     }
     result.links[i] = {static_cast<float>(mend_p), static_cast<float>(mend_q)};
     result.sum += mend_p + mend_q;
