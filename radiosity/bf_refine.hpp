@@ -9,8 +9,10 @@
 //
 // Where there are clusters (clusters.hpp) the coarse mesh is made of them: F-refinement opens the link of their root with itself down to
 // pairs that lie apart, so that one direction stands for the other end; all below such a pair lies apart as well. From there on
-// clusters are opened and patches split alike, by what their links carry. A cluster link through which no segment came is kept, without
-// light, until its children are asked or it cannot matter: a door between two rooms is small.
+// clusters are opened and patches split alike, by what their links carry.
+//
+// A link through which no segment came is kept, without light, until its children are asked or it would not matter: a door between
+// two rooms is small, and what one coarse link loses nobody would find again.
 //
 // Invariants: those of refine.hpp. Deterministic: links are evaluated in parallel, everything else goes in the order of the links.
 
@@ -174,7 +176,8 @@ class Deadline {
       result.interrupted = true;
       return finished();
     }
-    const double excess = errors.sum - (deadline.limited() ? 0.0 : target * target * errors.norm);
+    const double allowed = deadline.limited() ? 0.0 : target * target * errors.norm;
+    const double excess = errors.sum - allowed;
     double threshold = detail::refinement_threshold(errors.links, errors.sum - std::min(0.8 * errors.sum, 1.1 * excess));
     if (deadline.limited()) {
       const std::size_t most = deadline.links_left(result.evaluations) / 4;  // a link that is refined becomes four
@@ -224,8 +227,15 @@ class Deadline {
         for (std::uint32_t b = a + 1; b < last; ++b) { pairs.push_back({a, b}); }
       }
     }
+    // Links that carry nothing, and would not matter if they did.
+    const double moot = 0.01 * allowed / static_cast<double>(links.size());
     std::size_t kept = 0;
     for (std::size_t i = 0; i < links.size(); ++i) {
+      if (splits[i] == Split::none && !(links[i].exchange > 0.0f) && errors.links[i].sum() <= moot) {
+        removed.add(links[i].p, links[i].q, shapes[i].doubt);
+        ++result.evaluated.blocked;
+        continue;
+      }
       const std::uint32_t split = splits[i] == Split::p ? links[i].p : links[i].q;
       const std::uint32_t other = splits[i] == Split::p ? links[i].q : links[i].p;
       if (splits[i] == Split::none || hierarchy[split].leaf()) {

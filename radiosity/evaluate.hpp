@@ -64,7 +64,7 @@ struct LinkShape {
     float shadow = 0.0f;               // of the visible fraction
   };
   End p, q;
-  float sampling = 0.0f;  // of a link of a cluster: standard error of its exchange
+  float sampling = 0.0f;  // standard error of the exchange of a link of a cluster, and of any link of which no segment arrived
   Doubt doubt;
 };
 
@@ -125,6 +125,7 @@ class LinkEvaluator {
             shape_of(light_varies.p, seen.spread_p / seen.fraction), shape_of(light_varies.q, seen.spread_q / seen.fraction), 0.0f, {}};
       }
     }
+    if (shape != nullptr && !(seen.fraction > 0.0)) { shape->sampling = static_cast<float>(missed(unoccluded * share, seen.rays.cast)); }
     if (doubt != nullptr) { *doubt = doubt_of(link, unoccluded * share, seen, light_varies); }
     return seen.rays;
   }
@@ -159,6 +160,8 @@ class LinkEvaluator {
     return {across(p, varies.p, seen.spread_p, area_p), across(q, varies.q, seen.spread_q, area_q), static_cast<float>(independent),
             static_cast<float>(2.0 * arrives * depth), static_cast<float>(depth)};
   }
+  // What a link may exchange of which none of these segments arrived (Laplace's mean); `sent`: if nothing stood between.
+  [[nodiscard]] static double missed(double sent, std::uint64_t segments) { return sent / (static_cast<double>(segments) + 2.0); }
   [[nodiscard]] static std::uint64_t key_of(const Link& link) { return (std::uint64_t{link.p} << 32) | link.q; }
   [[nodiscard]] std::uint32_t rounds(const Link& link) const {
     return emits_[(*hierarchy_)[link.p].surface] || emits_[(*hierarchy_)[link.q].surface] ? 16 : 4;
@@ -177,9 +180,9 @@ class LinkEvaluator {
     const glm::dvec3 d = q.centre - p.centre;
     const double r = glm::length(d);
     if (!(r > 0.0)) { return {}; }
-    if (!(seen.exchange > 0.0)) {  // of so many samples one could have arrived
+    if (!(seen.exchange > 0.0)) {
       const double most = sampler_.end(link.p, d).shown * sampler_.end(link.q, -d).shown / (std::numbers::pi * r * r);
-      return {{}, {}, static_cast<float>(most / (segments_per_round + 2)), {}};
+      return {{}, {}, static_cast<float>(missed(most, segments_per_round)), {}};
     }
     const double hidden = (1.0 - seen.fraction) / seen.fraction;
     const auto end = [&](const Node& node) {

@@ -7,11 +7,11 @@
 //
 //     e_p^2 = A_p rho^2 H^2 (rest_p^2 + shadow_p^2 + [p is a leaf] (leaf_linear linear_p)^2)     mends: splitting p
 //           + A_p rho^2 S^2 (rest_q^2 + shadow_q^2)                                             mends: splitting q
-//           + A_p rho^2 (sampling B_q / A_p)^2                                                   mends: splitting the cluster
+//           + A_p rho^2 (sampling B_q / A_p)^2                                                   mends: splitting the larger
 //
 // summed over the channels, and the same for q receiving from p. An inner node passes the linear part of the light on to its children;
 // a leaf does not, but the picture interpolates between leaves. A cluster shows other faces to each direction: there the mean of B^2
-// stands for the square of what it sends; and of two clusters it is the source whose parts average their noise. The estimate of the whole is sqrt(sum of all e^2) over the norm of the reflected radiosity:
+// stands for the square of what it sends; there, too, the noise of sampling is mended by splitting the source. The estimate of the whole is sqrt(sum of all e^2) over the norm of the reflected radiosity:
 // errors of different links count as independent.
 
 #include <algorithm>
@@ -96,28 +96,44 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
   const auto unmended = [&](const LinkShape::End& shape, bool leaf) {  // of the light received
     return (leaf ? square(leaf_linear * shape.linear) : 0.0) + square(shape.rest) + square(shape.shadow);
   };
+  const auto received = [&](double g2, std::uint32_t i) {  // squared, from a radiosity of 1
+    const Color r = rho(hierarchy[i]);
+    return g2 / area[i] * r * r;
+  };
+  const auto varies = [&](const LinkShape::End& shape) { return square(shape.rest) + square(shape.shadow); };
+  // What node i receives from clusters by the wrong mixture of their faces: links of one node err alike.
+  std::vector<double> alike(light.size(), 0.0);
+  const auto mixture = [&](const Color& to, std::uint32_t from, const LinkShape::End& shape) {
+    return std::sqrt(glm::dot(to, light[from].variance) * varies(shape));
+  };
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const auto& [p, q] = std::pair{links[i].p, links[i].q};
+    const double g2 = square(links[i].exchange);
+    if (hierarchy[q].is_cluster()) { alike[p] += mixture(received(g2, p), q, shapes[i].q); }
+    if (hierarchy[p].is_cluster()) { alike[q] += mixture(received(g2, q), p, shapes[i].p); }
+  }
   result.links.resize(links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
     const Link& link = links[i];
     const Node& p = hierarchy[link.p];
     const Node& q = hierarchy[link.q];
-    const Color rho_p = rho(p);
-    const Color rho_q = rho(q);
+    const LinkShape& shape = shapes[i];
     const double g2 = square(link.exchange);
-    const Color to_p = g2 / area[link.p] * rho_p * rho_p;
-    const Color to_q = g2 / area[link.q] * rho_q * rho_q;
+    const Color to_p = received(g2, link.p);
+    const Color to_q = received(g2, link.q);
     const NodeLight& from_p = light[link.p];
     const NodeLight& from_q = light[link.q];
-    const double sent_p = square(shapes[i].p.rest) + square(shapes[i].p.shadow);
-    const double sent_q = square(shapes[i].q.rest) + square(shapes[i].q.shadow);
     const Color bright_p = from_p.mean * from_p.mean + (p.is_cluster() ? from_p.variance : Color{0.0});
     const Color bright_q = from_q.mean * from_q.mean + (q.is_cluster() ? from_q.variance : Color{0.0});
-    double mend_p = glm::dot(to_p, bright_q) * unmended(shapes[i].p, p.leaf()) + glm::dot(to_q, from_p.variance) * sent_p;
-    double mend_q = glm::dot(to_q, bright_p) * unmended(shapes[i].q, q.leaf()) + glm::dot(to_p, from_q.variance) * sent_q;
-    if (shapes[i].sampling > 0.0f) {
-      const double noise = square(shapes[i].sampling);
-      (q.is_cluster() ? mend_q : mend_p) += noise / area[link.p] * glm::dot(rho_p * rho_p, bright_q);
-      (p.is_cluster() ? mend_p : mend_q) += noise / area[link.q] * glm::dot(rho_q * rho_q, bright_p);
+    double mend_p = glm::dot(to_p, bright_q) * unmended(shape.p, p.leaf());
+    double mend_q = glm::dot(to_q, bright_p) * unmended(shape.q, q.leaf());
+    mend_p += p.is_cluster() ? mixture(to_q, link.p, shape.p) * alike[link.q] : glm::dot(to_q, from_p.variance) * varies(shape.p);
+    mend_q += q.is_cluster() ? mixture(to_p, link.q, shape.q) * alike[link.p] : glm::dot(to_p, from_q.variance) * varies(shape.q);
+    if (shape.sampling > 0.0f) {
+      const double noise = square(shape.sampling);
+      const bool split_p = p.is_cluster() == q.is_cluster() ? p.radius >= q.radius : p.is_cluster();
+      (q.is_cluster() || !split_p ? mend_q : mend_p) += glm::dot(received(noise, link.p), bright_q);
+      (p.is_cluster() || split_p ? mend_p : mend_q) += glm::dot(received(noise, link.q), bright_p);
     }
     result.links[i] = {static_cast<float>(mend_p), static_cast<float>(mend_q)};
     result.sum += mend_p + mend_q;
