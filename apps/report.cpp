@@ -70,13 +70,13 @@ std::string error_text(const std::optional<radiosity::ErrorEstimate>& error) {
 void error_and_time(std::string& out, const Report& report) {
   const radiosity::Audit& audit = report.audit;
   out += "error (RMS, relative to the RMS of the reflected radiosity)\n";
-  row(out, "picture", error_text(audit.picture_error));
+  if (report.options.reconstruction != radiosity::Reconstruction::none) { row(out, "picture", error_text(audit.picture_error)); }
   row(out, "leaf constants", error_text(audit.leaf_error));
   if (audit.estimated_error) {
     row(out, "estimated from links",
         percent(*audit.estimated_error) + (audit.generations > 0 ? ", after " + std::to_string(audit.generations) + " generations" : ""));
   }
-  if (audit.picture_error) { row(out, "path-traced points", grouped(audit.audit_points) + ", " + grouped(audit.audit_rays) + " rays"); }
+  if (audit.leaf_error) { row(out, "path-traced points", grouped(audit.audit_points) + ", " + grouped(audit.audit_rays) + " rays"); }
   out += "time (s)                      wall       CPU\n";
   const auto time = [&](const std::string& name, double wall, double cpu) { row(out, name, format("%10.3f%10.3f", wall, cpu)); };
   for (const radiosity::StageTime& stage : audit.stages) {
@@ -132,7 +132,9 @@ void sizes_and_checks(std::string& out, const Report& report) {
     row(out, "refinement", format("f, epsilon %.3g, min area %.3g", audit.epsilon, audit.min_area));
   }
   row(out, "channels, threads, seed", format("%u, %u, %llu", audit.channels, audit.threads, static_cast<unsigned long long>(audit.seed)));
-  row(out, "exposure", format("%.5g%s", report.exposure, report.automatic_exposure ? " (automatic)" : ""));
+  if (report.options.reconstruction != radiosity::Reconstruction::none) {
+    row(out, "exposure", format("%.5g%s", report.exposure, report.automatic_exposure ? " (automatic)" : ""));
+  }
   if (report.picture) {
     row(out, "picture",
         format("%u x %u, of the %s, camera ", report.picture->width, report.picture->height,
@@ -167,22 +169,18 @@ void write_error(JsonWriter& json, const radiosity::ErrorEstimate& error) {
 
 void write_errors(JsonWriter& json, const radiosity::Audit& audit) {
   json.key("error");
-  if (!audit.picture_error) {
+  if (!audit.leaf_error) {
     json.null();
     return;
   }
   json.open_object();
-  write_error(json, *audit.picture_error);
+  if (audit.picture_error) { write_error(json, *audit.picture_error); }  // else nobody asked for one
   json.key("points").count(audit.audit_points);
   json.key("rays").count(audit.audit_rays);
   json.key("leaf");
-  if (audit.leaf_error) {
-    json.open_object();
-    write_error(json, *audit.leaf_error);
-    json.close();
-  } else {
-    json.null();
-  }
+  json.open_object();
+  write_error(json, *audit.leaf_error);
+  json.close();
   json.close();
 }
 

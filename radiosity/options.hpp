@@ -24,10 +24,11 @@ inline constexpr const char* name(Solver solver) {
   return names[static_cast<int>(solver)];
 }
 enum class Refinement { a_posteriori, a_priori };  // BF- and F-refinement (paper 4.4)
-// Paper fig. 5; simple ignores the normals (figs. 6-8); constant shows the solution itself, one colour a leaf.
-enum class Reconstruction { weighted, simple, constant };
+// Paper fig. 5; simple ignores the normals (figs. 6-8); constant shows the solution itself, one colour a leaf; none: nobody asks for a
+// picture, the mesh is as with constant and errors are those of the leaves.
+enum class Reconstruction { weighted, simple, constant, none };
 inline constexpr const char* name(Reconstruction reconstruction) {
-  constexpr const char* names[] = {"weighted", "simple", "constant"};
+  constexpr const char* names[] = {"weighted", "simple", "constant", "none"};
   return names[static_cast<int>(reconstruction)];
 }
 
@@ -42,7 +43,8 @@ struct Options {
   double epsilon = 0.005;
   // or when both patches are no larger than min_area, relative to the total area of the scene.
   double min_area = 3e-5;
-  // Accuracy target: target, or epsilon and min_area, are chosen anew until the audited relative L2 error of the picture is at most this.
+  // Accuracy target: target, or epsilon and min_area, are chosen anew until the audited relative L2 error of the picture, or of
+  // the leaves when there is none, is at most this.
   std::optional<double> error;
 
   // Input faces from which on clusters are built above them; below, all pairs of input faces are looked at.

@@ -13,6 +13,7 @@
 //
 // The angle makes the average independent of how a T-vertex was connected. Faces of another material, and faces that
 // are buried under another object, do not count; a corner with buried faces alone takes the mean of its face's others.
+// Constant, a buried face takes the mean of its weighted corners: a sliver of it may show at the foot of what buries it.
 
 #include <algorithm>
 #include <cmath>
@@ -72,6 +73,7 @@ inline void set_normals(const raycast::PlacedObject& object, SurfaceBRep& brep) 
 // `materials` one a surface.
 inline void reconstruct(std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const Exposure& exposure,
                         const std::vector<Color>& radiosity, const std::vector<std::uint32_t>& materials, Reconstruction kind) {
+  const bool constant = kind == Reconstruction::constant || kind == Reconstruction::none;
   for (Surface& surface : surfaces) {
     SurfaceBRep& brep = surface.brep;
     detail::set_normals(*surface.object, brep);
@@ -79,21 +81,21 @@ inline void reconstruct(std::vector<Surface>& surfaces, const Hierarchy& hierarc
     for (const brep::FaceId f : brep::faces(brep)) {
       const std::uint32_t own = brep.data(f).node;
       if (own == no_node) { continue; }
+      if (constant && exposure.area[own] > 0.0) {
+        for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) { brep.data(e).radiosity = radiosity[own]; }
+        continue;
+      }
       Color face_sum{0.0};  // over the corners that have a colour
       int coloured = 0;
       std::vector<brep::HalfedgeId> bare;
       for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) {
-        if (kind == Reconstruction::constant) {
-          brep.data(e).radiosity = radiosity[own];
-          continue;
-        }
         Color sum{0.0};
         double weights = 0.0;
         for (const brep::HalfedgeId l : brep::halfedges_from(brep, brep.vertex(e))) {
           const std::uint32_t node = brep.data(brep.face(l)).node;
           if (node == no_node || !(exposure.area[node] > 0.0) || material(node) != material(own)) { continue; }
           double weight = detail::corner_angle(brep, l);
-          if (kind == Reconstruction::weighted) { weight *= std::max(0.0, glm::dot(brep.data(e).normal, brep.data(l).normal)); }
+          if (kind != Reconstruction::simple) { weight *= std::max(0.0, glm::dot(brep.data(e).normal, brep.data(l).normal)); }
           sum += weight * radiosity[node];
           weights += weight;
         }
@@ -105,8 +107,10 @@ inline void reconstruct(std::vector<Surface>& surfaces, const Hierarchy& hierarc
         face_sum += sum / weights;
         ++coloured;
       }
-      for (const brep::HalfedgeId e : bare) {
-        brep.data(e).radiosity = coloured > 0 ? face_sum / static_cast<double>(coloured) : radiosity[own];
+      const Color mean = coloured > 0 ? face_sum / static_cast<double>(coloured) : radiosity[own];
+      for (const brep::HalfedgeId e : bare) { brep.data(e).radiosity = mean; }
+      if (constant) {
+        for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) { brep.data(e).radiosity = mean; }
       }
     }
   }

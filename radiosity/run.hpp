@@ -161,7 +161,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     watch.lap("compare");
   }
 
-  const bool constant = options.reconstruction == Reconstruction::constant;
+  const bool constant = options.reconstruction >= Reconstruction::constant;
   const bool cut = (!constant || !plan.shortcuts) && eliminate_t_vertices(boundary) > 0;
   reconstruct(boundary, hierarchy, exposure, solution.radiosity, materials, options.reconstruction);
   solution.mesh = make_mesh(boundary, hierarchy, exposure, solution.radiosity);
@@ -204,13 +204,13 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
         measure_error(scene, objects, boundary, exposure, solution.mesh, options.audit_points, threads, options.seed, control);
     if (!control.cancelled()) {
       audit.leaf_error = measured.leaf;
-      audit.picture_error = measured.picture;
+      if (options.reconstruction != Reconstruction::none) { audit.picture_error = measured.picture; }
       audit.audit_points = measured.points;
       audit.audit_rays = measured.rays;
     }
     watch.lap("audit");
   }
-  if (options.audit_points > 0 && needs_links && plan.traceable && !audit.picture_error && control.cancelled()) {
+  if (options.audit_points > 0 && needs_links && plan.traceable && !audit.leaf_error && control.cancelled()) {
     audit.interrupted = true;
     audit.left_out.push_back({"the error estimate", "the run was interrupted", ""});
   }
@@ -244,7 +244,8 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
     Audit& audit = outcome.solution->audit;
     detail::add_times(stages, audit.stages);
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    const ErrorEstimate error = audit.picture_error.value_or(ErrorEstimate{unknown, unknown});
+    const bool picture = round.reconstruction != Reconstruction::none;
+    const ErrorEstimate error = (picture ? audit.picture_error : audit.leaf_error).value_or(ErrorEstimate{unknown, unknown});
     const bool met = error.relative_l2 + 2.0 * error.standard_error <= wanted;
     // An estimate that drowns in its own noise needs more points; else, and in any case where noise is not to blame, a finer mesh.
     const bool noisy = error.standard_error > 0.25 * wanted && round.audit_points < 200'000;

@@ -136,8 +136,9 @@ inline void report_left_out(Audit& audit, const Plan& plan, const RefineResult& 
         "their links and rays", times(refined.pairs_hidden, cost.link));
   }
   if (exposure.buried_leaves > 0) { add(std::to_string(exposure.buried_leaves) + " leaves", "buried under another object", "their links"); }
-  if (options.reconstruction == Reconstruction::constant) {
-    add("T-vertex elimination and interpolation", "one colour a leaf is asked for", "their time");
+  if (options.reconstruction >= Reconstruction::constant) {
+    const bool picture = options.reconstruction == Reconstruction::constant;
+    add("T-vertex elimination and interpolation", picture ? "one colour a leaf is asked for" : "no picture is asked for", "their time");
   }
   if (options.audit_points == 0) { add("the error estimate", "not asked for (audit of 0 points)", "the time of the audit"); }
 }

@@ -8,6 +8,7 @@
 #include "apps/bounds.hpp"
 #include "apps/commands/common.hpp"
 
+#include <radiosity/cluster_choice.hpp>
 #include <radiosity/prepare.hpp>
 
 namespace apps {
@@ -92,7 +93,9 @@ std::string plan(const radiosity::Prepared& prepared) {
       "can stand between two others: " + std::to_string(plan.occluders) + " of " + std::to_string(prepared.surfaces.size()) + " objects\n";
   out += "left out when rendered, as far as known without solving:\n";
   for (const radiosity::LeftOut& item : plan.left_out) { out += "  " + item.what + ": " + item.why + "\n"; }
-  return out + (plan.left_out.empty() ? "  nothing\n" : "");
+  const radiosity::ClusterChoice clusters = radiosity::choose_clusters(faces, {});
+  if (!clusters.build) { out += "  clusters above the input faces: " + clusters.why + "\n"; }
+  return out + (plan.left_out.empty() && clusters.build ? "  nothing\n" : "");
 }
 
 std::string summary(const SceneFile& file, const radiosity::Prepared& prepared, const std::string& name) {

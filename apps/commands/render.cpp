@@ -177,8 +177,9 @@ ExitCode write_all(const std::vector<Output>& outputs) {
 void describe(CLI::App& command, RenderOptions& options) {
   radiosity::Options& solver = options.solver;
   command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
-  command.add_option("-o,--output", options.outputs, "what to write: a picture (.png) or a mesh (.ply); repeat for more")
-      ->required()
+  command
+      .add_option("-o,--output", options.outputs,
+                  "what to write: a picture (.png) or a mesh (.ply); repeat for more; without, the report alone")
       ->type_name("FILE")
       ->allow_extra_args(false);
   auto* error =
@@ -259,11 +260,13 @@ ExitCode run(const RenderOptions& options) {
   const auto camera = choose_camera(*file, options.camera);
   if (!camera) { return ExitCode::usage; }
 
+  radiosity::Options settings = options.solver;
+  if (options.outputs.empty()) { settings.reconstruction = radiosity::Reconstruction::none; }
   Progress progress(options.quiet);
   radiosity::Control control;
   control.cancel = &cancel;
   control.progress = [&](std::string_view stage, double part) { progress.report(stage, part); };
-  const radiosity::Outcome outcome = radiosity::solve(file->scene, options.solver, control);
+  const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
   if (outcome.solution && outcome.solution->audit.interrupted) { control = control.unstoppable(); }  // what there is, is written
   progress.done();
   if (!outcome.solution) { return report_failure(outcome.failure, options.scene); }
@@ -271,7 +274,7 @@ ExitCode run(const RenderOptions& options) {
   const radiosity::Solution& solution = *outcome.solution;
   Report report;
   report.scene = options.scene;
-  report.options = options.solver;
+  report.options = settings;
   report.audit = solution.audit;
   report.automatic_exposure = !options.exposure;
   report.exposure = options.exposure ? *options.exposure : automatic_exposure(solution.mesh, file->scene);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// halflight render SCENE -o OUT.png [-o OUT.ply] ...: solves a scene, writes pictures and meshes, prints the report.
+// halflight render SCENE [-o OUT.png] [-o OUT.ply] ...: solves a scene, writes pictures and meshes, prints the report.
 //
 // What can be known to fail is refused before the solver starts: extensions, folders, the camera's name. Outputs are
 // encoded in memory and then replace their files one by one, each whole (files.hpp).

@@ -135,6 +135,7 @@ std::vector<Color> values_at(const radiosity::Scene& scene, const radiosity::Sol
   if (leaf_values != nullptr) {
     constant = mesh;
     for (const radiosity::MeshFace& face : mesh.faces) {
+      if (!(solution.area[face.node] > 0.0)) { continue; }  // no sample of it is exposed: its neighbours stand for it
       for (std::uint32_t c = 0; c < face.corner_count; ++c) {
         constant.corners[face.first_corner + c].radiosity = (*leaf_values)[face.node];
       }

@@ -22,7 +22,7 @@ struct MeasureOptions {
 };
 
 // The values of a mesh at the points of a reference. `leaf_values`: one colour a node, to be shown instead of the mesh's own colours,
-// constant on each leaf.
+// constant on each leaf that is not buried.
 [[nodiscard]] std::vector<radiosity::Color> values_at(const radiosity::Scene& scene, const radiosity::Solution& solution,
                                                       const radiosity::Mesh& mesh, const TrueRadiosity& truth,
                                                       const std::vector<radiosity::Color>* leaf_values = nullptr);

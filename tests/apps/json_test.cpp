@@ -93,6 +93,7 @@ TEST_CASE("the report has its documented keys") {
   CHECK(value["closure"].is_null());
   CHECK(value["converged"].boolean());
   audit.picture_error.reset();
+  audit.leaf_error.reset();
   CHECK(json::parse(apps::to_json(report))["error"].is_null());
   CHECK(apps::to_text(report).find("not measured") != std::string::npos);
 }

@@ -74,6 +74,21 @@ TEST_CASE("quiet is quiet on stderr, the report stays") {
   CHECK(run.out.find("not measured") != std::string::npos);
 }
 
+TEST_CASE("without an output nothing is reconstructed; the report tells the error of the leaves") {
+  const Place place;
+  const Run run = place.run("render " + scene("two_plates") + " --json a.json --audit 50 --epsilon 0.05 --quiet");
+  CHECK(run.code == 0);
+  CHECK(run.out.find("no picture is asked for") != std::string::npos);
+  CHECK(run.out.find("exposure") == std::string::npos);
+  const json::Value report = json::parse(place.read("a.json"));
+  CHECK(report["settings"]["reconstruction"].string() == "none");
+  CHECK(report["error"]["leaf"]["relative_l2"].number() > 0.0);
+  // The same leaves as those of a picture, and the same error.
+  REQUIRE(place.run("render " + scene("two_plates") + " -o a.ply --json b.json --audit 50 --epsilon 0.05 --quiet").code == 0);
+  const json::Value pictured = json::parse(place.read("b.json"));
+  CHECK(pictured["error"]["leaf"]["relative_l2"].number() == report["error"]["leaf"]["relative_l2"].number());
+}
+
 TEST_CASE("info says what is in a scene") {
   const Place place;
   const Run run = place.run("info " + scene("room"));
@@ -88,7 +103,6 @@ TEST_CASE("wrong usage is exit code 2 and writes nothing") {
                                        std::string("--foo"),
                                        std::string("draw x"),
                                        std::string("render"),
-                                       "render " + scene("room"),
                                        "render " + scene("room") + " -o a.jpg",
                                        "render " + scene("room") + " -o a.png -o a.png",
                                        "render " + scene("room") + " -o a.png --size 0x5",

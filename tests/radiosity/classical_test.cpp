@@ -8,18 +8,14 @@
 
 #include "catch.hpp"
 #include "scenes.hpp"
+#include "solved.hpp"
 
 using namespace radiosity;
+using scenes::solved;
 
 namespace {
 
-Solution solved(Outcome outcome) {
-  for (const std::string& sentence : outcome.failure.sentences) { UNSCOPED_INFO(sentence); }
-  REQUIRE(outcome.solution);
-  return std::move(*outcome.solution);
-}
-
-Options coarse() {
+Options coarsest() {
   Options options;
   options.epsilon = 0.05;
   options.min_area = 5e-4;
@@ -76,7 +72,7 @@ TEST_CASE("shooting converges to the solution of the full matrix") {
 
 TEST_CASE("polygons that share no edge: separate quad-trees are the hierarchy") {
   const Scene scene = scenes::two_plates(0.5);
-  Options options = coarse();
+  Options options = coarsest();
   const Solution hierarchical = solved(solve(scene, options));
   options.topology = Topology::separate;
   const Solution quadtrees = solved(solve(scene, options));
@@ -86,7 +82,7 @@ TEST_CASE("polygons that share no edge: separate quad-trees are the hierarchy") 
 }
 
 TEST_CASE("separate polygons know nothing of their neighbours: a furnace still holds, T-vertices stay") {
-  Options options = coarse();
+  Options options = coarsest();
   options.topology = Topology::separate;
   const Solution solution = solved(solve(scenes::furnace_with_things(0.5), options));
   // Closed rows make every leaf 1, and so every average of leaves.
@@ -103,7 +99,7 @@ TEST_CASE("separate polygons know nothing of their neighbours: a furnace still h
 
 TEST_CASE("the parts of a separate polygon stay in its plane, those of a shared one follow the object") {
   Scene scene = scenes::furnace_sphere(0.5);
-  Options options = coarse();
+  Options options = coarsest();
   const auto farthest_in = [](const Solution& solution) {
     double least = 1.0;
     for (const glm::dvec3& p : solution.mesh.positions) { least = std::min(least, glm::length(p)); }
@@ -129,7 +125,7 @@ TEST_CASE("a dense solution on the leaves of a run differs from it by its links 
   const Scene scene = scenes::room_with_box();
   double before = 1.0;
   for (const double epsilon : {0.2, 0.02}) {
-    Options options = coarse();
+    Options options = coarsest();
     options.epsilon = epsilon;
     options.min_area = 2e-3;
     options.compare = 5000;
@@ -155,7 +151,7 @@ TEST_CASE("a mesh that is too fine for a matrix is refused, a comparison on too 
   const Outcome refused = solve_uniform(scenes::two_plates(0.5), options);
   CHECK_FALSE(refused.solution);
   CHECK(refused.failure.kind == Failure::Kind::invalid_options);
-  Options few = coarse();
+  Options few = coarsest();
   few.compare = 10;
   const Solution solution = solved(solve(scenes::two_plates(0.5), few));
   REQUIRE(solution.comparison);

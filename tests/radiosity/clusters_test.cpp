@@ -12,10 +12,12 @@
 #include "catch.hpp"
 
 #include "radiosity/many_scene.hpp"
+#include "radiosity/solved.hpp"
 
 using radiosity::Hierarchy;
 using radiosity::Node;
 using radiosity::Options;
+using scenes::solved;
 
 namespace {
 
@@ -37,12 +39,6 @@ Options by_light(double target, std::uint32_t from) {
 }
 
 constexpr std::uint32_t never = 0xffffffff;
-
-radiosity::Solution solved(const radiosity::Scene& scene, const Options& options) {
-  radiosity::Outcome outcome = radiosity::solve(scene, options);
-  REQUIRE(outcome.solution);
-  return std::move(*outcome.solution);
-}
 
 glm::dvec3 random_vector(std::mt19937_64& engine) {
   std::normal_distribution<double> normal;

@@ -4,13 +4,13 @@
 // errors and times. Reference data are skipped where they are not at hand.
 
 #include <ctime>
-#include <fstream>
 
 #include <radiosity/factors.hpp>
 #include <raycast/objects/mesh.hpp>
 
 #include "catch.hpp"
 #include "json.hpp"
+#include "reference_data.hpp"
 #include "reference_factors.hpp"
 #include "scenes.hpp"
 
@@ -18,16 +18,9 @@ using radiosity::Factors;
 using radiosity::Scene;
 using reference::position;
 using reference::positions;
+using reference::read;
 
 namespace {
-
-const std::string data_folder = HALFLIGHT_REFERENCE_DATA;
-
-json::Value read(const std::string& file) {
-  if (std::ifstream{data_folder + "/" + file}) { return json::parse_file(data_folder + "/" + file); }
-  WARN("skipped: no reference data at " << data_folder << "/" << file);
-  return {};
-}
 
 Factors factors_of(const Scene& scene, double error = 1e-3, unsigned threads = 1) {
   radiosity::FactorOptions options;

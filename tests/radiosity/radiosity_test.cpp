@@ -7,11 +7,13 @@
 #include "catch.hpp"
 #include "generations.hpp"
 #include "scenes.hpp"
+#include "solved.hpp"
 
 using radiosity::Options;
 using radiosity::Outcome;
 using radiosity::Scene;
 using radiosity::Solution;
+using scenes::solved;
 
 namespace {
 
@@ -22,13 +24,6 @@ Options coarse() {
   options.min_area = 1e-4;
   options.audit_points = 0;
   return options;
-}
-
-Solution solved(const Scene& scene, const Options& options, const radiosity::Control& control = {}) {
-  Outcome outcome = radiosity::solve(scene, options, control);
-  for (const std::string& sentence : outcome.failure.sentences) { UNSCOPED_INFO(sentence); }
-  REQUIRE(outcome.solution);
-  return std::move(*outcome.solution);
 }
 
 // Largest |B - 1| over all corners and all exposed leaves.

@@ -116,3 +116,15 @@ TEST_CASE("constant reconstruction shows the leaves as they are") {
     CHECK(brep.data(h).radiosity == r.radiosity[brep.data(brep.face(h)).node]);
   });
 }
+
+TEST_CASE("a buried leaf beside an exposed one takes the light of its neighbours in every reconstruction") {
+  // The plate has 4 by 4 leaves; the box stands on those in the middle and a little beyond.
+  radiosity::Scene scene{{{"grey", radiosity::Color{0.5}, radiosity::Color{0.0}}}, {scenes::square("plate", {0, 0, 0}, 2, true)}};
+  scene.objects.push_back(scenes::object("box", scenes::box({-1.1, -1.1, 0}, {1.1, 1.1, 1})));
+  const auto light = [](const radiosity::Node& node) { return glm::length(glm::dvec2{node.centre}) < 1.5 * node.radius ? 0.0 : 1.0; };
+  for (const auto kind : {Reconstruction::weighted, Reconstruction::simple, Reconstruction::constant}) {
+    CAPTURE(name(kind));
+    for_corners(reconstructed(scene, kind, light),
+                [&](const radiosity::SurfaceBRep& brep, brep::HalfedgeId h) { CHECK(brep.data(h).radiosity.x == test::Approx(1.0)); });
+  }
+}

@@ -5,22 +5,17 @@
 
 #include "catch.hpp"
 
-#include <fstream>
-
 #include <radiosity/lookup.hpp>
 
+#include "reference_data.hpp"
 #include "reference_scene.hpp"
 #include "scenes.hpp"
+#include "solved.hpp"
 
 namespace {
 
-const std::string data_folder = HALFLIGHT_REFERENCE_DATA;
-
-bool present(const std::string& file) {
-  if (std::ifstream{data_folder + "/" + file}) { return true; }
-  WARN("skipped: no reference data at " << data_folder << "/" << file);
-  return false;
-}
+using reference::data_folder;
+using reference::present;
 
 void compare_scene(const std::string& name) {
   const std::string file = "scenes/" + name + ".json";
@@ -81,10 +76,7 @@ radiosity::Solution solved(const radiosity::Scene& scene, double epsilon, double
   options.epsilon = epsilon;
   options.min_area = min_area;
   options.audit_points = 0;
-  radiosity::Outcome outcome = radiosity::solve(scene, options);
-  for (const std::string& sentence : outcome.failure.sentences) { UNSCOPED_INFO(sentence); }
-  REQUIRE(outcome.solution);
-  return std::move(*outcome.solution);
+  return scenes::solved(scene, options);
 }
 
 // A room of the file: one material for each wall.

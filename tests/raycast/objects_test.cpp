@@ -11,8 +11,6 @@ using namespace test;
 
 namespace {
 
-constexpr double u = unit_roundoff;
-
 // Distance of p from the boundary of the solid box, cylinder, sphere, positive outside.
 double sphere_distance(const Sphere& s, const dvec3& p) { return glm::length(p - s.centre()) - s.radius(); }
 double box_distance(const Box& b, const dvec3& p) {

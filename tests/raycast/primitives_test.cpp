@@ -8,8 +8,6 @@ using namespace test;
 
 namespace {
 
-constexpr double u = unit_roundoff;
-
 // A primitive somewhere, and its oracle along lines of the world.
 struct Subject {
   const Primitive& primitive;

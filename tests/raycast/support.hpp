@@ -23,6 +23,8 @@ namespace test {
 using glm::dvec3;
 using Corners = std::vector<dvec3>;
 
+constexpr double u = raycast::unit_roundoff;
+
 class Random {
  public:
   Random() {
