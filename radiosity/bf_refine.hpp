@@ -228,7 +228,8 @@ class Deadline {
       }
     }
     // Links that carry nothing, and would not matter if they did.
-    const double moot = 0.01 * allowed / static_cast<double>(links.size());
+    const auto carry = std::count_if(errors.links.begin(), errors.links.end(), [](const detail::LinkError& e) { return e.sum() > 0.0f; });
+    const double moot = 0.01 * allowed / static_cast<double>(carry);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < links.size(); ++i) {
       if (splits[i] == Split::none && !(links[i].exchange > 0.0f) && errors.links[i].sum() <= moot) {

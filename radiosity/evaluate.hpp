@@ -239,7 +239,9 @@ inline void refit_cluster_link(const Hierarchy& hierarchy, Link& link, const Sho
                                              unsigned threads, const Control& control = {}) {
   EvaluateResult result;
   const std::size_t count = links.size() - first;
-  const auto stays = [&](std::size_t i) { return links[i].exchange > 0.0f || (shapes != nullptr && (*shapes)[i].sampling > 0.0f); };
+  const auto stays = [&](std::size_t i) {
+    return links[i].exchange > 0.0f || (shapes != nullptr && (*shapes)[i].sampling > 0.0f && lists[i] != OccluderLists::hidden);
+  };
   if (shapes != nullptr) { shapes->resize(links.size()); }
   std::vector<RayCount> rays(count);
   std::vector<Doubt> doubts;
