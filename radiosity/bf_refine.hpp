@@ -12,7 +12,7 @@
 // clusters are opened and patches split alike, by what their links carry.
 //
 // A link through which no segment came is kept, without light, until its children are asked or it would not matter: a door between
-// two rooms is small, and what one coarse link loses nobody would find again.
+// two rooms is small, and what one coarse link loses nobody would find again. The children know how many segments were blocked before.
 //
 // Invariants: those of refine.hpp. Deterministic: links are evaluated in parallel, everything else goes in the order of the links.
 
@@ -171,7 +171,9 @@ class Deadline {
     const detail::ErrorEstimation errors =
         detail::estimate_errors(hierarchy, exposure, links, shapes, reflectance, emission, light.radiosity);
     result.estimate = errors.relative();
-    if ((!deadline.limited() && result.estimate <= target) || links.size() > most_links) { return finished(); }
+    // Where nothing is lit yet, light may still be found.
+    const bool dark = !(errors.norm > 0.0) && errors.sum > 0.0 && result.generations < 4;
+    if ((!deadline.limited() && result.estimate <= target && !dark) || links.size() > most_links) { return finished(); }
     if (control.cancelled()) {
       result.interrupted = true;
       return finished();
@@ -213,6 +215,7 @@ class Deadline {
 
     const auto before = static_cast<std::uint32_t>(hierarchy.size());
     std::vector<detail::Pair> pairs;
+    std::vector<float> blocked;  // of each pair, as in LinkShape
     stuck.resize(before, false);
     for (std::uint32_t i = 0; i < before; ++i) {
       if (!asked[i] || !hierarchy[i].leaf()) { continue; }
@@ -227,6 +230,7 @@ class Deadline {
         for (std::uint32_t b = a + 1; b < last; ++b) { pairs.push_back({a, b}); }
       }
     }
+    blocked.resize(pairs.size(), 0.0f);
     // Links that carry nothing, and would not matter if they did.
     const auto carry = std::count_if(errors.links.begin(), errors.links.end(), [](const detail::LinkError& e) { return e.sum() > 0.0f; });
     const double moot = 0.01 * allowed / static_cast<double>(carry);
@@ -245,8 +249,10 @@ class Deadline {
         links[kept++] = links[i];
         continue;
       }
+      const float segments = links[i].exchange > 0.0f ? 0.0f : shapes[i].blocked + segments_per_round;
       for (std::uint32_t k = 0; k < hierarchy[split].child_count; ++k) {
         pairs.push_back({hierarchy[split].first_child + k, other, lists[i]});
+        blocked.push_back(segments * static_cast<float>(hierarchy[split].child_count));
       }
     }
     links.resize(kept);
@@ -265,6 +271,7 @@ class Deadline {
           },
           [](std::size_t, const raycast::OccluderList&, Decision&) {});
       std::vector<detail::Pair> parts;  // of faces that come out of their clusters in too many to be linked
+      std::vector<float> blocked_parts;
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         if (decisions[i] < first_seeing) { continue; }
         const auto [p, q, list] = pairs[i];
@@ -272,13 +279,16 @@ class Deadline {
         if (decisions[i] == Decision::link || !hierarchy[split].in_parts()) {
           links.push_back({p, q});
           lists.push_back(list);
+          shapes.emplace_back().blocked = blocked[i];
           continue;
         }
         for (std::uint32_t k = 0; k < hierarchy[split].child_count; ++k) {
           parts.push_back({hierarchy[split].first_child + k, split == p ? q : p, list});
+          blocked_parts.push_back(blocked[i]);
         }
       }
       pairs = std::move(parts);
+      blocked = std::move(blocked_parts);
     }
     ++result.generations;
     if (control.after_generation) { control.after_generation(surfaces); }
