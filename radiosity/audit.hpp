@@ -75,7 +75,7 @@ struct Audit {
   bool converged = true;                       // solver below its residual and, when asked for, error below its target
   bool interrupted = false;                    // the best that the run had when it was told to stop; its error may not be measured
   // error
-  std::optional<double> estimated_error;  // relative L2, by what the links cannot express (bf_refine.hpp)
+  std::optional<double> estimated_error;  // relative L2, by what the links cannot express (link_error.hpp)
   double estimated_light_error = 0.0;     // the part of it that is due to the links of lights; F-refinement alone
   std::uint32_t generations = 0;          // of BF-refinement
   std::uint64_t audit_points = 0;

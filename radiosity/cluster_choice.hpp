@@ -19,7 +19,6 @@ struct ClusterChoice {
 };
 
 [[nodiscard]] inline ClusterChoice choose_clusters(std::size_t input_faces, const Options& options) {
-  if (options.refinement == Refinement::a_posteriori) { return {false, "BF-refinement begins with the input faces"}; }
   if (options.solver == Solver::gauss_seidel || options.solver == Solver::southwell) {
     return {false, "Gauss-Seidel and Southwell go through the scene input face by input face"};
   }

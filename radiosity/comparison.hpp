@@ -23,15 +23,12 @@ struct Comparison {
   return kind == Reconstruction::simple ? Reconstruction::weighted : Reconstruction::simple;
 }
 
-// A closed scene whose rows need a larger RMS correction is too coarse for it.
-inline constexpr double closing_limit = 0.1;
-
 // The radiosity of the leaves by Gauss-Seidel on the full matrix; empty when cancelled. One entry a node.
 [[nodiscard]] inline std::vector<Color> dense_radiosity(const LeafExchange& exchange, const LeafMaterials& materials, bool closed,
                                                         std::size_t nodes, double residual, unsigned threads, const Control& control) {
   DenseMatrix matrix = make_matrix(exchange, threads, control);
   if (matrix.cancelled) { return {}; }
-  if (closed) { (void)close_rows(matrix, exchange, closing_limit); }
+  if (closed) { (void)close_rows(matrix, exchange, explained_closure(matrix, exchange)); }
   const DenseSolution solved = gauss_seidel(matrix, exchange, materials, residual, 1000, control);
   if (solved.cancelled) { return {}; }
   std::vector<Color> result(nodes, Color{0.0});

@@ -29,6 +29,7 @@ struct DenseMatrix {
   std::size_t size = 0;
   std::vector<float> entry;
   RayCount rays;
+  DoubtSum doubt;  // of the rows
   bool cancelled = false;
 
   [[nodiscard]] const float* row(std::size_t i) const { return entry.data() + i * size; }
@@ -36,18 +37,31 @@ struct DenseMatrix {
 
 [[nodiscard]] inline DenseMatrix make_matrix(const LeafExchange& exchange, unsigned threads, const Control& control = {}) {
   const std::size_t n = exchange.size();
-  DenseMatrix matrix{n, std::vector<float>(n * n, 0.0f), {}, false};
+  DenseMatrix matrix{n, std::vector<float>(n * n, 0.0f), {}, {}, false};
   std::vector<RayCount> rays(n);
+  std::vector<DoubtSum> doubts(n);
   parallel_for(
       n, threads,
       [&](std::size_t i) {
         if (control.cancelled()) { return; }
-        for (std::size_t j = i + 1; j < n; ++j) { matrix.entry[i * n + j] = matrix.entry[j * n + i] = exchange(i, j, rays[i]); }
+        for (std::size_t j = i + 1; j < n; ++j) {
+          Doubt doubt;
+          matrix.entry[i * n + j] = matrix.entry[j * n + i] = exchange(i, j, rays[i], &doubt);
+          doubts[i].add(exchange.node(i), exchange.node(j), doubt);
+        }
       },
       4);
   for (const RayCount& r : rays) { matrix.rays += r; }
+  for (const DoubtSum& d : doubts) { matrix.doubt.add(d); }
   matrix.cancelled = control.cancelled();
   return matrix;
+}
+
+// The most that may be wrong with the rows of a closed scene.
+[[nodiscard]] inline double explained_closure(const DenseMatrix& matrix, const LeafExchange& exchange) {
+  double total = 0.0;
+  for (std::size_t i = 0; i < matrix.size; ++i) { total += exchange.area(i); }
+  return explained_closure(matrix.doubt, {}, total);
 }
 
 // Makes the rows of a closed scene sum to 1, as Transport::close() does. Returns the RMS correction, or nothing, and changes nothing,

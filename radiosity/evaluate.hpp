@@ -4,9 +4,14 @@
 // Puts the numbers into the links: form factor by contour, times the fraction that arrives (paper 4.3: this is done once
 // the oracle has agreed, for it is the expensive part).
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 #include <vector>
+
+#include <glm/geometric.hpp>
 
 #include <raycast/scene.hpp>
 
@@ -59,6 +64,8 @@ struct LinkShape {
     float shadow = 0.0f;               // of the visible fraction
   };
   End p, q;
+  float sampling = 0.0f;  // standard error of the exchange of a link of a cluster, and of any link of which no segment arrived
+  float blocked = 0.0f;   // segments of the links that it was split from, where none of them arrived
   Doubt doubt;
 };
 
@@ -93,9 +100,9 @@ class LinkEvaluator {
     if (!between_patches(link)) {
       const Random random{seed_, (std::uint64_t{link.p} << 32) | link.q};
       const ClusterExchange seen = evaluate_cluster_link(sampler_, *hierarchy_, link, cluster_rounds, random);
-      const LinkShape of_link = shape_of_cluster_link(link, seen.fraction);
+      const LinkShape of_link = shape_of_cluster_link(link, seen, shape != nullptr ? *shape : LinkShape{});
       if (shape != nullptr) { *shape = of_link; }
-      if (doubt != nullptr) { doubt->square = static_cast<float>(doubt_of_cluster_link(link, of_link, seen)); }
+      if (doubt != nullptr) { doubt->square = static_cast<float>(doubt_of_cluster_link(link, of_link)); }
       return {seen.rays, 0};
     }
     const double unoccluded = exchange(p, q);
@@ -115,8 +122,15 @@ class LinkEvaluator {
       link.slope_p = glm::vec3{light_varies.p.slope};
       link.slope_q = glm::vec3{light_varies.q.slope};
       if (shape != nullptr && seen.fraction > 0.0) {
-        *shape = {shape_of(light_varies.p, seen.spread_p / seen.fraction), shape_of(light_varies.q, seen.spread_q / seen.fraction), {}};
+        *shape = {shape_of(light_varies.p, seen.spread_p / seen.fraction),
+                  shape_of(light_varies.q, seen.spread_q / seen.fraction),
+                  0.0f,
+                  0.0f,
+                  {}};
       }
+    }
+    if (shape != nullptr && !(seen.fraction > 0.0)) {
+      shape->sampling = static_cast<float>(missed(unoccluded * share, *shape, seen.rays.cast));
     }
     if (doubt != nullptr) { *doubt = doubt_of(link, unoccluded * share, seen, light_varies); }
     return seen.rays;
@@ -152,6 +166,11 @@ class LinkEvaluator {
     return {across(p, varies.p, seen.spread_p, area_p), across(q, varies.q, seen.spread_q, area_q), static_cast<float>(independent),
             static_cast<float>(2.0 * arrives * depth), static_cast<float>(depth)};
   }
+  // What a link may exchange of which none of these segments arrived, and none of those before (Laplace's mean); `sent`: if nothing
+  // stood between.
+  [[nodiscard]] static double missed(double sent, const LinkShape& before, std::uint64_t segments) {
+    return sent / (static_cast<double>(before.blocked) + static_cast<double>(segments) + 2.0);
+  }
   [[nodiscard]] static std::uint64_t key_of(const Link& link) { return (std::uint64_t{link.p} << 32) | link.q; }
   [[nodiscard]] std::uint32_t rounds(const Link& link) const {
     return emits_[(*hierarchy_)[link.p].surface] || emits_[(*hierarchy_)[link.q].surface] ? 16 : 4;
@@ -159,25 +178,37 @@ class LinkEvaluator {
   [[nodiscard]] static LinkShape::End shape_of(const Variation& v, double shadow) {
     return {static_cast<float>(v.linear), static_cast<float>(v.rest), static_cast<float>(shadow)};
   }
-  // Each face of a cluster is lit as if it stood at the centre, and sees all or nothing of the other end.
-  [[nodiscard]] LinkShape shape_of_cluster_link(const Link& link, double fraction) const {
+  // Everything at an end is lit as if it stood at the centre, and what is seen of the other end varies: most of all where the end is large
+  // from there, for the things in between then hide it from some and not from others. Light that reaches a cluster at all reaches few of
+  // its faces: over random normals the mean of the squares of cosines above 0 is 8 / 3 of the square of their mean. The lattice of
+  // directions adds a seventh. Measured on links of random boxes, polygons and a mesh, errors are .5 to 1.3 times these.
+  [[nodiscard]] LinkShape shape_of_cluster_link(const Link& link, const ClusterExchange& seen, const LinkShape& before) const {
+    const auto square = [](double x) { return x * x; };
     const Node& p = (*hierarchy_)[link.p];
     const Node& q = (*hierarchy_)[link.q];
-    const double r = glm::length(q.centre - p.centre);
-    const double shadow = fraction > 0.0 ? std::sqrt((1.0 - fraction) / fraction) : 0.0;
+    const glm::dvec3 d = q.centre - p.centre;
+    const double r = glm::length(d);
+    if (!(r > 0.0)) { return {}; }
+    if (!(seen.exchange > 0.0)) {
+      const double most = sampler_.end(link.p, d).shown * sampler_.end(link.q, -d).shown / (std::numbers::pi * r * r);
+      return {{}, {}, static_cast<float>(missed(most, before, segments_per_round)), before.blocked, {}};
+    }
+    const double hidden = (1.0 - seen.fraction) / seen.fraction;
     const auto end = [&](const Node& node) {
-      const double near = r > 0.0 ? 2.0 * node.radius / (std::sqrt(12.0) * r) : 0.0;
-      return LinkShape::End{0.0f, static_cast<float>(near), node.is_cluster() ? static_cast<float>(shadow) : 0.0f};
+      const double near = square(2.0 * node.radius / r) / 12.0;
+      const double rest = node.is_cluster() ? 8.0 / 3.0 * near + 0.02 : near;
+      return LinkShape::End{0.0f, static_cast<float>(std::sqrt(rest)), static_cast<float>(std::sqrt(hidden * std::min(1.0, 20.0 * near)))};
     };
-    return {end(p), end(q), {}};
+    const double error = seen.exchange * seen.spread / std::sqrt(std::max(16.0, static_cast<double>(seen.rays)));
+    return {end(p), end(q), static_cast<float>(error), 0.0f, {}};
   }
-  // Every face and every link errs for itself: by its place, by what it sees, by the lattice of directions (a tenth) and by sampling.
-  [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkShape& shape, const ClusterExchange& seen) const {
+  // Every face and every link errs for itself: by its place, by what it sees, by the lattice of directions and by sampling.
+  [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkShape& shape) const {
     const double exchange = static_cast<double>(link.exchange);
+    const double sampling = static_cast<double>(shape.sampling);
     const auto end = [&](std::uint32_t i, const LinkShape::End& e) {
-      const double relative = 0.01 + static_cast<double>(e.rest * e.rest + e.shadow * e.shadow) +
-                              seen.spread * seen.spread / std::max(16.0, static_cast<double>(seen.rays));
-      return exchange * exchange * relative / exposure_->area[i];
+      const double across = static_cast<double>(e.rest * e.rest + e.shadow * e.shadow);
+      return (exchange * exchange * across + sampling * sampling) / exposure_->area[i];
     };
     return exchange > 0.0 ? end(link.p, shape.p) + end(link.q, shape.q) : 0.0;
   }
@@ -193,13 +224,33 @@ class LinkEvaluator {
   std::uint64_t seed_;
 };
 
+// Fits a cluster link to what its ends show now instead of `before`: exposed areas are known better where faces were split.
+inline void refit_cluster_link(const Hierarchy& hierarchy, Link& link, const ShownAreas& before, const ShownAreas& now) {
+  const glm::dvec3 d = glm::normalize(hierarchy[link.q].centre - hierarchy[link.p].centre);
+  const auto end = [&](std::uint32_t i, const glm::dvec3& to, Slope& slope) {
+    if (!hierarchy[i].is_cluster()) { return; }
+    const glm::dvec3 towards = Slope{glm::vec3{to}}.vector();
+    const double shown_before = before.of(hierarchy[i], aim(towards));
+    const double shown_now = now.of(hierarchy[i], aim(towards));
+    if (shown_before == shown_now) { return; }
+    const bool shows = shown_before > 0.0 && shown_now > 0.0;
+    link.exchange = shows ? static_cast<float>(link.exchange * (shown_now / shown_before)) : 0.0f;
+    slope = shows ? Slope{glm::vec3{towards / shown_now}} : Slope{};
+  };
+  end(link.p, d, link.slope_p);
+  end(link.q, -d, link.slope_q);
+}
+
 // Evaluates the links from `first` on and removes those that carry nothing. `lists`: the index of each link in `occluders`. With
-// `shapes`, one a link, those too.
+// `shapes`, one a link, those too; links that may carry something all the same (LinkShape::sampling) then stay.
 [[nodiscard]] inline EvaluateResult evaluate(const LinkEvaluator& evaluator, const OccluderLists& occluders, Links& links,
                                              std::vector<std::uint32_t>& lists, std::size_t first, std::vector<LinkShape>* shapes,
                                              unsigned threads, const Control& control = {}) {
   EvaluateResult result;
   const std::size_t count = links.size() - first;
+  const auto stays = [&](std::size_t i) {
+    return links[i].exchange > 0.0f || (shapes != nullptr && (*shapes)[i].sampling > 0.0f && lists[i] != OccluderLists::hidden);
+  };
   if (shapes != nullptr) { shapes->resize(links.size()); }
   std::vector<RayCount> rays(count);
   std::vector<Doubt> doubts;
@@ -217,7 +268,7 @@ class LinkEvaluator {
     });
     for (std::size_t offset = 0; offset < doubts.size(); ++offset) {
       const std::size_t i = first + done + offset;
-      if (shapes != nullptr && links[i].exchange > 0.0f) {
+      if (shapes != nullptr && stays(i)) {
         (*shapes)[i].doubt = doubts[offset];
       } else {
         result.doubt.add(links[i].p, links[i].q, doubts[offset]);
@@ -233,7 +284,7 @@ class LinkEvaluator {
   std::size_t kept = first;
   for (std::size_t i = first; i < links.size(); ++i) {
     result.rays += rays[i - first];
-    if (links[i].exchange > 0.0f) {
+    if (stays(i)) {
       result.proven_clear += rays[i - first].avoided > 0 ? 1 : 0;
       if (shapes != nullptr) { (*shapes)[kept] = (*shapes)[i]; }
       lists[kept] = lists[i];

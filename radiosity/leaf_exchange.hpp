@@ -71,15 +71,15 @@ class LeafExchange {
   [[nodiscard]] std::uint32_t node(std::size_t i) const { return leaves_[i]; }
   [[nodiscard]] double area(std::size_t i) const { return area_[i]; }  // exposed
 
-  // A_i F_ij = A_j F_ji with visibility, in the squared unit of the frame.
-  [[nodiscard]] float operator()(std::size_t i, std::size_t j, RayCount& rays) const {
+  // A_i F_ij = A_j F_ji with visibility, in the squared unit of the frame. Its doubt has no part by node: leaves express all.
+  [[nodiscard]] float operator()(std::size_t i, std::size_t j, RayCount& rays, Doubt* doubt = nullptr) const {
     const std::uint32_t index = lists_[roots_[i] * count_ + roots_[j]];
     if (i == j || index == nothing) { return 0.0f; }
     Link link{leaves_[std::min(i, j)], leaves_[std::max(i, j)]};
     if (f_oracle((*hierarchy_)[link.p], (*hierarchy_)[link.q], 1.0, 0.0) == Decision::drop) { return 0.0f; }
     const raycast::OccluderList list = occluders_.of(link.p, link.q, index, *objects_, *plan_, *patches_);
     if (list.blocked()) { return 0.0f; }
-    rays += (*evaluator_)(link, list);
+    rays += (*evaluator_)(link, list, nullptr, doubt);
     return link.exchange;
   }
 

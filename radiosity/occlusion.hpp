@@ -61,11 +61,12 @@ class Patches {
 
 class OccluderLists {
  public:
-  // Indices that stand for no list: none has been made, or it was too long to keep; nothing stands between.
-  static constexpr std::uint32_t none = 0xffffffff, clear = 0xfffffffe;
+  // Indices that stand for no list: none has been made, or it was too long to keep; nothing stands between; proven to exchange nothing, and
+  // linked all the same.
+  static constexpr std::uint32_t none = 0xffffffff, clear = 0xfffffffe, hidden = 0xfffffffd;
 
   [[nodiscard]] raycast::OccluderList operator[](std::uint32_t index) const {
-    if (index == none) { return {}; }
+    if (index == none || index == hidden) { return {}; }
     if (index == clear) { return raycast::OccluderList::nothing(); }
     const std::uint32_t head = words_[index];
     return {std::span{words_}.subspan(index + 1, head >> 1), (head & 1u) != 0};
@@ -75,7 +76,7 @@ class OccluderLists {
   [[nodiscard]] raycast::OccluderList of(std::uint32_t p, std::uint32_t q, std::uint32_t ancestors, const raycast::Scene& scene,
                                          const Plan& plan, const Patches& patches) const {
     if (patches.is_cluster(p) || patches.is_cluster(q)) { return {}; }
-    if (ancestors != none) { return scene.filter((*this)[ancestors], patches.shape(p), patches.shape(q)); }
+    if (ancestors != none && ancestors != hidden) { return scene.filter((*this)[ancestors], patches.shape(p), patches.shape(q)); }
     const raycast::OccluderList all = scene.occluders(patches.shape(p), patches.shape(q));
     if (!all.known() || all.blocked()) { return all; }
     std::array<std::uint32_t, raycast::OccluderList::capacity> shapes{};
@@ -90,7 +91,7 @@ class OccluderLists {
     if (!list.known()) { return none; }
     const auto count = static_cast<std::uint32_t>(list.shapes().size());
     const std::uint32_t head = count << 1 | static_cast<std::uint32_t>(list.rooms_clear());
-    if (ancestors < clear && words_[ancestors] == head) { return ancestors; }
+    if (ancestors < hidden && words_[ancestors] == head) { return ancestors; }
     const auto index = static_cast<std::uint32_t>(words_.size());
     words_.push_back(head);
     words_.insert(words_.end(), list.shapes().begin(), list.shapes().end());

@@ -103,22 +103,21 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
       Decision& decision = decisions[first + k];
       decision = oracle(pair.p, pair.q);
       lists[k] = {};
-      if (decision == Decision::drop || decision == Decision::convex) {
-        if (!plan.shortcuts) { decision = Decision::link; }
-        return;
-      }
+      if (decision == Decision::drop || decision == Decision::convex) { return; }
       lists[k] = result.occluders.of(pair.p, pair.q, pair.list, objects, plan, patches);
-      if (!lists[k].blocked()) {
-        look(first + k, lists[k], decision);
-      } else if (plan.shortcuts) {
+      if (lists[k].blocked()) {
         decision = Decision::hide;
       } else {
-        decision = Decision::link;
-        lists[k] = {};
+        look(first + k, lists[k], decision);
       }
     });
     for (std::size_t k = 0; k < count; ++k) {
-      const Decision decision = decisions[first + k];
+      Decision& decision = decisions[first + k];
+      if (decision < first_seeing && !plan.shortcuts) {
+        decision = Decision::link;
+        pairs[first + k].list = OccluderLists::hidden;
+        continue;
+      }
       result.pairs_dropped += decision == Decision::drop ? 1 : 0;
       result.pairs_convex += decision == Decision::convex ? 1 : 0;
       result.pairs_hidden += decision == Decision::hide ? 1 : 0;

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include <radiosity/link_error.hpp>
 #include <radiosity/radiosity.hpp>
 
 #ifndef HALFLIGHT_RADIOSITY_INLINE
@@ -23,14 +24,6 @@
 namespace radiosity {
 
 namespace detail {
-
-// The largest RMS correction by which a scene is closed: what its links explain (doubt.hpp) with a margin of one half, and the error
-// of a form factor (exchange.hpp). Measured, corrections are .24 to 1.16 times what is expected (the rooms of `halflight stress`, 1200 to 154 000 links).
-[[nodiscard]] inline double explained_closure(const DoubtSum& doubt, const std::vector<double>& exposed_area, const Hierarchy& hierarchy) {
-  double total = 0.0;
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) { total += hierarchy[i].parent == no_node ? exposed_area[i] : 0.0; }
-  return 1.5 * doubt.rms(exposed_area, total) + 2e-5;
-}
 
 // Their fractions are known to 1 %.
 inline constexpr std::uint32_t stray_ray_count = 2500;
@@ -93,8 +86,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   // Without light, or without reflection, B = E on the input faces.
   const bool needs_links = (plan.lit && plan.reflects) || !plan.shortcuts;
   if (needs_links && options.refinement == Refinement::a_posteriori) {
-    BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, evaluator, options.target,
-                            Deadline{options.time}, link_limit, threads, options.seed, control);
+    BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, shown, evaluator,
+                            options.target, Deadline{options.time}, link_limit, threads, options.seed, control);
     refined = std::move(bf.refined);
     evaluated = bf.evaluated;
     audit.estimated_error = bf.estimate;
@@ -136,7 +129,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   solution.row_sum = transport.row_sums();
   audit.computed_row_sum = summarise_rows(hierarchy, exposure.area, solution.row_sum);
   if (plan.closed && !solution.links.empty()) {
-    audit.closure_limit = detail::explained_closure(evaluated.doubt, exposure.area, hierarchy);
+    double exposed = 0.0;
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) { exposed += hierarchy[i].parent == no_node ? exposure.area[i] : 0.0; }
+    audit.closure_limit = explained_closure(evaluated.doubt, exposure.area, exposed);
     audit.closure = transport.close(audit.closure_limit);
   }
   solution.row_sum = transport.row_sums();

@@ -91,7 +91,10 @@ struct UniformOptions {
   if (options.solver == UniformSolver::gauss_seidel) {
     DenseMatrix matrix = make_matrix(exchange, threads, control);
     watch.lap("link");
-    if (plan.closed) { audit.closure = close_rows(matrix, exchange, closing_limit); }
+    if (plan.closed) {
+      audit.closure_limit = explained_closure(matrix, exchange);
+      audit.closure = close_rows(matrix, exchange, audit.closure_limit);
+    }
     solved = gauss_seidel(matrix, exchange, leaves, options.residual, 1000, control);
     solved.rays = matrix.rays;
     audit.links = n * n;

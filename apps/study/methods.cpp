@@ -78,14 +78,10 @@ Outcome run_to_error(const Scene& scene, const Options& options, const Control& 
   return outcome;
 }
 
-MethodPlan accuracy_target(const MethodOptions& study) {
-  MethodPlan method{
-      "BF, accuracy target",
-      "BF-refinement until a path-traced audit of the picture witnesses the relative L2 error asked for; all rounds and audits "
-      "count",
-      {}};
+MethodPlan accuracy_target(std::string name, std::string summary, const Options& base) {
+  MethodPlan method{std::move(name), std::move(summary), {}};
   for (const double error : {0.32, 0.16, 0.112, 0.08, 0.056, 0.04, 0.028}) {
-    Options options = common(study);
+    Options options = base;
     options.refinement = radiosity::Refinement::a_posteriori;
     options.audit_points = 1000;
     options.error = error;
@@ -132,6 +128,8 @@ MethodPlan uniform(std::string name, std::string summary, const MethodOptions& s
 
 std::vector<MethodPlan> methods(const MethodOptions& study) {
   const std::vector<double> epsilons{0.16, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025};
+  const std::vector<double> targets{0.16, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025};
+  const std::string with_clusters = "the same with clusters above the input faces, also where they do not pay";
   std::vector<MethodPlan> all;
   Options faces = common(study);
   faces.cluster_from = std::numeric_limits<std::uint32_t>::max();
@@ -139,11 +137,15 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
                              "epsilon", epsilons, faces, set_epsilon));
   Options clusters = common(study);
   clusters.cluster_from = 2;
-  all.push_back(hierarchical("F, clusters", "the same with clusters above the input faces, also where they do not pay", "epsilon", epsilons,
-                             clusters, set_epsilon));
-  all.push_back(hierarchical("hierarchical BF", "solve, then refine the links that carry the most error (paper 4.4)", "target",
-                             {0.16, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025}, common(study), set_target));
-  all.push_back(accuracy_target(study));
+  all.push_back(hierarchical("F, clusters", with_clusters, "epsilon", epsilons, clusters, set_epsilon));
+  all.push_back(hierarchical("hierarchical BF", "solve, then refine the links that carry the most error (paper 4.4)", "target", targets,
+                             faces, set_target));
+  all.push_back(hierarchical("BF, clusters", with_clusters, "target", targets, clusters, set_target));
+  all.push_back(accuracy_target("BF, accuracy target",
+                                "BF-refinement until a path-traced audit of the picture witnesses the relative L2 error asked for; all "
+                                "rounds and audits count",
+                                faces));
+  all.push_back(accuracy_target("BF, accuracy target, clusters", with_clusters, clusters));
   Options separate = common(study);
   separate.topology = radiosity::Topology::separate;
   separate.cluster_from = std::numeric_limits<std::uint32_t>::max();

@@ -4,7 +4,9 @@
 
 #include "apps/study/reference.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "apps/scene_file.hpp"
 #include "json.hpp"
@@ -202,6 +204,12 @@ TEST_CASE("halflight study: every method at six settings or more, the parts of a
   const double noise = scene["reference"]["point_noise"].number();
   CHECK(noise > 0.0);
   CHECK(scene["methods"].size() >= 6);
+  for (const std::string name :
+       {"hierarchical F", "F, clusters", "hierarchical BF", "BF, clusters", "BF, accuracy target", "BF, accuracy target, clusters"}) {
+    CAPTURE(name);
+    const auto& all = scene["methods"].array();
+    CHECK(std::count_if(all.begin(), all.end(), [&](const json::Value& method) { return method["name"].string() == name; }) == 1);
+  }
   int parts = 0;
   for (const json::Value& method : scene["methods"].array()) {
     CAPTURE(method["name"].string());

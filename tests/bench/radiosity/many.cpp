@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 
 // How links and time grow with the number k of input polygons: random boxes, single polygons, or one mesh, in a room. Error by the audit.
+// F-refinement, or, with a target, BF-refinement.
 //
 // On several threads the audit is left out, and the CPU time of the calling thread stands in place of the error: on a loaded machine, where
 // the clock on the wall says little, T(1 thread) over that is how much faster the run would be.
 //
-//     bench_many [boxes|polygons|mesh [epsilon [threads [least k [most k [cluster from]]]]]]
+//     bench_many [boxes|polygons|mesh [epsilon [threads [least k [most k [cluster from [target]]]]]]]
 
 #include <cmath>
 #include <cstdio>
@@ -26,6 +27,10 @@ int main(int argc, char** argv) {
   options.min_area = 0.01 * options.epsilon;
   options.threads = static_cast<unsigned>(number(3, 1));
   if (options.threads > 1) { options.audit_points = 0; }
+  if (argc > 7) {
+    options.refinement = radiosity::Refinement::a_posteriori;
+    options.target = number(7, options.target);
+  }
   const auto own_seconds = [] {
     std::timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

@@ -181,10 +181,13 @@ int main(int argc, char** argv) {
     options.min_area = 5e-4;
     row("a priori", epsilon, options);
   }
-  for (const double target : {0.08, 0.04, 0.02, 0.01}) {
-    radiosity::Options options;
-    options.refinement = radiosity::Refinement::a_posteriori;
-    options.target = target;
-    row("a posteriori", target, options);
+  for (const bool clusters : {false, true}) {
+    for (const double target : {0.08, 0.04, 0.02, 0.01}) {
+      radiosity::Options options;
+      options.refinement = radiosity::Refinement::a_posteriori;
+      options.target = target;
+      if (clusters) { options.cluster_from = 2; }
+      row(clusters ? "  clusters" : "a posteriori", target, options);
+    }
   }
 }
