@@ -9,8 +9,11 @@
 // by definition and must not flatter the figure), estimated without bias in the same way.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +23,7 @@
 #include <radiosity/parallel.hpp>
 #include <radiosity/plan.hpp>
 #include <radiosity/reference.hpp>
+#include <radiosity/sobol.hpp>
 #include <radiosity/visibility.hpp>
 #include <radiosity/warnings.hpp>
 
@@ -72,8 +76,9 @@ struct Audit {
   bool interrupted = false;                    // the best that the run had when it was told to stop; its error may not be measured
   // error
   std::optional<double> estimated_error;  // relative L2, by what the links cannot express (bf_refine.hpp)
+  double estimated_light_error = 0.0;     // the part of it that is due to the links of lights; F-refinement alone
   std::uint32_t generations = 0;          // of BF-refinement
-  std::uint32_t audit_points = 0;
+  std::uint64_t audit_points = 0;
   std::optional<ErrorEstimate> leaf_error;     // of the constant on each leaf
   std::optional<ErrorEstimate> picture_error;  // of the reconstructed radiosity that the picture shows
   // what was done
@@ -112,15 +117,19 @@ struct ErrorSums {
 };
 
 struct MeasuredError {
-  std::optional<ErrorEstimate> leaf, picture;
-  std::uint32_t points = 0;
+  ErrorSums leaf, picture;
   std::uint64_t rays = 0;
+  std::uint64_t keys = 0;   // of the random numbers that were used
+  std::uint32_t paths = 0;  // of each estimate at a point; 0: to be chosen
+  double noise = 0.0;       // variance of an estimate, summed over the points
+
+  [[nodiscard]] std::uint64_t points() const { return leaf.square.size(); }
 };
 
-// Compares the mesh (in the frame) with `points` path-traced points, spread evenly over its area.
-[[nodiscard]] inline MeasuredError measure_error(const Scene& scene, const raycast::Scene& objects, const std::vector<Surface>& surfaces,
-                                                 const Exposure& exposure, const Mesh& mesh, std::uint32_t points, unsigned threads,
-                                                 std::uint64_t seed, const Control& control = {}) {
+// Compares the mesh (in the frame) with `points` more path-traced points, spread evenly over its area.
+inline void measure_error(const Scene& scene, const raycast::Scene& objects, const std::vector<Surface>& surfaces, const Exposure& exposure,
+                          const Mesh& mesh, std::uint64_t points, unsigned threads, std::uint64_t seed, MeasuredError& measured,
+                          const Control& control = {}) {
   struct Triangle {
     std::uint32_t face, first, second;  // corners face.first, first, second
     double cumulative_area;
@@ -136,23 +145,28 @@ struct MeasuredError {
       triangles.push_back({f, a + k, a + k + 1, total});
     }
   }
-  MeasuredError measured;
-  if (points == 0 || !(total > 0.0)) { return measured; }
+  if (points == 0 || !(total > 0.0)) { return; }
 
   const std::vector<InputSurface> inputs = radiosity::surfaces(scene);
   const PathTracer tracer{scene, objects, surfaces};
-  // Averaged in each of the two estimates; fewer where paths are long.
-  const int paths = std::clamp(static_cast<int>(1024.0 * (1.0 - tracer.brightest())), 2, 256);
+  // Averaged in each of the two estimates, each an even sequence of its own; fewer where paths are long.
+  if (measured.paths == 0) {
+    measured.paths = std::bit_floor(static_cast<std::uint32_t>(std::clamp(1024.0 * (1.0 - tracer.brightest()), 2.0, 256.0)));
+  }
+  const std::uint32_t paths = measured.paths;
   struct Sample {
-    double leaf = 0.0, picture = 0.0, reference = 0.0;
+    double leaf = 0.0, picture = 0.0, reference = 0.0, noise = 0.0;
     std::uint64_t rays = 0;
     bool valid = false;
   };
   std::vector<Sample> samples(points);
+  const std::uint64_t first_key = measured.keys;
+  measured.keys += points;
   const auto measure = [&](std::size_t i) {
     if (control.cancelled()) { return; }
-    Random random{seed, i, 0x6175646974ull};
-    const double at = (static_cast<double>(i) + random.uniform()) / points * total;
+    const std::uint64_t key = first_key + i;
+    Random random{seed, key, 0x6175646974ull};
+    const double at = (static_cast<double>(i) + random.uniform()) / static_cast<double>(points) * total;
     auto triangle =
         std::upper_bound(triangles.begin(), triangles.end(), at, [](double a, const Triangle& t) { return a < t.cumulative_area; });
     if (triangle == triangles.end()) { --triangle; }
@@ -173,37 +187,66 @@ struct MeasuredError {
 
     Sample& sample = samples[i];
     Color mean[2] = {Color{0.0}, Color{0.0}};
-    for (Color& b : mean) {
-      for (int k = 0; k < paths; ++k) {
-        b += tracer.radiosity(point.position, point.normal, input.object, input.sheet, random, sample.rays) / static_cast<double>(paths);
+    for (std::uint64_t half = 0; half < 2; ++half) {
+      const Sobol4 first{seed, 4 * key + 2 * half};
+      const Sobol4 second{seed, 4 * key + 2 * half + 1};
+      for (std::uint32_t k = 0; k < paths; ++k) {
+        PathNumbers numbers{first, second, k, Random{seed, key, half << 32 | k}};
+        mean[half] += tracer.radiosity(point.position, point.normal, input.object, input.sheet, numbers, sample.rays) / double{paths};
       }
     }
     const Color& emission = scene.materials[input.material].emission;
     sample.leaf = glm::dot(mean[0] - face.radiosity, mean[1] - face.radiosity);
     sample.picture = glm::dot(mean[0] - shown, mean[1] - shown);
     sample.reference = glm::dot(mean[0] - emission, mean[1] - emission);
+    sample.noise = 0.5 * glm::dot(mean[0] - mean[1], mean[0] - mean[1]);
     sample.valid = true;
   };
   constexpr std::size_t batch = 512;  // between two looks at the cancel flag
   for (std::size_t first = 0; first < points && !control.cancelled(); first += batch) {
     parallel_for(std::min<std::size_t>(batch, points - first), threads, [&](std::size_t offset) { measure(first + offset); });
-    control.report("audit", static_cast<double>(std::min<std::size_t>(first + batch, points)) / points);
+    control.report("audit", static_cast<double>(std::min<std::size_t>(first + batch, points)) / static_cast<double>(points));
   }
 
-  ErrorSums leaf;
-  ErrorSums picture;
   for (const Sample& sample : samples) {
     measured.rays += sample.rays;
     if (!sample.valid) { continue; }
-    ++measured.points;
-    leaf.square.push_back(sample.leaf);
-    leaf.reference.push_back(sample.reference);
-    picture.square.push_back(sample.picture);
-    picture.reference.push_back(sample.reference);
+    measured.leaf.square.push_back(sample.leaf);
+    measured.leaf.reference.push_back(sample.reference);
+    measured.picture.square.push_back(sample.picture);
+    measured.picture.reference.push_back(sample.reference);
+    measured.noise += sample.noise;
   }
-  measured.leaf = leaf.estimate();
-  measured.picture = picture.estimate();
-  return measured;
+}
+
+// Is the error known to be at most `wanted`, two standard errors included?
+[[nodiscard]] inline bool within(const std::optional<ErrorEstimate>& error, double wanted) {
+  return error && error->relative_l2 + 2.0 * error->standard_error <= wanted;
+}
+
+// Measures until it is decided whether the error is at most `wanted`, or until more rays would be needed than `most_rays`. Where the noise of
+// the paths is larger than the error in question, more of them at each point tell more than more points; else more points do.
+inline void decide_error(const std::function<void(std::uint64_t points, MeasuredError&)>& measure, const ErrorSums MeasuredError::*of,
+                         std::uint64_t points, double wanted, std::uint64_t most_rays, MeasuredError& measured) {
+  for (;;) {
+    measure(points, measured);
+    const ErrorSums& sums = measured.*of;
+    const std::optional<ErrorEstimate> error = sums.estimate();
+    if (!error || within(error, wanted) || error->relative_l2 - 2.0 * error->standard_error > wanted) { return; }
+    const double signal = std::accumulate(sums.reference.begin(), sums.reference.end(), 0.0);
+    if (measured.noise > wanted * wanted * signal) {
+      if (4 * measured.rays > most_rays) { return; }
+      measured = {{}, {}, 0, measured.keys, 4 * measured.paths, 0.0};
+      continue;
+    }
+    // The standard error falls with the square root of the points. What is a little above may turn out a little below.
+    const auto n = static_cast<double>(measured.points());
+    const double gap = std::max(wanted - error->relative_l2, 0.1 * wanted);
+    const double ratio = 2.0 * error->standard_error / gap;
+    const double more = std::clamp(1.1 * (ratio * ratio - 1.0), 0.25, 3.0);
+    if (static_cast<double>(measured.rays) * (1.0 + more) > static_cast<double>(most_rays)) { return; }
+    points = static_cast<std::uint64_t>(more * n);
+  }
 }
 
 }  // namespace radiosity

@@ -130,22 +130,35 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
   return result;
 }
 
-// The estimate for links that were not made by BF-refinement, from at most 4096 of them, spread evenly; their shapes are found now.
-inline double sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Exposure& exposure, const Links& links,
-                               const std::vector<Color>& reflectance, const std::vector<Color>& emission,
-                               const std::vector<Color>& radiosity, unsigned threads) {
-  const std::size_t count = std::min<std::size_t>(links.size(), 4096);
-  Links sample(count);
-  std::vector<LinkShape> shapes(count);
-  parallel_for(count, threads, [&](std::size_t i) {
-    sample[i] = links[static_cast<std::size_t>(static_cast<double>(i) / static_cast<double>(count) * static_cast<double>(links.size()))];
-    const float closed = sample[i].exchange;
-    (void)evaluator(sample[i], {}, &shapes[i]);
-    sample[i].exchange = closed;
-  });
-  ErrorEstimation errors = estimate_errors(hierarchy, exposure, sample, shapes, reflectance, emission, radiosity);
-  if (count > 0) { errors.sum *= static_cast<double>(links.size()) / static_cast<double>(count); }
-  return errors.relative();
+// The estimate for links that were not made by BF-refinement: the squared relative error of the links of lights, and of the others.
+struct SampledEstimate {
+  double light = 0.0, other = 0.0;
+
+  [[nodiscard]] double relative() const { return std::sqrt(light + other); }
+};
+
+// From at most 1024 links of lights and 3072 others, spread evenly; their shapes are found now.
+inline SampledEstimate sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Exposure& exposure,
+                                        const Links& links, const std::vector<Color>& reflectance, const std::vector<Color>& emission,
+                                        const std::vector<Color>& radiosity, unsigned threads) {
+  const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(emission[hierarchy[i].surface]); };
+  std::vector<std::uint32_t> of_lights, others;
+  for (std::uint32_t i = 0; i < links.size(); ++i) { (emits(links[i].p) || emits(links[i].q) ? of_lights : others).push_back(i); }
+  const auto squared = [&](const std::vector<std::uint32_t>& from, std::size_t most) {
+    const std::size_t count = std::min(from.size(), most);
+    Links sample(count);
+    std::vector<LinkShape> shapes(count);
+    parallel_for(count, threads, [&](std::size_t i) {
+      sample[i] = links[from[i * from.size() / count]];
+      const float closed = sample[i].exchange;
+      (void)evaluator(sample[i], {}, &shapes[i]);
+      sample[i].exchange = closed;
+    });
+    const ErrorEstimation errors = estimate_errors(hierarchy, exposure, sample, shapes, reflectance, emission, radiosity);
+    const double relative = errors.relative();
+    return count > 0 ? relative * relative * static_cast<double>(from.size()) / static_cast<double>(count) : 0.0;
+  };
+  return {squared(of_lights, 1024), squared(others, 3072)};
 }
 
 // The least error of a link that is to be refined: the links above it hold all of the sum but `keep`, within a factor of sqrt 2.
@@ -214,7 +227,7 @@ class Deadline {
                                         unsigned threads, std::uint64_t seed, const Control& control = {}) {
   constexpr double first_epsilon = 0.25;
   BfResult result;
-  result.refined = refine(scene, objects, plan, surfaces, hierarchy, patches, first_epsilon, 1e-3, false, threads, seed, control);
+  result.refined = refine(scene, objects, plan, surfaces, hierarchy, patches, first_epsilon, 1e-3, 0.0, threads, seed, control);
   if (result.refined.cancelled || result.refined.too_many) { return result; }
   double scene_area = 0.0;
   for (const Node& node : hierarchy) { scene_area += node.parent == no_node ? node.area : 0.0; }

@@ -154,16 +154,18 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
 
 }  // namespace detail
 
-// Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots. The light oracle is asked
-// only on demand.
+// Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots. `light_epsilon`: of the light
+// oracle, which is not asked when it is 0.
 [[nodiscard]] inline RefineResult refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
                                          std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches, double epsilon,
-                                         double min_area, bool ask_light, unsigned threads, std::uint64_t seed,
+                                         double min_area, double light_epsilon, unsigned threads, std::uint64_t seed,
                                          const Control& control = {}) {
   RefineResult result;
   const PairOracle oracle{surfaces, hierarchy};
-  const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), epsilon, seed};
+  const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), light_epsilon, seed};
   min_area *= light.scene_area();
+  const double finer = std::min(1.0, light_epsilon / (0.25 * epsilon));
+  const double light_min_area = min_area * finer * finer;
   std::vector<RayCount> rays;
 
   const bool clustered = !hierarchy.empty() && hierarchy[0].is_cluster();
@@ -191,9 +193,9 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
         pairs, objects, plan, patches, result, threads, [&](std::uint32_t p, std::uint32_t q) { return oracle(p, q, epsilon, min_area); },
         [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
           const auto [p, q, index] = pairs[i];
-          if (decision != Decision::link || !ask_light) { return; }
+          if (decision != Decision::link || !(light_epsilon > 0.0)) { return; }
           const std::uint32_t split = light.wants_split(p, q, list, rays[i]);
-          if (split != no_node && hierarchy[split].area > min_area) { decision = split == p ? Decision::split_p : Decision::split_q; }
+          if (split != no_node && hierarchy[split].area > light_min_area) { decision = split == p ? Decision::split_p : Decision::split_q; }
         });
     for (const RayCount& r : rays) { result.rays += r; }
 

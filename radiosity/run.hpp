@@ -102,8 +102,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     audit.generations = bf.generations;
     audit.interrupted = bf.interrupted;
   } else if (needs_links) {
-    refined =
-        refine(scene, objects, plan, boundary, hierarchy, patches, options.epsilon, options.min_area, true, threads, options.seed, control);
+    refined = refine(scene, objects, plan, boundary, hierarchy, patches, options.epsilon, options.min_area,
+                     options.light_epsilon.value_or(0.25 * options.epsilon), threads, options.seed, control);
   }
   if (refined.cancelled || evaluated.cancelled) { return cancelled(); }
   if (refined.too_many > 0) { return failed(Failure::Kind::invalid_options, {too_many_links(refined.too_many, clusters)}); }
@@ -149,8 +149,10 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.histories = std::move(solved.histories);
   solution.radiosity = std::move(solved.radiosity);
   if (needs_links && options.refinement == Refinement::a_priori && options.audit_points > 0) {
-    audit.estimated_error =
+    const detail::SampledEstimate estimate =
         detail::sampled_estimate(evaluator, hierarchy, exposure, solution.links, reflectance, emission, solution.radiosity, threads);
+    audit.estimated_error = estimate.relative();
+    audit.estimated_light_error = std::sqrt(estimate.light);
   }
   balance_energy(audit, scene, inputs, hierarchy, transport, exposure.area, solution.radiosity);
   summarise_surfaces(audit, inputs, frame, hierarchy, exposure.area, solution.radiosity);
@@ -205,12 +207,24 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   if (!plan.lit || !plan.reflects) {
     audit.leaf_error = audit.picture_error = ErrorEstimate{};  // B = E is exact
   } else if (options.audit_points > 0 && plan.traceable && !control.cancelled()) {
-    const MeasuredError measured =
-        measure_error(scene, objects, boundary, exposure, solution.mesh, options.audit_points, threads, options.seed, control);
+    const bool picture = options.reconstruction != Reconstruction::none;
+    MeasuredError measured;
+    const auto measure = [&](std::uint64_t points, MeasuredError& to) {
+      if (control.cancelled()) { return; }
+      measure_error(scene, objects, boundary, exposure, solution.mesh, points, threads, options.seed, to, control);
+    };
+    if (options.error) {
+      // To know better whether the error is met may cost about as much as a finer solution.
+      const std::uint64_t most_rays = std::max<std::uint64_t>(25'000'000, audit.rays + 3 * audit.links);
+      decide_error(measure, picture ? &MeasuredError::picture : &MeasuredError::leaf, options.audit_points, *options.error, most_rays,
+                   measured);
+    } else {
+      measure(options.audit_points, measured);
+    }
     if (!control.cancelled()) {
-      audit.leaf_error = measured.leaf;
-      if (options.reconstruction != Reconstruction::none) { audit.picture_error = measured.picture; }
-      audit.audit_points = measured.points;
+      audit.leaf_error = measured.leaf.estimate();
+      if (picture) { audit.picture_error = measured.picture.estimate(); }
+      audit.audit_points = measured.points();
       audit.audit_rays = measured.rays;
     }
     watch.lap("audit");
@@ -248,19 +262,18 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
     if (!outcome.solution) { return outcome; }
     Audit& audit = outcome.solution->audit;
     detail::add_times(stages, audit.stages);
-    constexpr double unknown = std::numeric_limits<double>::infinity();
-    const bool picture = round.reconstruction != Reconstruction::none;
-    const ErrorEstimate error = (picture ? audit.picture_error : audit.leaf_error).value_or(ErrorEstimate{unknown, unknown});
-    const bool met = error.relative_l2 + 2.0 * error.standard_error <= wanted;
-    // An estimate that drowns in its own noise needs more points; else, and in any case where noise is not to blame, a finer mesh.
-    const bool noisy = error.standard_error > 0.25 * wanted && round.audit_points < 200'000;
-    if (noisy) { round.audit_points *= 4; }
-    if (!noisy || error.relative_l2 > 0.5 * wanted) {
+    const std::optional<ErrorEstimate>& error = round.reconstruction != Reconstruction::none ? audit.picture_error : audit.leaf_error;
+    const bool met = within(error, wanted);
+    // Finer where the estimate sees the error: at the links of lights, at the others, or at both.
+    const double light = audit.estimated_error.value_or(0.0) > 0.0 ? audit.estimated_light_error / *audit.estimated_error : 0.5;
+    const double light_epsilon = round.light_epsilon.value_or(0.25 * round.epsilon);
+    round.light_epsilon = light * light > 0.2 ? 0.35 * light_epsilon : light_epsilon;
+    if (light * light < 0.8) {
       round.epsilon *= 0.5;
       round.min_area *= 0.5;
-      round.target *= std::clamp(0.7 * wanted / error.relative_l2, 0.25, 0.8);
     }
-    if (met || audit.interrupted || 4 * audit.links > 20'000'000 || round.epsilon < 1e-5 || round.target < 1e-6) {
+    round.target *= error ? std::clamp(0.7 * wanted / error->relative_l2, 0.25, 0.8) : 0.5;
+    if (met || audit.interrupted || audit.links > 10'000'000 || round.epsilon < 1e-5 || round.target < 1e-6) {
       audit.converged = audit.converged && met;
       audit.stages = std::move(stages);
       detail::sum_times(audit);
