@@ -241,8 +241,12 @@ struct FactorRun {
       bool enough = true;
       for (std::uint32_t i = first; i < end; ++i) {
         if (counter.rays(i) == 0) { continue; }  // buried
+        // Where the area comes from the rays, too, its error is a part of that of the factors.
+        const RayCounter::Mean by_rays = counter.area(i);
+        const double relative = rows.rows[i].exact || area[i].error > 0.0 ? 0.0 : by_rays.error / by_rays.value;
         for (std::uint32_t j = 0; j < rows.rows.size(); ++j) {
-          enough = enough && (known(i, j) || counter.factor(i, j).error <= options.error);
+          const RayCounter::Mean f = counter.factor(i, j);
+          enough = enough && (known(i, j) || std::hypot(f.error, f.value * relative) <= options.error);
         }
       }
       if (enough || lines >= most) { return; }

@@ -87,7 +87,13 @@ inline constexpr double first_chord_error = 0.01;
   }
   for (const brep::FaceId f : concave) {
     const auto parts = brep::split_until_convex(surface.brep, f);
-    if (!parts) { return {std::nullopt, parts.refusal().sentence()}; }
+    if (parts) { continue; }
+    // A chord patch that was cut along another solid need not be planar: ears are cut off, down to triangles if it must be.
+    const bool warped = parts.refusal().code == brep::Code::not_planar && !object.flat();
+    const auto split = brep::first_of(brep::AtNonConvexCorner{}, brep::AtBestEar{});
+    if (!warped || !brep::split_recursively(surface.brep, f, split, brep::Convex{} || brep::triangles)) {
+      return {std::nullopt, parts.refusal().sentence()};
+    }
   }
   for (const brep::FaceId f : brep::faces(surface.brep)) { surface.brep.data(f).part = f.index; }
   return {std::move(surface), {}};

@@ -215,6 +215,23 @@ TEST_CASE("factors: what a solid keeps of its parts is a row, what is cut away i
   }
 }
 
+TEST_CASE("factors: the wanted error is reached where areas come from rays, too: two balls that are one, in the open") {
+  Scene scene = grey();
+  const raycast::CsgNode left{raycast::Sphere::make({0, 0, 0}, 1.0).object, "left", {}, {}, {}};
+  const raycast::CsgNode right{raycast::Sphere::make({1, 0, 0}, 1.0).object, "right", {}, {}, {}};
+  scene.objects = {scenes::object("twins", raycast::Csg::make({{}, {}, raycast::CsgOperation::unite, {left, right}, {}}).object)};
+  const Factors f = factors_of(scene, 2e-3);
+  CHECK(f.converged);
+  REQUIRE(f.surfaces.size() == 2);
+  for (const Factors::Surface& s : f.surfaces) {  // each lacks a cap of height 1/2
+    CHECK(std::abs(s.area.value - 3.0 * std::numbers::pi) <= 4.0 * s.area.error);
+    CHECK(s.area.error <= 0.02 * s.area.value);
+  }
+  CHECK(f(0, 0).value == 0.0);
+  CHECK(std::abs(f(0, 1).value - f(1, 0).value) <= 4.0 * (f(0, 1).error + f(1, 0).error));  // by symmetry
+  CHECK(f(0, 1).value > 4.0 * f(0, 1).error);
+}
+
 TEST_CASE("total exchange: black surfaces exchange by their form factors, and reciprocity is exact") {
   const Factors f = factors_of(scenes::room_with_box());
   const std::size_t n = f.surfaces.size();
