@@ -192,7 +192,8 @@ inline void measure_error(const Scene& scene, const raycast::Scene& objects, con
       const Sobol4 second{seed, 4 * key + 2 * half + 1};
       for (std::uint32_t k = 0; k < paths; ++k) {
         PathNumbers numbers{first, second, k, Random{seed, key, half << 32 | k}};
-        mean[half] += tracer.radiosity(point.position, point.normal, input.object, input.sheet, numbers, sample.rays) / static_cast<double>(paths);
+        mean[half] +=
+            tracer.radiosity(point.position, point.normal, input.object, input.sheet, numbers, sample.rays) / static_cast<double>(paths);
       }
     }
     const Color& emission = scene.materials[input.material].emission;
