@@ -11,8 +11,9 @@
 //
 // summed over the channels, and the same for q receiving from p. An inner node passes the linear part of the light on to its children;
 // a leaf does not, but the picture interpolates between leaves. A cluster shows other faces to each direction: there the mean of B^2
-// stands for the square of what it sends; there, too, the noise of sampling is mended by splitting the source. The estimate of the whole is sqrt(sum of all e^2)
-// over the norm of the reflected radiosity: errors of different links count as independent.
+// stands for the square of what it sends, the noise of sampling is mended by splitting the source, and the S of different links of one
+// node add up as they are, for each mixes bright faces with dark ones in the same way. The estimate of the whole is sqrt(sum of all e^2)
+// over the norm of the reflected radiosity: all other errors of different links count as independent.
 
 #include <algorithm>
 #include <cmath>
