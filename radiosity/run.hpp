@@ -247,6 +247,7 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
   round.target = wanted;
   std::vector<StageTime> stages;
   Outcome before;
+  double error_before = std::numeric_limits<double>::infinity();
   for (;;) {
     Outcome outcome = detail::solve_at(scene, round, control);
     if (!outcome.solution && outcome.failure.kind == Failure::Kind::cancelled && before.solution) {
@@ -262,18 +263,21 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
     // Finer where the estimate sees the error: at the links of lights, at the others, or at both.
     const double light = audit.estimated_error.value_or(0.0) > 0.0 ? audit.estimated_light_error / *audit.estimated_error : 0.5;
     const double light_epsilon = round.light_epsilon.value_or(0.25 * round.epsilon);
-    round.light_epsilon = light * light > 0.2 ? 0.35 * light_epsilon : light_epsilon;
-    if (light * light < 0.8) {
+    const bool stalled = error && error->relative_l2 > 0.8 * error_before;  // then the estimate was wrong
+    round.light_epsilon = light * light > 0.2 || stalled ? 0.35 * light_epsilon : light_epsilon;
+    if (light * light < 0.8 || stalled) {
       round.epsilon *= 0.5;
       round.min_area *= 0.5;
     }
     round.target *= error ? std::clamp(0.7 * wanted / error->relative_l2, 0.25, 0.8) : 0.5;
-    if (met || audit.interrupted || audit.links > 10'000'000 || round.epsilon < 1e-5 || round.target < 1e-6) {
+    if (met || audit.interrupted || audit.links > 10'000'000 || round.epsilon < 1e-5 || *round.light_epsilon < 1e-6 ||
+        round.target < 1e-6) {
       audit.converged = audit.converged && met;
       audit.stages = std::move(stages);
       detail::sum_times(audit);
       return outcome;
     }
+    error_before = error ? error->relative_l2 : error_before;
     before = std::move(outcome);
     before.solution->audit.stages = stages;
     detail::sum_times(before.solution->audit);

@@ -155,6 +155,13 @@ class CellCounts {
 
 inline constexpr std::uint32_t segments_per_round = 16;
 
+// The corner of a patch that is highest above the plane of another.
+[[nodiscard]] inline glm::dvec3 highest_corner(const Patch& patch, const Patch& above) {
+  const auto height = [&](const glm::dvec3& x) { return glm::dot(above.normal, x); };
+  return *std::max_element(patch.contour.begin(), patch.contour.end(),
+                           [&](const glm::dvec3& a, const glm::dvec3& b) { return height(a) < height(b); });
+}
+
 // One round of 16 segments decides when they agree; else `rounds` rounds are averaged. So a patch of which the part p is hidden
 // passes for wholly visible with probability (1 - p)^16, and the fraction is too large by p (1 - p)^16 <= 0.022 on average.
 // The numbers drawn depend on `random` alone. `list` is that of the pair.
@@ -203,7 +210,16 @@ inline constexpr std::uint32_t segments_per_round = 16;
     estimate.spread_p = cells_p.spread();
     estimate.spread_q = cells_q.spread();
   }
-  estimate.fraction = total > 0.0 ? arrived / total : 1.0;  // no sample above both horizons: nothing is known to block
+  if (total > 0.0) {
+    estimate.fraction = arrived / total;
+    return estimate;
+  }
+  // No sample is above both horizons: what is highest above them decides.
+  const glm::dvec3 x = highest_corner(*p.patch, *q.patch);
+  raycast::Segments16 segment;
+  segment.set(0, {x, highest_corner(*q.patch, *p.patch) - x}, p.object, q.object);
+  estimate.fraction = scene.occluded16(segment, plan.shortcuts ? list : raycast::OccluderList{}, last_occluder) != 0 ? 0.0 : 1.0;
+  ++estimate.rays.cast;
   return estimate;
 }
 
