@@ -227,10 +227,11 @@ inline void measure_error(const Scene& scene, const raycast::Scene& objects, con
 
 // Measures until it is decided whether the error is at most `wanted`, or until more rays would be needed than `most_rays`. Where the noise of
 // the paths is larger than the error in question, more of them at each point tell more than more points; else more points do.
-inline void decide_error(const std::function<void(std::uint64_t points, MeasuredError&)>& measure, const ErrorSums MeasuredError::*of,
+// `measure` returns false when it was cancelled.
+inline void decide_error(const std::function<bool(std::uint64_t points, MeasuredError&)>& measure, const ErrorSums MeasuredError::*of,
                          std::uint64_t points, double wanted, std::uint64_t most_rays, MeasuredError& measured) {
   for (;;) {
-    measure(points, measured);
+    if (!measure(points, measured)) { return; }
     const ErrorSums& sums = measured.*of;
     const std::optional<ErrorEstimate> error = sums.estimate();
     if (!error || within(error, wanted) || error->relative_l2 - 2.0 * error->standard_error > wanted) { return; }

@@ -205,8 +205,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     const bool picture = options.reconstruction != Reconstruction::none;
     MeasuredError measured;
     const auto measure = [&](std::uint64_t points, MeasuredError& to) {
-      if (control.cancelled()) { return; }
       measure_error(scene, objects, boundary, exposure, solution.mesh, points, threads, options.seed, to, control);
+      return !control.cancelled();
     };
     if (options.error) {
       // To know better whether the error is met may cost about as much as a finer solution.

@@ -3,6 +3,7 @@
 // The audit tells the truth: the path tracer is unbiased, the error estimate recovers errors that were put in, the plan
 // leaves out only what it has a proof for.
 
+#include <atomic>
 #include <radiosity/radiosity.hpp>
 
 #include "catch.hpp"
@@ -129,6 +130,19 @@ TEST_CASE("a solution that is 5 % too bright is found to be 5 % too bright") {
   CAPTURE(picture->relative_l2, picture->standard_error);
   CHECK(std::abs(picture->relative_l2 - 0.1) < 4.0 * picture->standard_error);
   CHECK(measured.leaf.estimate()->relative_l2 < 0.05);
+}
+
+TEST_CASE("a run with an accuracy target ends when it is cancelled while its audit is undecided") {
+  std::atomic<bool> cancel{false};
+  radiosity::Control control;
+  control.cancel = &cancel;
+  control.progress = [&](std::string_view stage, double) { cancel = cancel || stage == "audit"; };
+  Options options;
+  options.error = 0.02;
+  const auto outcome = radiosity::solve(scenes::two_plates(0.5), options, control);
+  REQUIRE(outcome.solution);
+  CHECK(outcome.solution->audit.interrupted);
+  CHECK_FALSE(outcome.solution->audit.picture_error);
 }
 
 TEST_CASE("plan: a lamp flush with the ceiling of a room leaves it closed; a lamp below it does not") {

@@ -1,0 +1,20 @@
+#!/bin/sh
+# Asks every scene for an audited relative L2 error (default 0.02): the error that the audit measured, links, and CPU seconds of all rounds and audits.
+#     sh examples/accuracy_targets.sh [ERROR [SCENE ...]]
+set -eu
+cd "$(dirname "$0")/.."
+halflight=build/release/apps/halflight
+error=${1:-0.02}
+[ $# -gt 0 ] && shift
+[ $# -gt 0 ] || set -- examples/scenes/*.scene
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+printf '%-24s %-24s %12s %10s  %s\n' scene "picture error" links "CPU s" verdict
+for scene in "$@"; do
+    verdict=met
+    "$halflight" render "$scene" --error "$error" --threads 1 --quiet -o "$place/a.ply" > "$place/report" 2> "$place/fault" || verdict="not met"
+    measured=$(sed -n 's/^  picture   *\(.*[^ ]\) *$/\1/p' "$place/report" | head -1)
+    links=$(sed -n 's/^  links   *\([0-9 ]*[0-9]\).*/\1/p' "$place/report" | head -1)
+    seconds=$(awk '$1 == "total" { a = $3 } $1 == "audit" { a += $4 } END { print a }' "$place/report")
+    printf '%-24s %-24s %12s %10s  %s\n' "$(basename "$scene" .scene)" "${measured:--}" "${links:--}" "$seconds" "$verdict"
+done
