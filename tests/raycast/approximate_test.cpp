@@ -105,9 +105,9 @@ TEST_CASE("chords of pinched superquadrics keep the tolerance, measured against 
     Corners surface;
     for (int i = 0; i <= side; ++i)
       for (int j = 0; j <= side; ++j) {
-        const double u = 1.57079632679 * i / side, v = 1.57079632679 * j / side, g = std::pow(std::cos(v), profile);
+        const double a = 1.57079632679 * i / side, b = 1.57079632679 * j / side, g = std::pow(std::cos(b), profile);
         surface.push_back(
-            {g * std::pow(std::cos(u), around), g * std::pow(std::abs(std::sin(u)), around), std::pow(std::abs(std::sin(v)), profile)});
+            {g * std::pow(std::cos(a), around), g * std::pow(std::abs(std::sin(a)), around), std::pow(std::abs(std::sin(b)), profile)});
       }
     brep::Builder builder;
     object->approximate(0.03, builder);

@@ -96,25 +96,25 @@ TEST_CASE("a sphere is met exactly when the line passes nearer than its radius: 
     const double impact = 1.0 + std::pow(10.0, random.uniform(-12, -1)) * (random.below(2) ? 1 : -1);  // grazing
     const dvec3 origin = -distance * toward;
     const Segment line{origin, impact * across - origin};
-    using Real = long double;
-    Real o[3], d[3], dd = 0, od = 0, perpendicular = 0;
+    using Long = long double;
+    Long o[3], d[3], dd = 0, od = 0, perpendicular = 0;
     for (int k = 0; k < 3; ++k) o[k] = origin[k], d[k] = line.direction[k];
     for (int k = 0; k < 3; ++k) dd += d[k] * d[k], od += o[k] * d[k];
     for (int k = 0; k < 3; ++k) {
-      const Real l = o[k] - od / dd * d[k];
+      const Long l = o[k] - od / dd * d[k];
       perpendicular += l * l;
     }
-    const Real gap = 1 - std::sqrt(perpendicular);
-    if (std::abs(gap) < static_cast<Real>(8 * u * distance)) {
+    const Long gap = 1 - std::sqrt(perpendicular);
+    if (std::abs(gap) < static_cast<Long>(8 * u * distance)) {
       ++undecided;
       continue;
     }
     const Spans found = spans(placed(Sphere::make(dvec3(0), 1.0)), line);
     REQUIRE((gap > 0) == !found.empty());
     if (gap <= 0) continue;
-    const Real half = std::sqrt((1 - perpendicular) / dd), in = -od / dd - half;
+    const Long half = std::sqrt((1 - perpendicular) / dd), in = -od / dd - half;
     // |dt| |d| <= 32 u D r / sqrt(disc): the rim amplifies.
-    const Real bound = 32 * static_cast<Real>(u * distance) / std::sqrt(1 - perpendicular) + 8 * u * distance;
+    const Long bound = 32 * static_cast<Long>(u * distance) / std::sqrt(1 - perpendicular) + 8 * u * distance;
     CHECK(std::abs(found[0].in.t - in) * std::sqrt(dd) <= bound);
   }
   CHECK(undecided < 60000);

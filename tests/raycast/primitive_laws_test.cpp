@@ -233,13 +233,13 @@ TEST_CASE("a mesh made from a BRep is the mesh made from its list, closed or ope
   struct Sheet {
     std::uint32_t sheet = 0;
   };
-  using Shell = brep::BRep<Position, brep::NoData, Sheet>;
+  using SheetBRep = brep::BRep<Position, brep::NoData, Sheet>;
   const Corners gutter{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}};
   const Made<Mesh> lists[] = {l_block(), Mesh::make(gutter, {{0, 1, 2, 3}, {1, 4, 5, 2}})};
   for (const auto& list : lists) {
     brep::Builder builder;
     list->approximate(0.0, builder);
-    const auto closed = brep::close<Shell>(builder);
+    const auto closed = brep::close<SheetBRep>(builder);
     REQUIRE(closed.brep);
     const auto copy = Mesh::make(*closed.brep);
     INFO(copy.refusal);
