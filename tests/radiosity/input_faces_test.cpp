@@ -196,7 +196,7 @@ TEST_CASE("input faces: the cap of a cylinder falls into a ring of cells and an 
     if (n <= brep::most_regular_corners) { continue; }
     ++caps;
     REQUIRE(radiosity::subdivide(faces.prepared.surfaces, faces.hierarchy, i));
-    const Node& cap = faces.hierarchy[i];
+    const Node cap = faces.hierarchy[i];
     CHECK(cap.in_parts());
     CHECK(cap.child_count == n / 2 + 1);
     double area = 0.0;
