@@ -229,7 +229,8 @@ inline void measure_error(const Scene& scene, const raycast::Scene& objects, con
 // the paths is larger than the error in question, more of them at each point tell more than more points; else more points do.
 // `measure` returns false when it was cancelled.
 inline void decide_error(const std::function<bool(std::uint64_t points, MeasuredError&)>& measure, const ErrorSums MeasuredError::*of,
-                         std::uint64_t points, double wanted, std::uint64_t most_rays, MeasuredError& measured) {
+                         std::uint64_t first_points, double wanted, std::uint64_t most_rays, MeasuredError& measured) {
+  std::uint64_t points = first_points;
   for (;;) {
     if (!measure(points, measured)) { return; }
     const ErrorSums& sums = measured.*of;
@@ -239,6 +240,7 @@ inline void decide_error(const std::function<bool(std::uint64_t points, Measured
     if (measured.noise > wanted * wanted * signal) {
       if (4 * measured.rays > most_rays) { return; }
       measured = {{}, {}, 0, measured.keys, 4 * measured.paths, 0.0};
+      points = first_points;
       continue;
     }
     // The standard error falls with the square root of the points. What is a little above may turn out a little below.
@@ -247,7 +249,7 @@ inline void decide_error(const std::function<bool(std::uint64_t points, Measured
     const double ratio = 2.0 * error->standard_error / gap;
     const double more = std::clamp(1.1 * (ratio * ratio - 1.0), 0.25, 3.0);
     if (static_cast<double>(measured.rays) * (1.0 + more) > static_cast<double>(most_rays)) { return; }
-    points = static_cast<std::uint64_t>(more * n);
+    points = static_cast<std::uint64_t>(std::ceil(more * n));
   }
 }
 

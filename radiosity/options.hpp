@@ -77,6 +77,7 @@ struct Options {
   check("epsilon", options.epsilon, options.epsilon > 0.0, "above 0");
   check("min_area", options.min_area, options.min_area >= 0.0, "0 or more");
   check("target", options.target, options.target > 0.0, "above 0");
+  if (options.light_epsilon) { check("light_epsilon", *options.light_epsilon, *options.light_epsilon > 0.0, "above 0"); }
   if (options.time) {
     check("time", *options.time, *options.time > 0.0, "above 0");
     if (options.error) { sentences.emplace_back("a time limit and an error target exclude each other; give one"); }

@@ -199,10 +199,11 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   if (plan.closed && !solution.links.empty() && !audit.closure) {
     audit.left_out.push_back({"closing the scene", "its row sums need a larger correction than quadrature and sampling explain", ""});
   }
+  const bool picture = options.reconstruction != Reconstruction::none;
   if (!plan.lit || !plan.reflects) {
-    audit.leaf_error = audit.picture_error = ErrorEstimate{};  // B = E is exact
+    audit.leaf_error = ErrorEstimate{};  // B = E is exact
+    if (picture) { audit.picture_error = audit.leaf_error; }
   } else if (options.audit_points > 0 && plan.traceable && !control.cancelled()) {
-    const bool picture = options.reconstruction != Reconstruction::none;
     MeasuredError measured;
     const auto measure = [&](std::uint64_t points, MeasuredError& to) {
       measure_error(scene, objects, boundary, exposure, solution.mesh, points, threads, options.seed, to, control);

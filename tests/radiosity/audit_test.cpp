@@ -4,6 +4,8 @@
 // leaves out only what it has a proof for.
 
 #include <atomic>
+#include <cmath>
+
 #include <radiosity/radiosity.hpp>
 
 #include "catch.hpp"
@@ -130,6 +132,33 @@ TEST_CASE("a solution that is 5 % too bright is found to be 5 % too bright") {
   CAPTURE(picture->relative_l2, picture->standard_error);
   CHECK(std::abs(picture->relative_l2 - 0.1) < 4.0 * picture->standard_error);
   CHECK(measured.leaf.estimate()->relative_l2 < 0.05);
+}
+
+TEST_CASE("an audit that begins with two points decides, or gives up at its rays") {
+  // Points of one radiosity, off by twice what is wanted or by none of it, seen through a noise of ten times that.
+  for (const double off : {0.0, 0.04}) {
+    std::uint64_t asked = 0;
+    const auto measure = [&](std::uint64_t points, radiosity::MeasuredError& to) {
+      if (to.paths == 0) { to.paths = 1; }
+      for (std::uint64_t i = 0; i < points; ++i) {
+        radiosity::Random random{7, asked++};
+        const double spread = 0.2 / std::sqrt(to.paths);
+        const double a = spread * (random.uniform() - 0.5), b = spread * (random.uniform() - 0.5);
+        to.picture.square.push_back((off + a) * (off + b));
+        to.picture.reference.push_back(1.0);
+        to.leaf.square.push_back(0.0);
+        to.noise += 0.5 * (a - b) * (a - b);
+        to.rays += to.paths;
+      }
+      return true;
+    };
+    radiosity::MeasuredError measured;
+    radiosity::decide_error(measure, &radiosity::MeasuredError::picture, 2, 0.02, 1'000'000, measured);
+    CAPTURE(off, measured.points(), measured.paths);
+    REQUIRE(measured.picture.estimate());
+    CHECK(radiosity::within(measured.picture.estimate(), 0.02) == (off == 0.0));
+    CHECK(measured.rays <= 1'000'000);
+  }
 }
 
 TEST_CASE("a run with an accuracy target ends when it is cancelled while its audit is undecided") {
