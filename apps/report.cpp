@@ -129,7 +129,7 @@ void sizes_and_checks(std::string& out, const Report& report) {
     row(out, "refinement",
         audit.target > 0.0 ? format("bf, estimate at most %.3g", audit.target) : std::string("bf, until the time was used"));
   } else {
-    row(out, "refinement", format("f, epsilon %.3g, min area %.3g", audit.epsilon, audit.min_area));
+    row(out, "refinement", format("f, epsilon %.3g, min area %.3g, of lights %.3g", audit.epsilon, audit.min_area, audit.light_epsilon));
   }
   row(out, "channels, threads, seed", format("%u, %u, %llu", audit.channels, audit.threads, static_cast<unsigned long long>(audit.seed)));
   if (report.options.reconstruction != radiosity::Reconstruction::none) {
@@ -257,7 +257,7 @@ void write_lists(JsonWriter& json, const Report& report) {
 void write_settings(JsonWriter& json, const Report& report) {
   const radiosity::Audit& audit = report.audit;
   json.key("settings").open_object();
-  json.key("epsilon").number(audit.epsilon).key("min_area").number(audit.min_area);
+  json.key("epsilon").number(audit.epsilon).key("min_area").number(audit.min_area).key("light_epsilon").number(audit.light_epsilon);
   json.key("error_target");
   if (report.options.error) {
     json.number(*report.options.error);

@@ -86,8 +86,8 @@ struct Audit {
   std::vector<std::string> warnings;  // what in the scene may not be what was meant (warnings.hpp)
   std::optional<StrayRays> stray;     // of a scene that is not proven closed
   std::vector<SurfaceMean> surfaces;
-  double epsilon = 0.0, min_area = 0.0;  // as used
-  double target = 0.0;                   // of BF-refinement; 0 when the time was the limit
+  double epsilon = 0.0, min_area = 0.0, light_epsilon = 0.0;  // as used
+  double target = 0.0;                                        // of BF-refinement; 0 when the time was the limit
   unsigned threads = 1, channels = 3;
   std::uint64_t seed = 0;
 };

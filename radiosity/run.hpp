@@ -36,6 +36,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   const unsigned threads = thread_count(options.threads);
   audit.epsilon = options.epsilon;
   audit.min_area = options.min_area;
+  audit.light_epsilon = options.light_epsilon.value_or(0.25 * options.epsilon);
   audit.threads = threads;
   audit.seed = options.seed;
   const auto cancelled = [] { return failed(Failure::Kind::cancelled, {"the run was interrupted before there was a solution"}); };
@@ -95,8 +96,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     audit.generations = bf.generations;
     audit.interrupted = bf.interrupted;
   } else if (needs_links) {
-    refined = refine(scene, objects, plan, boundary, hierarchy, patches, options.epsilon, options.min_area,
-                     options.light_epsilon.value_or(0.25 * options.epsilon), threads, options.seed, control);
+    refined = refine(scene, objects, plan, boundary, hierarchy, patches, options.epsilon, options.min_area, audit.light_epsilon, threads,
+                     options.seed, control);
   }
   if (refined.cancelled || evaluated.cancelled) { return cancelled(); }
   if (refined.too_many > 0) { return failed(Failure::Kind::invalid_options, {too_many_links(refined.too_many, clusters)}); }
