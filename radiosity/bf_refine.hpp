@@ -164,6 +164,7 @@ class Deadline {
     result.evaluated.cancelled = round.cancelled;
     if (round.cancelled) { return result; }
 
+    LinkSchedule::arrange(hierarchy.size(), links, lists, shapes);
     Transport transport{hierarchy, links, exposure, threads};
     if (plan.closed) { (void)transport.close(10.0, 1e-3); }
     const ColorSolution light =

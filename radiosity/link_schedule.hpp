@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <radiosity/links.hpp>
@@ -22,27 +23,17 @@ namespace radiosity {
 class LinkSchedule {
  public:
   struct Block {
-    std::size_t begin = 0, end = 0;  // in order()
+    std::size_t begin = 0, end = 0;  // of the links
   };
 
-  LinkSchedule(std::size_t nodes, const Links& links) {
+  // Arranges the links, unless they are arranged.
+  LinkSchedule(std::size_t nodes, Links& links) {
     if (links.size() < few) {
       rounds_.push_back({{0, links.size()}});
       return;
     }
-    const std::vector<std::uint8_t> tile = tiles_of(nodes, links);
-    const auto block_of = [&](const Link& link) {
-      const std::size_t a = tile[link.p];
-      const std::size_t b = tile[link.q];
-      return std::max(a, b) * tiles + std::min(a, b);
-    };
-    std::vector<std::size_t> first(tiles * tiles + 1, 0);
-    for (const Link& link : links) { ++first[block_of(link) + 1]; }
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<std::size_t> next(first.begin(), first.end() - 1);
-    order_.resize(links.size());
-    for (std::uint32_t i = 0; i < links.size(); ++i) { order_[next[block_of(links[i])]++] = i; }
-
+    arrange(nodes, links);
+    const std::vector<std::size_t> first = first_of_blocks(tiles_of(nodes, links), links);
     std::vector<std::size_t> blocks;
     for (std::size_t b = 0; b < tiles * tiles; ++b) {
       if (first[b] < first[b + 1]) { blocks.push_back(b); }
@@ -63,9 +54,31 @@ class LinkSchedule {
     }
   }
 
+  // Moves the links of a block together, in their order, and what belongs to each link with it.
+  template <class... Others>
+  static void arrange(std::size_t nodes, Links& links, std::vector<Others>&... others) {
+    if (links.size() < few) { return; }
+    const std::vector<std::uint8_t> tile = tiles_of(nodes, links);
+    const auto before = [&](const Link& a, const Link& b) { return block_of(tile, a) < block_of(tile, b); };
+    if (std::is_sorted(links.begin(), links.end(), before)) { return; }
+    std::vector<std::size_t> next = first_of_blocks(tile, links);
+    std::vector<std::uint32_t> from(links.size());  // of each place: which of the links comes there
+    for (std::uint32_t i = 0; i < links.size(); ++i) { from[next[block_of(tile, links[i])]++] = i; }
+    (gather(from, others), ...);
+    for (std::uint32_t start = 0; start < links.size(); ++start) {  // in place, cycle by cycle
+      if (from[start] == start) { continue; }
+      const Link first = links[start];
+      std::uint32_t k = start;
+      while (from[k] != start) {
+        links[k] = links[from[k]];
+        k = std::exchange(from[k], k);
+      }
+      links[k] = first;
+      from[k] = k;
+    }
+  }
+
   [[nodiscard]] const std::vector<std::vector<Block>>& rounds() const { return rounds_; }
-  // The links of place k of the order.
-  [[nodiscard]] std::size_t link(std::size_t k) const { return order_.empty() ? k : order_[k]; }
 
  private:
   static constexpr std::size_t tiles = 16, few = 1 << 14;
@@ -85,8 +98,25 @@ class LinkSchedule {
     }
     return tile;
   }
+  static std::size_t block_of(const std::vector<std::uint8_t>& tile, const Link& link) {
+    const std::size_t a = tile[link.p];
+    const std::size_t b = tile[link.q];
+    return std::max(a, b) * tiles + std::min(a, b);
+  }
+  static std::vector<std::size_t> first_of_blocks(const std::vector<std::uint8_t>& tile, const Links& links) {
+    std::vector<std::size_t> first(tiles * tiles + 1, 0);
+    for (const Link& link : links) { ++first[block_of(tile, link) + 1]; }
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    return first;
+  }
+  template <class T>
+  static void gather(const std::vector<std::uint32_t>& from, std::vector<T>& values) {
+    std::vector<T> gathered;
+    gathered.reserve(values.size());
+    for (const std::uint32_t i : from) { gathered.push_back(values[i]); }
+    values = std::move(gathered);
+  }
 
-  std::vector<std::uint32_t> order_;  // empty: as they stand
   std::vector<std::vector<Block>> rounds_;
 };
 

@@ -30,8 +30,8 @@ namespace radiosity {
 
 class Transport {
  public:
-  // The references must outlive the operator.
-  Transport(const Hierarchy& hierarchy, const Links& links, const Exposure& exposure, unsigned threads = 1)
+  // The references must outlive the operator. Arranges the links (link_schedule.hpp).
+  Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads = 1)
       : hierarchy_{&hierarchy},
         links_{&links},
         exposure_{&exposure},
@@ -70,7 +70,7 @@ class Transport {
     parallel_rounds(round_sizes_, threads_, [&](std::size_t round, std::size_t b) {
       const LinkSchedule::Block block = schedule_.rounds()[round][b];
       for (std::size_t k = block.begin; k < block.end; ++k) {
-        const Link& link = (*links_)[schedule_.link(k)];
+        const Link& link = (*links_)[k];
         if (is_cluster(link.p) || is_cluster(link.q)) {
           const double from_p = sent_by(link.p, link.slope_p);
           const double from_q = sent_by(link.q, link.slope_q);

@@ -145,7 +145,7 @@ TEST_CASE("face clusters of a cylinder keep its caps apart from its side until t
 }
 
 TEST_CASE("transport with clusters is symmetric and never negative") {
-  const radiosity::Solution solution = solved(scenes::many(301, scenes::Things::boxes), clustered(0.1));
+  radiosity::Solution solution = solved(scenes::many(301, scenes::Things::boxes), clustered(0.1));
   REQUIRE(solution.audit.cluster_links > 0);
   radiosity::Exposure exposure;
   exposure.area = solution.area;
@@ -236,14 +236,23 @@ TEST_CASE("the schedule of the links holds each once, and in no round a tile twi
     link.p = any(engine) * (any(engine) % 2);  // half of them at node 0
     link.q = any(engine);
   }
+  for (std::uint32_t i = 0; i < links.size(); ++i) { links[i].exchange = static_cast<float>(i); }
+  const radiosity::Links given = links;
+  std::vector<std::uint32_t> with(links.size());
+  std::iota(with.begin(), with.end(), 0u);
+  radiosity::LinkSchedule::arrange(nodes, links, with);
   const radiosity::LinkSchedule schedule{nodes, links};
   std::vector<int> seen(links.size(), 0);
   for (const auto& round : schedule.rounds()) {
     std::vector<std::size_t> block_of_node(nodes, 0);
     for (std::size_t b = 0; b < round.size(); ++b) {
       for (std::size_t k = round[b].begin; k < round[b].end; ++k) {
-        const radiosity::Link& link = links[schedule.link(k)];
-        ++seen[schedule.link(k)];
+        const radiosity::Link& link = links[k];
+        const auto was = static_cast<std::uint32_t>(link.exchange);
+        REQUIRE(with[k] == was);
+        REQUIRE((link.p == given[was].p && link.q == given[was].q));
+        REQUIRE((k == round[b].begin || links[k - 1].exchange < link.exchange));  // in the order in which they stood
+        ++seen[was];
         for (const std::uint32_t i : {link.p, link.q}) {
           REQUIRE((block_of_node[i] == 0 || block_of_node[i] == b + 1));
           block_of_node[i] = b + 1;

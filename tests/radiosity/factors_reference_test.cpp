@@ -17,6 +17,7 @@
 
 using radiosity::Factors;
 using radiosity::Scene;
+using reference::position;
 using reference::positions;
 using reference::read;
 using scenes::factors_of;

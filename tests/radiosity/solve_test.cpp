@@ -66,7 +66,7 @@ struct Problem {
 }  // namespace
 
 TEST_CASE("transport is symmetric: x . M y = y . M x") {
-  const Problem problem{6, 0.9, 3};
+  Problem problem{6, 0.9, 3};
   Transport transport{problem.hierarchy, problem.links, problem.exposure};
   std::mt19937 engine{17};
   INFO("seed 17");
@@ -142,7 +142,7 @@ TEST_CASE("a link between roots carries the same as its sixteen leaf links in pr
 }
 
 TEST_CASE("all solvers find the same solution, and leave B = E on a black surface") {
-  const Problem problem{8, 0.8, 11};
+  Problem problem{8, 0.8, 11};
   Transport transport{problem.hierarchy, problem.links, problem.exposure};
   for (const double rho : {0.1, 0.5, 0.9}) {
     const auto cg = problem.solve(transport, rho, Solver::conjugate_gradients);
@@ -182,7 +182,7 @@ TEST_CASE("the residual history falls by rho times the row sum with Jacobi, and 
 }
 
 TEST_CASE("light that goes tree by tree is the light of the whole operator") {
-  const Problem problem{7, 0.9, 41};
+  Problem problem{7, 0.9, 41};
   Transport transport{problem.hierarchy, problem.links, problem.exposure};
   radiosity::TreeTransport trees{transport};
   REQUIRE(trees.trees() == 7);
@@ -280,7 +280,7 @@ TEST_CASE("conjugate gradients: two closed rooms that do not see each other have
 }
 
 TEST_CASE("a solver that is stopped too early says so and keeps its best iterate") {
-  const Problem problem{8, 0.95, 53};
+  Problem problem{8, 0.95, 53};
   Transport transport{problem.hierarchy, problem.links, problem.exposure};
   for (const Solver solver : {Solver::conjugate_gradients, Solver::jacobi, Solver::gauss_seidel, Solver::southwell}) {
     const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, std::vector<double>(8, 0.99),
@@ -292,7 +292,7 @@ TEST_CASE("a solver that is stopped too early says so and keeps its best iterate
 }
 
 TEST_CASE("an iteration that diverges is stopped: rho times the row sums above 1") {
-  const Problem problem{8, 4.0, 59};
+  Problem problem{8, 4.0, 59};
   Transport transport{problem.hierarchy, problem.links, problem.exposure};
   for (std::size_t i = 8; i < problem.hierarchy.size(); ++i) { REQUIRE(transport.row_sums()[i] > 1.2); }
   for (const Solver solver : {Solver::conjugate_gradients, Solver::jacobi, Solver::gauss_seidel}) {
@@ -329,7 +329,7 @@ TEST_CASE("a scene without steady state is not reported as solved") {
 }
 
 TEST_CASE("no light, no radiosity, no iteration") {
-  const Problem problem{4, 0.9, 37};
+  Problem problem{4, 0.9, 37};
   Transport transport{problem.hierarchy, problem.links, problem.exposure};
   const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, std::vector<double>(4, 0.5),
                                                std::vector<double>(4, 0.0), Solver::conjugate_gradients, 1e-8, 100);
