@@ -96,6 +96,15 @@ struct Audit {
 struct ErrorSums {
   std::vector<double> square, reference;  // one entry a point: (b1 - B)(b2 - B) and (b1 - E)(b2 - E)
 
+  // Variance of `square` from point to point.
+  [[nodiscard]] double variance() const {
+    const auto n = static_cast<double>(square.size());
+    const double mean = std::accumulate(square.begin(), square.end(), 0.0) / n;
+    double sum = 0.0;
+    for (const double s : square) { sum += (s - mean) * (s - mean); }
+    return sum / (n - 1.0);
+  }
+
   [[nodiscard]] std::optional<ErrorEstimate> estimate() const {
     const auto n = static_cast<double>(square.size());
     if (square.size() < 2) { return std::nullopt; }
@@ -105,10 +114,8 @@ struct ErrorSums {
       error += square[i] / n;
       signal += reference[i] / n;
     }
-    if (!(signal > 0.0)) { return std::nullopt; }  // too few points see light
-    double variance = 0.0;
-    for (const double s : square) { variance += (s - error) * (s - error) / (n - 1.0); }
-    const double noise = std::sqrt(variance / n);  // standard error of the mean squared error
+    if (!(signal > 0.0)) { return std::nullopt; }    // too few points see light
+    const double noise = std::sqrt(variance() / n);  // standard error of the mean squared error
     const double root = std::sqrt(std::max(0.0, error));
     // d sqrt(x) = dx / (2 sqrt(x)); where the error is lost in the noise, the noise itself bounds it.
     const double root_noise = error > noise ? 0.5 * noise / root : std::sqrt(noise);
@@ -121,7 +128,7 @@ struct MeasuredError {
   std::uint64_t rays = 0;
   std::uint64_t keys = 0;   // of the random numbers that were used
   std::uint32_t paths = 0;  // of each estimate at a point; 0: to be chosen
-  double noise = 0.0;       // variance of an estimate, summed over the points
+  double noise = 0.0;       // what the noise of the paths adds to the variance of `square`, summed over the points
 
   [[nodiscard]] std::uint64_t points() const { return leaf.square.size(); }
 };
@@ -200,7 +207,9 @@ inline void measure_error(const Scene& scene, const raycast::Scene& objects, con
     sample.leaf = glm::dot(mean[0] - face.radiosity, mean[1] - face.radiosity);
     sample.picture = glm::dot(mean[0] - shown, mean[1] - shown);
     sample.reference = glm::dot(mean[0] - emission, mean[1] - emission);
-    sample.noise = 0.5 * glm::dot(mean[0] - mean[1], mean[0] - mean[1]);
+    // The product of two errors of variance v has the variance v^2; so has a third of the square of half their squared difference.
+    const double half_square = 0.5 * glm::dot(mean[0] - mean[1], mean[0] - mean[1]);
+    sample.noise = half_square * half_square / 3.0;
     sample.valid = true;
   };
   constexpr std::size_t batch = 512;  // between two looks at the cancel flag
@@ -225,31 +234,41 @@ inline void measure_error(const Scene& scene, const raycast::Scene& objects, con
   return error && error->relative_l2 + 2.0 * error->standard_error <= wanted;
 }
 
-// Measures until it is decided whether the error is at most `wanted`, or until more rays would be needed than `most_rays`. Where the noise of
-// the paths is larger than the error in question, more of them at each point tell more than more points; else more points do.
+// Measures until it is decided whether the error is at most `wanted`, which takes `points` points at least, or until that would cost too
+// much: an error that seems small enough is worth `most_rays`; for one that seems too large, twice the rays of the solution, `solution_rays`,
+// would be better spent on a finer one. Where the noise of the paths is nearly all that makes the points differ, more paths at each of them
+// tell more than more points (the same standard error costs least where it is half); else more points do.
 // `measure` returns false when it was cancelled.
 inline void decide_error(const std::function<bool(std::uint64_t points, MeasuredError&)>& measure, const ErrorSums MeasuredError::*of,
-                         std::uint64_t first_points, double wanted, std::uint64_t most_rays, MeasuredError& measured) {
-  std::uint64_t points = first_points;
-  for (;;) {
-    if (!measure(points, measured)) { return; }
+                         std::uint64_t points, double wanted, std::uint64_t solution_rays, std::uint64_t most_rays,
+                         MeasuredError& measured) {
+  const std::uint64_t first = std::max<std::uint64_t>(2, points / 4);
+  std::uint64_t asked = 0;
+  for (std::uint64_t next = first;;) {
+    if (!measure(next, measured)) { return; }
+    asked += next;
     const ErrorSums& sums = measured.*of;
     const std::optional<ErrorEstimate> error = sums.estimate();
-    if (!error || within(error, wanted) || error->relative_l2 - 2.0 * error->standard_error > wanted) { return; }
-    const double signal = std::accumulate(sums.reference.begin(), sums.reference.end(), 0.0);
-    if (measured.noise > wanted * wanted * signal) {
-      if (4 * measured.rays > most_rays) { return; }
+    if (!error || error->relative_l2 - 2.0 * error->standard_error > wanted) { return; }
+    if (within(error, wanted)) {
+      if (asked >= points) { return; }
+      next = points - asked;
+      continue;
+    }
+    const auto allowed = static_cast<double>(error->relative_l2 <= wanted ? most_rays : std::min(most_rays, 2 * solution_rays));
+    const auto rays = static_cast<double>(measured.rays);
+    if (measured.noise > 0.8 * sums.variance() * static_cast<double>(measured.points())) {
+      if (4.0 * rays > allowed) { return; }
       measured = {{}, {}, 0, measured.keys, 4 * measured.paths, 0.0};
-      points = first_points;
+      asked = 0;
+      next = first;
       continue;
     }
     // The standard error falls with the square root of the points. What is a little above may turn out a little below.
-    const auto n = static_cast<double>(measured.points());
-    const double gap = std::max(wanted - error->relative_l2, 0.1 * wanted);
-    const double ratio = 2.0 * error->standard_error / gap;
+    const double ratio = 2.0 * error->standard_error / std::max(wanted - error->relative_l2, 0.1 * wanted);
     const double more = std::clamp(1.1 * (ratio * ratio - 1.0), 0.25, 3.0);
-    if (static_cast<double>(measured.rays) * (1.0 + more) > static_cast<double>(most_rays)) { return; }
-    points = static_cast<std::uint64_t>(std::ceil(more * n));
+    if (rays * (1.0 + more) > allowed) { return; }
+    next = static_cast<std::uint64_t>(std::ceil(more * static_cast<double>(asked)));
   }
 }
 

@@ -69,23 +69,24 @@ struct LinkShape {
   Doubt doubt;
 };
 
+// Segments, in rounds of 16, for each link between patches that is partly blocked. Where a light shines, the light oracle has split until
+// the shadow within a patch matters little; what 64 segments add to that is an eighth of it.
+inline constexpr std::uint32_t patch_rounds = 4;
 // Pairs of points, in rounds of 16, for each link of a cluster: a mean over many faces that hide each other, so never few.
 inline constexpr std::uint32_t cluster_rounds = 4;
 
 // Evaluates links one by one.
 class LinkEvaluator {
  public:
-  // The references must outlive the evaluator. `shown`: by exposed areas. `emits` tells for each input surface whether it is a light: its links make the
-  // shadows and get four times the segments where they are partly blocked.
+  // The references must outlive the evaluator. `shown`: by exposed areas.
   LinkEvaluator(const raycast::Scene& scene, const Plan& plan, const Hierarchy& hierarchy, const Patches& patches, const Exposure& exposure,
-                const ShownAreas& shown, std::vector<bool> emits, std::uint64_t seed)
+                const ShownAreas& shown, std::uint64_t seed)
       : scene_{&scene},
         plan_{&plan},
         hierarchy_{&hierarchy},
         patches_{&patches},
         exposure_{&exposure},
         sampler_{scene, hierarchy, patches, &exposure, shown},
-        emits_{std::move(emits)},
         seed_{seed} {}
 
   // Sets the exchange, 0 when nothing arrives, and the slopes where they have an effect, or anyhow when the shape is asked for. Returns
@@ -112,7 +113,7 @@ class LinkEvaluator {
     const std::uint64_t key = key_of(link);
     const PatchEnd end_p = end(link.p);
     const PatchEnd end_q = end(link.q);
-    const VisibilityEstimate seen = visibility(*scene_, *plan_, list, end_p, end_q, rounds(link), Random{seed_, key});
+    const VisibilityEstimate seen = visibility(*scene_, *plan_, list, end_p, end_q, patch_rounds, Random{seed_, key});
     // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
     const double share = exposed_share(end_p, area_p, q, Random{seed_, key, 1}) * exposed_share(end_q, area_q, p, Random{seed_, key, 2});
     link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
@@ -141,7 +142,7 @@ class LinkEvaluator {
   }
   // Casts the segments of a link between patches with exposed ends as if nothing were known of what can block them.
   [[nodiscard]] RayCount segments(const Link& link) const {
-    return visibility(*scene_, *plan_, {}, end(link.p), end(link.q), rounds(link), Random{seed_, key_of(link)}).rays;
+    return visibility(*scene_, *plan_, {}, end(link.p), end(link.q), patch_rounds, Random{seed_, key_of(link)}).rays;
   }
 
  private:
@@ -172,9 +173,6 @@ class LinkEvaluator {
     return sent / (static_cast<double>(before.blocked) + static_cast<double>(segments) + 2.0);
   }
   [[nodiscard]] static std::uint64_t key_of(const Link& link) { return (std::uint64_t{link.p} << 32) | link.q; }
-  [[nodiscard]] std::uint32_t rounds(const Link& link) const {
-    return emits_[(*hierarchy_)[link.p].surface] || emits_[(*hierarchy_)[link.q].surface] ? 16 : 4;
-  }
   [[nodiscard]] static LinkShape::End shape_of(const Variation& v, double shadow) {
     return {static_cast<float>(v.linear), static_cast<float>(v.rest), static_cast<float>(shadow)};
   }
@@ -220,7 +218,6 @@ class LinkEvaluator {
   const Patches* patches_;
   const Exposure* exposure_;
   ClusterSampler sampler_;
-  std::vector<bool> emits_;
   std::uint64_t seed_;
 };
 

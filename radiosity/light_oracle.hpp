@@ -8,7 +8,7 @@
 //     E * RMS variation of F V over the patch * sqrt(area of the patch / area of the scene)  >  epsilon * mean emission
 //
 // the patch's share of the relative L2 error, dimensionless. F varies as the disk estimate does between the corners and the
-// point nearest to the light
+// point nearest to the light, and on curved objects with the true normals
 // (linear between extremes: RMS = difference / sqrt 12); V is all or nothing at a point: RMS = sqrt(V (1 - V)). Of a cluster F is what
 // the light shows to the places in it, from the nearest to the farthest; how its faces are turned is no matter, for each takes its own
 // cosine.
@@ -95,10 +95,14 @@ class LightOracle {
     const Patch& patch = (*patches_)[receiver];
     double low = 1.0;
     double high = 0.0;
+    const double tilt = std::asin(to.deviation);
     const auto look = [&](const glm::dvec3& x) {
-      const double f = disk_estimate(x, to.normal, from.centre, from.normal, from.area);
-      low = std::min(low, f);
-      high = std::max(high, f);
+      const glm::dvec3 d = from.centre - x;
+      const double r2 = glm::dot(d, d);
+      const double angle = std::acos(std::clamp(glm::dot(to.normal, d) / std::sqrt(r2), -1.0, 1.0));
+      const double facing = disk_estimate(x, d / std::sqrt(r2), from.centre, from.normal, from.area);
+      low = std::min(low, facing * std::max(0.0, std::cos(angle + tilt)));
+      high = std::max(high, facing * std::max(0.0, std::cos(std::max(0.0, angle - tilt))));
     };
     for (const glm::dvec3& x : patch.contour) { look(x); }
     look(nearest_point(to, from.centre));

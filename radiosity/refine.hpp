@@ -164,7 +164,7 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
   const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), light_epsilon, seed};
   min_area *= light.scene_area();
   const double finer = std::min(1.0, light_epsilon / (0.25 * epsilon));
-  const double light_min_area = min_area * finer * finer;
+  const double light_min_area = 0.25 * min_area * finer * finer;
   std::vector<RayCount> rays;
 
   const bool clustered = !hierarchy.empty() && hierarchy[0].is_cluster();

@@ -67,13 +67,11 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   }
   watch.lap("build");
 
-  std::vector<bool> emits;
   std::vector<std::uint32_t> materials;
   std::vector<Color> reflectance;
   std::vector<Color> emission;
   for (const InputSurface& input : inputs) {
     const Material& material = scene.materials[input.material];
-    emits.push_back(!is_black(material.emission));
     materials.push_back(input.material);
     reflectance.push_back(material.reflectance);
     emission.push_back(material.emission);
@@ -81,7 +79,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   Exposure exposure;
   Patches patches{boundary, hierarchy};
   ShownAreas shown;
-  const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, shown, emits, options.seed};
+  const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, shown, options.seed};
   RefineResult refined;
   EvaluateResult evaluated;
   // Without light, or without reflection, B = E on the input faces.
@@ -211,10 +209,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
       return !control.cancelled();
     };
     if (options.error) {
-      // To know better whether the error is met may cost about as much as a finer solution.
-      const std::uint64_t most_rays = std::max<std::uint64_t>(25'000'000, audit.rays + 3 * audit.links);
-      decide_error(measure, picture ? &MeasuredError::picture : &MeasuredError::leaf, options.audit_points, *options.error, most_rays,
-                   measured);
+      const std::uint64_t solution_rays = audit.rays + 3 * audit.links;  // a link costs as much as three
+      decide_error(measure, picture ? &MeasuredError::picture : &MeasuredError::leaf, options.audit_points, *options.error, solution_rays,
+                   std::max<std::uint64_t>(25'000'000, solution_rays), measured);
     } else {
       measure(options.audit_points, measured);
     }
@@ -245,7 +242,7 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
   const double wanted = *options.error;
   Options round = options;
   round.epsilon = 0.04;
-  round.min_area = 2.4e-4;
+  round.min_area = 9.6e-4;
   round.target = wanted;
   std::vector<StageTime> stages;
   Outcome before;
@@ -262,14 +259,17 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
     detail::add_times(stages, audit.stages);
     const std::optional<ErrorEstimate>& error = round.reconstruction != Reconstruction::none ? audit.picture_error : audit.leaf_error;
     const bool met = within(error, wanted);
-    // Finer where the estimate sees the error: at the links of lights, at the others, or at both.
+    // Finer where the estimate sees the error: at the links of lights, at the others, or at both. A small step where little is missing: the
+    // error falls about as the square root of the thresholds.
     const double light = audit.estimated_error.value_or(0.0) > 0.0 ? audit.estimated_light_error / *audit.estimated_error : 0.5;
     const double light_epsilon = round.light_epsilon.value_or(0.25 * round.epsilon);
     const bool stalled = error && error->relative_l2 > 0.8 * error_before;  // then the estimate was wrong
-    round.light_epsilon = light * light > 0.2 || stalled ? 0.35 * light_epsilon : light_epsilon;
+    const double missing = error ? 0.8 * wanted / error->relative_l2 : 0.0;
+    const double step = std::clamp(missing * missing, 0.5, 0.8);
+    round.light_epsilon = light * light > 0.2 || stalled ? std::clamp(missing * missing, 0.35, 0.8) * light_epsilon : light_epsilon;
     if (light * light < 0.8 || stalled) {
-      round.epsilon *= 0.5;
-      round.min_area *= 0.5;
+      round.epsilon *= step;
+      round.min_area *= step;
     }
     round.target *= error ? std::clamp(0.7 * wanted / error->relative_l2, 0.25, 0.8) : 0.5;
     if (met || audit.interrupted || audit.links > 10'000'000 || round.epsilon < 1e-5 || *round.light_epsilon < 1e-6 ||

@@ -62,13 +62,11 @@ struct UniformOptions {
   split_evenly(boundary, hierarchy, options.max_area * total);
   watch.lap("refine");
 
-  std::vector<bool> emits;
   std::vector<std::uint32_t> materials;
   std::vector<Color> reflectance;
   std::vector<Color> emission;
   for (const InputSurface& input : surfaces(scene)) {
     const Material& material = scene.materials[input.material];
-    emits.push_back(!is_black(material.emission));
     materials.push_back(input.material);
     reflectance.push_back(material.reflectance);
     emission.push_back(material.emission);
@@ -80,7 +78,7 @@ struct UniformOptions {
   watch.lap("expose");
 
   const ShownAreas shown;  // there are no clusters
-  const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, shown, emits, options.seed};
+  const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, shown, options.seed};
   const LeafExchange exchange{objects, plan, boundary, hierarchy, patches, exposure, evaluator};
   const LeafMaterials leaves = leaf_materials(exchange, hierarchy, reflectance, emission);
   const std::uint64_t n = exchange.size();

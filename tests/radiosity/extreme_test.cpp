@@ -87,6 +87,7 @@ TEST_CASE("a scene is closed by no more than its links explain: where a thousand
   // On an even mesh every link joins two leaves, and is as exact as its form factor (exchange.hpp).
   options.epsilon = 1e-6;
   options.min_area = 0.02;
+  options.light_epsilon = 1.0;
   radiosity::Outcome outcome = radiosity::solve(scenes::furnace_cube(0.5), options);
   REQUIRE(outcome.solution);
   radiosity::Solution& solution = *outcome.solution;
