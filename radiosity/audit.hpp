@@ -16,6 +16,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <radiosity/mesh.hpp>
@@ -76,11 +77,11 @@ struct Audit {
   bool interrupted = false;                    // the best that the run had when it was told to stop; its error may not be measured
   // error
   std::optional<double> estimated_error;  // relative L2, by what the links cannot express (link_error.hpp)
-  double estimated_light_error = 0.0;     // the part of it that is due to the links of lights; F-refinement alone
   std::uint32_t generations = 0;          // of BF-refinement
   std::uint64_t audit_points = 0;
   std::optional<ErrorEstimate> leaf_error;     // of the constant on each leaf
   std::optional<ErrorEstimate> picture_error;  // of the reconstructed radiosity that the picture shows
+  std::optional<double> direct_share;          // of its square: what is wrong in the light that was reflected once (--error alone)
   // what was done
   std::vector<LeftOut> left_out;
   std::vector<std::string> warnings;  // what in the scene may not be what was meant (warnings.hpp)
@@ -126,17 +127,19 @@ struct ErrorSums {
 struct MeasuredError {
   ErrorSums leaf, picture;
   std::uint64_t rays = 0;
-  std::uint64_t keys = 0;   // of the random numbers that were used
-  std::uint32_t paths = 0;  // of each estimate at a point; 0: to be chosen
-  double noise = 0.0;       // what the noise of the paths adds to the variance of `square`, summed over the points
+  std::uint64_t keys = 0;            // of the random numbers that were used
+  std::uint32_t paths = 0;           // of each estimate at a point; 0: to be chosen
+  double noise = 0.0;                // what the noise of the paths adds to the variance of `square`, summed over the points
+  double direct = 0.0, other = 0.0;  // squared errors of the light that was reflected once, and of the rest, summed over the points
 
   [[nodiscard]] std::uint64_t points() const { return leaf.square.size(); }
 };
 
-// Compares the mesh (in the frame) with `points` more path-traced points, spread evenly over its area.
+// Compares the mesh (in the frame) with `points` more path-traced points, spread evenly over its area. `direct`, if given: the same mesh, but
+// with the light that was reflected once.
 inline void measure_error(const Scene& scene, const raycast::Scene& objects, const std::vector<Surface>& surfaces, const Exposure& exposure,
-                          const Mesh& mesh, std::uint64_t points, unsigned threads, std::uint64_t seed, MeasuredError& measured,
-                          const Control& control = {}) {
+                          const Mesh& mesh, const Mesh* direct, std::uint64_t points, unsigned threads, std::uint64_t seed,
+                          MeasuredError& measured, const Control& control = {}) {
   struct Triangle {
     std::uint32_t face, first, second;  // corners face.first, first, second
     double cumulative_area;
@@ -162,7 +165,7 @@ inline void measure_error(const Scene& scene, const raycast::Scene& objects, con
   }
   const std::uint32_t paths = measured.paths;
   struct Sample {
-    double leaf = 0.0, picture = 0.0, reference = 0.0, noise = 0.0;
+    double leaf = 0.0, picture = 0.0, reference = 0.0, noise = 0.0, direct = 0.0, other = 0.0;
     std::uint64_t rays = 0;
     bool valid = false;
   };
@@ -185,8 +188,10 @@ inline void measure_error(const Scene& scene, const raycast::Scene& objects, con
     const double w2 = root * v;
     const std::uint32_t a = face.first_corner;
     const glm::dvec3 chord = w0 * corner(a) + w1 * corner(triangle->first) + w2 * corner(triangle->second);
-    const Color shown =
-        w0 * mesh.corners[a].radiosity + w1 * mesh.corners[triangle->first].radiosity + w2 * mesh.corners[triangle->second].radiosity;
+    const auto shown_by = [&](const Mesh& of) {
+      return w0 * of.corners[a].radiosity + w1 * of.corners[triangle->first].radiosity + w2 * of.corners[triangle->second].radiosity;
+    };
+    const Color shown = shown_by(mesh);
     const InputSurface& input = inputs[face.surface];
     if (!(exposure.area[face.node] > 0.0)) { return; }
     if (exposure.partly_buried[face.node] && buried(objects, input.object, input.sheet, chord)) { return; }
@@ -194,19 +199,26 @@ inline void measure_error(const Scene& scene, const raycast::Scene& objects, con
 
     Sample& sample = samples[i];
     Color mean[2] = {Color{0.0}, Color{0.0}};
+    Color mean_direct[2] = {Color{0.0}, Color{0.0}};
     for (std::uint64_t half = 0; half < 2; ++half) {
       const Sobol4 first{seed, 4 * key + 2 * half};
       const Sobol4 second{seed, 4 * key + 2 * half + 1};
       for (std::uint32_t k = 0; k < paths; ++k) {
         PathNumbers numbers{first, second, k, Random{seed, key, half << 32 | k}};
-        mean[half] +=
-            tracer.radiosity(point.position, point.normal, input.object, input.sheet, numbers, sample.rays) / static_cast<double>(paths);
+        const PathTracer::Light light = tracer.radiosity(point.position, point.normal, input.object, input.sheet, numbers, sample.rays);
+        mean[half] += light.all / static_cast<double>(paths);
+        mean_direct[half] += light.direct / static_cast<double>(paths);
       }
     }
     const Color& emission = scene.materials[input.material].emission;
     sample.leaf = glm::dot(mean[0] - face.radiosity, mean[1] - face.radiosity);
     sample.picture = glm::dot(mean[0] - shown, mean[1] - shown);
     sample.reference = glm::dot(mean[0] - emission, mean[1] - emission);
+    if (direct != nullptr) {
+      const Color once = shown_by(*direct);
+      sample.direct = glm::dot(mean_direct[0] - once, mean_direct[1] - once);
+      sample.other = glm::dot(mean[0] - mean_direct[0] - (shown - once), mean[1] - mean_direct[1] - (shown - once));
+    }
     // The product of two errors of variance v has the variance v^2; so has a third of the square of half their squared difference.
     const double half_square = 0.5 * glm::dot(mean[0] - mean[1], mean[0] - mean[1]);
     sample.noise = half_square * half_square / 3.0;
@@ -226,6 +238,8 @@ inline void measure_error(const Scene& scene, const raycast::Scene& objects, con
     measured.picture.square.push_back(sample.picture);
     measured.picture.reference.push_back(sample.reference);
     measured.noise += sample.noise;
+    measured.direct += sample.direct;
+    measured.other += sample.other;
   }
 }
 
@@ -236,8 +250,8 @@ inline void measure_error(const Scene& scene, const raycast::Scene& objects, con
 
 // Measures until it is decided whether the error is at most `wanted`, which takes `points` points at least, or until that would cost too
 // much: an error that seems small enough is worth `most_rays`; for one that seems too large, twice the rays of the solution, `solution_rays`,
-// would be better spent on a finer one. Where the noise of the paths is nearly all that makes the points differ, more paths at each of them
-// tell more than more points (the same standard error costs least where it is half); else more points do.
+// would be better spent on a finer one. Where the noise of the paths is most of what makes the points differ, it is measured again with more
+// paths at each, unless the error is too large beyond all noise; where it is next to nothing, further points have fewer.
 // `measure` returns false when it was cancelled.
 inline void decide_error(const std::function<bool(std::uint64_t points, MeasuredError&)>& measure, const ErrorSums MeasuredError::*of,
                          std::uint64_t points, double wanted, std::uint64_t solution_rays, std::uint64_t most_rays,
@@ -249,21 +263,27 @@ inline void decide_error(const std::function<bool(std::uint64_t points, Measured
     asked += next;
     const ErrorSums& sums = measured.*of;
     const std::optional<ErrorEstimate> error = sums.estimate();
-    if (!error || error->relative_l2 - 2.0 * error->standard_error > wanted) { return; }
+    if (!error || error->relative_l2 - 4.0 * error->standard_error > wanted) { return; }
     if (within(error, wanted)) {
       if (asked >= points) { return; }
       next = points - asked;
       continue;
     }
+    const double noise = measured.noise / (sums.variance() * static_cast<double>(measured.points()));  // share of the variance
     const auto allowed = static_cast<double>(error->relative_l2 <= wanted ? most_rays : std::min(most_rays, 2 * solution_rays));
     const auto rays = static_cast<double>(measured.rays);
-    if (measured.noise > 0.8 * sums.variance() * static_cast<double>(measured.points())) {
+    if (noise > 0.5) {
       if (4.0 * rays > allowed) { return; }
-      measured = {{}, {}, 0, measured.keys, 4 * measured.paths, 0.0};
+      MeasuredError again;
+      again.keys = measured.keys;
+      again.paths = 4 * measured.paths;
+      measured = std::move(again);
       asked = 0;
       next = first;
       continue;
     }
+    if (error->relative_l2 - 2.0 * error->standard_error > wanted) { return; }
+    if (noise < 1.0 / 32.0) { measured.paths = std::max(2u, measured.paths / 4); }
     // The standard error falls with the square root of the points. What is a little above may turn out a little below.
     const double ratio = 2.0 * error->standard_error / std::max(wanted - error->relative_l2, 0.1 * wanted);
     const double more = std::clamp(1.1 * (ratio * ratio - 1.0), 0.25, 3.0);

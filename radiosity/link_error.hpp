@@ -142,17 +142,11 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
   return result;
 }
 
-// The estimate for links that were not made by BF-refinement: the squared relative error of the links of lights, and of the others.
-struct SampledEstimate {
-  double light = 0.0, other = 0.0;
-
-  [[nodiscard]] double relative() const { return std::sqrt(light + other); }
-};
-
-// From at most 1024 links of lights and 3072 others, spread evenly; their shapes are found now.
-inline SampledEstimate sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Exposure& exposure,
-                                        const Links& links, const std::vector<Color>& reflectance, const std::vector<Color>& emission,
-                                        const std::vector<Color>& radiosity, unsigned threads) {
+// The relative error for links that were not made by BF-refinement: from at most 1024 links of lights and 3072 others, spread evenly; their
+// shapes are found now.
+inline double sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Exposure& exposure, const Links& links,
+                               const std::vector<Color>& reflectance, const std::vector<Color>& emission,
+                               const std::vector<Color>& radiosity, unsigned threads) {
   const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(emission[hierarchy[i].surface]); };
   std::vector<std::uint32_t> of_lights, others;
   for (std::uint32_t i = 0; i < links.size(); ++i) { (emits(links[i].p) || emits(links[i].q) ? of_lights : others).push_back(i); }
@@ -170,7 +164,7 @@ inline SampledEstimate sampled_estimate(const LinkEvaluator& evaluator, const Hi
     const double relative = errors.relative();
     return count > 0 ? relative * relative * static_cast<double>(from.size()) / static_cast<double>(count) : 0.0;
   };
-  return {squared(of_lights, 1024), squared(others, 3072)};
+  return std::sqrt(squared(of_lights, 1024) + squared(others, 3072));
 }
 
 }  // namespace detail

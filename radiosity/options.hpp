@@ -42,7 +42,7 @@ struct Options {
   // F-refinement (paper 4.4): a pair is linked when its estimated form factor is at most epsilon,
   double epsilon = 0.005;
   // or when both patches are no larger than min_area, relative to the total area of the scene.
-  double min_area = 1.2e-4;
+  double min_area = 6e-5;
   // Where a light shines a patch is split, too, while the light varies across it by more than this share of the relative L2 error; down to
   // a quarter of min_area, or below by the square of what this is finer than a quarter of epsilon. Default: a quarter of epsilon. Measured on
   // the reference scenes that halves the error of epsilon itself for 15 to 30 % more time.

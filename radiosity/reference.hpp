@@ -46,19 +46,27 @@ class PathTracer {
   // Largest reflectance of the scene.
   [[nodiscard]] double brightest() const { return brightest_; }
 
+  struct Light {
+    Color all{0.0};     // B
+    Color direct{0.0};  // the part of it that is emitted, or was reflected once
+  };
   // One estimate of B at the point x of a surface with unit normal n (into the air). `random` gives numbers by uniform(): independent
   // ones, or those of a path of an even sequence (sobol.hpp).
   template <class Numbers>
-  [[nodiscard]] Color radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Numbers& random,
+  [[nodiscard]] Light radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Numbers& random,
                                 std::uint64_t& rays) const {
     const Material* material = materials_[first_surface_[object] + sheet];
-    Color result = material->emission;
+    Light result{material->emission, material->emission};
     Color throughput{1.0};
-    for (;;) {
+    for (bool first = true;; first = false) {
+      const auto arrives = [&](const Color& light) {
+        result.all += light;
+        if (first) { result.direct += light; }
+      };
       const Color& rho = material->reflectance;
       const double survival = std::min(1.0 - 1.0 / most_bounces, std::max({rho.x, rho.y, rho.z}));
       throughput *= rho;
-      if (survival > 0.0 && light_area_ > 0.0) { result += throughput * direct(x, n, object, random, rays); }
+      if (survival > 0.0 && light_area_ > 0.0) { arrives(throughput * direct(x, n, object, random, rays)); }
       if (!(random.uniform() < survival)) { return result; }
       throughput /= survival;
 
@@ -73,12 +81,12 @@ class PathTracer {
       object = hit->object;
       const std::uint32_t surface = first_surface_[object] + hit->sheet;
       material = materials_[surface];
-      if (!sampled_[surface]) { result += throughput * material->emission; }
+      if (!sampled_[surface]) { arrives(throughput * material->emission); }
     }
   }
 
  private:
-  struct Light {
+  struct Lamp {
     glm::dvec3 a{0.0}, ab{0.0}, ac{0.0}, normal{0.0};
     double cumulative_area = 0.0;
     std::uint32_t object = 0;
@@ -105,14 +113,14 @@ class PathTracer {
           const double twice = glm::length(glm::cross(ab, ac));
           if (!(twice > 0.0)) { continue; }
           area += 0.5 * twice;
-          lights_.push_back({polygon[0], ab, ac, glm::cross(ab, ac) / twice, area, o, materials_[surface]->emission});
+          lamps_.push_back({polygon[0], ab, ac, glm::cross(ab, ac) / twice, area, o, materials_[surface]->emission});
         }
       }
     }
     light_area_ = area;
     if (area > 0.1 * total) {
       light_area_ = 0.0;
-      lights_.clear();
+      lamps_.clear();
       sampled_.assign(materials_.size(), false);
     }
   }
@@ -127,29 +135,29 @@ class PathTracer {
   template <class Numbers>
   [[nodiscard]] Color direct(const glm::dvec3& x, const glm::dvec3& n, std::uint32_t object, Numbers& random, std::uint64_t& rays) const {
     const double pick = random.uniform() * light_area_;
-    auto light = std::upper_bound(lights_.begin(), lights_.end(), pick, [](double p, const Light& l) { return p < l.cumulative_area; });
-    if (light == lights_.end()) { --light; }
+    auto lamp = std::upper_bound(lamps_.begin(), lamps_.end(), pick, [](double p, const Lamp& l) { return p < l.cumulative_area; });
+    if (lamp == lamps_.end()) { --lamp; }
     double u = random.uniform();
     double v = random.uniform();
     if (u + v > 1.0) {
       u = 1.0 - u;
       v = 1.0 - v;
     }
-    const glm::dvec3 y = light->a + u * light->ab + v * light->ac;
+    const glm::dvec3 y = lamp->a + u * lamp->ab + v * lamp->ac;
     const glm::dvec3 d = y - x;
     const double r2 = glm::dot(d, d);
-    const double cosines = glm::dot(n, d) * -glm::dot(light->normal, d);
+    const double cosines = glm::dot(n, d) * -glm::dot(lamp->normal, d);
     if (!(glm::dot(n, d) > 0.0) || !(cosines > 0.0)) { return Color{0.0}; }
     ++rays;
-    if (objects_->occluded({x, d}, object, light->object)) { return Color{0.0}; }
-    if (objects_->covered(y, light->normal, light->object)) { return Color{0.0}; }  // this part of the lamp is buried
-    return light->emission * (cosines / (r2 * r2) * light_area_ / std::numbers::pi);
+    if (objects_->occluded({x, d}, object, lamp->object)) { return Color{0.0}; }
+    if (objects_->covered(y, lamp->normal, lamp->object)) { return Color{0.0}; }  // this part of the lamp is buried
+    return lamp->emission * (cosines / (r2 * r2) * light_area_ / std::numbers::pi);
   }
 
   const raycast::Scene* objects_;
   std::vector<const Material*> materials_;    // one a surface
   std::vector<std::uint32_t> first_surface_;  // one an object
-  std::vector<Light> lights_;
+  std::vector<Lamp> lamps_;
   std::vector<bool> sampled_;  // one a surface: its emission is found by direct()
   double light_area_ = 0.0;
   double brightest_ = 0.0;

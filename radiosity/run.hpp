@@ -143,10 +143,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.histories = std::move(solved.histories);
   solution.radiosity = std::move(solved.radiosity);
   if (needs_links && options.refinement == Refinement::a_priori && options.audit_points > 0) {
-    const detail::SampledEstimate estimate =
+    audit.estimated_error =
         detail::sampled_estimate(evaluator, hierarchy, exposure, solution.links, reflectance, emission, solution.radiosity, threads);
-    audit.estimated_error = estimate.relative();
-    audit.estimated_light_error = std::sqrt(estimate.light);
   }
   balance_energy(audit, scene, inputs, hierarchy, transport, exposure.area, solution.radiosity);
   summarise_surfaces(audit, inputs, frame, hierarchy, exposure.area, solution.radiosity);
@@ -164,6 +162,13 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
 
   const bool constant = options.reconstruction >= Reconstruction::constant;
   const bool cut = (!constant || !plan.shortcuts) && eliminate_t_vertices(boundary) > 0;
+  std::optional<Mesh> direct;  // of the light that was reflected once: one step from E
+  if (options.error && needs_links && options.refinement == Refinement::a_priori) {
+    const ColorSolution once =
+        solve_channels(hierarchy, transport, exposure.area, reflectance, emission, plan.channels, Solver::jacobi, options.residual, 1);
+    reconstruct(boundary, hierarchy, exposure, once.radiosity, materials, options.reconstruction);
+    direct = make_mesh(boundary, hierarchy, exposure, once.radiosity);
+  }
   reconstruct(boundary, hierarchy, exposure, solution.radiosity, materials, options.reconstruction);
   solution.mesh = make_mesh(boundary, hierarchy, exposure, solution.radiosity);
   watch.lap("reconstruct");
@@ -205,7 +210,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   } else if (options.audit_points > 0 && plan.traceable && !control.cancelled()) {
     MeasuredError measured;
     const auto measure = [&](std::uint64_t points, MeasuredError& to) {
-      measure_error(scene, objects, boundary, exposure, solution.mesh, points, threads, options.seed, to, control);
+      measure_error(scene, objects, boundary, exposure, solution.mesh, direct ? &*direct : nullptr, points, threads, options.seed, to,
+                    control);
       return !control.cancelled();
     };
     if (options.error) {
@@ -218,6 +224,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     if (!control.cancelled()) {
       audit.leaf_error = measured.leaf.estimate();
       if (picture) { audit.picture_error = measured.picture.estimate(); }
+      const double split = std::max(0.0, measured.direct) + std::max(0.0, measured.other);
+      if (split > 0.0) { audit.direct_share = std::max(0.0, measured.direct) / split; }
       audit.audit_points = measured.points();
       audit.audit_rays = measured.rays;
     }
@@ -242,7 +250,7 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
   const double wanted = *options.error;
   Options round = options;
   round.epsilon = 0.04;
-  round.min_area = 9.6e-4;
+  round.min_area = 3.84e-3;
   round.target = wanted;
   std::vector<StageTime> stages;
   Outcome before;
@@ -259,17 +267,15 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
     detail::add_times(stages, audit.stages);
     const std::optional<ErrorEstimate>& error = round.reconstruction != Reconstruction::none ? audit.picture_error : audit.leaf_error;
     const bool met = within(error, wanted);
-    // Finer where the estimate sees the error: at the links of lights, at the others, or at both. A small step where little is missing: the
-    // error falls about as the square root of the thresholds.
-    const double light = audit.estimated_error.value_or(0.0) > 0.0 ? audit.estimated_light_error / *audit.estimated_error : 0.5;
-    const double light_epsilon = round.light_epsilon.value_or(0.25 * round.epsilon);
-    const bool stalled = error && error->relative_l2 > 0.8 * error_before;  // then the estimate was wrong
+    // Finer where the error is: in the light of lamps, in the rest, or in both; a smaller step where little is missing.
+    const double direct = audit.direct_share.value_or(0.5);
+    const bool stalled = error && error->relative_l2 > 0.8 * error_before;
     const double missing = error ? 0.8 * wanted / error->relative_l2 : 0.0;
-    const double step = std::clamp(missing * missing, 0.5, 0.8);
-    round.light_epsilon = light * light > 0.2 || stalled ? std::clamp(missing * missing, 0.35, 0.8) * light_epsilon : light_epsilon;
-    if (light * light < 0.8 || stalled) {
+    round.light_epsilon = (direct > 0.2 || stalled ? std::clamp(missing * missing, 0.35, 0.6) : 1.0) * audit.light_epsilon;
+    if (direct < 0.8 || stalled) {
+      const double step = std::clamp(missing * missing, 0.5, 0.6);
       round.epsilon *= step;
-      round.min_area *= step;
+      round.min_area *= step * step;  // so does what the ends of shadows and contacts leave out
     }
     round.target *= error ? std::clamp(0.7 * wanted / error->relative_l2, 0.25, 0.8) : 0.5;
     if (met || audit.interrupted || audit.links > 10'000'000 || round.epsilon < 1e-5 || *round.light_epsilon < 1e-6 ||

@@ -61,7 +61,7 @@ MethodPlan hierarchical(std::string name, std::string summary, const char* optio
 // The smallest patch shrinks with epsilon, so that shadows get finer, too.
 void set_epsilon(Options& options, double epsilon) {
   options.epsilon = epsilon;
-  options.min_area = 0.024 * epsilon;
+  options.min_area = 2.4 * epsilon * epsilon;
 }
 
 void set_target(Options& options, double target) {

@@ -126,7 +126,7 @@ void trace(const radiosity::Scene& scene, const radiosity::Prepared& prepared, c
       Color sum{0.0};
       for (std::uint32_t k = 0; k < length; ++k) {
         radiosity::PathNumbers numbers{first, second, k, radiosity::Random{options.seed, i, std::uint64_t{s} << 32 | k}};
-        sum += tracer.radiosity(point.position, point.normal, point.object, point.sheet, numbers, rays);
+        sum += tracer.radiosity(point.position, point.normal, point.object, point.sheet, numbers, rays).all;
       }
       sum /= static_cast<double>(length);
       mean += sum / static_cast<double>(sequences);

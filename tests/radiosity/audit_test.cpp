@@ -44,7 +44,7 @@ std::pair<double, double> traced(const Scene& scene, std::uint32_t object, std::
     while (k + 1 < patches.size() && rest > patches[k].area) { rest -= patches[k++].area; }
     const double u = random.uniform();
     const auto point = p.objects.object(object).project(sheet, radiosity::sample(patches[k], u, random.uniform()));
-    const double b = tracer.radiosity(point.position, point.normal, object, sheet, random, rays).x;
+    const double b = tracer.radiosity(point.position, point.normal, object, sheet, random, rays).all.x;
     sum += b;
     square += b * b;
   }
@@ -123,8 +123,8 @@ TEST_CASE("a solution that is 5 % too bright is found to be 5 % too bright") {
   exposure.partly_buried.assign(outcome.solution->hierarchy.size(), true);
   exposure.area = outcome.solution->area;
   radiosity::MeasuredError measured;
-  radiosity::measure_error(scene, p.objects, p.surfaces, exposure, mesh, 1000, 2, 1, measured);
-  radiosity::measure_error(scene, p.objects, p.surfaces, exposure, mesh, 1000, 2, 1, measured);
+  radiosity::measure_error(scene, p.objects, p.surfaces, exposure, mesh, nullptr, 1000, 2, 1, measured);
+  radiosity::measure_error(scene, p.objects, p.surfaces, exposure, mesh, nullptr, 1000, 2, 1, measured);
   CHECK(measured.points() > 1900);  // but for buried ones
   const auto picture = measured.picture.estimate();
   REQUIRE(picture);

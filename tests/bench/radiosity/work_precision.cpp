@@ -175,10 +175,10 @@ int main(int argc, char** argv) {
                 static_cast<double>(audit.bytes) * 1e-6, audit.cpu_seconds, 100.0 * leaves.relative_l2, 100.0 * leaves.worst,
                 100.0 * picture.relative_l2, 100.0 * picture.worst, leaves.worst_cell.c_str());
   };
-  for (const double epsilon : {0.08, 0.04, 0.02, 0.01, 0.005, 0.0025}) {
+  for (const double epsilon : {0.08, 0.04, 0.02, 0.0095, 0.005, 0.0025}) {
     radiosity::Options options;
     options.epsilon = epsilon;
-    options.min_area = 5e-4;
+    options.min_area = 0.2 * epsilon;
     row("a priori", epsilon, options);
   }
   for (const bool clusters : {false, true}) {
