@@ -249,9 +249,10 @@ inline void measure_error(const Scene& scene, const raycast::Scene& objects, con
 }
 
 // Measures until it is decided whether the error is at most `wanted`, which takes `points` points at least, or until that would cost too
-// much: an error that seems small enough is worth `most_rays`; for one that seems too large, twice the rays of the solution, `solution_rays`,
+// much: an error that seems small enough is worth `most_rays`; for one that seems too large, more than `solution_rays`, what the solution cost,
 // would be better spent on a finer one. Where the noise of the paths is most of what makes the points differ, it is measured again with more
-// paths at each, unless the error is too large beyond all noise; where it is next to nothing, further points have fewer.
+// paths at each, if that is not too much and unless the error is too large beyond all noise; where it is next to nothing, further
+// points have fewer.
 // `measure` returns false when it was cancelled.
 inline void decide_error(const std::function<bool(std::uint64_t points, MeasuredError&)>& measure, const ErrorSums MeasuredError::*of,
                          std::uint64_t points, double wanted, std::uint64_t solution_rays, std::uint64_t most_rays,
@@ -264,16 +265,15 @@ inline void decide_error(const std::function<bool(std::uint64_t points, Measured
     const ErrorSums& sums = measured.*of;
     const std::optional<ErrorEstimate> error = sums.estimate();
     if (!error || error->relative_l2 - 4.0 * error->standard_error > wanted) { return; }
-    if (within(error, wanted)) {
-      if (asked >= points) { return; }
+    if (asked < points && error->relative_l2 <= wanted) {
       next = points - asked;
       continue;
     }
+    if (within(error, wanted)) { return; }
     const double noise = measured.noise / (sums.variance() * static_cast<double>(measured.points()));  // share of the variance
-    const auto allowed = static_cast<double>(error->relative_l2 <= wanted ? most_rays : std::min(most_rays, 2 * solution_rays));
+    const auto allowed = static_cast<double>(error->relative_l2 <= wanted ? most_rays : std::min(most_rays, solution_rays));
     const auto rays = static_cast<double>(measured.rays);
-    if (noise > 0.5) {
-      if (4.0 * rays > allowed) { return; }
+    if (noise > 0.5 && 4.0 * rays <= allowed) {
       MeasuredError again;
       again.keys = measured.keys;
       again.paths = 4 * measured.paths;

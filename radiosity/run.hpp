@@ -215,9 +215,10 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
       return !control.cancelled();
     };
     if (options.error) {
-      const std::uint64_t solution_rays = audit.rays + 3 * audit.links;  // a link costs as much as three
+      // A ray of a path costs as much as two segments of links or two thirds of a link.
+      const std::uint64_t solution_rays = (audit.rays + 3 * audit.links) / 2;
       decide_error(measure, picture ? &MeasuredError::picture : &MeasuredError::leaf, options.audit_points, *options.error, solution_rays,
-                   std::max<std::uint64_t>(25'000'000, solution_rays), measured);
+                   std::max<std::uint64_t>(25'000'000, 2 * solution_rays), measured);
     } else {
       measure(options.audit_points, measured);
     }
@@ -271,9 +272,9 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
     const double direct = audit.direct_share.value_or(0.5);
     const bool stalled = error && error->relative_l2 > 0.8 * error_before;
     const double missing = error ? 0.8 * wanted / error->relative_l2 : 0.0;
-    round.light_epsilon = (direct > 0.2 || stalled ? std::clamp(missing * missing, 0.35, 0.6) : 1.0) * audit.light_epsilon;
-    if (direct < 0.8 || stalled) {
-      const double step = std::clamp(missing * missing, 0.5, 0.6);
+    const double step = std::clamp(missing * missing, 0.5, 0.6);
+    round.light_epsilon = (direct > 0.35 || stalled ? step : 1.0) * audit.light_epsilon;
+    if (direct < 0.65 || stalled) {
       round.epsilon *= step;
       round.min_area *= step * step;  // so does what the ends of shadows and contacts leave out
     }
