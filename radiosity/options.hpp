@@ -44,8 +44,8 @@ struct Options {
   // or when both patches are no larger than min_area, relative to the total area of the scene.
   double min_area = 6e-5;
   // Where a light shines a patch is split, too, while the light varies across it by more than this share of the relative L2 error; down to
-  // a quarter of min_area, or below by the square of what this is finer than a quarter of epsilon. Default: a quarter of epsilon. Measured on
-  // the reference scenes that halves the error of epsilon itself for 15 to 30 % more time.
+  // a quarter of min_area, for shadows have sharper edges than all other light, or below by the square of what this is finer than a quarter
+  // of epsilon. Default: a quarter of epsilon.
   std::optional<double> light_epsilon;
   // Accuracy target: target, or epsilon and min_area, are chosen anew until the audited relative L2 error of the picture, or of
   // the leaves when there is none, is at most this.

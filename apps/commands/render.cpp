@@ -211,6 +211,13 @@ void describe(CLI::App& command, RenderOptions& options) {
       ->excludes(error)
       ->excludes(target)
       ->excludes(time);
+  command
+      .add_option("--light-epsilon", solver.light_epsilon,
+                  "largest share of the error of a patch on which the light of a lamp varies (default: a quarter of epsilon)")
+      ->check(above_zero(1.0))
+      ->excludes(error)
+      ->excludes(target)
+      ->excludes(time);
   command.add_option("--camera", options.camera, "camera of the scene (default: the first; without any, an automatic view)");
   command
       .add_option_function<std::string>(

@@ -2,6 +2,7 @@
 // The program as its user meets it: exit codes, streams, files.
 #include "catch.hpp"
 
+#include <sstream>
 #include <string>
 
 #include "json.hpp"
@@ -64,6 +65,25 @@ TEST_CASE("a target or a time asks for BF-refinement, and the report says what e
   CHECK(time.out.find("until the time was used") != std::string::npos);
   REQUIRE(place.run(arguments).code == 0);
   CHECK(json::parse(place.read("a.json"))["estimated_error"].is_null());
+}
+
+TEST_CASE("the settings that an error target found repeat its last round") {
+  const Place place;
+  const std::string arguments = "render " + scene("two_plates") + " --json a.json ";
+  REQUIRE(place.run(arguments + "--error 0.05").code == 0);
+  const json::Value found = json::parse(place.read("a.json"));
+  std::ostringstream again;
+  again.precision(17);
+  again << "--epsilon " << found["settings"]["epsilon"].number() << " --min-area " << found["settings"]["min_area"].number()
+        << " --light-epsilon " << found["settings"]["light_epsilon"].number();
+  const Run run = place.run(arguments + again.str());
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  const json::Value repeated = json::parse(place.read("a.json"));
+  CHECK(repeated["links"].number() == found["links"].number());
+  for (std::size_t i = 0; i < found["surfaces"].size(); ++i) {
+    CHECK(repeated["surfaces"][i]["radiosity"][0].number() == found["surfaces"][i]["radiosity"][0].number());
+  }
 }
 
 TEST_CASE("quiet is quiet on stderr, the report stays") {
