@@ -4,6 +4,10 @@
 set -eu
 cd "$(dirname "$0")/.."
 halflight=build/release/apps/halflight
+if [ ! -x "$halflight" ]; then
+    echo "$halflight is not built; sh examples/quickstart.sh builds it" >&2
+    exit 1
+fi
 error=${1:-0.02}
 [ $# -gt 0 ] && shift
 [ $# -gt 0 ] || set -- examples/scenes/*.scene

@@ -7,11 +7,10 @@
 //
 //     E * RMS variation of F V over the patch * sqrt(area of the patch / area of the scene)  >  epsilon * mean emission
 //
-// the patch's share of the relative L2 error, dimensionless. F varies as the disk estimate does between the corners and the
-// point nearest to the light, and on curved objects with the true normals
-// (linear between extremes: RMS = difference / sqrt 12); V is all or nothing at a point: RMS = sqrt(V (1 - V)). Of a cluster F is what
-// the light shows to the places in it, from the nearest to the farthest; how its faces are turned is no matter, for each takes its own
-// cosine.
+// the patch's share of the relative L2 error, dimensionless. F varies as the disk estimate does between the corners and the point nearest
+// to the light, with the normals tilted by the deviation of the patch from a curved object (linear between extremes: RMS = difference /
+// sqrt 12); V is all or nothing at a point: RMS = sqrt(V (1 - V)). Of a cluster F is what the light shows to the places in it, from the
+// nearest to the farthest; how its faces are turned is no matter, for each takes its own cosine.
 
 #include <algorithm>
 #include <cmath>

@@ -213,7 +213,7 @@ void describe(CLI::App& command, RenderOptions& options) {
       ->excludes(time);
   command
       .add_option("--light-epsilon", solver.light_epsilon,
-                  "largest share of the error of a patch on which the light of a lamp varies (default: a quarter of epsilon)")
+                  "share of the error that the light of a lamp may cause by varying over one patch (default: a quarter of epsilon)")
       ->check(above_zero(1.0))
       ->excludes(error)
       ->excludes(target)
