@@ -259,8 +259,9 @@ std::optional<Picture> draw(const radiosity::Mesh& mesh, const View& view, doubl
   const std::int64_t n = samples;
   const std::int64_t width = view.size.width * n;
   const Drawing drawing = project(mesh, view, n);
-  Picture picture{view.size.width, view.size.height, {}};
+  Picture picture{view.size.width, view.size.height, {}, {}};
   picture.rgb.reserve(3 * std::size_t{picture.width} * picture.height);
+  picture.radiosity.reserve(std::size_t{picture.width} * picture.height);
   // Bands keep memory small: about a million samples each.
   const auto band_pixels = std::clamp<std::int64_t>((1 << 20) / (width * n), 1, view.size.height);
   for (std::int64_t top = 0; top < view.size.height; top += band_pixels) {
@@ -270,14 +271,17 @@ std::optional<Picture> draw(const radiosity::Mesh& mesh, const View& view, doubl
     for (const Piece& piece : drawing.pieces) { band.draw(drawing, piece); }
     for (std::int64_t y = top; y < top + pixels; ++y) {
       for (std::int64_t x = 0; x < view.size.width; ++x) {
-        radiosity::Color sum(0.0);
+        radiosity::Color sum(0.0), radiosity(0.0);
         for (std::int64_t s = 0; s < n * n; ++s) {
           const std::int64_t sx = x * n + s % n;
           const std::int64_t sy = y * n + s / n;
           const std::uint32_t index = band.at(sx, sy).triangle;
           if (index == 0xffffffff) { continue; }
-          sum += shown(color_at(drawing.triangles[index], band.ray(sx, sy)), exposure);
+          const radiosity::Color color = color_at(drawing.triangles[index], band.ray(sx, sy));
+          radiosity += color;
+          sum += shown(color, exposure);
         }
+        picture.radiosity.emplace_back(radiosity / static_cast<double>(n * n));
         for (const std::uint8_t byte : to_rgb8(sum / static_cast<double>(n * n))) { picture.rgb.push_back(byte); }
       }
     }

@@ -19,6 +19,7 @@ constexpr std::uint32_t nothing = 0x7fffffff, several = 0x7ffffffe;  // in place
 // What is known of a pixel from some of its samples.
 struct Glance {
   Rgb8 rgb{};
+  radiosity::Color radiosity{0.0};  // mean
   std::uint32_t surface = several;  // that all samples have met
   bool even = true;                 // their colours differ by at most four of 255 levels
 };
@@ -42,7 +43,7 @@ class Drawing {
   void look(std::size_t first, std::size_t count, bool closer, Glance* out) const {
     const std::vector<glm::dvec2>& at = closer ? all_ : few_;
     std::array<glm::dvec3, 16> directions{};
-    radiosity::Color sum(0.0);
+    radiosity::Color sum(0.0), radiosity(0.0);
     Rgb8 least{}, most{};
     const std::size_t rays = count * at.size();
     for (std::size_t done = 0; done < rays; done += 16) {
@@ -57,18 +58,23 @@ class Drawing {
       for (std::size_t k = 0; k < together; ++k) {
         Glance& glance = out[(done + k) / at.size()];
         const std::size_t sample = (done + k) % at.size();
-        const radiosity::Color color = seen[k] ? shown(seen[k]->radiosity, exposure_) : radiosity::Color(0.0);
+        const radiosity::Color light = seen[k] ? seen[k]->radiosity : radiosity::Color(0.0);
+        const radiosity::Color color = shown(light, exposure_);
         const std::uint32_t surface = seen[k] ? seen[k]->surface : nothing;
         const Rgb8 rgb = closer ? Rgb8{} : to_rgb8(color);
-        if (sample == 0) { glance.surface = surface, sum = radiosity::Color(0.0), least = most = rgb; }
+        if (sample == 0) { glance.surface = surface, sum = radiosity = radiosity::Color(0.0), least = most = rgb; }
         sum += color;
+        radiosity += light;
         for (std::size_t c = 0; c < 3; ++c) {
           least[c] = std::min(least[c], rgb[c]);
           most[c] = std::max(most[c], rgb[c]);
           glance.even = glance.even && most[c] - least[c] <= 4;
         }
         if (surface != glance.surface) { glance.surface = several; }
-        if (sample + 1 == at.size()) { glance.rgb = to_rgb8(sum / static_cast<double>(at.size())); }
+        if (sample + 1 == at.size()) {
+          glance.rgb = to_rgb8(sum / static_cast<double>(at.size()));
+          glance.radiosity = radiosity / static_cast<double>(at.size());
+        }
       }
     }
   }
@@ -84,13 +90,15 @@ class Drawing {
 
 std::optional<Picture> draw(const radiosity::Lookup& lookup, const View& view, double exposure, unsigned threads, unsigned samples,
                             const radiosity::Control& control) {
-  Picture picture{view.size.width, view.size.height, {}};
+  Picture picture{view.size.width, view.size.height, {}, {}};
   const std::size_t width = view.size.width, height = view.size.height, count = width * height;
   picture.rgb.resize(3 * count);
+  picture.radiosity.resize(count);
   const Drawing drawing(lookup, view, exposure, samples);
   std::vector<std::uint32_t> surfaces(count);  // of which the first bit: a close look is needed anyway
   const auto paint = [&](std::size_t pixel, const Glance& glance) {
     std::copy(glance.rgb.begin(), glance.rgb.end(), picture.rgb.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
+    picture.radiosity[pixel] = glm::vec3(glance.radiosity);
   };
   constexpr std::size_t group = 4;  // pixels
   const auto glance_at = [&](std::size_t first) {

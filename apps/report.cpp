@@ -61,16 +61,28 @@ void row(std::string& out, std::string_view label, const std::string& value) {
 
 std::string error_text(const std::optional<radiosity::ErrorEstimate>& error) {
   if (!error) { return "not measured"; }
-  if (error->relative_l2 < error->standard_error) {  // lost in the noise of path tracing
-    return "below " + percent(error->relative_l2 + 2.0 * error->standard_error) + " (noise " + percent(error->standard_error) + ")";
+  if (error->low == 0.0) { return error->high > 0.0 ? "below " + percent(error->high) : "none"; }  // lost in the noise of path tracing
+  return percent(error->relative_l2) + "  (" + percent(error->low) + " to " + percent(error->high) + ")";
+}
+
+void picture_error(std::string& out, const radiosity::PictureError& picture) {
+  row(out, "picture front", error_text(picture.error));
+  const auto share = [](const radiosity::ShareBounds& of) {
+    return of.least == of.most ? percent(of.least) : percent(of.least) + " to " + percent(of.most);
+  };
+  row(out, "  off by 2, 8 of 255", share(picture.over2) + ", " + share(picture.over8) + " of the pixels");
+  if (picture.worst) {
+    row(out, "  worst sixteenth",
+        error_text(picture.worst->error) + format(", column %u, row %u of 4", picture.worst->column + 1, picture.worst->row + 1));
   }
-  return percent(error->relative_l2) + "  +- " + percent(error->standard_error);
+  row(out, "  path-traced pixels", grouped(picture.points) + ", " + grouped(picture.rays) + " rays");
 }
 
 void error_and_time(std::string& out, const Report& report) {
   const radiosity::Audit& audit = report.audit;
-  out += "error (RMS, relative to the RMS of the reflected radiosity)\n";
-  if (report.options.reconstruction != radiosity::Reconstruction::none) { row(out, "picture", error_text(audit.picture_error)); }
+  out += "error (RMS, relative to the RMS of the reflected radiosity; 95 % interval)\n";
+  if (audit.picture_error) { picture_error(out, *audit.picture_error); }
+  if (report.options.reconstruction != radiosity::Reconstruction::none) { row(out, "surfaces", error_text(audit.surface_error)); }
   row(out, "leaf constants", error_text(audit.leaf_error));
   if (audit.estimated_error) {
     row(out, "estimated from links",
@@ -80,11 +92,11 @@ void error_and_time(std::string& out, const Report& report) {
   out += "time (s)                      wall       CPU\n";
   const auto time = [&](const std::string& name, double wall, double cpu) { row(out, name, format("%10.3f%10.3f", wall, cpu)); };
   for (const radiosity::StageTime& stage : audit.stages) {
-    if (stage.name != "audit") { time(stage.name, stage.wall_seconds, stage.cpu_seconds); }
+    if (!stage.name.ends_with("audit")) { time(stage.name, stage.wall_seconds, stage.cpu_seconds); }
   }
   time("total", audit.wall_seconds, audit.cpu_seconds);
   for (const radiosity::StageTime& stage : audit.stages) {
-    if (stage.name == "audit") { time("audit (apart)", stage.wall_seconds, stage.cpu_seconds); }
+    if (stage.name.ends_with("audit")) { time(stage.name + " (apart)", stage.wall_seconds, stage.cpu_seconds); }
   }
   if (report.picture_time) { time("picture (apart)", report.picture_time->wall_seconds, report.picture_time->cpu_seconds); }
 }
@@ -165,6 +177,31 @@ void left_out_and_surfaces(std::string& out, const Report& report) {
 void write_error(JsonWriter& json, const radiosity::ErrorEstimate& error) {
   json.key("relative_l2").number(error.relative_l2);
   json.key("standard_error").number(error.standard_error);
+  json.key("low").number(error.low).key("high").number(error.high);
+}
+
+void write_picture_error(JsonWriter& json, const radiosity::PictureError& picture) {
+  json.open_object();
+  write_error(json, picture.error);
+  json.key("audited").number(picture.audited);
+  const auto share = [&](const char* key, const radiosity::ShareBounds& of) {
+    json.key(key).open_array();
+    json.number(of.least).number(of.most);
+    json.close();
+  };
+  share("over_2_levels", picture.over2);
+  share("over_8_levels", picture.over8);
+  json.key("worst_tile");
+  if (picture.worst) {
+    json.open_object();
+    json.key("column").count(picture.worst->column).key("row").count(picture.worst->row);
+    write_error(json, picture.worst->error);
+    json.close();
+  } else {
+    json.null();
+  }
+  json.key("points").count(picture.points).key("rays").count(picture.rays);
+  json.close();
 }
 
 void write_errors(JsonWriter& json, const radiosity::Audit& audit) {
@@ -174,13 +211,17 @@ void write_errors(JsonWriter& json, const radiosity::Audit& audit) {
     return;
   }
   json.open_object();
-  if (audit.picture_error) { write_error(json, *audit.picture_error); }  // else nobody asked for one
+  if (audit.surface_error) { write_error(json, *audit.surface_error); }  // else nobody asked for a reconstruction
   json.key("points").count(audit.audit_points);
   json.key("rays").count(audit.audit_rays);
   json.key("leaf");
   json.open_object();
   write_error(json, *audit.leaf_error);
   json.close();
+  if (audit.picture_error) {
+    json.key("picture");
+    write_picture_error(json, *audit.picture_error);
+  }
   json.close();
 }
 

@@ -14,6 +14,9 @@
 namespace radiosity {
 
 struct Surface;
+struct Solution;
+struct AuditGoal;
+struct PictureError;
 
 // How the faces of an object hang together: neighbours share their vertices, or each is a polygon of its own, the root of a classical
 // quad-tree (polygons.hpp).
@@ -47,8 +50,8 @@ struct Options {
   // a quarter of min_area, for shadows have sharper edges than all other light, or below by the square of what this is finer than a quarter
   // of epsilon. Default: a quarter of epsilon.
   std::optional<double> light_epsilon;
-  // Accuracy target: target, or epsilon and min_area, are chosen anew until the audited relative L2 error of the picture, or of
-  // the leaves when there is none, is at most this.
+  // Accuracy target: target, or epsilon and min_area, fall round by round until the audited relative L2 error is at most this: that of the
+  // picture when Control::picture_error is given, else that over all surfaces.
   std::optional<double> error;
 
   // Input faces from which on clusters are built above them; below, all pairs of input faces are looked at.
@@ -63,7 +66,7 @@ struct Options {
   // For studies: the solution brings a Comparison (comparison.hpp), with a dense solution when it has no more leaves than this.
   std::optional<std::uint32_t> compare;
 
-  std::uint32_t audit_points = 2000;  // 0: no error estimate
+  std::uint32_t audit_points = 2000;  // at least, at which the error is measured (audit_effort.hpp); 0: no error estimate
   unsigned threads = 0;               // 0: as many as the machine has; results do not depend on it
   std::uint64_t seed = 1;
 };
@@ -102,9 +105,12 @@ struct Control {
   // Called with the valid BReps of all objects after each generation of refinement.
   std::function<void(const std::vector<Surface>&)> after_generation;
 
+  // Measures the error of the picture that will be made of a solution (picture_error.hpp), for an error target. Nothing when it cannot.
+  std::function<std::optional<PictureError>(const Solution&, const AuditGoal&)> picture_error;
+
   [[nodiscard]] bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
   // The same, but nothing stops the run.
-  [[nodiscard]] Control unstoppable() const { return {nullptr, progress, after_generation}; }
+  [[nodiscard]] Control unstoppable() const { return {nullptr, progress, after_generation, picture_error}; }
   void report(std::string_view stage, double fraction) const {
     if (progress) { progress(stage, fraction); }
   }

@@ -20,7 +20,7 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/extremes.hpp>
-#include <radiosity/reference.hpp>
+#include <radiosity/path_tracer.hpp>
 #include <radiosity/scene.hpp>
 #include <radiosity/surface.hpp>
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <radiosity/audit.hpp>
+#include <radiosity/audit_effort.hpp>
 #include <radiosity/bf_refine.hpp>
 #include <radiosity/cluster_choice.hpp>
 #include <radiosity/clusters.hpp>
@@ -113,9 +114,17 @@ inline Outcome failed(Failure::Kind kind, std::vector<std::string> sentences) { 
 
 }  // namespace detail
 
-// Solves the scene. With an error target the run starts coarse and refines until the audit of the picture witnesses the target, twice its
-// standard error included; times are those of all rounds together. A run whose error stays above says so by audit.converged; it gives up
-// before it would need more than 20 million links (480 MB).
+// As many rays of paths as the solution took time: a ray of a path costs as much as two segments of links or two thirds of a link.
+[[nodiscard]] inline std::uint64_t rays_worth(const Audit& audit) { return (audit.rays + 3 * audit.links) / 2; }
+
+// For an audit without a target: as long as the solution took, or 2000 rays a point.
+[[nodiscard]] inline AuditGoal goal_to_know(const Audit& audit, std::uint32_t points) {
+  return {points, std::max<std::uint64_t>(rays_worth(audit), 2000 * std::uint64_t{points})};
+}
+
+// Solves the scene. With an error target the run starts coarse and refines until the audit witnesses the target: the upper end of its 95 %
+// interval is at most that. Times are those of all rounds together. A run whose error stays above says so by audit.converged; when it
+// gives up stands in accuracy_target.hpp.
 [[nodiscard]] Outcome solve(const Scene& scene, const Options& options = {}, const Control& control = {});
 
 }  // namespace radiosity

@@ -35,17 +35,23 @@ class Random {
   std::uint64_t state_;
 };
 
-// A unit direction about the unit normal n, with density cos(theta) / pi.
-[[nodiscard]] inline glm::dvec3 cosine_direction(const glm::dvec3& n, double u, double v) {
-  // Orthonormal basis without branches on the normal (Duff et al. 2017).
+// Two unit vectors that make a right-handed orthonormal basis with the unit vector n, without branches (Duff et al. 2017).
+struct Tangents {
+  glm::dvec3 s{0.0}, t{0.0};
+};
+[[nodiscard]] inline Tangents orthonormal(const glm::dvec3& n) {
   const double sign = std::copysign(1.0, n.z);
   const double a = -1.0 / (sign + n.z);
   const double b = n.x * n.y * a;
-  const glm::dvec3 t{1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x};
-  const glm::dvec3 s{b, sign + n.y * n.y * a, -n.y};
+  return {{1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
+}
+
+// A unit direction about the unit normal n, with density cos(theta) / pi.
+[[nodiscard]] inline glm::dvec3 cosine_direction(const glm::dvec3& n, double u, double v) {
+  const auto [s, t] = orthonormal(n);
   const double radius = std::sqrt(u);
   const double angle = 2.0 * std::numbers::pi * v;
-  return glm::normalize(radius * std::cos(angle) * t + radius * std::sin(angle) * s + std::sqrt(1.0 - u) * n);
+  return glm::normalize(radius * std::cos(angle) * s + radius * std::sin(angle) * t + std::sqrt(1.0 - u) * n);
 }
 
 }  // namespace radiosity

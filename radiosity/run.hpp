@@ -14,8 +14,11 @@
 #include <utility>
 #include <vector>
 
+#include <radiosity/accuracy_target.hpp>
+#include <radiosity/audit_effort.hpp>
 #include <radiosity/link_error.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/surface_error.hpp>
 
 #ifndef HALFLIGHT_RADIOSITY_INLINE
 #define HALFLIGHT_RADIOSITY_INLINE inline
@@ -27,6 +30,44 @@ namespace detail {
 
 // Their fractions are known to 1 %.
 inline constexpr std::uint32_t stray_ray_count = 2500;
+
+// Fills in the errors of the solution, whose mesh is still in the frame.
+inline void measure_errors(const Options& options, const Control& control, SurfaceErrorMeter meter, unsigned threads, Solution& solution) {
+  Audit& audit = solution.audit;
+  const AuditGoal to_know = goal_to_know(audit, options.audit_points);
+  const std::uint64_t solution_rays = rays_worth(audit);
+  AuditGoal goal = to_know;
+  if (options.error) { goal = {options.audit_points, solution_rays, *options.error, std::max<std::uint64_t>(25'000'000, 2 * solution_rays)}; }
+  if (options.error && control.picture_error) {
+    std::vector<glm::dvec3> framed = solution.mesh.positions;
+    for (glm::dvec3& p : solution.mesh.positions) { p = solution.frame.to_scene(p); }
+    audit.picture_error = control.picture_error(solution, goal);
+    solution.mesh.positions = std::move(framed);
+    // The error over all surfaces decides nothing then: before the last round, a little of it will do.
+    const bool last = audit.picture_error && audit.picture_error->error.within(*options.error);
+    goal = last ? to_know : AuditGoal{64};
+  }
+  const bool reconstructed = options.reconstruction != Reconstruction::none;
+  const auto measure = [&](std::uint64_t points, std::uint32_t paths, SurfaceError& to) {
+    return meter.measure(points, paths, threads, control, to);
+  };
+  SurfaceError measured;
+  const bool complete = measure_to_goal<SurfaceError>(
+      measure, [&](const SurfaceError& error) -> const ErrorSums& { return reconstructed ? error.reconstructed : error.leaf; }, goal, measured);
+  if (!complete) { return; }
+  audit.leaf_error = measured.leaf.estimate();
+  if (reconstructed) { audit.surface_error = measured.reconstructed.estimate(); }
+  audit.audit_points = measured.points();
+  audit.audit_rays = measured.rays;
+  if (!options.error || control.picture_error) { return; }
+  // What steers the next round must not depend on the target: as many rays as the solution took, at most.
+  SurfaceError steering;
+  constexpr std::uint64_t points = 256;
+  const auto paths = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(solution_rays / (points * 8), 4, 64));
+  if (!measure(points, paths, steering)) { return; }
+  const double split = std::max(0.0, steering.direct) + std::max(0.0, steering.other);
+  if (split > 0.0) { audit.direct_share = std::max(0.0, steering.direct) / split; }
+}
 
 // One run at a given fineness.
 inline Outcome solve_at(const Scene& scene, const Options& options, const Control& control) {
@@ -51,6 +92,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   }
   const Plan& plan = preparation.prepared->plan;
   const std::vector<InputSurface> inputs = surfaces(scene);
+  const PathTracer tracer{scene, objects, boundary};
   solution.frame = frame;
   audit.channels = plan.channels;
   Hierarchy& hierarchy = solution.hierarchy;
@@ -163,7 +205,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   const bool constant = options.reconstruction >= Reconstruction::constant;
   const bool cut = (!constant || !plan.shortcuts) && eliminate_t_vertices(boundary) > 0;
   std::optional<Mesh> direct;  // of the light that was reflected once: one step from E
-  if (options.error && needs_links && options.refinement == Refinement::a_priori) {
+  if (options.error && !control.picture_error && needs_links && options.refinement == Refinement::a_priori) {
     const ColorSolution once =
         solve_channels(hierarchy, transport, exposure.area, reflectance, emission, plan.channels, Solver::jacobi, options.residual, 1);
     reconstruct(boundary, hierarchy, exposure, once.radiosity, materials, options.reconstruction);
@@ -203,33 +245,14 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   if (plan.closed && !solution.links.empty() && !audit.closure) {
     audit.left_out.push_back({"closing the scene", "its row sums need a larger correction than quadrature and sampling explain", ""});
   }
-  const bool picture = options.reconstruction != Reconstruction::none;
+  const bool reconstructed = options.reconstruction != Reconstruction::none;
   if (!plan.lit || !plan.reflects) {
     audit.leaf_error = ErrorEstimate{};  // B = E is exact
-    if (picture) { audit.picture_error = audit.leaf_error; }
+    if (reconstructed) { audit.surface_error = audit.leaf_error; }
+    if (control.picture_error) { audit.picture_error = PictureError{}; }
   } else if (options.audit_points > 0 && plan.traceable && !control.cancelled()) {
-    MeasuredError measured;
-    const auto measure = [&](std::uint64_t points, MeasuredError& to) {
-      measure_error(scene, objects, boundary, exposure, solution.mesh, direct ? &*direct : nullptr, points, threads, options.seed, to,
-                    control);
-      return !control.cancelled();
-    };
-    if (options.error) {
-      // A ray of a path costs as much as two segments of links or two thirds of a link.
-      const std::uint64_t solution_rays = (audit.rays + 3 * audit.links) / 2;
-      decide_error(measure, picture ? &MeasuredError::picture : &MeasuredError::leaf, options.audit_points, *options.error, solution_rays,
-                   std::max<std::uint64_t>(25'000'000, 2 * solution_rays), measured);
-    } else {
-      measure(options.audit_points, measured);
-    }
-    if (!control.cancelled()) {
-      audit.leaf_error = measured.leaf.estimate();
-      if (picture) { audit.picture_error = measured.picture.estimate(); }
-      const double split = std::max(0.0, measured.direct) + std::max(0.0, measured.other);
-      if (split > 0.0) { audit.direct_share = std::max(0.0, measured.direct) / split; }
-      audit.audit_points = measured.points();
-      audit.audit_rays = measured.rays;
-    }
+    measure_errors(options, control, SurfaceErrorMeter{scene, objects, tracer, exposure, solution.mesh, direct ? &*direct : nullptr, options.seed},
+                   threads, solution);
     watch.lap("audit");
   }
   if (options.audit_points > 0 && needs_links && plan.traceable && !audit.leaf_error && control.cancelled()) {
@@ -248,49 +271,8 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
   std::vector<std::string> sentences = faults(options);
   if (!sentences.empty()) { return detail::failed(Failure::Kind::invalid_options, std::move(sentences)); }
   if (!options.error) { return detail::solve_at(scene, options, control); }
-  const double wanted = *options.error;
-  Options round = options;
-  round.epsilon = 0.04;
-  round.min_area = 3.84e-3;
-  round.target = wanted;
-  std::vector<StageTime> stages;
-  Outcome before;
-  double error_before = std::numeric_limits<double>::infinity();
-  for (;;) {
-    Outcome outcome = detail::solve_at(scene, round, control);
-    if (!outcome.solution && outcome.failure.kind == Failure::Kind::cancelled && before.solution) {
-      before.solution->audit.interrupted = true;
-      before.solution->audit.converged = false;
-      return before;
-    }
-    if (!outcome.solution) { return outcome; }
-    Audit& audit = outcome.solution->audit;
-    detail::add_times(stages, audit.stages);
-    const std::optional<ErrorEstimate>& error = round.reconstruction != Reconstruction::none ? audit.picture_error : audit.leaf_error;
-    const bool met = within(error, wanted);
-    // Finer where the error is: in the light of lamps, in the rest, or in both; a smaller step where little is missing.
-    const double direct = audit.direct_share.value_or(0.5);
-    const bool stalled = error && error->relative_l2 > 0.8 * error_before;
-    const double missing = error ? 0.8 * wanted / error->relative_l2 : 0.0;
-    const double step = std::clamp(missing * missing, 0.5, 0.6);
-    round.light_epsilon = (direct > 0.35 || stalled ? step : 1.0) * audit.light_epsilon;
-    if (direct < 0.65 || stalled) {
-      round.epsilon *= step;
-      round.min_area *= step * step;  // so does what the ends of shadows and contacts leave out
-    }
-    round.target *= error ? std::clamp(0.7 * wanted / error->relative_l2, 0.25, 0.8) : 0.5;
-    if (met || audit.interrupted || audit.links > 10'000'000 || round.epsilon < 1e-5 || *round.light_epsilon < 1e-6 ||
-        round.target < 1e-6) {
-      audit.converged = audit.converged && met;
-      audit.stages = std::move(stages);
-      detail::sum_times(audit);
-      return outcome;
-    }
-    error_before = error ? error->relative_l2 : error_before;
-    before = std::move(outcome);
-    before.solution->audit.stages = stages;
-    detail::sum_times(before.solution->audit);
-  }
+  const bool of_picture = static_cast<bool>(control.picture_error);
+  return detail::solve_to_error(options, of_picture, [&](const Options& round) { return detail::solve_at(scene, round, control); });
 }
 
 }  // namespace radiosity

@@ -8,8 +8,10 @@
 #include <map>
 #include <utility>
 
+#include <radiosity/picture_error.hpp>
 #include <radiosity/radiosity.hpp>
 
+#include "apps/audited_picture.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/files.hpp"
 #include "apps/interrupt.hpp"
@@ -128,26 +130,61 @@ struct Output {
   std::string bytes;
 };
 
-std::optional<Picture> draw(const RenderOptions& options, const radiosity::Scene& scene, const radiosity::Solution& solution,
-                            const View& view, double exposure, const radiosity::Control& control) {
-  if (options.method == PictureMethod::mesh) { return draw(solution.mesh, view, exposure, 4, control.cancel); }
-  const radiosity::Lookup lookup(scene, solution.mesh, solution.frame);
-  return draw(lookup, view, exposure, options.solver.threads, 4, control);
-}
+// Draws a solution as it will be shown, and audits what it has drawn.
+class Artist {
+ public:
+  Artist(const RenderOptions& options, const SceneFile& file, const Camera& camera)
+      : options_{options}, file_{file}, view_{make_view(camera, options.size.value_or(camera.size.value_or(PictureSize{})))} {}
+
+  [[nodiscard]] double exposure(const radiosity::Solution& solution) const {
+    return options_.exposure ? *options_.exposure : automatic_exposure(solution.mesh, file_.scene);
+  }
+  [[nodiscard]] PictureSize size() const { return view_.size; }
+  // Nothing when interrupted.
+  [[nodiscard]] std::optional<Picture> draw(const radiosity::Solution& solution, const radiosity::Control& control) const {
+    const double by = exposure(solution);
+    if (options_.method == PictureMethod::mesh) { return apps::draw(solution.mesh, view_, by, 4, control.cancel); }
+    const radiosity::Lookup lookup(file_.scene, solution.mesh, solution.frame);
+    return apps::draw(lookup, view_, by, options_.solver.threads, 4, control);
+  }
+  [[nodiscard]] std::optional<radiosity::PictureError> audit(const Picture& picture, double exposure, const radiosity::AuditGoal& goal,
+                                                             const radiosity::Control& control) {
+    if (!asked_) {
+      audit_ = radiosity::PictureAudit::make(file_.scene);
+      asked_ = true;
+    }
+    if (!audit_) { return std::nullopt; }
+    return audit_->measure(audited(picture, view_, exposure), goal, options_.solver.threads, options_.solver.seed, control);
+  }
+
+ private:
+  const RenderOptions& options_;
+  const SceneFile& file_;
+  View view_;
+  std::optional<radiosity::PictureAudit> audit_;
+  bool asked_ = false;
+};
 
 // Everything that is to be written, in memory. Nothing when interrupted.
-std::optional<std::vector<Output>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera,
+std::optional<std::vector<Output>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
                                           const radiosity::Solution& solution, const radiosity::Control& control, Report& report) {
+  if (control.cancelled()) { return std::nullopt; }
   std::vector<Output> outputs;
   std::string png;
   if (has_picture(options)) {
     const Stopwatch watch;
-    const PictureSize size = options.size.value_or(camera.size.value_or(PictureSize{}));
-    const auto picture = draw(options, file.scene, solution, make_view(camera, size), report.exposure, control);
+    const auto picture = artist.draw(solution, control);
     if (!picture) { return std::nullopt; }
     png = to_png(*picture);
-    report.picture = PictureReport{camera.name, size.width, size.height, options.method};
+    report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
     report.picture_time = watch.stop("picture");
+    if (!report.audit.picture_error && options.solver.audit_points > 0) {
+      const Stopwatch audit_watch;
+      report.audit.picture_error =
+          artist.audit(*picture, report.exposure, radiosity::goal_to_know(report.audit, options.solver.audit_points), control);
+      report.audit.stages.push_back(audit_watch.stop("picture audit"));
+      report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, its error not measured
+    }
   }
   for (const std::string& path : options.outputs) {
     const bool is_png = format_of(path) == Format::png;
@@ -158,7 +195,6 @@ std::optional<std::vector<Output>> encode(const RenderOptions& options, const Sc
     report.files.push_back(options.json);
     outputs.push_back({options.json, to_json(report)});
   }
-  if (control.cancelled()) { return std::nullopt; }
   return outputs;
 }
 
@@ -184,6 +220,11 @@ void describe(CLI::App& command, RenderOptions& options) {
       ->allow_extra_args(false);
   auto* error =
       command.add_option("--error", solver.error, "refine until the measured relative L2 error is at most this")->check(above_zero(1.0));
+  command
+      .add_option("--error-of", options.error_of,
+                  "what --error is about: picture, what the camera sees (the default with a .png), or surfaces, all of them by area")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, ErrorOf>{{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}}))
+      ->needs(error);
   // BF-refinement is asked for by what ends it.
   const auto bf = [&solver](const std::string&) { solver.refinement = radiosity::Refinement::a_posteriori; };
   auto* target =
@@ -273,6 +314,15 @@ ExitCode run(const RenderOptions& options) {
   radiosity::Control control;
   control.cancel = &cancel;
   control.progress = [&](std::string_view stage, double part) { progress.report(stage, part); };
+  Artist artist(options, *file, *camera);
+  if (settings.error && options.error_of.value_or(has_picture(options) ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
+    control.picture_error = [&](const radiosity::Solution& solution,
+                                const radiosity::AuditGoal& goal) -> std::optional<radiosity::PictureError> {
+      const auto picture = artist.draw(solution, control);
+      if (!picture) { return std::nullopt; }
+      return artist.audit(*picture, artist.exposure(solution), goal, control);
+    };
+  }
   const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
   if (outcome.solution && outcome.solution->audit.interrupted) { control = control.unstoppable(); }  // what there is, is written
   progress.done();
@@ -284,8 +334,8 @@ ExitCode run(const RenderOptions& options) {
   report.options = settings;
   report.audit = solution.audit;
   report.automatic_exposure = !options.exposure;
-  report.exposure = options.exposure ? *options.exposure : automatic_exposure(solution.mesh, file->scene);
-  const auto outputs = encode(options, *file, *camera, solution, control, report);
+  report.exposure = artist.exposure(solution);
+  const auto outputs = encode(options, *file, *camera, artist, solution, control, report);
   progress.done();
   if (!outputs) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
   if (code = write_all(*outputs); code != ExitCode::ok) { return code; }
@@ -294,7 +344,7 @@ ExitCode run(const RenderOptions& options) {
     complain("cannot write the report to standard output");
     return ExitCode::failure;
   }
-  if (solution.audit.interrupted) {
+  if (report.audit.interrupted) {
     complain("interrupted: the outputs show the best solution so far");
     return ExitCode::not_converged;
   }

@@ -20,6 +20,8 @@
 
 namespace apps {
 
+enum class ErrorOf { picture, surfaces };
+
 struct RenderOptions {
   std::string scene;
   std::vector<std::string> outputs;  // *.png, *.ply
@@ -29,6 +31,7 @@ struct RenderOptions {
   std::optional<double> exposure;
   PictureMethod method = PictureMethod::mesh;
   bool quiet = false;
+  std::optional<ErrorOf> error_of;  // default: of the picture when there is one
   radiosity::Options solver;
 };
 

@@ -91,7 +91,7 @@ void draw_creases(apps::Picture& picture, const apps::Picture& normals) {
 }
 
 apps::Picture below(const apps::Picture& upper, const apps::Picture& lower) {
-  apps::Picture result{std::max(upper.width, lower.width), upper.height + lower.height, {}};
+  apps::Picture result{std::max(upper.width, lower.width), upper.height + lower.height, {}, {}};
   result.rgb.assign(std::size_t{3} * result.width * result.height, 255);
   std::uint32_t top = 0;
   for (const apps::Picture* part : {&upper, &lower}) {

@@ -9,7 +9,7 @@
 #include <radiosity/parallel.hpp>
 #include <radiosity/polygons.hpp>
 #include <radiosity/prepare.hpp>
-#include <radiosity/reference.hpp>
+#include <radiosity/path_tracer.hpp>
 #include <radiosity/sobol.hpp>
 #include <radiosity/visibility.hpp>
 

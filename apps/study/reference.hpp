@@ -3,7 +3,7 @@
 
 // What the radiosity of a scene truly is, at fixed points: every input surface is cut into cells, every cell holds up to four stratified
 // points of the true surface that are not buried. In a closed scene where every surface emits 1 - rho times the same, B is
-// that number everywhere (the furnace; any shapes, any occluders); else each point is path-traced (radiosity/reference.hpp) and brings its standard errors.
+// that number everywhere (the furnace; any shapes, any occluders); else each point is path-traced (radiosity/path_tracer.hpp) and brings its standard errors.
 //
 // Path-traced values are kept in a file, with a checksum of all they depend on and one of themselves: a file that is damaged, or
 // made for another scene, is made anew and never trusted.

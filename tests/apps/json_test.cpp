@@ -67,8 +67,8 @@ TEST_CASE("the report has its documented keys") {
   audit.cpu_seconds = 4.5;
   audit.nodes = 12;
   audit.row_sum.mean = 0.5;
-  audit.picture_error = radiosity::ErrorEstimate{0.02, 0.001};
-  audit.leaf_error = radiosity::ErrorEstimate{0.04, 0.002};
+  audit.surface_error = radiosity::ErrorEstimate{0.02, 0.001, 0.018, 0.022};
+  audit.leaf_error = radiosity::ErrorEstimate{0.04, 0.002, 0.036, 0.044};
   audit.left_out = {{"channels", "all is grey", "two thirds"}};
   audit.surfaces = {{"floor", 4.0, radiosity::Color(1.0, 2.0, 3.0)}};
   report.picture_time = radiosity::StageTime{"picture", 0.1, 0.1};
@@ -92,7 +92,7 @@ TEST_CASE("the report has its documented keys") {
   CHECK(value["surfaces"][0]["radiosity"].numbers() == std::vector<double>{1.0, 2.0, 3.0});
   CHECK(value["closure"].is_null());
   CHECK(value["converged"].boolean());
-  audit.picture_error.reset();
+  audit.surface_error.reset();
   audit.leaf_error.reset();
   CHECK(json::parse(apps::to_json(report))["error"].is_null());
   CHECK(apps::to_text(report).find("not measured") != std::string::npos);

@@ -167,8 +167,8 @@ TEST_CASE("the same bits with 1, 2 and 5 threads, and from run to run") {
     const Solution other = solved(scenes::room_with_box(), options);
     CHECK((other.radiosity == one.radiosity));
     CHECK(other.audit.rays == one.audit.rays);
-    REQUIRE(other.audit.picture_error);
-    CHECK(other.audit.picture_error->relative_l2 == one.audit.picture_error->relative_l2);
+    REQUIRE(other.audit.surface_error);
+    CHECK(other.audit.surface_error->relative_l2 == one.audit.surface_error->relative_l2);
     REQUIRE(other.mesh.corners.size() == one.mesh.corners.size());
     for (std::size_t i = 0; i < one.mesh.corners.size(); ++i) { REQUIRE(other.mesh.corners[i].radiosity == one.mesh.corners[i].radiosity); }
   }

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The rounds that meet an error target: ever finer solutions, until the audit witnesses that one is fine enough.
+//
+// What the rounds are does not depend on the target, only where they end: so a tighter target ends at the same solution as a looser one,
+// or at a finer one. A run gives up when the next round would need more than link_budget links, when the thresholds have reached their
+// floor, or when three rounds running were no better than the best before them. It then returns the last one, unless an earlier one is
+// better beyond the doubt of both audits.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <radiosity/audit.hpp>
+#include <radiosity/options.hpp>
+#include <radiosity/radiosity.hpp>
+
+namespace radiosity {
+
+// About half of what the solver accepts (too_many_links), because a round has up to twice the links of the one before.
+inline constexpr std::uint64_t link_budget = 10'000'000;
+
+namespace detail {
+
+// The error at which a target aims.
+[[nodiscard]] inline std::optional<ErrorEstimate> aimed_error(const Audit& audit, const Options& options, bool of_picture) {
+  if (of_picture) { return audit.picture_error ? std::optional{audit.picture_error->error} : std::nullopt; }
+  return options.reconstruction != Reconstruction::none ? audit.surface_error : audit.leaf_error;
+}
+
+// `solve_round` solves at a given fineness and measures the errors.
+[[nodiscard]] inline Outcome solve_to_error(const Options& options, bool of_picture,
+                                            const std::function<Outcome(const Options&)>& solve_round) {
+  const double wanted = *options.error;
+  Options round = options;
+  round.epsilon = 0.04;
+  round.min_area = 3.84e-3;
+  round.target = 0.16;
+  std::vector<StageTime> stages;
+  Outcome best;
+  std::optional<ErrorEstimate> best_error;
+  int without_gain = 0;
+  for (;;) {
+    Outcome outcome = solve_round(round);
+    if (!outcome.solution) {
+      if (!best.solution) { return outcome; }
+      best.solution->audit.interrupted = outcome.failure.kind == Failure::Kind::cancelled;
+    } else {
+      const Audit& audit = outcome.solution->audit;
+      add_times(stages, audit.stages);
+      const std::optional<ErrorEstimate> error = aimed_error(audit, options, of_picture);
+      if (!error && !audit.interrupted) {
+        return failed(Failure::Kind::invalid_options,
+                      {of_picture ? "no pixel of the picture shows reflected light whose paths end, so its error cannot be measured; aim at "
+                                    "the error over all surfaces, or give an epsilon instead of an error"
+                                  : "the error of this scene cannot be measured, for its paths do not end or meet no light; give an "
+                                    "epsilon instead of an error"});
+      }
+      const bool gained = !best_error || !error || error->relative_l2 < 0.95 * best_error->relative_l2;
+      without_gain = gained ? 0 : without_gain + 1;
+      // Finer where the error is: in the light of lamps, in the rest, or in both.
+      const double direct = of_picture || !gained ? 0.5 : audit.direct_share.value_or(0.5);
+      constexpr double step = 0.55;
+      round.light_epsilon = (direct > 0.35 ? step : 1.0) * audit.light_epsilon;
+      if (direct < 0.65) {
+        round.epsilon *= step;
+        round.min_area *= step * step;  // so does what the ends of shadows and contacts leave out
+      }
+      round.target *= 0.5;
+      const bool floor = options.refinement == Refinement::a_priori ? round.epsilon < 1e-5 || *round.light_epsilon < 1e-6 : round.target < 1e-4;
+      const bool over = audit.interrupted || audit.links > link_budget || floor || without_gain == 3;
+      const bool met = error && error->within(wanted);
+      if (!best.solution || !best_error || (error && !(best_error->high < error->low))) {
+        best = std::move(outcome);
+        best_error = error;
+      }
+      if (!met && !over) { continue; }
+    }
+    Audit& audit = best.solution->audit;
+    audit.converged = audit.converged && !audit.interrupted && best_error && best_error->within(wanted);
+    audit.stages = std::move(stages);
+    sum_times(audit);
+    return best;
+  }
+}
+
+}  // namespace detail
+
+}  // namespace radiosity

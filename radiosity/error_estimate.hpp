@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A relative L2 error from samples, with an interval that holds the truth in 95 of 100 cases.
+//
+// At N random points (of the surfaces, or of a picture) two independent estimates b1, b2 of the true radiosity are made; the mean of
+// (b1 - B)(b2 - B) is an unbiased estimate of the mean squared error of B, because the noise of b1 and b2 is independent. It is
+// given relative to the mean square of the reflected radiosity B - E (a lamp is exact by definition and must not flatter the figure),
+// estimated without bias in the same way.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace radiosity {
+
+struct ErrorEstimate {
+  double relative_l2 = 0.0;     // RMS error / RMS reflected radiosity; all channels together
+  double standard_error = 0.0;  // of relative_l2
+  double low = 0.0, high = 0.0;  // the 95 % interval; low is 0 where the noise hides the error
+
+  // Is the error known to be at most, or above, `wanted`?
+  [[nodiscard]] bool within(double wanted) const { return high <= wanted; }
+  [[nodiscard]] bool above(double wanted) const { return low > wanted; }
+};
+
+// Samples of the two mean squares, one a point.
+struct ErrorSums {
+  std::vector<double> square, reference;  // (b1 - B)(b2 - B) and (b1 - E)(b2 - E)
+  double noise = 0.0;                     // what the noise of b1 and b2 adds to the variance of `square`, summed over the points
+
+  void add(double of_square, double of_reference, double of_noise) {
+    square.push_back(of_square);
+    reference.push_back(of_reference);
+    noise += of_noise;
+  }
+
+  // Of the ratio R of both means: mean, the variance and the skewness of square - R reference from point to point, relative to the mean
+  // of `reference`. Nothing with fewer than two points, or when they see no light.
+  struct Moments {
+    double ratio = 0.0, variance = 0.0, skewness = 0.0;
+    double noise_share = 0.0;  // of the variance
+  };
+  [[nodiscard]] std::optional<Moments> moments() const {
+    const auto n = static_cast<double>(square.size());
+    if (square.size() < 2) { return std::nullopt; }
+    double error = 0.0;
+    double signal = 0.0;
+    for (std::size_t i = 0; i < square.size(); ++i) {
+      error += square[i] / n;
+      signal += reference[i] / n;
+    }
+    if (!(signal > 0.0)) { return std::nullopt; }
+    Moments result;
+    result.ratio = error / signal;
+    double second = 0.0;
+    double third = 0.0;
+    for (std::size_t i = 0; i < square.size(); ++i) {
+      const double off = (square[i] - result.ratio * reference[i]) / signal;
+      second += off * off;
+      third += off * off * off;
+    }
+    result.variance = second / (n - 1.0);
+    if (result.variance > 0.0) {
+      result.skewness = third / n / (result.variance * std::sqrt(result.variance));
+      result.noise_share = std::min(1.0, noise / n / (result.variance * signal * signal));
+    }
+    return result;
+  }
+
+  // Squared errors are skewed: most are small, a few large. So the interval is the usual one for the mean after a cubic transformation
+  // that takes the skewness out of it (Hall 1992), and leans to the side of the larger errors that were not met by chance.
+  [[nodiscard]] std::optional<ErrorEstimate> estimate() const {
+    const std::optional<Moments> m = moments();
+    if (!m) { return std::nullopt; }
+    const auto n = static_cast<double>(square.size());
+    const double noise_of_mean = std::sqrt(m->variance / n);
+    const double lean = m->skewness / std::sqrt(n);
+    const auto quantile = [&](double x) {  // of (estimate - truth) / noise, where x is that of the normal distribution
+      return std::abs(lean) > 1e-6 ? 3.0 / lean * (std::cbrt(1.0 + lean * (x - lean / 6.0)) - 1.0) : x;
+    };
+    constexpr double two_sided = 1.959963984540054;  // 95 %
+    const auto root = [](double x) { return std::sqrt(std::max(0.0, x)); };
+    ErrorEstimate result;
+    result.relative_l2 = root(m->ratio);
+    result.low = root(m->ratio - noise_of_mean * quantile(two_sided));
+    result.high = std::max(result.relative_l2, root(m->ratio - noise_of_mean * quantile(-two_sided)));
+    // d sqrt(x) = dx / (2 sqrt(x)); where the error is lost in the noise, the noise itself bounds it.
+    result.standard_error = m->ratio > noise_of_mean ? 0.5 * noise_of_mean / result.relative_l2 : std::sqrt(noise_of_mean);
+    return result;
+  }
+};
+
+// A share of which the noise leaves open how large it is.
+struct ShareBounds {
+  double least = 0.0, most = 0.0;
+};
+
+// Of a picture (picture_error.hpp).
+struct PictureError {
+  ErrorEstimate error;       // relative L2 over the visible pixels without lamps
+  double audited = 0.0;      // share of all pixels that are visible and without lamps
+  ShareBounds over2, over8;  // share of those in which a channel is more than 2, 8 of 255 levels off
+  // Of the tiles of 4 x 4 that have at least 16 of the pixels, the one with the largest lower bound of its error; in the same unit.
+  struct Tile {
+    std::uint32_t column = 0, row = 0;
+    ErrorEstimate error;
+  };
+  std::optional<Tile> worst;
+  std::uint64_t points = 0, rays = 0;
+};
+
+}  // namespace radiosity

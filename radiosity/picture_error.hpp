@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The error of a picture: what the camera does not see does not count, and what it sees large counts much. Pixels are drawn evenly; the
+// truth of a pixel is the mean of the path-traced radiosity over its square, estimated twice and independently (error_estimate.hpp).
+// Pixels in which a lamp shows are left out, for its radiosity is exact by definition and would hide all else, unless every surface
+// emits; so are those that see nothing. Errors are relative to the reflected radiosity. It does not matter how the picture was made.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include <raycast/scene.hpp>
+
+#include <radiosity/audit_effort.hpp>
+#include <radiosity/error_estimate.hpp>
+#include <radiosity/options.hpp>
+#include <radiosity/parallel.hpp>
+#include <radiosity/path_tracer.hpp>
+#include <radiosity/prepare.hpp>
+#include <radiosity/surface_error.hpp>
+
+namespace radiosity {
+
+// A picture as the audit wants it.
+struct ShownPicture {
+  std::uint32_t width = 0, height = 0;
+  // The ray through the point (x, y), in pixels from the top left corner, in the scene's coordinates; its length does not matter.
+  std::function<raycast::Segment(double x, double y)> ray;
+  // What the pixel shows: mean radiosity over its square, W/m2, without any limit of brightness.
+  std::function<Color(std::uint32_t x, std::uint32_t y)> radiosity;
+  // The level, 0 to 255, at which the radiosity of one channel is displayed.
+  std::function<double(double radiosity)> level;
+};
+
+class PictureAudit {
+ public:
+  // Nothing for a scene that is faulty, or of which paths do not end (plan.hpp).
+  [[nodiscard]] static std::optional<PictureAudit> make(const Scene& scene) {
+    PrepareResult result = prepare(scene);
+    if (!result.prepared || !result.prepared->plan.traceable) { return std::nullopt; }
+    return PictureAudit{scene, std::move(*result.prepared)};
+  }
+
+  // Nothing when cancelled, or when no visible pixel reflects light. `rays`: see AuditGoal. Depends on picture, goal and seed alone.
+  [[nodiscard]] std::optional<PictureError> measure(const ShownPicture& picture, const AuditGoal& goal, unsigned threads,
+                                                    std::uint64_t seed, const Control& control = {}) const {
+    std::uint64_t keys = 0;
+    Measured measured;
+    const auto measure = [&](std::uint64_t points, std::uint32_t paths, Measured& to) {
+      to.side = static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(points))));
+      const std::uint64_t first = std::exchange(keys, keys + std::uint64_t{to.side} * to.side);
+      to.samples.assign(std::size_t{to.side} * to.side, {});
+      constexpr std::size_t batch = 512;  // between two looks at the cancel flag
+      for (std::size_t done = 0; done < to.samples.size() && !control.cancelled(); done += batch) {
+        parallel_for(std::min(batch, to.samples.size() - done), thread_count(threads), [&](std::size_t offset) {
+          if (control.cancelled()) { return; }
+          const std::size_t i = done + offset;
+          to.samples[i] = measure_pixel(picture, seed, first + i, i % to.side, i / to.side, to.side, paths);
+        }, 4);
+        control.report("audit", static_cast<double>(done) / static_cast<double>(to.samples.size()));
+      }
+      for (const Sample& sample : to.samples) {
+        to.rays += sample.rays;
+        if (sample.valid) { to.sums.add(sample.square, sample.reference, sample.noise); }
+      }
+      return !control.cancelled();
+    };
+    if (!measure_to_goal<Measured>(measure, [](const Measured& m) -> const ErrorSums& { return m.sums; }, goal, measured)) {
+      return std::nullopt;
+    }
+    return summary(picture, measured);
+  }
+
+ private:
+  struct Sample {
+    std::uint32_t x = 0, y = 0;
+    double square = 0.0, reference = 0.0, noise = 0.0;
+    double levels = 0.0, doubt = 0.0;  // the largest difference of a channel, and how far noise may have moved it
+    std::uint64_t rays = 0;
+    bool valid = false;
+  };
+  struct Measured {
+    std::vector<Sample> samples;
+    ErrorSums sums;
+    std::uint32_t side = 0;
+    std::uint64_t rays = 0;
+  };
+  struct Seen {
+    raycast::SurfacePoint point;
+    std::uint32_t object = 0, sheet = 0;
+  };
+
+  PictureAudit(const Scene& scene, Prepared prepared)
+      : prepared_{std::make_unique<Prepared>(std::move(prepared))}, tracer_{scene, prepared_->objects, prepared_->surfaces} {
+    const auto inputs = surfaces(scene);
+    all_emit_ = std::none_of(inputs.begin(), inputs.end(), [&](const InputSurface& s) { return is_black(scene.materials[s.material].emission); });
+  }
+
+  // The first surface that shows its front; backs are looked through, as in the pictures (lookup.hpp).
+  [[nodiscard]] std::optional<Seen> seen(const ShownPicture& picture, double x, double y, std::uint64_t& rays) const {
+    const raycast::Scene& objects = prepared_->objects;
+    raycast::Segment ray = picture.ray(x, y);
+    ray.origin = (ray.origin - prepared_->frame.centre) * prepared_->frame.scale;
+    ray.direction = glm::normalize(ray.direction) * objects.diameter();
+    std::uint32_t from = raycast::no_object;
+    constexpr int most = 10'000;  // only backs are passed, so this ends what rounding might not
+    for (int passed = 0; passed < most; ++passed) {
+      ++rays;
+      const auto hit = objects.closest(ray, from);
+      if (!hit) { return std::nullopt; }
+      const raycast::SurfacePoint point = objects.object(hit->object).project(hit->sheet, ray.at(hit->t));
+      if (hit->front && !objects.covered(point.position, point.normal, hit->object)) { return Seen{point, hit->object, hit->sheet}; }
+      ray.origin = point.position;
+      from = hit->object;
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] const Color& emission(const Seen& at) const { return tracer_.material(tracer_.surface(at.object, at.sheet)).emission; }
+
+  // A pixel of the cell (column, row) of side x side cells of the picture.
+  [[nodiscard]] Sample measure_pixel(const ShownPicture& picture, std::uint64_t seed, std::uint64_t key, std::size_t column, std::size_t row,
+                                     std::uint32_t side, std::uint32_t paths) const {
+    Sample sample;
+    Random random{seed, key, 0x706978656cull};
+    const auto place = [&](std::size_t cell, std::uint32_t pixels) {
+      const double at = (static_cast<double>(cell) + random.uniform()) / side * pixels;
+      return std::min(static_cast<std::uint32_t>(at), pixels - 1);
+    };
+    sample.x = place(column, picture.width);
+    sample.y = place(row, picture.height);
+    bool sees = false;
+    Color emitted{0.0};
+    for (std::uint32_t k = 0; k < 16; ++k) {
+      const auto at = seen(picture, sample.x + (k % 4 + 0.5) / 4.0, sample.y + (k / 4 + 0.5) / 4.0, sample.rays);
+      if (!at) { continue; }
+      if (!sees) { emitted = emission(*at); }
+      if (emission(*at) != emitted) { return sample; }
+      sees = true;
+    }
+    if (!sees || (!all_emit_ && !is_black(emitted))) { return sample; }
+    bool edge = false;  // of a lamp
+    const TwoEstimates light{seed, key, paths, [&](PathNumbers& numbers) -> PathTracer::Light {
+                               const double u = numbers.uniform();
+                               const auto at = seen(picture, sample.x + u, sample.y + numbers.uniform(), sample.rays);
+                               if (!at) { return {}; }
+                               edge = edge || emission(*at) != emitted;
+                               return tracer_.radiosity(at->point.position, at->point.normal, at->object, at->sheet, numbers, sample.rays);
+                             }};
+    if (edge) { return sample; }
+    const Color shown = picture.radiosity(sample.x, sample.y);
+    sample.square = glm::dot(light.all[0] - shown, light.all[1] - shown);
+    sample.reference = glm::dot(light.all[0] - emitted, light.all[1] - emitted);
+    sample.noise = light.noise();
+    for (int c = 0; c < 3; ++c) {
+      const double level = picture.level(shown[c]);
+      const double low = picture.level(std::min(light.all[0][c], light.all[1][c]));
+      const double high = picture.level(std::max(light.all[0][c], light.all[1][c]));
+      const double off = std::abs(picture.level(0.5 * (light.all[0][c] + light.all[1][c])) - level);
+      sample.levels = std::max(sample.levels, off);
+      sample.doubt = std::max(sample.doubt, high - low);  // two standard errors of the mean of both, about
+    }
+    sample.valid = true;
+    return sample;
+  }
+
+  [[nodiscard]] std::optional<PictureError> summary(const ShownPicture& picture, const Measured& measured) const {
+    const std::optional<ErrorEstimate> error = measured.sums.estimate();
+    if (!error) { return std::nullopt; }
+    PictureError result;
+    result.error = *error;
+    result.points = measured.sums.square.size();
+    result.rays = measured.rays;
+    result.audited = static_cast<double>(result.points) / static_cast<double>(measured.samples.size());
+    const auto share = [&](double levels) {
+      ShareBounds bounds;
+      for (const Sample& sample : measured.samples) {
+        if (!sample.valid) { continue; }
+        bounds.least += (sample.levels - sample.doubt > levels ? 1.0 : 0.0) / static_cast<double>(result.points);
+        bounds.most += (sample.levels + sample.doubt > levels ? 1.0 : 0.0) / static_cast<double>(result.points);
+      }
+      return bounds;
+    };
+    result.over2 = share(2.0);
+    result.over8 = share(8.0);
+    const double mean_reference = [&] {
+      double sum = 0.0;
+      for (const double r : measured.sums.reference) { sum += r; }
+      return sum / static_cast<double>(result.points);
+    }();
+    std::array<ErrorSums, 16> tiles;
+    for (const Sample& sample : measured.samples) {
+      if (!sample.valid) { continue; }
+      const std::size_t column = std::size_t{4} * sample.x / picture.width, row = std::size_t{4} * sample.y / picture.height;
+      tiles[4 * row + column].add(sample.square, mean_reference, sample.noise);
+    }
+    for (std::uint32_t t = 0; t < tiles.size(); ++t) {
+      const std::optional<ErrorEstimate> of_tile = tiles[t].square.size() >= 16 ? tiles[t].estimate() : std::nullopt;
+      if (of_tile && (!result.worst || of_tile->low > result.worst->error.low)) { result.worst = PictureError::Tile{t % 4, t / 4, *of_tile}; }
+    }
+    return result;
+  }
+
+  std::unique_ptr<Prepared> prepared_;  // the tracer points into it
+  PathTracer tracer_;
+  bool all_emit_ = false;  // every surface does
+};
+
+}  // namespace radiosity

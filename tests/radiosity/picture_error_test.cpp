@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+
+// The audit of a picture: it finds errors that were put into pixels, where they are, and only those that the camera sees.
+
+#include <cmath>
+#include <cstdint>
+
+#include <radiosity/picture_error.hpp>
+
+#include "catch.hpp"
+#include "scenes.hpp"
+
+using radiosity::Color;
+using radiosity::PictureAudit;
+using radiosity::PictureError;
+using radiosity::ShownPicture;
+
+namespace {
+
+// A camera at `eye` that looks along +y, 90 degrees wide; displayed levels are 100 times the radiosity.
+ShownPicture seen_from(const glm::dvec3& eye, std::function<Color(std::uint32_t, std::uint32_t)> radiosity) {
+  return {32, 32, [eye](double x, double y) { return raycast::Segment{eye, {x / 16.0 - 1.0, 1.0, 1.0 - y / 16.0}}; }, std::move(radiosity),
+          [](double b) { return 100.0 * b; }};
+}
+
+PictureError measured(const radiosity::Scene& scene, const ShownPicture& picture, unsigned threads = 1) {
+  const auto audit = PictureAudit::make(scene);
+  REQUIRE(audit);
+  const auto error = audit->measure(picture, {400, 400'000}, threads, 1);
+  REQUIRE(error);
+  return *error;
+}
+
+}  // namespace
+
+TEST_CASE("picture audit: a picture of a furnace that is right is found right, one that is off by 5 % as much off everywhere") {
+  const radiosity::Scene scene = scenes::furnace_with_things(0.5);  // B = 1, half of it reflected
+  const glm::dvec3 eye{0.5, 0.02, 0.5};
+  const PictureError right = measured(scene, seen_from(eye, [](auto, auto) { return Color{1.0}; }));
+  CHECK(right.error.low == 0.0);
+  CHECK(right.over8.least == 0.0);
+  const PictureError off = measured(scene, seen_from(eye, [](auto, auto) { return Color{1.05}; }));
+  CAPTURE(off.error.relative_l2, off.error.low, off.error.high);
+  CHECK(off.error.low <= 0.1);
+  CHECK(off.error.high >= 0.1);
+  CHECK(off.error.high - off.error.low < 0.05);
+  CHECK(off.audited == 1.0);
+  CHECK(off.over2.most == test::Approx(1.0));  // by 5 levels
+  CHECK(off.over8.least == 0.0);
+}
+
+TEST_CASE("picture audit: an error in one tile is found in that tile") {
+  const auto shown = [](std::uint32_t x, std::uint32_t y) { return Color{x / 8 == 2 && y / 8 == 1 ? 1.5 : 1.0}; };
+  const PictureError error = measured(scenes::furnace_with_things(0.5), seen_from({0.5, 0.02, 0.5}, shown));
+  REQUIRE(error.worst);
+  CHECK(error.worst->column == 2);
+  CHECK(error.worst->row == 1);
+  CHECK(error.worst->error.low <= 1.0);  // off by .5, where .5 is reflected
+  CHECK(error.worst->error.high >= 1.0);
+  CHECK(error.over8.least == test::Approx(1.0 / 16.0).margin(0.01));
+  CHECK(error.error.low <= 0.25);
+  CHECK(error.error.high >= 0.25);
+}
+
+TEST_CASE("picture audit: lamps are left out, whatever the picture shows there; so is what meets nothing") {
+  // A vertical plate of side 4 in front of the camera, lit by a sphere lamp in front of it, which hides a part of it.
+  radiosity::Scene scene{{{"plate", Color{0.5}, Color{0.0}}, {"lamp", Color{0.0}, Color{400.0}}}, {}};
+  scene.objects = {scenes::plate("plate", {{-2, 3, -2}, {2, 3, -2}, {2, 3, 2}, {-2, 3, 2}}, 0),
+                   scenes::object("lamp", raycast::Sphere::make({0, 2, 0}, 0.2).object, 1)};
+  const auto shown = [](std::uint32_t x, std::uint32_t y) {  // the mean over 8 x 8 points of a pixel
+    Color sum{0.0};
+    for (int k = 0; k < 64; ++k) {
+      const double px = 3.0 * ((x + (k % 8 + 0.5) / 8.0) / 16.0 - 1.0), pz = 3.0 * (1.0 - (y + (k / 8 + 0.5) / 8.0) / 16.0);
+      const double d2 = px * px + pz * pz + 1.0;
+      if (std::abs(px) < 2.0 && std::abs(pz) < 2.0) { sum += Color{0.5 * 400.0 * 0.04 / (d2 * std::sqrt(d2)) / 64.0}; }
+    }
+    const double lx = 2.0 * ((x + 0.5) / 16.0 - 1.0), lz = 2.0 * (1.0 - (y + 0.5) / 16.0);
+    return lx * lx + lz * lz < 0.09 ? Color{-1000.0} : sum;
+  };
+  const PictureError error = measured(scene, seen_from({0, 0, 0}, shown));
+  CAPTURE(error.error.relative_l2, error.error.low, error.error.high, error.audited);
+  CHECK(error.error.high < 0.02);
+  CHECK(error.audited > 0.3);  // of the picture 4/9 are the plate
+  CHECK(error.audited < 0.5);
+}
+
+TEST_CASE("picture audit: results do not depend on the number of threads") {
+  const auto picture = seen_from({0.5, 0.02, 0.5}, [](std::uint32_t x, auto) { return Color{1.0 + 0.01 * x}; });
+  const PictureError one = measured(scenes::furnace_with_things(0.3), picture, 1), two = measured(scenes::furnace_with_things(0.3), picture, 2);
+  CHECK(one.error.relative_l2 == two.error.relative_l2);
+  CHECK(one.error.high == two.error.high);
+  CHECK(one.rays == two.rays);
+}
