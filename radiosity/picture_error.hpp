@@ -84,7 +84,7 @@ class PictureAudit {
   struct Sample {
     std::uint32_t x = 0, y = 0;
     double square = 0.0, reference = 0.0, noise = 0.0;
-    double levels = 0.0, doubt = 0.0;  // the largest difference of a channel, and how far noise may have moved it
+    double levels = 0.0, noise_in_levels = 0.0;  // the largest difference of a channel; of its two estimates from each other
     std::uint64_t rays = 0;
     bool valid = false;
   };
@@ -166,10 +166,14 @@ class PictureAudit {
       const double high = picture.level(std::max(light.all[0][c], light.all[1][c]));
       const double off = std::abs(picture.level(0.5 * (light.all[0][c] + light.all[1][c])) - level);
       sample.levels = std::max(sample.levels, off);
-      sample.doubt = std::max(sample.doubt, high - low);  // two standard errors of the mean of both, about
+      sample.noise_in_levels = std::max(sample.noise_in_levels, high - low);
     }
     sample.valid = true;
     return sample;
+  }
+
+  [[nodiscard]] static std::size_t tile(const ShownPicture& picture, const Sample& sample) {
+    return 4 * (std::size_t{4} * sample.y / picture.height) + std::size_t{4} * sample.x / picture.width;
   }
 
   [[nodiscard]] std::optional<PictureError> summary(const ShownPicture& picture, const Measured& measured) const {
@@ -180,12 +184,21 @@ class PictureAudit {
     result.points = measured.sums.square.size();
     result.rays = measured.rays;
     result.audited = static_cast<double>(result.points) / static_cast<double>(measured.samples.size());
+    // Two standard errors of the mean of both estimates are the RMS difference between them, over the pixels of a tile.
+    std::array<double, 16> doubt{}, count{};
+    for (const Sample& sample : measured.samples) {
+      if (!sample.valid) { continue; }
+      doubt[tile(picture, sample)] += sample.noise_in_levels * sample.noise_in_levels;
+      count[tile(picture, sample)] += 1.0;
+    }
+    for (std::size_t t = 0; t < 16; ++t) { doubt[t] = count[t] > 0.0 ? std::sqrt(doubt[t] / count[t]) : 0.0; }
     const auto share = [&](double levels) {
       ShareBounds bounds;
       for (const Sample& sample : measured.samples) {
         if (!sample.valid) { continue; }
-        bounds.least += (sample.levels - sample.doubt > levels ? 1.0 : 0.0) / static_cast<double>(result.points);
-        bounds.most += (sample.levels + sample.doubt > levels ? 1.0 : 0.0) / static_cast<double>(result.points);
+        const double by_noise = doubt[tile(picture, sample)];
+        bounds.least += (sample.levels - by_noise > levels ? 1.0 : 0.0) / static_cast<double>(result.points);
+        bounds.most += (sample.levels + by_noise > levels ? 1.0 : 0.0) / static_cast<double>(result.points);
       }
       return bounds;
     };
@@ -199,8 +212,7 @@ class PictureAudit {
     std::array<ErrorSums, 16> tiles;
     for (const Sample& sample : measured.samples) {
       if (!sample.valid) { continue; }
-      const std::size_t column = std::size_t{4} * sample.x / picture.width, row = std::size_t{4} * sample.y / picture.height;
-      tiles[4 * row + column].add(sample.square, mean_reference, sample.noise);
+      tiles[tile(picture, sample)].add(sample.square, mean_reference, sample.noise);
     }
     for (std::uint32_t t = 0; t < tiles.size(); ++t) {
       const std::optional<ErrorEstimate> of_tile = tiles[t].square.size() >= 16 ? tiles[t].estimate() : std::nullopt;

@@ -136,13 +136,13 @@ int intervals_that_hold(const Case& of, double truth, const radiosity::Solution&
     radiosity::SurfaceError measured;
     const bool complete = radiosity::measure_to_goal<radiosity::SurfaceError>(
         [&](std::uint64_t n, std::uint32_t paths, radiosity::SurfaceError& to) { return meter.measure(n, paths, 1, {}, to); },
-        [](const radiosity::SurfaceError& e) -> const radiosity::ErrorSums& { return e.reconstructed; }, {points, 600 * points}, measured);
+        [](const radiosity::SurfaceError& e) -> const radiosity::ErrorSums& { return e.reconstructed; }, {points, 300 * std::uint64_t{points}}, measured);
     REQUIRE(complete);
     const auto error = measured.reconstructed.estimate();
     if (error && error->low <= truth && truth <= error->high) { ++held; }
     if (error && !(error->low <= truth && truth <= error->high)) {
-      UNSCOPED_INFO(of.name << " seed " << seed << ": " << error->low << " to " << error->high << " misses " << truth << ", points "
-                            << measured.points());
+      WARN(of.name << " seed " << seed << ": " << error->low << " to " << error->high << " misses " << truth << ", points "
+                            << measured.points() << " skew " << measured.reconstructed.moments()->skewness);
     }
   }
   return held;
@@ -166,7 +166,7 @@ TEST_CASE("audit: of 240 intervals over 24 scenes of known radiosity at least 93
     const double truth = true_error(solution.mesh, of.exact, 32);
     // The figure is known: from a quarter of the points it is the same to .2 %.
     CHECK(true_error(solution.mesh, of.exact, 16) == test::Approx(truth).epsilon(0.004));
-    held += intervals_that_hold(of, truth, solution, 200, seeds);
+    held += intervals_that_hold(of, truth, solution, 2000, seeds);
   }
   CHECK(held >= static_cast<int>(0.93 * scenes_asked * seeds));
   WARN(held);
