@@ -180,7 +180,7 @@ template <class Function>
     return {value, 1e-5 * value};
   }
   const double scale = extent + distance;
-  const double tolerance = 1e-9 * std::min(a.area, b.area) / (scale * scale);
+  const double tolerance = 1e-9 * std::min(a.area, b.area);
   const double value = std::max(0.0, contour_exchange(p, q, scale, tolerance));
   return {value, 1e-8 * std::min(a.area, b.area)};
 }
