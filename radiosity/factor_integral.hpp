@@ -170,7 +170,8 @@ class Integral {
     }
     wrong_ = false;
     if (!(light > 0.0)) { return result; }
-    const auto points = static_cast<std::uint32_t>(std::clamp(6.0 * light / limits_.wanted, 64.0, static_cast<double>(limits_.most)));
+    // Half of them are rejected below, and what is left open is to be half of the wanted error.
+    const auto points = static_cast<std::uint32_t>(std::clamp(13.0 * light / limits_.wanted, 128.0, static_cast<double>(limits_.most)));
     const Sobol4 sequence{limits_.seed, round};
     double met = 0.0;
     double sum = 0.0;

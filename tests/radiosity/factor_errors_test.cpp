@@ -121,6 +121,7 @@ TEST_CASE("errors of factors: slits from a ten thousandth of the width on, throu
     scene.objects.push_back(scenes::object("left", scenes::polygon(rectangle(-20, a, -20, 20, z))));
     scene.objects.push_back(scenes::object("right", scenes::polygon(rectangle(a + width, 20, -20, 20, z))));
     const Factors f = run(scene, static_cast<std::uint64_t>(trial), 1e-3);
+    CHECK(f.converged);
     coverage.count(f(0, 1), through_window(a, a + width, -20, 20, z));
   }
   coverage.check();
