@@ -9,8 +9,9 @@
 //   near   both contours: G = 1/(2 pi) closed integral over both contours of ln r dx_i . dx_j (Lambert 1760,
 //          in the form of Sparrow 1963). It has no singular kernel: touching patches are as exact as distant ones.
 //
-// Patches that reach below each other's horizon are clipped first. Error for planar patches: below 2e-5 of G by the far rules
-// (see exchange()), below 1e-6 by the near rule; by the small rule that of three Gauss points a side on the small patch.
+// Patches that reach below each other's horizon are clipped first. Error for planar patches: below 2e-5 of G by the far rules (see
+// facing_exchange), below 1e-8 of the smaller area and 1e-14 of the squared extent by the near rule, whatever the angles of the edges; by
+// the small rule that of three Gauss points a side on the small patch.
 
 #include <algorithm>
 #include <cmath>
@@ -23,89 +24,12 @@
 #include <glm/vec3.hpp>
 
 #include <brep/small_list.hpp>
+#include <radiosity/edge_pair.hpp>
 #include <radiosity/patch.hpp>
 
 namespace radiosity {
 
 namespace detail {
-
-// Integral of ln |x - p| over the points x of the segment from a to b, with respect to its length.
-// Exact but for rounding; p may lie on the segment.
-[[nodiscard]] inline double log_potential(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& direction, double length) {
-  const glm::dvec3 d = a - p;
-  const double t0 = glm::dot(d, direction);
-  const double t1 = t0 + length;
-  const double h2 = std::max(0.0, glm::dot(d, d) - t0 * t0);
-  const double h = std::sqrt(h2);
-  const auto term = [](double t, double square) { return square > 0.0 ? 0.5 * t * std::log(square) : 0.0; };
-  const double angle = h > 0.0 ? h * std::atan2(h * length, h2 + t0 * t1) : 0.0;
-  return term(t1, t1 * t1 + h2) - term(t0, t0 * t0 + h2) - length + angle;
-}
-
-// Second antiderivative of ln sqrt(x^2 + h^2): the closed form for two parallel edges at distance h.
-[[nodiscard]] inline double parallel_potential(double x, double h) {
-  const double square = x * x + h * h;
-  if (!(square > 0.0)) { return 0.0; }
-  const double angle = h > 0.0 ? h * x * std::atan2(x, h) : 0.0;
-  return 0.25 * (x * x - h * h) * std::log(square) - 0.75 * x * x + angle;
-}
-
-struct Edge {
-  glm::dvec3 start{0.0};
-  glm::dvec3 direction{0.0};
-  double length = 0.0;
-};
-
-// Six-point Gauss rule over part [s0, s1] of edge `outer` of the potential of edge `inner`.
-[[nodiscard]] inline double gauss_edge(const Edge& outer, const Edge& inner, double s0, double s1) {
-  constexpr double x[3] = {0.23861918608319690863, 0.66120938646626451366, 0.93246951420315202781};
-  constexpr double w[3] = {0.46791393457269104739, 0.36076157304813860757, 0.17132449237917034504};
-  const double middle = 0.5 * (s0 + s1);
-  const double half = 0.5 * (s1 - s0);
-  double sum = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    for (const double s : {middle - half * x[i], middle + half * x[i]}) {
-      sum += w[i] * log_potential(outer.start + s * outer.direction, inner.start, inner.direction, inner.length);
-    }
-  }
-  return half * sum;
-}
-
-// The same integral to a tolerance. The integrand is analytic except where the edges meet; there the interval is bisected
-// until its halves agree with the whole, whose value is given.
-[[nodiscard]] inline double integrate_edge(const Edge& outer, const Edge& inner, double s0, double s1, double whole, double tolerance,
-                                           int depth) {
-  const double middle = 0.5 * (s0 + s1);
-  const double left = gauss_edge(outer, inner, s0, middle);
-  const double right = gauss_edge(outer, inner, middle, s1);
-  const double rounding = 1e-13 * (s1 - s0);  // the logarithms reach 30, in units of the pair
-  if (depth == 0 || std::abs(left + right - whole) <= std::max(tolerance, rounding)) { return left + right; }
-  return integrate_edge(outer, inner, s0, middle, left, 0.5 * tolerance, depth - 1) +
-         integrate_edge(outer, inner, middle, s1, right, 0.5 * tolerance, depth - 1);
-}
-
-// Integral of ln r over both edges.
-[[nodiscard]] inline double edge_pair(const Edge& a, const Edge& b, double tolerance) {
-  // Parallel within rounding, seen over the length of both edges: closed form.
-  const glm::dvec3 across = glm::cross(a.direction, b.direction);
-  if (glm::dot(across, across) < 1e-24) {
-    const glm::dvec3 d = b.start - a.start;
-    const double t0 = glm::dot(d, a.direction);
-    const double t1 = t0 + b.length * glm::dot(a.direction, b.direction);
-    const double h = glm::length(d - t0 * a.direction);
-    const double from = std::min(t0, t1);
-    const double to = std::max(t0, t1);
-    return parallel_potential(a.length - from, h) - parallel_potential(-from, h) - parallel_potential(a.length - to, h) +
-           parallel_potential(-to, h);
-  }
-  const Edge& outer = a.length <= b.length ? a : b;
-  const Edge& inner = &outer == &a ? b : a;
-  const double whole = gauss_edge(outer, inner, 0.0, outer.length);
-  // At half a length of clear distance the six-point rule errs by less than 3.7^-12 of a length.
-  const glm::dvec3 apart = inner.start + 0.5 * inner.length * inner.direction - outer.start - 0.5 * outer.length * outer.direction;
-  if (glm::length(apart) - 0.5 * (a.length + b.length) >= 0.5 * outer.length) { return whole; }
-  return integrate_edge(outer, inner, 0.0, outer.length, whole, tolerance, 24);
-}
 
 // Edges of a contour, those of no length left out.
 inline std::vector<Edge> edges_of(std::span<const glm::dvec3> contour) {
@@ -119,19 +43,23 @@ inline std::vector<Edge> edges_of(std::span<const glm::dvec3> contour) {
   return edges;
 }
 
-// Near rule. `tolerance` is relative to the smaller area.
+// Near rule: errs by at most `tolerance` and rounding, 1e-14 scale^2 or so. `scale` is the extent of both contours together.
 [[nodiscard]] inline double contour_exchange(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double scale, double tolerance) {
   const std::vector<Edge> a = edges_of(p);
   const std::vector<Edge> b = edges_of(q);
+  // Each pair of edges may err by its share.
+  const double share = 2.0 * std::numbers::pi * tolerance / (scale * scale * static_cast<double>(a.size() * b.size()));
   double sum = 0.0;
+  int asked = 0;
   for (const Edge& e : a) {
     for (const Edge& f : b) {
-      const double cosine = glm::dot(e.direction, f.direction);
-      if (std::abs(cosine) < 1e-15) { continue; }
-      // The unit of length falls out of the closed integrals; measuring in units of the pair keeps ln r small.
+      // The unit of length falls out of the closed integrals; in units of the pair r is at most 1 and an edge has |int ln r| <= 1.7 (of
+      // length 1, r = 0 in its middle).
       const Edge es{(e.start - p[0]) / scale, e.direction, e.length / scale};
       const Edge fs{(f.start - p[0]) / scale, f.direction, f.length / scale};
-      sum += cosine * edge_pair(es, fs, tolerance);
+      const double cosine = glm::dot(e.direction, f.direction);
+      if (1.7 * std::abs(cosine) * std::min(es.length, fs.length) <= share) { continue; }
+      sum += cosine * edge_pair(es, fs, share / std::abs(cosine), asked);
     }
   }
   return sum * scale * scale / (2.0 * std::numbers::pi);
@@ -162,9 +90,9 @@ inline std::vector<Edge> edges_of(std::span<const glm::dvec3> contour) {
 
 }  // namespace detail
 
-// Is any part of `q` above the plane of `p`? 1 all of it, 0 some, -1 none. Parts within `slack` of it count as on it.
-[[nodiscard]] inline int above_horizon(const Patch& p, const Patch& q) {
-  const double slack = 1e-12 * (p.radius + q.radius + glm::length(q.centre - p.centre));
+// Is any part of `q` above the plane of `p`? 1 all of it, 0 some, -1 none. Parts within `share` of the extent of both count as on it.
+[[nodiscard]] inline int above_horizon(const Patch& p, const Patch& q, double share = 1e-12) {
+  const double slack = share * (p.radius + q.radius + glm::length(q.centre - p.centre));
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const glm::dvec3& x : q.contour) {
@@ -262,6 +190,23 @@ namespace detail {
   return make_patch(std::move(contour), std::move(parts));
 }
 
+// Of patches that lie above each other's horizon.
+[[nodiscard]] inline double facing_exchange(const Patch& p, const Patch& q) {
+  // Extent over distance. Gauss rules of 2, 3, 4 points a side err by less than 6 (ratio/3)^4, 4 (ratio/3)^6, 3 (ratio/3)^8.
+  const double distance = glm::length(q.centre - p.centre);
+  const double extent = p.radius + q.radius;
+  // Round ratios would be met as equalities by the patches of regular meshes, and rounding would choose the rule.
+  if (extent < 0.0997 * distance) { return kernel_exchange(p.rule2, p.normal, q.rule2, q.normal); }
+  if (extent < 0.3493 * distance) { return kernel_exchange(p.rule3, p.normal, q.rule3, q.normal); }
+  if (extent < 0.6491 * distance) { return kernel_exchange(p.rule4, p.normal, q.rule4, q.normal); }
+  // Against a patch a thousand times its size a patch is hardly more than a point, and the difference of both contours cancels.
+  if (p.radius < 0.997e-3 * q.radius) { return point_exchange(p, q); }
+  if (q.radius < 0.997e-3 * p.radius) { return point_exchange(q, p); }
+  const double scale = extent + distance;
+  const double tolerance = 1e-8 * std::min(p.area, q.area);
+  return std::max(0.0, contour_exchange(p.contour, q.contour, scale, tolerance));
+}
+
 }  // namespace detail
 
 // G = A_p F_pq in the unit of the squared coordinates; 0 when the patches do not face each other.
@@ -269,26 +214,14 @@ namespace detail {
   const int q_side = above_horizon(p, q);
   const int p_side = above_horizon(q, p);
   if (p_side < 0 || q_side < 0 || !(p.area > 0.0) || !(q.area > 0.0)) { return 0.0; }
-  if (p_side == 0 || q_side == 0) {
-    const Patch cut_p = detail::above(p, q);
-    const Patch cut_q = detail::above(q, p);
-    if (!(cut_p.area > 0.0) || !(cut_q.area > 0.0)) { return 0.0; }
-    if (above_horizon(cut_p, cut_q) != 1 || above_horizon(cut_q, cut_p) != 1) { return 0.0; }
-    return exchange(cut_p, cut_q);
-  }
-  // Extent over distance. Gauss rules of 2, 3, 4 points a side err by less than 6 (ratio/3)^4, 4 (ratio/3)^6, 3 (ratio/3)^8.
-  const double distance = glm::length(q.centre - p.centre);
-  const double extent = p.radius + q.radius;
-  // Round ratios would be met as equalities by the patches of regular meshes, and rounding would choose the rule.
-  if (extent < 0.0997 * distance) { return detail::kernel_exchange(p.rule2, p.normal, q.rule2, q.normal); }
-  if (extent < 0.3493 * distance) { return detail::kernel_exchange(p.rule3, p.normal, q.rule3, q.normal); }
-  if (extent < 0.6491 * distance) { return detail::kernel_exchange(p.rule4, p.normal, q.rule4, q.normal); }
-  // Against a patch a thousand times its size a patch is hardly more than a point, and the difference of both contours cancels.
-  if (p.radius < 0.997e-3 * q.radius) { return detail::point_exchange(p, q); }
-  if (q.radius < 0.997e-3 * p.radius) { return detail::point_exchange(q, p); }
-  const double scale = extent + distance;
-  const double tolerance = 1e-8 * std::min(p.area, q.area) / (scale * scale);
-  return std::max(0.0, detail::contour_exchange(p.contour, q.contour, scale, tolerance));
+  if (p_side > 0 && q_side > 0) { return detail::facing_exchange(p, q); }
+  // Faces that lie on each other cross at a tiny angle when their corners are rounded: what rises above the other by 1e-8 of the extent
+  // touches it. Rounded contours are not quite flat, so what was cut may reach below the horizon by as much.
+  const Patch cut_p = detail::above(p, q);
+  const Patch cut_q = detail::above(q, p);
+  if (!(cut_p.area > 0.0) || !(cut_q.area > 0.0)) { return 0.0; }
+  if (above_horizon(p, cut_q, 1e-8) < 0 || above_horizon(q, cut_p, 1e-8) < 0) { return 0.0; }
+  return detail::facing_exchange(cut_p, cut_q);
 }
 
 }  // namespace radiosity

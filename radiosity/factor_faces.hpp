@@ -2,15 +2,13 @@
 #pragma once
 
 // Form factors between flat faces behind flat faces. What stands between two faces is found by the planes of their shaft (the convex hull
-// of both); where nothing does, the exchange is that of exchange.hpp. Else the exact factor from a point to what it sees of the other
-// face (shadow.hpp) is integrated over the smaller one: adaptive bisection with 3 x 3 Gauss points, the worst element first. The
-// integrand is continuous and piecewise analytic, so a thousand points give some six digits and the estimate of the error can be trusted.
+// of both); where nothing does, the exchange is that of exchange.hpp. Where one of them hides all, it is 0. Else the exact factor from a
+// point to what it sees of the other face (shadow.hpp) is integrated over the smaller one (factor_integral.hpp).
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <queue>
 #include <span>
 #include <vector>
 
@@ -20,16 +18,11 @@
 #include <raycast/box.hpp>
 
 #include <radiosity/exchange.hpp>
+#include <radiosity/factor_integral.hpp>
 #include <radiosity/patch.hpp>
 #include <radiosity/shadow.hpp>
 
 namespace radiosity {
-
-// A value and what it is uncertain by.
-struct Estimate {
-  double value = 0.0;
-  double error = 0.0;
-};
 
 // The shaft between two convex polygons that lie above each other's horizon: its planes have both on their inner side.
 class Shaft {
@@ -90,82 +83,24 @@ class Shaft {
 
 namespace detail {
 
-// Integrates f over a convex polygon until the estimated error is at most `tolerance` or f has been asked `most` times.
-template <class Function>
-[[nodiscard]] Estimate integrate(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, Function&& f, double tolerance,
-                                 std::uint64_t most, std::uint64_t& asked) {
-  struct Element {  // the part [u, u + size] x [v, v + size] of quadrilateral `quad`
-    std::size_t quad;
-    double u, v, size;
-    double value;  // by its own nine points
-    std::array<double, 4> parts;
-    double error;
-  };
-  struct Quad {
-    glm::dvec3 a, b, c, d;
-  };
-  std::vector<Quad> quads;
-  for (std::size_t i = 1; i + 1 < polygon.size(); i += 2) {
-    const bool last = i + 2 >= polygon.size();
-    quads.push_back({polygon[0], polygon[i], polygon[i + 1], last ? polygon[i + 1] : polygon[i + 2]});
-  }
-  const auto gauss = [&](std::size_t quad, double u0, double v0, double size) {
-    const auto& [a, b, c, d] = quads[quad];
-    double sum = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        const double u = u0 + size * gauss3_x[i];
-        const double v = v0 + size * gauss3_x[j];
-        const glm::dvec3 x = (1.0 - v) * ((1.0 - u) * a + u * b) + v * ((1.0 - u) * d + u * c);
-        const glm::dvec3 du = (1.0 - v) * (b - a) + v * (c - d);
-        const glm::dvec3 dv = (1.0 - u) * (d - a) + u * (c - b);
-        sum += gauss3_w[i] * gauss3_w[j] * glm::dot(glm::cross(du, dv), normal) * f(x);
+// Does the blocker stand in every segment between a corner of p and one of q? Then it does in all segments between the two: what it hides
+// of q from a point is convex, and so are the points of p from which it hides a corner of q.
+[[nodiscard]] inline bool hides(const Blocker& blocker, std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double slack) {
+  const std::size_t n = blocker.contour.size();
+  return std::all_of(p.begin(), p.end(), [&](const glm::dvec3& x) {
+    const double height = glm::dot(blocker.normal, x - blocker.contour[0]);
+    return std::all_of(q.begin(), q.end(), [&](const glm::dvec3& y) {
+      const double other = glm::dot(blocker.normal, y - blocker.contour[0]);
+      if (!(std::min(height, other) < -slack && std::max(height, other) > slack)) { return false; }
+      const glm::dvec3 hit = x + (y - x) * (height / (height - other));
+      for (std::size_t i = 0; i < n; ++i) {
+        const glm::dvec3& corner = blocker.contour[i];
+        const glm::dvec3 side = blocker.contour[(i + 1) % n] - corner;
+        if (!(glm::dot(glm::cross(side, hit - corner), blocker.normal) > slack * glm::length(side))) { return false; }
       }
-    }
-    asked += 9;
-    return sum * size * size;
-  };
-  const auto make = [&](std::size_t quad, double u, double v, double size, double value) {
-    const double half = 0.5 * size;
-    Element e{quad, u, v, size, value, {}, 0.0};
-    double sum = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      e.parts[k] = gauss(quad, u + (k & 1 ? half : 0.0), v + (k & 2 ? half : 0.0), half);
-      sum += e.parts[k];
-    }
-    e.error = std::abs(sum - value);
-    e.value = sum;
-    return e;
-  };
-  const auto better = [](const Element& x, const Element& y) { return x.error < y.error; };
-  std::priority_queue<Element, std::vector<Element>, decltype(better)> queue{better};
-  Estimate total;
-  // Fine enough at the start for a shadow to be noticed.
-  constexpr int start = 4;
-  for (std::size_t quad = 0; quad < quads.size(); ++quad) {
-    for (int i = 0; i < start * start; ++i) {
-      const double u = (i % start) / static_cast<double>(start);
-      const double v = (i / start) / static_cast<double>(start);
-      const Element e = make(quad, u, v, 1.0 / start, gauss(quad, u, v, 1.0 / start));
-      total.value += e.value;
-      total.error += e.error;
-      queue.push(e);
-    }
-  }
-  while (total.error > tolerance && asked < most) {
-    const Element e = queue.top();
-    queue.pop();
-    total.value -= e.value;
-    total.error -= e.error;
-    const double half = 0.5 * e.size;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Element child = make(e.quad, e.u + (k & 1 ? half : 0.0), e.v + (k & 2 ? half : 0.0), half, e.parts[k]);
-      total.value += child.value;
-      total.error += child.error;
-      queue.push(child);
-    }
-  }
-  return total;
+      return true;
+    });
+  });
 }
 
 // Of two faces that see all of each other: by both contours unless they are far apart or of very different size (exchange.hpp).
@@ -174,15 +109,14 @@ template <class Function>
   const Patch b = make_patch({q.begin(), q.end()});
   const double distance = glm::length(b.centre - a.centre);
   const double extent = a.radius + b.radius;
-  const double ratio = a.radius / b.radius;
-  if (extent < 0.1 * distance || ratio < 1e-3 || ratio > 1e3) {
+  if (extent < 0.0997 * distance) {  // by the first of the far rules: 6 (ratio / 3)^4
     const double value = exchange(a, b);
     return {value, 1e-5 * value};
   }
   const double scale = extent + distance;
-  const double tolerance = 1e-9 * std::min(a.area, b.area) / (scale * scale);
-  const double value = std::max(0.0, contour_exchange(p, q, scale, tolerance));
-  return {value, 1e-8 * std::min(a.area, b.area)};
+  const double smaller = std::min(a.area, b.area);
+  const double value = std::clamp(contour_exchange(p, q, scale, 1e-9 * smaller), 0.0, smaller);
+  return {value, 1e-9 * smaller + 1e-13 * scale * scale};
 }
 
 }  // namespace detail
@@ -190,8 +124,8 @@ template <class Function>
 // The exchange of two convex faces behind blockers, in the squared unit of the coordinates. Those of the blockers that the shaft does not
 // meet are left out; `asked` counts the points, and stays where it was when nothing stands in between.
 [[nodiscard]] inline Estimate exchange(std::span<const glm::dvec3> p, const glm::dvec3& n, std::span<const glm::dvec3> q,
-                                       const glm::dvec3& m, std::span<const Blocker> blockers, double slack, double tolerance,
-                                       std::uint64_t most, std::uint64_t& asked) {
+                                       const glm::dvec3& m, std::span<const Blocker> blockers, double slack,
+                                       const IntegralLimits& limits, std::uint64_t& asked) {
   Piece upper_p;
   Piece upper_q;
   Piece lower;
@@ -211,13 +145,22 @@ template <class Function>
   }
   if (between.empty()) { return detail::clear_exchange(upper_p, upper_q); }
   const bool over_p = area_p <= area_q;
-  ShadowedTarget target{over_p ? upper_q : upper_p, over_p ? m : n, between, slack};
+  const Piece& domain = over_p ? upper_p : upper_q;
+  const Piece& seen = over_p ? upper_q : upper_p;
   const glm::dvec3& normal = over_p ? n : m;
-  std::uint64_t own = 0;
-  const Estimate result = detail::integrate(
-      over_p ? upper_p : upper_q, normal, [&](const glm::dvec3& x) { return target.form_factor(x, normal); }, tolerance, most, own);
-  asked += own;
-  return result;
+  const auto hidden = [&](std::span<const glm::dvec3> part) {
+    return std::any_of(between.begin(), between.end(), [&](const Blocker& b) { return detail::hides(b, part, seen, slack); });
+  };
+  if (hidden(domain)) { return {}; }
+  ShadowedTarget target{seen, over_p ? m : n, between, slack};
+  const auto f = [&](const glm::dvec3& x) { return target.form_factor(x, normal); };
+  const auto clear = [&](const glm::dvec3& x) { return point_to_polygon(x, normal, seen); };
+  const auto certain = [&](std::span<const glm::dvec3> part) {
+    if (hidden(part)) { return true; }
+    const Shaft own{part, seen, slack};
+    return std::all_of(between.begin(), between.end(), [&](const Blocker& b) { return own.misses(b.contour); });
+  };
+  return detail::Integral{domain, normal, f, clear, certain, limits}.run(asked);
 }
 
 }  // namespace radiosity

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Form factors of curved objects that see each other freely: the exchanges of two meshes of each, extrapolated to the smooth surface.
+// Form factors of curved objects that see each other freely: the exchanges of three meshes of each, extrapolated to the smooth surface.
 //
 // The error of a mesh is h^2, h its chord length, so what a finer mesh changes tells what the finest would change (Richardson 1911):
-// F = F_2 + (F_2 - F_1) / (r - 1), r the ratio of the chord errors. Each end of a pair has its own ratio and its own correction. The error
-// that is stated is that of the next order, the square of the relative correction, and never below 1/200 of the correction, because where
-// surfaces touch the next order is h^3 or h^4 log h.
+// F = F_2 + (F_2 - F_1) / (r - 1), r the ratio of the chord errors. Each end of a pair has its own ratio and its own correction, and what
+// both together change beyond that is taken, too. The stated error is the sum of
+//   - what the extrapolation from the two coarser meshes says otherwise; whatever the order of the error, that of the finer is smaller;
+//   - what the ends change together;
+//   - half of the correction, where a curved object is seen from outside: its outline falls between the edges of each mesh otherwise.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -25,26 +28,32 @@
 
 namespace radiosity {
 
-// Two meshes of a row, the finer one last; of a flat row with straight borders one, which is exact.
+// Three meshes of a row, the finest one last; of a flat row with straight borders that one alone, which is exact.
 struct RowMeshes {
-  std::vector<Patch> level[2];
-  double ratio = 1.0;  // of the chord errors; 1: there is only level 1
+  std::vector<Patch> level[3];
+  double ratio[2] = {1.0, 1.0};  // of the chord errors of level 0 and 1, 1 and 2; 1: there is only level 2
+  bool outline = false;          // curved and seen from outside
+  double reach = 0.0;            // distance of the surface from the finest mesh
   Estimate area;
+
+  [[nodiscard]] bool curved() const { return ratio[1] > 1.0; }
 };
 
 namespace detail {
 
-// The value at h = 0, from those of two meshes.
+// What is to be added to the finer value for that at h = 0.
 [[nodiscard]] inline double correction(double coarse, double fine, double ratio) {
   return ratio > 1.0 ? (fine - coarse) / (ratio - 1.0) : 0.0;
 }
-[[nodiscard]] inline double next_order(double value, double correction) {
-  const double relative = value > 0.0 ? std::abs(correction) / value : 0.0;
-  return value * std::max(relative * relative, 0.005 * relative) + 1e-8 * value;
+// The correction to the finest of three values, and by how much that to the middle one leads elsewhere.
+[[nodiscard]] inline Estimate extrapolated(double coarsest, double coarse, double fine, const double (&ratio)[2]) {
+  const double last = correction(coarse, fine, ratio[1]);
+  return {last, std::abs(fine + last - coarse - correction(coarsest, coarse, ratio[0]))};
 }
 
 struct ObjectMesh {
   std::vector<std::vector<Patch>> patches;  // by sheet
+  std::vector<double> reach;                // by sheet: greatest distance of the middle of a face from the surface
   double chord_error = 0.0;                 // mean over the vertices' faces of the distance of their middles from the surface
   std::size_t faces = 0, most_corners = 0;
 };
@@ -54,6 +63,7 @@ struct ObjectMesh {
   object.approximate(tolerance, builder);
   ObjectMesh mesh;
   mesh.patches.resize(object.sheet_count());
+  mesh.reach.resize(object.sheet_count(), 0.0);
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
     const std::uint32_t sheet = builder.sheet(f);
     if (sheet == brep::no_sheet) { continue; }
@@ -63,7 +73,9 @@ struct ObjectMesh {
     for (const glm::dvec3& p : contour) { middle += p / static_cast<double>(contour.size()); }
     ++mesh.faces;
     mesh.most_corners = std::max(mesh.most_corners, contour.size());
-    mesh.chord_error += glm::length(object.project(sheet, middle).position - middle);
+    const double distance = glm::length(object.project(sheet, middle).position - middle);
+    mesh.chord_error += distance;
+    mesh.reach[sheet] = std::max(mesh.reach[sheet], distance);
     const glm::dvec3 normal = vector_area(contour);
     const bool planar = std::all_of(contour.begin(), contour.end(), [&](const glm::dvec3& p) {
       return std::abs(glm::dot(normal, p - middle)) <= 1e-12 * glm::length(normal);
@@ -91,51 +103,81 @@ struct ObjectMesh {
   return sum;
 }
 
+// Does every patch lie below the horizon of each of the others, or they below its own, by more than `reach`?
+[[nodiscard]] inline bool face_away(const std::vector<Patch>& p, const std::vector<Patch>& q, double reach) {
+  const auto below = [&](const Patch& a, const Patch& b) {
+    return std::all_of(b.contour.begin(), b.contour.end(),
+                       [&](const glm::dvec3& x) { return glm::dot(a.normal, x - a.centre) <= 1e-12 - reach; });
+  };
+  return std::all_of(p.begin(), p.end(), [&](const Patch& a) {
+    return std::all_of(q.begin(), q.end(), [&](const Patch& b) { return below(a, b) || below(b, a); });
+  });
+}
+
 }  // namespace detail
 
-// The meshes of the rows of one curved object: the coarser one of some hundred faces, the other of about four times as many.
+// The meshes of the rows of one curved object: the middle one of some hundred faces, the others of four times fewer and more.
 inline void make_meshes(const raycast::PlacedObject& object, std::span<const std::uint32_t> row_of_sheet, std::vector<RowMeshes>& rows) {
   double tolerance = 0.02 * object.bounds().diameter();
-  detail::ObjectMesh coarse = detail::mesh_of(object, tolerance);
-  for (int round = 0; round < 16 && coarse.faces < 200 && coarse.most_corners < 64; ++round) {
+  detail::ObjectMesh mesh[3];
+  mesh[1] = detail::mesh_of(object, tolerance);
+  for (int round = 0; round < 16 && mesh[1].faces < 200 && mesh[1].most_corners < 64; ++round) {
     tolerance *= 0.7;
-    coarse = detail::mesh_of(object, tolerance);
+    mesh[1] = detail::mesh_of(object, tolerance);
   }
-  const detail::ObjectMesh fine = detail::mesh_of(object, 0.25 * tolerance);
-  const double by_corners =
-      static_cast<double>(fine.most_corners * fine.most_corners) / static_cast<double>(coarse.most_corners * coarse.most_corners);
-  const double ratio = object.flat() ? by_corners : coarse.chord_error / fine.chord_error;
+  mesh[0] = detail::mesh_of(object, 4.0 * tolerance);
+  mesh[2] = detail::mesh_of(object, 0.25 * tolerance);
+  const auto ratio = [&](const detail::ObjectMesh& coarse, const detail::ObjectMesh& fine) {
+    const double corners = static_cast<double>(fine.most_corners) / static_cast<double>(coarse.most_corners);
+    return object.flat() ? corners * corners : coarse.chord_error / fine.chord_error;
+  };
   for (std::uint32_t s = 0; s < row_of_sheet.size(); ++s) {
     RowMeshes& row = rows[row_of_sheet[s]];
-    row.level[0] = coarse.patches[s];
-    row.level[1] = fine.patches[s];
-    row.ratio = ratio;
-    double area[2] = {0.0, 0.0};
-    for (int k = 0; k < 2; ++k) {
+    row.outline = !object.flat() && !object.inside();
+    row.reach = mesh[2].reach[s];
+    double area[3] = {0.0, 0.0, 0.0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      row.level[k] = mesh[k].patches[s];
       for (const Patch& patch : row.level[k]) { area[k] += patch.area; }
     }
-    const double correction = detail::correction(area[0], area[1], ratio);
-    row.area = {area[1] + correction, detail::next_order(area[1], correction)};
+    for (std::size_t k = 0; k < 2; ++k) { row.ratio[k] = ratio(mesh[k], mesh[k + 1]); }
+    const Estimate change = detail::extrapolated(area[0], area[1], area[2], row.ratio);
+    row.area = {area[2] + change.value, change.error + 1e-8 * area[2]};
   }
 }
 
 // The exchange of two rows between which nothing stands. Of rows of one object both meshes are refined together.
 [[nodiscard]] inline Estimate free_exchange(const RowMeshes& p, const RowMeshes& q, bool same_object) {
-  const double finest = detail::exchange_of(p.level[1], q.level[1]);
-  double corrected = finest;
-  double error = 1e-5 * finest;  // of the quadrature: exchange.hpp, mostly far below
-  const auto take = [&](double coarse, double ratio) {
-    const double correction = detail::correction(coarse, finest, ratio);
-    corrected += correction;
-    error += detail::next_order(finest, correction);
+  const double finest = detail::exchange_of(p.level[2], q.level[2]);
+  Estimate result{finest, 1e-5 * finest};  // of the quadrature: exchange.hpp, mostly far below
+  if (!(finest > 0.0)) {
+    // A cap of height e rises above the horizon of the mesh: of a sphere of radius r it has the area 2 pi r e, and its slope, the square of
+    // which bounds what it sees, is below sqrt(2 e / r).
+    const double reach = std::max(p.reach, q.reach);
+    return {0.0, detail::face_away(p.level[2], q.level[2], reach) ? 0.0 : 4.0 * std::numbers::pi * reach * reach};
+  }
+  const auto take = [&](double coarsest, double coarse, const RowMeshes& row) {
+    const Estimate change = detail::extrapolated(coarsest, coarse, finest, row.ratio);
+    result.value += change.value;
+    result.error += change.error + (row.outline ? 0.5 * std::abs(change.value) : 0.0);
+    return coarse;
   };
   if (same_object) {
-    if (p.ratio > 1.0) { take(detail::exchange_of(p.level[0], q.level[0]), p.ratio); }
-  } else {
-    if (p.ratio > 1.0) { take(detail::exchange_of(p.level[0], q.level[1]), p.ratio); }
-    if (q.ratio > 1.0) { take(detail::exchange_of(p.level[1], q.level[0]), q.ratio); }
+    if (p.curved()) { take(detail::exchange_of(p.level[0], q.level[0]), detail::exchange_of(p.level[1], q.level[1]), p); }
+    return result;
   }
-  return {corrected, error};
+  double by_p = 0.0;
+  double by_q = 0.0;
+  if (p.curved()) { by_p = take(detail::exchange_of(p.level[0], q.level[2]), detail::exchange_of(p.level[1], q.level[2]), p); }
+  if (q.curved()) { by_q = take(detail::exchange_of(p.level[2], q.level[0]), detail::exchange_of(p.level[2], q.level[1]), q); }
+  if (p.curved() && q.curved()) {
+    // Nearly touching, both lose light at the same places.
+    const double both = finest - by_p - by_q + detail::exchange_of(p.level[1], q.level[1]);
+    const double change = both / (std::min(p.ratio[1], q.ratio[1]) - 1.0);
+    result.value -= change;
+    result.error += std::abs(change);
+  }
+  return result;
 }
 
 }  // namespace radiosity

@@ -101,11 +101,16 @@ class RayCounter {
   struct Mean {
     double value = 0.0, error = 0.0;
   };
-  // The factor from a row of the source to another; the error is a standard error, and never below half a ray.
+  // The factor from a row of the source to another; the error is half of a 95 % interval. The spread of sixteen numbers says little of a
+  // handful of rays that arrive, or do not, and nothing of none: with k of them, k + 2 + 2 sqrt(k) is about the upper end of the 95 %
+  // interval of a Poisson distribution (3 when there are none: the rule of three). From sixteen on, one a sequence, the spread counts.
   [[nodiscard]] Mean factor(std::uint32_t from, std::uint32_t to) const {
-    return mean(
-        from, [&](std::size_t s) { return static_cast<double>(hits(s, from, to)); },
-        rays(from) > 0 ? 0.5 / static_cast<double>(rays(from)) : 0.0);
+    const auto all = static_cast<double>(rays(from));
+    double arrived = 0.0;
+    for (std::size_t s = 0; s < sequences; ++s) { arrived += static_cast<double>(hits(s, from, to)); }
+    const double few = std::min(arrived, all - arrived);
+    const double least = all > 0.0 ? (few > 0.0 ? 1.0 + std::sqrt(std::min(few, 16.0)) : 1.5) / all : 0.0;
+    return mean(from, [&](std::size_t s) { return static_cast<double>(hits(s, from, to)); }, least);
   }
   // The sum of all factors from a row.
   [[nodiscard]] Mean sum(std::uint32_t from) const {
@@ -143,7 +148,8 @@ class RayCounter {
     double square = 0.0;
     for (const double v : values) { sum += v / n; }
     for (const double v : values) { square += (v - sum) * (v - sum); }
-    return {sum, std::sqrt(square / (n * (n - 1.0)))};
+    // Half of a 95 % interval of Student's distribution with 15 degrees of freedom.
+    return {sum, 0.5 * 2.1314 * std::sqrt(square / (n * (n - 1.0)))};
   }
   template <class Count>
   [[nodiscard]] Mean mean(std::uint32_t from, const Count& count, double least) const {

@@ -89,19 +89,23 @@ struct FactorRun {
           const FactorRow& a = rows.rows[i];
           const FactorRow& b = rows.rows[j];
           if (curved_between(a, b)) { return; }
-          // Of the larger factor of the two.
-          const double tolerance = std::min(0.1 * options.error, 1e-6) * std::min(area[i].value, area[j].value) /
-                                   std::sqrt(static_cast<double>(std::max<std::size_t>(1, a.facets.size() * b.facets.size())));
+          // Of the larger factor of the two. What random points leave open of pairs of facets adds up like random errors.
+          const double unit = std::min(area[i].value, area[j].value) /
+                              std::sqrt(static_cast<double>(std::max<std::size_t>(1, a.facets.size() * b.facets.size())));
+          IntegralLimits limits{std::min(0.1 * options.error, 1e-6) * unit, options.error * unit, 200'000,
+                                scramble(options.seed ^ scramble(i * n + j))};
           Estimate sum;
+          double square = 0.0;
           for (const Facet& p : a.facets) {
             for (const Facet& q : b.facets) {
               if (i == j && &p == &q) { continue; }
-              const Estimate part =
-                  radiosity::exchange(p.contour, p.normal, q.contour, q.normal, blockers, slack, tolerance, 200'000, asked[k]);
+              const Estimate part = radiosity::exchange(p.contour, p.normal, q.contour, q.normal, blockers, slack, limits, asked[k]);
+              ++limits.seed;
               sum.value += part.value;
-              sum.error += part.error;
+              square += part.error * part.error;
             }
           }
+          sum.error = std::sqrt(square);
           exchange[i * n + j] = sum;
         },
         1);
@@ -167,10 +171,10 @@ struct FactorRun {
       free[i] = stands_free(row);
       if (!free[i]) { continue; }
       if (row.exact) {
-        for (const Facet& facet : row.facets) { meshes[i].level[1].push_back(make_patch({facet.contour.begin(), facet.contour.end()})); }
+        for (const Facet& facet : row.facets) { meshes[i].level[2].push_back(make_patch({facet.contour.begin(), facet.contour.end()})); }
         continue;
       }
-      if (meshes[i].level[1].empty()) { make_meshes(prepared.objects.object(row.object), rows.row_of[row.object], meshes); }
+      if (meshes[i].level[2].empty()) { make_meshes(prepared.objects.object(row.object), rows.row_of[row.object], meshes); }
       area[i] = meshes[i].area;
     }
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
