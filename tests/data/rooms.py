@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Writes rooms.json: form factors of rooms with things in the way, found without any code or method of halflight.
 
-    python3 rooms.py > rooms.json           standard library only, about a minute
+    python3 rooms.py > rooms.json           standard library only, two minutes
 
 Blockers: two parallel rectangles with a parallel rectangle between them. From a point of the first the shadow of the blocker on the plane
 of the second is a rectangle, so the visible part is a difference of rectangles, whose factors from a point are exact (Lambert). The integral
@@ -11,7 +11,7 @@ over the first rectangle is a Gauss rule between all lines on which an edge of t
 Rooms: a plan of straight walls from floor to ceiling, with or without a column. What a wall's point sees is decided in the plan alone: parts
 of walls, exactly, and the triangles of floor and ceiling before them. The integral over a wall is a Gauss rule between all places from which
 two corners of the plan lie in one line, graded towards the ends. Floor to ceiling follows from the row sums. What is checked here: factors of
-points sum to 1, reciprocity, and that twice as many points change nothing (`digits`, of a factor 1).
+points sum to 1, reciprocity, and how little more points change (`digits`, the largest change of a factor).
 
 Script F (Hottel): the share of the black-body emission of i that j absorbs, directly or after reflections,
 e_i [(1 - F R)^-1 F]_ij e_j with emissivities e and reflectances R = 1 - e.

@@ -99,7 +99,7 @@ double difference(const json::Value& matrix, const ValueOf& value) {
   return worst;
 }
 
-// What a form factor or a row sum may be off by here: the value that is written with it, and the last digit of the file.
+// Eleven digits in the file, sums of ten of them.
 constexpr double last_digit = 1e-10;
 
 }  // namespace
