@@ -133,7 +133,9 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
   std::vector<MethodPlan> all;
   Options faces = common(study);
   faces.cluster_from = std::numeric_limits<std::uint32_t>::max();
-  all.push_back(hierarchical("hierarchical F", "a pair is linked where its form factor is small (paper 4.4); split by Euler operators",
+  all.push_back(hierarchical("hierarchical F",
+                             "a pair is linked where its form factor is small (paper 4.4), and split on where the light of a lamp varies "
+                             "(our light oracle, not in the paper); faces are split by Euler operators",
                              "epsilon", epsilons, faces, set_epsilon));
   Options clusters = common(study);
   clusters.cluster_from = 2;
@@ -149,8 +151,9 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
   Options separate = common(study);
   separate.topology = radiosity::Topology::separate;
   separate.cluster_from = std::numeric_limits<std::uint32_t>::max();
-  all.push_back(hierarchical("quad-tree",
-                             "classical hierarchical radiosity: F-refinement on separate polygons without shared topology (Hanrahan 1991)",
+  all.push_back(hierarchical("F, separate polygons",
+                             "hierarchical F, its light oracle, form factors and visibility unchanged, on polygons that share no vertices and "
+                             "stay flat: a quad-tree on each, as in classical hierarchical radiosity (Hanrahan 1991)",
                              "epsilon", epsilons, separate, set_epsilon));
   all.push_back(uniform("uniform, matrix", "every face cut evenly, the full matrix solved by Gauss-Seidel", study,
                         radiosity::UniformSolver::gauss_seidel));

@@ -7,6 +7,8 @@
 #   sh make_scenes.sh corridor [LENGTH [REFLECTANCE]]     of a corridor 2 m wide, lit at one end          16 0.8
 #   sh make_scenes.sh nested_rooms [DOOR [ROOMS]]         width of the doors, rooms inside the hall       0.6 1
 #   sh make_scenes.sh boxes [NUMBER [SEED]]               of boxes that stand about at random             25 1
+#   sh make_scenes.sh sphere [RADIUS]                     of a sphere under a square lamp                 0.5
+#   sh make_scenes.sh cylinder [RADIUS]                   of a cylinder 1 m high, under the same lamp     0.5
 #
 # The files beside this one are made with the values at the right:  sh make_scenes.sh corridor > corridor.scene
 # A sweep:  for rho in 0.5 0.8 0.9 0.95 0.99; do sh make_scenes.sh corridor 16 $rho > corridor_$rho.scene; done
@@ -128,10 +130,32 @@ boxes() {
   }'
 }
 
+# What the scenes of one curved object have in common: its name, its radius, its line.
+curved() {
+  awk -v shape="$1" -v radius="$2" -v line="$3" 'BEGIN {
+    print "# Curvature: a " shape " of radius " radius " m under a square lamp; the polygons of its approximation come nearer to it only by refinement."
+    print "# The lamp reflects nothing, so the radiosity is 0.7 times the irradiance from the lamp."
+    print ""
+    print "material lamp  reflectance 0  emission 10"
+    print "material clay  reflectance 0.7"
+    print ""
+    print "camera side  eye 2.6 -2.2 1.4  target 0 0 0.5  fov 40"
+    print ""
+    print line "  radius " radius "  material clay"
+    z = shape == "sphere" ? 1 + radius : 1.5  # 1 m above the top
+    print "polygon light material lamp {"
+    print "    vertex -0.5 -0.5 " z "\n    vertex -0.5 0.5 " z "\n    vertex 0.5 0.5 " z "\n    vertex 0.5 -0.5 " z "\n}"
+  }'
+}
+
+sphere() { curved sphere "${1:-0.5}" "sphere ball  center 0 0 0"; }
+
+cylinder() { curved cylinder "${1:-0.5}" "cylinder post  base 0 0 -0.5  axis 0 0 1"; }
+
 case "${1:-}" in
-  perpendicular_plates | penumbra | corridor | nested_rooms | boxes) "$@" ;;
+  perpendicular_plates | penumbra | corridor | nested_rooms | boxes | sphere | cylinder) "$@" ;;
   *)
-    sed -n '3,13s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,15s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

@@ -104,10 +104,7 @@ TEST_CASE("the format follows from the name") {
 
 TEST_CASE("real meshes have the counts and the manifold status that independent software found") {
   const std::filesystem::path folder = std::filesystem::path(HALFLIGHT_REFERENCE_DATA) / "meshes";
-  if (!std::filesystem::exists(folder / "manifest.json")) {
-    WARN("no reference meshes in " << folder.string() << "; skipped");
-    return;
-  }
+  if (!std::filesystem::exists(folder / "manifest.json")) SKIP_TEST("no meshes of others in " << folder.string());
   const json::Value manifest = json::parse_file((folder / "manifest.json").string());
   CHECK(manifest.size() == 4);
   for (const json::Value& entry : manifest.array()) {

@@ -49,14 +49,14 @@ TEST_CASE(
     REQUIRE(std::system(("sh '" HALFLIGHT_SCENES "/make_scenes.sh' " + arguments + " >'" + out + "' 2>&1").c_str()) == 0);
     return program::content(out);
   };
-  for (const std::string name : {"perpendicular_plates", "penumbra", "corridor", "nested_rooms", "boxes"}) {
+  for (const std::string name : {"perpendicular_plates", "penumbra", "corridor", "nested_rooms", "boxes", "sphere", "cylinder"}) {
     CAPTURE(name);
     const std::string text = made(name);
     CHECK(text == program::content(std::string(HALFLIGHT_SCENES) + "/" + name + ".scene"));
     CHECK(text.substr(0, 2) == "# ");
   }
-  for (const char* arguments :
-       {"perpendicular_plates 150", "penumbra 1.9", "corridor 40 0.99", "nested_rooms 0.1 4", "boxes 1 3", "boxes 300 2"}) {
+  for (const char* arguments : {"perpendicular_plates 150", "penumbra 1.9", "corridor 40 0.99", "nested_rooms 0.1 4", "boxes 1 3",
+                                "boxes 300 2", "sphere 3", "cylinder 0.01"}) {
     const apps::SceneResult result = apps::parse_scene(made(arguments));
     INFO(apps::to_text(result, arguments));
     CHECK(result.file);

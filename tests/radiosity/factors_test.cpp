@@ -2,6 +2,11 @@
 
 // Laws of the matrix of form factors: reciprocity, row sums, covered ground, faces against rays, and of the total exchange.
 
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
 #include <radiosity/total_exchange.hpp>
 #include <raycast/objects/mesh.hpp>
 
@@ -70,6 +75,48 @@ TEST_CASE("factors: reciprocity is exact, and a closed room with a lamp and a bo
   CHECK(f.surfaces[row(f, "room.z1")].area.value == test::Approx(1.0 - 0.09).epsilon(1e-12));
   CHECK(f.surfaces[row(f, "box.z0")].area.value == 0.0);
   CHECK(f.surfaces[row(f, "box.z0")].row_sum.value == 0.0);
+}
+
+TEST_CASE("factors: a column in a closed room, however it stands: rows sum to 1 within the errors that are stated") {
+  // Walls and column are upright, so the edges of all shadows of walls on walls are parallel to the elements of the quadrature.
+  constexpr std::uint64_t seed = 4;
+  CAPTURE(seed);
+  std::mt19937_64 engine{seed};
+  std::uniform_real_distribution<double> uniform{0.0, 1.0};
+  constexpr double right_angle = 0.5 * std::numbers::pi;
+  for (int trial = 0; trial < 3; ++trial) {
+    CAPTURE(trial);
+    const double height = 0.5 + 3.0 * uniform(engine), size = 0.2 + 0.4 * uniform(engine);
+    const double turn = trial % 2 == 0 ? 0.0 : uniform(engine) - 0.5;  // by less than half a right angle: corner k is next to corner k
+    const glm::dvec2 middle{0.6 * uniform(engine) - 0.3, 0.6 * uniform(engine) - 0.3};
+    std::array<glm::dvec3, 4> room{}, column{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double angle = right_angle * (static_cast<double>(k) + 0.5);
+      room[k] = 2.0 * glm::dvec3{std::cos(angle), std::sin(angle), 0.0};
+      column[k] = glm::dvec3{middle, 0.0} + size * glm::dvec3{std::cos(angle + turn), std::sin(angle + turn), 0.0};
+    }
+    const glm::dvec3 up{0.0, 0.0, height};
+    Scene scene = grey();
+    std::vector<glm::dvec3> corners;
+    std::vector<std::vector<std::uint32_t>> floor, ceiling;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t next = (k + 1) % 4;
+      scene.objects.push_back(scenes::object("wall", scenes::polygon({room[next], room[k], room[k] + up, room[next] + up})));
+      scene.objects.push_back(scenes::object("column", scenes::polygon({column[k], column[next], column[next] + up, column[k] + up})));
+      floor.push_back({k, next, 4 + next, 4 + k});
+      ceiling.push_back({4 + k, 4 + next, next, k});
+    }
+    for (const auto& ring : {room, column}) { corners.insert(corners.end(), ring.begin(), ring.end()); }
+    scene.objects.push_back(scenes::object("floor", raycast::Mesh::make(corners, floor).object));
+    for (glm::dvec3& p : corners) { p += up; }
+    scene.objects.push_back(scenes::object("ceiling", raycast::Mesh::make(corners, ceiling).object));
+    const Factors f = factors_of(scene);
+    CHECK(f.rays == 0);
+    for (const Factors::Surface& s : f.surfaces) {
+      CAPTURE(s.name);
+      CHECK(std::abs(s.row_sum.value - 1.0) <= s.row_sum.error);
+    }
+  }
 }
 
 TEST_CASE("factors: what faces say and what rays say of the same room agree within the errors of the rays") {

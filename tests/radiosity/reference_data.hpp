@@ -1,26 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where the reference data lie, when they are at hand.
+// Reference answers. Our own lie in tests/data (its README.md says what each file is); answers of other programs keep their licences and
+// are read from a folder outside, where there is one.
 
 #include <fstream>
 #include <string>
 
-#include "catch.hpp"
 #include "json.hpp"
 
 namespace reference {
 
-inline const std::string data_folder = HALFLIGHT_REFERENCE_DATA;
+inline json::Value read(const std::string& file) { return json::parse_file(HALFLIGHT_TEST_DATA "/" + file); }
 
-// False, with a warning, where the file is not at hand.
-inline bool present(const std::string& file) {
-  if (std::ifstream{data_folder + "/" + file}) { return true; }
-  WARN("skipped: no reference data at " << data_folder << "/" << file);
-  return false;
+// The path of a file of others; empty where it is not at hand.
+inline std::string of_others(const std::string& file) {
+  const std::string path = HALFLIGHT_REFERENCE_DATA "/" + file;
+  return std::ifstream{path} ? path : std::string();
 }
-
-// The file; null where it is not at hand.
-inline json::Value read(const std::string& file) { return present(file) ? json::parse_file(data_folder + "/" + file) : json::Value{}; }
 
 }  // namespace reference

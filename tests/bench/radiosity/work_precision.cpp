@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Error against CPU time on the Cornell-like box of the reference data (box_rho07.json: 16 quads and a light, path-traced means of 8 x 8
+// Error against CPU time on the Cornell-like box of tests/data/box.json (16 quads and a light, path-traced means of 8 x 8
 // cells a quad). One row a setting; one thread; the audit left out. Errors are of cell means, of the constants of the leaves and of
 // the picture, which is interpolated between them: relative L2 over all cells, worst cell over the brightest.
 //
-//   bench_radiosity [REFERENCE_DATA]
+//   bench_radiosity [FILE]
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -152,12 +151,7 @@ Error compare(const Box& box, const radiosity::Solution& solution, Result result
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string path = std::string(argc > 1 ? argv[1] : HALFLIGHT_REFERENCE_DATA) + "/scenes/box_rho07.json";
-  if (!std::ifstream{path}) {
-    std::printf("no reference data at %s\n", path.c_str());
-    return 0;
-  }
-  const Box box = read_box(path);
+  const Box box = read_box(argc > 1 ? argv[1] : HALFLIGHT_TEST_DATA "/box.json");
   std::printf("%-12s %9s %9s %9s %7s %8s   %-17s   %-17s  %s\n", "refinement", "setting", "links", "rays", "MB", "CPU s",
               "leaves L2 / worst", "picture L2 / worst", "worst cell of the leaves");
   const auto row = [&](const char* name, double setting, radiosity::Options options) {
