@@ -24,6 +24,7 @@
 #include <radiosity/evaluate.hpp>
 #include <radiosity/exposure.hpp>
 #include <radiosity/frame.hpp>
+#include <radiosity/light_unit.hpp>
 #include <radiosity/mesh.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/polygons.hpp>
@@ -110,6 +111,40 @@ inline void sum_times(Audit& audit) {
 }
 
 inline Outcome failed(Failure::Kind kind, std::vector<std::string> sentences) { return {std::nullopt, {kind, std::move(sentences)}}; }
+
+// The solution of the scene in the unit becomes that of the scene; false when its light is more than a double holds.
+[[nodiscard]] inline bool to_watts(Solution& solution, const LightUnit& unit) {
+  bool finite = true;
+  const auto convert = [&](Color& c) {
+    c = unit.to_watts(c);
+    finite = finite && std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+  };
+  const auto convert_mesh = [&](Mesh& mesh) {
+    for (MeshCorner& corner : mesh.corners) { convert(corner.radiosity); }
+    for (MeshFace& face : mesh.faces) { convert(face.radiosity); }
+  };
+  convert_mesh(solution.mesh);
+  for (Color& c : solution.radiosity) { convert(c); }
+  for (SurfaceMean& mean : solution.audit.surfaces) { convert(mean.radiosity); }
+  if (solution.comparison) {
+    convert_mesh(solution.comparison->other);
+    for (Color& c : solution.comparison->dense) { convert(c); }
+  }
+  return finite;
+}
+
+// What `solve` makes of the scene in its own unit, in W/m2.
+template <class Solve>
+[[nodiscard]] Outcome solve_in_own_unit(const Scene& scene, const Solve& solve) {
+  std::vector<std::string> sentences = faults(scene);
+  if (!sentences.empty()) { return failed(Failure::Kind::invalid_scene, std::move(sentences)); }
+  const LightUnit unit = light_unit(scene);
+  Outcome outcome = solve(in_unit(scene, unit));
+  if (outcome.solution && !to_watts(*outcome.solution, unit)) {
+    return failed(Failure::Kind::invalid_scene, {"the light is stronger than a number can hold; give the emissions in a larger unit"});
+  }
+  return outcome;
+}
 
 }  // namespace detail
 

@@ -242,11 +242,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   return {std::move(solution), {}};
 }
 
-}  // namespace detail
-
-HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& options, const Control& control) {
-  std::vector<std::string> sentences = faults(options);
-  if (!sentences.empty()) { return detail::failed(Failure::Kind::invalid_options, std::move(sentences)); }
+// solve() for sound options and light in its own unit (light_unit.hpp).
+inline Outcome solve_in_rounds(const Scene& scene, const Options& options, const Control& control) {
   if (!options.error) { return detail::solve_at(scene, options, control); }
   const double wanted = *options.error;
   Options round = options;
@@ -291,6 +288,14 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
     before.solution->audit.stages = stages;
     detail::sum_times(before.solution->audit);
   }
+}
+
+}  // namespace detail
+
+HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& options, const Control& control) {
+  std::vector<std::string> sentences = faults(options);
+  if (!sentences.empty()) { return detail::failed(Failure::Kind::invalid_options, std::move(sentences)); }
+  return detail::solve_in_own_unit(scene, [&](const Scene& in_unit) { return detail::solve_in_rounds(in_unit, options, control); });
 }
 
 }  // namespace radiosity
