@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <span>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -52,11 +53,16 @@ int run(int argc, char** argv) {
   apps::describe(*euler_command, euler);
   apps::describe(*factors_command, factors);
   apps::describe(*stress_command, stress);
+  const std::span<const char* const> arguments(argv + 1, argv + argc);
+  if (const auto fault = apps::empty_argument(arguments)) {
+    apps::complain(*fault);
+    return static_cast<int>(apps::ExitCode::usage);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) {
-      apps::complain(apps::explain(app, error, {argv + 1, argv + argc}));
+      apps::complain(apps::explain(app, error, arguments));
       return static_cast<int>(apps::ExitCode::usage);
     }
     std::ostringstream help;

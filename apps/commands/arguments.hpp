@@ -43,11 +43,6 @@ inline constexpr std::uint64_t most_threads = 1024;
       "NUMBER");
 }
 
-// The name of a file or folder.
-[[nodiscard]] inline CLI::Validator not_empty() {
-  return CLI::Validator([](std::string& text) { return text.empty() ? std::string("expected a name, found ''") : std::string(); }, "");
-}
-
 // One of the names; the value that it stands for goes into the option.
 template <class Value>
 [[nodiscard]] CLI::Validator one_of(const std::map<std::string, Value>& known) {

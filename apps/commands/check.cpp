@@ -244,7 +244,6 @@ void describe(CLI::App& command, CheckOptions& options) {
                                   "flip faces, close holes, part fans, drop duplicates and what is unused; the file stays as it is");
   command.add_option("-o,--output", options.output, "where to write the repaired mesh: .obj, .ply or .off")
       ->type_name("FILE")
-      ->check(not_empty())
       ->needs(repair);
   command.add_flag("--all", options.all, "list every fault, not only the first " + std::to_string(most) + " of each kind");
 }

@@ -20,11 +20,13 @@ void complain_of(const std::string& name, const std::vector<std::string>& senten
   if (shown < sentences.size()) { std::fprintf(stderr, "%s: ... and %zu more\n", name.c_str(), sentences.size() - shown); }
 }
 
+std::string shown(const std::string& input) { return input.empty() ? "''" : input == "-" ? "standard input" : input; }
+
 std::optional<std::string> load_text(const std::string& path, ExitCode& code) {
   std::string fault;
   auto text = read_text(path, fault);
   if (!text) {
-    complain((path.empty() ? "the empty name" : path == "-" ? "the standard input" : path) + " " + fault);
+    complain(shown(path) + " " + fault);
     code = ExitCode::failure;
   }
   return text;
@@ -38,8 +40,8 @@ std::optional<SceneFile> load_scene(const std::string& path, ExitCode& code) {
 std::optional<SceneFile> load_scene(const std::string& path, const std::string& text, ExitCode& code) {
   SceneResult result = parse_scene(text);
   if (!result.file) {
-    const auto sentence = wrong_kind(path, text, FileKind::scene);
-    sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, path).c_str(), stderr));
+    const auto sentence = wrong_kind(shown(path), text, FileKind::scene);
+    sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, shown(path)).c_str(), stderr));
     code = ExitCode::invalid_input;
     return std::nullopt;
   }

@@ -13,6 +13,9 @@
 
 namespace apps {
 
+// The name of an input in a sentence.
+[[nodiscard]] std::string shown(const std::string& input);
+
 // The whole file, "-" for the standard input; on failure says why and sets `code` to failure.
 [[nodiscard]] std::optional<std::string> load_text(const std::string& path, ExitCode& code);
 

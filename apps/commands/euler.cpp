@@ -62,7 +62,7 @@ ExitCode run(const EulerOptions& options) {
   if (!text) { return code; }
   const brep::ScriptResult parsed = brep::parse_script(*text);
   if (!parsed.script) {
-    const auto sentence = wrong_kind(options.script, *text, FileKind::script);
+    const auto sentence = wrong_kind(shown(options.script), *text, FileKind::script);
     sentence ? complain(*sentence) : report(parsed.errors, options.script);
     return ExitCode::invalid_input;
   }

@@ -82,7 +82,7 @@ std::vector<Channel> total_exchange_of(const Factors& f, const radiosity::Scene&
   return channels;
 }
 
-constexpr std::size_t widest = 10;   // columns that a terminal shows
+constexpr std::size_t widest = 10;    // columns that a terminal shows
 constexpr std::size_t longest = 200;  // lines of a list
 
 std::string table(const Factors& f, const Channel& channel) {
@@ -235,16 +235,13 @@ std::string json(const Factors& f, const std::vector<Channel>& channels, const F
 void describe(CLI::App& command, FactorsOptions& options) {
   command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
   command.add_option("--csv", options.csv, "write the matrix: one line a surface, its factors, then their errors")
-      ->type_name("FILE")
-      ->check(not_empty());
+      ->type_name("FILE");
   command.add_option("--json", options.json, "write the matrix, its errors and how each was found")
-      ->type_name("FILE")
-      ->check(not_empty());
+      ->type_name("FILE");
   command
       .add_option("--total-exchange", options.total_exchange,
                   "write the total exchange factors, reflections included (script F; emissivity = 1 - reflectance); --json gets them, too")
-      ->type_name("FILE")
-      ->check(not_empty());
+      ->type_name("FILE");
   command.add_option("--error", options.error, "wanted error of each factor")->check(above_zero(1.0))->capture_default_str();
   command.add_option("--threads", options.threads, "0: as many as the machine has; results do not depend on it")
       ->check(whole_number(0, most_threads));

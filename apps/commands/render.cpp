@@ -227,7 +227,7 @@ void describe(CLI::App& command, RenderOptions& options) {
                                                                           {"constant", radiosity::Reconstruction::constant}}));
   command.add_flag("!--no-shortcuts", solver.shortcuts,
                    "do all that the report would tell as left out; the result is the same, to the bit");
-  command.add_option("--json", options.json, "write the report as JSON, too")->type_name("FILE")->check(not_empty());
+  command.add_option("--json", options.json, "write the report as JSON, too")->type_name("FILE");
   command.add_flag("--quiet", options.quiet, "no narration and no progress bar");
 }
 

@@ -97,7 +97,7 @@ std::vector<const Case*> choose(const std::vector<std::string>& names, bool& kno
 void describe(CLI::App& command, StressOptions& options) {
   command.add_option("case", options.cases, "cases to run (default: all)")->type_name("CASE");
   command.add_flag("--list", options.list, "name the cases and run none");
-  command.add_option("--json", options.json, "write figures, bounds and verdicts as JSON, too")->type_name("FILE")->check(not_empty());
+  command.add_option("--json", options.json, "write figures, bounds and verdicts as JSON, too")->type_name("FILE");
 }
 
 ExitCode run(const StressOptions& options) {

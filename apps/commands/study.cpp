@@ -110,8 +110,7 @@ void describe(CLI::App& command, StudyOptions& options) {
   command.add_option("scenes", options.scenes, "the .scene files")->required()->type_name("SCENE");
   command.add_option("-o,--output", options.folder, "folder for tables, plots, pictures and the page; made when there is none")
       ->required()
-      ->type_name("DIR")
-      ->check(not_empty());
+      ->type_name("DIR");
   auto* seconds = command.add_option("--time-per-run", options.seconds, "CPU seconds after which a run is stopped")
                       ->check(above_zero(1e6))
                       ->capture_default_str();

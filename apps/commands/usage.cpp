@@ -77,17 +77,21 @@ std::string described(const CLI::App& command, const std::string& name) {
   return what + ", " + option->get_description();
 }
 
+template <class Kind>
+bool is(const CLI::ParseError& error) {
+  return dynamic_cast<const Kind*>(&error) != nullptr;
+}
+
 std::string sentence_of(const CLI::App& app, const CLI::ParseError& error, std::span<const char* const> arguments) {
   const std::vector<CLI::App*> used = app.get_subcommands();
   if (used.empty()) { return no_command(app, arguments); }
   const CLI::App& command = *used.front();
-  const std::string kind = error.get_name();
   const std::string text = error.what();
-  if (kind == "ExtrasError") { return not_expected(command); }
-  if (kind == "RequiredError") { return command.get_name() + " needs " + described(command, replaced(text, " is required", "")); }
-  if (kind == "ExcludesError") { return replaced(text, " excludes ", " and ") + " cannot be given together"; }
-  if (kind == "RequiresError") { return replaced(text, " requires ", " needs "); }
-  if (kind == "ArgumentMismatch") {
+  if (is<CLI::ExtrasError>(error)) { return not_expected(command); }
+  if (is<CLI::RequiredError>(error)) { return command.get_name() + " needs " + described(command, replaced(text, " is required", "")); }
+  if (is<CLI::ExcludesError>(error)) { return replaced(text, " excludes ", " and ") + " cannot be given together"; }
+  if (is<CLI::RequiresError>(error)) { return replaced(text, " requires ", " needs "); }
+  if (is<CLI::ArgumentMismatch>(error)) {
     const std::string name = subject(text);
     if (text.find("missing") == text.npos) { return name + " is given more than once"; }
     const CLI::Option* const option = command.get_option_no_throw(name);
@@ -102,6 +106,16 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error, std::span
   const std::vector<CLI::App*> used = app.get_subcommands();
   return sentence_of(app, error, arguments) + "\n`halflight " + (used.empty() ? "" : used.front()->get_name() + " ") +
          "--help` says more.";
+}
+
+std::optional<std::string> empty_argument(std::span<const char* const> arguments) {
+  std::string before = "the command";
+  for (const std::string argument : arguments) {
+    if (argument.empty()) { return "the value after " + before + " is empty"; }
+    if (argument.starts_with("--") && argument.ends_with("=")) { return argument.substr(0, argument.size() - 1) + " needs a value"; }
+    before = argument;
+  }
+  return std::nullopt;
 }
 
 }  // namespace apps

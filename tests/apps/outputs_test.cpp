@@ -137,7 +137,7 @@ TEST_CASE("what is no regular file is written through and stays what it was") {
       REQUIRE(::mkfifo((place.path() / pipe).c_str(), 0600) == 0);
       fs::create_symlink("/dev/null", place.path() / ("null" + ending));
       const std::string command = c.name + " " + (c.input.empty() ? "" : c.input + c.ending) + c.rest + " " + option + " ";
-      const Run through = place.run(command + pipe, "cat " + pipe + " > got & ");
+      const Run through = place.run(command + pipe, "(timeout 20 cat " + pipe + " > got 2>&1 </dev/null &); ");
       INFO(command << "\n" << through.err);
       CHECK(through.code == 0);
       for (int i = 0; i < 200 && place.read("got").empty(); ++i) { ::usleep(10000); }
@@ -200,7 +200,7 @@ TEST_CASE("an empty name is no output; names that lead nowhere are known before 
       const Run empty = place.run(command + "''");
       INFO(command << "\n" << empty.err);
       CHECK(empty.code == 2);
-      for (const std::string& name : {std::string("none/a"), "input.scene/a", "/dev/full/a", std::string(300, 'x'), "loop"}) {
+      for (const std::string& name : std::vector<std::string>{"none/a", "input.scene/a", "/dev/full/a", std::string(300, 'x'), "loop"}) {
         if (name == "loop" && !fs::is_symlink(place.path() / ("loop" + ending))) {
           fs::create_symlink("loop" + ending, place.path() / ("loop" + ending));
         }
