@@ -138,7 +138,8 @@ std::string advice(const std::string& path, FileKind found, FileKind wanted) {
   constexpr const char* of_scenes = "a scene is text that names materials and objects (examples/scenes/README.md)";
   if (is_mesh(found) && is_mesh(wanted)) { return "give it a name that ends with the right letters"; }
   if (is_mesh(found) && wanted == FileKind::scene) {
-    return "`halflight check " + path + "` examines it; to light it, write its vertices and faces into a `mesh` statement of a scene "
+    return "`halflight check " + path +
+           "` examines it; to light it, write its vertices and faces into a `mesh` statement of a scene "
            "(examples/scenes/README.md)";
   }
   if (is_mesh(found)) { return "`halflight check " + path + "` examines it"; }

@@ -26,8 +26,9 @@ namespace {
 int run(int argc, char** argv) {
   CLI::App app("Radiosity for scenes of diffuse surfaces: every run says how wrong it is and how long it took.", "halflight");
   app.set_version_flag("--version", std::string("halflight ") + apps::version);
-  app.footer("Exit codes: 0 done, 1 failure, 2 wrong usage, 3 invalid scene, mesh or script, 4 not converged.\n"
-             "'-' as a scene is the standard input; an output '-' is the standard output, and what is told goes to stderr then.");
+  app.footer(
+      "Exit codes: 0 done, 1 failure, 2 wrong usage, 3 invalid scene, mesh or script, 4 not converged.\n"
+      "'-' as a scene is the standard input; an output '-' is the standard output, and what is told goes to stderr then.");
   app.require_subcommand(1);
   apps::RenderOptions render;
   apps::InfoOptions info;

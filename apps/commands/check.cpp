@@ -213,7 +213,8 @@ std::optional<Mesh> load(const std::string& path, ExitCode& code) {
   const auto bytes = format ? load_text(path, code) : read_text(path, ignored);
   if (!format) {
     const auto sentence = bytes ? wrong_kind(path, *bytes, FileKind::obj) : std::nullopt;
-    complain(sentence && guess_kind(*bytes).kind != FileKind::unknown ? *sentence : path + ": expected a name that ends with .obj, .ply or .off");
+    complain(sentence && guess_kind(*bytes).kind != FileKind::unknown ? *sentence
+                                                                      : path + ": expected a name that ends with .obj, .ply or .off");
     code = ExitCode::usage;
     return std::nullopt;
   }

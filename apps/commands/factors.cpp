@@ -234,10 +234,8 @@ std::string json(const Factors& f, const std::vector<Channel>& channels, const F
 
 void describe(CLI::App& command, FactorsOptions& options) {
   command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
-  command.add_option("--csv", options.csv, "write the matrix: one line a surface, its factors, then their errors")
-      ->type_name("FILE");
-  command.add_option("--json", options.json, "write the matrix, its errors and how each was found")
-      ->type_name("FILE");
+  command.add_option("--csv", options.csv, "write the matrix: one line a surface, its factors, then their errors")->type_name("FILE");
+  command.add_option("--json", options.json, "write the matrix, its errors and how each was found")->type_name("FILE");
   command
       .add_option("--total-exchange", options.total_exchange,
                   "write the total exchange factors, reflections included (script F; emissivity = 1 - reflectance); --json gets them, too")

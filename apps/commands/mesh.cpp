@@ -196,8 +196,7 @@ ExitCode check(const MeshOptions& options) {
 
 void describe(CLI::App& command, MeshOptions& options) {
   command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
-  command.add_option("-o,--output", options.output, "where to write the mesh: .obj, .ply or .off")
-      ->type_name("FILE");
+  command.add_option("-o,--output", options.output, "where to write the mesh: .obj, .ply or .off")->type_name("FILE");
   command.add_option("--json", options.json, "the numbers as JSON: into FILE, or in place of the text")
       ->type_name("[FILE]")
       ->expected(0, 1);

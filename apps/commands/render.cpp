@@ -210,8 +210,10 @@ void describe(CLI::App& command, RenderOptions& options) {
       .add_option("--method", options.method,
                   "what the picture shows: mesh, the triangles of the solution, or raycast, the objects themselves with smooth outlines")
       ->transform(one_of(std::map<std::string, PictureMethod>{{"mesh", PictureMethod::mesh}, {"raycast", PictureMethod::raycast}}));
-  command.add_option("--exposure", options.exposure, "factor from radiance to picture (default: automatic)")->check(above_zero(std::numeric_limits<double>::max()));
-  command.add_option("--threads", solver.threads, "threads (default: all); results do not depend on it")->check(whole_number(1, most_threads));
+  command.add_option("--exposure", options.exposure, "factor from radiance to picture (default: automatic)")
+      ->check(above_zero(std::numeric_limits<double>::max()));
+  command.add_option("--threads", solver.threads, "threads (default: all); results do not depend on it")
+      ->check(whole_number(1, most_threads));
   command.add_option("--seed", solver.seed, "seed of all random choices")
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   command.add_option("--audit", solver.audit_points, "points at which the error is measured; 0: none")->check(whole_number(0, 100'000'000));

@@ -104,8 +104,7 @@ std::string sentence_of(const CLI::App& app, const CLI::ParseError& error, std::
 
 std::string explain(const CLI::App& app, const CLI::ParseError& error, std::span<const char* const> arguments) {
   const std::vector<CLI::App*> used = app.get_subcommands();
-  return sentence_of(app, error, arguments) + "\n`halflight " + (used.empty() ? "" : used.front()->get_name() + " ") +
-         "--help` says more.";
+  return sentence_of(app, error, arguments) + "\n`halflight " + (used.empty() ? "" : used.front()->get_name() + " ") + "--help` says more.";
 }
 
 std::optional<std::string> empty_argument(std::span<const char* const> arguments) {

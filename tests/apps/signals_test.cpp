@@ -86,8 +86,7 @@ TEST_CASE("a limit on the size of files is an error of the write in every comman
   const std::string commands[] = {"render " + scene("two_plates") + " --audit 0 --quiet --size 400x400 -o out.png",
                                   "render " + scene("two_plates") + " --audit 0 --quiet --json out.png",
                                   "factors " + scene("room") + " --error 0.1 --csv out.png",
-                                  "mesh " + scene("primitives") + " --json out.png",
-                                  "euler a.euler -o out.html"};
+                                  "mesh " + scene("primitives") + " --json out.png", "euler a.euler -o out.html"};
   for (const std::string& command : commands) {
     for (const char* name : {"out.png", "out.html"}) { place.write(name, "old"); }
     const Run run = place.run(command, "ulimit -f 1; ");
@@ -102,8 +101,9 @@ TEST_CASE("a limit on the size of files is an error of the write in every comman
 
 TEST_CASE("a pipe that nobody reads any more ends a command quietly, whether or not the signal is ignored") {
   const Place place;
-  for (const std::string& command : {"info " + scene("room"), "mesh " + scene("room") + " --json", "factors " + scene("two_plates"),
-                                     "render " + scene("two_plates") + " --audit 0 --quiet", std::string("stress --list"), std::string("--help")}) {
+  for (const std::string& command :
+       {"info " + scene("room"), "mesh " + scene("room") + " --json", "factors " + scene("two_plates"),
+        "render " + scene("two_plates") + " --audit 0 --quiet", std::string("stress --list"), std::string("--help")}) {
     for (const char* trap : {"", "trap '' PIPE; "}) {
       const std::string line = "cd '" + place.path().string() + "' && { " + trap + "sleep 0.1; '" HALFLIGHT_PROGRAM "' " + command +
                                " 2>err; echo $? >code; } | true";
@@ -117,7 +117,8 @@ TEST_CASE("a pipe that nobody reads any more ends a command quietly, whether or 
 
 TEST_CASE("what cannot be said is a failure: a full device, a closed standard output") {
   const Place place;
-  for (const std::string& command : {"info " + scene("room"), "mesh " + scene("room"), "factors " + scene("two_plates"), std::string("--help")}) {
+  for (const std::string& command :
+       {"info " + scene("room"), "mesh " + scene("room"), "factors " + scene("two_plates"), std::string("--help")}) {
     for (const char* where : {" >/dev/full", " >&-"}) {
       const std::string line =
           "cd '" + place.path().string() + "' && '" HALFLIGHT_PROGRAM "' " + command + " 2>err" + where + "; echo $? >code";

@@ -94,8 +94,8 @@ TEST_CASE("a channel that is faint beside the others has the same relative bits,
   Scene faint = scene;
   const int k = -700;  // its squares vanish
   for (radiosity::Material& m : faint.materials) { m.emission.z = std::ldexp(m.emission.z, k); }
-  for (const auto solver : {radiosity::Solver::conjugate_gradients, radiosity::Solver::jacobi, radiosity::Solver::gauss_seidel,
-                            radiosity::Solver::southwell}) {
+  for (const auto solver :
+       {radiosity::Solver::conjugate_gradients, radiosity::Solver::jacobi, radiosity::Solver::gauss_seidel, radiosity::Solver::southwell}) {
     radiosity::Options options = coarse();
     options.audit_points = 0;
     options.solver = solver;
