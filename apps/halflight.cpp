@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <span>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 
@@ -15,6 +17,8 @@
 #include "apps/commands/render.hpp"
 #include "apps/commands/stress.hpp"
 #include "apps/commands/study.hpp"
+#include "apps/commands/usage.hpp"
+#include "apps/interrupt.hpp"
 #include "apps/version.hpp"
 
 namespace {
@@ -22,7 +26,9 @@ namespace {
 int run(int argc, char** argv) {
   CLI::App app("Radiosity for scenes of diffuse surfaces: every run says how wrong it is and how long it took.", "halflight");
   app.set_version_flag("--version", std::string("halflight ") + apps::version);
-  app.footer("Exit codes: 0 done, 1 failure, 2 wrong usage, 3 invalid scene, mesh or script, 4 not converged.");
+  app.footer(
+      "Exit codes: 0 done, 1 failure, 2 wrong usage, 3 invalid scene, mesh or script, 4 not converged.\n"
+      "'-' as a scene is the standard input; an output '-' is the standard output, and what is told goes to stderr then.");
   app.require_subcommand(1);
   apps::RenderOptions render;
   apps::InfoOptions info;
@@ -48,9 +54,22 @@ int run(int argc, char** argv) {
   apps::describe(*euler_command, euler);
   apps::describe(*factors_command, factors);
   apps::describe(*stress_command, stress);
+  const std::span<const char* const> arguments(argv + 1, argv + argc);
+  if (const auto fault = apps::empty_argument(arguments)) {
+    apps::complain(*fault);
+    return static_cast<int>(apps::ExitCode::usage);
+  }
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : static_cast<int>(apps::ExitCode::usage); }
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) {
+      apps::complain(apps::explain(app, error, arguments));
+      return static_cast<int>(apps::ExitCode::usage);
+    }
+    std::ostringstream help;
+    app.exit(error, help);
+    return static_cast<int>(apps::print(help.str()) ? apps::ExitCode::ok : apps::ExitCode::failure);
+  }
   if (render_command->parsed()) { return static_cast<int>(apps::run(render)); }
   if (mesh_command->parsed()) { return static_cast<int>(apps::run(mesh)); }
   if (check_command->parsed()) { return static_cast<int>(apps::run(check)); }
@@ -63,6 +82,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  apps::guard_process();
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <ctime>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "apps/exit_code.hpp"
@@ -12,18 +13,22 @@
 namespace apps {
 namespace {
 
+std::atomic<bool> watched{false};
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
 std::atomic<long> first_signal{0};  // second at which it came
 static_assert(std::atomic<long>::is_always_lock_free);
 
-// The first signal asks the run to end, a later one ends it at once. Signals within a second of the first are the same request:
-// timeout(1) sends one to the program and another to its process group.
-extern "C" void on_signal(int) {
+// Signals within a second of the first are the same request: timeout(1) sends one to the program and another to its process group.
+extern "C" void on_signal(int number) {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
-  if (!interrupted) {
+  if (!watched || number == SIGQUIT) {
+    remove_unfinished_file();
+    std::signal(number, SIG_DFL);  // so that the program's parent sees what ended it
+    ::raise(number);               // delivered when the handler returns
+  } else if (!interrupted) {
     first_signal = now.tv_sec;
     interrupted = true;
   } else if (now.tv_sec > first_signal + 1) {
@@ -34,9 +39,31 @@ extern "C" void on_signal(int) {
 
 }  // namespace
 
+void guard_process() {
+  // A file that is opened must not become a standard stream that was closed. What reads nor writes fails, as before.
+  while (true) {
+    const int file = ::open("/dev/null", O_RDONLY);
+    if (file < 0 || file > STDERR_FILENO) {
+      if (file >= 0) { ::close(file); }
+      break;
+    }
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  struct ::sigaction action {};
+  action.sa_handler = on_signal;
+  ::sigemptyset(&action.sa_mask);
+  action.sa_flags = 0;  // a read or write that waits ends with EINTR
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
+    struct ::sigaction old {};
+    const bool ignored = ::sigaction(number, nullptr, &old) == 0 && old.sa_handler == SIG_IGN;
+    if (number == SIGHUP && ignored) { continue; }  // nohup(1)
+    ::sigaction(number, &action, nullptr);
+  }
+}
+
 const std::atomic<bool>& watch_interrupts() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  watched = true;
   return interrupted;
 }
 

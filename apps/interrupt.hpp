@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Ctrl-C. The first SIGINT or SIGTERM sets a flag that the solver and the picture look at; the command then ends with
-// nothing half-written. A second one ends the program at once, after removing a file that was being written.
+// Signals. Whatever ends the program - Ctrl-C, kill, a closed terminal, a limit of time - a file that is being written is removed first.
+//
+// A command that can stop early calls watch_interrupts(): the first signal then sets a flag that the solver and the picture look at, and
+// the command ends with nothing half-written; a second one ends the program at once. Without, the first one does.
+//
+// A write beyond a limit of file size, or to a pipe that nobody reads any more, is no signal but an error of that write.
 
 #include <atomic>
 
 namespace apps {
 
-// Installs the handlers and gives the flag.
+// Installs the handlers. Called once, before anything else.
+void guard_process();
+
+// From now on the first signal sets the flag.
 const std::atomic<bool>& watch_interrupts();
 
 }  // namespace apps

@@ -10,7 +10,8 @@
 //     json.close();
 //     const std::string text = json.text();
 //
-// The caller keeps the structure right: a key before every value in an object. Numbers are written with the fewest
+// The caller keeps the structure right: a key before every value in an object. Bytes that are not UTF-8, as names of files may hold, become
+// U+FFFD. Numbers are written with the fewest
 // digits that read back as the same double; NaN and infinities, which JSON lacks, become null.
 
 #include <array>
@@ -20,6 +21,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "apps/utf8.hpp"
 
 namespace apps {
 
@@ -97,7 +100,7 @@ class JsonWriter {
   }
   void quote(std::string_view value) {
     text_ += '"';
-    for (const char c : value) {
+    for (const char c : to_utf8(value)) {
       const auto byte = static_cast<unsigned char>(c);
       if (c == '"' || c == '\\') { text_ += '\\'; }
       if (byte >= 0x20) {

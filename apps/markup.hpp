@@ -6,12 +6,15 @@
 #include <string>
 #include <string_view>
 
+#include "apps/utf8.hpp"
+
 namespace apps {
 
-// & < > " ' are written as entities, so the text may stand between tags and in an attribute; bytes that XML forbids are left out.
+// & < > " ' are written as entities, so the text may stand between tags and in an attribute; characters that XML forbids are
+// left out, bytes that are no text replaced.
 [[nodiscard]] inline std::string escaped(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : to_utf8(text)) {
     switch (c) {
       case '&':
         result += "&amp;";

@@ -78,7 +78,7 @@ struct SceneResult {
 // The scene that `text` describes.
 [[nodiscard]] SceneResult parse_scene(std::string_view text);
 
-// The whole file, or nothing and a sentence in `fault` (missing, a directory, unreadable, too large).
+// The whole file, "-" for the standard input, or nothing and a sentence in `fault` (missing, a directory, unreadable, too large).
 [[nodiscard]] std::optional<std::string> read_text(const std::string& path, std::string& fault);
 
 // One line per error: "box.scene:12:8: error: ..."; the last line says so when more were found.

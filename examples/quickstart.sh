@@ -5,8 +5,8 @@ set -eu
 cd "$(dirname "$0")/.."
 out=${1:-build/quickstart}
 sh .ci/install g++ cmake ninja-build libglm-dev libstb-dev libcli11-dev
-cmake --preset release -DHALFLIGHT_TESTS=OFF
-cmake --build --preset release
+cmake --preset release
+cmake --build --preset release --target halflight
 mkdir -p "$out"
 build/release/apps/halflight render examples/scenes/cornell.scene \
     -o "$out/cornell.png" -o "$out/cornell.ply" --json "$out/cornell.json"

@@ -20,7 +20,7 @@ using Color = glm::dvec3;
 struct Material {
   std::string name;
   Color reflectance{0.0};  // rho, each channel in [0,1]
-  Color emission{0.0};     // E, W/m2, each channel >= 0
+  Color emission{0.0};     // E, W/m2, each channel >= 0 and finite
 };
 
 // A sentence that says what is wrong with the material, or nothing when it is sound.
@@ -32,8 +32,8 @@ struct Material {
       return "material '" + material.name + "': reflectance " + std::to_string(rho) +
              " lies outside [0, 1]; a surface cannot reflect more than it receives";
     }
-    if (!(emission >= 0.0 && emission <= 1e60)) {
-      return "material '" + material.name + "': emission " + std::to_string(emission) + " is not a number from 0 to 1e60";
+    if (!(emission >= 0.0 && std::isfinite(emission))) {
+      return "material '" + material.name + "': emission " + std::to_string(emission) + " is not a finite number from 0 on";
     }
   }
   return std::nullopt;

@@ -14,7 +14,8 @@
 namespace radiosity {
 
 struct Surface;
-struct Solution;
+struct Mesh;
+struct Frame;
 struct AuditGoal;
 struct PictureError;
 
@@ -105,8 +106,9 @@ struct Control {
   // Called with the valid BReps of all objects after each generation of refinement.
   std::function<void(const std::vector<Surface>&)> after_generation;
 
-  // Measures the error of the picture that will be made of a solution (picture_error.hpp), for an error target. Nothing when it cannot.
-  std::function<std::optional<PictureError>(const Solution&, const AuditGoal&)> picture_error;
+  // Measures the error of the picture that will be made of a mesh, in the scene's coordinates and in W/m2, of a solution with this frame
+  // (picture_error.hpp): an error target is then that of the picture. Nothing when it cannot.
+  std::function<std::optional<PictureError>(const Mesh&, const Frame&, const AuditGoal&)> picture_error;
 
   [[nodiscard]] bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
   // The same, but nothing stops the run.

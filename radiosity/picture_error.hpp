@@ -22,6 +22,7 @@
 
 #include <radiosity/audit_effort.hpp>
 #include <radiosity/error_estimate.hpp>
+#include <radiosity/light_unit.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/parallel.hpp>
 #include <radiosity/path_tracer.hpp>
@@ -45,9 +46,12 @@ class PictureAudit {
  public:
   // Nothing for a scene that is faulty, or of which paths do not end (plan.hpp).
   [[nodiscard]] static std::optional<PictureAudit> make(const Scene& scene) {
-    PrepareResult result = prepare(scene);
+    if (!faults(scene).empty()) { return std::nullopt; }
+    const LightUnit unit = light_unit(scene);
+    const Scene own = in_unit(scene, unit);
+    PrepareResult result = prepare(own);
     if (!result.prepared || !result.prepared->plan.traceable) { return std::nullopt; }
-    return PictureAudit{scene, std::move(*result.prepared)};
+    return PictureAudit{own, unit, std::move(*result.prepared)};
   }
 
   // Nothing when cancelled, or when no visible pixel reflects light. `rays`: see AuditGoal. Depends on picture, goal and seed alone.
@@ -99,8 +103,8 @@ class PictureAudit {
     std::uint32_t object = 0, sheet = 0;
   };
 
-  PictureAudit(const Scene& scene, Prepared prepared)
-      : prepared_{std::make_unique<Prepared>(std::move(prepared))}, tracer_{scene, prepared_->objects, prepared_->surfaces} {
+  PictureAudit(const Scene& scene, const LightUnit& unit, Prepared prepared)
+      : unit_{unit}, prepared_{std::make_unique<Prepared>(std::move(prepared))}, tracer_{scene, prepared_->objects, prepared_->surfaces} {
     const auto inputs = surfaces(scene);
     all_emit_ = std::none_of(inputs.begin(), inputs.end(), [&](const InputSurface& s) { return is_black(scene.materials[s.material].emission); });
   }
@@ -156,17 +160,15 @@ class PictureAudit {
                                return tracer_.radiosity(at->point.position, at->point.normal, at->object, at->sheet, numbers, sample.rays);
                              }};
     if (edge) { return sample; }
-    const Color shown = picture.radiosity(sample.x, sample.y);
+    const Color shown = unit_.to_unit(picture.radiosity(sample.x, sample.y));
+    const auto level = [&](double b) { return picture.level(unit_.to_watts(Color{b}).x); };
     sample.square = glm::dot(light.all[0] - shown, light.all[1] - shown);
     sample.reference = glm::dot(light.all[0] - emitted, light.all[1] - emitted);
     sample.noise = light.noise();
     for (int c = 0; c < 3; ++c) {
-      const double level = picture.level(shown[c]);
-      const double low = picture.level(std::min(light.all[0][c], light.all[1][c]));
-      const double high = picture.level(std::max(light.all[0][c], light.all[1][c]));
-      const double off = std::abs(picture.level(0.5 * (light.all[0][c] + light.all[1][c])) - level);
-      sample.levels = std::max(sample.levels, off);
-      sample.noise_in_levels = std::max(sample.noise_in_levels, high - low);
+      const double off = level(0.5 * (light.all[0][c] + light.all[1][c])) - level(shown[c]);
+      sample.levels = std::max(sample.levels, std::abs(off));
+      sample.noise_in_levels = std::max(sample.noise_in_levels, std::abs(level(light.all[0][c]) - level(light.all[1][c])));
     }
     sample.valid = true;
     return sample;
@@ -221,6 +223,7 @@ class PictureAudit {
     return result;
   }
 
+  LightUnit unit_;
   std::unique_ptr<Prepared> prepared_;  // the tracer points into it
   PathTracer tracer_;
   bool all_emit_ = false;  // every surface does

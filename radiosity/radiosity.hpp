@@ -25,6 +25,7 @@
 #include <radiosity/evaluate.hpp>
 #include <radiosity/exposure.hpp>
 #include <radiosity/frame.hpp>
+#include <radiosity/light_unit.hpp>
 #include <radiosity/mesh.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/polygons.hpp>
@@ -111,6 +112,41 @@ inline void sum_times(Audit& audit) {
 }
 
 inline Outcome failed(Failure::Kind kind, std::vector<std::string> sentences) { return {std::nullopt, {kind, std::move(sentences)}}; }
+
+// What is in the unit becomes W/m2; false when the light is more than a double holds.
+[[nodiscard]] inline bool to_watts(Color& c, const LightUnit& unit) {
+  c = unit.to_watts(c);
+  return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+}
+[[nodiscard]] inline bool to_watts(Mesh& mesh, const LightUnit& unit) {
+  bool finite = true;
+  for (MeshCorner& corner : mesh.corners) { finite = to_watts(corner.radiosity, unit) && finite; }
+  for (MeshFace& face : mesh.faces) { finite = to_watts(face.radiosity, unit) && finite; }
+  return finite;
+}
+[[nodiscard]] inline bool to_watts(Solution& solution, const LightUnit& unit) {
+  bool finite = to_watts(solution.mesh, unit);
+  for (Color& c : solution.radiosity) { finite = to_watts(c, unit) && finite; }
+  for (SurfaceMean& mean : solution.audit.surfaces) { finite = to_watts(mean.radiosity, unit) && finite; }
+  if (solution.comparison) {
+    finite = to_watts(solution.comparison->other, unit) && finite;
+    for (Color& c : solution.comparison->dense) { finite = to_watts(c, unit) && finite; }
+  }
+  return finite;
+}
+
+// What `solve` makes of the scene in its own unit, in W/m2.
+template <class Solve>
+[[nodiscard]] Outcome solve_in_own_unit(const Scene& scene, const Solve& solve) {
+  std::vector<std::string> sentences = faults(scene);
+  if (!sentences.empty()) { return failed(Failure::Kind::invalid_scene, std::move(sentences)); }
+  const LightUnit unit = light_unit(scene);
+  Outcome outcome = solve(in_unit(scene, unit), unit);
+  if (outcome.solution && !to_watts(*outcome.solution, unit)) {
+    return failed(Failure::Kind::invalid_scene, {"the light is stronger than a number can hold; give the emissions in a larger unit"});
+  }
+  return outcome;
+}
 
 }  // namespace detail
 

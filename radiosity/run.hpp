@@ -39,10 +39,9 @@ inline void measure_errors(const Options& options, const Control& control, Surfa
   AuditGoal goal = to_know;
   if (options.error) { goal = {options.audit_points, solution_rays, *options.error, std::max<std::uint64_t>(25'000'000, 2 * solution_rays)}; }
   if (options.error && control.picture_error) {
-    std::vector<glm::dvec3> framed = solution.mesh.positions;
-    for (glm::dvec3& p : solution.mesh.positions) { p = solution.frame.to_scene(p); }
-    audit.picture_error = control.picture_error(solution, goal);
-    solution.mesh.positions = std::move(framed);
+    Mesh shown = solution.mesh;
+    for (glm::dvec3& p : shown.positions) { p = solution.frame.to_scene(p); }
+    audit.picture_error = control.picture_error(shown, solution.frame, goal);
     // The error over all surfaces decides nothing then: before the last round, a little of it will do.
     const bool last = audit.picture_error && audit.picture_error->error.within(*options.error);
     goal = last ? to_know : AuditGoal{64};
@@ -265,14 +264,29 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   return {std::move(solution), {}};
 }
 
+// solve() for sound options and light in its own unit (light_unit.hpp).
+inline Outcome solve_in_rounds(const Scene& scene, const Options& options, const Control& control) {
+  if (!options.error) { return detail::solve_at(scene, options, control); }
+  const bool of_picture = static_cast<bool>(control.picture_error);
+  return detail::solve_to_error(options, of_picture, [&](const Options& round) { return detail::solve_at(scene, round, control); });
+}
+
 }  // namespace detail
 
 HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& options, const Control& control) {
   std::vector<std::string> sentences = faults(options);
   if (!sentences.empty()) { return detail::failed(Failure::Kind::invalid_options, std::move(sentences)); }
-  if (!options.error) { return detail::solve_at(scene, options, control); }
-  const bool of_picture = static_cast<bool>(control.picture_error);
-  return detail::solve_to_error(options, of_picture, [&](const Options& round) { return detail::solve_at(scene, round, control); });
+  return detail::solve_in_own_unit(scene, [&](const Scene& in_unit, const LightUnit& unit) {
+    Control own = control;
+    if (control.picture_error) {
+      own.picture_error = [&](const Mesh& mesh, const Frame& frame, const AuditGoal& goal) {
+        Mesh in_watts = mesh;
+        (void)detail::to_watts(in_watts, unit);
+        return control.picture_error(in_watts, frame, goal);
+      };
+    }
+    return detail::solve_in_rounds(in_unit, options, own);
+  });
 }
 
 }  // namespace radiosity

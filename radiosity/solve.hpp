@@ -113,29 +113,37 @@ inline LinearSolution southwell(const Channel& channel, double wanted, std::uint
 
 }  // namespace detail
 
-// `reflectance` and `emission`: one number for each input surface.
+// `reflectance` and `emission`: one number for each input surface. Solved in a unit of light of its own, a power of two: the squares of a
+// channel that is faint beside the others would vanish.
 [[nodiscard]] inline LinearSolution solve_channel(const Hierarchy& hierarchy, Transport& transport, const std::vector<double>& area,
                                                   const std::vector<double>& reflectance, const std::vector<double>& emission,
                                                   Solver solver, double residual, std::uint32_t max_iterations) {
+  const double strongest = emission.empty() ? 0.0 : *std::max_element(emission.begin(), emission.end());
+  const int unit = strongest > 0.0 ? std::ilogb(strongest) : 0;
   detail::Channel channel{&hierarchy, &transport, &area, {}, {}};
   channel.reflectance.resize(hierarchy.size(), 0.0);
   channel.emission.resize(hierarchy.size(), 0.0);
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
     if (!channel.counts(i)) { continue; }
     channel.reflectance[i] = reflectance[hierarchy[i].surface];
-    channel.emission[i] = emission[hierarchy[i].surface];
+    channel.emission[i] = std::ldexp(emission[hierarchy[i].surface], -unit);
   }
-  switch (solver) {
-    case Solver::jacobi:
-      return detail::jacobi(channel, residual, max_iterations);
-    case Solver::gauss_seidel:
-      return detail::gauss_seidel(channel, residual, max_iterations);
-    case Solver::southwell:
-      return detail::southwell(channel, residual, max_iterations);
-    case Solver::conjugate_gradients:
-      break;
-  }
-  return detail::conjugate_gradients(channel, residual, max_iterations);
+  const auto solve = [&] {
+    switch (solver) {
+      case Solver::jacobi:
+        return detail::jacobi(channel, residual, max_iterations);
+      case Solver::gauss_seidel:
+        return detail::gauss_seidel(channel, residual, max_iterations);
+      case Solver::southwell:
+        return detail::southwell(channel, residual, max_iterations);
+      case Solver::conjugate_gradients:
+        break;
+    }
+    return detail::conjugate_gradients(channel, residual, max_iterations);
+  };
+  LinearSolution solution = solve();
+  for (double& b : solution.radiosity) { b = std::ldexp(b, unit); }
+  return solution;
 }
 
 // All channels of a scene.

@@ -29,9 +29,9 @@ struct UniformOptions {
   std::uint64_t seed = 1;
 };
 
-// `links` of the audit counts the entries of the matrix, or the exchanges that were made and not kept. There is no error estimate.
-[[nodiscard]] inline Outcome solve_uniform(const Scene& scene, const UniformOptions& options, const Control& control = {}) {
-  using detail::failed;
+namespace detail {
+
+[[nodiscard]] inline Outcome solve_uniform_in_unit(const Scene& scene, const UniformOptions& options, const Control& control) {
   Solution solution;
   Audit& audit = solution.audit;
   detail::Stopwatch watch{audit.stages};
@@ -141,6 +141,13 @@ struct UniformOptions {
   solution.area = exposure.area;
   detail::sum_times(audit);
   return {std::move(solution), {}};
+}
+
+}  // namespace detail
+
+// `links` of the audit counts the entries of the matrix, or the exchanges that were made and not kept. There is no error estimate.
+[[nodiscard]] inline Outcome solve_uniform(const Scene& scene, const UniformOptions& options, const Control& control = {}) {
+  return detail::solve_in_own_unit(scene, [&](const Scene& in_unit, const LightUnit&) { return detail::solve_uniform_in_unit(in_unit, options, control); });
 }
 
 }  // namespace radiosity

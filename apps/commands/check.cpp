@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <string_view>
@@ -12,8 +11,8 @@
 #include <brep/repair.hpp>
 #include <brep/statistics.hpp>
 
+#include "apps/commands/arguments.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/files.hpp"
 #include "apps/mesh_file.hpp"
 
 namespace apps {
@@ -204,45 +203,38 @@ std::string verdict(std::size_t faults, const brep::Statistics& s) {
   return "NOT SOUND: " + counted(faults, "fault") + ". " + numbering;
 }
 
+FileKind kind_of(MeshFormat format) {
+  return format == MeshFormat::obj ? FileKind::obj : format == MeshFormat::ply ? FileKind::ply : FileKind::off;
+}
+
 std::optional<Mesh> load(const std::string& path, ExitCode& code) {
   const auto format = mesh_format(path);
+  std::string ignored;
+  const auto bytes = format ? load_text(path, code) : read_text(path, ignored);
   if (!format) {
-    complain(path + ": expected a name that ends with .obj, .ply or .off");
+    const auto sentence = bytes ? wrong_kind(path, *bytes, FileKind::obj) : std::nullopt;
+    complain(sentence && guess_kind(*bytes).kind != FileKind::unknown ? *sentence
+                                                                      : path + ": expected a name that ends with .obj, .ply or .off");
     code = ExitCode::usage;
     return std::nullopt;
   }
-  std::string fault;
-  const auto bytes = read_text(path, fault);
-  if (!bytes) {
-    complain(path + " " + fault);
-    code = ExitCode::failure;
-    return std::nullopt;
-  }
+  if (!bytes) { return std::nullopt; }
   MeshResult result = read_mesh(*bytes, *format);
   if (!result.mesh) {
-    std::fputs(to_text(result, path).c_str(), stderr);
+    const auto sentence = wrong_kind(path, *bytes, kind_of(*format));
+    sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, path).c_str(), stderr));
     code = ExitCode::invalid_input;
   }
   return std::move(result.mesh);
 }
 
 // An output that cannot be written is refused before any work.
-ExitCode check_output(const CheckOptions& options) {
-  if (options.output.empty()) { return ExitCode::ok; }
-  std::error_code ignored;
-  if (!mesh_format(options.output)) {
+ExitCode check(const CheckOptions& options) {
+  if (!options.output.empty() && !mesh_format(options.output)) {
     complain("--output " + options.output + ": expected a name that ends with .obj, .ply or .off");
     return ExitCode::usage;
   }
-  if (std::filesystem::equivalent(options.output, options.mesh, ignored)) {
-    complain(options.output + " is the mesh itself; the output needs a file of its own");
-    return ExitCode::usage;
-  }
-  if (const auto fault = check_writable(options.output)) {
-    complain(*fault);
-    return ExitCode::failure;
-  }
-  return ExitCode::ok;
+  return check_outputs({options.output}, {options.mesh});
 }
 
 }  // namespace
@@ -258,7 +250,7 @@ void describe(CLI::App& command, CheckOptions& options) {
 }
 
 ExitCode run(const CheckOptions& options) {
-  ExitCode code = check_output(options);
+  ExitCode code = check(options);
   if (code != ExitCode::ok) { return code; }
   const auto mesh = load(options.mesh, code);
   if (!mesh) { return code; }
@@ -278,25 +270,15 @@ ExitCode run(const CheckOptions& options) {
     nothing_left = after.components.empty();
     for (brep::Component& c : after.components) { c.first = brep::FaceId{repaired.old_face[c.first.index]}; }  // as everywhere else
     text += "\n--- the mesh now\n" + summary(after, options.all) + "\n" + verdict(remaining.size(), after);
-    if (!options.output.empty()) {
-      if (const auto fault = write_file(options.output, write_mesh(repaired.builder, *mesh_format(options.output)))) {
-        complain(*fault);
-        return ExitCode::failure;
-      }
-    }
-  } else if (!options.output.empty()) {
-    if (const auto fault = write_file(options.output, write_mesh(mesh->builder, *mesh_format(options.output)))) {
-      complain(*fault);
+    if (!options.output.empty() && !save(options.output, write_mesh(repaired.builder, *mesh_format(options.output)))) {
       return ExitCode::failure;
     }
+  } else if (!options.output.empty() && !save(options.output, write_mesh(mesh->builder, *mesh_format(options.output)))) {
+    return ExitCode::failure;
   }
   text += faults(remaining, *mesh, options);
   if (!options.output.empty()) { text += "\nwritten: " + options.output + "\n"; }
-  std::fputs(text.c_str(), stdout);
-  if (std::fflush(stdout) != 0) {
-    complain("cannot write to standard output");
-    return ExitCode::failure;
-  }
+  if (!print(text, {options.output})) { return ExitCode::failure; }
   return remaining.empty() && !nothing_left ? ExitCode::ok : ExitCode::invalid_input;
 }
 

@@ -1,36 +1,74 @@
 // SPDX-License-Identifier: MIT
 #include "apps/commands/common.hpp"
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
-#include <filesystem>
-#include <system_error>
+#include <cstring>
 #include <utility>
+
+#include "apps/files.hpp"
+#include "apps/output_paths.hpp"
 
 namespace apps {
 
 void complain(const std::string& sentence) { std::fprintf(stderr, "halflight: %s\n", sentence.c_str()); }
 
-std::string resolved(const std::string& path) {
-  std::error_code error;
-  const std::filesystem::path canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
-  return error ? path : canonical.string();
+void complain_of(const std::string& name, const std::vector<std::string>& sentences) {
+  const std::size_t shown = std::min(max_errors, sentences.size());
+  for (std::size_t i = 0; i < shown; ++i) { std::fprintf(stderr, "%s: error: %s\n", name.c_str(), sentences[i].c_str()); }
+  if (shown < sentences.size()) { std::fprintf(stderr, "%s: ... and %zu more\n", name.c_str(), sentences.size() - shown); }
+}
+
+std::string shown(const std::string& input) { return input.empty() ? "''" : input == "-" ? "standard input" : input; }
+
+std::optional<std::string> load_text(const std::string& path, ExitCode& code) {
+  std::string fault;
+  auto text = read_text(path, fault);
+  if (!text) {
+    complain(shown(path) + " " + fault);
+    code = ExitCode::failure;
+  }
+  return text;
 }
 
 std::optional<SceneFile> load_scene(const std::string& path, ExitCode& code) {
-  std::string fault;
-  const std::optional<std::string> text = read_text(path, fault);
-  if (!text) {
-    complain(path + " " + fault);
-    code = ExitCode::invalid_input;
-    return std::nullopt;
-  }
-  SceneResult result = parse_scene(*text);
+  const auto text = load_text(path, code);
+  return text ? load_scene(path, *text, code) : std::nullopt;
+}
+
+std::optional<SceneFile> load_scene(const std::string& path, const std::string& text, ExitCode& code) {
+  SceneResult result = parse_scene(text);
   if (!result.file) {
-    std::fputs(to_text(result, path).c_str(), stderr);
+    const auto sentence = wrong_kind(shown(path), text, FileKind::scene);
+    sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, shown(path)).c_str(), stderr));
     code = ExitCode::invalid_input;
     return std::nullopt;
   }
   return std::move(result.file);
+}
+
+ExitCode check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  const auto fault = check_output_paths(outputs, inputs);
+  if (!fault) { return ExitCode::ok; }
+  complain(fault->sentence);
+  return fault->usage ? ExitCode::usage : ExitCode::failure;
+}
+
+bool save(const std::string& path, const std::string& bytes) {
+  const auto fault = write_file(path, bytes);
+  if (fault) { complain(*fault); }
+  return !fault;
+}
+
+bool print(const std::string& text, const std::vector<std::string>& outputs) {
+  const bool taken = std::any_of(outputs.begin(), outputs.end(), is_standard_output);
+  std::FILE* const stream = taken ? stderr : stdout;
+  errno = 0;
+  if (std::fputs(text.c_str(), stream) >= 0 && std::fflush(stream) == 0 && std::ferror(stream) == 0) { return true; }
+  if (errno == EPIPE) { return true; }
+  complain(std::string("cannot write to standard output: ") + std::strerror(errno));
+  return false;
 }
 
 }  // namespace apps

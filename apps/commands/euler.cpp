@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apps/commands/euler.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
@@ -14,8 +13,6 @@
 #include "apps/euler/interactive.hpp"
 #include "apps/euler/story.hpp"
 #include "apps/euler/svg.hpp"
-#include "apps/files.hpp"
-#include "apps/scene_file.hpp"
 
 namespace apps {
 namespace {
@@ -24,7 +21,7 @@ constexpr std::size_t most_edges = 200000;  // in all pictures of a script: minu
 
 bool ends_with(const std::string& path, std::string_view end) { return path.size() > end.size() && path.ends_with(end); }
 
-void print(const std::vector<brep::ScriptError>& errors, const std::string& path) {
+void report(const std::vector<brep::ScriptError>& errors, const std::string& path) {
   for (const brep::ScriptError& e : errors) {
     std::fprintf(stderr, "%s:%u:%u: error: %s\n", path.c_str(), e.place.line, e.place.column, e.sentence.c_str());
   }
@@ -54,34 +51,24 @@ void describe(CLI::App& command, EulerOptions& options) {
   interactive->excludes(script);
   command.callback([&options] {
     if (options.script.empty() && !options.interactive) { throw CLI::RequiredError("SCRIPT or --interactive"); }
-    auto sorted = options.outputs;
-    std::sort(sorted.begin(), sorted.end());
-    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) { throw CLI::ValidationError("--output", "the same file twice"); }
   });
 }
 
 ExitCode run(const EulerOptions& options) {
-  for (const std::string& output : options.outputs) {
-    if (const auto fault = check_writable(output)) {
-      complain(*fault);
-      return ExitCode::failure;
-    }
-  }
+  ExitCode code = check_outputs(options.outputs, options.interactive ? std::vector<std::string>{} : std::vector{options.script});
+  if (code != ExitCode::ok) { return code; }
   if (options.interactive) { return euler::converse(options.outputs); }
-  std::string fault;
-  const auto text = read_text(options.script, fault);
-  if (!text) {
-    complain(options.script + " " + fault);
-    return ExitCode::invalid_input;
-  }
+  const auto text = load_text(options.script, code);
+  if (!text) { return code; }
   const brep::ScriptResult parsed = brep::parse_script(*text);
   if (!parsed.script) {
-    print(parsed.errors, options.script);
+    const auto sentence = wrong_kind(shown(options.script), *text, FileKind::script);
+    sentence ? complain(*sentence) : report(parsed.errors, options.script);
     return ExitCode::invalid_input;
   }
   const std::string name = std::filesystem::path(options.script).stem().string();
   euler::Story story = euler::tell(*parsed.script, name, false);
-  print(story.errors, options.script);
+  report(story.errors, options.script);
   if (!options.outputs.empty()) {
     if (story.edges > most_edges) {
       complain(options.script + " is too long to draw: its " + std::to_string(story.frames.size()) + " pictures would show " +
@@ -91,15 +78,11 @@ ExitCode run(const EulerOptions& options) {
     story = euler::tell(*parsed.script, name);
   }
   for (const std::string& output : options.outputs) {
-    if (const auto failure = write_file(output, ends_with(output, ".svg") ? euler::strip(story) : euler::page(story))) {
-      complain(*failure);
-      return ExitCode::failure;
-    }
+    if (!save(output, ends_with(output, ".svg") ? euler::strip(story) : euler::page(story))) { return ExitCode::failure; }
   }
   std::string out = summary(story);
   for (const std::string& output : options.outputs) { out += "written: " + output + "\n"; }
-  std::fputs(out.c_str(), stdout);
-  if (std::fflush(stdout) != 0) { return ExitCode::failure; }
+  if (!print(out, options.outputs)) { return ExitCode::failure; }
   return story.errors.empty() ? ExitCode::ok : ExitCode::invalid_input;
 }
 

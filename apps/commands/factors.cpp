@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <ctime>
 
+#include "apps/commands/arguments.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/files.hpp"
 #include "apps/json.hpp"
 
 #include <radiosity/total_exchange.hpp>
@@ -82,7 +82,8 @@ std::vector<Channel> total_exchange_of(const Factors& f, const radiosity::Scene&
   return channels;
 }
 
-constexpr std::size_t widest = 10;  // columns that a terminal shows
+constexpr std::size_t widest = 10;    // columns that a terminal shows
+constexpr std::size_t longest = 200;  // lines of a list
 
 std::string table(const Factors& f, const Channel& channel) {
   const std::size_t n = f.surfaces.size();
@@ -114,7 +115,7 @@ std::string summary(const Factors& f, const FactorsOptions& options, const Secon
   std::string text = options.scene + "\n" + left("from \\ to", width) + right("area", 12) + right("row sum", 12) + right("+-", 9);
   for (std::size_t j = 0; matrix && j < n; ++j) { text += right(f.surfaces[j].name, 12); }
   text += "\n";
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < std::min(n, longest); ++i) {
     const Factors::Surface& s = f.surfaces[i];
     text += left(s.name, width) + right(formatted("%.6g", s.area.value), 12) + right(formatted("%.7f", s.row_sum.value), 12) +
             right(formatted("%.0e", s.row_sum.error), 9);
@@ -123,6 +124,7 @@ std::string summary(const Factors& f, const FactorsOptions& options, const Secon
     }
     text += "\n";
   }
+  if (n > longest) { text += "... and " + std::to_string(n - longest) + " more\n"; }
   if (!matrix) { text += "The matrix has " + std::to_string(n) + " rows: --csv and --json write it.\n"; }
   std::array<std::size_t, 3> counts{};
   for (const radiosity::FactorMethod m : f.method) { ++counts[static_cast<std::size_t>(m)]; }
@@ -238,25 +240,17 @@ void describe(CLI::App& command, FactorsOptions& options) {
       .add_option("--total-exchange", options.total_exchange,
                   "write the total exchange factors, reflections included (script F; emissivity = 1 - reflectance); --json gets them, too")
       ->type_name("FILE");
-  command.add_option("--error", options.error, "wanted error of each factor")->capture_default_str();
-  command.add_option("--threads", options.threads, "0: as many as the machine has; results do not depend on it");
+  command.add_option("--error", options.error, "wanted error of each factor")->check(above_zero(1.0))->capture_default_str();
+  command.add_option("--threads", options.threads, "0: as many as the machine has; results do not depend on it")
+      ->check(whole_number(0, most_threads));
 }
 
 ExitCode run(const FactorsOptions& options) {
-  for (const std::string& path : {options.csv, options.json, options.total_exchange}) {
-    if (path.empty()) { continue; }
-    if (const auto fault = check_writable(path)) {
-      complain(*fault);
-      return ExitCode::failure;
-    }
-  }
-  ExitCode code = ExitCode::ok;
+  const std::vector<std::string> outputs{options.csv, options.total_exchange, options.json};
+  ExitCode code = check_outputs(outputs, {options.scene});
+  if (code != ExitCode::ok) { return code; }
   const auto file = load_scene(options.scene, code);
   if (!file) { return code; }
-  if (!(options.error > 0.0)) {
-    complain("--error " + formatted("%g", options.error) + ": it must be above 0");
-    return ExitCode::usage;
-  }
   const auto wall = std::chrono::steady_clock::now();
   const std::clock_t cpu = std::clock();
   radiosity::FactorOptions settings;
@@ -264,7 +258,7 @@ ExitCode run(const FactorsOptions& options) {
   settings.threads = options.threads;
   const radiosity::FactorsResult result = radiosity::factors(file->scene, settings);
   if (!result.factors) {
-    for (const std::string& fault : result.faults) { std::fprintf(stderr, "%s: error: %s\n", options.scene.c_str(), fault.c_str()); }
+    complain_of(options.scene, result.faults);
     return ExitCode::invalid_input;
   }
   std::string refusal;
@@ -282,17 +276,10 @@ ExitCode run(const FactorsOptions& options) {
        {std::pair{options.csv, csv(*result.factors)}, std::pair{options.total_exchange, csv(*result.factors, channels)},
         std::pair{options.json, json(*result.factors, channels, options, seconds)}}) {
     if (path.empty()) { continue; }
-    if (const auto fault = write_file(path, bytes)) {
-      complain(*fault);
-      return ExitCode::failure;
-    }
+    if (!save(path, bytes)) { return ExitCode::failure; }
     text += "written: " + path + "\n";
   }
-  std::fputs(text.c_str(), stdout);
-  if (std::fflush(stdout) != 0) {
-    complain("cannot write to standard output");
-    return ExitCode::failure;
-  }
+  if (!print(text, outputs)) { return ExitCode::failure; }
   return result.factors->converged ? ExitCode::ok : ExitCode::not_converged;
 }
 

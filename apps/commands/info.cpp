@@ -116,11 +116,10 @@ ExitCode run(const InfoOptions& options) {
   if (!file) { return code; }
   const radiosity::PrepareResult preparation = radiosity::prepare(file->scene);
   if (!preparation.prepared) {
-    for (const std::string& fault : preparation.faults) { std::fprintf(stderr, "%s: error: %s\n", options.scene.c_str(), fault.c_str()); }
+    complain_of(options.scene, preparation.faults);
     return ExitCode::invalid_input;
   }
-  std::fputs(summary(*file, *preparation.prepared, options.scene).c_str(), stdout);
-  return std::fflush(stdout) == 0 ? ExitCode::ok : ExitCode::failure;
+  return print(summary(*file, *preparation.prepared, options.scene)) ? ExitCode::ok : ExitCode::failure;
 }
 
 }  // namespace apps

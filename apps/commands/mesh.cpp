@@ -11,8 +11,8 @@
 #include <brep/statistics.hpp>
 #include <radiosity/surface.hpp>
 
+#include "apps/commands/arguments.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/files.hpp"
 #include "apps/json.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/version.hpp"
@@ -89,13 +89,12 @@ struct SceneMesh {
 
 std::optional<SceneMesh> make_mesh(const SceneFile& file, const std::string& name) {
   SceneMesh result;
-  bool sound = true;
+  std::vector<std::string> faults;
   for (const radiosity::SceneObject& object : file.scene.objects) {
     const raycast::PlacedObject placed(object.shape, object.placement);
     const radiosity::SurfaceResult made = radiosity::make_surface(placed, 0);
     if (!made.surface) {
-      std::fprintf(stderr, "%s: error: object '%s': %s\n", name.c_str(), object.name.c_str(), made.fault.c_str());
-      sound = false;
+      faults.push_back("object '" + object.name + "': " + made.fault);
       continue;
     }
     const brep::Builder part = radiating(*made.surface);
@@ -104,7 +103,8 @@ std::optional<SceneMesh> make_mesh(const SceneFile& file, const std::string& nam
     result.total += result.measures.back();
     append(result.builder, part);
   }
-  return sound ? std::optional(std::move(result)) : std::nullopt;
+  complain_of(name, faults);
+  return faults.empty() ? std::optional(std::move(result)) : std::nullopt;
 }
 
 std::string number(double x) {
@@ -184,26 +184,12 @@ std::string to_json(const SceneFile& file, const SceneMesh& mesh, const MeshOpti
 }
 
 // Outputs that cannot become files are refused before any work.
-ExitCode check_outputs(const MeshOptions& options) {
+ExitCode check(const MeshOptions& options) {
   if (!options.output.empty() && !mesh_format(options.output)) {
     complain("--output " + options.output + ": expected a name that ends with .obj, .ply or .off");
     return ExitCode::usage;
   }
-  std::vector<std::string> paths;
-  if (!options.output.empty()) { paths.push_back(options.output); }
-  if (options.json && !options.json->empty()) { paths.push_back(*options.json); }
-  for (const std::string& path : paths) {
-    const auto same = [&](const std::string& other) { return resolved(path) == resolved(other); };
-    if (same(options.scene) || (&path != &paths[0] && same(paths[0]))) {
-      complain(path + (same(options.scene) ? " is the scene itself" : " is named twice") + "; each output needs a file of its own");
-      return ExitCode::usage;
-    }
-    if (const auto fault = check_writable(path)) {
-      complain(*fault);
-      return ExitCode::failure;
-    }
-  }
-  return ExitCode::ok;
+  return check_outputs({options.output, options.json.value_or("")}, {options.scene});
 }
 
 }  // namespace
@@ -217,27 +203,20 @@ void describe(CLI::App& command, MeshOptions& options) {
 }
 
 ExitCode run(const MeshOptions& options) {
-  ExitCode code = check_outputs(options);
+  ExitCode code = check(options);
   if (code != ExitCode::ok) { return code; }
   const auto file = load_scene(options.scene, code);
   if (!file) { return code; }
   const auto mesh = make_mesh(*file, options.scene);
   if (!mesh) { return ExitCode::invalid_input; }
   const bool json_file = options.json && !options.json->empty();
-  const auto write = [](const std::string& path, const std::string& bytes) {
-    const auto fault = write_file(path, bytes);
-    if (fault) { complain(*fault); }
-    return !fault;
-  };
-  if (!options.output.empty() && !write(options.output, write_mesh(mesh->builder, *mesh_format(options.output), mesh->groups))) {
+  if (!options.output.empty() && !save(options.output, write_mesh(mesh->builder, *mesh_format(options.output), mesh->groups))) {
     return ExitCode::failure;
   }
-  if (json_file && !write(*options.json, to_json(*file, *mesh, options))) { return ExitCode::failure; }
-  std::fputs((options.json && !json_file ? to_json(*file, *mesh, options) : to_text(*file, *mesh, options)).c_str(), stdout);
-  if (std::fflush(stdout) != 0) {
-    complain("cannot write to standard output");
-    return ExitCode::failure;
-  }
+  if (json_file && !save(*options.json, to_json(*file, *mesh, options))) { return ExitCode::failure; }
+  const bool numbers = options.json && !json_file;
+  const std::string text = numbers ? to_json(*file, *mesh, options) : to_text(*file, *mesh, options);
+  if (!print(text, {options.output, options.json.value_or("")})) { return ExitCode::failure; }
   return ExitCode::ok;
 }
 

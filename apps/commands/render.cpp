@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -12,8 +13,8 @@
 #include <radiosity/radiosity.hpp>
 
 #include "apps/audited_picture.hpp"
+#include "apps/commands/arguments.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/files.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/picture.hpp"
 #include "apps/ply.hpp"
@@ -52,18 +53,6 @@ std::optional<PictureSize> parse_size(const std::string& text) {
   return fits(size.width) && fits(size.height) ? std::optional(size) : std::nullopt;
 }
 
-// A number in (0, most]; NaN is refused, too.
-CLI::Validator above_zero(double most) {
-  return CLI::Validator(
-      [most](std::string& text) {
-        double value = 0.0;
-        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool good = code == std::errc() && end == text.data() + text.size() && value > 0.0 && value <= most;
-        return good ? std::string() : "expected a number above 0 and at most " + CLI::detail::to_string(most) + ", found '" + text + "'";
-      },
-      "NUMBER");
-}
-
 std::optional<Camera> choose_camera(const SceneFile& file, const std::string& name) {
   if (name.empty()) { return file.cameras.empty() ? automatic_camera(file.scene) : file.cameras.front(); }
   std::string known;
@@ -75,29 +64,21 @@ std::optional<Camera> choose_camera(const SceneFile& file, const std::string& na
   return std::nullopt;
 }
 
-// Outputs that cannot become files are refused before any work.
-ExitCode check_outputs(const RenderOptions& options) {
-  std::map<std::string, int> seen;
+std::vector<std::string> all_outputs(const RenderOptions& options) {
   std::vector<std::string> paths = options.outputs;
-  for (const std::string& path : paths) {
+  paths.push_back(options.json);
+  return paths;
+}
+
+// Outputs that cannot become files are refused before any work.
+ExitCode check(const RenderOptions& options) {
+  for (const std::string& path : options.outputs) {
     if (!format_of(path)) {
       complain("--output " + path + ": expected a name that ends with .png or .ply");
       return ExitCode::usage;
     }
   }
-  if (!options.json.empty()) { paths.push_back(options.json); }
-  for (const std::string& path : paths) {
-    const bool scene_itself = resolved(path) == resolved(options.scene);
-    if (++seen[resolved(path)] > 1 || scene_itself) {
-      complain(path + (scene_itself ? " is the scene itself" : " is named twice") + "; each output needs a file of its own");
-      return ExitCode::usage;
-    }
-    if (const auto fault = check_writable(path)) {
-      complain(*fault);
-      return ExitCode::failure;
-    }
-  }
-  return ExitCode::ok;
+  return check_outputs(all_outputs(options), {options.scene});
 }
 
 ExitCode report_failure(const radiosity::Failure& failure, const std::string& scene) {
@@ -109,7 +90,7 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
     for (const std::string& sentence : failure.sentences) { complain(sentence); }
     return ExitCode::usage;
   }
-  for (const std::string& sentence : failure.sentences) { std::fprintf(stderr, "%s: error: %s\n", scene.c_str(), sentence.c_str()); }
+  complain_of(scene, failure.sentences);
   return ExitCode::invalid_input;
 }
 
@@ -136,15 +117,16 @@ class Artist {
   Artist(const RenderOptions& options, const SceneFile& file, const Camera& camera)
       : options_{options}, file_{file}, view_{make_view(camera, options.size.value_or(camera.size.value_or(PictureSize{})))} {}
 
-  [[nodiscard]] double exposure(const radiosity::Solution& solution) const {
-    return options_.exposure ? *options_.exposure : automatic_exposure(solution.mesh, file_.scene);
+  [[nodiscard]] double exposure(const radiosity::Mesh& mesh) const {
+    return options_.exposure ? *options_.exposure : automatic_exposure(mesh, file_.scene);
   }
   [[nodiscard]] PictureSize size() const { return view_.size; }
   // Nothing when interrupted.
-  [[nodiscard]] std::optional<Picture> draw(const radiosity::Solution& solution, const radiosity::Control& control) const {
-    const double by = exposure(solution);
-    if (options_.method == PictureMethod::mesh) { return apps::draw(solution.mesh, view_, by, 4, control.cancel); }
-    const radiosity::Lookup lookup(file_.scene, solution.mesh, solution.frame);
+  [[nodiscard]] std::optional<Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame,
+                                            const radiosity::Control& control) const {
+    const double by = exposure(mesh);
+    if (options_.method == PictureMethod::mesh) { return apps::draw(mesh, view_, by, 4, control.cancel); }
+    const radiosity::Lookup lookup(file_.scene, mesh, frame);
     return apps::draw(lookup, view_, by, options_.solver.threads, 4, control);
   }
   [[nodiscard]] std::optional<radiosity::PictureError> audit(const Picture& picture, double exposure, const radiosity::AuditGoal& goal,
@@ -173,7 +155,7 @@ std::optional<std::vector<Output>> encode(const RenderOptions& options, const Sc
   std::string png;
   if (has_picture(options)) {
     const Stopwatch watch;
-    const auto picture = artist.draw(solution, control);
+    const auto picture = artist.draw(solution.mesh, solution.frame, control);
     if (!picture) { return std::nullopt; }
     png = to_png(*picture);
     report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
@@ -200,10 +182,7 @@ std::optional<std::vector<Output>> encode(const RenderOptions& options, const Sc
 
 ExitCode write_all(const std::vector<Output>& outputs) {
   for (const Output& output : outputs) {
-    if (const auto fault = write_file(output.path, output.bytes)) {
-      complain(*fault);
-      return ExitCode::failure;
-    }
+    if (!save(output.path, output.bytes)) { return ExitCode::failure; }
   }
   return ExitCode::ok;
 }
@@ -223,7 +202,7 @@ void describe(CLI::App& command, RenderOptions& options) {
   command
       .add_option("--error-of", options.error_of,
                   "what --error is about: picture, what the camera sees (the default with a .png), or surfaces, all of them by area")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, ErrorOf>{{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}}))
+      ->transform(one_of(std::map<std::string, ErrorOf>{{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}}))
       ->needs(error);
   // BF-refinement is asked for by what ends it.
   const auto bf = [&solver](const std::string&) { solver.refinement = radiosity::Refinement::a_posteriori; };
@@ -272,23 +251,24 @@ void describe(CLI::App& command, RenderOptions& options) {
   command
       .add_option("--method", options.method,
                   "what the picture shows: mesh, the triangles of the solution, or raycast, the objects themselves with smooth outlines")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, PictureMethod>{{"mesh", PictureMethod::mesh}, {"raycast", PictureMethod::raycast}}));
-  command.add_option("--exposure", options.exposure, "factor from radiance to picture (default: automatic)")->check(above_zero(max_number));
-  command.add_option("--threads", solver.threads, "threads (default: all); results do not depend on it")->check(CLI::Range(1U, 1024U));
-  command.add_option("--seed", solver.seed, "seed of all random choices");
-  command.add_option("--audit", solver.audit_points, "points at which the error is measured; 0: none")->check(CLI::Range(0U, 100'000'000U));
+      ->transform(one_of(std::map<std::string, PictureMethod>{{"mesh", PictureMethod::mesh}, {"raycast", PictureMethod::raycast}}));
+  command.add_option("--exposure", options.exposure, "factor from radiance to picture (default: automatic)")
+      ->check(above_zero(std::numeric_limits<double>::max()));
+  command.add_option("--threads", solver.threads, "threads (default: all); results do not depend on it")
+      ->check(whole_number(1, most_threads));
+  command.add_option("--seed", solver.seed, "seed of all random choices")
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
+  command.add_option("--audit", solver.audit_points, "points at which the error is measured; 0: none")->check(whole_number(0, 100'000'000));
   std::map<std::string, radiosity::Solver> solvers;
   for (const auto s :
        {radiosity::Solver::conjugate_gradients, radiosity::Solver::jacobi, radiosity::Solver::gauss_seidel, radiosity::Solver::southwell}) {
     solvers.emplace(name(s), s);
   }
-  command.add_option("--solver", solver.solver, "cg, jacobi, gauss-seidel or southwell")->transform(CLI::CheckedTransformer(solvers));
+  command.add_option("--solver", solver.solver, "cg, jacobi, gauss-seidel or southwell")->transform(one_of(solvers));
   command.add_option("--reconstruction", solver.reconstruction, "weighted or simple (paper fig. 5), or constant: one colour a leaf")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, radiosity::Reconstruction>{{"weighted", radiosity::Reconstruction::weighted},
-                                                                                   {"simple", radiosity::Reconstruction::simple},
-                                                                                   {"constant", radiosity::Reconstruction::constant}}));
+      ->transform(one_of(std::map<std::string, radiosity::Reconstruction>{{"weighted", radiosity::Reconstruction::weighted},
+                                                                          {"simple", radiosity::Reconstruction::simple},
+                                                                          {"constant", radiosity::Reconstruction::constant}}));
   command.add_flag("!--no-shortcuts", solver.shortcuts,
                    "do all that the report would tell as left out; the result is the same, to the bit");
   command.add_option("--json", options.json, "write the report as JSON, too")->type_name("FILE");
@@ -301,7 +281,7 @@ ExitCode run(const RenderOptions& options) {
     complain("--error needs the audit as its witness; leave --audit 0 out");
     return ExitCode::usage;
   }
-  if (const ExitCode code = check_outputs(options); code != ExitCode::ok) { return code; }
+  if (const ExitCode code = check(options); code != ExitCode::ok) { return code; }
   ExitCode code = ExitCode::ok;
   const auto file = load_scene(options.scene, code);
   if (!file) { return code; }
@@ -316,11 +296,11 @@ ExitCode run(const RenderOptions& options) {
   control.progress = [&](std::string_view stage, double part) { progress.report(stage, part); };
   Artist artist(options, *file, *camera);
   if (settings.error && options.error_of.value_or(has_picture(options) ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
-    control.picture_error = [&](const radiosity::Solution& solution,
+    control.picture_error = [&](const radiosity::Mesh& mesh, const radiosity::Frame& frame,
                                 const radiosity::AuditGoal& goal) -> std::optional<radiosity::PictureError> {
-      const auto picture = artist.draw(solution, control);
+      const auto picture = artist.draw(mesh, frame, control);
       if (!picture) { return std::nullopt; }
-      return artist.audit(*picture, artist.exposure(solution), goal, control);
+      return artist.audit(*picture, artist.exposure(mesh), goal, control);
     };
   }
   const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
@@ -334,16 +314,12 @@ ExitCode run(const RenderOptions& options) {
   report.options = settings;
   report.audit = solution.audit;
   report.automatic_exposure = !options.exposure;
-  report.exposure = artist.exposure(solution);
+  report.exposure = artist.exposure(solution.mesh);
   const auto outputs = encode(options, *file, *camera, artist, solution, control, report);
   progress.done();
   if (!outputs) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
   if (code = write_all(*outputs); code != ExitCode::ok) { return code; }
-  std::fputs(to_text(report).c_str(), stdout);
-  if (std::fflush(stdout) != 0) {
-    complain("cannot write the report to standard output");
-    return ExitCode::failure;
-  }
+  if (!print(to_text(report), all_outputs(options))) { return ExitCode::failure; }
   if (report.audit.interrupted) {
     complain("interrupted: the outputs show the best solution so far");
     return ExitCode::not_converged;

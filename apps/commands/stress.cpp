@@ -6,9 +6,10 @@
 #include <ctime>
 #include <utility>
 
+#include "apps/commands/arguments.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/files.hpp"
 #include "apps/json.hpp"
+#include "apps/scene_file/words.hpp"
 #include "apps/stress/case.hpp"
 
 namespace apps {
@@ -83,9 +84,9 @@ std::vector<const Case*> choose(const std::vector<std::string>& names, bool& kno
   known = true;
   for (const std::string& name : names) {
     if (std::any_of(chosen.begin(), chosen.end(), [&](const Case* c) { return c->name == name; })) { continue; }
-    std::string all;
-    for (const Case& c : stress::cases()) { all += (all.empty() ? "" : ", ") + std::string{c.name}; }
-    complain("there is no case '" + name + "'; there are: " + all);
+    std::vector<std::string_view> all;
+    for (const Case& c : stress::cases()) { all.push_back(c.name); }
+    complain("there is no case '" + name + "'" + scene_file::suggestion(name, all) + "; `halflight stress --list` names them");
     known = false;
   }
   return chosen;
@@ -104,15 +105,12 @@ ExitCode run(const StressOptions& options) {
   const std::vector<const Case*> chosen = choose(options.cases, known);
   if (!known) { return ExitCode::usage; }
   if (options.list) {
-    for (const Case* c : chosen) { std::printf("%s%s\n", padded(std::string{c->name}, 18).c_str(), std::string{c->what}.c_str()); }
-    return std::fflush(stdout) == 0 ? ExitCode::ok : ExitCode::failure;
+    std::string list;
+    for (const Case* c : chosen) { list += padded(std::string{c->name}, 18) + std::string{c->what} + "\n"; }
+    return print(list) ? ExitCode::ok : ExitCode::failure;
   }
-  if (!options.json.empty()) {
-    if (const auto fault = check_writable(options.json)) {
-      complain(*fault);
-      return ExitCode::failure;
-    }
-  }
+  const std::vector<std::string> outputs{options.json};
+  if (const ExitCode code = check_outputs(outputs, {}); code != ExitCode::ok) { return code; }
   JsonWriter json;
   json.open_array();
   std::string failed;
@@ -121,25 +119,16 @@ ExitCode run(const StressOptions& options) {
   for (const Case* c : chosen) {
     Findings findings;
     c->run(findings);
-    std::fputs(to_text(*c, findings).c_str(), stdout);
-    std::fflush(stdout);
+    if (!print(to_text(*c, findings), outputs)) { return ExitCode::failure; }
     write(json, *c, findings);
     figures += findings.figures().size();
     if (!findings.hold()) { failed += (failed.empty() ? "" : ", ") + std::string{c->name}; }
   }
   json.close();
-  std::printf("%zu cases, %zu figures: %s\n", chosen.size(), figures, failed.empty() ? "all hold" : ("FAILED: " + failed).c_str());
+  if (!options.json.empty() && !save(options.json, json.text())) { return ExitCode::failure; }
+  const std::string total = std::to_string(chosen.size()) + " cases, " + std::to_string(figures) + " figures: ";
+  if (!print(total + (failed.empty() ? "all hold" : "FAILED: " + failed) + "\n", outputs)) { return ExitCode::failure; }
   std::fprintf(stderr, "CPU time %.1f s\n", static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);  // stdout is the same every time
-  if (!options.json.empty()) {
-    if (const auto fault = write_file(options.json, json.text())) {
-      complain(*fault);
-      return ExitCode::failure;
-    }
-  }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    complain("cannot write to standard output");
-    return ExitCode::failure;
-  }
   return failed.empty() ? ExitCode::ok : ExitCode::failure;
 }
 

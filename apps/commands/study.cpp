@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "apps/commands/arguments.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/progress.hpp"
@@ -67,10 +68,9 @@ std::string percent(double x) {
 // One scene; false when there is nothing to show of it. `code` says why.
 bool study_scene(const std::string& path, const StudyOptions& options, const radiosity::Control& control, Progress& progress,
                  study::SceneStudy& result, ExitCode& code) {
-  std::string fault;
-  const auto text = read_text(path, fault);
-  const auto file = load_scene(path, code);
-  if (!text || !file) { return false; }
+  const auto text = load_text(path, code);
+  const auto file = text ? load_scene(path, *text, code) : std::nullopt;
+  if (!file) { return false; }
   result.scene = fs::path(path).stem().string();
   result.title = title_of(*text);
   result.camera = file->cameras.empty() ? automatic_camera(file->scene) : file->cameras.front();
@@ -80,6 +80,7 @@ bool study_scene(const std::string& path, const StudyOptions& options, const rad
   reference.threads = options.threads;
   const std::string name = result.scene + ".reference.json";
   const std::vector<std::string> caches{(fs::path(path).parent_path() / name).string(), (fs::path(options.folder) / name).string()};
+  std::string fault;
   const auto truth = study::make_reference(file->scene, *text, caches, reference, control, fault);
   if (!truth) {
     complain(path + ": " + fault);
@@ -111,16 +112,17 @@ void describe(CLI::App& command, StudyOptions& options) {
       ->required()
       ->type_name("DIR");
   auto* seconds = command.add_option("--time-per-run", options.seconds, "CPU seconds after which a run is stopped")
-                      ->check(CLI::PositiveNumber)
+                      ->check(above_zero(1e6))
                       ->capture_default_str();
   auto* paths = command.add_option("--paths", options.paths, "paths at each point of a path-traced reference")
-                    ->check(CLI::Range(std::uint64_t{8}, std::uint64_t{100'000'000}))
+                    ->check(whole_number(8, 100'000'000))
                     ->capture_default_str();
   command.add_option("--dense", options.dense, "leaves up to which a dense solution tells the parts of an error apart")
-      ->check(CLI::Range(0u, 20'000u))
+      ->check(whole_number(0, 20'000))
       ->capture_default_str();
   command.add_flag("--quick", options.quick, "a first look: short runs, a noisy reference")->excludes(seconds)->excludes(paths);
-  command.add_option("--threads", options.threads, "0: as many as the machine has; results do not depend on it");
+  command.add_option("--threads", options.threads, "0: as many as the machine has; results do not depend on it")
+      ->check(whole_number(0, most_threads));
   command.add_flag("-q,--quiet", options.quiet, "no narration on stderr");
 }
 
@@ -145,6 +147,15 @@ ExitCode run(const StudyOptions& given) {
       }
     }
   }
+  const std::string folder = options.folder;
+  const auto in_folder = [&folder](std::vector<std::string> names) {
+    for (std::string& name : names) { name = (fs::path(folder) / name).string(); }
+    return names;
+  };
+  // What every study writes; the names of its pictures are known when it is done.
+  std::vector<std::string> names{"index.html", "results.csv", "results.json", "table.md"};
+  for (const std::string& scene : options.scenes) { names.push_back(fs::path(scene).stem().string() + ".reference.json"); }
+  if (const ExitCode fault = check_outputs(in_folder(names), options.scenes); fault != ExitCode::ok) { return fault; }
   Progress progress(options.quiet);
   radiosity::Control control;
   control.cancel = &watch_interrupts();
@@ -166,15 +177,15 @@ ExitCode run(const StudyOptions& given) {
     code = ExitCode::failure;
   }
   if (study.scenes.empty()) { return code; }
-  if (const auto fault = study::write_pages(study, options.folder)) {
+  const std::vector<std::string> files = in_folder(study::page_files(study));
+  if (const ExitCode fault = check_outputs(files, options.scenes); fault != ExitCode::ok) { return fault; }
+  if (const auto fault = study::write_pages(study, folder)) {
     complain(*fault);
     return ExitCode::failure;
   }
-  for (const std::string& file : study::page_files(study)) { std::printf("written: %s\n", (fs::path(options.folder) / file).c_str()); }
-  if (std::fflush(stdout) != 0) {
-    complain("cannot write to standard output");
-    return ExitCode::failure;
-  }
+  std::string text;
+  for (const std::string& file : files) { text += "written: " + file + "\n"; }
+  if (!print(text)) { return ExitCode::failure; }
   return code;
 }
 

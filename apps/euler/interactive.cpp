@@ -15,6 +15,7 @@
 #include "apps/euler/story.hpp"
 #include "apps/euler/svg.hpp"
 #include "apps/files.hpp"
+#include "apps/output_paths.hpp"
 
 namespace apps::euler {
 namespace {
@@ -66,7 +67,7 @@ class Conversation {
   bool take(const std::string& line, std::uint32_t number) {
     const std::size_t begin = line.find_first_not_of(" \t"), end = line.find_last_not_of(" \t\r");
     const std::string text = begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
-    if (text == "quit" || text == "exit") { return false; }
+    if (text == "quit" || text == "exit" || std::ferror(stdout) != 0) { return false; }
     if (text == "help" || text == "?") {
       say(help);
     } else if (text == "show") {
@@ -87,17 +88,22 @@ class Conversation {
     std::fputs(text.c_str(), stdout);
     std::fflush(stdout);
   }
-  void write(const std::string& path, const std::string& bytes) {
-    if (const auto fault = write_file(path, bytes)) {
-      say(*fault + "\n");
-      code_ = ExitCode::failure;
-    }
+  bool write(const std::string& path, const std::string& bytes) {
+    const auto fault = write_file(path, bytes);
+    if (fault) { fail(*fault); }
+    return !fault;
+  }
+  void fail(const std::string& sentence) {
+    say(sentence + "\n");
+    code_ = ExitCode::failure;
   }
   void save(const std::string& path) {
     if (path.empty()) { return say("save FILE: expected the name of a file\n"); }
-    if (const auto fault = check_writable(path)) { return say(*fault + "\n"); }
-    write(path, brep::to_text(brep::steps(solid_)));
-    say("written: " + path + "\n");
+    for (const std::string& output : outputs_) {
+      if (same_output(path, output)) { return fail(path + " is a picture of this session; the steps need a file of their own"); }
+    }
+    if (const auto fault = check_writable(path)) { return fail(*fault); }
+    if (write(path, brep::to_text(brep::steps(solid_)))) { say("written: " + path + "\n"); }
   }
   void statement(const std::string& text, std::uint32_t number) {
     const std::size_t errors = parser_.errors().size();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The clauses of statements: what may follow each keyword, and the checks that need one clause alone.
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -46,7 +47,7 @@ void Parser::color_clause(const Token& keyword, radiosity::Color& out, double mo
   while (at(Token::Kind::number) && count < 3) {
     const Token found = token_;
     double value = 0.0;
-    if (number(keyword.text, value) && (value < 0.0 || value > most)) {
+    if (number(keyword.text, value, std::numeric_limits<double>::max()) && (value < 0.0 || value > most)) {
       error(found.place, std::string(keyword.text) + " " + quoted(found.text) + " " + std::string(law));
     }
     out[count++] = value;
@@ -66,7 +67,7 @@ void Parser::material_clause(const Token& keyword, MaterialSyntax& out) {
   if (keyword.text == "reflectance") {
     color_clause(keyword, out.reflectance, 1.0, "lies outside 0 to 1; a surface reflects at most what it receives");
   } else {
-    color_clause(keyword, out.emission, max_number, "is negative; expected an exitance in W/m2");
+    color_clause(keyword, out.emission, std::numeric_limits<double>::max(), "is negative; expected an exitance in W/m2");
   }
 }
 

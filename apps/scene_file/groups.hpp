@@ -25,7 +25,7 @@ class Groups {
 
   // The group of this name, or null.
   [[nodiscard]] const GroupSyntax* find(const Name& group) const;
-  // Objects and uses that one use of the group places, counting the use; saturates above max_objects.
+  // Objects that one use of the group places; saturates above max_objects.
   [[nodiscard]] std::size_t size(const GroupSyntax& group) const;
 
   // Gives the uses among the operands of a union, intersection or difference, and among their operands, the objects of their groups.
@@ -36,7 +36,7 @@ class Groups {
   enum class State : unsigned char { unseen, open, done };
   struct Entry {
     State state = State::unseen;
-    std::size_t size = 1;
+    std::size_t size = 0;
     std::size_t depth = 1;
   };
   void visit(std::size_t root, Errors& errors);

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "apps/utf8.hpp"
+
 namespace apps::scene_file {
 namespace {
 
@@ -14,25 +16,11 @@ constexpr bool ends_line(char c) { return c == '\n' || c == '\r'; }
 constexpr bool ends_token(char c) { return is_blank(c) || ends_line(c) || c == '#' || c == '{' || c == '}'; }
 constexpr bool begins_number(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.'; }
 
-// Length in bytes of the character that begins at text[at]; 0 when it is not text. Overlong forms, surrogates and
-// code points beyond U+10FFFF are refused (Unicode 15, table 3-7).
+// Length in bytes of the character that begins at text[at]; 0 when it is not text.
 std::size_t character_length(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) {
-    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : static_cast<unsigned char>(0);
-  };
-  const auto follows = [&](std::size_t i, unsigned low = 0x80, unsigned high = 0xbf) { return byte(i) >= low && byte(i) <= high; };
-  const unsigned first = byte(0);
-  if (first < 0x80) { return first == '\t' || first == '\n' || first == '\r' || (first >= 0x20 && first != 0x7f) ? 1 : 0; }
-  if (first >= 0xc2 && first <= 0xdf) { return follows(1) ? 2 : 0; }
-  if (first >= 0xe0 && first <= 0xef) {
-    const bool second = follows(1, first == 0xe0 ? 0xa0 : 0x80, first == 0xed ? 0x9f : 0xbf);
-    return second && follows(2) ? 3 : 0;
-  }
-  if (first >= 0xf0 && first <= 0xf4) {
-    const bool second = follows(1, first == 0xf0 ? 0x90 : 0x80, first == 0xf4 ? 0x8f : 0xbf);
-    return second && follows(2) && follows(3) ? 4 : 0;
-  }
-  return 0;
+  const auto byte = static_cast<unsigned char>(text[at]);
+  const bool control = (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7f;
+  return control ? 0 : utf8_length(text, at);
 }
 
 }  // namespace

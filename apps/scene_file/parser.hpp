@@ -53,7 +53,7 @@ class Parser {
   void color_clause(const Token& keyword, radiosity::Color& out, double most, std::string_view law);
 
   // Values (values.cpp). Each returns false after reporting an error.
-  bool number(std::string_view clause, double& out);
+  bool number(std::string_view clause, double& out, double most = max_number);
   bool numbers(const Token& keyword, std::span<double> out);
   bool vector(const Token& keyword, glm::dvec3& out);
   bool vector(const Token& keyword, std::optional<Placed<glm::dvec3>>& out);

@@ -26,12 +26,17 @@ SceneResult parse_scene(std::string_view text) {
 }
 
 std::optional<std::string> read_text(const std::string& path, std::string& fault) {
+  if (path.empty()) {
+    fault = "names no file";
+    return std::nullopt;
+  }
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     fault = "is a folder; expected a file";
     return std::nullopt;
   }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  const auto close = [](std::FILE* stream) { return stream == stdin ? 0 : std::fclose(stream); };
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"), close);
   if (file == nullptr) {
     fault = std::string("cannot be opened: ") + std::strerror(errno);
     return std::nullopt;

@@ -19,8 +19,8 @@ bool is_name(std::string_view text) {
   return text.size() <= 200;
 }
 
-// Empty when `text` is a finite number that is neither too large nor malformed; else what is wrong with it.
-std::string number_fault(std::string_view text, double& out) {
+// Empty when `text` is a finite number that is neither beyond `most` nor malformed; else what is wrong with it.
+std::string number_fault(std::string_view text, double most, double& out) {
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   if (plus) { text.remove_prefix(1); }
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), out);
@@ -30,7 +30,7 @@ std::string number_fault(std::string_view text, double& out) {
     return text.find(',') != text.npos ? "is not a number; numbers are separated by spaces" : "is not a number";
   }
   if (!std::isfinite(out)) { return "is not a finite number"; }
-  if (std::abs(out) > max_number) { return "is too large; numbers lie between -1e30 and 1e30"; }
+  if (std::abs(out) > most) { return "is too large; numbers lie between -1e30 and 1e30"; }
   return {};
 }
 
@@ -76,14 +76,14 @@ void Parser::expect_end_of_line() {
   skip_statement();
 }
 
-bool Parser::number(std::string_view clause, double& out) {
+bool Parser::number(std::string_view clause, double& out, double most) {
   const Token found = token_;
   if (found.kind != Token::Kind::number) {
     error(found.place, "expected a number for '" + std::string(clause) + "', found " + describe(found));
     return false;
   }
   next();
-  const std::string fault = number_fault(found.text, out);
+  const std::string fault = number_fault(found.text, most, out);
   if (!fault.empty()) { error(found.place, quoted(found.text) + " " + fault); }
   return fault.empty();
 }

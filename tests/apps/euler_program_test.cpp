@@ -47,7 +47,7 @@ TEST_CASE("euler: errors in a script are exit code 3 with file, line and column"
   CHECK(folder.last.err.find("refusal.euler:2:1: error: join_faces: both sides of h0 are the face f0") == 0);
   CHECK(folder.last.err.find("\nrefusal.euler:3:1: error: v is 2, not 3") != std::string::npos);
   CHECK(folder.read("a.svg").find("refused: join_faces") != std::string::npos);  // the picture shows where it went wrong
-  CHECK(folder.run("none.euler") == 3);
+  CHECK(folder.run("none.euler") == 1);
 }
 
 TEST_CASE("euler: a script too long to be drawn is played all the same, and drawing it is refused at once") {

@@ -6,9 +6,11 @@
 
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #include <csignal>
 
 #include "apps/files.hpp"
+#include "apps/output_paths.hpp"
 #include "program.hpp"
 
 namespace {
@@ -80,4 +82,34 @@ TEST_CASE("a symbolic link is followed") {
   CHECK_FALSE(apps::write_file(folder / "link.txt", "new"));
   CHECK(content(folder / "real.txt") == "new");
   CHECK(fs::is_symlink(folder / "link.txt"));
+}
+
+TEST_CASE("a symbolic link to nothing is followed: the file is made where it points") {
+  const Folder folder;
+  REQUIRE(fs::create_directory(folder / "inner"));
+  fs::create_symlink("inner/two.txt", folder / "one.txt");
+  fs::create_symlink("real.txt", folder / "inner/two.txt");
+  CHECK_FALSE(apps::check_writable(folder / "one.txt"));
+  CHECK_FALSE(apps::write_file(folder / "one.txt", "new"));
+  CHECK(content(folder / "inner/real.txt") == "new");
+  CHECK(fs::is_symlink(folder / "one.txt"));
+  CHECK(fs::is_symlink(folder / "inner/two.txt"));
+  fs::create_symlink("none/a.txt", folder / "nowhere.txt");
+  CHECK(apps::check_writable(folder / "nowhere.txt"));
+  fs::create_symlink("loop.txt", folder / "loop.txt");
+  CHECK(apps::check_writable(folder / "loop.txt"));
+  CHECK(apps::write_file(folder / "loop.txt", "x"));
+}
+
+TEST_CASE("a new file does not run as the owner of the old one; a protected file is refused") {
+  const Folder folder;
+  const std::string path = folder / "a.txt";
+  REQUIRE_FALSE(apps::write_file(path, "old"));
+  REQUIRE(::chmod(path.c_str(), 06755) == 0);
+  REQUIRE_FALSE(apps::write_file(path, "new"));
+  struct ::stat status {};
+  REQUIRE(::stat(path.c_str(), &status) == 0);
+  CHECK((status.st_mode & 07777U) == 0755U);
+  REQUIRE(::chmod(path.c_str(), 0444) == 0);
+  if (::geteuid() != 0) { CHECK(apps::check_writable(path)); }  // root may write to anything
 }

@@ -119,7 +119,7 @@ TEST_CASE("mesh: what cannot be done is told before anything is written") {
   CHECK(place.run("mesh s.scene -o a.obj --json ./a.obj").code == 2);
   CHECK(place.run("mesh s.scene --json s.scene").code == 2);
   CHECK(place.run("mesh s.scene -o none/a.obj").code == 1);
-  CHECK(place.run("mesh none.scene -o a.obj").code == 3);
+  CHECK(place.run("mesh none.scene -o a.obj").code == 1);
   const Run run = place.run("mesh bad.scene -o a.obj");
   CHECK(run.code == 3);
   CHECK(run.err.find("bad.scene:1:5: error: ") == 0);

@@ -157,8 +157,12 @@ TEST_CASE("an invalid scene is exit code 3 with file, line and column") {
   CHECK(run.err.find("\nbad.scene:2:1: error: ") != std::string::npos);
   CHECK_FALSE(place.has("a.png"));
   CHECK(place.run("info bad.scene").code == 3);
-  CHECK(place.run("info none.scene").code == 3);
-  CHECK(place.run("info /dev/zero").code == 3);
+}
+
+TEST_CASE("a file that cannot be read is exit code 1") {
+  const Place place;
+  CHECK(place.run("info none.scene").code == 1);
+  CHECK(place.run("info /dev/zero").code == 1);
 }
 
 TEST_CASE("a target that cannot be written is exit code 1 before the work, and the old file stays") {

@@ -218,6 +218,21 @@ TEST_CASE("line ends of every system, byte order mark, tabs, UTF-8 names and no 
   }
 }
 
+TEST_CASE("the limit counts objects: uses of groups, however deep, count none") {
+  const auto scene = [](std::size_t objects) {
+    std::string text = "material m reflectance 0.5\ndefine a {\nbox b from 0 0 0 to 1 1 1 material m\n}\ndefine c {\nuse a as d\n}\n";
+    for (std::size_t i = 0; i < objects; ++i) { text += "use c as u" + std::to_string(i) + " move 0 0 " + std::to_string(2 * i) + "\n"; }
+    return apps::parse_scene(text);
+  };
+  const apps::SceneResult most = scene(apps::max_objects);
+  INFO(apps::to_text(most, "most"));
+  REQUIRE(most.file);
+  CHECK(most.file->scene.objects.size() == apps::max_objects);
+  const apps::SceneResult more = scene(apps::max_objects + 1);
+  REQUIRE(more.errors.size() == 1);
+  CHECK(more.errors[0].sentence == "the scene grows beyond 100000 objects here");
+}
+
 TEST_CASE("all scenes of examples/scenes are sound") {
   for (const char* const name : {"cornell", "room", "furnace", "white_sphere", "two_plates", "emitting_wall"}) {
     std::string fault;

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "apps/file_kind.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include <brep/euler_script.hpp>
+
+#include "apps/scene_file/keywords.hpp"
+#include "apps/scene_file/words.hpp"
+#include "apps/utf8.hpp"
+
+namespace apps {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::string_view blanks = " \t\r\n\v\f";
+
+// Formats that begin with fixed bytes.
+constexpr std::array<std::pair<std::string_view, const char*>, 20> signatures = {{
+    {"\x89PNG"sv, "a picture (PNG)"},
+    {"\xff\xd8\xff"sv, "a picture (JPEG)"},
+    {"GIF8"sv, "a picture (GIF)"},
+    {"#?RADIANCE"sv, "a picture (Radiance HDR)"},
+    {"II*\0"sv, "a picture (TIFF)"},
+    {"MM\0*"sv, "a picture (TIFF)"},
+    {"\x76\x2f\x31\x01"sv, "a picture (OpenEXR)"},
+    {"%PDF"sv, "a document (PDF)"},
+    {"PK\x03\x04"sv, "an archive (ZIP)"},
+    {"\x1f\x8b"sv, "a compressed file (gzip)"},
+    {"\x7f"
+     "ELF"sv,
+     "a program"},
+    {"glTF"sv, "a binary glTF scene"},
+    {"Kaydara FBX"sv, "a scene of another program (FBX)"},
+    {"BLENDER"sv, "a scene of Blender"},
+    {"#VRML"sv, "a scene of another program (VRML)"},
+    {"#INVENTOR"sv, "a scene of another program (Open Inventor)"},
+    {"\xff\xfe"sv, "text in UTF-16; save it as UTF-8"},
+    {"\xfe\xff"sv, "text in UTF-16; save it as UTF-8"},
+    {"<"sv, "a page or a drawing (HTML, SVG or other XML)"},
+    {"{"sv, "data (JSON)"},
+}};
+
+// The words of the first lines that have any; comments are left out.
+class FirstLines {
+ public:
+  explicit FirstLines(std::string_view text) : text_(text) {}
+
+  // The first three words of the next line; false at the end.
+  bool next(std::array<std::string_view, 3>& words) {
+    while (!text_.empty()) {
+      std::string_view line = text_.substr(0, text_.find_first_of("\r\n"));
+      text_.remove_prefix(std::min(text_.size(), line.size() + 1));
+      line = line.substr(0, line.find('#'));
+      words = {};
+      for (std::string_view& word : words) {
+        line.remove_prefix(std::min(line.size(), line.find_first_not_of(blanks)));
+        word = line.substr(0, line.find_first_of(blanks));
+        line.remove_prefix(word.size());
+      }
+      if (!words[0].empty()) { return true; }
+    }
+    return false;
+  }
+
+ private:
+  std::string_view text_;
+};
+
+bool is_number(std::string_view word) { return !word.empty() && word.find_first_not_of("+-.0123456789eE") == word.npos; }
+
+template <class List>
+bool contains(const List& list, std::string_view word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+bool begins_obj(const std::array<std::string_view, 3>& words) {
+  constexpr std::array<std::string_view, 5> names = {"mtllib", "usemtl", "o", "g", "s"};
+  constexpr std::array<std::string_view, 4> numbers = {"v", "vn", "vt", "f"};
+  return (contains(names, words[0]) && !words[1].empty()) || (contains(numbers, words[0]) && is_number(words[1].substr(0, 1)));
+}
+
+bool begins_script(const std::array<std::string_view, 3>& words) {
+  const std::string_view command = words[1] == "=" ? words[2] : words[0];
+  return std::any_of(brep::command_forms.begin(), brep::command_forms.end(), [&](const auto& form) { return form.name == command; });
+}
+
+// A statement of a scene; in the first line also a word so near to one that its author meant it.
+bool begins_scene(std::string_view word, bool first) {
+  return first ? !scene_file::nearest(word, scene_file::statements).empty() : contains(scene_file::statements, word);
+}
+
+// "OFF" with the letters that say what else its vertices have.
+bool is_off(std::string_view word) { return word.size() <= 8 && word.ends_with("OFF") && word.find_first_not_of("STCN4nOF") == word.npos; }
+
+bool is_binary_stl(std::string_view bytes) {
+  if (bytes.size() < 84) { return false; }
+  std::uint64_t triangles = 0;
+  for (std::size_t i = 4; i-- > 0;) { triangles = triangles << 8U | static_cast<unsigned char>(bytes[80 + i]); }
+  return triangles > 0 && bytes.size() == 84 + 50 * triangles;
+}
+
+// As far as the first 64 KiB tell.
+bool is_text(std::string_view bytes) {
+  for (std::size_t at = 0; at < std::min<std::size_t>(bytes.size(), 1U << 16U);) {
+    const std::size_t length = utf8_length(bytes, at);
+    if (length == 0 || (static_cast<unsigned char>(bytes[at]) < 0x20 && blanks.find(bytes[at]) == blanks.npos)) { return false; }
+    at += length;
+  }
+  return true;
+}
+
+const char* name_of(FileKind kind) {
+  switch (kind) {
+    case FileKind::scene:
+      return "a scene";
+    case FileKind::script:
+      return "a script of Euler operators";
+    case FileKind::obj:
+      return "an OBJ file";
+    case FileKind::ply:
+      return "a PLY file";
+    case FileKind::off:
+      return "an OFF file";
+    default:
+      return "a file that halflight reads";
+  }
+}
+
+bool is_mesh(FileKind kind) { return kind == FileKind::obj || kind == FileKind::ply || kind == FileKind::off; }
+
+// What to do with it instead.
+std::string advice(const std::string& path, FileKind found, FileKind wanted) {
+  constexpr const char* of_scenes = "a scene is text that names materials and objects (examples/scenes/README.md)";
+  if (is_mesh(found) && is_mesh(wanted)) { return "give it a name that ends with the right letters"; }
+  if (is_mesh(found) && wanted == FileKind::scene) {
+    return "`halflight check " + path +
+           "` examines it; to light it, write its vertices and faces into a `mesh` statement of a scene "
+           "(examples/scenes/README.md)";
+  }
+  if (is_mesh(found)) { return "`halflight check " + path + "` examines it"; }
+  if (found == FileKind::stl) { return "convert it to .obj, .ply or .off, which `halflight check` reads"; }
+  if (found == FileKind::script) { return "`halflight euler " + path + "` plays it"; }
+  if (found == FileKind::scene) {
+    return "`halflight info " + path + "` says what is in it" +
+           (is_mesh(wanted) ? ", `halflight mesh " + path + " -o OUT.obj` writes its polygons" : "");
+  }
+  if (is_mesh(wanted)) { return "expected a polygon mesh: .obj, .ply or .off"; }
+  return wanted == FileKind::scene ? of_scenes : "a script is text with one operator a line (examples/euler)";
+}
+
+}  // namespace
+
+FileGuess guess_kind(std::string_view bytes) {
+  if (bytes.starts_with("\xef\xbb\xbf")) { bytes.remove_prefix(3); }
+  if (bytes.find_first_not_of(blanks) == bytes.npos) { return {FileKind::empty, "empty"}; }
+  for (const auto& [start, what] : signatures) {
+    if (bytes.starts_with(start)) { return {FileKind::other, what}; }
+  }
+  FirstLines lines(bytes);
+  std::array<std::string_view, 3> words;
+  for (int i = 0; lines.next(words); ++i) {
+    if (i == 0 && words[0] == "ply") { return {FileKind::ply, "a polygon mesh (PLY)"}; }
+    if (i == 0 && is_off(words[0])) { return {FileKind::off, "a polygon mesh (OFF)"}; }
+    if (i == 0 && words[0] == "solid" && bytes.find("facet") != bytes.npos) { return {FileKind::stl, "a polygon mesh (STL)"}; }
+    if (begins_scene(words[0], i == 0)) { return {FileKind::scene, "a scene"}; }
+    if (begins_script(words)) { return {FileKind::script, "a script of Euler operators"}; }
+    if (begins_obj(words)) { return {FileKind::obj, "a polygon mesh (Wavefront OBJ)"}; }
+    if (i == 0 && is_binary_stl(bytes)) { return {FileKind::stl, "a polygon mesh (STL)"}; }
+    if (i == 0 && !is_text(bytes)) { return {FileKind::other, "a binary file"}; }
+  }
+  return {FileKind::unknown, {}};
+}
+
+std::optional<std::string> wrong_kind(const std::string& path, std::string_view bytes, FileKind wanted) {
+  const FileGuess guess = guess_kind(bytes);
+  if (guess.kind == wanted) { return std::nullopt; }
+  if (guess.kind == FileKind::empty) { return path + " is empty; " + advice(path, guess.kind, wanted); }
+  if (guess.what.empty()) { return path + " is not " + name_of(wanted) + "; " + advice(path, guess.kind, wanted); }
+  return path + " is " + guess.what + ", not " + name_of(wanted) + "; " + advice(path, guess.kind, wanted);
+}
+
+}  // namespace apps

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+
+// Whatever ends the program, it leaves no file behind that was not there; a pipe that nobody reads ends it quietly.
+
+#include "catch.hpp"
+
+#include <csignal>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "apps/files.hpp"
+#include "apps/interrupt.hpp"
+#include "program.hpp"
+
+using program::Place;
+using program::Run;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string scene(const std::string& name) { return "'" HALFLIGHT_SCENES "/" + name + ".scene'"; }
+
+// Writes a file in a process of its own that gets the signal as soon as the temporary is there; how it ended.
+int interrupted_write(const fs::path& folder, int signal, bool watched) {
+  const ::pid_t child = ::fork();
+  if (child == 0) {
+    apps::guard_process();
+    if (watched) { static_cast<void>(apps::watch_interrupts()); }
+    std::thread watcher([&] {
+      while (fs::is_empty(folder)) {}
+      ::kill(::getpid(), signal);
+    });
+    const std::string bytes(64U << 20U, 'x');
+    const auto fault = apps::write_file((folder / "a.bin").string(), bytes);
+    watcher.join();
+    ::_exit(fault ? 1 : 0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return status;
+}
+
+}  // namespace
+
+TEST_CASE("a signal while a file is written: the file is whole or not there, and no temporary is left") {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
+    for (const bool watched : {false, true}) {
+      const Place place;
+      const int status = interrupted_write(place.path(), signal, watched);
+      INFO("signal " << signal << ", watched " << watched);
+      const bool ends = !watched || signal == SIGQUIT;  // otherwise the first one is a request
+      CHECK(WIFSIGNALED(status) == ends);
+      if (ends) { CHECK(WTERMSIG(status) == signal); }
+      CHECK(place.entries() == (ends ? 0 : 1));
+      if (!ends) { CHECK(fs::file_size(place.path() / "a.bin") == 64U << 20U); }
+    }
+  }
+}
+
+TEST_CASE("every command under every signal leaves no file that was not there") {
+  // Each works far longer than it is let.
+  const std::string commands[] = {"render " + scene("room") + " -o a.png --json a.json --epsilon 0.0005 --min-area 1e-7 --quiet",
+                                  "factors " + scene("primitives") + " --csv a.csv --error 1e-9", "stress --json a.json",
+                                  "euler --interactive -o a.svg < /dev/zero"};
+  for (const std::string& command : commands) {
+    for (const char* signal : {"INT", "TERM", "HUP"}) {
+      const Place place;
+      const Run run = place.run(command, std::string("timeout -k 20 -s ") + signal + " 0.3 ");
+      INFO(command << " " << signal << "\n" << run.err);
+      CHECK(run.code != 0);
+      CHECK(run.code != 137);  // it did not have to be killed
+      CHECK(place.entries() == 0);
+    }
+  }
+}
+
+TEST_CASE("a limit on the size of files is an error of the write in every command; old files stay, no temporary does") {
+  const Place place;
+  place.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
+  place.write("a.euler", "h0 = make_segment\n");
+  const std::string commands[] = {"render " + scene("two_plates") + " --audit 0 --quiet --size 400x400 -o out.png",
+                                  "render " + scene("two_plates") + " --audit 0 --quiet --json out.png",
+                                  "factors " + scene("room") + " --error 0.1 --csv out.png",
+                                  "mesh " + scene("primitives") + " --json out.png", "euler a.euler -o out.html"};
+  for (const std::string& command : commands) {
+    for (const char* name : {"out.png", "out.html"}) { place.write(name, "old"); }
+    const Run run = place.run(command, "ulimit -f 1; ");
+    INFO(command << "\n" << run.err);
+    CHECK(run.code == 1);
+    CHECK(run.err.find("File too large") != std::string::npos);
+    CHECK(place.read("out.png") == "old");
+    CHECK(place.read("out.html") == "old");
+    CHECK(place.entries() == 4);
+  }
+}
+
+TEST_CASE("a pipe that nobody reads any more ends a command quietly, whether or not the signal is ignored") {
+  const Place place;
+  for (const std::string& command :
+       {"info " + scene("room"), "mesh " + scene("room") + " --json", "factors " + scene("two_plates"),
+        "render " + scene("two_plates") + " --audit 0 --quiet", std::string("stress --list"), std::string("--help")}) {
+    for (const char* trap : {"", "trap '' PIPE; "}) {
+      const std::string line = "cd '" + place.path().string() + "' && { " + trap + "sleep 0.1; '" HALFLIGHT_PROGRAM "' " + command +
+                               " 2>err; echo $? >code; } | true";
+      REQUIRE(std::system(line.c_str()) == 0);
+      INFO(command << "\n" << place.read("err"));
+      CHECK(place.read("err").empty());
+      CHECK(place.read("code") == "0\n");
+    }
+  }
+}
+
+TEST_CASE("what cannot be said is a failure: a full device, a closed standard output") {
+  const Place place;
+  for (const std::string& command :
+       {"info " + scene("room"), "mesh " + scene("room"), "factors " + scene("two_plates"), std::string("--help")}) {
+    for (const char* where : {" >/dev/full", " >&-"}) {
+      const std::string line =
+          "cd '" + place.path().string() + "' && '" HALFLIGHT_PROGRAM "' " + command + " 2>err" + where + "; echo $? >code";
+      REQUIRE(std::system(line.c_str()) == 0);
+      INFO(command << where << "\n" << place.read("err"));
+      CHECK(place.read("code") == "1\n");
+      CHECK(place.read("err").find("cannot write to standard output") != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("interactive: what was not saved is not said to be written") {
+  const Place place;
+  fs::create_symlink("/dev/full", place.path() / "full");
+  place.write("input", "h0 = make_segment\nsave none/steps\nsave a.svg\nsave ./a.svg\nsave full\nsave\nquit\n");
+  const Run run = place.run("euler --interactive -o a.svg < input");
+  INFO(run.out);
+  CHECK(run.code == 1);
+  CHECK(run.out.find("written") == std::string::npos);
+  CHECK(run.out.find("there is no folder none") != std::string::npos);
+  CHECK(run.out.find("No space left on device") != std::string::npos);
+  CHECK(place.read("a.svg").find("<svg") != std::string::npos);
+  place.write("input", "h0 = make_segment\nsave steps\nquit\n");
+  CHECK(place.run("euler --interactive < input").out.find("written: steps") != std::string::npos);
+}
