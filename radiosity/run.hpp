@@ -42,9 +42,9 @@ inline void measure_errors(const Options& options, const Control& control, Surfa
     Mesh shown = solution.mesh;
     for (glm::dvec3& p : shown.positions) { p = solution.frame.to_scene(p); }
     audit.picture_error = control.picture_error(shown, solution.frame, goal);
-    // The error over all surfaces decides nothing then: before the last round, a little of it will do.
+    // The error over all surfaces decides nothing then: until the picture is good enough, a little of it will do.
     const bool last = audit.picture_error && audit.picture_error->error.within(*options.error);
-    goal = last ? to_know : AuditGoal{64};
+    goal = last ? to_know : AuditGoal{options.audit_points / 4, solution_rays / 2};
   }
   const bool reconstructed = options.reconstruction != Reconstruction::none;
   const auto measure = [&](std::uint64_t points, std::uint32_t paths, SurfaceError& to) {
@@ -266,9 +266,20 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
 
 // solve() for sound options and light in its own unit (light_unit.hpp).
 inline Outcome solve_in_rounds(const Scene& scene, const Options& options, const Control& control) {
-  if (!options.error) { return detail::solve_at(scene, options, control); }
+  if (!options.error) { return solve_at(scene, options, control); }
   const bool of_picture = static_cast<bool>(control.picture_error);
-  return detail::solve_to_error(options, of_picture, [&](const Options& round) { return detail::solve_at(scene, round, control); });
+  Outcome outcome = solve_to_error(options, of_picture, [&](const Options& round) { return solve_at(scene, round, control); });
+  if (of_picture && outcome.solution && !outcome.solution->audit.converged && !control.cancelled()) {
+    // That the error is too large was decided by few pixels; how large it is takes more.
+    Audit& audit = outcome.solution->audit;
+    std::vector<StageTime> stages;
+    Stopwatch watch{stages};
+    const auto again = control.picture_error(outcome.solution->mesh, outcome.solution->frame, goal_to_know(audit, options.audit_points));
+    if (again) { audit.picture_error = again; }
+    watch.lap("audit");
+    add_times(audit.stages, stages);
+  }
+  return outcome;
 }
 
 }  // namespace detail

@@ -171,3 +171,28 @@ TEST_CASE("audit: of 240 intervals over 24 scenes of known radiosity at least 93
   CHECK(held >= static_cast<int>(0.93 * scenes_asked * seeds));
   WARN(held);
 }
+
+TEST_CASE("error target: a tighter one never ends with a worse solution, and one out of reach ends with the best") {
+  radiosity::Options options;
+  options.threads = 1;
+  options.audit_points = 400;
+  std::uint64_t links = 0;
+  double high = 1.0;
+  for (const radiosity::Refinement refinement : {radiosity::Refinement::a_priori, radiosity::Refinement::a_posteriori}) {
+    options.refinement = refinement;
+    links = 0;
+    high = 1.0;
+    for (const double wanted : {0.2, 0.1, 0.05, 0.02}) {
+      options.error = wanted;
+      const radiosity::Solution solution = scenes::solved(scenes::two_plates(0.5), options);
+      const radiosity::Audit& audit = solution.audit;
+      REQUIRE(audit.surface_error);
+      CAPTURE(wanted, audit.links, links, audit.surface_error->low, audit.surface_error->high);
+      CHECK(audit.converged == audit.surface_error->within(wanted));
+      CHECK(audit.links >= links);
+      CHECK(audit.surface_error->low <= high);  // as far as both intervals can tell
+      links = audit.links;
+      high = audit.surface_error->high;
+    }
+  }
+}
