@@ -28,8 +28,16 @@ namespace detail {
 // Their fractions are known to 1 %.
 inline constexpr std::uint32_t stray_ray_count = 2500;
 
-// One run at a given fineness.
-inline Outcome solve_at(const Scene& scene, const Options& options, const Control& control) {
+// What the solution holds, but for its BReps, which end with the run.
+inline std::uint64_t bytes_of(const Solution& solution) {
+  const Mesh& mesh = solution.mesh;
+  return solution.hierarchy.capacity() * (sizeof(Node) + sizeof(Color) + 2 * sizeof(double)) + solution.links.capacity() * sizeof(Link) +
+         mesh.positions.capacity() * sizeof(glm::dvec3) + mesh.corners.capacity() * sizeof(MeshCorner) +
+         mesh.faces.capacity() * sizeof(MeshFace);
+}
+
+// One run at a given fineness. `budget`: its limits are set; what is fixed becomes known here.
+inline Outcome solve_at(const Scene& scene, const Options& options, const Control& control, MemoryBudget budget) {
   Solution solution;
   Audit& audit = solution.audit;
   Stopwatch watch{audit.stages};
@@ -84,21 +92,35 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   EvaluateResult evaluated;
   // Without light, or without reflection, B = E on the input faces.
   const bool needs_links = (plan.lit && plan.reflects) || !plan.shortcuts;
+  budget.a_posteriori = options.refinement == Refinement::a_posteriori;
+  budget.fixed = objects.bytes() + audit.clusters * 8 * direction_count * sizeof(double) + std::uint64_t{options.audit_points} * 150;
+  for (const Surface& surface : boundary) { budget.fixed += surface.brep.bytes(); }
+  const auto too_large = [&](std::uint64_t needed) {
+    return too_much_memory(needed, budget.allowed,
+                           options.error         ? "a larger error needs less"
+                           : budget.a_posteriori ? "a larger target needs less"
+                                                 : "a larger epsilon or min_area needs less, and BF-refinement ends with the best that fits");
+  };
   if (needs_links && options.refinement == Refinement::a_posteriori) {
     BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, shown, evaluator,
-                            options.target, Deadline{options.time}, link_limit, threads, options.seed, control);
+                            options.target, Deadline{options.time}, link_limit, threads, options.seed, control, budget);
     refined = std::move(bf.refined);
     evaluated = bf.evaluated;
     audit.estimated_error = bf.estimate;
     audit.target = options.time ? 0.0 : options.target;
     audit.generations = bf.generations;
     audit.interrupted = bf.interrupted;
+    if (bf.too_large > 0 && bf.estimate > options.target) { audit.shortage = too_large(bf.too_large); }
   } else if (needs_links) {
     refined = refine(scene, objects, plan, boundary, hierarchy, patches, options.epsilon, options.min_area, audit.light_epsilon, threads,
-                     options.seed, control);
+                     options.seed, control, budget);
   }
   if (refined.cancelled || evaluated.cancelled) { return cancelled(); }
   if (refined.too_many > 0) { return failed(Failure::Kind::invalid_options, {too_many_links(refined.too_many, clusters)}); }
+  if (refined.too_large > 0) { return failed(Failure::Kind::out_of_memory, {too_large(refined.too_large)}); }
+  if (!needs_links && !budget.allows({hierarchy.size()})) {
+    return failed(Failure::Kind::out_of_memory, {too_large(budget.peak({hierarchy.size()}))});
+  }
   solution.links = std::move(refined.links);
   watch.lap("refine");
 
@@ -139,7 +161,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
                                         options.residual, options.max_iterations);
   audit.residual = solved.residual;
   audit.iterations = solved.iterations;
-  audit.converged = solved.converged && !audit.interrupted;
+  audit.converged = solved.converged && !audit.interrupted && audit.shortage.empty();
   audit.histories = std::move(solved.histories);
   solution.radiosity = std::move(solved.radiosity);
   if (needs_links && options.refinement == Refinement::a_priori && options.audit_points > 0) {
@@ -151,7 +173,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   watch.lap("solve");
   if (options.compare) {
     solution.comparison.emplace();
-    if (exposed_leaves(hierarchy, exposure) <= *options.compare) {
+    const std::uint64_t leaves = exposed_leaves(hierarchy, exposure);
+    const std::uint64_t matrix = 8 * leaves * leaves;
+    if (leaves <= *options.compare && budget.allows({hierarchy.size(), solution.links.size(), 0, matrix / 2})) {
       const LeafExchange exchange{objects, plan, boundary, hierarchy, patches, exposure, evaluator};
       solution.comparison->dense = dense_radiosity(exchange, leaf_materials(exchange, hierarchy, reflectance, emission), plan.closed,
                                                    hierarchy.size(), options.residual, threads, control);
@@ -242,12 +266,34 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   return {std::move(solution), {}};
 }
 
-}  // namespace detail
+// solve_at within the memory that there is. When BF-refinement has run out of it, the run is made again, in the memory that is free then, up
+// to the last generation that had a solution, or to one before it: what the first run held is in no state to go on from. Generations
+// grow, so that takes no longer than the run that was lost.
+inline Outcome solve_within_memory(const Scene& scene, const Options& options, const Control& control, std::uint64_t held = 0) {
+  MemoryBudget budget;
+  if (options.memory) { budget.allowed = *options.memory - std::min(*options.memory, held); }
+  std::uint32_t solved = 0;  // generations of BF-refinement
+  budget.solved = &solved;
+  Outcome outcome = unless_out_of_memory([&] { return solve_at(scene, options, control, budget); });
+  while (!outcome.solution && outcome.failure.kind == Failure::Kind::out_of_memory && solved > 0 && budget.last_generation > 0) {
+    budget.last_generation = std::min(budget.last_generation, std::exchange(solved, 0)) - 1;
+    outcome = unless_out_of_memory([&] {
+      Outcome coarser = solve_at(scene, options, control, budget);
+      if (coarser.solution) {
+        coarser.solution->audit.shortage = "the system had no more memory for a finer solution; a larger target or error needs less";
+        coarser.solution->audit.converged = false;
+      }
+      return coarser;
+    });
+  }
+  return outcome;
+}
 
-HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& options, const Control& control) {
+// solve(), but memory may run out.
+inline Outcome solve_in_rounds(const Scene& scene, const Options& options, const Control& control) {
   std::vector<std::string> sentences = faults(options);
-  if (!sentences.empty()) { return detail::failed(Failure::Kind::invalid_options, std::move(sentences)); }
-  if (!options.error) { return detail::solve_at(scene, options, control); }
+  if (!sentences.empty()) { return failed(Failure::Kind::invalid_options, std::move(sentences)); }
+  if (!options.error) { return solve_within_memory(scene, options, control); }
   const double wanted = *options.error;
   Options round = options;
   round.epsilon = 0.04;
@@ -257,15 +303,19 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
   Outcome before;
   double error_before = std::numeric_limits<double>::infinity();
   for (;;) {
-    Outcome outcome = detail::solve_at(scene, round, control);
-    if (!outcome.solution && outcome.failure.kind == Failure::Kind::cancelled && before.solution) {
-      before.solution->audit.interrupted = true;
+    Outcome outcome = solve_within_memory(scene, round, control, before.solution ? bytes_of(*before.solution) : 0);
+    const bool out_of_memory = !outcome.solution && outcome.failure.kind == Failure::Kind::out_of_memory;
+    if (!outcome.solution && (outcome.failure.kind == Failure::Kind::cancelled || out_of_memory) && before.solution) {
+      before.solution->audit.interrupted = !out_of_memory;
+      if (out_of_memory) {
+        before.solution->audit.shortage = outcome.failure.sentences.empty() ? "no more memory" : outcome.failure.sentences.front();
+      }
       before.solution->audit.converged = false;
       return before;
     }
     if (!outcome.solution) { return outcome; }
     Audit& audit = outcome.solution->audit;
-    detail::add_times(stages, audit.stages);
+    add_times(stages, audit.stages);
     const std::optional<ErrorEstimate>& error = round.reconstruction != Reconstruction::none ? audit.picture_error : audit.leaf_error;
     const bool met = within(error, wanted);
     // Finer where the error is: in the light of lamps, in the rest, or in both; a smaller step where little is missing.
@@ -279,18 +329,24 @@ HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& opti
       round.min_area *= step * step;  // so does what the ends of shadows and contacts leave out
     }
     round.target *= error ? std::clamp(0.7 * wanted / error->relative_l2, 0.25, 0.8) : 0.5;
-    if (met || audit.interrupted || audit.links > 10'000'000 || round.epsilon < 1e-5 || *round.light_epsilon < 1e-6 ||
+    if (met || audit.interrupted || !audit.shortage.empty() || audit.links > 10'000'000 || round.epsilon < 1e-5 || *round.light_epsilon < 1e-6 ||
         round.target < 1e-6) {
       audit.converged = audit.converged && met;
       audit.stages = std::move(stages);
-      detail::sum_times(audit);
+      sum_times(audit);
       return outcome;
     }
     error_before = error ? error->relative_l2 : error_before;
     before = std::move(outcome);
     before.solution->audit.stages = stages;
-    detail::sum_times(before.solution->audit);
+    sum_times(before.solution->audit);
   }
+}
+
+}  // namespace detail
+
+HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& options, const Control& control) {
+  return detail::unless_out_of_memory([&] { return detail::solve_in_rounds(scene, options, control); });
 }
 
 }  // namespace radiosity
