@@ -69,7 +69,7 @@ struct MemoryBudget {
   // Bytes at the peak. Of each node: itself (104), its patch (1400), its faces, edges and vertices (350), what its exposure (70), the solution
   // (150) and the mesh (300) add. Of each link: itself and its list (28), and while the table grows or links are evaluated, as much again;
   // of BF-refinement also shape, error and, while they are put into order, a copy (130). Of each pair: itself, the decision, the rays; and a
-  // batch of occluder lists at full length. Compared with the system's figures in tests/radiosity/memory_test.cpp.
+  // batch of occluder lists at full length. Held against what runs take in tests/memory/budget_test.cpp.
   [[nodiscard]] std::uint64_t peak(const Counts& counts) const {
     constexpr std::uint64_t node = 2400, link = 48, shape = 130, pair = 30, list = 264, batch = 1 << 14;
     return fixed + node * counts.nodes + (link + (a_posteriori ? shape : 0)) * counts.links + pair * counts.pairs +

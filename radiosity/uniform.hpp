@@ -27,11 +27,12 @@ struct UniformOptions {
   std::optional<std::uint32_t> compare;  // as in Options
   unsigned threads = 0;
   std::uint64_t seed = 1;
+  std::optional<std::uint64_t> memory;  // as in Options
 };
 
-// `links` of the audit counts the entries of the matrix, or the exchanges that were made and not kept. There is no error estimate.
-[[nodiscard]] inline Outcome solve_uniform(const Scene& scene, const UniformOptions& options, const Control& control = {}) {
-  using detail::failed;
+namespace detail {
+
+[[nodiscard]] inline Outcome solve_uniform_in_unit(const Scene& scene, const UniformOptions& options, const Control& control) {
   Solution solution;
   Audit& audit = solution.audit;
   detail::Stopwatch watch{audit.stages};
@@ -84,6 +85,13 @@ struct UniformOptions {
   const std::uint64_t n = exchange.size();
   if (n > options.max_leaves) {
     return failed(Failure::Kind::invalid_options, {std::to_string(n) + " leaves; a larger max_area needs fewer"});
+  }
+  MemoryBudget budget;
+  budget.allowed = options.memory.value_or(budget.allowed);
+  budget.fixed = objects.bytes() + exchange.bytes() + (options.solver == UniformSolver::gauss_seidel ? n * n * sizeof(float) : 0);
+  if (!budget.allows({hierarchy.size()})) {
+    return failed(Failure::Kind::out_of_memory,
+                  {too_much_memory(budget.peak({hierarchy.size()}), budget.allowed, "a larger max_area needs less")});
   }
   DenseSolution solved;
   if (options.solver == UniformSolver::gauss_seidel) {
@@ -141,6 +149,13 @@ struct UniformOptions {
   solution.area = exposure.area;
   detail::sum_times(audit);
   return {std::move(solution), {}};
+}
+
+}  // namespace detail
+
+// `links` of the audit counts the entries of the matrix, or the exchanges that were made and not kept. There is no error estimate.
+[[nodiscard]] inline Outcome solve_uniform(const Scene& scene, const UniformOptions& options, const Control& control = {}) {
+  return detail::unless_out_of_memory([&] { return detail::solve_uniform_in_unit(scene, options, control); });
 }
 
 }  // namespace radiosity

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/commands/render.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include "apps/commands/common.hpp"
 #include "apps/files.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/memory.hpp"
 #include "apps/picture.hpp"
 #include "apps/ply.hpp"
 #include "apps/png.hpp"
@@ -103,6 +105,10 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
     complain("interrupted; nothing was written");
     return ExitCode::failure;
   }
+  if (failure.kind == radiosity::Failure::Kind::out_of_memory) {
+    complain(failure.sentences.empty() ? "out of memory" : failure.sentences.front());
+    return ExitCode::failure;
+  }
   if (failure.kind == radiosity::Failure::Kind::invalid_options) {
     for (const std::string& sentence : failure.sentences) { complain(sentence); }
     return ExitCode::usage;
@@ -115,13 +121,31 @@ class Stopwatch {
  public:
   [[nodiscard]] radiosity::StageTime stop(std::string name) const {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_;
-    return {std::move(name), wall.count(), static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC};
+    return {std::move(name), wall.count(), static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC, radiosity::peak_memory()};
   }
 
  private:
   std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
   std::clock_t cpu_ = std::clock();
 };
+
+// What --memory leaves for the run: less what the program and the scene hold now. The picture is drawn when the run holds its solution
+// alone, a third of its peak at most.
+std::optional<std::uint64_t> memory_left(const RenderOptions& options, const Camera& camera) {
+  const std::uint64_t held = resident_memory().value_or(0);
+  const PictureSize size = options.size.value_or(camera.size.value_or(PictureSize{}));
+  constexpr std::uint64_t band = 20'000'000, pixel = 20;  // of samples; of colours and their coded form
+  const std::uint64_t picture = has_picture(options) ? band + pixel * size.width * size.height : 0;
+  if (held + picture >= *options.memory) {
+    complain("--memory allows " + radiosity::memory_text(*options.memory) + ", but the program and the scene hold " +
+             radiosity::memory_text(held) + " before the run" +
+             (picture > 0 ? ", and the picture takes " + radiosity::memory_text(picture) : std::string()) + "; allow more" +
+             (picture > 0 ? " or make the picture smaller" : ""));
+    return std::nullopt;
+  }
+  const std::uint64_t left = *options.memory - held;
+  return std::min(left, 3 * (left - picture));
+}
 
 struct Output {
   std::string path;
@@ -250,6 +274,12 @@ void describe(CLI::App& command, RenderOptions& options) {
                                                                                    {"constant", radiosity::Reconstruction::constant}}));
   command.add_flag("!--no-shortcuts", solver.shortcuts,
                    "do all that the report would tell as left out; the result is the same, to the bit");
+  command
+      .add_option_function<std::string>(
+          "--memory", [&options](const std::string& text) { options.memory = parse_memory(text); },
+          "most memory that the program may hold, such as 500M or 2G; a run that would need more ends before")
+      ->type_name("BYTES")
+      ->check(memory_fault);
   command.add_option("--json", options.json, "write the report as JSON, too")->type_name("FILE");
   command.add_flag("--quiet", options.quiet, "no narration and no progress bar");
 }
@@ -269,6 +299,10 @@ ExitCode run(const RenderOptions& options) {
 
   radiosity::Options settings = options.solver;
   if (options.outputs.empty()) { settings.reconstruction = radiosity::Reconstruction::none; }
+  if (options.memory) {
+    settings.memory = memory_left(options, *camera);
+    if (!settings.memory) { return ExitCode::failure; }
+  }
   Progress progress(options.quiet);
   radiosity::Control control;
   control.cancel = &cancel;
@@ -293,6 +327,10 @@ ExitCode run(const RenderOptions& options) {
   if (std::fflush(stdout) != 0) {
     complain("cannot write the report to standard output");
     return ExitCode::failure;
+  }
+  if (!solution.audit.shortage.empty()) {
+    complain(solution.audit.shortage + "; the outputs show the best solution so far");
+    return ExitCode::not_converged;
   }
   if (solution.audit.interrupted) {
     complain("interrupted: the outputs show the best solution so far");

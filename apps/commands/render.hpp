@@ -6,6 +6,7 @@
 // What can be known to fail is refused before the solver starts: extensions, folders, the camera's name. Outputs are
 // encoded in memory and then replace their files one by one, each whole (files.hpp).
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct RenderOptions {
   std::optional<double> exposure;
   PictureMethod method = PictureMethod::mesh;
   bool quiet = false;
+  std::optional<std::uint64_t> memory;  // bytes that the process may hold
   radiosity::Options solver;
 };
 
