@@ -65,6 +65,13 @@ std::string memory_fault(const std::string& text) {
 
 std::optional<std::uint64_t> resident_memory() { return status("VmRSS"); }
 
+void leave_out_others(std::vector<radiosity::StageTime>& stages) {
+  const std::optional<std::uint64_t> own = status("VmHWM");
+  for (radiosity::StageTime& stage : stages) {
+    if (own && stage.peak_bytes) { stage.peak_bytes = std::min(*own, *stage.peak_bytes); }
+  }
+}
+
 PeakMeter::PeakMeter() {
 #if defined(__GLIBC__)
   ::malloc_trim(0);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <radiosity/audit.hpp>
 
@@ -21,6 +22,9 @@ namespace apps {
 
 // What the process holds now; nothing where the system does not tell.
 [[nodiscard]] std::optional<std::uint64_t> resident_memory();
+
+// What getrusage(2) tells contains what the program that started this one held; where the system tells more, that is taken out.
+void leave_out_others(std::vector<radiosity::StageTime>& stages);
 
 // What the runs of a study take one after the other in one process. The heap gives back what is free, and the peak that the system keeps is
 // reset (Linux: clear_refs, proc(5)) before each run; the run took what its peak lies above what was held at its beginning.

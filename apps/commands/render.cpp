@@ -171,7 +171,9 @@ std::optional<std::vector<Output>> encode(const RenderOptions& options, const Sc
     if (!picture) { return std::nullopt; }
     png = to_png(*picture);
     report.picture = PictureReport{camera.name, size.width, size.height, options.method};
-    report.picture_time = watch.stop("picture");
+    std::vector<radiosity::StageTime> stages{watch.stop("picture")};
+    leave_out_others(stages);
+    report.picture_time = stages.front();
   }
   for (const std::string& path : options.outputs) {
     const bool is_png = format_of(path) == Format::png;
@@ -317,6 +319,7 @@ ExitCode run(const RenderOptions& options) {
   report.scene = options.scene;
   report.options = settings;
   report.audit = solution.audit;
+  leave_out_others(report.audit.stages);
   report.automatic_exposure = !options.exposure;
   report.exposure = options.exposure ? *options.exposure : automatic_exposure(solution.mesh, file->scene);
   const auto outputs = encode(options, *file, *camera, solution, control, report);
