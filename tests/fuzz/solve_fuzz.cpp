@@ -227,7 +227,9 @@ void check_own_light(const radiosity::Scene& scene, const radiosity::Solution& s
   for (std::size_t i = 0; i < solution.hierarchy.size(); ++i) {
     const radiosity::Node& node = solution.hierarchy[i];
     if (!node.leaf() || !(solution.area[i] > 0.0)) { continue; }
-    require(solution.radiosity[i] == scene.materials[inputs[node.surface].material].emission, "without reflected light B = E");
+    const glm::dvec3& emission = scene.materials[inputs[node.surface].material].emission;
+    const double error = largest(glm::abs(solution.radiosity[i] - emission));
+    require(error <= 1e-6 * largest(emission), "without reflected light B = E");  // a solver ends at a residual of 1e-8
   }
 }
 
@@ -269,7 +271,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         again.solution ? !again.solution->audit.shortage.empty() : again.failure.kind == radiosity::Failure::Kind::out_of_memory;
     if (cancel || short_of_memory) { return 0; }  // what is left out takes none
     require(again.solution.has_value(), "what is left out was not needed");
-    if (outcome.solution->links.empty()) {
+    if (outcome.solution->links.empty() && again.solution->radiosity.size() != outcome.solution->radiosity.size()) {
       check_own_light(scene, *again.solution);
     } else {
       require(again.solution->radiosity == outcome.solution->radiosity, "what is left out changes no bit");
