@@ -89,16 +89,26 @@ void error_and_time(std::string& out, const Report& report) {
         percent(*audit.estimated_error) + (audit.generations > 0 ? ", after " + std::to_string(audit.generations) + " generations" : ""));
   }
   if (audit.leaf_error) { row(out, "path-traced points", grouped(audit.audit_points) + ", " + grouped(audit.audit_rays) + " rays"); }
-  out += "time (s)                      wall       CPU\n";
-  const auto time = [&](const std::string& name, double wall, double cpu) { row(out, name, format("%10.3f%10.3f", wall, cpu)); };
+  out += "time (s), peak memory         wall       CPU   of the process until then\n";
+  const auto time = [&](const std::string& name, const radiosity::StageTime& stage) {
+    const std::string peak = stage.peak_bytes ? "   " + bytes(*stage.peak_bytes) : std::string();
+    row(out, name, format("%10.3f%10.3f", stage.wall_seconds, stage.cpu_seconds) + peak);
+  };
   for (const radiosity::StageTime& stage : audit.stages) {
-    if (!stage.name.ends_with("audit")) { time(stage.name, stage.wall_seconds, stage.cpu_seconds); }
+    if (!stage.name.ends_with("audit")) { time(stage.name, stage); }
   }
-  time("total", audit.wall_seconds, audit.cpu_seconds);
+  time("total", {"", audit.wall_seconds, audit.cpu_seconds});
   for (const radiosity::StageTime& stage : audit.stages) {
-    if (stage.name.ends_with("audit")) { time(stage.name + " (apart)", stage.wall_seconds, stage.cpu_seconds); }
+    if (stage.name.ends_with("audit")) { time(stage.name + " (apart)", stage); }
   }
-  if (report.picture_time) { time("picture (apart)", report.picture_time->wall_seconds, report.picture_time->cpu_seconds); }
+  if (report.picture_time) { time("picture (apart)", *report.picture_time); }
+}
+
+// Most that the process has held until the report, as far as it was measured.
+std::optional<std::uint64_t> peak_bytes(const Report& report) {
+  std::optional<std::uint64_t> peak;
+  for (const radiosity::StageTime& stage : report.audit.stages) { peak = std::max(peak, stage.peak_bytes); }
+  return report.picture_time ? std::max(peak, report.picture_time->peak_bytes) : peak;
 }
 
 void sizes_and_checks(std::string& out, const Report& report) {
@@ -115,7 +125,8 @@ void sizes_and_checks(std::string& out, const Report& report) {
   row(out, "rays",
       grouped(audit.rays) + " cast, " + grouped(audit.rays_avoided) + " avoided: " + grouped(audit.pairs_clear) + " pairs proven clear, " +
           grouped(audit.pairs_hidden) + " proven blocked");
-  row(out, "memory", bytes(audit.bytes));
+  const std::optional<std::uint64_t> peak = peak_bytes(report);
+  row(out, "memory", (peak ? bytes(*peak) + " at the peak of the process, " : std::string()) + bytes(audit.bytes) + " held by the result");
   out += "checks\n";
   const auto range = [](const radiosity::Audit::Range& r) { return format("%.6f to %.6f, mean %.6f", r.min, r.max, r.mean); };
   row(out, "row sums", range(audit.row_sum));
@@ -133,9 +144,11 @@ void sizes_and_checks(std::string& out, const Report& report) {
   }
   row(out, "residual",
       format("%.2e after %u iterations%s", audit.residual, static_cast<unsigned>(audit.iterations),
-             audit.converged     ? ""
-             : audit.interrupted ? " - INTERRUPTED, the best so far"
-                                 : " - NOT CONVERGED"));
+             audit.converged           ? ""
+             : audit.interrupted       ? " - INTERRUPTED, the best so far"
+             : !audit.shortage.empty() ? " - OUT OF MEMORY, the best so far"
+                                       : " - NOT CONVERGED"));
+  if (!audit.shortage.empty()) { row(out, "memory", audit.shortage); }
   out += "settings\n";
   if (report.options.refinement == radiosity::Refinement::a_posteriori) {
     row(out, "refinement",
@@ -246,6 +259,29 @@ void write_times(JsonWriter& json, const char* key, const Report& report, double
   json.close();
 }
 
+// Until the end of each stage; null where the system does not tell. That of the process is the largest.
+void write_peaks(JsonWriter& json, const Report& report) {
+  const auto write = [&](std::string name, const std::optional<std::uint64_t>& peak) {
+    std::replace(name.begin(), name.end(), ' ', '_');
+    json.key(name);
+    if (peak) {
+      json.count(*peak);
+    } else {
+      json.null();
+    }
+  };
+  json.key("peak_bytes").open_object();
+  const std::vector<radiosity::StageTime>& stages = report.audit.stages;
+  for (std::size_t i = 0; i < stages.size(); ++i) {  // of stages of one name the last: peaks only grow
+    const bool again = std::any_of(stages.begin() + static_cast<std::ptrdiff_t>(i) + 1, stages.end(),
+                                   [&](const radiosity::StageTime& later) { return later.name == stages[i].name; });
+    if (!again) { write(stages[i].name, stages[i].peak_bytes); }
+  }
+  if (report.picture_time) { write(report.picture_time->name, report.picture_time->peak_bytes); }
+  write("process", peak_bytes(report));
+  json.close();
+}
+
 void write_color(JsonWriter& json, const radiosity::Color& color) {
   json.open_array();
   for (int c = 0; c < 3; ++c) { json.number(color[c]); }
@@ -341,6 +377,7 @@ std::string to_json(const Report& report) {
   write_errors(json, audit);
   write_times(json, "cpu_seconds", report, &radiosity::StageTime::cpu_seconds, audit.cpu_seconds);
   write_times(json, "wall_seconds", report, &radiosity::StageTime::wall_seconds, audit.wall_seconds);
+  write_peaks(json, report);
   json.key("polygons").count(audit.polygons);
   json.key("nodes").count(audit.nodes).key("leaves").count(audit.leaves).key("links").count(audit.links);
   json.key("clusters").count(audit.clusters).key("cluster_links").count(audit.cluster_links);
@@ -371,6 +408,7 @@ std::string to_json(const Report& report) {
   }
   json.close();
   json.key("converged").boolean(audit.converged);
+  json.key("shortage").string(audit.shortage);
   json.key("exposure").number(report.exposure).key("exposure_automatic").boolean(report.automatic_exposure);
   write_settings(json, report);
   write_lists(json, report);

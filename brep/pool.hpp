@@ -37,7 +37,7 @@ class Pages {
  public:
   Pages() = default;
   Pages(Pages&& other) noexcept : pages_(std::move(other.pages_)), size_(std::exchange(other.size_, 0)) { other.pages_.clear(); }
-  Pages(const Pages& other) {
+  Pages(const Pages& other) : Pages() {
     for (std::uint32_t i = 0; i < other.size_; ++i) push_back(other[i]);
   }
   Pages& operator=(Pages other) noexcept {
@@ -62,7 +62,7 @@ class Pages {
   }
   template <class... Arguments>
   void push_back(Arguments&&... arguments) {
-    if ((size_ & (page_size - 1)) == 0) pages_.push_back(std::allocator<T>().allocate(page_size));
+    if ((size_ & (page_size - 1)) == 0) add_page();
     std::construct_at(pages_.back() + (size_ & (page_size - 1)), std::forward<Arguments>(arguments)...);
     ++size_;
   }
@@ -71,6 +71,12 @@ class Pages {
 
  private:
   static constexpr std::uint32_t page_size = std::uint32_t{1} << Shift;
+
+  void add_page() {  // the table first: a page that it has no room for would be lost
+    if (pages_.size() == size_ >> Shift) pages_.push_back(nullptr);
+    if (pages_.back() == nullptr) pages_.back() = std::allocator<T>().allocate(page_size);
+  }
+
   std::vector<T*> pages_;
   std::uint32_t size_ = 0;
 };

@@ -33,9 +33,17 @@ namespace detail {
   return options.reconstruction != Reconstruction::none ? audit.surface_error : audit.leaf_error;
 }
 
-// `solve_round` solves at a given fineness and measures the errors.
+// What the solution holds, but for its BReps, which end with the run.
+inline std::uint64_t bytes_of(const Solution& solution) {
+  const Mesh& mesh = solution.mesh;
+  return solution.hierarchy.capacity() * (sizeof(Node) + sizeof(Color) + 2 * sizeof(double)) + solution.links.capacity() * sizeof(Link) +
+         mesh.positions.capacity() * sizeof(glm::dvec3) + mesh.corners.capacity() * sizeof(MeshCorner) +
+         mesh.faces.capacity() * sizeof(MeshFace);
+}
+
+// `solve_round` solves at a given fineness, while so many bytes are held by an earlier solution, and measures the errors.
 [[nodiscard]] inline Outcome solve_to_error(const Options& options, bool of_picture,
-                                            const std::function<Outcome(const Options&)>& solve_round) {
+                                            const std::function<Outcome(const Options&, std::uint64_t held)>& solve_round) {
   const double wanted = *options.error;
   Options round = options;
   round.epsilon = 0.04;
@@ -46,10 +54,14 @@ namespace detail {
   std::optional<ErrorEstimate> best_error;
   int without_gain = 0;
   for (;;) {
-    Outcome outcome = solve_round(round);
+    Outcome outcome = solve_round(round, best.solution ? bytes_of(*best.solution) : 0);
     if (!outcome.solution) {
       if (!best.solution) { return outcome; }
-      best.solution->audit.interrupted = outcome.failure.kind == Failure::Kind::cancelled;
+      Audit& audit = best.solution->audit;
+      audit.interrupted = outcome.failure.kind == Failure::Kind::cancelled;
+      if (outcome.failure.kind == Failure::Kind::out_of_memory) {
+        audit.shortage = outcome.failure.sentences.empty() ? "no more memory" : outcome.failure.sentences.front();
+      }
     } else {
       const Audit& audit = outcome.solution->audit;
       add_times(stages, audit.stages);
@@ -73,7 +85,7 @@ namespace detail {
       }
       round.target *= 0.5;
       const bool floor = options.refinement == Refinement::a_priori ? round.epsilon < 1e-5 || *round.light_epsilon < 1e-6 : round.target < 1e-4;
-      const bool over = audit.interrupted || audit.links > link_budget || floor || without_gain == 3;
+      const bool over = audit.interrupted || !audit.shortage.empty() || audit.links > link_budget || floor || without_gain == 3;
       const bool met = error && error->within(wanted);
       if (!best.solution || !best_error || (error && !(best_error->high < error->low))) {
         best = std::move(outcome);
@@ -82,7 +94,7 @@ namespace detail {
       if (!met && !over) { continue; }
     }
     Audit& audit = best.solution->audit;
-    audit.converged = audit.converged && !audit.interrupted && best_error && best_error->within(wanted);
+    audit.converged = audit.converged && !audit.interrupted && audit.shortage.empty() && best_error && best_error->within(wanted);
     audit.stages = std::move(stages);
     sum_times(audit);
     return best;

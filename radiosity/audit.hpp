@@ -20,6 +20,8 @@ struct StageTime {
   std::string name;
   double wall_seconds = 0.0;
   double cpu_seconds = 0.0;  // of all threads
+  // Most memory, in bytes, that the process has held at once until the stage ended; nothing where the system does not tell.
+  std::optional<std::uint64_t> peak_bytes{};
 };
 
 struct SurfaceMean {
@@ -39,7 +41,7 @@ struct Audit {
   std::uint64_t rays_avoided = 0;                   // at least; by the two proofs:
   std::uint64_t pairs_clear = 0, pairs_hidden = 0;  // links that nothing can block; pairs, with all below, that one object hides
   std::uint64_t audit_rays = 0;
-  std::uint64_t bytes = 0;  // held by the result: BReps, hierarchy, links, compiled objects
+  std::uint64_t bytes = 0;  // held by the result: BReps, hierarchy, links, compiled objects; the peak is that of the last stage
   // the linear system
   struct Range {
     double min = 0.0, mean = 0.0, max = 0.0;
@@ -56,6 +58,7 @@ struct Audit {
   std::vector<std::vector<double>> histories;  // of each channel: the relative residual at the start and after each iteration
   bool converged = true;                       // solver below its residual and, when asked for, error below its target
   bool interrupted = false;                    // the best that the run had when it was told to stop; its error may not be measured
+  std::string shortage;                        // what ended the run early for want of memory, and what to do; it has not converged then
   // error
   std::optional<double> estimated_error;  // relative L2, by what the links cannot express (link_error.hpp)
   std::uint32_t generations = 0;          // of BF-refinement

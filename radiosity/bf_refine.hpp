@@ -31,6 +31,7 @@
 #include <radiosity/exposure.hpp>
 #include <radiosity/hierarchy.hpp>
 #include <radiosity/link_error.hpp>
+#include <radiosity/memory.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/oracle.hpp>
 #include <radiosity/pair_oracle.hpp>
@@ -79,6 +80,7 @@ struct BfResult {
   std::uint32_t generations = 0;
   double estimate = 0.0;  // relative L2 error
   bool interrupted = false;
+  std::uint64_t too_large = 0;  // bytes that a finer solution would have needed, when that was more than the budget allows
 };
 
 // Seconds that refinement may take, from some beginning.
@@ -102,19 +104,22 @@ class Deadline {
 };
 
 // Links, evaluated, and leaves such that the estimated relative error is at most `target`, or, with a limit, as many as the deadline
-// allows. Stops before when there is nothing left to split, at 2^-24 of the scene's area, or when there would be more than `most_links`.
+// allows. Stops before when there is nothing left to split, at 2^-24 of the scene's area, or when there would be more than `most_links` or
+// more memory would be needed than the budget allows.
 // Exposure, and what the clusters show of it, grow with the hierarchy; the evaluator refers to both.
 [[nodiscard]] inline BfResult bf_refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
                                         const std::vector<Color>& reflectance, const std::vector<Color>& emission,
                                         std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches, Exposure& exposure,
                                         ShownAreas& shown, const LinkEvaluator& evaluator, double target, const Deadline& deadline,
-                                        std::size_t most_links, unsigned threads, std::uint64_t seed, const Control& control = {}) {
+                                        std::size_t most_links, unsigned threads, std::uint64_t seed, const Control& control = {},
+                                        const MemoryBudget& budget = {}) {
   constexpr double first_epsilon = 0.25;
   BfResult result;
   const PairOracle oracle{surfaces, hierarchy};
   const bool clustered = !hierarchy.empty() && hierarchy[0].is_cluster();
-  result.refined = refine(scene, objects, plan, surfaces, hierarchy, patches, first_epsilon, 1e-3, 0.0, threads, seed, control);
-  if (result.refined.cancelled || result.refined.too_many) { return result; }
+  result.refined = refine(scene, objects, plan, surfaces, hierarchy, patches, first_epsilon, 1e-3, 0.0, threads, seed, control,
+                          budget);
+  if (result.refined.cancelled || result.refined.too_many || result.refined.too_large) { return result; }
   double scene_area = 0.0;
   for (const Node& node : hierarchy) { scene_area += node.parent == no_node ? node.area : 0.0; }
   const double min_area = 0x1p-24 * scene_area;
@@ -172,11 +177,12 @@ class Deadline {
     const detail::ErrorEstimation errors =
         detail::estimate_errors(hierarchy, exposure, links, shapes, reflectance, emission, light.radiosity);
     result.estimate = errors.relative();
+    if (budget.solved != nullptr) { *budget.solved = result.generations + 1; }
     // Where nothing is lit yet, light may still be found.
     const bool dark = !(errors.norm > 0.0) && errors.sum > 0.0 && result.generations < 4;
     if ((!deadline.limited() && result.estimate <= target && !dark) || links.size() > most_links) { return finished(); }
-    if (control.cancelled()) {
-      result.interrupted = true;
+    if (control.cancelled() || result.generations == budget.last_generation) {
+      result.interrupted = control.cancelled();
       return finished();
     }
     const double allowed = deadline.limited() ? 0.0 : target * target * errors.norm;
@@ -191,28 +197,42 @@ class Deadline {
 
     // Which end of which link is to be split.
     enum class Split : std::uint8_t { none, p, q };
-    std::vector<Split> splits(links.size(), Split::none);
-    std::vector<bool> asked(hierarchy.size(), false);
+    std::vector<Split> splits;
+    std::vector<bool> asked;
     const auto can_split = [&](std::uint32_t i) {
       return !hierarchy[i].leaf() || (hierarchy[i].area > min_area && !(i < stuck.size() && stuck[i]));
     };
-    bool any = false;
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      const detail::LinkError& e = errors.links[i];
-      if (e.sum() < threshold) { continue; }
-      const bool p_first = e.p >= e.q;
-      const std::uint32_t first = p_first ? links[i].p : links[i].q;
-      const std::uint32_t second = p_first ? links[i].q : links[i].p;
-      if (can_split(first)) {
-        splits[i] = p_first ? Split::p : Split::q;
-        asked[first] = true;
-      } else if (can_split(second) && (hierarchy[second].is_cluster() || std::min(e.p, e.q) >= 0.25f * e.sum())) {
-        splits[i] = p_first ? Split::q : Split::p;
-        asked[second] = true;
+    for (bool squeezed = false;; squeezed = true, threshold *= 2.0) {  // fewer links, those with the largest errors, until memory suffices
+      splits.assign(links.size(), Split::none);
+      asked.assign(hierarchy.size(), false);
+      std::size_t chosen = 0;
+      for (std::size_t i = 0; i < links.size(); ++i) {
+        const detail::LinkError& e = errors.links[i];
+        if (e.sum() < threshold) { continue; }
+        const bool p_first = e.p >= e.q;
+        const std::uint32_t first = p_first ? links[i].p : links[i].q;
+        const std::uint32_t second = p_first ? links[i].q : links[i].p;
+        if (can_split(first)) {
+          splits[i] = p_first ? Split::p : Split::q;
+          asked[first] = true;
+        } else if (can_split(second) && (hierarchy[second].is_cluster() || std::min(e.p, e.q) >= 0.25f * e.sum())) {
+          splits[i] = p_first ? Split::q : Split::p;
+          asked[second] = true;
+        }
+        chosen += splits[i] != Split::none ? 1 : 0;
       }
-      any = any || splits[i] != Split::none;
+      if (chosen == 0 || (squeezed && 50 * chosen < links.size())) { return finished(); }
+      if (!budget.limited()) { break; }
+      const auto parts = [&](std::uint32_t i) { return hierarchy[i].leaf() ? hierarchy[i].corners : hierarchy[i].child_count; };
+      MemoryBudget::Counts counts{hierarchy.size(), links.size() - chosen, 0, result.refined.occluders.bytes()};
+      for (std::uint32_t i = 0; i < hierarchy.size(); ++i) { counts.nodes += asked[i] && hierarchy[i].leaf() ? parts(i) : 0; }
+      for (std::size_t i = 0; i < links.size(); ++i) {
+        counts.pairs += splits[i] == Split::none ? 0 : parts(splits[i] == Split::p ? links[i].p : links[i].q);
+      }
+      counts.links += counts.pairs;
+      if (budget.allows(counts)) { break; }
+      if (result.too_large == 0) { result.too_large = budget.peak(counts); }
     }
-    if (!any) { return finished(); }
 
     const auto before = static_cast<std::uint32_t>(hierarchy.size());
     std::vector<detail::Pair> pairs;

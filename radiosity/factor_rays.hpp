@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <thread>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -24,6 +23,7 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/form_factor.hpp>
+#include <radiosity/parallel.hpp>
 #include <radiosity/random.hpp>
 #include <radiosity/shadow.hpp>
 #include <radiosity/sobol.hpp>
@@ -86,11 +86,7 @@ class RayCounter {
         for (std::uint64_t i = first + w; i < lines; i += workers) { cast(s, sequence(static_cast<std::uint32_t>(i)), own); }
       }
     };
-    {
-      std::vector<std::jthread> pool;
-      for (std::size_t w = 1; w < workers; ++w) { pool.emplace_back(work, w); }
-      work(0);
-    }
+    parallel_for(workers, threads, work, 1);
     for (const RayCounts& part : parts) {  // integers: any order gives the same
       for (std::size_t i = 0; i < part.begun.size(); ++i) { counts_.begun[i] += part.begun[i]; }
       for (std::size_t i = 0; i < part.hits.size(); ++i) { counts_.hits[i] += part.hits[i]; }

@@ -3,6 +3,10 @@
 
 // Deterministic parallelism: the work is cut into blocks by index, each block writes only its own results, and
 // whoever sums them does so in index order. So the bits of a result never depend on the number of threads.
+//
+// A thread that the system cannot start is done without: the others do its part. What a body throws (memory that ran out) ends the loop
+// early and is thrown again on the calling thread once all threads have ended; of several, one of them. In a program that is compiled
+// without exceptions both remain what the platform makes of them: it ends the program.
 
 #include <algorithm>
 #include <atomic>
@@ -11,30 +15,98 @@
 #include <thread>
 #include <vector>
 
+#if defined(__cpp_exceptions)
+#include <exception>
+#include <new>
+#include <system_error>
+#endif
+
 namespace radiosity {
 
 [[nodiscard]] inline unsigned thread_count(unsigned wanted) {
   return wanted != 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
 }
 
+namespace detail {
+
+// What the first body threw that did, on its way to the caller of the loop.
+class Thrown {
+ public:
+  // Calls body(); false when it threw.
+  template <class Body>
+  [[nodiscard]] bool call(const Body& body) {
+#if defined(__cpp_exceptions)
+    try {
+      body();
+      return true;
+    } catch (...) {
+      if (!any_.exchange(true)) { first_ = std::current_exception(); }
+      return false;
+    }
+#else
+    body();
+    return true;
+#endif
+  }
+  [[nodiscard]] bool any() const { return any_.load(std::memory_order_relaxed); }
+
+  // Once all threads have ended.
+  void rethrow() const {
+#if defined(__cpp_exceptions)
+    if (first_) { std::rethrow_exception(first_); }
+#endif
+  }
+
+ private:
+  std::atomic<bool> any_{false};
+#if defined(__cpp_exceptions)
+  std::exception_ptr first_;
+#endif
+};
+
+// Starts up to `count` threads that run work(); returns how many could be started. `work` must not throw.
+template <class Work>
+std::size_t start_threads(std::vector<std::jthread>& pool, std::size_t count, const Work& work) {
+#if defined(__cpp_exceptions)
+  try {
+    pool.reserve(count);
+    while (pool.size() < count) { pool.emplace_back([&work] { work(); }); }
+  } catch (const std::system_error&) {  // no more threads, or no stack for one
+  } catch (const std::bad_alloc&) {}
+#else
+  pool.reserve(count);
+  while (pool.size() < count) { pool.emplace_back([&work] { work(); }); }
+#endif
+  return pool.size();
+}
+
+}  // namespace detail
+
 // Calls body(i) once for each i in [0, count), in any order, on up to `threads` threads.
 // `body` must not touch what another index writes. Blocks are handed out on demand.
 template <class Body>
 void parallel_for(std::size_t count, unsigned threads, const Body& body, std::size_t block = 64) {
   std::atomic<std::size_t> next{0};
+  detail::Thrown thrown;
   const auto work = [&] {
-    for (;;) {
-      const std::size_t first = next.fetch_add(block, std::memory_order_relaxed);
-      if (first >= count) { return; }
-      const std::size_t last = std::min(count, first + block);
-      for (std::size_t i = first; i < last; ++i) { body(i); }
-    }
+    const bool done = thrown.call([&] {
+      for (;;) {
+        const std::size_t first = next.fetch_add(block, std::memory_order_relaxed);
+        if (first >= count) { return; }
+        const std::size_t last = std::min(count, first + block);
+        for (std::size_t i = first; i < last; ++i) { body(i); }
+      }
+    });
+    if (!done) { next.store(count, std::memory_order_relaxed); }  // nothing is left to do for the others
   };
   const std::size_t blocks = (count + block - 1) / block;
-  const std::size_t helpers = std::min<std::size_t>(threads, blocks);
-  std::vector<std::jthread> pool;
-  for (std::size_t i = 1; i < helpers; ++i) { pool.emplace_back(work); }
-  work();
+  const std::size_t workers = std::min<std::size_t>(threads, blocks);
+  {
+    std::vector<std::jthread> pool;
+    if (workers > 1) { (void)detail::start_threads(pool, workers - 1, work); }
+    work();
+  }
+  thrown.rethrow();
 }
 
 // Rounds of work, one after the other: body(round, i) once for each i in [0, counts[round]), in any order within a round. What one call
@@ -43,22 +115,30 @@ template <class Body>
 void parallel_rounds(const std::vector<std::size_t>& counts, unsigned threads, const Body& body) {
   std::size_t most = 1;
   for (const std::size_t count : counts) { most = std::max(most, count); }
-  const auto workers = static_cast<std::ptrdiff_t>(std::min<std::size_t>(threads, most));
+  const std::size_t workers = std::clamp<std::size_t>(threads, 1, most);
   std::vector<std::atomic<std::size_t>> next(counts.size());
-  std::barrier<> barrier{workers};
+  std::barrier<> barrier{static_cast<std::ptrdiff_t>(workers)};
+  detail::Thrown thrown;
   const auto work = [&] {
-    for (std::size_t round = 0; round < counts.size(); ++round) {
-      for (;;) {
-        const std::size_t i = next[round].fetch_add(1, std::memory_order_relaxed);
-        if (i >= counts[round]) { break; }
-        body(round, i);
-      }
+    for (std::size_t round = 0; round < counts.size() && !thrown.any(); ++round) {
+      (void)thrown.call([&] {
+        while (!thrown.any()) {
+          const std::size_t i = next[round].fetch_add(1, std::memory_order_relaxed);
+          if (i >= counts[round]) { return; }
+          body(round, i);
+        }
+      });
       if (workers > 1) { barrier.arrive_and_wait(); }
     }
+    if (workers > 1) { barrier.arrive_and_drop(); }  // after a throw some leave a round earlier than others, who must not wait for them
   };
-  std::vector<std::jthread> pool;
-  for (std::ptrdiff_t i = 1; i < workers; ++i) { pool.emplace_back(work); }
-  work();
+  {
+    std::vector<std::jthread> pool;
+    const std::size_t started = workers > 1 ? detail::start_threads(pool, workers - 1, work) : 0;
+    for (std::size_t missing = started + 1; missing < workers; ++missing) { barrier.arrive_and_drop(); }
+    work();
+  }
+  thrown.rethrow();
 }
 
 }  // namespace radiosity

@@ -12,7 +12,9 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@
 #include <radiosity/exposure.hpp>
 #include <radiosity/frame.hpp>
 #include <radiosity/light_unit.hpp>
+#include <radiosity/memory.hpp>
 #include <radiosity/mesh.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/polygons.hpp>
@@ -57,7 +60,8 @@ struct Solution {
 };
 
 struct Failure {
-  enum class Kind { invalid_scene, invalid_options, cancelled };
+  // out_of_memory: the system has no more, or the run would need more than Options::memory.
+  enum class Kind { invalid_scene, invalid_options, cancelled, out_of_memory };
   Kind kind = Kind::invalid_scene;
   std::vector<std::string> sentences;
 };
@@ -69,7 +73,7 @@ struct Outcome {
 
 namespace detail {
 
-// Measures the wall and CPU time of stages that follow one another.
+// Measures the wall and CPU time of stages that follow one another, and the memory at their ends.
 class Stopwatch {
  public:
   explicit Stopwatch(std::vector<StageTime>& stages) : stages_{&stages} {}
@@ -78,8 +82,8 @@ class Stopwatch {
   void lap(std::string name) {
     const auto wall = std::chrono::steady_clock::now();
     const std::clock_t cpu = std::clock();
-    stages_->push_back(
-        {std::move(name), std::chrono::duration<double>(wall - wall_).count(), static_cast<double>(cpu - cpu_) / CLOCKS_PER_SEC});
+    stages_->push_back({std::move(name), std::chrono::duration<double>(wall - wall_).count(),
+                        static_cast<double>(cpu - cpu_) / CLOCKS_PER_SEC, peak_memory()});
     wall_ = wall;
     cpu_ = cpu;
   }
@@ -97,6 +101,7 @@ inline void add_times(std::vector<StageTime>& total, const std::vector<StageTime
     if (same == total.end()) { same = total.insert(same, {stage.name, 0.0, 0.0}); }
     same->wall_seconds += stage.wall_seconds;
     same->cpu_seconds += stage.cpu_seconds;
+    same->peak_bytes = stage.peak_bytes;
   }
 }
 
@@ -148,6 +153,24 @@ template <class Solve>
   return outcome;
 }
 
+// Calls `attempt`; memory that runs out in it, here or on another thread, is an outcome in a program that is compiled with exceptions.
+template <class Attempt>
+[[nodiscard]] Outcome unless_out_of_memory(const Attempt& attempt) {
+#if defined(__cpp_exceptions)
+  try {
+    return attempt();
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {}  // a table longer than the address space
+  Outcome outcome{std::nullopt, {Failure::Kind::out_of_memory, {}}};
+  try {
+    outcome.failure.sentences.emplace_back("the system has no more memory for this run; a larger epsilon, min_area, target or error needs less");
+  } catch (const std::bad_alloc&) {}  // not even for a sentence
+  return outcome;
+#else
+  return attempt();
+#endif
+}
+
 }  // namespace detail
 
 // As many rays of paths as the solution took time: a ray of a path costs as much as two segments of links or two thirds of a link.
@@ -161,6 +184,10 @@ template <class Solve>
 // Solves the scene. With an error target the run starts coarse and refines until the audit witnesses the target: the upper end of its 95 %
 // interval is at most that. Times are those of all rounds together. A run whose error stays above says so by audit.converged; when it
 // gives up stands in accuracy_target.hpp.
+//
+// Memory that runs out is an outcome, too (Failure::Kind::out_of_memory, or the best solution so far with audit.shortage), and a thread that
+// cannot be started is done without. A program that is compiled without exceptions is ended by the platform where memory runs out, as
+// anywhere; Options::memory ends a run before that.
 [[nodiscard]] Outcome solve(const Scene& scene, const Options& options = {}, const Control& control = {});
 
 }  // namespace radiosity

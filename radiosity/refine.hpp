@@ -21,6 +21,7 @@
 #include <radiosity/hierarchy.hpp>
 #include <radiosity/light_oracle.hpp>
 #include <radiosity/links.hpp>
+#include <radiosity/memory.hpp>
 #include <radiosity/occlusion.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/oracle.hpp>
@@ -44,7 +45,8 @@ struct RefineResult {
   std::uint32_t generations = 0;
   std::vector<std::uint32_t> inner;  // leaves of concave curved objects: their children will see each other
   bool cancelled = false;
-  std::uint64_t too_many = 0;  // links that would be needed, at least, when that is more than `link_limit`
+  std::uint64_t too_many = 0;   // links that would be needed, at least, when that is more than `link_limit`
+  std::uint64_t too_large = 0;  // bytes that would be needed, at least, when that is more than the budget allows
 };
 
 // 100 million links are 2.4 GB, and 2.8 GB until they are evaluated; a scene that asks for more is refused rather than left to exhaust
@@ -158,7 +160,7 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
 [[nodiscard]] inline RefineResult refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
                                          std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches, double epsilon,
                                          double min_area, double light_epsilon, unsigned threads, std::uint64_t seed,
-                                         const Control& control = {}) {
+                                         const Control& control = {}, const MemoryBudget& budget = {}) {
   RefineResult result;
   const PairOracle oracle{surfaces, hierarchy};
   const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), light_epsilon, seed};
@@ -172,6 +174,13 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
     result.too_many = hierarchy.size() * hierarchy.size() / 2;
     return result;
   }
+  // Whether so many may be made; if not, the result says what they would need.
+  const auto fits = [&](std::uint64_t nodes, std::uint64_t links, std::uint64_t open) {
+    const MemoryBudget::Counts counts{nodes, links, open, result.occluders.bytes()};
+    if (!budget.allows(counts)) { result.too_large = budget.peak(counts); }
+    return result.too_large == 0;
+  };
+  if (!fits(hierarchy.size(), 0, clustered ? 1 : hierarchy.size() * hierarchy.size() / 2)) { return result; }
   std::vector<detail::Pair> pairs;
   std::vector<std::uint32_t>& inner = result.inner;
   detail::first_pairs(surfaces, hierarchy, plan, oracle, pairs, result);
@@ -217,11 +226,23 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
       if (decisions[i] == Decision::split_q) { asked[pairs[i].q] = true; }
     }
     const auto before = static_cast<std::uint32_t>(hierarchy.size());
+    std::uint64_t nodes = before;
+    for (std::uint32_t i = 0; i < before; ++i) { nodes += asked[i] && hierarchy[i].leaf() ? hierarchy[i].corners : 0; }
+    if (!fits(nodes, result.links.size(), pairs.size())) { return result; }
     for (std::uint32_t i = 0; i < before; ++i) {
       if (asked[i] && hierarchy[i].leaf() && !subdivide(surfaces, hierarchy, i)) { stuck[i] = true; }
     }
 
+    std::uint64_t linked = 0, opened = 0;  // links that are made now, pairs that the next generation will have
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      linked += decisions[i] == Decision::link ? 1 : 0;
+      if (decisions[i] != Decision::split_p && decisions[i] != Decision::split_q) { continue; }
+      const std::uint64_t children = hierarchy[decisions[i] == Decision::split_p ? pairs[i].p : pairs[i].q].child_count;
+      opened += pairs[i].p == pairs[i].q ? children * (children + 1) / 2 : children;
+    }
+    if (!fits(hierarchy.size(), result.links.size() + linked, pairs.size() + opened)) { return result; }
     std::vector<detail::Pair> next;
+    next.reserve(opened);
     const auto descend = [&](std::uint32_t split, std::uint32_t other, std::uint32_t list) {
       const std::uint32_t first = hierarchy[split].first_child;
       const std::uint32_t last = first + hierarchy[split].child_count;

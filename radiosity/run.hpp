@@ -68,8 +68,8 @@ inline void measure_errors(const Options& options, const Control& control, Surfa
   if (split > 0.0) { audit.direct_share = std::max(0.0, steering.direct) / split; }
 }
 
-// One run at a given fineness.
-inline Outcome solve_at(const Scene& scene, const Options& options, const Control& control) {
+// One run at a given fineness. `budget`: its limits are set; what is fixed becomes known here.
+inline Outcome solve_at(const Scene& scene, const Options& options, const Control& control, MemoryBudget budget) {
   Solution solution;
   Audit& audit = solution.audit;
   Stopwatch watch{audit.stages};
@@ -125,21 +125,35 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   EvaluateResult evaluated;
   // Without light, or without reflection, B = E on the input faces.
   const bool needs_links = (plan.lit && plan.reflects) || !plan.shortcuts;
+  budget.a_posteriori = options.refinement == Refinement::a_posteriori;
+  budget.fixed = objects.bytes() + audit.clusters * 8 * direction_count * sizeof(double) + std::uint64_t{options.audit_points} * 150;
+  for (const Surface& surface : boundary) { budget.fixed += surface.brep.bytes(); }
+  const auto too_large = [&](std::uint64_t needed) {
+    return too_much_memory(needed, budget.allowed,
+                           options.error         ? "a larger error needs less"
+                           : budget.a_posteriori ? "a larger target needs less"
+                                                 : "a larger epsilon or min_area needs less, and BF-refinement ends with the best that fits");
+  };
   if (needs_links && options.refinement == Refinement::a_posteriori) {
     BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, shown, evaluator,
-                            options.target, Deadline{options.time}, link_limit, threads, options.seed, control);
+                            options.target, Deadline{options.time}, link_limit, threads, options.seed, control, budget);
     refined = std::move(bf.refined);
     evaluated = bf.evaluated;
     audit.estimated_error = bf.estimate;
     audit.target = options.time ? 0.0 : options.target;
     audit.generations = bf.generations;
     audit.interrupted = bf.interrupted;
+    if (bf.too_large > 0 && bf.estimate > options.target) { audit.shortage = too_large(bf.too_large); }
   } else if (needs_links) {
     refined = refine(scene, objects, plan, boundary, hierarchy, patches, options.epsilon, options.min_area, audit.light_epsilon, threads,
-                     options.seed, control);
+                     options.seed, control, budget);
   }
   if (refined.cancelled || evaluated.cancelled) { return cancelled(); }
   if (refined.too_many > 0) { return failed(Failure::Kind::invalid_options, {too_many_links(refined.too_many, clusters)}); }
+  if (refined.too_large > 0) { return failed(Failure::Kind::out_of_memory, {too_large(refined.too_large)}); }
+  if (!needs_links && !budget.allows({hierarchy.size()})) {
+    return failed(Failure::Kind::out_of_memory, {too_large(budget.peak({hierarchy.size()}))});
+  }
   solution.links = std::move(refined.links);
   watch.lap("refine");
 
@@ -180,7 +194,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
                                         options.residual, options.max_iterations);
   audit.residual = solved.residual;
   audit.iterations = solved.iterations;
-  audit.converged = solved.converged && !audit.interrupted;
+  audit.converged = solved.converged && !audit.interrupted && audit.shortage.empty();
   audit.histories = std::move(solved.histories);
   solution.radiosity = std::move(solved.radiosity);
   if (needs_links && options.refinement == Refinement::a_priori && options.audit_points > 0) {
@@ -192,7 +206,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   watch.lap("solve");
   if (options.compare) {
     solution.comparison.emplace();
-    if (exposed_leaves(hierarchy, exposure) <= *options.compare) {
+    const std::uint64_t leaves = exposed_leaves(hierarchy, exposure);
+    const std::uint64_t matrix = 8 * leaves * leaves;
+    if (leaves <= *options.compare && budget.allows({hierarchy.size(), solution.links.size(), 0, matrix / 2})) {
       const LeafExchange exchange{objects, plan, boundary, hierarchy, patches, exposure, evaluator};
       solution.comparison->dense = dense_radiosity(exchange, leaf_materials(exchange, hierarchy, reflectance, emission), plan.closed,
                                                    hierarchy.size(), options.residual, threads, control);
@@ -264,11 +280,34 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   return {std::move(solution), {}};
 }
 
+// solve_at within the memory that there is. When BF-refinement has run out of it, the run is made again, in the memory that is free then, up
+// to the last generation that had a solution, or to one before it: what the first run held is in no state to go on from. Generations
+// grow, so that takes no longer than the run that was lost.
+inline Outcome solve_within_memory(const Scene& scene, const Options& options, const Control& control, std::uint64_t held = 0) {
+  MemoryBudget budget;
+  if (options.memory) { budget.allowed = *options.memory - std::min(*options.memory, held); }
+  std::uint32_t solved = 0;  // generations of BF-refinement
+  budget.solved = &solved;
+  Outcome outcome = unless_out_of_memory([&] { return solve_at(scene, options, control, budget); });
+  while (!outcome.solution && outcome.failure.kind == Failure::Kind::out_of_memory && solved > 0 && budget.last_generation > 0) {
+    budget.last_generation = std::min(budget.last_generation, std::exchange(solved, 0)) - 1;
+    outcome = unless_out_of_memory([&] {
+      Outcome coarser = solve_at(scene, options, control, budget);
+      if (coarser.solution) {
+        coarser.solution->audit.shortage = "the system had no more memory for a finer solution; a larger target or error needs less";
+        coarser.solution->audit.converged = false;
+      }
+      return coarser;
+    });
+  }
+  return outcome;
+}
+
 // solve() for sound options and light in its own unit (light_unit.hpp).
 inline Outcome solve_in_rounds(const Scene& scene, const Options& options, const Control& control) {
-  if (!options.error) { return solve_at(scene, options, control); }
+  if (!options.error) { return solve_within_memory(scene, options, control); }
   const bool of_picture = static_cast<bool>(control.picture_error);
-  Outcome outcome = solve_to_error(options, of_picture, [&](const Options& round) { return solve_at(scene, round, control); });
+  Outcome outcome = solve_to_error(options, of_picture, [&](const Options& round, std::uint64_t held) { return solve_within_memory(scene, round, control, held); });
   if (of_picture && outcome.solution && !outcome.solution->audit.converged && !control.cancelled()) {
     // That the error is too large was decided by few pixels; how large it is takes more.
     Audit& audit = outcome.solution->audit;
@@ -282,22 +321,27 @@ inline Outcome solve_in_rounds(const Scene& scene, const Options& options, const
   return outcome;
 }
 
-}  // namespace detail
-
-HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& options, const Control& control) {
+// solve(), but memory may run out.
+inline Outcome solve_sound(const Scene& scene, const Options& options, const Control& control) {
   std::vector<std::string> sentences = faults(options);
-  if (!sentences.empty()) { return detail::failed(Failure::Kind::invalid_options, std::move(sentences)); }
-  return detail::solve_in_own_unit(scene, [&](const Scene& in_unit, const LightUnit& unit) {
+  if (!sentences.empty()) { return failed(Failure::Kind::invalid_options, std::move(sentences)); }
+  return solve_in_own_unit(scene, [&](const Scene& in_unit, const LightUnit& unit) {
     Control own = control;
     if (control.picture_error) {
       own.picture_error = [&](const Mesh& mesh, const Frame& frame, const AuditGoal& goal) {
         Mesh in_watts = mesh;
-        (void)detail::to_watts(in_watts, unit);
+        (void)to_watts(in_watts, unit);
         return control.picture_error(in_watts, frame, goal);
       };
     }
-    return detail::solve_in_rounds(in_unit, options, own);
+    return solve_in_rounds(in_unit, options, own);
   });
+}
+
+}  // namespace detail
+
+HALFLIGHT_RADIOSITY_INLINE Outcome solve(const Scene& scene, const Options& options, const Control& control) {
+  return detail::unless_out_of_memory([&] { return detail::solve_sound(scene, options, control); });
 }
 
 }  // namespace radiosity

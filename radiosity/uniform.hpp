@@ -27,6 +27,7 @@ struct UniformOptions {
   std::optional<std::uint32_t> compare;  // as in Options
   unsigned threads = 0;
   std::uint64_t seed = 1;
+  std::optional<std::uint64_t> memory;  // as in Options
 };
 
 namespace detail {
@@ -84,6 +85,13 @@ namespace detail {
   const std::uint64_t n = exchange.size();
   if (n > options.max_leaves) {
     return failed(Failure::Kind::invalid_options, {std::to_string(n) + " leaves; a larger max_area needs fewer"});
+  }
+  MemoryBudget budget;
+  budget.allowed = options.memory.value_or(budget.allowed);
+  budget.fixed = objects.bytes() + exchange.bytes() + (options.solver == UniformSolver::gauss_seidel ? n * n * sizeof(float) : 0);
+  if (!budget.allows({hierarchy.size()})) {
+    return failed(Failure::Kind::out_of_memory,
+                  {too_much_memory(budget.peak({hierarchy.size()}), budget.allowed, "a larger max_area needs less")});
   }
   DenseSolution solved;
   if (options.solver == UniformSolver::gauss_seidel) {
@@ -147,7 +155,10 @@ namespace detail {
 
 // `links` of the audit counts the entries of the matrix, or the exchanges that were made and not kept. There is no error estimate.
 [[nodiscard]] inline Outcome solve_uniform(const Scene& scene, const UniformOptions& options, const Control& control = {}) {
-  return detail::solve_in_own_unit(scene, [&](const Scene& in_unit, const LightUnit&) { return detail::solve_uniform_in_unit(in_unit, options, control); });
+  return detail::unless_out_of_memory([&] {
+    return detail::solve_in_own_unit(scene,
+                                     [&](const Scene& in_unit, const LightUnit&) { return detail::solve_uniform_in_unit(in_unit, options, control); });
+  });
 }
 
 }  // namespace radiosity

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/commands/render.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
@@ -16,6 +17,7 @@
 #include "apps/commands/arguments.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/memory.hpp"
 #include "apps/picture.hpp"
 #include "apps/ply.hpp"
 #include "apps/png.hpp"
@@ -86,6 +88,10 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
     complain("interrupted; nothing was written");
     return ExitCode::failure;
   }
+  if (failure.kind == radiosity::Failure::Kind::out_of_memory) {
+    complain(failure.sentences.empty() ? "out of memory" : failure.sentences.front());
+    return ExitCode::failure;
+  }
   if (failure.kind == radiosity::Failure::Kind::invalid_options) {
     for (const std::string& sentence : failure.sentences) { complain(sentence); }
     return ExitCode::usage;
@@ -98,13 +104,31 @@ class Stopwatch {
  public:
   [[nodiscard]] radiosity::StageTime stop(std::string name) const {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_;
-    return {std::move(name), wall.count(), static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC};
+    return {std::move(name), wall.count(), static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC, radiosity::peak_memory()};
   }
 
  private:
   std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
   std::clock_t cpu_ = std::clock();
 };
+
+// What --memory leaves for the run: less what the program and the scene hold now. The picture is drawn when the run holds its solution
+// alone, a third of its peak at most.
+std::optional<std::uint64_t> memory_left(const RenderOptions& options, const Camera& camera) {
+  const std::uint64_t held = resident_memory().value_or(0);
+  const PictureSize size = options.size.value_or(camera.size.value_or(PictureSize{}));
+  constexpr std::uint64_t band = 20'000'000, pixel = 20;  // of samples; of colours and their coded form
+  const std::uint64_t picture = has_picture(options) ? band + pixel * size.width * size.height : 0;
+  if (held + picture >= *options.memory) {
+    complain("--memory allows " + radiosity::memory_text(*options.memory) + ", but the program and the scene hold " +
+             radiosity::memory_text(held) + " before the run" +
+             (picture > 0 ? ", and the picture takes " + radiosity::memory_text(picture) : std::string()) + "; allow more" +
+             (picture > 0 ? " or make the picture smaller" : ""));
+    return std::nullopt;
+  }
+  const std::uint64_t left = *options.memory - held;
+  return std::min(left, 3 * (left - picture));
+}
 
 struct Output {
   std::string path;
@@ -159,12 +183,16 @@ std::optional<std::vector<Output>> encode(const RenderOptions& options, const Sc
     if (!picture) { return std::nullopt; }
     png = to_png(*picture);
     report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
-    report.picture_time = watch.stop("picture");
+    std::vector<radiosity::StageTime> stages{watch.stop("picture")};
+    leave_out_others(stages);
+    report.picture_time = stages.front();
     if (!report.audit.picture_error && options.solver.audit_points > 0) {
       const Stopwatch audit_watch;
       report.audit.picture_error =
           artist.audit(*picture, report.exposure, radiosity::goal_to_know(report.audit, options.solver.audit_points), control);
-      report.audit.stages.push_back(audit_watch.stop("picture audit"));
+      stages = {audit_watch.stop("picture audit")};
+      leave_out_others(stages);
+      report.audit.stages.push_back(stages.front());
       report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, its error not measured
     }
   }
@@ -271,6 +299,12 @@ void describe(CLI::App& command, RenderOptions& options) {
                                                                           {"constant", radiosity::Reconstruction::constant}}));
   command.add_flag("!--no-shortcuts", solver.shortcuts,
                    "do all that the report would tell as left out; the result is the same, to the bit");
+  command
+      .add_option_function<std::string>(
+          "--memory", [&options](const std::string& text) { options.memory = parse_memory(text); },
+          "most memory that the program may hold, such as 500M or 2G; a run that would need more ends before")
+      ->type_name("BYTES")
+      ->check(memory_fault);
   command.add_option("--json", options.json, "write the report as JSON, too")->type_name("FILE");
   command.add_flag("--quiet", options.quiet, "no narration and no progress bar");
 }
@@ -290,6 +324,10 @@ ExitCode run(const RenderOptions& options) {
 
   radiosity::Options settings = options.solver;
   if (options.outputs.empty()) { settings.reconstruction = radiosity::Reconstruction::none; }
+  if (options.memory) {
+    settings.memory = memory_left(options, *camera);
+    if (!settings.memory) { return ExitCode::failure; }
+  }
   Progress progress(options.quiet);
   radiosity::Control control;
   control.cancel = &cancel;
@@ -313,6 +351,7 @@ ExitCode run(const RenderOptions& options) {
   report.scene = options.scene;
   report.options = settings;
   report.audit = solution.audit;
+  leave_out_others(report.audit.stages);
   report.automatic_exposure = !options.exposure;
   report.exposure = artist.exposure(solution.mesh);
   const auto outputs = encode(options, *file, *camera, artist, solution, control, report);
@@ -320,6 +359,10 @@ ExitCode run(const RenderOptions& options) {
   if (!outputs) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
   if (code = write_all(*outputs); code != ExitCode::ok) { return code; }
   if (!print(to_text(report), all_outputs(options))) { return ExitCode::failure; }
+  if (!solution.audit.shortage.empty()) {
+    complain(solution.audit.shortage + "; the outputs show the best solution so far");
+    return ExitCode::not_converged;
+  }
   if (report.audit.interrupted) {
     complain("interrupted: the outputs show the best solution so far");
     return ExitCode::not_converged;

@@ -6,6 +6,7 @@
 // What can be known to fail is refused before the solver starts: extensions, folders, the camera's name. Outputs are
 // encoded in memory and then replace their files one by one, each whole (files.hpp).
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ struct RenderOptions {
   PictureMethod method = PictureMethod::mesh;
   bool quiet = false;
   std::optional<ErrorOf> error_of;  // default: of the picture when there is one
+  std::optional<std::uint64_t> memory;  // bytes that the process may hold
   radiosity::Options solver;
 };
 

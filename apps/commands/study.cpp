@@ -12,6 +12,7 @@
 #include "apps/commands/arguments.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/memory.hpp"
 #include "apps/progress.hpp"
 #include "apps/scene_file.hpp"
 #include "apps/study/measure.hpp"
@@ -100,7 +101,7 @@ bool study_scene(const std::string& path, const StudyOptions& options, const rad
                   run.refused.empty() ? percent(run.weighted_error.cells.l2).c_str() : run.refused.c_str());
     progress.say(line);
   };
-  study::measure(file->scene, *truth, study::methods({options.threads, 1}), measuring, control, result);
+  study::measure(file->scene, *truth, study::methods({options.threads, 1, options.memory}), measuring, control, result);
   return !result.methods.empty();
 }
 
@@ -121,6 +122,12 @@ void describe(CLI::App& command, StudyOptions& options) {
       ->check(whole_number(0, 20'000))
       ->capture_default_str();
   command.add_flag("--quick", options.quick, "a first look: short runs, a noisy reference")->excludes(seconds)->excludes(paths);
+  command
+      .add_option_function<std::string>(
+          "--memory", [&options](const std::string& text) { options.memory = parse_memory(text); },
+          "most memory that one run may take, such as 500M or 2G; one that would need more is refused, or ends with the best that fits")
+      ->type_name("BYTES")
+      ->check(memory_fault);
   command.add_option("--threads", options.threads, "0: as many as the machine has; results do not depend on it")
       ->check(whole_number(0, most_threads));
   command.add_flag("-q,--quiet", options.quiet, "no narration on stderr");

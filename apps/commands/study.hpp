@@ -4,6 +4,7 @@
 // halflight study SCENE... -o DIR: error against time, memory and links for every method, measured on each scene.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct StudyOptions {
   bool quick = false;
   bool quiet = false;
   unsigned threads = 0;
+  std::optional<std::uint64_t> memory;  // bytes that a run may take
 };
 
 void describe(CLI::App& command, StudyOptions& options);

@@ -9,7 +9,7 @@ namespace study {
 namespace {
 
 constexpr const char* head =
-    "scene,reference,noise,point_noise,method,setting,reconstruction,cpu_seconds,seconds_saved,bytes,links,leaves,rays,"
+    "scene,reference,noise,point_noise,method,setting,reconstruction,cpu_seconds,seconds_saved,peak_bytes,bytes,links,leaves,rays,"
     "cells_l1,cells_l2,cells_worst,points_l1,points_l2,points_worst,below_noise,"
     "part_discretisation,part_links,part_solver,part_reconstruction,refused\n";
 
@@ -69,7 +69,7 @@ std::string run_line(const SceneStudy& scene, const Method& method, const Run& r
   }
   line.field(number(run.cpu_seconds));
   line.field(number(run.seconds_saved));
-  for (const std::uint64_t n : {run.bytes, run.links, run.leaves, run.rays}) { line.field(std::to_string(n)); }
+  for (const std::uint64_t n : {run.peak_bytes, run.bytes, run.links, run.leaves, run.rays}) { line.field(std::to_string(n)); }
   add_errors(line, errors(run, stage), scene.reference);
   if (run.parts) {
     for (const double part : {run.parts->discretisation, run.parts->links, run.parts->solver, run.parts->reconstruction}) {

@@ -22,7 +22,7 @@ std::size_t style_index(const Study& study, const std::string& method) {
 }
 
 std::string title(const Method& method, const Run& run, const KnownError& error) {
-  return method.name + ", " + run.setting + ": error " + to_text(error) + ", " + figure(run.cpu_seconds) + " s, " + bytes_text(run.bytes) +
+  return method.name + ", " + run.setting + ": error " + to_text(error) + ", " + figure(run.cpu_seconds) + " s, " + memory_text(run) +
          ", " + count_text(run.links) + " links";
 }
 
@@ -70,8 +70,8 @@ std::vector<Figure> figures(const Study& study, const SceneStudy& scene) {
       {"cpu", "Error of the cell means, before reconstruction, against CPU time.",
        plot({scene.scene + ": error against CPU time", "CPU time (s)", what}, method_curves(study, scene, Cost::cpu_time), noise)});
   result.push_back(
-      {"memory", "The same runs against the memory that the result holds.",
-       plot({scene.scene + ": error against memory", "memory (bytes)", what}, method_curves(study, scene, Cost::memory), noise)});
+      {"memory", "The same runs against the peak memory of the process during the run, above what it held before.",
+       plot({scene.scene + ": error against memory", "peak memory (bytes)", what}, method_curves(study, scene, Cost::memory), noise)});
   result.push_back(
       {"links", "The same runs against the number of links; of a dense matrix, its entries.",
        plot({scene.scene + ": error against links", "links or matrix entries", what}, method_curves(study, scene, Cost::links), noise)});

@@ -42,7 +42,7 @@ void write(JsonWriter& json, const Run& run, const Reference& reference, bool pa
   json.key("refused").null();
   json.key("cpu_seconds").number(run.cpu_seconds);
   json.key("seconds_saved").number(run.seconds_saved);
-  json.key("bytes").count(run.bytes);
+  json.key("peak_bytes").count(run.peak_bytes).key("bytes").count(run.bytes);
   json.key("links").count(run.links);
   json.key("leaves").count(run.leaves);
   json.key("rays").count(run.rays);

@@ -13,6 +13,8 @@
 
 #include <radiosity/lookup.hpp>
 
+#include "apps/memory.hpp"
+
 namespace study {
 namespace {
 
@@ -53,12 +55,13 @@ struct Measured {
   std::vector<double> cells;  // signed errors of the picture
 };
 
-Measured errors_of_run(const radiosity::Scene& scene, const TrueRadiosity& truth, const radiosity::Solution& solution,
-                       std::string setting) {
+Measured errors_of_run(const radiosity::Scene& scene, const TrueRadiosity& truth, const radiosity::Solution& solution, std::string setting,
+                       std::uint64_t peak_bytes) {
   Measured measured;
   Run& run = measured.run;
   run.setting = std::move(setting);
   run.cpu_seconds = solution.audit.cpu_seconds;
+  run.peak_bytes = peak_bytes;
   run.bytes = solution.audit.bytes;
   run.links = solution.audit.links;
   run.leaves = solution.audit.leaves;
@@ -82,7 +85,9 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
                   const radiosity::Control& control, std::vector<radiosity::LeftOut>& left_out) {
   constexpr double brief = 0.3;  // seconds; what takes less is run three times, and the shortest time counts
   radiosity::Outcome outcome;
+  std::uint64_t peak_bytes = 0;
   for (int k = 0; k < 3; ++k) {
+    const apps::PeakMeter meter;
     const RunLimit run_limit{options.cpu_seconds_per_run, control};
     radiosity::Outcome again = setting.run(scene, run_limit.control());
     if (!again.solution) {
@@ -90,9 +95,13 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
       none.run.setting = setting.text;
       const bool stopped = again.failure.kind == radiosity::Failure::Kind::cancelled;
       none.run.refused =
-          stopped ? "takes more than " + seconds_text(options.cpu_seconds_per_run) + " s of CPU time" : again.failure.sentences.front();
+          stopped                           ? "takes more than " + seconds_text(options.cpu_seconds_per_run) + " s of CPU time"
+          : again.failure.sentences.empty() ? "out of memory"
+                                            : again.failure.sentences.front();
       return none;
     }
+    // Later runs find the first one's solution in memory. A comparison comes after the run proper and is not counted.
+    if (k == 0) { peak_bytes = meter.taken(again.solution->audit, "reconstruct").value_or(0); }
     const double before = outcome.solution ? outcome.solution->audit.cpu_seconds : std::numeric_limits<double>::infinity();
     if (again.solution->audit.cpu_seconds < before) { outcome = std::move(again); }
     if (outcome.solution->audit.cpu_seconds > brief) { break; }
@@ -105,7 +114,7 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
     }
   }
   left_out = solution.audit.left_out;
-  Measured measured = errors_of_run(scene, truth, solution, setting.text);
+  Measured measured = errors_of_run(scene, truth, solution, setting.text, peak_bytes);
   if (setting.without_shortcuts) {
     const RunLimit run_limit{options.cpu_seconds_per_run, control};
     const radiosity::Outcome forced = setting.without_shortcuts(scene, run_limit.control());

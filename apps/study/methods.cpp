@@ -28,6 +28,7 @@ Options common(const MethodOptions& study) {
   options.compare = 0;
   options.threads = study.threads;
   options.seed = study.seed;
+  options.memory = study.memory;
   return options;
 }
 
@@ -111,6 +112,7 @@ MethodPlan uniform(std::string name, std::string summary, const MethodOptions& s
     options.compare = 0;
     options.threads = study.threads;
     options.seed = study.seed;
+    options.memory = study.memory;
     radiosity::UniformOptions matrix = options;  // the dense solution of this mesh
     matrix.solver = radiosity::UniformSolver::gauss_seidel;
     std::string setting = "area 1/" + std::to_string(leaves);

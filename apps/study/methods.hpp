@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct MethodPlan {
 struct MethodOptions {
   unsigned threads = 0;
   std::uint64_t seed = 1;
+  std::optional<std::uint64_t> memory;  // bytes that a run may take
 };
 
 [[nodiscard]] std::vector<MethodPlan> methods(const MethodOptions& options);

@@ -49,8 +49,12 @@ inline constexpr std::array<Stage, 3> stages = {Stage::leaves, Stage::simple, St
 enum class Cost { cpu_time, memory, links };
 [[nodiscard]] inline double cost_of(const Run& run, Cost cost) {
   if (!run.refused.empty()) { return std::numeric_limits<double>::quiet_NaN(); }
-  return cost == Cost::cpu_time ? run.cpu_seconds : static_cast<double>(cost == Cost::memory ? run.bytes : run.links);
+  if (cost == Cost::memory && run.peak_bytes == 0) { return std::numeric_limits<double>::quiet_NaN(); }
+  return cost == Cost::cpu_time ? run.cpu_seconds : static_cast<double>(cost == Cost::memory ? run.peak_bytes : run.links);
 }
+
+// A dash where the peak is not known.
+[[nodiscard]] inline std::string memory_text(const Run& run) { return run.peak_bytes > 0 ? bytes_text(run.peak_bytes) : "–"; }
 
 [[nodiscard]] inline CostPoint point_of(const Run& run, const Reference& reference, Cost cost) {
   const KnownError error = main_error(run, reference);

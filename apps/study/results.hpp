@@ -46,7 +46,9 @@ struct Run {
   double cpu_seconds = 0.0;
   // CPU time of the same run with nothing left out, less its own; NaN where the method has no shortcuts or that run takes too long.
   double seconds_saved = std::numeric_limits<double>::quiet_NaN();
-  std::uint64_t bytes = 0;
+  // Peak memory of the run above what the process held when it began; 0 where the system does not tell.
+  std::uint64_t peak_bytes = 0;
+  std::uint64_t bytes = 0;  // held by the result
   std::uint64_t links = 0;  // or matrix entries, for a dense matrix
   std::uint64_t leaves = 0;
   std::uint64_t rays = 0;

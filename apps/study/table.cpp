@@ -53,7 +53,7 @@ Table summary_table(const SceneStudy& scene) {
       const Run* run = cheapest_within(method, scene.reference, goal, Cost::cpu_time);
       row.cells.push_back(run != nullptr ? seconds(run->cpu_seconds) : "–");
       if (goal != goals.back()) { continue; }
-      row.cells.push_back(run != nullptr ? bytes_text(run->bytes) : "–");
+      row.cells.push_back(run != nullptr ? memory_text(*run) : "–");
       row.cells.push_back(run != nullptr ? count_text(run->links) : "–");
     }
     const Run* best = most_accurate(method, scene.reference);
@@ -77,7 +77,7 @@ Table run_table(const SceneStudy& scene) {
   each_run(scene, [&](const Method& method, const Run& run, bool begins, bool strong) {
     TableRow row = first_cells(method, run, begins, strong);
     if (row.remark.empty()) {
-      for (std::string cell : {seconds(run.cpu_seconds), seconds(run.seconds_saved), bytes_text(run.bytes), count_text(run.links),
+      for (std::string cell : {seconds(run.cpu_seconds), seconds(run.seconds_saved), memory_text(run), count_text(run.links),
                                count_text(run.leaves), count_text(run.rays)}) {
         row.cells.push_back(std::move(cell));
       }

@@ -40,6 +40,7 @@ inline study::Method method(const Law& law) {
     run.cpu_seconds = seconds;
     run.seconds_saved = 0.3 * seconds;
     run.bytes = static_cast<std::uint64_t>(1e6 * seconds);
+    run.peak_bytes = 2 * run.bytes;
     run.links = static_cast<std::uint64_t>(4e5 * seconds);
     run.leaves = static_cast<std::uint64_t>(1e4 * std::sqrt(seconds));
     run.rays = 10 * run.links;

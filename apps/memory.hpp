@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Memory as the program's user means it: of the whole process. What the library predicts (radiosity/memory.hpp) comes on top of what the
+// program and the scene hold already.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <radiosity/audit.hpp>
+
+namespace apps {
+
+// "2G", "512 MB", "1.5GiB", "300000000": bytes; k M G T are powers of 1000, with an i of 1024.
+[[nodiscard]] std::optional<std::uint64_t> parse_memory(std::string_view text);
+
+// What is wrong with such a text; empty when nothing is.
+[[nodiscard]] std::string memory_fault(const std::string& text);
+
+// What the process holds now; nothing where the system does not tell.
+[[nodiscard]] std::optional<std::uint64_t> resident_memory();
+
+// What getrusage(2) tells contains what the program that started this one held; where the system tells more, that is taken out.
+void leave_out_others(std::vector<radiosity::StageTime>& stages);
+
+// What the runs of a study take one after the other in one process. The heap gives back what is free, and the peak that the system keeps is
+// reset (Linux: clear_refs, proc(5)) before each run; the run took what its peak lies above what was held at its beginning.
+class PeakMeter {
+ public:
+  PeakMeter();
+  // The peak of a run that began and ended after the meter, up to the stage of this name; nothing where the system does not tell.
+  [[nodiscard]] std::optional<std::uint64_t> taken(const radiosity::Audit& audit, std::string_view last_stage) const;
+
+ private:
+  std::optional<std::uint64_t> before_;  // nothing: the peak could not be reset
+  bool stages_follow_ = false;           // the peaks of the stages begin anew as well
+};
+
+}  // namespace apps

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+
+// Memory as the user of the program means it: sizes as they are written, the limit on the whole process, the peak of a run.
+
+#include <algorithm>
+#include <vector>
+
+#include <radiosity/memory.hpp>
+
+#include "apps/memory.hpp"
+#include "json.hpp"
+#include "program.hpp"
+
+#include "catch.hpp"
+
+TEST_CASE("sizes of memory are read as they are written") {
+  CHECK(apps::parse_memory("1") == 1u);
+  CHECK(apps::parse_memory("300000000") == 300'000'000u);
+  CHECK(apps::parse_memory("2G") == 2'000'000'000u);
+  CHECK(apps::parse_memory("2GB") == 2'000'000'000u);
+  CHECK(apps::parse_memory("512 MB") == 512'000'000u);
+  CHECK(apps::parse_memory("1.5GiB") == 1'610'612'736u);
+  CHECK(apps::parse_memory("64k") == 64'000u);
+  CHECK(apps::parse_memory("64Ki") == 65'536u);
+  for (const char* wrong : {"", "G", "0", "-1G", "nan", "inf", "1e300", "2X", "2GG", "2G2", " 2G", "2 G "}) {
+    CAPTURE(wrong);
+    CHECK_FALSE(apps::parse_memory(wrong));
+    CHECK(apps::memory_fault(wrong).find("such as 500M or 2G") != std::string::npos);
+  }
+}
+
+TEST_CASE("render --memory: refused with a sentence, or within the limit by the system's own count") {
+  const program::Place place;
+  const std::string render = "render '" HALFLIGHT_SCENES "/cornell.scene' --quiet --audit 0 --threads 1 --epsilon .03 --min-area 1e-3 ";
+  const program::Run whole = place.run(render);
+  REQUIRE(whole.code == 0);
+  CHECK(whole.out.find(" at the peak of the process, ") != std::string::npos);
+  CHECK(whole.out.find(" held by the result") != std::string::npos);
+
+  const program::Run none = place.run(render + "--memory 2M");
+  CHECK(none.code == 1);
+  CHECK(none.err.find("--memory allows 2 MB, but the program and the scene hold ") != std::string::npos);
+  CHECK(std::count(none.err.begin(), none.err.end(), '\n') == 1);
+
+  const program::Run refused = place.run(render + "--memory 12M");
+  CHECK(refused.code == 1);
+  CHECK(refused.err.find("a larger epsilon or min_area needs less") != std::string::npos);
+  CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
+
+  const program::Run best = place.run("render '" HALFLIGHT_SCENES "/cornell.scene' --quiet --audit 0 --threads 1 --target .004 "
+                                      "--memory 30M --json report.json");
+  CHECK(best.code == 4);
+  CHECK(best.err.find("the outputs show the best solution so far") != std::string::npos);
+  CHECK(best.out.find("OUT OF MEMORY, the best so far") != std::string::npos);
+  const json::Value report = json::parse(place.read("report.json"));
+  CHECK(report["shortage"].string().find("a larger target needs less") != std::string::npos);
+  CHECK(report["peak_bytes"]["process"].number() <= 30e6);
+  CHECK(report["peak_bytes"]["process"].number() >= report["bytes"].number());
+
+  const program::Run wrong = place.run(render + "--memory much");
+  CHECK(wrong.code == 2);
+}
+
+TEST_CASE("the peak of a run does not contain what others took before") {
+  std::vector<char> before(200'000'000, 1);  // touched, and freed
+  const char kept = before[before.size() / 2];
+  before = {};
+  const apps::PeakMeter meter;
+  std::vector<char> during(50'000'000, kept);
+  CHECK(during[during.size() / 2] == 1);
+  radiosity::Audit audit;
+  audit.stages.push_back({"last", 0.0, 0.0, radiosity::peak_memory()});
+  during = {};
+  const auto taken = meter.taken(audit, "last");
+  if (!taken) { return; }  // the system does not tell
+  CHECK(*taken >= 50'000'000);
+  CHECK(*taken < 60'000'000);
+}

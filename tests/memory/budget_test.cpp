@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+
+// The limit on memory: what a run holds at its peak, by the heap's own count, never exceeds it, and it costs nothing where there is enough.
+
+#include <algorithm>
+#include <vector>
+
+#include <radiosity/uniform.hpp>
+
+#include "apps/stress/scenes.hpp"
+
+#include "catch.hpp"
+#include "heap.hpp"
+
+using radiosity::Failure;
+using radiosity::Options;
+using radiosity::Outcome;
+
+namespace {
+
+struct Measured {
+  Outcome outcome;
+  std::uint64_t peak = 0;
+};
+
+template <class Solve>
+Measured measured(const Solve& solve) {
+  const std::int64_t before = heap::live_bytes();
+  heap::reset_peak();
+  Measured result{solve(), 0};
+  result.peak = static_cast<std::uint64_t>(heap::peak_bytes() - before);
+  return result;
+}
+
+// Limits from far too small to more than enough.
+std::vector<std::uint64_t> limits() {
+  std::vector<std::uint64_t> result;
+  for (double bytes = 3e5; bytes < 4e7; bytes *= 1.6) { result.push_back(static_cast<std::uint64_t>(bytes)); }
+  return result;
+}
+
+// What the scene itself takes, which is there before anything is counted: the peak of a run that may take nothing.
+std::uint64_t peak_of_scene(const radiosity::Scene& scene, Options options) {
+  options.memory = 1;
+  const Measured none = measured([&] { return radiosity::solve(scene, options); });
+  CHECK_FALSE(none.outcome.solution);
+  return none.peak;
+}
+
+}  // namespace
+
+TEST_CASE("memory limit of F-refinement: refused below, the same bits above, never exceeded") {
+  const std::vector<radiosity::Scene> scenes{apps::stress::room_with_box(), apps::stress::furnace_with_things(0.5)};
+  for (const radiosity::Scene& scene : scenes) {
+    Options options;
+    options.epsilon = 0.05;
+    options.min_area = 4e-3;
+    options.audit_points = 0;
+    options.threads = 1;
+    const Measured whole = measured([&] { return radiosity::solve(scene, options); });
+    REQUIRE(whole.outcome.solution);
+    const std::uint64_t of_scene = peak_of_scene(scene, options);
+    bool solved = false;
+    for (const std::uint64_t limit : limits()) {
+      CAPTURE(limit, whole.peak);
+      options.memory = limit;
+      const Measured run = measured([&] { return radiosity::solve(scene, options); });
+      CHECK(run.peak <= std::max(limit, of_scene + 1000));  // and a sentence
+      if (!run.outcome.solution) {
+        CHECK_FALSE(solved);  // more memory never does harm
+        CHECK(run.outcome.failure.kind == Failure::Kind::out_of_memory);
+        CHECK(limit < 3 * whole.peak);  // and what suffices three times over is not refused
+        continue;
+      }
+      solved = true;
+      CHECK(run.outcome.solution->audit.shortage.empty());
+      CHECK(run.outcome.solution->radiosity == whole.outcome.solution->radiosity);
+    }
+    CHECK(solved);
+  }
+}
+
+TEST_CASE("memory limit of BF-refinement: the best that fits, finer with more memory, never exceeded") {
+  Options options;
+  options.refinement = radiosity::Refinement::a_posteriori;
+  options.target = 0.03;
+  options.audit_points = 0;
+  options.threads = 1;
+  const radiosity::Scene scene = apps::stress::room_with_box();
+  const std::uint64_t of_scene = peak_of_scene(scene, options);
+  double estimate = 1e9;
+  bool ended_early = false, met = false;
+  for (const std::uint64_t limit : limits()) {
+    CAPTURE(limit);
+    options.memory = limit;
+    const Measured run = measured([&] { return radiosity::solve(scene, options); });
+    CHECK(run.peak <= std::max(limit, of_scene + 1000));  // and a sentence
+    if (!run.outcome.solution) {
+      CHECK(run.outcome.failure.kind == Failure::Kind::out_of_memory);
+      CHECK(estimate == 1e9);
+      continue;
+    }
+    const radiosity::Audit& audit = run.outcome.solution->audit;
+    CHECK(audit.converged == audit.shortage.empty());
+    CHECK((audit.shortage.empty() || *audit.estimated_error > options.target));
+    CHECK(*audit.estimated_error <= 1.25 * estimate);  // of other links, so not quite in order
+    estimate = *audit.estimated_error;
+    ended_early = ended_early || !audit.shortage.empty();
+    met = met || audit.converged;
+    if (audit.converged) { break; }
+  }
+  CHECK(ended_early);
+  CHECK(met);
+}
+
+TEST_CASE("memory limit of an error target: the round before, and it says so") {
+  Options options;
+  options.error = 0.002;
+  options.audit_points = 100;
+  options.threads = 1;
+  options.memory = 3'000'000;
+  const Measured run = measured([&] { return radiosity::solve(apps::stress::two_plates(0.5), options); });
+  REQUIRE(run.outcome.solution);
+  CHECK(run.peak <= *options.memory);
+  CHECK_FALSE(run.outcome.solution->audit.shortage.empty());
+  CHECK_FALSE(run.outcome.solution->audit.converged);
+}
+
+TEST_CASE("memory limit of a dense matrix: refused before it is made") {
+  radiosity::UniformOptions options;
+  options.max_area = 1.0 / 1500.0;
+  options.threads = 1;
+  options.memory = 6'000'000;  // the matrix of 1500 leaves takes 9
+  const Measured run = measured([&] { return radiosity::solve_uniform(apps::stress::room_with_box(), options); });
+  CHECK(run.outcome.failure.kind == Failure::Kind::out_of_memory);
+  CHECK(run.peak <= *options.memory);
+}
+
+TEST_CASE("the peak of each stage is told, and grows from stage to stage") {
+  Options options;
+  options.audit_points = 0;
+  options.epsilon = 0.2;
+  options.min_area = 0.01;
+  const Outcome outcome = radiosity::solve(apps::stress::room_with_box(), options);
+  REQUIRE(outcome.solution);
+  if (!radiosity::peak_memory()) { return; }
+  std::uint64_t before = 1 << 20;  // no process is smaller
+  for (const radiosity::StageTime& stage : outcome.solution->audit.stages) {
+    REQUIRE(stage.peak_bytes);
+    CHECK(*stage.peak_bytes >= before);
+    before = *stage.peak_bytes;
+  }
+}
