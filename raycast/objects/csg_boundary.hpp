@@ -40,7 +40,7 @@ class CsgEvaluation {
  public:
   using Solid = brep::csg::Solid<std::uint32_t>;
 
-  CsgEvaluation(const CsgTree& tree, double tolerance) : tree_(tree), tolerance_(tolerance) {}
+  CsgEvaluation(const CsgTree& tree, double tolerance) : tree_(tree), tolerance_(tolerance), chords_(tree.leaves().size(), tolerance) {}
 
   CsgBoundaryResult run() {
     CsgBoundary result;
@@ -209,7 +209,7 @@ class CsgEvaluation {
     out = brep::csg::to_brep<CsgBRep>(exact.solid);
     for (const brep::VertexId v : brep::vertices(out)) out.data(v).position = exact.frame * out.data(v).position;
     if (!cut_into_convex_parts(out)) return false;
-    CsgPlacement(tree_, tolerance_).put_back(out, near_);
+    CsgPlacement(tree_, chords_).put_back(out, near_);
     return true;
   }
 
@@ -228,6 +228,7 @@ class CsgEvaluation {
 
   const CsgTree& tree_;
   double tolerance_, near_ = 0.0;
+  std::vector<double> chords_;  // of each leaf
   bool nested_ = true;
   std::string refusal_;
 };

@@ -77,6 +77,7 @@ class CsgTree {
                        [](const Node& n) { return n.parts.size() <= 1 || n.operation == CsgOperation::intersect; }) &&
            std::all_of(leaves_.begin(), leaves_.end(), [](const Leaf& leaf) { return leaf.solid.convex(); });
   }
+  [[nodiscard]] std::uint32_t leaf_of(std::uint32_t sheet) const { return leaf_of_sheet_[sheet]; }
   [[nodiscard]] bool flat_sheet(std::uint32_t sheet) const { return leaves_[leaf_of_sheet_[sheet]].solid.flat(); }
 
   // As Object::spans. Uses no heap while no more than 32 crossings, 8 leaves and 16 nodes take part.
