@@ -206,7 +206,7 @@ class CsgEvaluation {
 
   // From the exact solid to convex faces on the true sheets, in the tree's coordinates.
   bool finish(const Exact& exact, CsgBRep& out) {
-    out = brep::csg::to_brep<CsgBRep>(exact.solid);
+    out = brep::csg::to_brep<CsgBRep>(brep::csg::close_slits(exact.solid));
     for (const brep::VertexId v : brep::vertices(out)) out.data(v).position = exact.frame * out.data(v).position;
     if (!cut_into_convex_parts(out)) return false;
     CsgPlacement(tree_, chords_).put_back(out, near_);
