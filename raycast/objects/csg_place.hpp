@@ -16,17 +16,9 @@
 #include <brep/outline.hpp>
 #include <brep/unchecked.hpp>
 
-#include "csg_tree.hpp"
+#include "csg_leaf.hpp"
 
 namespace raycast {
-
-struct CsgVertex {
-  glm::dvec3 position{0.0};
-};
-struct CsgFace {
-  std::uint32_t sheet = brep::no_sheet;
-};
-using CsgBRep = brep::BRep<CsgVertex, brep::NoData, CsgFace>;
 
 namespace detail {
 
@@ -265,7 +257,7 @@ class CsgPlacement {
 
   // Does the face look to the side that its sheet looks to, with a boundary that does not meet itself?
   [[nodiscard]] bool is_sound(const CsgBRep& brep, brep::FaceId f) const {
-    return is_sound(brep::positions(brep, f), brep.data(f).sheet);
+    return is_sound(brep::Polygon(brep::positions(brep, f)), brep.data(f).sheet);
   }
   [[nodiscard]] bool is_sound(brep::Polygon corners, std::uint32_t sheet) const {
     const glm::dvec3 area = brep::vector_area(corners);
