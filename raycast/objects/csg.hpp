@@ -25,6 +25,8 @@ class Csg final : public Object {
   }
 
   [[nodiscard]] const CsgTree& tree() const { return *tree_; }
+  // Of the first approximation: its chords are off the true surface by no more.
+  [[nodiscard]] double chord_tolerance() const { return tolerance_; }
 
   [[nodiscard]] Box bounds() const override { return mesh_ ? mesh_->bounds() : tree_->bounds(); }
   [[nodiscard]] bool convex() const override { return mesh_ ? mesh_->convex() : tree_->convex(); }
@@ -92,15 +94,15 @@ class Csg final : public Object {
     if (region_.whole.empty()) return "nothing is left of the solid";
     tolerance_ = 0.01 * region_.whole.diameter();
     CsgBoundaryResult result = csg_boundary(*tree_, region_, tolerance_);
-    // What is thinner than the chords are inexact may get lost between them.
-    for (int finer = 0; finer < 2 && curved && result.boundary && result.boundary->brep.face_count() == 0; ++finer) {
-      CsgBoundaryResult next = csg_boundary(*tree_, region_, 0.125 * tolerance_);
+    // What is thinner than the chords are inexact may get lost between them, or be nothing else.
+    for (int finer = 0; finer < 2 && curved && result.boundary && !holds_solid(result.boundary->brep); ++finer) {
+      CsgBoundaryResult next = csg_boundary(*tree_, region_, 0.25 * tolerance_);
       if (!next.boundary) break;
-      tolerance_ *= 0.125;
+      tolerance_ *= 0.25;
       result = std::move(next);
     }
     if (!result.boundary) return std::move(result.refusal);
-    if (result.boundary->brep.face_count() == 0)
+    if (curved ? !holds_solid(result.boundary->brep) : result.boundary->brep.face_count() == 0)
       return curved ? "nothing is left of the solid that is thicker than " + std::to_string(tolerance_) : "nothing is left of the solid";
     polygons_ = polygons_of(result.boundary->brep);
     if (curved) return {};
@@ -112,6 +114,16 @@ class Csg final : public Object {
     const Box box = mesh_->bounds();
     slack_ = result.boundary->off > 32 * unit_roundoff * box.magnitude() ? result.boundary->off : mesh_->slack();
     return {};
+  }
+
+  // Is there a face with something of the true solid behind it?
+  [[nodiscard]] bool holds_solid(const CsgBRep& brep) const {
+    for (const brep::FaceId f : brep::faces(brep)) {
+      Spans spans;
+      if (const glm::dvec3 normal = brep::normal(brep, f); normal != glm::dvec3(0.0)) tree_->spans(Segment{brep::centroid(brep, f), normal}, spans);
+      if (spans.size() > 0) return true;
+    }
+    return false;
   }
 
   // Faces of different solids that nearly coincide, but not on the grid, leave films between them that are no part of the true solid: the

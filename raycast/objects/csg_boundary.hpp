@@ -276,19 +276,20 @@ class CsgEvaluation {
     take_away_slivers(out);
     if (!cut(out)) return false;
     CsgPlacement(tree_, chords_).put_back(out, exact.near);
-    if (all_flat()) return true;
-    take_away_slivers(out);
-    return cut(out);
+    if (!all_flat()) {
+      take_away_slivers(out);
+      if (!cut(out)) return false;
+    }
+    tell_edges_apart(out);
+    return true;
   }
 
   [[nodiscard]] bool all_flat() const {
     return std::all_of(tree_.leaves().begin(), tree_.leaves().end(), [](const CsgTree::Leaf& leaf) { return leaf.solid.flat(); });
   }
   bool cut(CsgBRep& brep) {
-    const brep::Refusal refusal = cut_into_convex_parts(brep, [&](std::uint32_t sheet) { return tree_.flat_sheet(sheet); });
-    if (refusal.code == brep::Code::none) return true;
-    refusal_ = "a face is too thin to be cut into convex parts: " + refusal.sentence();
-    return false;
+    refusal_ = cut_into_convex_parts(brep, tree_);
+    return refusal_.empty();
   }
 
   static constexpr std::size_t most_faces = 1 << 17;  // of curved leaves; some 700 bytes each

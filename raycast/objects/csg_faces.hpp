@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <brep/geometry.hpp>
@@ -48,20 +49,40 @@ inline void take_away_slivers(CsgBRep& brep) {
 }
 
 // Cuts all faces by diagonals until they are convex. Faces of curved sheets need not be planar: where no diagonal is found they fall into
-// triangles. Returns a face of a flat sheet that is not simple, if there is one.
-template <class FlatSheet>
-[[nodiscard]] brep::Refusal cut_into_convex_parts(CsgBRep& brep, FlatSheet&& is_flat) {
+// triangles. Returns a sentence about a face of a flat sheet that is not simple, if there is one.
+[[nodiscard]] inline std::string cut_into_convex_parts(CsgBRep& brep, const CsgTree& tree) {
   std::vector<brep::FaceId> concave;
   for (const brep::FaceId f : brep::faces(brep))
     if (!brep::is_convex(brep, f)) concave.push_back(f);
   for (const brep::FaceId f : concave) {
     const auto parts = brep::split_until_convex(brep, f);
     if (parts) continue;
-    if (is_flat(brep.data(f).sheet)) return parts.refusal();
+    const auto refusal = [&](const brep::Refusal& why) {
+      return "a face of '" + std::string(tree.sheet_name(brep.data(f).sheet)) + "' is too thin to be cut into convex parts: " + why.sentence();
+    };
+    if (tree.flat_sheet(brep.data(f).sheet)) return refusal(parts.refusal());
     const auto split = brep::first_of(brep::AtNonConvexCorner{}, brep::AtBestEar{});
-    if (const auto warped = brep::split_recursively(brep, f, split, brep::Convex{} || brep::triangles); !warped) return warped.refusal();
+    if (const auto warped = brep::split_recursively(brep, f, split, brep::Convex{} || brep::triangles); !warped)
+      return refusal(warped.refusal());
   }
   return {};
+}
+
+// Where a solid touches itself, several edges may join the same two vertices, which no list of polygons can say. All but one get a vertex in
+// their middle.
+inline void tell_edges_apart(CsgBRep& brep) {
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, brep::EdgeId>> ends;
+  for (const brep::EdgeId e : brep::edges(brep)) {
+    const std::uint32_t a = brep.vertex(brep::halfedge(e)).index, b = brep.target(brep::halfedge(e)).index;
+    ends.emplace_back(std::min(a, b), std::max(a, b), e);
+  }
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    const auto& [a, b, e] = ends[i];
+    if (std::get<0>(ends[i - 1]) != a || std::get<1>(ends[i - 1]) != b) continue;
+    const glm::dvec3 middle = 0.5 * (brep.data(brep::VertexId{a}).position + brep.data(brep::VertexId{b}).position);
+    brep.data(brep.vertex(brep::unchecked::split_edge(brep, brep::halfedge(e)))).position = middle;
+  }
 }
 
 }  // namespace raycast::detail
