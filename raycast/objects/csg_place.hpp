@@ -50,10 +50,12 @@ class CsgPlacement {
     Moved moved = move(brep, near);
     slide(brep, moved);
     collapse(brep, moved, near);
-    if (take_back(brep, moved)) return;
-    brep = before;  // a vertex that took in another may not have a place on the chords: without such
-    moved = move(brep, near);
-    take_back(brep, moved);
+    if (!take_back(brep, moved)) {
+      brep = before;  // a vertex that took in another may not have a place on the chords: without such
+      moved = move(brep, near);
+      take_back(brep, moved);
+    }
+    if (std::any_of(chords_.begin(), chords_.end(), [](double chord) { return chord > 0.0; })) merge_points(brep, 0.25 * near);
   }
 
  private:
@@ -183,13 +185,36 @@ class CsgPlacement {
     }
   }
 
+  // Vertices that are a cell of the grid apart, or less, are one point.
+  void merge_points(CsgBRep& brep, double near) const {
+    for (bool again = true; again;) {
+      again = false;
+      std::vector<brep::HalfedgeId> close;
+      for (const brep::EdgeId e : brep::edges(brep)) {
+        const brep::HalfedgeId h = brep::halfedge(e);
+        if (glm::length(brep.data(brep.target(h)).position - brep.data(brep.vertex(h)).position) <= near) close.push_back(h);
+      }
+      for (const brep::HalfedgeId h : close) {
+        if (!brep.alive(h)) continue;
+        if (may_shrink(brep, h, false))
+          shrink(brep, h);
+        else if (may_shrink(brep, brep::twin(h), false))
+          shrink(brep, brep::twin(h));
+        else
+          continue;
+        again = true;
+      }
+    }
+  }
+
   // May the vertex where h starts move into the one where it ends? Not if that changed the topology, left a sheet, or turned a face over.
-  [[nodiscard]] bool may_shrink(const CsgBRep& brep, brep::HalfedgeId h) const {
+  // `sheets`: may it not leave a sheet?
+  [[nodiscard]] bool may_shrink(const CsgBRep& brep, brep::HalfedgeId h, bool sheets = true) const {
     const brep::VertexId v = brep.vertex(h), w = brep.target(h);
     const std::vector<std::uint32_t> from = sheets_of(brep, v), to = sheets_of(brep, w);
-    if (!std::includes(to.begin(), to.end(), from.begin(), from.end())) return false;
+    if (sheets && !std::includes(to.begin(), to.end(), from.begin(), from.end())) return false;
     const brep::HalfedgeId sides[2] = {h, brep::twin(h)};
-    if (from.size() > 1 && brep.data(brep.face(sides[0])).sheet == brep.data(brep.face(sides[1])).sheet) return false;
+    if (sheets && from.size() > 1 && brep.data(brep.face(sides[0])).sheet == brep.data(brep.face(sides[1])).sheet) return false;
     const auto triangle = [&](brep::HalfedgeId x) { return brep.next(brep.next(brep.next(x))) == x; };
     std::size_t across = 0, common = 0;  // corners that both triangles at h have across of it; neighbours of both ends
     for (const brep::HalfedgeId side : sides) {
