@@ -273,10 +273,10 @@ class CsgEvaluation {
   bool finish(const Exact& exact, CsgBRep& out) {
     out = brep::csg::to_brep<CsgBRep>(brep::csg::close_slits(exact.solid));
     for (const brep::VertexId v : brep::vertices(out)) out.data(v).position = exact.frame * out.data(v).position;
-    take_away_slivers(out);
+    if (!all_flat()) take_away_slivers(out);
     if (!cut(out)) return false;
     CsgPlacement(tree_, chords_).put_back(out, exact.near);
-    if (!all_flat()) {
+    for (int round = 0; round < 2 && !all_flat(); ++round) {
       take_away_slivers(out);
       if (!cut(out)) return false;
     }
@@ -288,7 +288,7 @@ class CsgEvaluation {
     return std::all_of(tree_.leaves().begin(), tree_.leaves().end(), [](const CsgTree::Leaf& leaf) { return leaf.solid.flat(); });
   }
   bool cut(CsgBRep& brep) {
-    refusal_ = cut_into_convex_parts(brep, tree_);
+    refusal_ = cut_into_convex_parts(brep, tree_, all_flat());
     return refusal_.empty();
   }
 

@@ -48,9 +48,9 @@ inline void take_away_slivers(CsgBRep& brep) {
   }
 }
 
-// Cuts all faces by diagonals until they are convex. Faces of curved sheets need not be planar: where no diagonal is found they fall into
-// triangles. Returns a sentence about a face of a flat sheet that is not simple, if there is one.
-[[nodiscard]] inline std::string cut_into_convex_parts(CsgBRep& brep, const CsgTree& tree) {
+// Cuts all faces by diagonals until they are convex. `planar`: refused, with a sentence, is a face that is not simple. Else faces need not be
+// quite planar: where no diagonal is found they fall into triangles.
+[[nodiscard]] inline std::string cut_into_convex_parts(CsgBRep& brep, const CsgTree& tree, bool planar) {
   std::vector<brep::FaceId> concave;
   for (const brep::FaceId f : brep::faces(brep))
     if (!brep::is_convex(brep, f)) concave.push_back(f);
@@ -60,7 +60,7 @@ inline void take_away_slivers(CsgBRep& brep) {
     const auto refusal = [&](const brep::Refusal& why) {
       return "a face of '" + std::string(tree.sheet_name(brep.data(f).sheet)) + "' is too thin to be cut into convex parts: " + why.sentence();
     };
-    if (tree.flat_sheet(brep.data(f).sheet)) return refusal(parts.refusal());
+    if (planar) return refusal(parts.refusal());
     const auto split = brep::first_of(brep::AtNonConvexCorner{}, brep::AtBestEar{});
     if (const auto warped = brep::split_recursively(brep, f, split, brep::Convex{} || brep::triangles); !warped)
       return refusal(warped.refusal());

@@ -208,7 +208,7 @@ class CsgPlacement {
   }
 
   // May the vertex where h starts move into the one where it ends? Not if that changed the topology, left a sheet, or turned a face over.
-  // `sheets`: may it not leave a sheet?
+  // `sheets`: it may not leave a sheet, nor keep faces that are not sound as they are.
   [[nodiscard]] bool may_shrink(const CsgBRep& brep, brep::HalfedgeId h, bool sheets = true) const {
     const brep::VertexId v = brep.vertex(h), w = brep.target(h);
     const std::vector<std::uint32_t> from = sheets_of(brep, v), to = sheets_of(brep, w);
@@ -237,7 +237,7 @@ class CsgPlacement {
       corners.clear();
       for (const brep::HalfedgeId y : brep::halfedges_of(brep, brep.face(x)))
         corners.push_back(brep.data(brep.vertex(y) == v ? w : brep.vertex(y)).position);
-      if (!is_sound(corners, brep.data(brep.face(x)).sheet)) return false;
+      if (!is_sound(corners, brep.data(brep.face(x)).sheet) && (sheets || is_sound(brep, brep.face(x)))) return false;
     }
     return true;
   }
