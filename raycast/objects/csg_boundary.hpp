@@ -25,6 +25,7 @@ struct CsgBoundary {
 struct CsgBoundaryResult {
   std::optional<CsgBoundary> boundary;
   std::string refusal;
+  bool too_many_faces = false;  // why it was refused
 };
 
 namespace detail {
@@ -52,14 +53,15 @@ class CsgEvaluation {
  public:
   using Solid = brep::csg::Solid<std::uint32_t>;
 
-  explicit CsgEvaluation(const CsgPlan& plan) : plan_(plan), tree_(plan.tree), chords_(tree_.leaves().size(), 0.0) {}
+  // `most_faces`: of curved leaves in all.
+  CsgEvaluation(const CsgPlan& plan, double most_faces) : most_faces_(most_faces), plan_(plan), tree_(plan.tree), chords_(tree_.leaves().size(), 0.0) {}
 
   CsgBoundaryResult run() {
     CsgBoundary result;
     if (!attempt(result.brep)) {  // what was finished in a frame of its own may not bear to be snapped again: all on one grid
       nested_ = false;
-      refusal_.clear();
-      if (!attempt(result.brep)) return {std::nullopt, std::move(refusal_)};
+      if (!too_many_) refusal_.clear();
+      if (too_many_ || !attempt(result.brep)) return {std::nullopt, std::move(refusal_), too_many_};
     }
     for (const brep::FaceId f : brep::faces(result.brep))
       for (const brep::HalfedgeId h : brep::halfedges_of(result.brep, f)) {
@@ -68,7 +70,7 @@ class CsgEvaluation {
       }
     result.near = near_;
     for (const double chord : chords_) result.chord = std::max(result.chord, chord);
-    return {std::move(result), {}};
+    return {std::move(result), {}, false};
   }
 
  private:
@@ -182,7 +184,7 @@ class CsgEvaluation {
         if (place.tolerance < 0.5 * tolerance && meet(place.box, leaf.solid.bounds())) places.push_back(place);
       if (!refusal_.empty() || !close(builder)) return;
       if (!places.empty()) {
-        CsgRefinement refinement(leaf.solid, places, out.mesh, most_faces);
+        CsgRefinement refinement(leaf.solid, places, out.mesh, static_cast<std::size_t>(most_faces_));
         if (refinement.changed()) {
           builder = brep::Builder();
           append(out.mesh, builder);
@@ -198,8 +200,9 @@ class CsgEvaluation {
   }
   // May there be so many more faces?
   bool take(double faces, const std::string& name) {
-    if (!(static_cast<double>(faces_) + faces > static_cast<double>(most_faces))) return true;
-    refusal_ = "its curved parts need more than " + std::to_string(most_faces) + " faces in all (the last one was '" + name +
+    if (!(static_cast<double>(faces_) + faces > most_faces_)) return true;
+    too_many_ = true;
+    refusal_ = "its curved parts need more than " + std::to_string(static_cast<long long>(most_faces_)) + " faces in all (the last one was '" + name +
                "'): make several objects of it, or its parts more alike in size";
     return false;
   }
@@ -292,12 +295,12 @@ class CsgEvaluation {
     return refusal_.empty();
   }
 
-  static constexpr std::size_t most_faces = 1 << 17;  // of curved leaves; some 700 bytes each
-
+  double most_faces_;
   const CsgPlan& plan_;
   const CsgTree& tree_;
   double near_ = 0.0;
   std::size_t faces_ = 0;
+  bool too_many_ = false;
   std::vector<double> chords_;  // of each leaf
   bool nested_ = true;
   std::string refusal_;
@@ -310,10 +313,19 @@ class CsgEvaluation {
 // make_solid of brep/csg refuses in a leaf (it crosses itself once it is snapped to the grid), faces too thin for the grid.
 [[nodiscard]] inline CsgBoundaryResult csg_boundary(const CsgTree& tree, const CsgRegion& region, double tolerance) {
   const bool flat = std::all_of(tree.leaves().begin(), tree.leaves().end(), [](const CsgTree::Leaf& leaf) { return leaf.solid.flat(); });
-  const CsgPlan plan = flat ? CsgPlan{tree, std::vector<double>(tree.leaves().size(), tolerance), {}, tree.nodes().size(), {}}
-                            : csg_plan(tree, region, tolerance);
-  if (!plan.refusal.empty()) return {std::nullopt, plan.refusal};
-  return detail::CsgEvaluation(plan).run();
+  constexpr double most_faces = 0x1p17;  // some 400 bytes each
+  if (flat) {
+    const CsgPlan plan{tree, std::vector<double>(tree.leaves().size(), tolerance), {}, tree.nodes().size(), false, {}};
+    return detail::CsgEvaluation(plan, most_faces).run();
+  }
+  // Small parts are as fine as they are small while their faces are few; many of them take part in the coarseness of the whole.
+  const double few = std::min(most_faces, 0x1p14 * std::max(1.0, 0.01 * region.whole.diameter() / tolerance));
+  for (double relax = 1.0;; relax *= 4.0) {
+    const CsgPlan plan = csg_plan(tree, region, tolerance, relax);
+    if (!plan.refusal.empty()) return {std::nullopt, plan.refusal, false};
+    CsgBoundaryResult result = detail::CsgEvaluation(plan, plan.finer ? few : most_faces).run();
+    if (!result.too_many_faces || !plan.finer) return result;
+  }
 }
 
 }  // namespace raycast

@@ -23,6 +23,7 @@ struct CsgPlan {
   std::vector<double> tolerances;  // of each leaf: of its chords, but at the places
   std::vector<CsgPlace> places;
   std::size_t given_nodes;  // nodes from here on belong to leaves that are cut down
+  bool finer = false;       // is there a leaf or place with a smaller tolerance than was asked for?
   std::string refusal;
 };
 
@@ -30,9 +31,9 @@ namespace detail {
 
 class CsgPlanner {
  public:
-  // `tolerance`: for a part as large as the whole of the region, which is not empty.
-  CsgPlanner(const CsgTree& tree, const CsgRegion& region, double tolerance)
-      : tolerance_(tolerance), size_(region.whole.diameter()), plan_{tree, {}, {}, tree.nodes().size(), {}} {
+  // `tolerance`: for a part as large as the whole of the region, which is not empty. Smaller parts get a smaller one, times `relax`.
+  CsgPlanner(const CsgTree& tree, const CsgRegion& region, double tolerance, double relax)
+      : tolerance_(tolerance), relax_(relax), size_(region.whole.diameter()), plan_{tree, {}, {}, tree.nodes().size(), false, {}} {
     const auto& leaves = tree.leaves();
     std::vector<CsgTree::Share> shares(leaves.size(), CsgTree::Share::all);
     const Box surroundings = region.whole.grown(0.25 * size_);
@@ -41,8 +42,10 @@ class CsgPlanner {
     for (std::uint32_t i = 0; i < leaves.size(); ++i) {
       const double size = leaves[i].solid.bounds().diameter();
       plan_.tolerances.push_back(of_size(size));
+      plan_.finer = plan_.finer || plan_.tolerances.back() < tolerance_;
       if (const Box& own = region.leaves[i]; !own.empty() && own.diameter() > 0.0) {
         const double here = of_size(std::min(size, own.diameter()));
+        plan_.finer = plan_.finer || here < tolerance_;
         if (here < tolerance_) plan_.places.push_back({own.grown(0.25 * own.diameter()), here});
       }
       if (size <= large * size_) continue;
@@ -67,7 +70,7 @@ class CsgPlanner {
 
   [[nodiscard]] double of_size(double size) const {
     const double steps = std::floor(std::log2(size_ / size) / 2 + 0.25);
-    return steps > 0.0 ? std::ldexp(tolerance_, -2 * static_cast<int>(std::min(steps, 24.0))) : tolerance_;
+    return steps > 0.0 ? std::min(tolerance_, std::ldexp(relax_ * tolerance_, -2 * static_cast<int>(std::min(steps, 24.0)))) : tolerance_;
   }
 
   [[nodiscard]] CsgTree::Share share_of(const CsgRegions& regions, std::uint32_t leaf, const Box& box) const {
@@ -85,14 +88,14 @@ class CsgPlanner {
 
   static std::string thousands(double x) { return std::to_string(static_cast<long long>(std::min(x, 1e15) / 1000)) + " 000"; }
 
-  double tolerance_, size_;
+  double tolerance_, relax_, size_;
   CsgPlan plan_;
 };
 
 }  // namespace detail
 
-[[nodiscard]] inline CsgPlan csg_plan(const CsgTree& tree, const CsgRegion& region, double tolerance) {
-  return detail::CsgPlanner(tree, region, tolerance).run();
+[[nodiscard]] inline CsgPlan csg_plan(const CsgTree& tree, const CsgRegion& region, double tolerance, double relax = 1.0) {
+  return detail::CsgPlanner(tree, region, tolerance, relax).run();
 }
 
 }  // namespace raycast
