@@ -120,7 +120,8 @@ class Csg final : public Object {
   [[nodiscard]] bool holds_solid(const CsgBRep& brep) const {
     for (const brep::FaceId f : brep::faces(brep)) {
       Spans spans;
-      if (const glm::dvec3 normal = brep::normal(brep, f); normal != glm::dvec3(0.0)) tree_->spans(Segment{brep::centroid(brep, f), normal}, spans);
+      const glm::dvec3 normal = brep::normal(brep, f);
+      if (normal != glm::dvec3(0.0)) tree_->spans(Segment{brep::centroid(brep, f), normal}, spans);
       if (spans.size() > 0) return true;
     }
     return false;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The boundary of a CSG tree as polygons: every leaf is approximated, brep/csg cuts and glues the approximations exactly, faces that are not
-// convex (a wall with windows) are cut by diagonals, and the vertices are put back from the grid onto the true sheets.
+// The boundary of a CSG tree as polygons: every leaf is approximated, brep/csg cuts and glues the approximations exactly, faces that are
+// not convex (a wall with windows) are cut by diagonals, and the vertices are put back from the grid onto the true sheets.
 //
 // Each face carries the sheet that it lies on, numbered as the tree numbers them. How vertices are put back: csg_place.hpp.
 
@@ -54,7 +54,8 @@ class CsgEvaluation {
   using Solid = brep::csg::Solid<std::uint32_t>;
 
   // `most_faces`: of curved leaves in all.
-  CsgEvaluation(const CsgPlan& plan, double most_faces) : most_faces_(most_faces), plan_(plan), tree_(plan.tree), chords_(tree_.leaves().size(), 0.0) {}
+  CsgEvaluation(const CsgPlan& plan, double most_faces)
+      : most_faces_(most_faces), plan_(plan), tree_(plan.tree), chords_(tree_.leaves().size(), 0.0) {}
 
   CsgBoundaryResult run() {
     CsgBoundary result;
@@ -155,7 +156,8 @@ class CsgEvaluation {
       Exact part = evaluate(index);
       if (refusal_.empty()) finish(part, out.back().mesh);
       const CsgTree::Node& first = tree_.nodes()[node.parts[0]];
-      out.back().name = is_cut(index) && first.parts.empty() ? std::string(tree_.sheet_name(tree_.leaves()[first.leaf].first_sheet)) : "a nested part";
+      out.back().name = "a nested part";
+      if (is_cut(index) && first.parts.empty()) out.back().name = tree_.sheet_name(tree_.leaves()[first.leaf].first_sheet);
     } else {
       for (const std::uint32_t part : node.parts) collect(whole, part, frame, out);
     }
@@ -202,7 +204,8 @@ class CsgEvaluation {
   bool take(double faces, const std::string& name) {
     if (!(static_cast<double>(faces_) + faces > most_faces_)) return true;
     too_many_ = true;
-    refusal_ = "its curved parts need more than " + std::to_string(static_cast<long long>(most_faces_)) + " faces in all (the last one was '" + name +
+    refusal_ = "its curved parts need more than " + std::to_string(static_cast<long long>(most_faces_)) +
+               " faces in all (the last one was '" + name +
                "'): make several objects of it, or its parts more alike in size";
     return false;
   }
@@ -210,7 +213,8 @@ class CsgEvaluation {
     const glm::dvec3 lo = glm::max(a.lo, b.lo), hi = glm::min(a.hi, b.hi);
     return lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z;
   }
-  // Convex faces of more than four corners as triangles: turned, they do not stay plane on the grid. Where they do, brep/csg unites them again.
+  // Convex faces of more than four corners as triangles: turned, they do not stay plane on the grid. Where they do, brep/csg unites them
+  // again.
   static brep::Builder fans(const brep::Builder& polygons) {
     brep::Builder result;
     for (std::uint32_t v = 0; v < polygons.vertex_count(); ++v) result.vertex(polygons.position(v));

@@ -48,8 +48,8 @@ inline void take_away_slivers(CsgBRep& brep) {
   }
 }
 
-// Cuts all faces by diagonals until they are convex. `planar`: refused, with a sentence, is a face that is not simple. Else faces need not be
-// quite planar: where no diagonal is found they fall into triangles.
+// Cuts all faces by diagonals until they are convex. `planar`: refused, with a sentence, is a face that is not simple. Else faces need not
+// be quite planar: where no diagonal is found they fall into triangles.
 [[nodiscard]] inline std::string cut_into_convex_parts(CsgBRep& brep, const CsgTree& tree, bool planar) {
   std::vector<brep::FaceId> concave;
   for (const brep::FaceId f : brep::faces(brep))
@@ -58,7 +58,8 @@ inline void take_away_slivers(CsgBRep& brep) {
     const auto parts = brep::split_until_convex(brep, f);
     if (parts) continue;
     const auto refusal = [&](const brep::Refusal& why) {
-      return "a face of '" + std::string(tree.sheet_name(brep.data(f).sheet)) + "' is too thin to be cut into convex parts: " + why.sentence();
+      return "a face of '" + std::string(tree.sheet_name(brep.data(f).sheet)) +
+             "' is too thin to be cut into convex parts: " + why.sentence();
     };
     if (planar) return refusal(parts.refusal());
     const auto split = brep::first_of(brep::AtNonConvexCorner{}, brep::AtBestEar{});
@@ -68,8 +69,8 @@ inline void take_away_slivers(CsgBRep& brep) {
   return {};
 }
 
-// Where a solid touches itself, several edges may join the same two vertices, which no list of polygons can say. All but one get a vertex in
-// their middle.
+// Where a solid touches itself, several edges may join the same two vertices, which no list of polygons can say. All but one get a vertex
+// in their middle.
 inline void tell_edges_apart(CsgBRep& brep) {
   std::vector<std::tuple<std::uint32_t, std::uint32_t, brep::EdgeId>> ends;
   for (const brep::EdgeId e : brep::edges(brep)) {

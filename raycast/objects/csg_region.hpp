@@ -3,10 +3,11 @@
 
 // Where a CSG tree can have its solid, and where each leaf can matter: boxes that are found without a mesh.
 //
-// A cell of space is outside of a leaf, inside of it, or not known to be either. The distance from its middle to the sheets decides: where it
-// is more than the radius of the cell, no surface passes through. From the leaves follow the nodes of the tree (an interval of truth values).
-// A grid of cells is laid over the bounds, those that are outside for certain are dropped, and a grid over the rest comes next; so a lens in
-// which two large spheres just meet is found in some ten rounds. What is dropped is certainly outside, so an empty region is a proof.
+// A cell of space is outside of a leaf, inside of it, or not known to be either. The distance from its middle to the sheets decides: where
+// it is more than the radius of the cell, no surface passes through. From the leaves follow the nodes of the tree (an interval of truth
+// values). A grid of cells is laid over the bounds, those that are outside for certain are dropped, and a grid over the rest comes next; so
+// a lens in which two large spheres just meet is found in some ten rounds. What is dropped is certainly outside, so an empty region is a
+// proof.
 
 #include <algorithm>
 #include <array>

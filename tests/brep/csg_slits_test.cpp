@@ -64,7 +64,8 @@ TEST_CASE("csg: a bore that touches a wall from inside leaves the wall whole whe
     }
     CHECK(walls == 1);
     // As of a bore that just misses the wall: a cavity is a shell of its own, a hole that goes through a handle.
-    const auto v = static_cast<long>(model.vertex_count()), e = static_cast<long>(model.edge_count()), f = static_cast<long>(model.face_count());
+    const auto v = static_cast<long>(model.vertex_count()), e = static_cast<long>(model.edge_count());
+    const auto f = static_cast<long>(model.face_count());
     CHECK(v - e + f == (lo > 0 && hi < 4 ? 4 : lo > 0 ? 2 : 0));
   }
 }

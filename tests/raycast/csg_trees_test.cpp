@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random trees of curved solids: none is refused, and the mesh holds the volume of the true solid. Contacts that general position never has.
+// Random trees of curved solids: none is refused, and the mesh holds the volume of the true solid. Contacts that general position never
+// has.
 #include "random_solids.hpp"
 
 using namespace raycast;
@@ -14,8 +15,8 @@ struct Estimate {
   long inside = 0;
 };
 
-// Of the solid within a box, by two random points in each of n^3 cells. How many pairs differ tells the variance; four more are counted, so that
-// it is not taken for zero where a small solid was missed.
+// Of the solid within a box, by two random points in each of n^3 cells. How many pairs differ tells the variance; four more are counted, so
+// that it is not taken for zero where a small solid was missed.
 Estimate measure(const std::function<bool(const dvec3&)>& inside, const Box& box, test::Random& random, int n) {
   Estimate result;
   const dvec3 step = box.size() / static_cast<double>(n);
@@ -122,8 +123,9 @@ TEST_CASE("csg: no tree of two to five curved solids is refused, and its mesh ho
       const std::uint32_t more = i % 6 < 2 ? 1 : 2 + random.below(3);
       for (std::uint32_t k = 0; k < more; ++k)
         parts.push_back(k == 0 ? solids.leaf(static_cast<RandomSolids::Kind>(1 + random.below(4)), 0.05, 0.5) : solids.any_leaf(0.1, 0.5));
-      const auto operation = static_cast<CsgOperation>(random.below(3));
-      solid = RandomSolids::combine(more > 1 && operation == CsgOperation::intersect ? CsgOperation::subtract : operation, std::move(parts));
+      auto operation = static_cast<CsgOperation>(random.below(3));
+      if (more > 1 && operation == CsgOperation::intersect) operation = CsgOperation::subtract;  // little would be left
+      solid = RandomSolids::combine(operation, std::move(parts));
     } else {
       solid = solids.tree(2 + random.below(4), 0.05, 1.0);
     }
@@ -152,7 +154,8 @@ TEST_CASE("csg: a dimple in a large sphere is where it belongs, however small") 
   SEEDED(random);
   for (const double radius : {0.1, 0.01, 1e-3, 1e-4}) {
     const dvec3 at = random.direction();
-    const Made<Csg> csg = Csg::make(combine(CsgOperation::subtract, {Sphere::make(dvec3(0.0), 1.0).object, Sphere::make(at, radius).object}));
+    const std::shared_ptr<const Object> large = Sphere::make(dvec3(0.0), 1.0).object, small = Sphere::make(at, radius).object;
+    const Made<Csg> csg = Csg::make(combine(CsgOperation::subtract, {large, small}));
     REQUIRE(csg);
     brep::Builder builder;
     csg->approximate(1e60, builder);

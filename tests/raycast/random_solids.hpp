@@ -41,7 +41,6 @@ class RandomSolids {
     if (kind == box) {
       dvec3 size(0.0);
       for (int k = 0; k < 3; ++k) size[k] = round(random_.uniform(smallest, 2 * largest));
-      // By quaternion: the unit matrix on a step grid, any rotation else.
       const glm::dmat3 turn = step_ > 0.0 || random_.below(3) == 0 ? glm::dmat3(1.0) : random_.rotation();
       result.node.solid = BoxObject::make(-0.5 * size, 0.5 * size).object;
       result.node.placement = {turn, at, false};
@@ -63,7 +62,8 @@ class RandomSolids {
         const double z = glm::dot(p - at, w);
         return std::hypot(glm::length(p - at - z * w) - major, z) < minor;
       };
-      result.text = "torus" + name + "center" + show(at) + " axis" + show(w) + " radius " + std::to_string(major) + " tube " + std::to_string(minor);
+      result.text = "torus" + name + "center" + show(at) + " axis" + show(w) + " radius " + std::to_string(major) + " tube " +
+                    std::to_string(minor);
     } else {
       const double height = round(random_.uniform(smallest, 3 * largest)), r = round(random_.uniform(smallest, largest));
       const double top = kind == cylinder ? r : random_.below(2) == 0 ? 0.0 : r * random_.uniform(0.1, 0.9);
