@@ -63,6 +63,7 @@ class Object {
   [[nodiscard]] virtual bool convex() const { return false; }  // the solid, or the flat polygon, is a convex set
   [[nodiscard]] virtual bool flat() const { return false; }    // every sheet is a plane
   [[nodiscard]] virtual bool exact() const { return flat(); }  // the approximation is the object: flat, with straight borders
+  [[nodiscard]] virtual bool nearest() const { return true; }  // project() finds the nearest point, not only one that is nearest around it
   [[nodiscard]] virtual bool solid() const { return true; }    // false: a surface without inside, whose back is black
   [[nodiscard]] virtual std::uint32_t sheet_count() const { return 1; }
   [[nodiscard]] virtual std::string_view sheet_name(std::uint32_t) const { return {}; }

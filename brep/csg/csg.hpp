@@ -14,4 +14,5 @@
 #include <brep/csg/check_export.hpp>
 #include <brep/csg/imprint.hpp>
 #include <brep/csg/make_solid.hpp>
+#include <brep/csg/slits.hpp>
 #include <brep/csg/to_brep.hpp>

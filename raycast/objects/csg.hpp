@@ -25,6 +25,8 @@ class Csg final : public Object {
   }
 
   [[nodiscard]] const CsgTree& tree() const { return *tree_; }
+  // Of the first approximation: its chords are off the true surface by no more.
+  [[nodiscard]] double chord_tolerance() const { return tolerance_; }
 
   [[nodiscard]] Box bounds() const override { return mesh_ ? mesh_->bounds() : tree_->bounds(); }
   [[nodiscard]] bool convex() const override { return mesh_ ? mesh_->convex() : tree_->convex(); }
@@ -56,9 +58,12 @@ class Csg final : public Object {
   // Faces are convex where they lie on flat sheets.
   void approximate(double tolerance, brep::Builder& out) const override {
     if (flat() || tolerance >= 0.98 * tolerance_) return append(polygons_, out);  // a placement knows its stretch to 0.2 %
-    // What can be done with coarse chords can be done with fine ones, but for features that fall below the grid.
-    const CsgBoundaryResult finer = csg_boundary(*tree_, tolerance);
-    append(finer.boundary ? polygons_of(finer.boundary->brep) : polygons_, out);
+    // What can be done with coarse chords can be done with fine ones, but for features that fall below the grid, or too many faces.
+    for (; tolerance < 0.98 * tolerance_; tolerance *= 2) {
+      const CsgBoundaryResult finer = csg_boundary(*tree_, region_, tolerance);
+      if (finer.boundary && finer.boundary->brep.face_count() > 0) return detail::append(finer.boundary->brep, out);
+    }
+    append(polygons_, out);
   }
 
  private:
@@ -66,13 +71,7 @@ class Csg final : public Object {
 
   static brep::Builder polygons_of(const CsgBRep& brep) {
     brep::Builder result;
-    std::vector<std::uint32_t> number(brep.vertex_end(), 0), corners;
-    for (const brep::VertexId v : brep::vertices(brep)) number[v.index] = result.vertex(brep.data(v).position);
-    for (const brep::FaceId f : brep::faces(brep)) {
-      corners.clear();
-      for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) corners.push_back(number[brep.vertex(h).index]);
-      result.face(corners, brep.data(f).sheet);
-    }
+    detail::append(brep, result);
     return result;
   }
 
@@ -89,13 +88,24 @@ class Csg final : public Object {
 
   std::string evaluate() {
     if (tree_->bounds().empty()) return "nothing is left: the parts of an intersection do not meet";
-    tolerance_ = 0.01 * tree_->bounds().diameter();
-    CsgBoundaryResult result = csg_boundary(*tree_, tolerance_);
-    if (!result.boundary) return std::move(result.refusal);
-    if (result.boundary->brep.face_count() == 0) return "nothing is left of the solid";
-    polygons_ = polygons_of(result.boundary->brep);
     const auto& leaves = tree_->leaves();
-    if (!std::all_of(leaves.begin(), leaves.end(), [](const CsgTree::Leaf& leaf) { return leaf.solid.flat(); })) return {};
+    const bool curved = !std::all_of(leaves.begin(), leaves.end(), [](const CsgTree::Leaf& leaf) { return leaf.solid.flat(); });
+    region_ = curved ? csg_region(*tree_) : CsgRegion{tree_->bounds(), {}};
+    if (region_.whole.empty()) return "nothing is left of the solid";
+    tolerance_ = 0.01 * region_.whole.diameter();
+    CsgBoundaryResult result = csg_boundary(*tree_, region_, tolerance_);
+    // What is thinner than the chords are inexact may get lost between them, or be nothing else.
+    for (int finer = 0; finer < 2 && curved && result.boundary && !holds_solid(result.boundary->brep); ++finer) {
+      CsgBoundaryResult next = csg_boundary(*tree_, region_, 0.25 * tolerance_);
+      if (!next.boundary) break;
+      tolerance_ *= 0.25;
+      result = std::move(next);
+    }
+    if (!result.boundary) return std::move(result.refusal);
+    if (curved ? !holds_solid(result.boundary->brep) : result.boundary->brep.face_count() == 0)
+      return curved ? "nothing is left of the solid that is thicker than " + std::to_string(tolerance_) : "nothing is left of the solid";
+    polygons_ = polygons_of(result.boundary->brep);
+    if (curved) return {};
     Made<Mesh> mesh = Mesh::make(result.boundary->brep);
     if (!mesh) return "the faces of the result are too thin: " + mesh.refusal;
     mesh_ = std::move(mesh.object);
@@ -104,6 +114,17 @@ class Csg final : public Object {
     const Box box = mesh_->bounds();
     slack_ = result.boundary->off > 32 * unit_roundoff * box.magnitude() ? result.boundary->off : mesh_->slack();
     return {};
+  }
+
+  // Is there a face with something of the true solid behind it?
+  [[nodiscard]] bool holds_solid(const CsgBRep& brep) const {
+    for (const brep::FaceId f : brep::faces(brep)) {
+      Spans spans;
+      const glm::dvec3 normal = brep::normal(brep, f);
+      if (normal != glm::dvec3(0.0)) tree_->spans(Segment{brep::centroid(brep, f), normal}, spans);
+      if (spans.size() > 0) return true;
+    }
+    return false;
   }
 
   // Faces of different solids that nearly coincide, but not on the grid, leave films between them that are no part of the true solid: the
@@ -126,6 +147,7 @@ class Csg final : public Object {
   std::shared_ptr<const CsgTree> tree_;
   brep::Builder polygons_;            // the boundary with chords of 1 %
   std::shared_ptr<const Mesh> mesh_;  // the same, when all leaves are polyhedral
+  CsgRegion region_;
   double tolerance_ = 0.0, slack_ = 0.0;
 };
 

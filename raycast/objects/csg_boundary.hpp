@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The boundary of a CSG tree as polygons: every leaf is approximated, brep/csg cuts and glues the approximations exactly, faces that are not
-// convex (a wall with windows) are cut by diagonals, and the vertices are put back from the grid onto the true sheets.
+// The boundary of a CSG tree as polygons: every leaf is approximated, brep/csg cuts and glues the approximations exactly, faces that are
+// not convex (a wall with windows) are cut by diagonals, and the vertices are put back from the grid onto the true sheets.
 //
 // Each face carries the sheet that it lies on, numbered as the tree numbers them. How vertices are put back: csg_place.hpp.
 
 #include <brep/builder.hpp>
 #include <brep/csg/csg.hpp>
 #include <brep/geometry.hpp>
-#include <brep/split.hpp>
 
+#include "csg_faces.hpp"
 #include "csg_place.hpp"
+#include "csg_plan.hpp"
 
 namespace raycast {
 
@@ -19,13 +20,25 @@ struct CsgBoundary {
   CsgBRep brep;       // without faces when nothing is left
   double off = 0.0;   // how far its vertices are off the sheets of their faces, at most
   double near = 0.0;  // four cells of the coarsest grid: what is closer may have become one
+  double chord = 0.0;
 };
 struct CsgBoundaryResult {
   std::optional<CsgBoundary> boundary;
   std::string refusal;
+  bool too_many_faces = false;  // why it was refused
 };
 
 namespace detail {
+
+inline void append(const CsgBRep& brep, brep::Builder& out) {
+  std::vector<std::uint32_t> number(brep.vertex_end(), 0), corners;
+  for (const brep::VertexId v : brep::vertices(brep)) number[v.index] = out.vertex(brep.data(v).position);
+  for (const brep::FaceId f : brep::faces(brep)) {
+    corners.clear();
+    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) corners.push_back(number[brep.vertex(h).index]);
+    out.face(corners, brep.data(f).sheet);
+  }
+}
 
 // The rotation in a placement that keeps angles and does not mirror: what its first column and the plane of the first two say.
 inline std::optional<glm::dmat3> rotation_of(const glm::dmat3& m) {
@@ -40,14 +53,16 @@ class CsgEvaluation {
  public:
   using Solid = brep::csg::Solid<std::uint32_t>;
 
-  CsgEvaluation(const CsgTree& tree, double tolerance) : tree_(tree), tolerance_(tolerance) {}
+  // `most_faces`: of curved leaves in all.
+  CsgEvaluation(const CsgPlan& plan, double most_faces)
+      : most_faces_(most_faces), plan_(plan), tree_(plan.tree), chords_(tree_.leaves().size(), 0.0) {}
 
   CsgBoundaryResult run() {
     CsgBoundary result;
     if (!attempt(result.brep)) {  // what was finished in a frame of its own may not bear to be snapped again: all on one grid
       nested_ = false;
-      refusal_.clear();
-      if (!attempt(result.brep)) return {std::nullopt, std::move(refusal_)};
+      if (!too_many_) refusal_.clear();
+      if (too_many_ || !attempt(result.brep)) return {std::nullopt, std::move(refusal_), too_many_};
     }
     for (const brep::FaceId f : brep::faces(result.brep))
       for (const brep::HalfedgeId h : brep::halfedges_of(result.brep, f)) {
@@ -55,11 +70,14 @@ class CsgEvaluation {
         result.off = std::max(result.off, glm::length(tree_.project(result.brep.data(f).sheet, p).position - p));
       }
     result.near = near_;
-    return {std::move(result), {}};
+    for (const double chord : chords_) result.chord = std::max(result.chord, chord);
+    return {std::move(result), {}, false};
   }
 
  private:
   bool attempt(CsgBRep& out) {
+    near_ = 0.0;
+    faces_ = 0;
     const Exact whole = evaluate(0);
     return refusal_.empty() && finish(whole, out);
   }
@@ -68,6 +86,7 @@ class CsgEvaluation {
   struct Exact {
     Solid solid;
     glm::dmat3 frame{1.0};
+    double near = 0.0;  // four cells of the grid
   };
 
   // The frame of a node: that of the first leaf with flat sheets, so that faces which coincide there lie on the grid together.
@@ -91,16 +110,17 @@ class CsgEvaluation {
   // Parts on the node's own grid are leaves and inner nodes of the same frame; inner nodes of another frame are evaluated in theirs,
   // finished, and snapped anew.
   Exact evaluate(std::uint32_t index) {
-    Exact result{{}, frame_of(index)};
+    Exact result{{}, frame_of(index), 0.0};
     std::vector<Operand> operands;
-    collect(index, result.frame, operands);
+    collect(index, index, result.frame, operands);
     if (!refusal_.empty()) return result;
     Box box;
     const glm::dmat3 back = glm::transpose(result.frame);
     for (Operand& operand : operands)
       for (const brep::VertexId v : brep::vertices(operand.mesh)) box.extend(back * operand.mesh.data(v).position);
     const brep::csg::Grid grid(box.lo, box.hi);
-    near_ = std::max(near_, 4 * grid.spacing());
+    result.near = 4 * grid.spacing();
+    near_ = std::max(near_, result.near);
     std::vector<Solid> solids(operands.size());
     for (std::size_t i = 0; i < operands.size(); ++i) {
       const CsgBRep& mesh = operands[i].mesh;
@@ -122,33 +142,79 @@ class CsgEvaluation {
     std::string name;
   };
 
-  // In the order in which combine() takes them.
-  void collect(std::uint32_t index, const glm::dmat3& frame, std::vector<Operand>& out) {
+  // Of a part of the node `whole`, in the order in which combine() takes them.
+  void collect(std::uint32_t whole, std::uint32_t index, const glm::dmat3& frame, std::vector<Operand>& out) {
     const CsgTree::Node& node = tree_.nodes()[index];
     if (!refusal_.empty()) return;
     if (node.parts.empty()) {
       out.emplace_back();
       const CsgTree::Leaf& leaf = tree_.leaves()[node.leaf];
       out.back().name = tree_.sheet_name(leaf.first_sheet);
-      brep::Builder builder;
-      leaf.solid.approximate(tolerance_, builder);
-      auto closed = brep::close<CsgBRep>(fans(builder));
-      if (!closed.brep) {
-        refusal_ = "'" + out.back().name + "': its approximation is not a closed boundary: " + closed.defects.front().sentence;
-        return;
-      }
-      out.back().mesh = std::move(*closed.brep);
-      for (const brep::FaceId f : brep::faces(out.back().mesh)) out.back().mesh.data(f).sheet += leaf.first_sheet;
-    } else if (own_grid(index, frame)) {
+      approximate(node.leaf, out.back());
+    } else if (index != whole && own_grid(index, frame)) {
       out.emplace_back();
       Exact part = evaluate(index);
       if (refusal_.empty()) finish(part, out.back().mesh);
+      const CsgTree::Node& first = tree_.nodes()[node.parts[0]];
       out.back().name = "a nested part";
+      if (is_cut(index) && first.parts.empty()) out.back().name = tree_.sheet_name(tree_.leaves()[first.leaf].first_sheet);
     } else {
-      for (const std::uint32_t part : node.parts) collect(part, frame, out);
+      for (const std::uint32_t part : node.parts) collect(whole, part, frame, out);
     }
   }
-  // Convex faces of more than four corners as triangles: turned, they do not stay plane on the grid. Where they do, brep/csg unites them again.
+  void approximate(std::uint32_t index, Operand& out) {
+    const CsgTree::Leaf& leaf = tree_.leaves()[index];
+    const auto close = [&](const brep::Builder& builder) {
+      auto closed = brep::close<CsgBRep>(builder);
+      if (closed.brep)
+        out.mesh = std::move(*closed.brep);
+      else
+        refusal_ = "'" + out.name + "': its approximation is not a closed boundary: " + closed.defects.front().sentence;
+      return refusal_.empty();
+    };
+    brep::Builder builder;
+    const double tolerance = plan_.tolerances[index], coarse = 0.002 * leaf.solid.bounds().diameter();
+    leaf.solid.approximate(std::max(tolerance, coarse), builder);
+    if (!leaf.solid.flat()) {
+      // The number of faces is inverse to the tolerance.
+      if (tolerance < coarse && take(builder.face_count() * coarse / tolerance, out.name)) {
+        builder = brep::Builder();
+        leaf.solid.approximate(tolerance, builder);
+      }
+      std::vector<CsgPlace> places;
+      for (const CsgPlace& place : plan_.places)
+        if (place.tolerance < 0.5 * tolerance && meet(place.box, leaf.solid.bounds())) places.push_back(place);
+      if (!refusal_.empty() || !close(builder)) return;
+      if (!places.empty()) {
+        CsgRefinement refinement(leaf.solid, places, out.mesh, static_cast<std::size_t>(most_faces_));
+        if (refinement.changed()) {
+          builder = brep::Builder();
+          append(out.mesh, builder);
+        }
+      }
+      if (!take(static_cast<double>(out.mesh.face_count()), out.name)) return;
+      faces_ += out.mesh.face_count();
+      for (const brep::FaceId f : brep::faces(out.mesh)) chords_[index] = std::max(chords_[index], chord_error(leaf.solid, out.mesh, f));
+      chords_[index] = std::min(tolerance, 1.1 * chords_[index]);
+    }
+    if (!close(fans(builder))) return;
+    for (const brep::FaceId f : brep::faces(out.mesh)) out.mesh.data(f).sheet += leaf.first_sheet;
+  }
+  // May there be so many more faces?
+  bool take(double faces, const std::string& name) {
+    if (!(static_cast<double>(faces_) + faces > most_faces_)) return true;
+    too_many_ = true;
+    refusal_ = "its curved parts need more than " + std::to_string(static_cast<long long>(most_faces_)) +
+               " faces in all (the last one was '" + name +
+               "'): make several objects of it, or its parts more alike in size";
+    return false;
+  }
+  static bool meet(const Box& a, const Box& b) {
+    const glm::dvec3 lo = glm::max(a.lo, b.lo), hi = glm::min(a.hi, b.hi);
+    return lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z;
+  }
+  // Convex faces of more than four corners as triangles: turned, they do not stay plane on the grid. Where they do, brep/csg unites them
+  // again.
   static brep::Builder fans(const brep::Builder& polygons) {
     brep::Builder result;
     for (std::uint32_t v = 0; v < polygons.vertex_count(); ++v) result.vertex(polygons.position(v));
@@ -165,7 +231,13 @@ class CsgEvaluation {
     }
     return result;
   }
-  [[nodiscard]] bool own_grid(std::uint32_t index, const glm::dmat3& frame) const { return nested_ && !same(frame_of(index), frame); }
+  // Is the node a leaf of the given tree that is cut down first?
+  [[nodiscard]] bool is_cut(std::uint32_t index) const {
+    return index < plan_.given_nodes && !tree_.nodes()[index].parts.empty() && tree_.nodes()[index].parts[0] >= plan_.given_nodes;
+  }
+  [[nodiscard]] bool own_grid(std::uint32_t index, const glm::dmat3& frame) const {
+    return is_cut(index) || (nested_ && !same(frame_of(index), frame));
+  }
 
   template <class Operation>
   Solid apply(Operation&& operation, const Solid& a, const Solid& b) {
@@ -206,38 +278,58 @@ class CsgEvaluation {
 
   // From the exact solid to convex faces on the true sheets, in the tree's coordinates.
   bool finish(const Exact& exact, CsgBRep& out) {
-    out = brep::csg::to_brep<CsgBRep>(exact.solid);
+    out = brep::csg::to_brep<CsgBRep>(brep::csg::close_slits(exact.solid));
     for (const brep::VertexId v : brep::vertices(out)) out.data(v).position = exact.frame * out.data(v).position;
-    if (!cut_into_convex_parts(out)) return false;
-    CsgPlacement(tree_, tolerance_).put_back(out, near_);
+    if (!all_flat()) take_away_slivers(out);
+    if (!cut(out)) return false;
+    CsgPlacement(tree_, chords_).put_back(out, exact.near);
+    for (int round = 0; round < 2 && !all_flat(); ++round) {
+      take_away_slivers(out);
+      if (!cut(out)) return false;
+    }
+    tell_edges_apart(out);
     return true;
   }
 
-  bool cut_into_convex_parts(CsgBRep& brep) {
-    std::vector<brep::FaceId> concave;
-    for (const brep::FaceId f : brep::faces(brep))
-      if (!brep::is_convex(brep, f)) concave.push_back(f);
-    for (const brep::FaceId f : concave)
-      if (const auto parts = brep::split_until_convex(brep, f); !parts) {
-        refusal_ = "a face of '" + std::string(tree_.sheet_name(brep.data(f).sheet)) +
-                   "' is too thin to be cut into convex parts: " + parts.refusal().sentence();
-        return false;
-      }
-    return true;
+  [[nodiscard]] bool all_flat() const {
+    return std::all_of(tree_.leaves().begin(), tree_.leaves().end(), [](const CsgTree::Leaf& leaf) { return leaf.solid.flat(); });
+  }
+  bool cut(CsgBRep& brep) {
+    refusal_ = cut_into_convex_parts(brep, tree_, all_flat());
+    return refusal_.empty();
   }
 
+  double most_faces_;
+  const CsgPlan& plan_;
   const CsgTree& tree_;
-  double tolerance_, near_ = 0.0;
+  double near_ = 0.0;
+  std::size_t faces_ = 0;
+  bool too_many_ = false;
+  std::vector<double> chords_;  // of each leaf
   bool nested_ = true;
   std::string refusal_;
 };
 
 }  // namespace detail
 
-// The boundary of the tree with chords within `tolerance` of curved sheets; no faces when nothing is left. Refused, with a sentence: what
+// The boundary of the tree with chords within `tolerance` of curved sheets, and finer where small parts meet (csg_plan.hpp); no faces when
+// nothing is left. `region`: csg_region(tree). Refused, with a sentence: what
 // make_solid of brep/csg refuses in a leaf (it crosses itself once it is snapped to the grid), faces too thin for the grid.
-[[nodiscard]] inline CsgBoundaryResult csg_boundary(const CsgTree& tree, double tolerance) {
-  return detail::CsgEvaluation(tree, tolerance).run();
+[[nodiscard]] inline CsgBoundaryResult csg_boundary(const CsgTree& tree, const CsgRegion& region, double tolerance) {
+  const bool flat = std::all_of(tree.leaves().begin(), tree.leaves().end(), [](const CsgTree::Leaf& leaf) { return leaf.solid.flat(); });
+  constexpr double most_faces = 0x1p17;  // some 400 bytes each
+  if (flat) {
+    const CsgPlan plan{tree, std::vector<double>(tree.leaves().size(), tolerance), {}, tree.nodes().size(), false, {}};
+    return detail::CsgEvaluation(plan, most_faces).run();
+  }
+  // Small parts are as fine as they are small while their faces are few; many of them take part in the coarseness of the whole.
+  const double few = std::min(most_faces, 0x1p14 * std::max(1.0, 0.01 * region.whole.diameter() / tolerance));
+  for (double relax = 1.0;; relax *= 4.0) {
+    const CsgPlan plan = csg_plan(tree, region, tolerance, relax);
+    if (!plan.refusal.empty()) return {std::nullopt, plan.refusal, false};
+    CsgBoundaryResult result = detail::CsgEvaluation(plan, plan.finer ? few : most_faces).run();
+    if (!result.too_many_faces || !plan.finer) return result;
+  }
 }
 
 }  // namespace raycast

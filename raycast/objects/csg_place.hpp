@@ -9,22 +9,16 @@
 // curve or surface until nothing is turned over, or one of them goes into the other. What neither mends stays on the chords.
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <brep/geometry.hpp>
+#include <brep/outline.hpp>
 #include <brep/unchecked.hpp>
 
-#include "csg_tree.hpp"
+#include "csg_leaf.hpp"
 
 namespace raycast {
-
-struct CsgVertex {
-  glm::dvec3 position{0.0};
-};
-struct CsgFace {
-  std::uint32_t sheet = brep::no_sheet;
-};
-using CsgBRep = brep::BRep<CsgVertex, brep::NoData, CsgFace>;
 
 namespace detail {
 
@@ -46,62 +40,102 @@ inline glm::dvec3 towards(const glm::dvec3& p, const std::vector<SurfacePoint>& 
 
 class CsgPlacement {
  public:
-  // `tolerance`: of the chords.
-  CsgPlacement(const CsgTree& tree, double tolerance) : tree_(tree), tolerance_(tolerance) {}
+  // `chords`: of each leaf of the tree, how far the faces of its approximation are off its sheets at most.
+  CsgPlacement(const CsgTree& tree, const std::vector<double>& chords) : tree_(tree), chords_(chords) {}
 
+  // Faces must be convex and lie on the chords. Each stays simple and looks the way that its sheet looks.
   // `near`: a vertex of flat sheets is moved no farther, because it is off them only by the grid.
   void put_back(CsgBRep& brep, double near) const {
-    std::vector<glm::dvec3> chord(brep.vertex_end(), glm::dvec3(0.0));
-    std::vector<double> slides(brep.vertex_end(), 0.0);  // how far from its chord; those that may not stay where they are
-    for (const brep::VertexId v : brep::vertices(brep)) {
-      const std::vector<std::uint32_t> sheets = sheets_of(brep, v);
-      const bool curved = std::any_of(sheets.begin(), sheets.end(), [&](std::uint32_t s) { return !tree_.flat_sheet(s); });
-      const glm::dvec3 before = brep.data(v).position;
-      const glm::dvec3 after = onto(sheets, before);
-      const double reach = (curved ? 2 * tolerance_ / sine(sheets, after) : 0.0) + near;
-      if (!(glm::length(after - before) <= reach)) continue;
-      brep.data(v).position = after;
-      if (!curved) continue;
-      chord[v.index] = before;
-      slides[v.index] = 3 * reach;
+    const CsgBRep before = brep;
+    Moved moved = move(brep, near);
+    slide(brep, moved);
+    collapse(brep, moved, near);
+    if (!take_back(brep, moved)) {
+      brep = before;  // a vertex that took in another may not have a place on the chords: without such
+      moved = move(brep, near);
+      take_back(brep, moved);
     }
-    slide(brep, chord, slides);
-    collapse(brep, slides);
-    // Every round takes at least one vertex back, so this ends.
-    for (bool again = true; again;) {
-      again = false;
-      for (const brep::VertexId v : brep::vertices(brep)) {
-        if (slides[v.index] == 0.0 || brep.data(v).position == chord[v.index]) continue;
-        bool turned = false;
-        for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) turned = turned || turned_over(brep, brep.face(h));
-        if (!turned) continue;
-        brep.data(v).position = chord[v.index];
-        again = true;
-      }
-    }
+    if (std::any_of(chords_.begin(), chords_.end(), [](double chord) { return chord > 0.0; })) merge_points(brep, 0.25 * near);
   }
 
  private:
+  struct Moved {
+    std::vector<glm::dvec3> chord;  // of each vertex: where it was
+    std::vector<double> slides;     // how far from there it may slide; 0: not at all
+  };
+
+  Moved move(CsgBRep& brep, double near) const {
+    Moved moved{std::vector<glm::dvec3>(brep.vertex_end(), glm::dvec3(0.0)), std::vector<double>(brep.vertex_end(), 0.0)};
+    for (const brep::VertexId v : brep::vertices(brep)) {
+      const std::vector<std::uint32_t> sheets = sheets_of(brep, v);
+      double chord = 0.0;
+      for (const std::uint32_t s : sheets)
+        if (!tree_.flat_sheet(s)) chord = std::max(chord, chords_[tree_.leaf_of(s)]);
+      const glm::dvec3 start = moved.chord[v.index] = brep.data(v).position;
+      const glm::dvec3 after = onto(sheets, start);
+      const double reach = (chord > 0.0 ? 2 * chord / sine(sheets, after) : 0.0) + near;
+      if (!(glm::length(after - start) <= reach)) continue;
+      brep.data(v).position = after;
+      if (chord > 0.0) moved.slides[v.index] = 3 * reach;
+    }
+    return moved;
+  }
+
+  // Puts vertices of faces that are not sound back on the chords: one, if that mends the face, else all of it. Are all faces sound then?
+  // Every round takes at least one vertex back, so this ends.
+  bool take_back(CsgBRep& brep, const Moved& moved) const {
+    const auto off = [&](brep::VertexId v) { return brep.data(v).position != moved.chord[v.index]; };
+    std::vector<brep::FaceId> look, next;
+    for (const brep::FaceId f : brep::faces(brep)) look.push_back(f);
+    bool sound = true;
+    while (!look.empty()) {
+      next.clear();
+      for (const brep::FaceId f : look) {
+        if (is_sound(brep, f)) continue;
+        std::vector<brep::VertexId> back, all;
+        for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
+          const brep::VertexId v = brep.vertex(h);
+          if (!off(v)) continue;
+          all.push_back(v);
+          if (!back.empty()) continue;
+          const glm::dvec3 there = std::exchange(brep.data(v).position, moved.chord[v.index]);
+          if (is_sound(brep, f)) back.push_back(v);
+          brep.data(v).position = there;
+        }
+        if (all.empty()) sound = false;
+        for (const brep::VertexId v : back.empty() ? all : back) {
+          brep.data(v).position = moved.chord[v.index];
+          for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) next.push_back(brep.face(h));
+        }
+      }
+      unique(next);
+      std::swap(look, next);
+    }
+    return sound;
+  }
+
+  template <class Id>
+  static void unique(std::vector<Id>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+
   // Chords cross each other where the true surfaces do not quite: put back, the ends of a sliver may change places and turn it over. Such
   // vertices slide on their surface or curve to between their neighbours.
-  void slide(CsgBRep& brep, const std::vector<glm::dvec3>& chord, const std::vector<double>& slides) const {
+  void slide(CsgBRep& brep, const Moved& moved) const {
     std::vector<brep::FaceId> look;
     for (const brep::VertexId v : brep::vertices(brep)) {
-      if (slides[v.index] == 0.0) continue;
+      if (moved.slides[v.index] == 0.0) continue;
       for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) look.push_back(brep.face(h));
     }
     std::vector<brep::VertexId> vertices;
-    const auto unique = [](auto& list) {
-      std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end()), list.end());
-    };
     unique(look);
     for (int round = 0; round < 40 && !look.empty(); ++round) {
       vertices.clear();
       for (const brep::FaceId f : look) {
-        if (!turned_over(brep, f)) continue;
+        if (is_sound(brep, f)) continue;
         for (const brep::HalfedgeId h : brep::halfedges_of(brep, f))
-          if (slides[brep.vertex(h).index] > 0.0) vertices.push_back(brep.vertex(h));
+          if (moved.slides[brep.vertex(h).index] > 0.0) vertices.push_back(brep.vertex(h));
       }
       unique(vertices);
       look.clear();
@@ -118,31 +152,31 @@ class CsgPlacement {
         }
         if (sheets.size() > 1 && count != 2) continue;  // curves meet here
         const glm::dvec3 p = onto(sheets, 0.5 * brep.data(v).position + 0.5 / count * sum);
-        if (glm::length(p - chord[v.index]) <= slides[v.index]) brep.data(v).position = p;
+        if (glm::length(p - moved.chord[v.index]) <= moved.slides[v.index]) brep.data(v).position = p;
       }
       unique(look);
     }
   }
 
   // Where a face is turned over still, one of its edges is as short as the chords are inexact: it shrinks to a point.
-  void collapse(CsgBRep& brep, const std::vector<double>& slides) const {
+  void collapse(CsgBRep& brep, const Moved& moved, double near) const {
     for (bool again = true; again;) {  // every round takes at least one vertex away
       again = false;
       std::vector<brep::FaceId> turned;
       for (const brep::FaceId f : brep::faces(brep))
-        if (turned_over(brep, f)) turned.push_back(f);
+        if (!is_sound(brep, f)) turned.push_back(f);
       for (const brep::FaceId f : turned) {
         if (!brep.alive(f)) continue;
         std::vector<std::pair<double, brep::HalfedgeId>> edges;
         for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
           const double length = glm::length(brep.data(brep.target(h)).position - brep.data(brep.vertex(h)).position);
-          if (length > 2 * tolerance_) continue;
+          if (length > 0.7 * std::max(moved.slides[brep.vertex(h).index], moved.slides[brep.target(h).index]) + near) continue;
           edges.push_back({length, h});
           edges.push_back({length, brep::twin(h)});
         }
         std::sort(edges.begin(), edges.end());
         const auto found = std::find_if(edges.begin(), edges.end(), [&](const auto& edge) {
-          return slides[brep.vertex(edge.second).index] > 0.0 && may_shrink(brep, edge.second);
+          return moved.slides[brep.vertex(edge.second).index] > 0.0 && may_shrink(brep, edge.second);
         });
         if (found == edges.end()) continue;
         shrink(brep, found->second);
@@ -151,13 +185,36 @@ class CsgPlacement {
     }
   }
 
+  // Vertices that are a cell of the grid apart, or less, are one point.
+  void merge_points(CsgBRep& brep, double near) const {
+    for (bool again = true; again;) {
+      again = false;
+      std::vector<brep::HalfedgeId> close;
+      for (const brep::EdgeId e : brep::edges(brep)) {
+        const brep::HalfedgeId h = brep::halfedge(e);
+        if (glm::length(brep.data(brep.target(h)).position - brep.data(brep.vertex(h)).position) <= near) close.push_back(h);
+      }
+      for (const brep::HalfedgeId h : close) {
+        if (!brep.alive(h)) continue;
+        if (may_shrink(brep, h, false))
+          shrink(brep, h);
+        else if (may_shrink(brep, brep::twin(h), false))
+          shrink(brep, brep::twin(h));
+        else
+          continue;
+        again = true;
+      }
+    }
+  }
+
   // May the vertex where h starts move into the one where it ends? Not if that changed the topology, left a sheet, or turned a face over.
-  [[nodiscard]] bool may_shrink(const CsgBRep& brep, brep::HalfedgeId h) const {
+  // `sheets`: it may not leave a sheet, nor keep faces that are not sound as they are.
+  [[nodiscard]] bool may_shrink(const CsgBRep& brep, brep::HalfedgeId h, bool sheets = true) const {
     const brep::VertexId v = brep.vertex(h), w = brep.target(h);
     const std::vector<std::uint32_t> from = sheets_of(brep, v), to = sheets_of(brep, w);
-    if (!std::includes(to.begin(), to.end(), from.begin(), from.end())) return false;
+    if (sheets && !std::includes(to.begin(), to.end(), from.begin(), from.end())) return false;
     const brep::HalfedgeId sides[2] = {h, brep::twin(h)};
-    if (from.size() > 1 && brep.data(brep.face(sides[0])).sheet == brep.data(brep.face(sides[1])).sheet) return false;
+    if (sheets && from.size() > 1 && brep.data(brep.face(sides[0])).sheet == brep.data(brep.face(sides[1])).sheet) return false;
     const auto triangle = [&](brep::HalfedgeId x) { return brep.next(brep.next(brep.next(x))) == x; };
     std::size_t across = 0, common = 0;  // corners that both triangles at h have across of it; neighbours of both ends
     for (const brep::HalfedgeId side : sides) {
@@ -180,7 +237,7 @@ class CsgPlacement {
       corners.clear();
       for (const brep::HalfedgeId y : brep::halfedges_of(brep, brep.face(x)))
         corners.push_back(brep.data(brep.vertex(y) == v ? w : brep.vertex(y)).position);
-      if (turned_over(brep::vector_area(corners), corners[0], brep.data(brep.face(x)).sheet)) return false;
+      if (!is_sound(corners, brep.data(brep.face(x)).sheet) && (sheets || is_sound(brep, brep.face(x)))) return false;
     }
     return true;
   }
@@ -223,16 +280,18 @@ class CsgPlacement {
     return p;
   }
 
-  // Does the face look away from the side that its sheet looks to?
-  [[nodiscard]] bool turned_over(const CsgBRep& brep, brep::FaceId f) const {
-    return turned_over(brep::vector_area(brep, f), brep.data(brep.vertex(brep.halfedge(f))).position, brep.data(f).sheet);
+  // Does the face look to the side that its sheet looks to, with a boundary that does not meet itself?
+  [[nodiscard]] bool is_sound(const CsgBRep& brep, brep::FaceId f) const {
+    return is_sound(brep::Polygon(brep::positions(brep, f)), brep.data(f).sheet);
   }
-  [[nodiscard]] bool turned_over(const glm::dvec3& area, const glm::dvec3& corner, std::uint32_t sheet) const {
-    return !(glm::dot(area, tree_.project(sheet, corner).normal) > 0.25 * glm::length(area));
+  [[nodiscard]] bool is_sound(brep::Polygon corners, std::uint32_t sheet) const {
+    const glm::dvec3 area = brep::vector_area(corners);
+    if (!(glm::dot(area, tree_.project(sheet, corners[0]).normal) > 0.25 * glm::length(area))) return false;
+    return brep::is_convex(corners) || (corners.size() > 3 && !brep::Outline(corners).self_contact());
   }
 
   const CsgTree& tree_;
-  double tolerance_;
+  const std::vector<double>& chords_;
 };
 
 }  // namespace detail

@@ -58,6 +58,41 @@ class CsgTree {
     return std::shared_ptr<const CsgTree>(tree);
   }
 
+  // How a leaf takes part in a tree that is to be right within a box alone.
+  enum class Share : std::uint8_t { all, within, full, none };  // as it is; cut off at the box; the box is in it; the box is outside of it
+
+  // The same solid within the box, and nothing outside of it. Sheets keep their numbers; those of the box come last.
+  [[nodiscard]] CsgTree cut(const std::vector<Share>& shares, const std::shared_ptr<const Object>& box) const {
+    CsgTree result = *this;
+    const auto append = [&](std::uint32_t leaf, std::uint32_t parent) {
+      const auto index = static_cast<std::uint32_t>(result.nodes_.size());
+      result.nodes_[parent].parts.push_back(index);
+      result.nodes_.push_back({CsgOperation::unite, {}, parent, result.nodes_[parent].parts.size() == 1, leaf});
+    };
+    const auto append_box = [&](std::uint32_t parent) {
+      const auto leaf = static_cast<std::uint32_t>(result.leaves_.size());
+      result.leaves_.push_back({PlacedObject(box), result.sheet_count(), false});
+      for (std::uint32_t s = 0; s < box->sheet_count(); ++s) {
+        result.leaf_of_sheet_.push_back(leaf);
+        result.names_.emplace_back(box->sheet_name(s));
+      }
+      append(leaf, parent);
+    };
+    for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
+      if (!nodes_[n].parts.empty() || shares[nodes_[n].leaf] == Share::all) continue;
+      const Share share = shares[nodes_[n].leaf];
+      result.nodes_[n].operation = share == Share::none ? CsgOperation::subtract : CsgOperation::intersect;
+      if (share == Share::within) append(nodes_[n].leaf, n);
+      append_box(n);
+      if (share == Share::none) append_box(n);
+    }
+    const auto root = static_cast<std::uint32_t>(result.nodes_.size());
+    result.nodes_.push_back(result.nodes_[0]);
+    result.nodes_[0] = {CsgOperation::intersect, {root}, none, true, none};
+    append_box(0);
+    return result;
+  }
+
   [[nodiscard]] const std::vector<Leaf>& leaves() const { return leaves_; }
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  // the root first, parts behind their node
   [[nodiscard]] const Box& bounds() const { return bounds_; }              // empty when the bounds of the leaves leave no room
@@ -77,6 +112,7 @@ class CsgTree {
                        [](const Node& n) { return n.parts.size() <= 1 || n.operation == CsgOperation::intersect; }) &&
            std::all_of(leaves_.begin(), leaves_.end(), [](const Leaf& leaf) { return leaf.solid.convex(); });
   }
+  [[nodiscard]] std::uint32_t leaf_of(std::uint32_t sheet) const { return leaf_of_sheet_[sheet]; }
   [[nodiscard]] bool flat_sheet(std::uint32_t sheet) const { return leaves_[leaf_of_sheet_[sheet]].solid.flat(); }
 
   // As Object::spans. Uses no heap while no more than 32 crossings, 8 leaves and 16 nodes take part.

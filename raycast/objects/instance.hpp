@@ -29,6 +29,7 @@ class Instance final : public Object {
   [[nodiscard]] bool convex() const override { return placed_.convex(); }
   [[nodiscard]] bool flat() const override { return placed_.flat(); }
   [[nodiscard]] bool exact() const override { return placed_.exact(); }
+  [[nodiscard]] bool nearest() const override { return placed_.placement().identity() && placed_.object().nearest(); }
   [[nodiscard]] bool solid() const override { return placed_.solid(); }
   [[nodiscard]] std::uint32_t sheet_count() const override { return placed_.sheet_count(); }
   [[nodiscard]] std::string_view sheet_name(std::uint32_t sheet) const override { return placed_.sheet_name(sheet); }

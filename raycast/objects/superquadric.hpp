@@ -47,6 +47,8 @@ class Superquadric final : public Object {
 
   [[nodiscard]] bool convex() const override { return around_.convex() && profile_.convex() && ring_ == 0.0; }
 
+  [[nodiscard]] bool nearest() const override { return false; }
+
   [[nodiscard]] Box bounds() const override {
     const glm::dvec3 half = radii_ * limit_;
     const Box box{centre_ - half, centre_ + half};
