@@ -76,7 +76,8 @@ struct Audit {
   bool converged = true;                       // solver below its residual and, when asked for, error below its target
   bool interrupted = false;                    // the best that the run had when it was told to stop; its error may not be measured
   // error
-  std::optional<double> estimated_error;  // relative L2, by what the links cannot express (link_error.hpp)
+  // Relative L2, by what links and leaves cannot express (link_error.hpp): of what was asked for, a picture or the leaves; of the leaves.
+  std::optional<double> estimated_error, estimated_leaf_error;
   std::uint32_t generations = 0;          // of BF-refinement
   std::uint64_t audit_points = 0;
   std::optional<ErrorEstimate> leaf_error;     // of the constant on each leaf

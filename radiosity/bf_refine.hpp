@@ -5,7 +5,7 @@
 //
 // The error of a link is estimated from what it cannot express times the radiosity that it carries (link_error.hpp). In each generation
 // the links with the largest errors are replaced by those of the children of the end that contributes most, until the estimate
-// meets its target.
+// meets its target. A leaf over which the light varies too much, though linearly, is split by itself: its links stay where they are.
 //
 // Where there are clusters (clusters.hpp) the coarse mesh is made of them: F-refinement opens the link of their root with itself down to
 // pairs that lie apart, so that one direction stands for the other end; all below such a pair lies apart as well. From there on
@@ -44,16 +44,18 @@ namespace radiosity {
 
 namespace detail {
 
-// The least error of a link that is to be refined: the links above it hold all of the sum but `keep`, within a factor of sqrt 2.
-inline double refinement_threshold(const std::vector<LinkError>& errors, double keep) {
+// The least error of a link or a leaf that is to be refined: those above it hold all of the sum but `keep`, within a factor of sqrt 2.
+inline double refinement_threshold(const ErrorEstimation& errors, double keep) {
   constexpr int half_octaves = 512;
   std::array<double, half_octaves> held{};
   const auto bin = [](double error) {
     return std::clamp(static_cast<int>(std::floor(2.0 * std::log2(error))) + half_octaves / 2, 0, half_octaves - 1);
   };
-  for (const LinkError& e : errors) {
-    if (e.sum() > 0.0f) { held[static_cast<std::size_t>(bin(e.sum()))] += e.sum(); }
-  }
+  const auto count = [&](float error) {
+    if (error > 0.0f) { held[static_cast<std::size_t>(bin(error))] += error; }
+  };
+  for (const LinkError& e : errors.links) { count(e.sum()); }
+  for (const float e : errors.leaves) { count(e); }
   double sum = 0.0;
   int b = 0;
   while (b < half_octaves && (sum += held[static_cast<std::size_t>(b)]) <= keep) { ++b; }
@@ -77,7 +79,8 @@ struct BfResult {
   EvaluateResult evaluated;
   std::uint64_t evaluations = 0;  // of links
   std::uint32_t generations = 0;
-  double estimate = 0.0;  // relative L2 error
+  double estimate = 0.0;       // relative L2 error, with this part of the variation over leaves,
+  double leaf_estimate = 0.0;  // and with all of it
   bool interrupted = false;
 };
 
@@ -101,14 +104,14 @@ class Deadline {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Links, evaluated, and leaves such that the estimated relative error is at most `target`, or, with a limit, as many as the deadline
+// Links, evaluated, and leaves such that the estimated relative error, with `leaf_part` of the variation over leaves (link_error.hpp), is at most `target`, or, with a limit, as many as the deadline
 // allows. Stops before when there is nothing left to split, at 2^-24 of the scene's area, or when there would be more than `most_links`.
 // Exposure, and what the clusters show of it, grow with the hierarchy; the evaluator refers to both.
 [[nodiscard]] inline BfResult bf_refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
                                         const std::vector<Color>& reflectance, const std::vector<Color>& emission,
                                         std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches, Exposure& exposure,
-                                        ShownAreas& shown, const LinkEvaluator& evaluator, double target, const Deadline& deadline,
-                                        std::size_t most_links, unsigned threads, std::uint64_t seed, const Control& control = {}) {
+                                        ShownAreas& shown, const LinkEvaluator& evaluator, double target, double leaf_part,
+                                        const Deadline& deadline, std::size_t most_links, unsigned threads, std::uint64_t seed, const Control& control = {}) {
   constexpr double first_epsilon = 0.25;
   BfResult result;
   const PairOracle oracle{surfaces, hierarchy};
@@ -169,19 +172,23 @@ class Deadline {
     if (plan.closed) { (void)transport.close(10.0, 1e-3); }
     const ColorSolution light =
         solve_channels(hierarchy, transport, exposure.area, reflectance, emission, plan.channels, Solver::conjugate_gradients, 1e-3, 40);
-    const detail::ErrorEstimation errors =
-        detail::estimate_errors(hierarchy, exposure, links, shapes, reflectance, emission, light.radiosity);
-    result.estimate = errors.relative();
+    detail::ErrorEstimation errors =
+        detail::estimate_link_errors(hierarchy, exposure, links, shapes, reflectance, emission, light.radiosity);
+    detail::add_leaf_errors(hierarchy, patches, exposure, links, reflectance, light.radiosity, errors);
+    for (float& e : errors.leaves) { e *= static_cast<float>(leaf_part * leaf_part); }
+    const double sum = errors.sum(leaf_part);
+    result.estimate = errors.relative(leaf_part);
+    result.leaf_estimate = errors.relative(1.0);
     // Where nothing is lit yet, light may still be found.
-    const bool dark = !(errors.norm > 0.0) && errors.sum > 0.0 && result.generations < 4;
+    const bool dark = !(errors.norm > 0.0) && sum > 0.0 && result.generations < 4;
     if ((!deadline.limited() && result.estimate <= target && !dark) || links.size() > most_links) { return finished(); }
     if (control.cancelled()) {
       result.interrupted = true;
       return finished();
     }
     const double allowed = deadline.limited() ? 0.0 : target * target * errors.norm;
-    const double excess = errors.sum - allowed;
-    double threshold = detail::refinement_threshold(errors.links, errors.sum - std::min(0.8 * errors.sum, 1.1 * excess));
+    const double excess = sum - allowed;
+    double threshold = detail::refinement_threshold(errors, sum - std::min(0.8 * sum, 1.1 * excess));
     if (deadline.limited()) {
       const std::size_t most = deadline.links_left(result.evaluations) / 4;  // a link that is refined becomes four
       if (50 * most < links.size()) { return finished(); }
@@ -211,6 +218,9 @@ class Deadline {
         asked[second] = true;
       }
       any = any || splits[i] != Split::none;
+    }
+    for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {  // leaves whose constant is too coarse, while the links above will do
+      if (errors.leaves[i] >= threshold && hierarchy[i].leaf() && can_split(i)) { any = asked[i] = true; }
     }
     if (!any) { return finished(); }
 

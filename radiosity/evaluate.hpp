@@ -64,6 +64,7 @@ struct LinkShape {
     float shadow = 0.0f;               // of the visible fraction
   };
   End p, q;
+  float cross = 0.0f;     // of the kernel, beyond what varies at each end: which part of one end is lit by which of the other
   float sampling = 0.0f;  // standard error of the exchange of a link of a cluster, and of any link of which no segment arrived
   float blocked = 0.0f;   // segments of the links that it was split from, where none of them arrived
   Doubt doubt;
@@ -107,7 +108,14 @@ class LinkEvaluator {
       return {seen.rays, 0};
     }
     const double unoccluded = exchange(p, q);
-    if (!(unoccluded > 0.0)) { return {}; }
+    if (!(unoccluded > 0.0)) {
+      // The patches face away from each other; where they are curved, parts of their surfaces may not.
+      const double light = shape != nullptr && (p.bent || q.bent) ? variations(p, q).light : 0.0;
+      if (!(light > 0.0)) { return {}; }
+      const VisibilityEstimate seen = visibility(*scene_, *plan_, list, end(link.p), end(link.q), 1, Random{seed_, key_of(link)});
+      shape->sampling = static_cast<float>(seen.fraction > 0.0 ? light : missed(light, *shape, seen.rays.cast));
+      return seen.rays;
+    }
     const Node& node_p = (*hierarchy_)[link.p];
     const Node& node_q = (*hierarchy_)[link.q];
     const std::uint64_t key = key_of(link);
@@ -125,6 +133,7 @@ class LinkEvaluator {
       if (shape != nullptr && seen.fraction > 0.0) {
         *shape = {shape_of(light_varies.p, seen.spread_p / seen.fraction),
                   shape_of(light_varies.q, seen.spread_q / seen.fraction),
+                  static_cast<float>(light_varies.cross),
                   0.0f,
                   0.0f,
                   {}};
@@ -189,7 +198,7 @@ class LinkEvaluator {
     if (!(r > 0.0)) { return {}; }
     if (!(seen.exchange > 0.0)) {
       const double most = sampler_.end(link.p, d).shown * sampler_.end(link.q, -d).shown / (std::numbers::pi * r * r);
-      return {{}, {}, static_cast<float>(missed(most, before, segments_per_round)), before.blocked, {}};
+      return {{}, {}, 0.0f, static_cast<float>(missed(most, before, segments_per_round)), before.blocked, {}};
     }
     const double hidden = (1.0 - seen.fraction) / seen.fraction;
     const auto end = [&](const Node& node) {
@@ -198,7 +207,7 @@ class LinkEvaluator {
       return LinkShape::End{0.0f, static_cast<float>(std::sqrt(rest)), static_cast<float>(std::sqrt(hidden * std::min(1.0, 20.0 * near)))};
     };
     const double error = seen.exchange * seen.spread / std::sqrt(std::max(16.0, static_cast<double>(seen.rays)));
-    return {end(p), end(q), static_cast<float>(error), 0.0f, {}};
+    return {end(p), end(q), 0.0f, static_cast<float>(error), 0.0f, {}};
   }
   // Every face and every link errs for itself: by its place, by what it sees, by the lattice of directions and by sampling.
   [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkShape& shape) const {

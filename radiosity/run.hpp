@@ -12,6 +12,8 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <cstdlib>
+#include <cstdio>
 #include <vector>
 
 #include <radiosity/link_error.hpp>
@@ -86,10 +88,11 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   const bool needs_links = (plan.lit && plan.reflects) || !plan.shortcuts;
   if (needs_links && options.refinement == Refinement::a_posteriori) {
     BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, shown, evaluator,
-                            options.target, Deadline{options.time}, link_limit, threads, options.seed, control);
+                            options.target, detail::leaf_part(options.reconstruction), Deadline{options.time}, link_limit, threads, options.seed, control);
     refined = std::move(bf.refined);
     evaluated = bf.evaluated;
     audit.estimated_error = bf.estimate;
+    audit.estimated_leaf_error = bf.leaf_estimate;
     audit.target = options.time ? 0.0 : options.target;
     audit.generations = bf.generations;
     audit.interrupted = bf.interrupted;
@@ -143,8 +146,11 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.histories = std::move(solved.histories);
   solution.radiosity = std::move(solved.radiosity);
   if (needs_links && options.refinement == Refinement::a_priori && options.audit_points > 0) {
-    audit.estimated_error =
+    const detail::ErrorEstimation errors =
         detail::sampled_estimate(evaluator, hierarchy, exposure, solution.links, reflectance, emission, solution.radiosity, threads);
+    audit.estimated_error = errors.relative(detail::leaf_part(options.reconstruction));
+    audit.estimated_leaf_error = errors.relative(1.0);
+    if (std::getenv("DBG")) std::fprintf(stderr, "links %.3f leaves %.3f\n", std::sqrt(errors.of_links/errors.norm)*100, std::sqrt(errors.of_leaves/errors.norm)*100);
   }
   balance_energy(audit, scene, inputs, hierarchy, transport, exposure.area, solution.radiosity);
   summarise_surfaces(audit, inputs, frame, hierarchy, exposure.area, solution.radiosity);
