@@ -45,7 +45,7 @@ namespace radiosity {
 namespace detail {
 
 // The least error of a link or a leaf that is to be refined: those above it hold all of the sum but `keep`, within a factor of sqrt 2.
-inline double refinement_threshold(const ErrorEstimation& errors, double keep) {
+inline double refinement_threshold(const std::vector<float>& links, const std::vector<float>& leaves, double keep) {
   constexpr int half_octaves = 512;
   std::array<double, half_octaves> held{};
   const auto bin = [](double error) {
@@ -54,8 +54,8 @@ inline double refinement_threshold(const ErrorEstimation& errors, double keep) {
   const auto count = [&](float error) {
     if (error > 0.0f) { held[static_cast<std::size_t>(bin(error))] += error; }
   };
-  for (const LinkError& e : errors.links) { count(e.sum()); }
-  for (const float e : errors.leaves) { count(e); }
+  for (const float e : links) { count(e); }
+  for (const float e : leaves) { count(e); }
   double sum = 0.0;
   int b = 0;
   while (b < half_octaves && (sum += held[static_cast<std::size_t>(b)]) <= keep) { ++b; }
@@ -81,6 +81,7 @@ struct BfResult {
   std::uint32_t generations = 0;
   double estimate = 0.0;       // relative L2 error, with this part of the variation over leaves,
   double leaf_estimate = 0.0;  // and with all of it
+  double unseen = 0.0;         // share of its square that is due to links through which no segment came
   bool interrupted = false;
 };
 
@@ -172,13 +173,15 @@ class Deadline {
     if (plan.closed) { (void)transport.close(10.0, 1e-3); }
     const ColorSolution light =
         solve_channels(hierarchy, transport, exposure.area, reflectance, emission, plan.channels, Solver::conjugate_gradients, 1e-3, 40);
+    detail::LeafErrors leaves = detail::estimate_leaf_errors(hierarchy, patches, exposure, links, reflectance, light.radiosity);
     detail::ErrorEstimation errors =
-        detail::estimate_link_errors(hierarchy, exposure, links, shapes, reflectance, emission, light.radiosity);
-    detail::add_leaf_errors(hierarchy, patches, exposure, links, reflectance, light.radiosity, errors);
-    for (float& e : errors.leaves) { e *= static_cast<float>(leaf_part * leaf_part); }
+        detail::estimate_link_errors(std::nullopt, leaves.alike(), hierarchy, exposure, links, shapes, reflectance, emission, light.radiosity);
+    errors.of_leaves = leaves.sum;
+    for (float& e : leaves.squares) { e *= static_cast<float>(leaf_part * leaf_part); }
     const double sum = errors.sum(leaf_part);
     result.estimate = errors.relative(leaf_part);
     result.leaf_estimate = errors.relative(1.0);
+    result.unseen = sum > 0.0 ? errors.unseen / sum : 0.0;
     // Where nothing is lit yet, light may still be found.
     const bool dark = !(errors.norm > 0.0) && sum > 0.0 && result.generations < 4;
     if ((!deadline.limited() && result.estimate <= target && !dark) || links.size() > most_links) { return finished(); }
@@ -187,14 +190,12 @@ class Deadline {
       return finished();
     }
     const double allowed = deadline.limited() ? 0.0 : target * target * errors.norm;
-    const double excess = sum - allowed;
-    double threshold = detail::refinement_threshold(errors, sum - std::min(0.8 * sum, 1.1 * excess));
+    double least = detail::error_of_rank(errors.links, (most_links - links.size()) / 8);  // children of a cluster
     if (deadline.limited()) {
       const std::size_t most = deadline.links_left(result.evaluations) / 4;  // a link that is refined becomes four
       if (50 * most < links.size()) { return finished(); }
-      threshold = std::max(threshold, detail::error_of_rank(errors.links, most));
+      least = std::max(least, detail::error_of_rank(errors.links, most));
     }
-    threshold = std::max(threshold, detail::error_of_rank(errors.links, (most_links - links.size()) / 8));  // children of a cluster
 
     // Which end of which link is to be split.
     enum class Split : std::uint8_t { none, p, q };
@@ -203,26 +204,44 @@ class Deadline {
     const auto can_split = [&](std::uint32_t i) {
       return !hierarchy[i].leaf() || (hierarchy[i].area > min_area && !(i < stuck.size() && stuck[i]));
     };
+    // The largest errors first; where none of them can be split any more, those after them.
+    std::vector<float> of_links;
+    for (const detail::LinkError& e : errors.links) { of_links.push_back(e.sum()); }
+    std::vector<float>& of_leaves = leaves.squares;
     bool any = false;
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      const detail::LinkError& e = errors.links[i];
-      if (e.sum() < threshold) { continue; }
-      const bool p_first = e.p >= e.q;
-      const std::uint32_t first = p_first ? links[i].p : links[i].q;
-      const std::uint32_t second = p_first ? links[i].q : links[i].p;
-      if (can_split(first)) {
-        splits[i] = p_first ? Split::p : Split::q;
-        asked[first] = true;
-      } else if (can_split(second) && (hierarchy[second].is_cluster() || std::min(e.p, e.q) >= 0.25f * e.sum())) {
-        splits[i] = p_first ? Split::q : Split::p;
-        asked[second] = true;
+    for (double left = sum; !any;) {
+      if (!(left > allowed)) { return finished(); }
+      const double threshold = std::max(least, detail::refinement_threshold(of_links, of_leaves, left - std::min(0.8 * left, 1.1 * (left - allowed))));
+      double stays = 0.0;
+      for (std::size_t i = 0; i < links.size(); ++i) {
+        if (!(of_links[i] >= threshold && of_links[i] > 0.0f)) { continue; }
+        const detail::LinkError& e = errors.links[i];
+        const bool p_first = e.p >= e.q;
+        const std::uint32_t first = p_first ? links[i].p : links[i].q;
+        const std::uint32_t second = p_first ? links[i].q : links[i].p;
+        if (can_split(first)) {
+          splits[i] = p_first ? Split::p : Split::q;
+          any = asked[first] = true;
+        } else if (can_split(second) && (hierarchy[second].is_cluster() || std::min(e.p, e.q) >= 0.25f * e.sum())) {
+          splits[i] = p_first ? Split::q : Split::p;
+          any = asked[second] = true;
+        } else {
+          stays += of_links[i];
+          of_links[i] = 0.0f;
+        }
       }
-      any = any || splits[i] != Split::none;
+      for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {  // leaves whose constant is too coarse, while the links above will do
+        if (!(of_leaves[i] >= threshold && of_leaves[i] > 0.0f)) { continue; }
+        if (can_split(i)) {
+          any = asked[i] = true;
+        } else {
+          stays += of_leaves[i];
+          of_leaves[i] = 0.0f;
+        }
+      }
+      if (!any && !(stays > 0.0)) { return finished(); }
+      left -= stays;
     }
-    for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {  // leaves whose constant is too coarse, while the links above will do
-      if (errors.leaves[i] >= threshold && hierarchy[i].leaf() && can_split(i)) { any = asked[i] = true; }
-    }
-    if (!any) { return finished(); }
 
     const auto before = static_cast<std::uint32_t>(hierarchy.size());
     std::vector<detail::Pair> pairs;

@@ -12,8 +12,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <cstdlib>
-#include <cstdio>
 #include <vector>
 
 #include <radiosity/link_error.hpp>
@@ -84,6 +82,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, shown, options.seed};
   RefineResult refined;
   EvaluateResult evaluated;
+  double unseen = 0.0;  // part of the estimate
   // Without light, or without reflection, B = E on the input faces.
   const bool needs_links = (plan.lit && plan.reflects) || !plan.shortcuts;
   if (needs_links && options.refinement == Refinement::a_posteriori) {
@@ -93,6 +92,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     evaluated = bf.evaluated;
     audit.estimated_error = bf.estimate;
     audit.estimated_leaf_error = bf.leaf_estimate;
+    unseen = bf.unseen;
     audit.target = options.time ? 0.0 : options.target;
     audit.generations = bf.generations;
     audit.interrupted = bf.interrupted;
@@ -147,10 +147,12 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   solution.radiosity = std::move(solved.radiosity);
   if (needs_links && options.refinement == Refinement::a_priori && options.audit_points > 0) {
     const detail::ErrorEstimation errors =
-        detail::sampled_estimate(evaluator, hierarchy, exposure, solution.links, reflectance, emission, solution.radiosity, threads);
+        detail::sampled_estimate(evaluator, hierarchy, exposure, solution.links, reflectance, emission, solution.radiosity, evaluated.doubt, threads);
     audit.estimated_error = errors.relative(detail::leaf_part(options.reconstruction));
     audit.estimated_leaf_error = errors.relative(1.0);
-    if (std::getenv("DBG")) std::fprintf(stderr, "links %.3f leaves %.3f\n", std::sqrt(errors.of_links/errors.norm)*100, std::sqrt(errors.of_leaves/errors.norm)*100);
+  }
+  if (audit.estimated_error) {
+    audit.estimate_doubt = estimate_doubt(hierarchy, exposure, transport, reflectance, emission, solution.radiosity, unseen, audit.closure.has_value());
   }
   balance_energy(audit, scene, inputs, hierarchy, transport, exposure.area, solution.radiosity);
   summarise_surfaces(audit, inputs, frame, hierarchy, exposure.area, solution.radiosity);
@@ -237,6 +239,12 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
       audit.audit_rays = measured.rays;
     }
     watch.lap("audit");
+  }
+  if (needs_links && options.refinement == Refinement::a_posteriori && !options.time && !options.error) {
+    const std::optional<ErrorEstimate>& error = picture ? audit.picture_error : audit.leaf_error;
+    const bool contradicted = error && error->relative_l2 - 2.0 * error->standard_error > options.target;
+    audit.target_missed = *audit.estimated_error > options.target || contradicted;
+    audit.converged = audit.converged && !audit.target_missed;
   }
   if (options.audit_points > 0 && needs_links && plan.traceable && !audit.leaf_error && control.cancelled()) {
     audit.interrupted = true;
