@@ -105,14 +105,15 @@ class Deadline {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Links, evaluated, and leaves such that the estimated relative error, with `leaf_part` of the variation over leaves (link_error.hpp), is at most `target`, or, with a limit, as many as the deadline
-// allows. Stops before when there is nothing left to split, at 2^-24 of the scene's area, or when there would be more than `most_links`.
+// Links, evaluated, and leaves such that the estimated relative error, with `leaf_part` of the variation over leaves (leaf_error.hpp), is at
+// most `target`, or, with a limit, as many as the deadline allows. Stops before when there is nothing left to split, at 2^-24 of the scene's area, or when there would be more than `most_links`.
 // Exposure, and what the clusters show of it, grow with the hierarchy; the evaluator refers to both.
 [[nodiscard]] inline BfResult bf_refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
                                         const std::vector<Color>& reflectance, const std::vector<Color>& emission,
                                         std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches, Exposure& exposure,
                                         ShownAreas& shown, const LinkEvaluator& evaluator, double target, double leaf_part,
-                                        const Deadline& deadline, std::size_t most_links, unsigned threads, std::uint64_t seed, const Control& control = {}) {
+                                        const Deadline& deadline, std::size_t most_links, unsigned threads, std::uint64_t seed,
+                                        const Control& control = {}) {
   constexpr double first_epsilon = 0.25;
   BfResult result;
   const PairOracle oracle{surfaces, hierarchy};
@@ -175,7 +176,8 @@ class Deadline {
         solve_channels(hierarchy, transport, exposure.area, reflectance, emission, plan.channels, Solver::conjugate_gradients, 1e-3, 40);
     detail::LeafErrors leaves = detail::estimate_leaf_errors(hierarchy, patches, exposure, links, reflectance, light.radiosity);
     detail::ErrorEstimation errors =
-        detail::estimate_link_errors(std::nullopt, leaves.alike(), hierarchy, exposure, links, shapes, reflectance, emission, light.radiosity);
+        detail::estimate_link_errors(std::nullopt, leaves.alike(), hierarchy, exposure, links, shapes, reflectance, emission,
+                                     light.radiosity);
     errors.of_leaves = leaves.sum;
     for (float& e : leaves.squares) { e *= static_cast<float>(leaf_part * leaf_part); }
     const double sum = errors.sum(leaf_part);
@@ -211,7 +213,8 @@ class Deadline {
     bool any = false;
     for (double left = sum; !any;) {
       if (!(left > allowed)) { return finished(); }
-      const double threshold = std::max(least, detail::refinement_threshold(of_links, of_leaves, left - std::min(0.8 * left, 1.1 * (left - allowed))));
+      const double keep = left - std::min(0.8 * left, 1.1 * (left - allowed));
+      const double threshold = std::max(least, detail::refinement_threshold(of_links, of_leaves, keep));
       double stays = 0.0;
       for (std::size_t i = 0; i < links.size(); ++i) {
         if (!(of_links[i] >= threshold && of_links[i] > 0.0f)) { continue; }

@@ -249,7 +249,10 @@ template <std::size_t N>
   }
   Variations result{detail::variation(p, light_p), detail::variation(q, light_q), 0.0, sum / std::numbers::pi};
   const auto variance = [](const Variation& v) { return v.linear * v.linear + v.rest * v.rest; };
-  if (sum > 0.0) { result.cross = std::sqrt(std::max(0.0, square * p.area * q.area / (sum * sum) - 1.0 - variance(result.p) - variance(result.q))); }
+  if (sum > 0.0) {
+    const double all = square * p.area * q.area / (sum * sum) - 1.0;
+    result.cross = std::sqrt(std::max(0.0, all - variance(result.p) - variance(result.q)));
+  }
   const auto steepest = [](const Patch& patch, const glm::dvec3& slope) {
     double fall = 0.0;
     for (const glm::dvec3& x : patch.contour) { fall = std::max(fall, -glm::dot(slope, x - patch.centroid)); }

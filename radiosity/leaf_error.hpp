@@ -64,7 +64,8 @@ inline LeafErrors estimate_leaf_errors(const Hierarchy& hierarchy, const Patches
   };
   for (const Link& link : links) {
     const double exchange = static_cast<double>(link.exchange);
-    if (!(exchange > 0.0) || hierarchy[link.p].is_cluster() || hierarchy[link.q].is_cluster()) { continue; }
+    if (hierarchy[link.p].is_cluster() || hierarchy[link.q].is_cluster()) { continue; }
+    if (!(exchange > 0.0) || !(area[link.p] > 0.0) || !(area[link.q] > 0.0)) { continue; }
     arrives(link.p, exchange, radiosity[link.q], link.slope_p.vector());
     arrives(link.q, exchange, radiosity[link.p], link.slope_q.vector());
   }

@@ -86,8 +86,8 @@ struct ErrorEstimation {
   [[nodiscard]] double relative(double part) const { return norm > 0.0 ? std::sqrt(sum(part) / norm) : 0.0; }
 };
 
-// The errors of links alone, and the norm. `alike_across` inner nodes: how much more squared errors are than of independent links, where these
-// are not all the links; `alike_at_leaves`: LeafErrors::alike().
+// The errors of links alone, and the norm. `alike_across` inner nodes: how much more squared errors are than those of independent links,
+// given where these are not all the links; `alike_at_leaves`: LeafErrors::alike().
 inline ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves, const Hierarchy& hierarchy,
                                             const Exposure& exposure, const Links& links, const std::vector<LinkShape>& shapes,
                                             const std::vector<Color>& reflectance, const std::vector<Color>& emission,
@@ -113,7 +113,7 @@ inline ErrorEstimation estimate_link_errors(std::optional<double> alike_across, 
   const auto square = [](double x) { return x * x; };
   const auto received = [&](double g2, std::uint32_t i) {  // squared, from a radiosity of 1
     const Color r = rho(hierarchy[i]);
-    return g2 / area[i] * r * r;
+    return area[i] > 0.0 ? g2 / area[i] * r * r : Color{0.0};
   };
   const auto varies = [&](const LinkShape::End& shape) { return square(shape.rest) + square(shape.shadow); };
   // What node i receives from clusters by the wrong mixture of their faces: links of one node err alike.
@@ -176,9 +176,9 @@ inline ErrorEstimation estimate_link_errors(std::optional<double> alike_across, 
 
 // For links that were not made by BF-refinement: from at most 1024 links of lights and 3072 others, spread evenly; their shapes are
 // found now.
-inline ErrorEstimation sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Exposure& exposure,
-                                        const Links& links, const std::vector<Color>& reflectance, const std::vector<Color>& emission,
-                                        const std::vector<Color>& radiosity, const DoubtSum& doubt,
+inline ErrorEstimation sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Patches& patches,
+                                        const Exposure& exposure, const Links& links, const std::vector<Color>& reflectance,
+                                        const std::vector<Color>& emission, const std::vector<Color>& radiosity, const DoubtSum& doubt,
                                         unsigned threads) {
   const std::vector<double>& area = exposure.area;
   const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(emission[hierarchy[i].surface]); };
@@ -198,7 +198,7 @@ inline ErrorEstimation sampled_estimate(const LinkEvaluator& evaluator, const Hi
     for (std::uint32_t k = node.first_child; k < node.first_child + node.child_count; ++k) { over_leaves[i] += over_leaves[k]; }
   }
   LeafErrors leaves;
-  leaves.sum = variation_by_siblings(hierarchy, area, radiosity);
+  Links scaled;  // as if they were all
   const auto draw = [&](Sample& sample, std::size_t most) {
     const std::size_t count = std::min(sample.from.size(), most);
     sample.links.resize(count);
@@ -212,19 +212,28 @@ inline ErrorEstimation sampled_estimate(const LinkEvaluator& evaluator, const Hi
     sample.each = count > 0 ? static_cast<double>(sample.from.size()) / static_cast<double>(count) : 0.0;
     const auto arrives = [&](std::uint32_t i, std::uint32_t sender, double exchange, float linear) {
       if (hierarchy[i].is_cluster() || !(area[i] > 0.0)) { return; }
-      const Color light = exchange / area[i] * static_cast<double>(linear) * reflectance[hierarchy[i].surface] * radiosity[sender];
+      const Color light = exchange / area[i] * double{linear} * reflectance[hierarchy[i].surface] * radiosity[sender];
       const double square = sample.each * over_leaves[i] / area[i] * glm::dot(light, light);
       leaves.apart += square;
-      if (hierarchy[i].leaf() && is_input_face(hierarchy, i)) { leaves.sum += square; }  // it has no siblings
     };
     for (std::size_t i = 0; i < count; ++i) {
       const Link& link = sample.links[i];
+      scaled.push_back(link);
+      scaled.back().exchange *= static_cast<float>(sample.each);
       arrives(link.p, link.q, static_cast<double>(link.exchange), sample.shapes[i].p.linear);
       arrives(link.q, link.p, static_cast<double>(link.exchange), sample.shapes[i].q.linear);
     }
   };
   draw(of_lights, 1024);
   draw(others, 3072);
+  // A leaf that is a whole input face has no siblings; and where the sample is all the links, their slopes tell more.
+  const LeafErrors by_slopes = estimate_leaf_errors(hierarchy, patches, exposure, scaled, reflectance, radiosity);
+  if (scaled.size() == links.size()) {
+    leaves = by_slopes;
+  } else {
+    leaves.sum = variation_by_siblings(hierarchy, area, radiosity);
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) { leaves.sum += is_input_face(hierarchy, i) ? by_slopes.squares[i] : 0.0f; }
+  }
   ErrorEstimation result;
   result.of_leaves = leaves.sum;
   for (const Sample* sample : {&of_lights, &others}) {

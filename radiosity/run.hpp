@@ -87,7 +87,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   const bool needs_links = (plan.lit && plan.reflects) || !plan.shortcuts;
   if (needs_links && options.refinement == Refinement::a_posteriori) {
     BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, shown, evaluator,
-                            options.target, detail::leaf_part(options.reconstruction), Deadline{options.time}, link_limit, threads, options.seed, control);
+                            options.target, detail::leaf_part(options.reconstruction), Deadline{options.time}, link_limit, threads,
+                            options.seed, control);
     refined = std::move(bf.refined);
     evaluated = bf.evaluated;
     audit.estimated_error = bf.estimate;
@@ -147,12 +148,14 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   solution.radiosity = std::move(solved.radiosity);
   if (needs_links && options.refinement == Refinement::a_priori && options.audit_points > 0) {
     const detail::ErrorEstimation errors =
-        detail::sampled_estimate(evaluator, hierarchy, exposure, solution.links, reflectance, emission, solution.radiosity, evaluated.doubt, threads);
+        detail::sampled_estimate(evaluator, hierarchy, patches, exposure, solution.links, reflectance, emission, solution.radiosity,
+                                 evaluated.doubt, threads);
     audit.estimated_error = errors.relative(detail::leaf_part(options.reconstruction));
     audit.estimated_leaf_error = errors.relative(1.0);
   }
   if (audit.estimated_error) {
-    audit.estimate_doubt = estimate_doubt(hierarchy, exposure, transport, reflectance, emission, solution.radiosity, unseen, audit.closure.has_value());
+    audit.estimate_doubt = detail::estimate_doubt(hierarchy, exposure, transport, reflectance, emission, solution.radiosity, unseen,
+                                                  audit.closure.has_value());
   }
   balance_energy(audit, scene, inputs, hierarchy, transport, exposure.area, solution.radiosity);
   summarise_surfaces(audit, inputs, frame, hierarchy, exposure.area, solution.radiosity);
@@ -243,7 +246,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   if (needs_links && options.refinement == Refinement::a_posteriori && !options.time && !options.error) {
     const std::optional<ErrorEstimate>& error = picture ? audit.picture_error : audit.leaf_error;
     const bool contradicted = error && error->relative_l2 - 2.0 * error->standard_error > options.target;
-    audit.target_missed = *audit.estimated_error > options.target || contradicted;
+    audit.target_missed = !(*audit.estimated_error <= options.target) || contradicted;
     audit.converged = audit.converged && !audit.target_missed;
   }
   if (options.audit_points > 0 && needs_links && plan.traceable && !audit.leaf_error && control.cancelled()) {
