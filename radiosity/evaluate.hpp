@@ -65,7 +65,7 @@ struct LinkShape {
   };
   End p, q;
   float cross = 0.0f;     // of the kernel, beyond what varies at each end: which part of one end is lit by which of the other
-  float sampling = 0.0f;  // standard error of the exchange of a link of a cluster, and of any link of which no segment arrived
+  float sampling = 0.0f;  // standard error of the exchange of a link of a cluster, and of any of which not all segments arrived
   float blocked = 0.0f;   // segments of the links that it was split from, where none of them arrived
   Doubt doubt;
 };
@@ -134,7 +134,7 @@ class LinkEvaluator {
         *shape = {shape_of(light_varies.p, seen.spread_p / seen.fraction),
                   shape_of(light_varies.q, seen.spread_q / seen.fraction),
                   static_cast<float>(light_varies.cross),
-                  0.0f,
+                  static_cast<float>(partly_seen(unoccluded * share, seen)),
                   0.0f,
                   {}};
       }
@@ -180,6 +180,10 @@ class LinkEvaluator {
   // stood between.
   [[nodiscard]] static double missed(double sent, const LinkShape& before, std::uint64_t segments) {
     return sent / (static_cast<double>(before.blocked) + static_cast<double>(segments) + 2.0);
+  }
+  // Standard error of the exchange where some segments arrived and some did not.
+  [[nodiscard]] static double partly_seen(double sent, const VisibilityEstimate& seen) {
+    return seen.fraction < 1.0 ? sent * std::sqrt(visibility_variance(seen.fraction, static_cast<double>(seen.rays.cast))) : 0.0;
   }
   [[nodiscard]] static std::uint64_t key_of(const Link& link) { return (std::uint64_t{link.p} << 32) | link.q; }
   [[nodiscard]] static LinkShape::End shape_of(const Variation& v, double shadow) {
