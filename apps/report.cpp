@@ -85,8 +85,12 @@ void error_and_time(std::string& out, const Report& report) {
   if (report.options.reconstruction != radiosity::Reconstruction::none) { row(out, "surfaces", error_text(audit.surface_error)); }
   row(out, "leaf constants", error_text(audit.leaf_error));
   if (audit.estimated_error) {
+    const bool picture = report.options.reconstruction < radiosity::Reconstruction::constant;
     row(out, "estimated from links",
-        percent(*audit.estimated_error) + (audit.generations > 0 ? ", after " + std::to_string(audit.generations) + " generations" : ""));
+        percent(*audit.estimated_error) + (picture ? " of the picture, " + percent(*audit.estimated_leaf_error) + " of the leaves" : "") +
+            (audit.generations > 0 ? ", after " + std::to_string(audit.generations) + " generations" : ""));
+    if (!audit.estimate_doubt.empty()) { row(out, "", "no bound: " + audit.estimate_doubt); }
+    if (audit.target_missed) { row(out, "", "TARGET MISSED: the error is above " + percent(audit.target)); }
   }
   if (audit.leaf_error) { row(out, "path-traced points", grouped(audit.audit_points) + ", " + grouped(audit.audit_rays) + " rays"); }
   out += "time (s), peak memory         wall       CPU   of the process until then\n";
@@ -144,7 +148,7 @@ void sizes_and_checks(std::string& out, const Report& report) {
   }
   row(out, "residual",
       format("%.2e after %u iterations%s", audit.residual, static_cast<unsigned>(audit.iterations),
-             audit.converged           ? ""
+             audit.converged || audit.target_missed ? ""
              : audit.interrupted       ? " - INTERRUPTED, the best so far"
              : !audit.shortage.empty() ? " - OUT OF MEMORY, the best so far"
                                        : " - NOT CONVERGED"));
@@ -398,6 +402,13 @@ std::string to_json(const Report& report) {
   } else {
     json.null();
   }
+  json.key("estimated_leaf_error");
+  if (audit.estimated_leaf_error) {
+    json.number(*audit.estimated_leaf_error);
+  } else {
+    json.null();
+  }
+  json.key("estimate_doubt").string(audit.estimate_doubt).key("target_missed").boolean(audit.target_missed);
   json.key("energy_balance").number(audit.energy_balance).key("escaped").number(audit.escaped);
   json.key("residual").number(audit.residual).key("iterations").count(audit.iterations);
   json.key("residual_histories").open_array();

@@ -60,7 +60,10 @@ struct Audit {
   bool interrupted = false;                    // the best that the run had when it was told to stop; its error may not be measured
   std::string shortage;                        // what ended the run early for want of memory, and what to do; it has not converged then
   // error
-  std::optional<double> estimated_error;  // relative L2, by what the links cannot express (link_error.hpp)
+  // Relative L2, by what links and leaves cannot express (link_error.hpp): of what was asked for, a picture or the leaves; of the leaves.
+  std::optional<double> estimated_error, estimated_leaf_error;
+  std::string estimate_doubt;             // why the estimate is no bound of the error; empty where it may be taken for one
+  bool target_missed = false;             // of BF-refinement: by the estimate, or by the audit beyond twice its standard error
   std::uint32_t generations = 0;          // of BF-refinement
   std::uint64_t audit_points = 0;
   std::optional<ErrorEstimate> leaf_error;     // over all surfaces, of the constant on each leaf

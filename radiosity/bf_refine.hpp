@@ -5,7 +5,7 @@
 //
 // The error of a link is estimated from what it cannot express times the radiosity that it carries (link_error.hpp). In each generation
 // the links with the largest errors are replaced by those of the children of the end that contributes most, until the estimate
-// meets its target.
+// meets its target. A leaf over which the light varies too much, though linearly, is split by itself: its links stay where they are.
 //
 // Where there are clusters (clusters.hpp) the coarse mesh is made of them: F-refinement opens the link of their root with itself down to
 // pairs that lie apart, so that one direction stands for the other end; all below such a pair lies apart as well. From there on
@@ -45,16 +45,18 @@ namespace radiosity {
 
 namespace detail {
 
-// The least error of a link that is to be refined: the links above it hold all of the sum but `keep`, within a factor of sqrt 2.
-inline double refinement_threshold(const std::vector<LinkError>& errors, double keep) {
+// The least error of a link or a leaf that is to be refined: those above it hold all of the sum but `keep`, within a factor of sqrt 2.
+inline double refinement_threshold(const std::vector<float>& links, const std::vector<float>& leaves, double keep) {
   constexpr int half_octaves = 512;
   std::array<double, half_octaves> held{};
   const auto bin = [](double error) {
     return std::clamp(static_cast<int>(std::floor(2.0 * std::log2(error))) + half_octaves / 2, 0, half_octaves - 1);
   };
-  for (const LinkError& e : errors) {
-    if (e.sum() > 0.0f) { held[static_cast<std::size_t>(bin(e.sum()))] += e.sum(); }
-  }
+  const auto count = [&](float error) {
+    if (error > 0.0f) { held[static_cast<std::size_t>(bin(error))] += error; }
+  };
+  for (const float e : links) { count(e); }
+  for (const float e : leaves) { count(e); }
   double sum = 0.0;
   int b = 0;
   while (b < half_octaves && (sum += held[static_cast<std::size_t>(b)]) <= keep) { ++b; }
@@ -78,7 +80,9 @@ struct BfResult {
   EvaluateResult evaluated;
   std::uint64_t evaluations = 0;  // of links
   std::uint32_t generations = 0;
-  double estimate = 0.0;  // relative L2 error
+  double estimate = 0.0;       // relative L2 error, with this part of the variation over leaves,
+  double leaf_estimate = 0.0;  // and with all of it
+  double unseen = 0.0;         // share of its square that is due to links through which no segment came
   bool interrupted = false;
   std::uint64_t too_large = 0;  // bytes that a finer solution would have needed, when that was more than the budget allows
 };
@@ -103,16 +107,16 @@ class Deadline {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Links, evaluated, and leaves such that the estimated relative error is at most `target`, or, with a limit, as many as the deadline
-// allows. Stops before when there is nothing left to split, at 2^-24 of the scene's area, or when there would be more than `most_links` or
-// more memory would be needed than the budget allows.
+// Links, evaluated, and leaves such that the estimated relative error, with `leaf_part` of the variation over leaves (leaf_error.hpp), is at
+// most `target`, or, with a limit, as many as the deadline allows. Stops before when there is nothing left to split, at 2^-24 of the
+// scene's area, or when there would be more than `most_links` or more memory would be needed than the budget allows.
 // Exposure, and what the clusters show of it, grow with the hierarchy; the evaluator refers to both.
 [[nodiscard]] inline BfResult bf_refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
                                         const std::vector<Color>& reflectance, const std::vector<Color>& emission,
                                         std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches, Exposure& exposure,
-                                        ShownAreas& shown, const LinkEvaluator& evaluator, double target, const Deadline& deadline,
-                                        std::size_t most_links, unsigned threads, std::uint64_t seed, const Control& control = {},
-                                        const MemoryBudget& budget = {}) {
+                                        ShownAreas& shown, const LinkEvaluator& evaluator, double target, double leaf_part,
+                                        const Deadline& deadline, std::size_t most_links, unsigned threads, std::uint64_t seed,
+                                        const Control& control = {}, const MemoryBudget& budget = {}) {
   constexpr double first_epsilon = 0.25;
   BfResult result;
   const PairOracle oracle{surfaces, hierarchy};
@@ -174,26 +178,31 @@ class Deadline {
     if (plan.closed) { (void)transport.close(10.0, 1e-3); }
     const ColorSolution light =
         solve_channels(hierarchy, transport, exposure.area, reflectance, emission, plan.channels, Solver::conjugate_gradients, 1e-3, 40);
-    const detail::ErrorEstimation errors =
-        detail::estimate_errors(hierarchy, exposure, links, shapes, reflectance, emission, light.radiosity);
-    result.estimate = errors.relative();
+    detail::LeafErrors leaves = detail::estimate_leaf_errors(hierarchy, patches, exposure, links, reflectance, light.radiosity);
+    detail::ErrorEstimation errors =
+        detail::estimate_link_errors(std::nullopt, leaves.alike(), hierarchy, exposure, links, shapes, reflectance, emission,
+                                     light.radiosity);
+    errors.of_leaves = leaves.sum;
+    for (float& e : leaves.squares) { e *= static_cast<float>(leaf_part * leaf_part); }
+    const double sum = errors.sum(leaf_part);
+    result.estimate = errors.relative(leaf_part);
+    result.leaf_estimate = errors.relative(1.0);
+    result.unseen = sum > 0.0 ? errors.unseen / sum : 0.0;
     if (budget.solved != nullptr) { *budget.solved = result.generations + 1; }
     // Where nothing is lit yet, light may still be found.
-    const bool dark = !(errors.norm > 0.0) && errors.sum > 0.0 && result.generations < 4;
+    const bool dark = !(errors.norm > 0.0) && sum > 0.0 && result.generations < 4;
     if ((!deadline.limited() && result.estimate <= target && !dark) || links.size() > most_links) { return finished(); }
     if (control.cancelled() || result.generations == budget.last_generation) {
       result.interrupted = control.cancelled();
       return finished();
     }
     const double allowed = deadline.limited() ? 0.0 : target * target * errors.norm;
-    const double excess = errors.sum - allowed;
-    double threshold = detail::refinement_threshold(errors.links, errors.sum - std::min(0.8 * errors.sum, 1.1 * excess));
+    double least = detail::error_of_rank(errors.links, (most_links - links.size()) / 8);  // children of a cluster
     if (deadline.limited()) {
       const std::size_t most = deadline.links_left(result.evaluations) / 4;  // a link that is refined becomes four
       if (50 * most < links.size()) { return finished(); }
-      threshold = std::max(threshold, detail::error_of_rank(errors.links, most));
+      least = std::max(least, detail::error_of_rank(errors.links, most));
     }
-    threshold = std::max(threshold, detail::error_of_rank(errors.links, (most_links - links.size()) / 8));  // children of a cluster
 
     // Which end of which link is to be split.
     enum class Split : std::uint8_t { none, p, q };
@@ -202,29 +211,57 @@ class Deadline {
     const auto can_split = [&](std::uint32_t i) {
       return !hierarchy[i].leaf() || (hierarchy[i].area > min_area && !(i < stuck.size() && stuck[i]));
     };
-    for (bool squeezed = false;; squeezed = true, threshold *= 2.0) {  // fewer links, those with the largest errors, until memory suffices
+    // The largest errors first; where none of them can be split any more, those after them.
+    std::vector<float> of_links, of_leaves;
+    for (double squeeze = 1.0;; squeeze *= 2.0) {  // fewer splits, those with the largest errors, until memory suffices
+      of_links.clear();
+      for (const detail::LinkError& e : errors.links) { of_links.push_back(e.sum()); }
+      of_leaves = leaves.squares;
       splits.assign(links.size(), Split::none);
       asked.assign(hierarchy.size(), false);
       std::size_t chosen = 0;
-      for (std::size_t i = 0; i < links.size(); ++i) {
-        const detail::LinkError& e = errors.links[i];
-        if (e.sum() < threshold) { continue; }
-        const bool p_first = e.p >= e.q;
-        const std::uint32_t first = p_first ? links[i].p : links[i].q;
-        const std::uint32_t second = p_first ? links[i].q : links[i].p;
-        if (can_split(first)) {
-          splits[i] = p_first ? Split::p : Split::q;
-          asked[first] = true;
-        } else if (can_split(second) && (hierarchy[second].is_cluster() || std::min(e.p, e.q) >= 0.25f * e.sum())) {
-          splits[i] = p_first ? Split::q : Split::p;
-          asked[second] = true;
+      bool any = false;
+      for (double left = sum; !any;) {
+        if (!(left > allowed)) { return finished(); }
+        const double keep = left - std::min(0.8 * left, 1.1 * (left - allowed));
+        const double threshold = squeeze * std::max(least, detail::refinement_threshold(of_links, of_leaves, keep));
+        double stays = 0.0;
+        for (std::size_t i = 0; i < links.size(); ++i) {
+          if (!(of_links[i] >= threshold && of_links[i] > 0.0f)) { continue; }
+          const detail::LinkError& e = errors.links[i];
+          const bool p_first = e.p >= e.q;
+          const std::uint32_t first = p_first ? links[i].p : links[i].q;
+          const std::uint32_t second = p_first ? links[i].q : links[i].p;
+          if (can_split(first)) {
+            splits[i] = p_first ? Split::p : Split::q;
+            any = asked[first] = true;
+          } else if (can_split(second) && (hierarchy[second].is_cluster() || std::min(e.p, e.q) >= 0.25f * e.sum())) {
+            splits[i] = p_first ? Split::q : Split::p;
+            any = asked[second] = true;
+          } else {
+            stays += of_links[i];
+            of_links[i] = 0.0f;
+          }
+          chosen += splits[i] != Split::none ? 1 : 0;
         }
-        chosen += splits[i] != Split::none ? 1 : 0;
+        for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {  // leaves whose constant is too coarse, while the links above will do
+          if (!(of_leaves[i] >= threshold && of_leaves[i] > 0.0f)) { continue; }
+          if (can_split(i)) {
+            any = asked[i] = true;
+            ++chosen;
+          } else {
+            stays += of_leaves[i];
+            of_leaves[i] = 0.0f;
+          }
+        }
+        if (!any && !(stays > 0.0)) { return finished(); }
+        left -= stays;
       }
-      if (chosen == 0 || (squeezed && 50 * chosen < links.size())) { return finished(); }
+      if (squeeze > 1.0 && 50 * chosen < links.size()) { return finished(); }
       if (!budget.limited()) { break; }
       const auto parts = [&](std::uint32_t i) { return hierarchy[i].leaf() ? hierarchy[i].corners : hierarchy[i].child_count; };
-      MemoryBudget::Counts counts{hierarchy.size(), links.size() - chosen, 0, result.refined.occluders.bytes()};
+      const auto split_links = static_cast<std::size_t>(std::count_if(splits.begin(), splits.end(), [](Split of) { return of != Split::none; }));
+      MemoryBudget::Counts counts{hierarchy.size(), links.size() - split_links, 0, result.refined.occluders.bytes()};
       for (std::uint32_t i = 0; i < hierarchy.size(); ++i) { counts.nodes += asked[i] && hierarchy[i].leaf() ? parts(i) : 0; }
       for (std::size_t i = 0; i < links.size(); ++i) {
         counts.pairs += splits[i] == Split::none ? 0 : parts(splits[i] == Split::p ? links[i].p : links[i].q);

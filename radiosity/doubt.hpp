@@ -37,7 +37,10 @@ class DoubtSum {
     depth_ = std::max(depth_, static_cast<double>(doubt.depth));
   }
   void add(const DoubtSum& other) {
-    for (std::uint32_t i = 0; i < other.across_.size(); ++i) { add(i, other.across_[i]); }
+    for (std::uint32_t i = 0; i < other.across_.size(); ++i) {
+      add(i, other.across_[i]);
+      if (other.across_[i] > 0.0) { squares_[i] += other.squares_[i] - other.across_[i] * other.across_[i]; }
+    }
     square_ += other.square_;
     chord_ += other.chord_;
     depth_ = std::max(depth_, other.depth_);
@@ -50,14 +53,29 @@ class DoubtSum {
     return total > 0.0 ? std::sqrt(sum / total) : 0.0;
   }
 
+  // How much more the squared errors across nodes are than if the links of one node erred independently.
+  [[nodiscard]] double alike(const std::vector<double>& area) const {
+    double sum = 0.0;
+    double apart = 0.0;
+    for (std::size_t i = 0; i < across_.size(); ++i) {
+      sum += area[i] * across_[i] * across_[i];
+      apart += area[i] * squares_[i];
+    }
+    return apart > 0.0 ? sum / apart : 1.0;
+  }
+
  private:
   void add(std::uint32_t node, double error) {
     if (!(error > 0.0)) { return; }
-    if (node >= across_.size()) { across_.resize(node + 1, 0.0); }
+    if (node >= across_.size()) {
+      across_.resize(node + 1, 0.0);
+      squares_.resize(node + 1, 0.0);
+    }
     across_[node] += error;
+    squares_[node] += error * error;
   }
 
-  std::vector<double> across_;  // of each node
+  std::vector<double> across_, squares_;  // of each node: the sum, and the sum of the squares
   double square_ = 0.0, chord_ = 0.0, depth_ = 0.0;
 };
 

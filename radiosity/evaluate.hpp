@@ -64,7 +64,8 @@ struct LinkShape {
     float shadow = 0.0f;               // of the visible fraction
   };
   End p, q;
-  float sampling = 0.0f;  // standard error of the exchange of a link of a cluster, and of any link of which no segment arrived
+  float cross = 0.0f;     // of the kernel, beyond what varies at each end: which part of one end is lit by which of the other
+  float sampling = 0.0f;  // standard error of the exchange of a link of a cluster, and of any of which not all segments arrived
   float blocked = 0.0f;   // segments of the links that it was split from, where none of them arrived
   Doubt doubt;
 };
@@ -107,7 +108,14 @@ class LinkEvaluator {
       return {seen.rays, 0};
     }
     const double unoccluded = exchange(p, q);
-    if (!(unoccluded > 0.0)) { return {}; }
+    if (!(unoccluded > 0.0)) {
+      // The patches face away from each other; where they are curved, parts of their surfaces may not.
+      const double light = shape != nullptr && (p.bent || q.bent) ? variations(p, q).light : 0.0;
+      if (!(light > 0.0)) { return {}; }
+      const VisibilityEstimate seen = visibility(*scene_, *plan_, list, end(link.p), end(link.q), 1, Random{seed_, key_of(link)});
+      shape->sampling = static_cast<float>(seen.fraction > 0.0 ? light : missed(light, *shape, seen.rays.cast));
+      return seen.rays;
+    }
     const Node& node_p = (*hierarchy_)[link.p];
     const Node& node_q = (*hierarchy_)[link.q];
     const std::uint64_t key = key_of(link);
@@ -125,7 +133,8 @@ class LinkEvaluator {
       if (shape != nullptr && seen.fraction > 0.0) {
         *shape = {shape_of(light_varies.p, seen.spread_p / seen.fraction),
                   shape_of(light_varies.q, seen.spread_q / seen.fraction),
-                  0.0f,
+                  static_cast<float>(light_varies.cross),
+                  static_cast<float>(partly_seen(unoccluded * share, seen)),
                   0.0f,
                   {}};
       }
@@ -172,6 +181,10 @@ class LinkEvaluator {
   [[nodiscard]] static double missed(double sent, const LinkShape& before, std::uint64_t segments) {
     return sent / (static_cast<double>(before.blocked) + static_cast<double>(segments) + 2.0);
   }
+  // Standard error of the exchange where some segments arrived and some did not.
+  [[nodiscard]] static double partly_seen(double sent, const VisibilityEstimate& seen) {
+    return seen.fraction < 1.0 ? sent * std::sqrt(visibility_variance(seen.fraction, static_cast<double>(seen.rays.cast))) : 0.0;
+  }
   [[nodiscard]] static std::uint64_t key_of(const Link& link) { return (std::uint64_t{link.p} << 32) | link.q; }
   [[nodiscard]] static LinkShape::End shape_of(const Variation& v, double shadow) {
     return {static_cast<float>(v.linear), static_cast<float>(v.rest), static_cast<float>(shadow)};
@@ -189,7 +202,7 @@ class LinkEvaluator {
     if (!(r > 0.0)) { return {}; }
     if (!(seen.exchange > 0.0)) {
       const double most = sampler_.end(link.p, d).shown * sampler_.end(link.q, -d).shown / (std::numbers::pi * r * r);
-      return {{}, {}, static_cast<float>(missed(most, before, segments_per_round)), before.blocked, {}};
+      return {{}, {}, 0.0f, static_cast<float>(missed(most, before, segments_per_round)), before.blocked, {}};
     }
     const double hidden = (1.0 - seen.fraction) / seen.fraction;
     const auto end = [&](const Node& node) {
@@ -198,7 +211,7 @@ class LinkEvaluator {
       return LinkShape::End{0.0f, static_cast<float>(std::sqrt(rest)), static_cast<float>(std::sqrt(hidden * std::min(1.0, 20.0 * near)))};
     };
     const double error = seen.exchange * seen.spread / std::sqrt(std::max(16.0, static_cast<double>(seen.rays)));
-    return {end(p), end(q), static_cast<float>(error), 0.0f, {}};
+    return {end(p), end(q), 0.0f, static_cast<float>(error), 0.0f, {}};
   }
   // Every face and every link errs for itself: by its place, by what it sees, by the lattice of directions and by sampling.
   [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkShape& shape) const {

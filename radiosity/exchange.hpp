@@ -24,6 +24,7 @@
 #include <glm/vec3.hpp>
 
 #include <brep/small_list.hpp>
+#include <radiosity/bend.hpp>
 #include <radiosity/edge_pair.hpp>
 #include <radiosity/patch.hpp>
 
@@ -112,6 +113,9 @@ struct Variation {
 };
 struct Variations {
   Variation p, q;
+  double cross = 0.0;  // RMS of what is left of the kernel itself, over both patches, beyond both variations: which part of one is
+                       // lit by which of the other
+  double light = 0.0;  // the exchange by this rule; on curved objects with the true normals
 };
 
 namespace detail {
@@ -142,25 +146,41 @@ template <std::size_t N>
 
 }  // namespace detail
 
-// The slopes are limited so that the kernel stays positive on both patches.
+// The slopes are limited so that the kernel stays positive on both patches; what that takes off is counted as rest. Normals turn over
+// curved patches as they do over the surface (bend.hpp).
 [[nodiscard]] inline Variations variations(const Patch& p, const Patch& q) {
   brep::SmallList<double, 36> light_p;
   brep::SmallList<double, 36> light_q;
-  for (std::size_t j = 0; j < q.rule3.size(); ++j) { light_q.push_back(0.0); }
+  brep::SmallList<glm::dvec3, 36> normal_q;
+  for (std::size_t j = 0; j < q.rule3.size(); ++j) {
+    light_q.push_back(0.0);
+    normal_q.push_back(normal_over(q, q.rule3[j].position));
+  }
+  double sum = 0.0;
+  double square = 0.0;
   for (const QuadraturePoint& a : p.rule3) {
+    const glm::dvec3 normal_p = normal_over(p, a.position);
     double row = 0.0;
     for (std::size_t j = 0; j < q.rule3.size(); ++j) {
       const QuadraturePoint& b = q.rule3[j];
       const glm::dvec3 d = b.position - a.position;
       const double r2 = glm::dot(d, d);
-      const double cosines = std::max(0.0, glm::dot(p.normal, d)) * std::max(0.0, -glm::dot(q.normal, d));
-      const double light = a.weight * b.weight * cosines / (r2 * r2);
+      const double cosines = std::max(0.0, glm::dot(normal_p, d)) * std::max(0.0, -glm::dot(normal_q[j], d));
+      const double kernel = cosines / (r2 * r2);
+      const double light = a.weight * b.weight * kernel;
       row += light;
+      square += light * kernel;
       light_q[j] += light;
     }
     light_p.push_back(row);
+    sum += row;
   }
-  Variations result{detail::variation(p, light_p), detail::variation(q, light_q)};
+  Variations result{detail::variation(p, light_p), detail::variation(q, light_q), 0.0, sum / std::numbers::pi};
+  const auto variance = [](const Variation& v) { return v.linear * v.linear + v.rest * v.rest; };
+  if (sum > 0.0) {
+    const double all = square * p.area * q.area / (sum * sum) - 1.0;
+    result.cross = std::sqrt(std::max(0.0, all - variance(result.p) - variance(result.q)));
+  }
   const auto steepest = [](const Patch& patch, const glm::dvec3& slope) {
     double fall = 0.0;
     for (const glm::dvec3& x : patch.contour) { fall = std::max(fall, -glm::dot(slope, x - patch.centroid)); }
@@ -168,8 +188,11 @@ template <std::size_t N>
   };
   const double fall = steepest(p, result.p.slope) + steepest(q, result.q.slope);
   if (fall > 1.0) {
-    result.p.slope /= fall;
-    result.q.slope /= fall;
+    for (Variation* v : {&result.p, &result.q}) {
+      v->slope /= fall;
+      v->rest = std::hypot(v->rest, v->linear * (1.0 - 1.0 / fall));
+      v->linear /= fall;
+    }
   }
   return result;
 }

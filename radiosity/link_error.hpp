@@ -1,23 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The error of a link, and of the whole, estimated from what the links cannot express (LinkShape) times the radiosity that they carry
-// (paper 4.4). For p receiving from q, with the irradiance H = G B_q / A_p and the deviation S = G s_q / A_p, s_q the standard deviation of
-// B over q's leaves:
+// The relative L2 error of a solution, estimated from what its links cannot express (LinkShape) times the radiosity that they carry
+// (paper 4.4), and from what its leaves cannot. For p receiving from q, with the irradiance H = G B_q / A_p and the deviation
+// S = G s_q / A_p, s_q the standard deviation of B over q's leaves:
 //
-//     e_p^2 = A_p rho^2 H^2 (rest_p^2 + shadow_p^2 + [p is a leaf] (leaf_linear linear_p)^2)     mends: splitting p
-//           + A_p rho^2 S^2 (rest_q^2 + shadow_q^2)                                             mends: splitting q
-//           + A_p rho^2 (sampling B_q / A_p)^2                                                   mends: splitting the larger
+//     e_p^2 = A_p rho^2 H^2 (rest_p^2 + shadow_p^2)                        mends: splitting p
+//           + A_p rho^2 S^2 (rest_q^2 + shadow_q^2 + cross^2)              mends: splitting q
+//           + A_p rho^2 (sampling B_q / A_p)^2                             mends: splitting the larger
 //
-// summed over the channels, and the same for q receiving from p. An inner node passes the linear part of the light on to its children;
-// a leaf does not, but the picture interpolates between leaves. A cluster shows other faces to each direction: there the mean of B^2
-// stands for the square of what it sends, the noise of sampling is mended by splitting the source, and the S of different links of one
-// node add up as they are, for each mixes bright faces with dark ones in the same way. The estimate of the whole is sqrt(sum of all e^2)
-// over the norm of the reflected radiosity: all other errors of different links count as independent.
+// summed over the channels, and the same for q receiving from p. What varies over a
+// leaf comes on top (leaf_error.hpp).
+//
+// Links that lie at one node err alike, as in a corner of a room: their rest adds up as it is. Where only a sample of the links is looked
+// at, the row sums tell how much that makes (DoubtSum::alike), for light that is the same everywhere; of light that is not, the truth lies
+// between that and independence, and the geometric mean of both is taken. Where the gradients of different links cancel over the leaves,
+// as they do in a furnace, rests cancel by the same factor.
+//
+// A cluster shows other faces to each direction: there the mean of B^2 stands for the square of what it sends, the noise of sampling is
+// mended by splitting the source, and the S of different links of one node add up as they are, for each mixes bright faces with dark ones
+// in the same way. The estimate of the whole is sqrt(sum of all e^2) over the norm of the reflected radiosity: all other errors of
+// different links count as independent. Errors that are passed on by further reflections are not followed.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -25,9 +34,12 @@
 #include <radiosity/evaluate.hpp>
 #include <radiosity/exposure.hpp>
 #include <radiosity/hierarchy.hpp>
+#include <radiosity/leaf_error.hpp>
 #include <radiosity/links.hpp>
 #include <radiosity/material.hpp>
+#include <radiosity/options.hpp>
 #include <radiosity/parallel.hpp>
+#include <radiosity/transport.hpp>
 
 namespace radiosity {
 
@@ -39,8 +51,8 @@ struct LinkError {
   [[nodiscard]] float sum() const { return p + q; }
 };
 
-// The part of the linear variation over a leaf that the picture, which interpolates between leaves, still misses.
-inline constexpr double leaf_linear = 0.35;
+// How much of the variation over a leaf is an error: all of it, or the part that a picture which interpolates still misses.
+[[nodiscard]] constexpr double leaf_part(Reconstruction kind) { return kind >= Reconstruction::constant ? 1.0 : 0.5; }
 
 struct NodeLight {
   Color mean{0.0};
@@ -63,18 +75,23 @@ inline std::vector<NodeLight> light_of_nodes(const Hierarchy& hierarchy, const s
   return light;
 }
 
-// The errors of all links, and the norm of the reflected radiosity, squared.
+// All squared.
 struct ErrorEstimation {
   std::vector<LinkError> links;
-  double sum = 0.0;
-  double norm = 0.0;
+  double of_links = 0.0, of_leaves = 0.0;
+  double unseen = 0.0;  // part of the links: those through which no segment came
+  double norm = 0.0;  // of the reflected radiosity
 
-  [[nodiscard]] double relative() const { return norm > 0.0 ? std::sqrt(sum / norm) : 0.0; }
+  [[nodiscard]] double sum(double part) const { return of_links + part * part * of_leaves; }
+  [[nodiscard]] double relative(double part) const { return norm > 0.0 ? std::sqrt(sum(part) / norm) : 0.0; }
 };
 
-inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposure& exposure, const Links& links,
-                                       const std::vector<LinkShape>& shapes, const std::vector<Color>& reflectance,
-                                       const std::vector<Color>& emission, const std::vector<Color>& radiosity) {
+// The errors of links alone, and the norm. `alike_across` inner nodes: how much more squared errors are than those of independent links,
+// given where these are not all the links; `alike_at_leaves`: LeafErrors::alike().
+inline ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves, const Hierarchy& hierarchy,
+                                            const Exposure& exposure, const Links& links, const std::vector<LinkShape>& shapes,
+                                            const std::vector<Color>& reflectance, const std::vector<Color>& emission,
+                                            const std::vector<Color>& radiosity) {
   ErrorEstimation result;
   const std::vector<double>& area = exposure.area;
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
@@ -94,12 +111,9 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
     of_clusters[node.cluster] = area[i] > 0.0 ? sum / area[i] : sum;
   }
   const auto square = [](double x) { return x * x; };
-  const auto unmended = [&](const LinkShape::End& shape, bool leaf) {  // of the light received
-    return (leaf ? square(leaf_linear * shape.linear) : 0.0) + square(shape.rest) + square(shape.shadow);
-  };
   const auto received = [&](double g2, std::uint32_t i) {  // squared, from a radiosity of 1
     const Color r = rho(hierarchy[i]);
-    return g2 / area[i] * r * r;
+    return area[i] > 0.0 ? g2 / area[i] * r * r : Color{0.0};
   };
   const auto varies = [&](const LinkShape::End& shape) { return square(shape.rest) + square(shape.shadow); };
   // What node i receives from clusters by the wrong mixture of their faces: links of one node err alike.
@@ -107,11 +121,29 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
   const auto mixture = [&](const Color& to, std::uint32_t from, const LinkShape::End& shape) {
     return std::sqrt(glm::dot(to, light[from].variance) * varies(shape));
   };
+  const auto bright = [&](std::uint32_t from) {  // mean of B^2 where it counts
+    return light[from].mean * light[from].mean + (hierarchy[from].is_cluster() ? light[from].variance : Color{0.0});
+  };
+  std::vector<double> across(light.size(), 0.0);  // rests of the links of each node
+  const auto over_node = [&](const Color& to, std::uint32_t from, const LinkShape::End& shape) {
+    return static_cast<double>(shape.rest) * std::sqrt(glm::dot(to, bright(from)));
+  };
+  const double cancel = std::min(1.0, alike_at_leaves);
+  // What a link from `from` adds to the squared error over node i.
+  const auto over = [&](const Color& to, std::uint32_t from, std::uint32_t i, const LinkShape::End& shape) {
+    const double own = over_node(to, from, shape);
+    const bool apart = hierarchy[i].leaf() || hierarchy[i].is_cluster();
+    const double all = apart ? own * own : alike_across ? *alike_across * own * own : own * across[i];
+    return cancel * all + square(shape.shadow) * glm::dot(to, bright(from));
+  };
   for (std::size_t i = 0; i < links.size(); ++i) {
     const auto& [p, q] = std::pair{links[i].p, links[i].q};
     const double g2 = square(links[i].exchange);
     if (hierarchy[q].is_cluster()) { alike[p] += mixture(received(g2, p), q, shapes[i].q); }
     if (hierarchy[p].is_cluster()) { alike[q] += mixture(received(g2, q), p, shapes[i].p); }
+    if (alike_across) { continue; }
+    across[p] += over_node(received(g2, p), q, shapes[i].p);
+    across[q] += over_node(received(g2, q), p, shapes[i].q);
   }
   result.links.resize(links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
@@ -124,47 +156,122 @@ inline ErrorEstimation estimate_errors(const Hierarchy& hierarchy, const Exposur
     const Color to_q = received(g2, link.q);
     const NodeLight& from_p = light[link.p];
     const NodeLight& from_q = light[link.q];
-    const Color bright_p = from_p.mean * from_p.mean + (p.is_cluster() ? from_p.variance : Color{0.0});
-    const Color bright_q = from_q.mean * from_q.mean + (q.is_cluster() ? from_q.variance : Color{0.0});
-    double mend_p = glm::dot(to_p, bright_q) * unmended(shape.p, p.leaf());
-    double mend_q = glm::dot(to_q, bright_p) * unmended(shape.q, q.leaf());
-    mend_p += p.is_cluster() ? mixture(to_q, link.p, shape.p) * alike[link.q] : glm::dot(to_q, from_p.variance) * varies(shape.p);
-    mend_q += q.is_cluster() ? mixture(to_p, link.q, shape.q) * alike[link.p] : glm::dot(to_p, from_q.variance) * varies(shape.q);
+    const double cross = std::min(1.0, square(shape.cross));  // a link that lit each place from one other alone would pass on s_q itself
+    double mend_p = over(to_p, link.q, link.p, shape.p);
+    double mend_q = over(to_q, link.p, link.q, shape.q);
+    mend_p += p.is_cluster() ? mixture(to_q, link.p, shape.p) * alike[link.q] : glm::dot(to_q, from_p.variance) * (varies(shape.p) + cross);
+    mend_q += q.is_cluster() ? mixture(to_p, link.q, shape.q) * alike[link.p] : glm::dot(to_p, from_q.variance) * (varies(shape.q) + cross);
     if (shape.sampling > 0.0f) {
       const double noise = square(shape.sampling);
       const bool split_p = p.is_cluster() == q.is_cluster() ? p.radius >= q.radius : p.is_cluster();
-      (q.is_cluster() || !split_p ? mend_q : mend_p) += glm::dot(received(noise, link.p), bright_q);
-      (p.is_cluster() || split_p ? mend_p : mend_q) += glm::dot(received(noise, link.q), bright_p);
+      (q.is_cluster() || !split_p ? mend_q : mend_p) += glm::dot(received(noise, link.p), bright(link.q));
+      (p.is_cluster() || split_p ? mend_p : mend_q) += glm::dot(received(noise, link.q), bright(link.p));
     }
     result.links[i] = {static_cast<float>(mend_p), static_cast<float>(mend_q)};
-    result.sum += mend_p + mend_q;
+    result.of_links += mend_p + mend_q;
+    if (!(link.exchange > 0.0f)) { result.unseen += mend_p + mend_q; }
   }
   return result;
 }
 
-// The relative error for links that were not made by BF-refinement: from at most 1024 links of lights and 3072 others, spread evenly; their
-// shapes are found now.
-inline double sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Exposure& exposure, const Links& links,
-                               const std::vector<Color>& reflectance, const std::vector<Color>& emission,
-                               const std::vector<Color>& radiosity, unsigned threads) {
+// For links that were not made by BF-refinement: from at most 1024 links of lights and 3072 others, spread evenly; their shapes are
+// found now.
+inline ErrorEstimation sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Patches& patches,
+                                        const Exposure& exposure, const Links& links, const std::vector<Color>& reflectance,
+                                        const std::vector<Color>& emission, const std::vector<Color>& radiosity, const DoubtSum& doubt,
+                                        unsigned threads) {
+  const std::vector<double>& area = exposure.area;
   const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(emission[hierarchy[i].surface]); };
-  std::vector<std::uint32_t> of_lights, others;
-  for (std::uint32_t i = 0; i < links.size(); ++i) { (emits(links[i].p) || emits(links[i].q) ? of_lights : others).push_back(i); }
-  const auto squared = [&](const std::vector<std::uint32_t>& from, std::size_t most) {
-    const std::size_t count = std::min(from.size(), most);
-    Links sample(count);
-    std::vector<LinkShape> shapes(count);
-    parallel_for(count, threads, [&](std::size_t i) {
-      sample[i] = links[from[i * from.size() / count]];
-      const float closed = sample[i].exchange;
-      (void)evaluator(sample[i], {}, &shapes[i]);
-      sample[i].exchange = closed;
-    });
-    const ErrorEstimation errors = estimate_errors(hierarchy, exposure, sample, shapes, reflectance, emission, radiosity);
-    const double relative = errors.relative();
-    return count > 0 ? relative * relative * static_cast<double>(from.size()) / static_cast<double>(count) : 0.0;
+  struct Sample {
+    std::vector<std::uint32_t> from;
+    Links links;
+    std::vector<LinkShape> shapes;
+    double each = 0.0;  // links that one stands for
   };
-  return std::sqrt(squared(of_lights, 1024) + squared(others, 3072));
+  Sample of_lights, others;
+  for (std::uint32_t i = 0; i < links.size(); ++i) { (emits(links[i].p) || emits(links[i].q) ? of_lights : others).from.push_back(i); }
+  // The part of a linear variation over a node that is left over its leaves: the sum of the squares of their areas over that of its own.
+  std::vector<double> over_leaves(hierarchy.size(), 0.0);
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {
+    const Node& node = hierarchy[i];
+    if (node.leaf()) { over_leaves[i] = area[i] * area[i]; }
+    for (std::uint32_t k = node.first_child; k < node.first_child + node.child_count; ++k) { over_leaves[i] += over_leaves[k]; }
+  }
+  LeafErrors leaves;
+  Links scaled;  // as if they were all
+  const auto draw = [&](Sample& sample, std::size_t most) {
+    const std::size_t count = std::min(sample.from.size(), most);
+    sample.links.resize(count);
+    sample.shapes.resize(count);
+    parallel_for(count, threads, [&](std::size_t i) {
+      Link& link = sample.links[i] = links[sample.from[i * sample.from.size() / count]];
+      const float closed = link.exchange;
+      (void)evaluator(link, {}, &sample.shapes[i]);
+      link.exchange = closed;
+    });
+    sample.each = count > 0 ? static_cast<double>(sample.from.size()) / static_cast<double>(count) : 0.0;
+    const auto arrives = [&](std::uint32_t i, std::uint32_t sender, double exchange, float linear) {
+      if (hierarchy[i].is_cluster() || !(area[i] > 0.0)) { return; }
+      const Color light = exchange / area[i] * double{linear} * reflectance[hierarchy[i].surface] * radiosity[sender];
+      const double square = sample.each * over_leaves[i] / area[i] * glm::dot(light, light);
+      leaves.apart += square;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      const Link& link = sample.links[i];
+      scaled.push_back(link);
+      scaled.back().exchange *= static_cast<float>(sample.each);
+      arrives(link.p, link.q, static_cast<double>(link.exchange), sample.shapes[i].p.linear);
+      arrives(link.q, link.p, static_cast<double>(link.exchange), sample.shapes[i].q.linear);
+    }
+  };
+  draw(of_lights, 1024);
+  draw(others, 3072);
+  // A leaf that is a whole input face has no siblings; and where the sample is all the links, their slopes tell more.
+  const LeafErrors by_slopes = estimate_leaf_errors(hierarchy, patches, exposure, scaled, reflectance, radiosity);
+  if (scaled.size() == links.size()) {
+    leaves = by_slopes;
+  } else {
+    leaves.sum = variation_by_siblings(hierarchy, area, radiosity);
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) { leaves.sum += is_input_face(hierarchy, i) ? by_slopes.squares[i] : 0.0f; }
+  }
+  ErrorEstimation result;
+  result.of_leaves = leaves.sum;
+  for (const Sample* sample : {&of_lights, &others}) {
+    const ErrorEstimation errors = estimate_link_errors(std::sqrt(doubt.alike(area)), leaves.alike(), hierarchy, exposure, sample->links,
+                                                        sample->shapes, reflectance, emission, radiosity);
+    result.of_links += sample->each * errors.of_links;
+    result.norm = errors.norm;
+  }
+  return result;
+}
+
+// Why the estimate is no bound, or nothing. It does not know what a segment never found, nor how errors grow when light that is wrong is
+// reflected again and again; a closed scene keeps its row sums, and what errs there has no mean. `unseen`: share of its square that is
+// due to links through which no segment came.
+inline std::string estimate_doubt(const Hierarchy& hierarchy, const Exposure& exposure, Transport& transport,
+                                  const std::vector<Color>& reflectance, const std::vector<Color>& emission,
+                                  const std::vector<Color>& radiosity, double unseen, bool closed) {
+  constexpr double most_unseen = 0.5;
+  constexpr double most_growth = 5.0;
+  if (unseen > most_unseen) { return "most of it is light that may pass where no segment did"; }
+  if (closed) { return {}; }
+  double once = 0.0;
+  double all = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    std::vector<double> sent(hierarchy.size(), 0.0);
+    std::vector<double> arrived;
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+      if (hierarchy[i].leaf()) { sent[i] = emission[hierarchy[i].surface][c]; }
+    }
+    transport.apply(sent, arrived);
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+      if (!hierarchy[i].leaf()) { continue; }
+      once += reflectance[hierarchy[i].surface][c] * arrived[i];
+      all += exposure.area[i] * (radiosity[i][c] - sent[i]);
+    }
+  }
+  if (!(all > most_growth * once)) { return {}; }
+  return "light is reflected many times, and errors grow with it";
 }
 
 }  // namespace detail

@@ -17,6 +17,7 @@
 
 #include <radiosity/hierarchy.hpp>
 #include <radiosity/parallel.hpp>
+#include <radiosity/bend.hpp>
 #include <radiosity/patch.hpp>
 #include <radiosity/plan.hpp>
 #include <radiosity/surface.hpp>
@@ -40,7 +41,11 @@ class Patches {
       if (node.in_parts()) {
         for (std::uint32_t k = 0; k < node.child_count; ++k) { parts.push_back(contour(*surfaces_, *hierarchy_, node.first_child + k)); }
       }
-      patches_[index] = make_patch(contour(*surfaces_, *hierarchy_, index), std::move(parts));
+      Patch& patch = patches_[index] = make_patch(contour(*surfaces_, *hierarchy_, index), std::move(parts));
+      const Surface& surface = (*surfaces_)[node.object];
+      if (!(node.deviation > 0.0) || surface.topology == Topology::separate) { return; }
+      patch.bent = true;
+      patch.bend = bend_of(*surface.object, node.surface - surface.first_surface, patch);
     });
   }
   [[nodiscard]] const Patch& operator[](std::size_t i) const { return patches_[i]; }

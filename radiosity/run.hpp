@@ -123,6 +123,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, shown, options.seed};
   RefineResult refined;
   EvaluateResult evaluated;
+  double unseen = 0.0;  // part of the estimate
   // Without light, or without reflection, B = E on the input faces.
   const bool needs_links = (plan.lit && plan.reflects) || !plan.shortcuts;
   budget.a_posteriori = options.refinement == Refinement::a_posteriori;
@@ -136,10 +137,13 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   };
   if (needs_links && options.refinement == Refinement::a_posteriori) {
     BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, shown, evaluator,
-                            options.target, Deadline{options.time}, link_limit, threads, options.seed, control, budget);
+                            options.target, detail::leaf_part(options.reconstruction), Deadline{options.time}, link_limit, threads,
+                            options.seed, control, budget);
     refined = std::move(bf.refined);
     evaluated = bf.evaluated;
     audit.estimated_error = bf.estimate;
+    audit.estimated_leaf_error = bf.leaf_estimate;
+    unseen = bf.unseen;
     audit.target = options.time ? 0.0 : options.target;
     audit.generations = bf.generations;
     audit.interrupted = bf.interrupted;
@@ -198,8 +202,15 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.histories = std::move(solved.histories);
   solution.radiosity = std::move(solved.radiosity);
   if (needs_links && options.refinement == Refinement::a_priori && options.audit_points > 0) {
-    audit.estimated_error =
-        detail::sampled_estimate(evaluator, hierarchy, exposure, solution.links, reflectance, emission, solution.radiosity, threads);
+    const detail::ErrorEstimation errors =
+        detail::sampled_estimate(evaluator, hierarchy, patches, exposure, solution.links, reflectance, emission, solution.radiosity,
+                                 evaluated.doubt, threads);
+    audit.estimated_error = errors.relative(detail::leaf_part(options.reconstruction));
+    audit.estimated_leaf_error = errors.relative(1.0);
+  }
+  if (audit.estimated_error) {
+    audit.estimate_doubt = detail::estimate_doubt(hierarchy, exposure, transport, reflectance, emission, solution.radiosity, unseen,
+                                                  audit.closure.has_value());
   }
   balance_energy(audit, scene, inputs, hierarchy, transport, exposure.area, solution.radiosity);
   summarise_surfaces(audit, inputs, frame, hierarchy, exposure.area, solution.radiosity);
@@ -269,6 +280,12 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     measure_errors(options, control, SurfaceErrorMeter{scene, objects, tracer, exposure, solution.mesh, direct ? &*direct : nullptr, options.seed},
                    threads, solution);
     watch.lap("audit");
+  }
+  if (needs_links && options.refinement == Refinement::a_posteriori && !options.time && !options.error) {
+    const std::optional<ErrorEstimate>& error = reconstructed ? audit.surface_error : audit.leaf_error;
+    const bool contradicted = error && error->above(options.target);
+    audit.target_missed = !(*audit.estimated_error <= options.target) || contradicted;
+    audit.converged = audit.converged && !audit.target_missed;
   }
   if (options.audit_points > 0 && needs_links && plan.traceable && !audit.leaf_error && control.cancelled()) {
     audit.interrupted = true;
