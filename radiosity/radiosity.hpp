@@ -24,6 +24,7 @@
 #include <radiosity/evaluate.hpp>
 #include <radiosity/exposure.hpp>
 #include <radiosity/frame.hpp>
+#include <radiosity/long_faces.hpp>
 #include <radiosity/mesh.hpp>
 #include <radiosity/options.hpp>
 #include <radiosity/polygons.hpp>

@@ -56,6 +56,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   Hierarchy& hierarchy = solution.hierarchy;
   audit.warnings = warnings(scene, frame, objects, boundary);
   cut_at_walls(boundary, objects.diameter());
+  cut_long_faces(boundary, options.min_area);
   hierarchy = make_roots(boundary);
   const ClusterChoice clusters = choose_clusters(hierarchy.size(), options);
   if (clusters.build) { hierarchy = make_clusters(boundary, hierarchy); }
