@@ -9,12 +9,11 @@
 //
 // The smallest part is half as large as that limit, so their number is bounded by the fineness of the run, however long a face is. Faces
 // that share an edge are halved at the same places. Of curved objects only faces along straight lines are cut (the sides of cylinders and cones):
-// no vertex is put beside the surface. Invariant: the boundary stays valid, each part lies on the sheet of its face.
+// no vertex is put beside the surface. Flat faces that are in parts already, by diagonals or walls, are left alone. Invariant: the boundary stays valid, each part lies on the sheet of its face.
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <limits>
+#include <cstdint>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -30,6 +29,8 @@ namespace radiosity {
 
 // Faces up to the first proportion are left as they are; the parts of longer ones have the second.
 inline constexpr double longest_face = 8.0, longest_part = 4.0;
+// Faces with a smaller share of the area of all are left as they are: refinement makes few patches of them.
+inline constexpr double least_long_share = 0.01;
 
 namespace detail {
 
@@ -74,6 +75,10 @@ inline void cut_long_faces(std::vector<Surface>& surfaces, double min_area) {
   }
   const double smallest = 4.0 * min_area * area;
   for (Surface& surface : surfaces) {
+    std::vector<std::uint32_t> faces_of_sheet(surface.object->sheet_count(), 0);
+    for (const brep::FaceId f : brep::faces(surface.brep)) {
+      if (surface.brep.data(f).sheet != brep::no_sheet) { ++faces_of_sheet[surface.brep.data(f).sheet]; }
+    }
     const auto is_long = [&](const SurfaceBRep& brep, brep::FaceId f, double proportion) {
       const detail::FaceLength face{corner_polygon(brep, f)};
       return face.length > proportion * face.width && face.area > smallest;
@@ -90,9 +95,11 @@ inline void cut_long_faces(std::vector<Surface>& surfaces, double min_area) {
       };
       return on_surface(cut.a, cut.on_a) && on_surface(cut.b, cut.on_b) ? cut : brep::Cut{};
     };
+    const auto in_parts = [&](brep::FaceId f) { return surface.object->flat() && faces_of_sheet[surface.brep.data(f).sheet] > 1; };
     std::vector<brep::FaceId> faces;
     for (const brep::FaceId f : brep::faces(surface.brep)) {
-      if (surface.brep.data(f).sheet != brep::no_sheet && is_long(surface.brep, f, longest_face)) { faces.push_back(f); }
+      if (surface.brep.data(f).sheet == brep::no_sheet || in_parts(f) || !is_long(surface.brep, f, longest_face)) { continue; }
+      if (glm::length(brep::vector_area(surface.brep, f)) >= least_long_share * area) { faces.push_back(f); }
     }
     // A refusal leaves the face as it was: whole, it costs more links, and is no less valid.
     for (const brep::FaceId f : faces) { (void)brep::split_recursively(surface.brep, f, across, finished, 1u << 17); }

@@ -37,7 +37,7 @@ struct RefineResult {
   OccluderLists occluders;
   std::uint64_t pairs_tested = 0;   // questions to the oracle
   std::uint64_t pairs_dropped = 0;  // proven to face away from each other
-  std::uint64_t pairs_hidden = 0;   // proven to be hidden from each other by one object
+  std::uint64_t pairs_hidden = 0;   // proven to be hidden from each other by one object, or one is buried
   std::uint64_t pairs_dark = 0;     // of input faces: neither emits, and light that reflects reaches neither
   std::uint64_t pairs_convex = 0;   // never asked: faces of one flat sheet or one convex solid cannot see each other
   RayCount rays;                    // segments cast to find shadow boundaries
@@ -64,7 +64,7 @@ inline void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& h
                         std::vector<Pair>& pairs, RefineResult& result) {
   const auto count = static_cast<std::uint32_t>(hierarchy.size());
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (!is_input_face(hierarchy, i)) { continue; }
+    if (!is_input_face(hierarchy, i) || oracle.buried(i)) { continue; }
     const raycast::PlacedObject& object = *surfaces[hierarchy[i].object].object;
     if ((object.inside() || !object.convex()) && !object.flat()) { result.inner.push_back(i); }
   }
@@ -153,7 +153,8 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
 
 }  // namespace detail
 
-// Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots. `light_epsilon`: of the light
+// Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots that are not
+// buried. `light_epsilon`: of the light
 // oracle, which is not asked when it is 0.
 [[nodiscard]] inline RefineResult refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
                                          std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches, double epsilon,
@@ -161,7 +162,7 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
                                          const Control& control = {}) {
   RefineResult result;
   const PairOracle oracle{surfaces, hierarchy};
-  const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), light_epsilon, seed};
+  const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), light_epsilon, seed, oracle.buried()};
   min_area *= light.scene_area();
   const double finer = std::min(1.0, light_epsilon / (0.25 * epsilon));
   const double light_min_area = 0.25 * min_area * finer * finer;
