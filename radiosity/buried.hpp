@@ -7,7 +7,7 @@
 //
 // Proven, in the sense of raycast::Scene::covered: a face is buried when a later object is the same surface at the same place, or when a
 // convex solid holds its corners, and all that finer patches can bulge, deeper than any skin. Faces for which neither is found are treated
-// as visible.
+// as visible: of curved solids those with gaps to the next that are narrower than the bulge of its chord patches.
 
 #include <algorithm>
 #include <array>

@@ -54,8 +54,7 @@ inline std::size_t open_edges(const Surface& surface) {
 }  // namespace detail
 
 // `surfaces` before refinement: afterwards they have more edges.
-[[nodiscard]] inline std::vector<std::string> warnings(const Scene& scene, const Frame& frame, const raycast::Scene& objects,
-                                                       const std::vector<Surface>& surfaces) {
+[[nodiscard]] inline std::vector<std::string> warnings(const Scene& scene, const Frame& frame, const std::vector<Surface>& surfaces) {
   std::vector<std::string> sentences;
   const auto name = [&](std::uint32_t o) { return "'" + scene.objects[o].name + "'"; };
   const auto add = [&](std::size_t& count, std::string sentence) {
