@@ -22,7 +22,7 @@ struct Work {
 };
 
 // Refinement alone.
-Work refined(const radiosity::Scene& scene, double epsilon, double min_area) {
+Work work_of(const radiosity::Scene& scene, double epsilon, double min_area) {
   radiosity::PrepareResult made = radiosity::prepare(scene);
   for (const std::string& fault : made.faults) { UNSCOPED_INFO(fault); }
   REQUIRE(made.prepared);
@@ -60,7 +60,7 @@ TEST_CASE("long rooms: the number of links does not grow with the proportion") {
     radiosity::Scene scene = lit({scenes::object("room", scenes::box({0, 0, 0}, size), 0, true)});
     scene.objects.back() = scenes::square("lamp", {0.5, 0.5, 0.99}, 0.2, false, 1);
     INFO("length " << length << " along " << axis);
-    const Work work = refined(scene, 0.02, 1e-3);
+    const Work work = work_of(scene, 0.02, 1e-3);
     // Leaves are no smaller than an eighth of min_area (a quarter for the light oracle, halved by a cut), so there are at most 8000, and a
     // leaf of proportion 4 or less has at most 16 / epsilon others near by on each of four sides that it does not sink below epsilon.
     CHECK(work.roots <= 2000);
@@ -87,8 +87,8 @@ TEST_CASE("of objects at one place or inside each other only those that show are
   };
   for (const int kind : {0, 1, 2}) {  // identical boxes, nested boxes, nested spheres
     INFO("kind " << kind);
-    const Work few = refined(scene_of(kind, 20), 0.05, 1e-2);
-    const Work many = refined(scene_of(kind, 160), 0.05, 1e-2);
+    const Work few = work_of(scene_of(kind, 20), 0.05, 1e-2);
+    const Work many = work_of(scene_of(kind, 160), 0.05, 1e-2);
     // Without what is buried the pairs are those of the outermost, some chord patches below it, and a look at each cluster: eight times the
     // objects make less than twelve times the pairs. All pairs of faces would be 64 times as many.
     CHECK(many.pairs <= 12 * few.pairs + 8 * 160 * 6);
@@ -138,7 +138,7 @@ TEST_CASE("superquadrics of any exponents that are accepted are refined into a b
     INFO("exponents " << profile << " " << around);
     const auto made = raycast::Superquadric::make({0, 0, 0}, {1, 1, 1}, profile, around);
     REQUIRE(made);
-    const Work work = refined(lit({scenes::object("q", made.object)}), 0.1, 1e-3);
+    const Work work = work_of(lit({scenes::object("q", made.object)}), 0.1, 1e-3);
     // A patch of area min_area or more has at most four children and at most four generations that do not shrink: 4 / min_area leaves of
     // honest splits (areas of curved surfaces may double), and 4^4 times as many at the few that fold.
     CHECK(work.nodes <= 40000);
