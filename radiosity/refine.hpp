@@ -238,6 +238,10 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const auto [p, q, list] = pairs[i];
       if (decisions[i] < first_seeing) { continue; }
+      if (result.links.size() + next.size() > link_limit) {  // before the memory for them is asked for
+        result.too_many = result.links.size() + next.size();
+        return result;
+      }
       bool split_p = decisions[i] == Decision::split_p && !stuck[p];
       bool split_q = decisions[i] == Decision::split_q && !stuck[q];
       if (decisions[i] != Decision::link && !split_p && !split_q) {  // stuck: up to the other, if that is a cluster
