@@ -36,9 +36,10 @@ namespace radiosity {
 
 class LightOracle {
  public:
-  // The references must outlive the oracle; the hierarchy holds clusters and input faces when it is made, and may grow.
+  // The references must outlive the oracle; the hierarchy holds clusters and input faces when it is made, and may grow. `buried`, by node:
+  // input faces that are not part of the scene's area (buried.hpp); none when it is empty.
   LightOracle(const Scene& scene, const raycast::Scene& objects, const Plan& plan, const Patches& patches, const Hierarchy& hierarchy,
-              const ShownAreas& shown, double epsilon, std::uint64_t seed)
+              const ShownAreas& shown, double epsilon, std::uint64_t seed, const std::vector<bool>& buried = {})
       : objects_{&objects},
         plan_{&plan},
         patches_{&patches},
@@ -53,7 +54,7 @@ class LightOracle {
     }
     double power = 0.0;
     for (std::size_t i = 0; i < hierarchy.size(); ++i) {
-      if (!is_input_face(hierarchy, i)) { continue; }
+      if (!is_input_face(hierarchy, i) || (i < buried.size() && buried[i])) { continue; }
       const Node& root = hierarchy[i];
       power += root.area * emission_[root.surface];
       scene_area_ += root.area;
@@ -74,7 +75,7 @@ class LightOracle {
     }
   }
 
-  // Total area of the input faces.
+  // Total area of the input faces that are not buried.
   [[nodiscard]] double scene_area() const { return scene_area_; }
 
   // The end of the pair that should be split because of the light of the other, or no_node. Adds its segments to `rays`.

@@ -2,11 +2,12 @@
 #pragma once
 
 // What F-refinement asks about every pair of nodes: the F-oracle of two patches, the oracle of clusters, and before either whether the
-// two lie in one plane or on one convex solid, so that no part of one sees any of the other.
+// two lie in one plane or on one convex solid, so that no part of one sees any of the other, and whether one of them is buried.
 
 #include <cstdint>
 #include <vector>
 
+#include <radiosity/buried.hpp>
 #include <radiosity/cluster_oracle.hpp>
 #include <radiosity/clusters.hpp>
 #include <radiosity/hierarchy.hpp>
@@ -20,7 +21,7 @@ class PairOracle {
  public:
   // The references must outlive the oracle; the hierarchy holds clusters and input faces when it is made, and may grow.
   PairOracle(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy)
-      : surfaces_{&surfaces}, hierarchy_{&hierarchy}, shown_{hierarchy, [&](std::size_t i) { return hierarchy[i].area; }} {}
+      : surfaces_{&surfaces}, hierarchy_{&hierarchy}, shown_{hierarchy, [&](std::size_t i) { return hierarchy[i].area; }}, buried_{buried_nodes(surfaces, hierarchy)} {}
 
   [[nodiscard]] const ShownAreas& shown() const { return shown_; }
 
@@ -31,11 +32,15 @@ class PairOracle {
     const bool sees_itself = object.inside() || !object.convex();
     return !sees_itself || (object.flat() && a.surface == b.surface && a.surface != no_node);
   }
+  // Of a node that was there when the oracle was made: is nothing of it to be seen?
+  [[nodiscard]] bool buried(std::uint32_t i) const { return i < buried_.size() && buried_[i]; }
+  [[nodiscard]] const std::vector<bool>& buried() const { return buried_; }
   // Two nodes, or a cluster and itself, which is split.
   [[nodiscard]] Decision operator()(std::uint32_t p, std::uint32_t q, double epsilon, double min_area) const {
     const Node& a = (*hierarchy_)[p];
     const Node& b = (*hierarchy_)[q];
     if (convex(a, b)) { return Decision::convex; }
+    if (buried(p) || buried(q)) { return Decision::hide; }
     if (p == q) { return Decision::split_p; }
     if (a.is_cluster() || b.is_cluster()) { return cluster_oracle(*hierarchy_, p, q, shown_, epsilon, min_area); }
     return f_oracle(a, b, epsilon, min_area);
@@ -45,6 +50,7 @@ class PairOracle {
   const std::vector<Surface>* surfaces_;
   const Hierarchy* hierarchy_;
   ShownAreas shown_;
+  std::vector<bool> buried_;
 };
 
 }  // namespace radiosity

@@ -28,6 +28,7 @@
 #include <radiosity/exposure.hpp>
 #include <radiosity/frame.hpp>
 #include <radiosity/light_unit.hpp>
+#include <radiosity/long_faces.hpp>
 #include <radiosity/memory.hpp>
 #include <radiosity/mesh.hpp>
 #include <radiosity/options.hpp>

@@ -38,7 +38,7 @@ struct RefineResult {
   OccluderLists occluders;
   std::uint64_t pairs_tested = 0;   // questions to the oracle
   std::uint64_t pairs_dropped = 0;  // proven to face away from each other
-  std::uint64_t pairs_hidden = 0;   // proven to be hidden from each other by one object
+  std::uint64_t pairs_hidden = 0;   // proven to be hidden from each other by one object, or one is buried
   std::uint64_t pairs_dark = 0;     // of input faces: neither emits, and light that reflects reaches neither
   std::uint64_t pairs_convex = 0;   // never asked: faces of one flat sheet or one convex solid cannot see each other
   RayCount rays;                    // segments cast to find shadow boundaries
@@ -66,7 +66,7 @@ inline void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& h
                         std::vector<Pair>& pairs, RefineResult& result) {
   const auto count = static_cast<std::uint32_t>(hierarchy.size());
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (!is_input_face(hierarchy, i)) { continue; }
+    if (!is_input_face(hierarchy, i) || oracle.buried(i)) { continue; }
     const raycast::PlacedObject& object = *surfaces[hierarchy[i].object].object;
     if ((object.inside() || !object.convex()) && !object.flat()) { result.inner.push_back(i); }
   }
@@ -155,7 +155,8 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
 
 }  // namespace detail
 
-// Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots. `light_epsilon`: of the light
+// Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots that are not
+// buried. `light_epsilon`: of the light
 // oracle, which is not asked when it is 0.
 [[nodiscard]] inline RefineResult refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan,
                                          std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches, double epsilon,
@@ -163,7 +164,7 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
                                          const Control& control = {}, const MemoryBudget& budget = {}) {
   RefineResult result;
   const PairOracle oracle{surfaces, hierarchy};
-  const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), light_epsilon, seed};
+  const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), light_epsilon, seed, oracle.buried()};
   min_area *= light.scene_area();
   const double finer = std::min(1.0, light_epsilon / (0.25 * epsilon));
   const double light_min_area = 0.25 * min_area * finer * finer;
@@ -258,6 +259,10 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const auto [p, q, list] = pairs[i];
       if (decisions[i] < first_seeing) { continue; }
+      if (result.links.size() + next.size() > link_limit) {  // before the memory for them is asked for
+        result.too_many = result.links.size() + next.size();
+        return result;
+      }
       bool split_p = decisions[i] == Decision::split_p && !stuck[p];
       bool split_q = decisions[i] == Decision::split_q && !stuck[q];
       if (decisions[i] != Decision::link && !split_p && !split_q) {  // stuck: up to the other, if that is a cluster

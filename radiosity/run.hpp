@@ -95,8 +95,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   solution.frame = frame;
   audit.channels = plan.channels;
   Hierarchy& hierarchy = solution.hierarchy;
-  audit.warnings = warnings(scene, frame, objects, boundary);
+  audit.warnings = warnings(scene, frame, boundary);
   cut_at_walls(boundary, objects.diameter());
+  cut_long_faces(boundary, options.min_area);
   hierarchy = make_roots(boundary);
   const ClusterChoice clusters = choose_clusters(hierarchy.size(), options);
   if (clusters.build) { hierarchy = make_clusters(boundary, hierarchy); }

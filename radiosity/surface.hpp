@@ -220,11 +220,25 @@ inline Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, st
   return hierarchy;
 }
 
+// Does splitting make the patches of a curved object smaller? Flat patches fall to a quarter each time. Where a surface folds within the
+// rounding of its coordinates (the tip of a needle) new vertices come to lie on old ones, and one child is as large as its parent for ever:
+// it is given up when four splits together did not make it as small as one should.
+[[nodiscard]] inline bool shrinks(const Hierarchy& hierarchy, std::uint32_t index) {
+  std::uint32_t ancestor = index;
+  for (int k = 0; k < 4; ++k) {
+    if (is_input_face(hierarchy, ancestor)) { return true; }
+    ancestor = hierarchy[ancestor].parent;
+  }
+  return hierarchy[index].area < 0.25 * hierarchy[ancestor].area;
+}
+
 // Splits a leaf: its face is refined by Euler operators and the new faces become its children. A face of many corners is first cut into a
-// ring and what it surrounds: its children are parts of it. False when the BRep refuses (the level tag is full); then nothing has changed.
+// ring and what it surrounds: its children are parts of it. False when the BRep refuses (the level tag is full), or when it does
+// not get smaller; then nothing has changed.
 [[nodiscard]] inline bool subdivide(std::vector<Surface>& surfaces, Hierarchy& hierarchy, std::uint32_t index) {
   const std::uint32_t object = hierarchy[index].object;
   Surface& surface = surfaces[object];
+  if (!surface.object->flat() && !shrinks(hierarchy, index)) { return false; }
   const auto place = [&](SurfaceBRep& brep, brep::VertexId v) {
     if (surface.topology == Topology::shared) { place_on_object(*surface.object, brep, v); }
   };

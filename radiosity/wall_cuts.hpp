@@ -22,7 +22,9 @@
 #include <brep/circulators.hpp>
 #include <brep/split.hpp>
 #include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
 
+#include <radiosity/buried.hpp>
 #include <radiosity/form_factor.hpp>
 #include <radiosity/surface.hpp>
 
@@ -138,23 +140,38 @@ inline void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vector<WallLine
 }  // namespace detail
 
 // Cuts the faces of flat objects, before any refinement. Objects of which more than ten million pairs of faces would have to be looked at
-// are left alone. Time: pairs of objects whose bounds overlap along x, pairs of faces of those that meet.
+// are left alone, and so are those that are covered by a duplicate. Time: pairs of objects whose bounds meet, of which no more than thirty
+// million are looked at, and pairs of their faces.
 inline void cut_at_walls(std::vector<Surface>& surfaces, double diameter) {
   const double tolerance = 1e-9 * diameter;
   std::vector<std::uint32_t> order;
   std::vector<std::vector<std::uint32_t>> partners(surfaces.size());
+  std::vector<bool> covered(surfaces.size(), false);
+  for (const auto& pair : detail::twins(surfaces)) { covered[pair[0]] = true; }
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
-    if (surfaces[o].object->flat()) { order.push_back(o); }
+    if (surfaces[o].object->flat() && !covered[o]) { order.push_back(o); }
   }
-  const auto box = [&](std::uint32_t o) -> const raycast::Box& { return surfaces[o].object->bounds(); };
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return box(a).lo.x != box(b).lo.x ? box(a).lo.x < box(b).lo.x : a < b; });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    for (std::size_t k = i + 1; k < order.size() && box(order[k]).lo.x <= box(order[i]).hi.x + tolerance; ++k) {
-      if (!detail::boxes_meet(box(order[i]), box(order[k]), tolerance)) { continue; }
-      partners[order[i]].push_back(order[k]);
-      partners[order[k]].push_back(order[i]);
+  std::vector<raycast::Box> boxes;
+  for (const std::uint32_t o : order) { boxes.push_back(surfaces[o].object->bounds()); }
+  if (boxes.empty()) { return; }
+  const raycast::Bvh tree{boxes};
+  std::size_t pairs = 0;
+  std::vector<std::uint32_t> stack;
+  for (std::size_t i = 0; i < order.size() && pairs < 30'000'000; ++i) {
+    stack.assign(1, 0);
+    while (!stack.empty()) {
+      const raycast::Bvh::Node& node = tree.nodes()[stack.back()];
+      stack.pop_back();
+      if (!detail::boxes_meet(boxes[i], node.box, tolerance)) { continue; }
+      if (node.count == 0) {
+        stack.insert(stack.end(), {node.first, node.first + 1});
+        continue;
+      }
+      for (const std::uint32_t k : tree.items(node)) {
+        if (k != i && detail::boxes_meet(boxes[i], boxes[k], tolerance)) { partners[order[i]].push_back(order[k]); }
+      }
     }
+    pairs += partners[order[i]].size();
   }
   std::vector<std::vector<detail::WallFace>> walls(surfaces.size());  // as they are before any cut
   for (const std::uint32_t o : order) {

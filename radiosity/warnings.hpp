@@ -6,7 +6,6 @@
 // black), coordinates that are known no better than surfaces must be told apart.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -16,6 +15,7 @@
 #include <brep/circulators.hpp>
 #include <raycast/scene.hpp>
 
+#include <radiosity/buried.hpp>
 #include <radiosity/exposure.hpp>
 #include <radiosity/frame.hpp>
 #include <radiosity/hierarchy.hpp>
@@ -38,78 +38,6 @@ namespace detail {
 
 inline constexpr std::size_t most_warnings = 20;  // of one kind
 
-// Pairs (earlier, later) of objects whose surfaces are the same: each corner of one is a corner of the other, or lies on it when it is
-// curved, and the other way round, to 1e-9 of the size, and both face the same way. Compared are objects whose bounds agree to a millionth
-// of the scene.
-inline std::vector<std::array<std::uint32_t, 2>> twins(const raycast::Scene& objects, const std::vector<Surface>& surfaces) {
-  struct Place {
-    std::array<double, 6> bounds;
-    std::uint32_t object;
-  };
-  std::vector<Place> places;
-  const double grid = 0x1p-20 * objects.diameter();
-  for (std::uint32_t o = 0; o < objects.size(); ++o) {
-    const raycast::Box& box = objects.object(o).bounds();
-    Place place{{}, o};
-    for (int k = 0; k < 3; ++k) {
-      place.bounds[static_cast<std::size_t>(k)] = std::round(box.lo[k] / grid);
-      place.bounds[static_cast<std::size_t>(k + 3)] = std::round(box.hi[k] / grid);
-    }
-    places.push_back(place);
-  }
-  std::sort(places.begin(), places.end(),
-            [](const Place& a, const Place& b) { return a.bounds != b.bounds ? a.bounds < b.bounds : a.object < b.object; });
-  const auto corners = [&](std::uint32_t o) {
-    std::vector<raycast::SurfacePoint> points;
-    const SurfaceBRep& brep = surfaces[o].brep;
-    for (const brep::FaceId f : brep::faces(brep)) {
-      const std::uint32_t sheet = brep.data(f).sheet;
-      if (sheet == brep::no_sheet) { continue; }
-      for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
-        const glm::dvec3& p = brep.data(brep.vertex(h)).position;
-        points.push_back({p, objects.object(o).project(sheet, p).normal});
-      }
-    }
-    return points;
-  };
-  // Is every corner of a one of b, or, when b is curved, on b? What is the same comes in the same order, as a rule.
-  const auto on = [&](std::uint32_t a, std::uint32_t b) {
-    const raycast::PlacedObject& other = objects.object(b);
-    const double touch = 1e-9 * other.bounds().diameter() + other.slack() + objects.object(a).slack();
-    const std::vector<raycast::SurfacePoint> of_a = corners(a);
-    const std::vector<raycast::SurfacePoint> of_b = other.exact() ? corners(b) : std::vector<raycast::SurfacePoint>{};
-    const std::size_t count = other.exact() ? of_b.size() : other.sheet_count();
-    for (std::size_t i = 0; i < of_a.size(); ++i) {
-      bool found = false;
-      for (std::size_t k = 0; k < count && !found; ++k) {
-        const std::size_t j = (i + k) % count;
-        const auto q = other.exact() ? of_b[j] : other.project(static_cast<std::uint32_t>(j), of_a[i].position);
-        found = glm::length(q.position - of_a[i].position) <= touch && glm::dot(q.normal, of_a[i].normal) > 0.999;
-      }
-      if (!found) { return false; }
-    }
-    return true;
-  };
-  std::vector<std::array<std::uint32_t, 2>> pairs;
-  for (std::size_t first = 0; first < places.size();) {
-    std::size_t last = first + 1;
-    while (last < places.size() && places[last].bounds == places[first].bounds) { ++last; }
-    // Each with the next one that is its twin, among the 64 that follow: of many at one place each covers the one before.
-    for (std::size_t i = first; i < last && pairs.size() <= most_warnings; ++i) {
-      for (std::size_t k = i + 1; k < std::min(last, i + 65); ++k) {
-        const std::uint32_t a = places[i].object;
-        const std::uint32_t b = places[k].object;
-        if (!on(a, b) || !on(b, a)) { continue; }
-        pairs.push_back({a, b});
-        break;
-      }
-    }
-    first = last;
-  }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
-
 // Edges at which the surface of an object ends.
 inline std::size_t open_edges(const Surface& surface) {
   const SurfaceBRep& brep = surface.brep;
@@ -126,8 +54,7 @@ inline std::size_t open_edges(const Surface& surface) {
 }  // namespace detail
 
 // `surfaces` before refinement: afterwards they have more edges.
-[[nodiscard]] inline std::vector<std::string> warnings(const Scene& scene, const Frame& frame, const raycast::Scene& objects,
-                                                       const std::vector<Surface>& surfaces) {
+[[nodiscard]] inline std::vector<std::string> warnings(const Scene& scene, const Frame& frame, const std::vector<Surface>& surfaces) {
   std::vector<std::string> sentences;
   const auto name = [&](std::uint32_t o) { return "'" + scene.objects[o].name + "'"; };
   const auto add = [&](std::size_t& count, std::string sentence) {
@@ -137,7 +64,7 @@ inline std::size_t open_edges(const Surface& surface) {
     if (count > detail::most_warnings) { sentences.push_back("and more " + std::string{what}); }
   };
   std::size_t count = 0;
-  for (const auto& [a, b] : detail::twins(objects, surfaces)) {
+  for (const auto& [a, b] : detail::twins(surfaces, detail::most_warnings + 1)) {
     add(count, "objects " + name(a) + " and " + name(b) + " are the same surface at the same place: duplicates; " + name(b) +
                    " is seen, being the later one, and " + name(a) + " is covered by it");
   }

@@ -80,7 +80,7 @@ HALFLIGHT_INLINE bool Scene::blocks_by_spans(const Line& line, const End& a, con
   const PlacedObject& object = objects_[i];
   const Segment& s = line.segment;
   Spans spans;
-  object.spans(s, spans);
+  object.spans_of_segment(s, spans);
   if (spans.empty()) return false;
   const double skin_a = skin(a, i), skin_b = skin(b, i);
   // An end out of the bounds, skin included, cannot touch: the common case, decided without normals.

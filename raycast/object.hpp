@@ -84,6 +84,9 @@ class Object {
   // A single planar polygon returns its corners, counter-clockwise seen from the air, and a scene keeps it in array form.
   // Everything else returns nothing.
   [[nodiscard]] virtual std::span<const glm::dvec3> outline() const { return {}; }
+
+  // Those of the spans, bit for bit, that meet t in [0, 1], and perhaps others. A mesh need not look at its faces along the whole line.
+  virtual void spans_of_segment(const Segment& segment, Spans& out) const { spans(segment, out); }
 };
 
 // What a factory gives: the object, or a sentence that says why there is none.

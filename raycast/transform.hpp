@@ -101,6 +101,10 @@ class PlacedObject {
     object_->spans(to_object(line), out);
     if (placement_.inside) out.complement();
   }
+  void spans_of_segment(const Segment& segment, Spans& out) const {
+    if (placement_.inside) return spans(segment, out);
+    object_->spans_of_segment(to_object(segment), out);
+  }
 
   [[nodiscard]] Crossing crossing(const Segment& line, std::uint32_t face) const { return object_->crossing(to_object(line), face); }
   [[nodiscard]] bool enters(const Segment& line, std::uint32_t face) const { return object_->enters(to_object(line), face); }

@@ -69,32 +69,14 @@ class Mesh final : public Object {
 
   void spans(const Segment& line, Spans& out) const override {
     if (few_planes_) return clip(line, out);
-    // Seen from the middle of the mesh, rounding is relative to its size and not to the distance of the ray's origin.
-    double shift = 0.0;
-    const Segment near = nearer(line, shift);
-    const RayFrame frame(near);
-    InlineVector<Crossing, 16> in, leave;
-    const auto visit = [&](std::uint32_t f) {
-      const int w = winding(frame, f);
-      if (w != 0) (w < 0 ? in : leave).push(Crossing{shift + crossing_near(near, f), f});
-      return false;
-    };
-    if (bvh_.empty()) {
-      for (std::uint32_t f = 0; f < planes_.size(); ++f) visit(f);
-    } else {
-      static_cast<void>(any(bvh_, SlabTest(near), -infinity, infinity, visit));
-    }
-    const auto earlier = [](const Crossing& a, const Crossing& b) { return a.t < b.t || (a.t == b.t && a.sheet < b.sheet); };
-    if (!solid())
-      for (const Crossing& c : leave) in.push(c);
-    std::sort(in.begin(), in.end(), earlier);
-    std::sort(leave.begin(), leave.end(), earlier);
-    for (std::size_t i = 0; i < in.size(); ++i) {
-      if (!solid())
-        out.push(Span{in[i], in[i]});
-      else if (i < leave.size())
-        out.push(Span{in[i], leave[i]});
-    }
+    spans_between(line, -infinity, infinity, out);
+  }
+  // The crossings of a surface without inside stand for themselves; those of a solid are told apart by all that come before them.
+  void spans_of_segment(const Segment& segment, Spans& out) const override {
+    if (solid()) return spans(segment, out);
+    const double distance = box_.magnitude() + glm::length(segment.origin) + box_.diameter();
+    const double margin = 1e-6 + 64 * unit_roundoff * distance / glm::length(segment.direction);  // far beyond the rounding of crossings
+    spans_between(segment, -margin, 1.0 + margin, out);
   }
 
   void compile(Compiler& compiler) const override {
@@ -140,6 +122,35 @@ class Mesh final : public Object {
 
  private:
   Mesh() = default;
+  // The spans of the line; of a surface without inside at least those between t0 and t1.
+  void spans_between(const Segment& line, double t0, double t1, Spans& out) const {
+    // Seen from the middle of the mesh, rounding is relative to its size and not to the distance of the ray's origin.
+    double shift = 0.0;
+    const Segment near = nearer(line, shift);
+    const RayFrame frame(near);
+    InlineVector<Crossing, 16> in, leave;
+    const auto visit = [&](std::uint32_t f) {
+      const int w = winding(frame, f);
+      if (w != 0) (w < 0 ? in : leave).push(Crossing{shift + crossing_near(near, f), f});
+      return false;
+    };
+    if (bvh_.empty()) {
+      for (std::uint32_t f = 0; f < planes_.size(); ++f) visit(f);
+    } else {
+      static_cast<void>(any(bvh_, SlabTest(near), t0 - shift, t1 - shift, visit));
+    }
+    const auto earlier = [](const Crossing& a, const Crossing& b) { return a.t < b.t || (a.t == b.t && a.sheet < b.sheet); };
+    if (!solid())
+      for (const Crossing& c : leave) in.push(c);
+    std::sort(in.begin(), in.end(), earlier);
+    std::sort(leave.begin(), leave.end(), earlier);
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      if (!solid())
+        out.push(Span{in[i], in[i]});
+      else if (i < leave.size())
+        out.push(Span{in[i], leave[i]});
+    }
+  }
   // The planes of a convex mesh, up to 33: the triangles of one flat side have one.
   [[nodiscard]] std::vector<Plane> distinct_planes() const {
     std::vector<Plane> distinct;

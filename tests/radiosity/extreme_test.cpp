@@ -23,7 +23,7 @@ std::vector<std::string> warnings_of(const Scene& scene) {
   const radiosity::PrepareResult made = radiosity::prepare(scene);
   for (const std::string& fault : made.faults) { UNSCOPED_INFO(fault); }
   REQUIRE(made.prepared);
-  return radiosity::warnings(scene, made.prepared->frame, made.prepared->objects, made.prepared->surfaces);
+  return radiosity::warnings(scene, made.prepared->frame, made.prepared->surfaces);
 }
 
 // Radiating faces of all objects after the cuts at walls.

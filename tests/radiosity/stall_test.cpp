@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+
+// Scenes whose cost must grow like their size, counted in pairs, links and patches: long rooms, objects at one place, shapes that fold.
+
+#include <random>
+
+#include <brep/validate.hpp>
+#include <radiosity/long_faces.hpp>
+#include <radiosity/prepare.hpp>
+#include <radiosity/radiosity.hpp>
+#include <raycast/objects/mesh.hpp>
+#include <raycast/objects/sphere.hpp>
+#include <raycast/objects/superquadric.hpp>
+
+#include "catch.hpp"
+#include "scenes.hpp"
+
+namespace {
+
+struct Work {
+  std::size_t roots = 0, nodes = 0, links = 0, pairs = 0;
+};
+
+// Refinement alone.
+Work work_of(const radiosity::Scene& scene, double epsilon, double min_area) {
+  radiosity::PrepareResult made = radiosity::prepare(scene);
+  for (const std::string& fault : made.faults) { UNSCOPED_INFO(fault); }
+  REQUIRE(made.prepared);
+  std::vector<radiosity::Surface>& surfaces = made.prepared->surfaces;
+  radiosity::cut_at_walls(surfaces, made.prepared->objects.diameter());
+  radiosity::cut_long_faces(surfaces, min_area);
+  radiosity::Hierarchy hierarchy = radiosity::make_roots(surfaces);
+  const std::size_t roots = hierarchy.size();
+  if (roots >= radiosity::Options{}.cluster_from) { hierarchy = radiosity::make_clusters(surfaces, hierarchy); }
+  radiosity::Patches patches{surfaces, hierarchy};
+  const radiosity::RefineResult result = radiosity::refine(scene, made.prepared->objects, made.prepared->plan, surfaces, hierarchy, patches,
+                                                           epsilon, min_area, 0.25 * epsilon, 1, 1);
+  REQUIRE(result.too_many == 0);
+  for (const radiosity::Surface& surface : surfaces) { CHECK(brep::validate(surface.brep).empty()); }
+  return {roots, hierarchy.size(), result.links.size(), static_cast<std::size_t>(result.pairs_tested)};
+}
+
+radiosity::Scene lit(std::vector<radiosity::SceneObject> objects) {
+  objects.push_back(scenes::square("lamp", {0.3, 0.3, 5.0}, 0.2, false, 1));
+  return {{{"white", radiosity::Color{0.7}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{10.0}}},
+          std::move(objects)};
+}
+
+}  // namespace
+
+TEST_CASE("long rooms: the number of links does not grow with the proportion") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  for (int i = 0; i < 12; ++i) {
+    const double length = std::pow(10.0, std::uniform_real_distribution<>{1.0, 6.0}(random));
+    const int axis = std::uniform_int_distribution<>{0, 2}(random);
+    glm::dvec3 size{1.0};
+    size[axis] = length;
+    radiosity::Scene scene = lit({scenes::object("room", scenes::box({0, 0, 0}, size), 0, true)});
+    scene.objects.back() = scenes::square("lamp", {0.5, 0.5, 0.99}, 0.2, false, 1);
+    INFO("length " << length << " along " << axis);
+    const Work work = work_of(scene, 0.02, 1e-3);
+    // Leaves are no smaller than an eighth of min_area (a quarter for the light oracle, halved by a cut), so there are at most 8000, and a
+    // leaf of proportion 4 or less has at most 16 / epsilon others near by on each of four sides that it does not sink below epsilon.
+    CHECK(work.roots <= 2000);
+    CHECK(work.links <= 8000 * 40);
+  }
+}
+
+TEST_CASE("of objects at one place or inside each other only those that show are refined: pairs grow like their number") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };
+  const auto scene_of = [&](int kind, int count) {
+    std::vector<radiosity::SceneObject> objects;
+    for (int k = 0; k < count; ++k) {
+      const double r = kind == 0 ? 1.0 : kind == 1 ? uniform(0.4, 1.0) : std::pow(uniform(0.8, 0.9), k);  // gaps wider than chords bulge
+      if (kind == 2) {
+        objects.push_back(scenes::object("s", raycast::Sphere::make({0, 0, 0}, r).object));
+      } else {
+        objects.push_back(scenes::object("b", scenes::box(glm::dvec3{-r}, glm::dvec3{r})));
+      }
+    }
+    return lit(std::move(objects));
+  };
+  for (const int kind : {0, 1, 2}) {  // identical boxes, nested boxes, nested spheres
+    INFO("kind " << kind);
+    const Work few = work_of(scene_of(kind, 20), 0.05, 1e-2);
+    const Work many = work_of(scene_of(kind, 160), 0.05, 1e-2);
+    // Without what is buried the pairs are those of the outermost, some chord patches below it, and a look at each cluster: eight times the
+    // objects make less than twelve times the pairs. All pairs of faces would be 64 times as many.
+    CHECK(many.pairs <= 12 * few.pairs + 8 * 160 * 6);
+  }
+}
+
+TEST_CASE("what is buried before refinement is what the exposure finds") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };
+  for (int i = 0; i < 20; ++i) {
+    std::vector<radiosity::SceneObject> objects;
+    for (int k = 0; k < 12; ++k) {
+      const glm::dvec3 c{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
+      const double r = uniform(0.1, 1.5);
+      if (k % 2 == 0) {
+        objects.push_back(scenes::object("s", raycast::Sphere::make(c, r).object));
+      } else {
+        objects.push_back(scenes::object("b", scenes::box(c - r, c + r)));
+      }
+      if (k == 5) { objects.push_back(objects.back()); }
+    }
+    const radiosity::Scene scene = lit(std::move(objects));
+    radiosity::PrepareResult made = radiosity::prepare(scene);
+    REQUIRE(made.prepared);
+    const radiosity::Hierarchy roots = radiosity::make_roots(made.prepared->surfaces);
+    radiosity::Patches patches{made.prepared->surfaces, roots};
+    patches.extend(1);
+    radiosity::Exposure exposure;
+    radiosity::extend(exposure, made.prepared->objects, made.prepared->surfaces, roots, patches, 1, seed);
+    const std::vector<bool> buried = radiosity::buried_nodes(made.prepared->surfaces, roots);
+    for (std::size_t n = 0; n < roots.size(); ++n) {
+      if (buried[n]) { CHECK(exposure.area[n] == 0.0); }
+    }
+  }
+}
+
+TEST_CASE("superquadrics of any exponents that are accepted are refined into a bounded number of patches") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  for (int i = 0; i < 10; ++i) {
+    const auto exponent = [&] { return std::pow(10.0, std::uniform_real_distribution<>{-3.0, 1.3}(random)); };
+    const double profile = exponent();
+    const double around = exponent();
+    INFO("exponents " << profile << " " << around);
+    const auto made = raycast::Superquadric::make({0, 0, 0}, {1, 1, 1}, profile, around);
+    REQUIRE(made);
+    const Work work = work_of(lit({scenes::object("q", made.object)}), 0.1, 1e-3);
+    // A patch of area min_area or more has at most four children and at most four generations that do not shrink: 4 / min_area leaves of
+    // honest splits (areas of curved surfaces may double), and 4^4 times as many at the few that fold.
+    CHECK(work.nodes <= 40000);
+  }
+  CHECK(!raycast::Superquadric::make({0, 0, 0}, {1, 1, 1}, 0.001, 100.0));
+}
+
+TEST_CASE("segments on an open mesh see the crossings of the whole line, as far as they lie on them, bit for bit") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };
+  std::vector<glm::dvec3> positions;
+  std::vector<std::vector<std::uint32_t>> faces;
+  const std::uint32_t n = 12;
+  for (std::uint32_t i = 0; i <= n; ++i) {
+    for (std::uint32_t j = 0; j <= n; ++j) { positions.emplace_back(1.0 * i, 1.0 * j, uniform(-1.0, 1.0)); }
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const std::uint32_t a = i * (n + 1) + j;
+      const std::uint32_t b = a + n + 1;
+      faces.push_back({a, b, a + 1});
+      faces.push_back({a + 1, b, b + 1});
+    }
+  }
+  const auto mesh = raycast::Mesh::make(positions, faces);
+  REQUIRE(mesh);
+  for (int k = 0; k < 2000; ++k) {
+    const glm::dvec3 a{uniform(-2, 14), uniform(-2, 14), uniform(-1, 1)};
+    const double length = std::pow(10.0, uniform(-3, 1.3));
+    const raycast::Segment segment{a, length * glm::dvec3{uniform(-1, 1), uniform(-1, 1), uniform(-0.2, 0.2)}};
+    raycast::Spans line, part;
+    mesh->spans(segment, line);
+    mesh->spans_of_segment(segment, part);
+    std::vector<std::pair<double, std::uint32_t>> of_line, of_part;
+    for (const raycast::Span& s : line) {
+      if (s.in.t >= 0.0 && s.in.t <= 1.0) { of_line.emplace_back(s.in.t, s.in.sheet); }
+    }
+    for (const raycast::Span& s : part) {
+      if (s.in.t >= 0.0 && s.in.t <= 1.0) { of_part.emplace_back(s.in.t, s.in.sheet); }
+    }
+    CHECK(of_line == of_part);
+  }
+}
