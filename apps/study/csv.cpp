@@ -11,7 +11,7 @@ namespace {
 constexpr const char* head =
     "scene,reference,noise,point_noise,method,setting,reconstruction,cpu_seconds,seconds_saved,peak_bytes,bytes,links,leaves,rays,"
     "cells_l1,cells_l2,cells_worst,points_l1,points_l2,points_worst,below_noise,"
-    "part_discretisation,part_links,part_solver,part_reconstruction,refused\n";
+    "part_discretisation,part_links,part_solver,part_reconstruction,picture_l2,picture_low,picture_high,refused\n";
 
 // The fewest digits that read back as the same double.
 std::string number(double x) {
@@ -63,7 +63,7 @@ std::string run_line(const SceneStudy& scene, const Method& method, const Run& r
   line.field(run.setting);
   line.field(names[static_cast<std::size_t>(stage)]);
   if (!run.refused.empty()) {
-    line.empty(17);
+    line.empty(20);
     line.field(run.refused);
     return line.end();
   }
@@ -77,6 +77,11 @@ std::string run_line(const SceneStudy& scene, const Method& method, const Run& r
     }
   } else {
     line.empty(4);
+  }
+  if (run.picture_error && stage == Stage::weighted) {
+    for (const double x : {run.picture_error->relative_l2, run.picture_error->low, run.picture_error->high}) { line.field(number(x)); }
+  } else {
+    line.empty(3);
   }
   line.field("");
   return line.end();

@@ -52,6 +52,15 @@ void write(JsonWriter& json, const Run& run, const Reference& reference, bool pa
   write(json, "simple", run.simple_error, reference);
   write(json, "weighted", run.weighted_error, reference);
   json.close();
+  json.key("picture");
+  if (run.picture_error) {
+    json.open_object();
+    json.key("relative_l2").number(run.picture_error->relative_l2);
+    json.key("low").number(run.picture_error->low).key("high").number(run.picture_error->high);
+    json.close();
+  } else {
+    json.null();
+  }
   json.key("parts");
   if (run.parts) {
     json.open_object();

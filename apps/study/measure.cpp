@@ -2,6 +2,7 @@
 #include "apps/study/measure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -12,6 +13,9 @@
 #include <utility>
 
 #include <radiosity/lookup.hpp>
+#include <radiosity/picture_error.hpp>
+
+#include "apps/view.hpp"
 
 #include "apps/memory.hpp"
 
@@ -41,7 +45,7 @@ class RunLimit {
   RunLimit(const RunLimit&) = delete;
   RunLimit& operator=(const RunLimit&) = delete;
 
-  [[nodiscard]] radiosity::Control control() const { return {&stop_, {}, {}}; }
+  [[nodiscard]] radiosity::Control control() const { return {&stop_, {}, {}, {}}; }
 
  private:
   std::atomic<bool> stop_{false};
@@ -80,8 +84,39 @@ Measured errors_of_run(const radiosity::Scene& scene, const TrueRadiosity& truth
   return measured;
 }
 
+// The error of what the scene's camera sees of the true objects, coloured by the solution: 16 points a pixel. Few pixels, but enough to
+// tell it to a quarter of itself or so.
+class PictureJudge {
+ public:
+  PictureJudge(const radiosity::Scene& scene, const apps::Camera& camera)
+      : scene_{scene}, view_{apps::make_view(camera, camera.size.value_or(apps::PictureSize{}))}, audit_{radiosity::PictureAudit::make(scene)} {}
+
+  [[nodiscard]] std::optional<radiosity::ErrorEstimate> operator()(const radiosity::Solution& solution,
+                                                                   const radiosity::Control& control) const {
+    if (!audit_) { return std::nullopt; }
+    const radiosity::Lookup lookup{scene_, solution.mesh, solution.frame};
+    const auto radiosity = [&](std::uint32_t x, std::uint32_t y) {
+      std::array<glm::dvec3, 16> directions;
+      for (unsigned k = 0; k < 16; ++k) { directions[k] = view_.direction(x + (k % 4 + 0.5) / 4.0, y + (k / 4 + 0.5) / 4.0); }
+      Color sum{0.0};
+      for (const auto& seen : lookup.seen16(view_.eye, directions)) { sum += seen ? seen->radiosity / 16.0 : Color{0.0}; }
+      return sum;
+    };
+    const radiosity::ShownPicture shown{view_.size.width, view_.size.height,
+                                        [&](double x, double y) { return raycast::Segment{view_.eye, view_.direction(x, y)}; }, radiosity,
+                                        [](double b) { return b; }};
+    const auto error = audit_->measure(shown, {1000, 1'000'000}, 0, 1, control);
+    return error ? std::optional{error->error} : std::nullopt;
+  }
+
+ private:
+  const radiosity::Scene& scene_;
+  apps::View view_;
+  std::optional<radiosity::PictureAudit> audit_;
+};
+
 // A run with a result, or with the reason why there is none.
-Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, const Setting& setting, const MeasureOptions& options,
+Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, const PictureJudge& judge, const Setting& setting, const MeasureOptions& options,
                   const radiosity::Control& control, std::vector<radiosity::LeftOut>& left_out) {
   constexpr double brief = 0.3;  // seconds; what takes less is run three times, and the shortest time counts
   radiosity::Outcome outcome;
@@ -108,13 +143,14 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
   }
   radiosity::Solution& solution = *outcome.solution;
   if (solution.comparison->dense.empty() && solution.audit.leaves <= options.dense_leaves) {
-    radiosity::Outcome dense = setting.dense(scene, solution, {control.cancel, {}, {}});
+    radiosity::Outcome dense = setting.dense(scene, solution, {control.cancel, {}, {}, {}});
     if (dense.solution && dense.solution->hierarchy.size() == solution.hierarchy.size()) {
       solution.comparison->dense = std::move(dense.solution->comparison->dense);
     }
   }
   left_out = solution.audit.left_out;
   Measured measured = errors_of_run(scene, truth, solution, setting.text, peak_bytes);
+  measured.run.picture_error = judge(solution, control);
   if (setting.without_shortcuts) {
     const RunLimit run_limit{options.cpu_seconds_per_run, control};
     const radiosity::Outcome forced = setting.without_shortcuts(scene, run_limit.control());
@@ -160,6 +196,7 @@ std::vector<Color> values_at(const radiosity::Scene& scene, const radiosity::Sol
 void measure(const radiosity::Scene& scene, const TrueRadiosity& truth, const std::vector<MethodPlan>& methods,
              const MeasureOptions& options, const radiosity::Control& control, SceneStudy& study) {
   study.reference = describe(truth);
+  const PictureJudge judge{scene, study.camera};
   study.left_out = truth.left_out;
   for (const MethodPlan& plan : methods) {
     if (control.cancelled()) { return; }
@@ -172,7 +209,7 @@ void measure(const radiosity::Scene& scene, const TrueRadiosity& truth, const st
         measured.run.setting = setting.text;
         measured.run.refused = "not tried: a coarser setting has no result";
       } else {
-        measured = run_once(scene, truth, setting, options, control, left_out);
+        measured = run_once(scene, truth, judge, setting, options, control, left_out);
         if (control.cancelled()) { break; }
         if (options.finished) { options.finished(method, measured.run); }
       }

@@ -20,7 +20,7 @@ using radiosity::Scene;
 
 namespace {
 
-radiosity::Prepared prepared(const Scene& scene) {
+radiosity::Prepared prepare_scene(const Scene& scene) {
   auto result = radiosity::prepare(scene);
   REQUIRE(result.prepared);
   return std::move(*result.prepared);
@@ -36,14 +36,14 @@ Scene plate_under_lamps(double exitance) {
 }
 
 // Radiosity at the point x of the plate: mean and standard error of `count` paths, and the largest estimate.
-struct Traced {
+struct PathTraced {
   double mean = 0.0, error = 0.0, largest = 0.0;
 };
-Traced traced(const Scene& scene, const glm::dvec3& x, int count, std::uint64_t seed) {
-  const radiosity::Prepared p = prepared(scene);
+PathTraced path_traced(const Scene& scene, const glm::dvec3& x, int count, std::uint64_t seed) {
+  const radiosity::Prepared p = prepare_scene(scene);
   const radiosity::PathTracer tracer{scene, p.objects, p.surfaces};
   double sum = 0.0, square = 0.0;
-  Traced result;
+  PathTraced result;
   std::uint64_t rays = 0;
   for (int i = 0; i < count; ++i) {
     radiosity::Random random{seed, static_cast<std::uint64_t>(i)};
@@ -66,7 +66,7 @@ TEST_CASE("emitters: samples over their density give the solid angle in which th
   scene.objects.push_back(scenes::object("ball", raycast::Sphere::make({-0.4, 0.3, 0.6}, 0.25).object, 1));
   scene.objects.push_back(scenes::object("ring", raycast::Torus::make({0, -0.5, 0.8}, {0, 0.3, 1}, 0.4, 0.05).object, 2));
   scene.objects.push_back(scenes::object("tube", raycast::Cylinder::make({-0.9, -0.9, 0.2}, {1.8, 0, 0}, 0.02).object, 1));
-  const radiosity::Prepared p = prepared(scene);
+  const radiosity::Prepared p = prepare_scene(scene);
   std::vector<Color> emission;
   for (const auto& s : radiosity::surfaces(scene)) { emission.push_back(scene.materials[s.material].emission); }
   const radiosity::Emitters emitters{p.surfaces, emission};
@@ -115,7 +115,7 @@ TEST_CASE("path tracing: a sphere lamp of any size and distance lights a plate a
     scene.objects.push_back(scenes::object("lamp", raycast::Sphere::make(centre, r).object, 1));
     const double d = glm::length(centre - x);
     const double expected = 0.5 * 2.0 / (d * d) * (centre.z / d);
-    const Traced result = traced(scene, x, 4000, 31);
+    const PathTraced result = path_traced(scene, x, 4000, 31);
     CAPTURE(k, r, d, expected, result.mean, result.error);
     CHECK(std::abs(result.mean - expected) < 4.5 * result.error + 1e-9 * expected);
     CHECK(result.error < 0.05 * expected);  // with 4000 paths: no path counts more than about ten times the mean
@@ -139,7 +139,7 @@ TEST_CASE("path tracing: a bright speck beside a large dim wall, a lamp on the p
       const radiosity::Polygon corners(outline.begin(), outline.end());
       expected += 0.5 * scene.materials[scene.objects[o].material[0]].emission.x * radiosity::point_to_polygon(x, {0, 0, 1}, corners);
     }
-    const Traced result = traced(scene, x, 4000, 51);
+    const PathTraced result = path_traced(scene, x, 4000, 51);
     CAPTURE(k, side, expected, result.mean, result.error, result.largest);
     CHECK(std::abs(result.mean - expected) < 4.5 * result.error + 1e-9 * expected);
     CHECK(result.error < 0.08 * expected);

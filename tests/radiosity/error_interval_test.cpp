@@ -20,28 +20,28 @@ using radiosity::Scene;
 
 namespace {
 
-constexpr double rho = 0.5;
-using Exact = std::function<double(const glm::dvec3& x)>;  // radiosity of the plate
+constexpr double plate_rho = 0.5;
+using ExactRadiosity = std::function<double(const glm::dvec3& x)>;  // radiosity of the plate
 
-struct Case {
+struct KnownScene {
   std::string name;
   Scene scene;
-  Exact exact;
+  ExactRadiosity exact;
 };
 
-// A rectangle at the height z that faces down.
-radiosity::Polygon rectangle(double x0, double y0, double x1, double y1, double z) {
+// A rectangle_facing_down at the height z that faces down.
+radiosity::Polygon rectangle_facing_down(double x0, double y0, double x1, double y1, double z) {
   return {{x0, y0, z}, {x0, y1, z}, {x1, y1, z}, {x1, y0, z}};
 }
 
 double lit_by(const radiosity::Polygon& lamp, double exitance, const glm::dvec3& x) {
-  return rho * exitance * radiosity::point_to_polygon(x, {0, 0, 1}, lamp);
+  return plate_rho * exitance * radiosity::point_to_polygon(x, {0, 0, 1}, lamp);
 }
 
-Case random_case(int kind, radiosity::Random& random) {
+KnownScene random_known_scene(int kind, radiosity::Random& random) {
   const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
   const auto size = [&](double least, double most) { return least * std::pow(most / least, random.uniform()); };
-  Scene scene{{{"plate", Color{rho}, Color{0.0}}, {"lamp", Color{0.0}, Color{1.0}}, {"dim", Color{0.0}, Color{0.01}}, {"black", Color{0.0}, Color{0.0}}}, {}};
+  Scene scene{{{"plate", Color{plate_rho}, Color{0.0}}, {"lamp", Color{0.0}, Color{1.0}}, {"dim", Color{0.0}, Color{0.01}}, {"black", Color{0.0}, Color{0.0}}}, {}};
   scene.objects = {scenes::square("plate", {0, 0, 0}, 1.0, true)};
   const double x = between(-0.7, 0.7), y = between(-0.7, 0.7);
   switch (kind) {
@@ -59,44 +59,44 @@ Case random_case(int kind, radiosity::Random& random) {
       scene.objects.push_back(scenes::object("lamp", raycast::Sphere::make(c, r).object, 1));
       return {"sphere lamp", std::move(scene), [c](const glm::dvec3& p) {
                 const glm::dvec3 d = c - p;
-                return rho * d.z / std::pow(glm::dot(d, d), 1.5);
+                return plate_rho * d.z / std::pow(glm::dot(d, d), 1.5);
               }};
     }
     case 2: {  // a bright speck, and a large dim wall that touches the plate; the wall ends below the speck
       const double s = size(0.001, 0.1);
       scene.materials[1].emission = Color{0.05 / (s * s)};
-      const radiosity::Polygon speck = rectangle(x - s, y - s, x + s, y + s, 0.6), wall{{-1, -1, 0}, {-1, 1, 0}, {-1, 1, 0.5}, {-1, -1, 0.5}};
+      const radiosity::Polygon speck = rectangle_facing_down(x - s, y - s, x + s, y + s, 0.6), wall{{-1, -1, 0}, {-1, 1, 0}, {-1, 1, 0.5}, {-1, -1, 0.5}};
       scene.objects.push_back(scenes::plate("speck", speck, 1));
       scene.objects.push_back(scenes::plate("wall", wall, 2));
       const double bright = scene.materials[1].emission.x;
       return {"speck and wall", std::move(scene),
               [=](const glm::dvec3& p) { return lit_by(speck, bright, p) + lit_by(wall, 0.01, p); }};
     }
-    default: {  // a lamp above a black screen with a hole, both parallel to the plate: what is seen of the lamp is a rectangle
+    default: {  // a lamp above a black screen with a hole, both parallel to the plate: what is seen of the lamp is a rectangle_facing_down
       const double hole = size(0.02, 0.3), z = between(0.3, 0.8), h = z + size(0.02, 0.5), s = size(0.1, 0.8);
       const double far = 4.0;
       const auto screen = [&](const char* name, double x0, double y0, double x1, double y1) {
-        scene.objects.push_back(scenes::plate(name, rectangle(x0, y0, x1, y1, z), 3));
+        scene.objects.push_back(scenes::plate(name, rectangle_facing_down(x0, y0, x1, y1, z), 3));
       };
       screen("a", -far, -far, x - hole, far);
       screen("b", x + hole, -far, far, far);
       screen("c", x - hole, -far, x + hole, y - hole);
       screen("d", x - hole, y + hole, x + hole, far);
-      scene.objects.push_back(scenes::plate("lamp", rectangle(x - s, y - s, x + s, y + s, h), 1));
+      scene.objects.push_back(scenes::plate("lamp", rectangle_facing_down(x - s, y - s, x + s, y + s, h), 1));
       return {"through a hole", std::move(scene), [=](const glm::dvec3& p) {
                 const double k = h / z;  // the hole as the point p sees it in the plane of the lamp
                 const auto far_x = [&](double at) { return p.x + k * (at - p.x); };
                 const auto far_y = [&](double at) { return p.y + k * (at - p.y); };
                 const double x0 = std::max(x - s, far_x(x - hole)), x1 = std::min(x + s, far_x(x + hole));
                 const double y0 = std::max(y - s, far_y(y - hole)), y1 = std::min(y + s, far_y(y + hole));
-                return x0 < x1 && y0 < y1 ? lit_by(rectangle(x0, y0, x1, y1, h), 1.0, p) : 0.0;
+                return x0 < x1 && y0 < y1 ? lit_by(rectangle_facing_down(x0, y0, x1, y1, h), 1.0, p) : 0.0;
               }};
     }
   }
 }
 
 // The relative L2 error of the mesh on the plate, by points in the cells of a grid on each triangle: every other surface is black and exact.
-double true_error(const radiosity::Mesh& mesh, const Exact& exact, int cells) {
+double true_mesh_error(const radiosity::Mesh& mesh, const ExactRadiosity& exact, int cells) {
   double square = 0.0, reference = 0.0;
   radiosity::Random random{3, 0};
   for (const radiosity::MeshFace& face : mesh.faces) {
@@ -120,7 +120,7 @@ double true_error(const radiosity::Mesh& mesh, const Exact& exact, int cells) {
 }
 
 // How many of `seeds` intervals of the case hold the truth, from this many points each.
-int intervals_that_hold(const Case& of, double truth, const radiosity::Solution& solution, std::uint32_t points, int seeds) {
+int intervals_that_hold(const KnownScene& of, double truth, const radiosity::Solution& solution, std::uint32_t points, int seeds) {
   auto result = radiosity::prepare(of.scene);
   REQUIRE(result.prepared);
   const radiosity::Prepared p = std::move(*result.prepared);
@@ -156,16 +156,16 @@ TEST_CASE("audit: of 240 intervals over 24 scenes of known radiosity at least 93
   constexpr int scenes_asked = 24, seeds = 10;
   int held = 0;
   for (int k = 0; k < scenes_asked; ++k) {
-    const Case of = random_case(k % 4, random);
+    const KnownScene of = random_known_scene(k % 4, random);
     radiosity::Options options;
     options.epsilon = 0.1;
     options.min_area = 1e-3;
     options.audit_points = 0;
     options.threads = 1;
     const radiosity::Solution solution = scenes::solved(of.scene, options);
-    const double truth = true_error(solution.mesh, of.exact, 32);
+    const double truth = true_mesh_error(solution.mesh, of.exact, 32);
     // The figure is known: from a quarter of the points it is the same to .2 %.
-    CHECK(true_error(solution.mesh, of.exact, 16) == test::Approx(truth).epsilon(0.004));
+    CHECK(true_mesh_error(solution.mesh, of.exact, 16) == test::Approx(truth).epsilon(0.004));
     held += intervals_that_hold(of, truth, solution, 2000, seeds);
   }
   CHECK(held >= static_cast<int>(0.93 * scenes_asked * seeds));

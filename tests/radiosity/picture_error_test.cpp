@@ -23,7 +23,7 @@ ShownPicture seen_from(const glm::dvec3& eye, std::function<Color(std::uint32_t,
           [](double b) { return 100.0 * b; }};
 }
 
-PictureError measured(const radiosity::Scene& scene, const ShownPicture& picture, unsigned threads = 1) {
+PictureError measured_picture(const radiosity::Scene& scene, const ShownPicture& picture, unsigned threads = 1) {
   const auto audit = PictureAudit::make(scene);
   REQUIRE(audit);
   const auto error = audit->measure(picture, {400, 400'000}, threads, 1);
@@ -36,10 +36,10 @@ PictureError measured(const radiosity::Scene& scene, const ShownPicture& picture
 TEST_CASE("picture audit: a picture of a furnace that is right is found right, one that is off by 5 % as much off everywhere") {
   const radiosity::Scene scene = scenes::furnace_with_things(0.5);  // B = 1, half of it reflected
   const glm::dvec3 eye{0.5, 0.02, 0.5};
-  const PictureError right = measured(scene, seen_from(eye, [](auto, auto) { return Color{1.0}; }));
+  const PictureError right = measured_picture(scene, seen_from(eye, [](auto, auto) { return Color{1.0}; }));
   CHECK(right.error.low == 0.0);
   CHECK(right.over8.least == 0.0);
-  const PictureError off = measured(scene, seen_from(eye, [](auto, auto) { return Color{1.05}; }));
+  const PictureError off = measured_picture(scene, seen_from(eye, [](auto, auto) { return Color{1.05}; }));
   CAPTURE(off.error.relative_l2, off.error.low, off.error.high);
   CHECK(off.error.low <= 0.1);
   CHECK(off.error.high >= 0.1);
@@ -51,7 +51,7 @@ TEST_CASE("picture audit: a picture of a furnace that is right is found right, o
 
 TEST_CASE("picture audit: an error in one tile is found in that tile") {
   const auto shown = [](std::uint32_t x, std::uint32_t y) { return Color{x / 8 == 2 && y / 8 == 1 ? 1.5 : 1.0}; };
-  const PictureError error = measured(scenes::furnace_with_things(0.5), seen_from({0.5, 0.02, 0.5}, shown));
+  const PictureError error = measured_picture(scenes::furnace_with_things(0.5), seen_from({0.5, 0.02, 0.5}, shown));
   REQUIRE(error.worst);
   CHECK(error.worst->column == 2);
   CHECK(error.worst->row == 1);
@@ -77,7 +77,7 @@ TEST_CASE("picture audit: lamps are left out, whatever the picture shows there; 
     const double lx = 2.0 * ((x + 0.5) / 16.0 - 1.0), lz = 2.0 * (1.0 - (y + 0.5) / 16.0);
     return lx * lx + lz * lz < 0.09 ? Color{-1000.0} : sum;
   };
-  const PictureError error = measured(scene, seen_from({0, 0, 0}, shown));
+  const PictureError error = measured_picture(scene, seen_from({0, 0, 0}, shown));
   CAPTURE(error.error.relative_l2, error.error.low, error.error.high, error.audited);
   CHECK(error.error.high < 0.02);
   CHECK(error.audited > 0.3);  // of the picture 4/9 are the plate
@@ -86,7 +86,7 @@ TEST_CASE("picture audit: lamps are left out, whatever the picture shows there; 
 
 TEST_CASE("picture audit: results do not depend on the number of threads") {
   const auto picture = seen_from({0.5, 0.02, 0.5}, [](std::uint32_t x, auto) { return Color{1.0 + 0.01 * x}; });
-  const PictureError one = measured(scenes::furnace_with_things(0.3), picture, 1), two = measured(scenes::furnace_with_things(0.3), picture, 2);
+  const PictureError one = measured_picture(scenes::furnace_with_things(0.3), picture, 1), two = measured_picture(scenes::furnace_with_things(0.3), picture, 2);
   CHECK(one.error.relative_l2 == two.error.relative_l2);
   CHECK(one.error.high == two.error.high);
   CHECK(one.rays == two.rays);

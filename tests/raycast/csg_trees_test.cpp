@@ -85,7 +85,7 @@ void check_volume(const RandomSolid& solid, test::Random& random, int n) {
   CHECK(off <= d * measure(*csg, d / 8).area + sampling);
 }
 
-RandomSolid room() {
+RandomSolid room_solid() {
   RandomSolid result;
   result.node.solid = BoxObject::make({0, 0, 0}, {2, 2, 2}).object;
   result.inside = [](const dvec3& p) { return p.x > 0 && p.y > 0 && p.z > 0 && p.x < 2 && p.y < 2 && p.z < 2; };
@@ -119,7 +119,7 @@ TEST_CASE("csg: no tree of two to five curved solids is refused, and its mesh ho
     RandomSolids solids(random, i % 2 == 0 ? 0.0 : 0.125);
     RandomSolid solid;
     if (i % 6 < 4) {
-      std::vector<RandomSolid> parts{room()};
+      std::vector<RandomSolid> parts{room_solid()};
       const std::uint32_t more = i % 6 < 2 ? 1 : 2 + random.below(3);
       for (std::uint32_t k = 0; k < more; ++k)
         parts.push_back(k == 0 ? solids.leaf(static_cast<RandomSolids::Kind>(1 + random.below(4)), 0.05, 0.5) : solids.any_leaf(0.1, 0.5));
