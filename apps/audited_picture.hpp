@@ -14,7 +14,9 @@ namespace apps {
 // `picture` must outlive the result.
 [[nodiscard]] inline radiosity::ShownPicture audited(const Picture& picture, const View& view, double exposure) {
   return {picture.width, picture.height,
-          [view](double x, double y) { return raycast::Segment{view.eye, view.direction(x, y)}; },
+          [view](double x, double y) {
+            return raycast::Segment{view.eye, view.direction(x, y)};
+          },
           [&picture](std::uint32_t x, std::uint32_t y) { return radiosity::Color(picture.radiosity[std::size_t{y} * picture.width + x]); },
           [exposure](double radiosity) { return 255.0 * srgb_encode(shown(radiosity::Color(radiosity), exposure).x); }};
 }

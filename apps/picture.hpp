@@ -31,7 +31,7 @@ namespace apps {
 struct Picture {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::vector<std::uint8_t> rgb;      // 3 bytes a pixel, rows from the top
+  std::vector<std::uint8_t> rgb;     // 3 bytes a pixel, rows from the top
   std::vector<glm::vec3> radiosity;  // mean over each pixel, W/m2: the same before exposure and clamping
 
   [[nodiscard]] Rgb8 pixel(std::uint32_t x, std::uint32_t y) const {

@@ -67,11 +67,12 @@ inline std::uint64_t bytes_of(const Solution& solution) {
       add_times(stages, audit.stages);
       const std::optional<ErrorEstimate> error = aimed_error(audit, options, of_picture);
       if (!error && !audit.interrupted) {
-        return failed(Failure::Kind::invalid_options,
-                      {of_picture ? "no pixel of the picture shows reflected light whose paths end, so its error cannot be measured; aim at "
-                                    "the error over all surfaces, or give an epsilon instead of an error"
-                                  : "the error of this scene cannot be measured, for its paths do not end or meet no light; give an "
-                                    "epsilon instead of an error"});
+        return failed(
+            Failure::Kind::invalid_options,
+            {of_picture ? "no pixel of the picture shows reflected light whose paths end, so its error cannot be measured; aim at "
+                          "the error over all surfaces, or give an epsilon instead of an error"
+                        : "the error of this scene cannot be measured, for its paths do not end or meet no light; give an "
+                          "epsilon instead of an error"});
       }
       const bool gained = !best_error || !error || error->relative_l2 < 0.95 * best_error->relative_l2;
       without_gain = gained ? 0 : without_gain + 1;
@@ -84,7 +85,8 @@ inline std::uint64_t bytes_of(const Solution& solution) {
         round.min_area *= step * step;  // so does what the ends of shadows and contacts leave out
       }
       round.target *= 0.5;
-      const bool floor = options.refinement == Refinement::a_priori ? round.epsilon < 1e-5 || *round.light_epsilon < 1e-6 : round.target < 1e-4;
+      const bool floor =
+          options.refinement == Refinement::a_priori ? round.epsilon < 1e-5 || *round.light_epsilon < 1e-6 : round.target < 1e-4;
       const bool over = audit.interrupted || !audit.shortage.empty() || audit.links > link_budget || floor || without_gain == 3;
       const bool met = error && error->within(wanted);
       if (!best.solution || !best_error || (error && !(best_error->high < error->low))) {

@@ -121,8 +121,7 @@ class Deadline {
   BfResult result;
   const PairOracle oracle{surfaces, hierarchy};
   const bool clustered = !hierarchy.empty() && hierarchy[0].is_cluster();
-  result.refined = refine(scene, objects, plan, surfaces, hierarchy, patches, first_epsilon, 1e-3, 0.0, threads, seed, control,
-                          budget);
+  result.refined = refine(scene, objects, plan, surfaces, hierarchy, patches, first_epsilon, 1e-3, 0.0, threads, seed, control, budget);
   if (result.refined.cancelled || result.refined.too_many || result.refined.too_large) { return result; }
   double scene_area = 0.0;
   for (const Node& node : hierarchy) { scene_area += node.parent == no_node ? node.area : 0.0; }
@@ -179,9 +178,8 @@ class Deadline {
     const ColorSolution light =
         solve_channels(hierarchy, transport, exposure.area, reflectance, emission, plan.channels, Solver::conjugate_gradients, 1e-3, 40);
     detail::LeafErrors leaves = detail::estimate_leaf_errors(hierarchy, patches, exposure, links, reflectance, light.radiosity);
-    detail::ErrorEstimation errors =
-        detail::estimate_link_errors(std::nullopt, leaves.alike(), hierarchy, exposure, links, shapes, reflectance, emission,
-                                     light.radiosity);
+    detail::ErrorEstimation errors = detail::estimate_link_errors(std::nullopt, leaves.alike(), hierarchy, exposure, links, shapes,
+                                                                  reflectance, emission, light.radiosity);
     errors.of_leaves = leaves.sum;
     for (float& e : leaves.squares) { e *= static_cast<float>(leaf_part * leaf_part); }
     const double sum = errors.sum(leaf_part);
@@ -260,7 +258,8 @@ class Deadline {
       if (squeeze > 1.0 && 50 * chosen < links.size()) { return finished(); }
       if (!budget.limited()) { break; }
       const auto parts = [&](std::uint32_t i) { return hierarchy[i].leaf() ? hierarchy[i].corners : hierarchy[i].child_count; };
-      const auto split_links = static_cast<std::size_t>(std::count_if(splits.begin(), splits.end(), [](Split of) { return of != Split::none; }));
+      const auto split_links =
+          static_cast<std::size_t>(std::count_if(splits.begin(), splits.end(), [](Split of) { return of != Split::none; }));
       MemoryBudget::Counts counts{hierarchy.size(), links.size() - split_links, 0, result.refined.occluders.bytes()};
       for (std::uint32_t i = 0; i < hierarchy.size(); ++i) { counts.nodes += asked[i] && hierarchy[i].leaf() ? parts(i) : 0; }
       for (std::size_t i = 0; i < links.size(); ++i) {

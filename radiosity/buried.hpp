@@ -195,8 +195,8 @@ class ConvexSolids {
   for (std::size_t i = hierarchy.size(); i-- > 0;) {  // children come after their parents
     const Node& node = hierarchy[i];
     if (is_input_face(hierarchy, i)) {
-      buried[i] = covered[node.object] || solids.hold(contour(surfaces, hierarchy, static_cast<std::uint32_t>(i)),
-                                                      node.radius * node.deviation, node.object);
+      buried[i] = covered[node.object] ||
+                  solids.hold(contour(surfaces, hierarchy, static_cast<std::uint32_t>(i)), node.radius * node.deviation, node.object);
     } else if (node.is_cluster()) {
       buried[i] = true;
       for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { buried[i] = buried[i] && buried[c]; }

@@ -163,8 +163,7 @@ template <class Function, class Error>
   const auto side = [&](double s, double from, double length) {
     return s * log_potential(from - s * cosine, length, std::sqrt(s * s * sine * sine + d * d));
   };
-  const double sides =
-      side(s1, t0, inner.length) - side(s0, t0, inner.length) + side(t1, s0, outer.length) - side(t0, s0, outer.length);
+  const double sides = side(s1, t0, inner.length) - side(s0, t0, inner.length) + side(t1, s0, outer.length) - side(t0, s0, outer.length);
   asked += 4;
   double rest = 0.0;
   const double factor = d * d / sine;

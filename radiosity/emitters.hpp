@@ -60,7 +60,7 @@ class Emitters {
 
   struct Shape {
     std::array<glm::dvec3, 3> corner{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};  // of a triangle
-    glm::dvec3 normal{0.0};                                                              // of a triangle, unit; 0: a sphere
+    glm::dvec3 normal{0.0};                                                               // of a triangle, unit; 0: a sphere
     glm::dvec3 centre{0.0};
     double radius = 0.0;  // of the sphere, or of one around the triangle
     double area = 0.0;    // of the triangle, or of the piece that the sphere stands for
@@ -72,9 +72,9 @@ class Emitters {
     glm::dvec3 centre{0.0};  // of a sphere around all shapes below
     double radius = 0.0;
     double power = 0.0;
-    glm::dvec3 normal{0.0};  // of all shapes below, when they lie in one plane; else 0
-    double offset = 0.0;     // of that plane
-    std::uint32_t first = 0;       // its shape, or the first of its two children
+    glm::dvec3 normal{0.0};   // of all shapes below, when they lie in one plane; else 0
+    double offset = 0.0;      // of that plane
+    std::uint32_t first = 0;  // its shape, or the first of its two children
     bool leaf = true;
     bool several = false;  // surfaces below
   };
@@ -147,7 +147,9 @@ inline Emitters::Emitters(const std::vector<Surface>& surfaces, const std::vecto
     }
     for (std::uint32_t s = 0; s < curved.size(); ++s) {
       const Color& exitance = emission[surface.first_surface + s];
-      if (!curved[s].empty()) { add_curved(surface.first_surface + s, curved[s], *surface.object, s, exitance.x + exitance.y + exitance.z); }
+      if (!curved[s].empty()) {
+        add_curved(surface.first_surface + s, curved[s], *surface.object, s, exitance.x + exitance.y + exitance.z);
+      }
     }
   }
   if (shapes_.empty()) { return; }

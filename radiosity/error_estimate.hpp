@@ -18,8 +18,8 @@
 namespace radiosity {
 
 struct ErrorEstimate {
-  double relative_l2 = 0.0;     // RMS error / RMS reflected radiosity; all channels together
-  double standard_error = 0.0;  // of relative_l2
+  double relative_l2 = 0.0;      // RMS error / RMS reflected radiosity; all channels together
+  double standard_error = 0.0;   // of relative_l2
   double low = 0.0, high = 0.0;  // the 95 % interval; low is 0 where the noise hides the error
 
   // Is the error known to be at most, or above, `wanted`?

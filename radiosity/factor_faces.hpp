@@ -124,8 +124,8 @@ namespace detail {
 // The exchange of two convex faces behind blockers, in the squared unit of the coordinates. Those of the blockers that the shaft does not
 // meet are left out; `asked` counts the points, and stays where it was when nothing stands in between.
 [[nodiscard]] inline Estimate exchange(std::span<const glm::dvec3> p, const glm::dvec3& n, std::span<const glm::dvec3> q,
-                                       const glm::dvec3& m, std::span<const Blocker> blockers, double slack,
-                                       const IntegralLimits& limits, std::uint64_t& asked) {
+                                       const glm::dvec3& m, std::span<const Blocker> blockers, double slack, const IntegralLimits& limits,
+                                       std::uint64_t& asked) {
   Piece upper_p;
   Piece upper_q;
   Piece lower;

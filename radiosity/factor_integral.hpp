@@ -108,9 +108,7 @@ class Integral {
     const double whole = gauss(quad, u, v, size, own);
     Element e{quad, u, v, size, {}, 0.0, 0.0, -1};
     const double half = 0.5 * size;
-    for (std::size_t k = 0; k < 4; ++k) {
-      e.value += gauss(quad, u + (k & 1 ? half : 0.0), v + (k & 2 ? half : 0.0), half, e.quarter[k]);
-    }
+    for (std::size_t k = 0; k < 4; ++k) { e.value += gauss(quad, u + (k & 1 ? half : 0.0), v + (k & 2 ? half : 0.0), half, e.quarter[k]); }
     e.error = std::abs(e.value - whole);
     error_ += e.error;
     elements_.push_back(e);

@@ -106,7 +106,8 @@ class RayCounter {
     for (std::size_t s = 0; s < sequences; ++s) { arrived += static_cast<double>(hits(s, from, to)); }
     const double few = std::min(arrived, all - arrived);
     const double least = all > 0.0 ? (few > 0.0 ? 1.0 + std::sqrt(std::min(few, 16.0)) : 1.5) / all : 0.0;
-    return mean(from, [&](std::size_t s) { return static_cast<double>(hits(s, from, to)); }, least);
+    return mean(
+        from, [&](std::size_t s) { return static_cast<double>(hits(s, from, to)); }, least);
   }
   // The sum of all factors from a row.
   [[nodiscard]] Mean sum(std::uint32_t from) const {

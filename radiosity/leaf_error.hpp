@@ -54,7 +54,7 @@ inline LeafErrors estimate_leaf_errors(const Hierarchy& hierarchy, const Patches
   const std::vector<double>& area = exposure.area;
   struct Gradient {
     std::array<glm::dvec3, 3> sum{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};  // of the irradiance, one a channel
-    Color squares{0.0};                                                                  // of the links for themselves
+    Color squares{0.0};                                                                // of the links for themselves
   };
   std::vector<Gradient> gradient(hierarchy.size());
   const auto arrives = [&](std::uint32_t i, double exchange, const Color& sent, const glm::dvec3& slope) {

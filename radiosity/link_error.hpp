@@ -80,7 +80,7 @@ struct ErrorEstimation {
   std::vector<LinkError> links;
   double of_links = 0.0, of_leaves = 0.0;
   double unseen = 0.0;  // part of the links: those through which no segment came
-  double norm = 0.0;  // of the reflected radiosity
+  double norm = 0.0;    // of the reflected radiosity
 
   [[nodiscard]] double sum(double part) const { return of_links + part * part * of_leaves; }
   [[nodiscard]] double relative(double part) const { return norm > 0.0 ? std::sqrt(sum(part) / norm) : 0.0; }

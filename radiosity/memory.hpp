@@ -44,8 +44,13 @@ namespace radiosity {
 [[nodiscard]] inline std::string memory_text(std::uint64_t bytes) {
   char text[32] = "";
   const auto value = static_cast<double>(bytes);
-  std::snprintf(text, sizeof text, value < 1e6 ? "%.3g kB" : value < 1e9 ? "%.3g MB" : "%.3g GB",
-                value / (value < 1e6 ? 1e3 : value < 1e9 ? 1e6 : 1e9));
+  std::snprintf(text, sizeof text,
+                value < 1e6   ? "%.3g kB"
+                : value < 1e9 ? "%.3g MB"
+                              : "%.3g GB",
+                value / (value < 1e6   ? 1e3
+                         : value < 1e9 ? 1e6
+                                       : 1e9));
   return text;
 }
 

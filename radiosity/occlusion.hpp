@@ -15,9 +15,9 @@
 
 #include <raycast/shaft.hpp>
 
+#include <radiosity/bend.hpp>
 #include <radiosity/hierarchy.hpp>
 #include <radiosity/parallel.hpp>
-#include <radiosity/bend.hpp>
 #include <radiosity/patch.hpp>
 #include <radiosity/plan.hpp>
 #include <radiosity/surface.hpp>

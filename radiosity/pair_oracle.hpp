@@ -21,7 +21,10 @@ class PairOracle {
  public:
   // The references must outlive the oracle; the hierarchy holds clusters and input faces when it is made, and may grow.
   PairOracle(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy)
-      : surfaces_{&surfaces}, hierarchy_{&hierarchy}, shown_{hierarchy, [&](std::size_t i) { return hierarchy[i].area; }}, buried_{buried_nodes(surfaces, hierarchy)} {}
+      : surfaces_{&surfaces},
+        hierarchy_{&hierarchy},
+        shown_{hierarchy, [&](std::size_t i) { return hierarchy[i].area; }},
+        buried_{buried_nodes(surfaces, hierarchy)} {}
 
   [[nodiscard]] const ShownAreas& shown() const { return shown_; }
 

@@ -70,12 +70,16 @@ std::size_t start_threads(std::vector<std::jthread>& pool, std::size_t count, co
 #if defined(__cpp_exceptions)
   try {
     pool.reserve(count);
-    while (pool.size() < count) { pool.emplace_back([&work] { work(); }); }
+    while (pool.size() < count) {
+      pool.emplace_back([&work] { work(); });
+    }
   } catch (const std::system_error&) {  // no more threads, or no stack for one
   } catch (const std::bad_alloc&) {}
 #else
   pool.reserve(count);
-  while (pool.size() < count) { pool.emplace_back([&work] { work(); }); }
+  while (pool.size() < count) {
+    pool.emplace_back([&work] { work(); });
+  }
 #endif
   return pool.size();
 }

@@ -65,11 +65,14 @@ class PictureAudit {
       to.samples.assign(std::size_t{to.side} * to.side, {});
       constexpr std::size_t batch = 512;  // between two looks at the cancel flag
       for (std::size_t done = 0; done < to.samples.size() && !control.cancelled(); done += batch) {
-        parallel_for(std::min(batch, to.samples.size() - done), thread_count(threads), [&](std::size_t offset) {
-          if (control.cancelled()) { return; }
-          const std::size_t i = done + offset;
-          to.samples[i] = measure_pixel(picture, seed, first + i, i % to.side, i / to.side, to.side, paths);
-        }, 4);
+        parallel_for(
+            std::min(batch, to.samples.size() - done), thread_count(threads),
+            [&](std::size_t offset) {
+              if (control.cancelled()) { return; }
+              const std::size_t i = done + offset;
+              to.samples[i] = measure_pixel(picture, seed, first + i, i % to.side, i / to.side, to.side, paths);
+            },
+            4);
         control.report("audit", static_cast<double>(done) / static_cast<double>(to.samples.size()));
       }
       for (const Sample& sample : to.samples) {
@@ -78,7 +81,8 @@ class PictureAudit {
       }
       return !control.cancelled();
     };
-    if (!measure_to_goal<Measured>(measure, [](const Measured& m) -> const ErrorSums& { return m.sums; }, goal, measured)) {
+    if (!measure_to_goal<Measured>(
+            measure, [](const Measured& m) -> const ErrorSums& { return m.sums; }, goal, measured)) {
       return std::nullopt;
     }
     return summary(picture, measured);
@@ -106,7 +110,8 @@ class PictureAudit {
   PictureAudit(const Scene& scene, const LightUnit& unit, Prepared prepared)
       : unit_{unit}, prepared_{std::make_unique<Prepared>(std::move(prepared))}, tracer_{scene, prepared_->objects, prepared_->surfaces} {
     const auto inputs = surfaces(scene);
-    all_emit_ = std::none_of(inputs.begin(), inputs.end(), [&](const InputSurface& s) { return is_black(scene.materials[s.material].emission); });
+    all_emit_ =
+        std::none_of(inputs.begin(), inputs.end(), [&](const InputSurface& s) { return is_black(scene.materials[s.material].emission); });
   }
 
   // The first surface that shows its front; backs are looked through, as in the pictures (lookup.hpp).
@@ -131,8 +136,8 @@ class PictureAudit {
   [[nodiscard]] const Color& emission(const Seen& at) const { return tracer_.material(tracer_.surface(at.object, at.sheet)).emission; }
 
   // A pixel of the cell (column, row) of side x side cells of the picture.
-  [[nodiscard]] Sample measure_pixel(const ShownPicture& picture, std::uint64_t seed, std::uint64_t key, std::size_t column, std::size_t row,
-                                     std::uint32_t side, std::uint32_t paths) const {
+  [[nodiscard]] Sample measure_pixel(const ShownPicture& picture, std::uint64_t seed, std::uint64_t key, std::size_t column,
+                                     std::size_t row, std::uint32_t side, std::uint32_t paths) const {
     Sample sample;
     Random random{seed, key, 0x706978656cull};
     const auto place = [&](std::size_t cell, std::uint32_t pixels) {
@@ -218,7 +223,9 @@ class PictureAudit {
     }
     for (std::uint32_t t = 0; t < tiles.size(); ++t) {
       const std::optional<ErrorEstimate> of_tile = tiles[t].square.size() >= 16 ? tiles[t].estimate() : std::nullopt;
-      if (of_tile && (!result.worst || of_tile->low > result.worst->error.low)) { result.worst = PictureError::Tile{t % 4, t / 4, *of_tile}; }
+      if (of_tile && (!result.worst || of_tile->low > result.worst->error.low)) {
+        result.worst = PictureError::Tile{t % 4, t / 4, *of_tile};
+      }
     }
     return result;
   }

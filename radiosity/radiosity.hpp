@@ -164,7 +164,8 @@ template <class Attempt>
   } catch (const std::length_error&) {}  // a table longer than the address space
   Outcome outcome{std::nullopt, {Failure::Kind::out_of_memory, {}}};
   try {
-    outcome.failure.sentences.emplace_back("the system has no more memory for this run; a larger epsilon, min_area, target or error needs less");
+    outcome.failure.sentences.emplace_back(
+        "the system has no more memory for this run; a larger epsilon, min_area, target or error needs less");
   } catch (const std::bad_alloc&) {}  // not even for a sentence
   return outcome;
 #else

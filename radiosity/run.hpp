@@ -37,7 +37,9 @@ inline void measure_errors(const Options& options, const Control& control, Surfa
   const AuditGoal to_know = goal_to_know(audit, options.audit_points);
   const std::uint64_t solution_rays = rays_worth(audit);
   AuditGoal goal = to_know;
-  if (options.error) { goal = {options.audit_points, solution_rays, *options.error, std::max<std::uint64_t>(25'000'000, 2 * solution_rays)}; }
+  if (options.error) {
+    goal = {options.audit_points, solution_rays, *options.error, std::max<std::uint64_t>(25'000'000, 2 * solution_rays)};
+  }
   if (options.error && control.picture_error) {
     Mesh shown = solution.mesh;
     for (glm::dvec3& p : shown.positions) { p = solution.frame.to_scene(p); }
@@ -52,7 +54,8 @@ inline void measure_errors(const Options& options, const Control& control, Surfa
   };
   SurfaceError measured;
   const bool complete = measure_to_goal<SurfaceError>(
-      measure, [&](const SurfaceError& error) -> const ErrorSums& { return reconstructed ? error.reconstructed : error.leaf; }, goal, measured);
+      measure, [&](const SurfaceError& error) -> const ErrorSums& { return reconstructed ? error.reconstructed : error.leaf; }, goal,
+      measured);
   if (!complete) { return; }
   audit.leaf_error = measured.leaf.estimate();
   if (reconstructed) { audit.surface_error = measured.reconstructed.estimate(); }
@@ -132,14 +135,15 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   for (const Surface& surface : boundary) { budget.fixed += surface.brep.bytes(); }
   const auto too_large = [&](std::uint64_t needed) {
     return too_much_memory(needed, budget.allowed,
-                           options.error         ? "a larger error needs less"
-                           : budget.a_posteriori ? "a larger target needs less"
-                                                 : "a larger epsilon or min_area needs less, and BF-refinement ends with the best that fits");
+                           options.error ? "a larger error needs less"
+                           : budget.a_posteriori
+                               ? "a larger target needs less"
+                               : "a larger epsilon or min_area needs less, and BF-refinement ends with the best that fits");
   };
   if (needs_links && options.refinement == Refinement::a_posteriori) {
-    BfResult bf = bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, shown, evaluator,
-                            options.target, detail::leaf_part(options.reconstruction), Deadline{options.time}, link_limit, threads,
-                            options.seed, control, budget);
+    BfResult bf =
+        bf_refine(scene, objects, plan, reflectance, emission, boundary, hierarchy, patches, exposure, shown, evaluator, options.target,
+                  detail::leaf_part(options.reconstruction), Deadline{options.time}, link_limit, threads, options.seed, control, budget);
     refined = std::move(bf.refined);
     evaluated = bf.evaluated;
     audit.estimated_error = bf.estimate;
@@ -203,9 +207,8 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.histories = std::move(solved.histories);
   solution.radiosity = std::move(solved.radiosity);
   if (needs_links && options.refinement == Refinement::a_priori && options.audit_points > 0) {
-    const detail::ErrorEstimation errors =
-        detail::sampled_estimate(evaluator, hierarchy, patches, exposure, solution.links, reflectance, emission, solution.radiosity,
-                                 evaluated.doubt, threads);
+    const detail::ErrorEstimation errors = detail::sampled_estimate(evaluator, hierarchy, patches, exposure, solution.links, reflectance,
+                                                                    emission, solution.radiosity, evaluated.doubt, threads);
     audit.estimated_error = errors.relative(detail::leaf_part(options.reconstruction));
     audit.estimated_leaf_error = errors.relative(1.0);
   }
@@ -278,8 +281,9 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
     if (reconstructed) { audit.surface_error = audit.leaf_error; }
     if (control.picture_error) { audit.picture_error = PictureError{}; }
   } else if (options.audit_points > 0 && plan.traceable && !control.cancelled()) {
-    measure_errors(options, control, SurfaceErrorMeter{scene, objects, tracer, exposure, solution.mesh, direct ? &*direct : nullptr, options.seed},
-                   threads, solution);
+    measure_errors(options, control,
+                   SurfaceErrorMeter{scene, objects, tracer, exposure, solution.mesh, direct ? &*direct : nullptr, options.seed}, threads,
+                   solution);
     watch.lap("audit");
   }
   if (needs_links && options.refinement == Refinement::a_posteriori && !options.time && !options.error) {
@@ -325,7 +329,8 @@ inline Outcome solve_within_memory(const Scene& scene, const Options& options, c
 inline Outcome solve_in_rounds(const Scene& scene, const Options& options, const Control& control) {
   if (!options.error) { return solve_within_memory(scene, options, control); }
   const bool of_picture = static_cast<bool>(control.picture_error);
-  Outcome outcome = solve_to_error(options, of_picture, [&](const Options& round, std::uint64_t held) { return solve_within_memory(scene, round, control, held); });
+  Outcome outcome = solve_to_error(
+      options, of_picture, [&](const Options& round, std::uint64_t held) { return solve_within_memory(scene, round, control, held); });
   if (of_picture && outcome.solution && !outcome.solution->audit.converged && !control.cancelled()) {
     // That the error is too large was decided by few pixels; how large it is takes more.
     Audit& audit = outcome.solution->audit;

@@ -90,11 +90,16 @@ class SurfaceErrorMeter {
     keys_ += points;
     constexpr std::size_t batch = 512;  // between two looks at the cancel flag
     for (std::size_t first = 0; first < points && !control.cancelled(); first += batch) {
-      parallel_for(std::min<std::size_t>(batch, points - first), threads, [&](std::size_t offset) {
-        const std::size_t i = first + offset;
-        if (!control.cancelled()) { samples[i] = measure_one(first_key + i, static_cast<double>(i) / static_cast<double>(points),
-                                                             1.0 / static_cast<double>(points), paths); }
-      }, 4);
+      parallel_for(
+          std::min<std::size_t>(batch, points - first), threads,
+          [&](std::size_t offset) {
+            const std::size_t i = first + offset;
+            if (!control.cancelled()) {
+              samples[i] = measure_one(first_key + i, static_cast<double>(i) / static_cast<double>(points),
+                                       1.0 / static_cast<double>(points), paths);
+            }
+          },
+          4);
       control.report("audit", static_cast<double>(std::min<std::size_t>(first + batch, points)) / static_cast<double>(points));
     }
     if (control.cancelled()) { return false; }
@@ -178,7 +183,7 @@ class SurfaceErrorMeter {
   std::vector<InputSurface> inputs_;
   std::vector<Triangle> triangles_;
   double total_ = 0.0, light_ = 0.0;  // area, and the integral of the light over it
-  std::uint64_t keys_ = 0;  // of the random numbers that were used
+  std::uint64_t keys_ = 0;            // of the random numbers that were used
   std::uint64_t seed_;
 };
 

@@ -156,8 +156,8 @@ namespace detail {
 // `links` of the audit counts the entries of the matrix, or the exchanges that were made and not kept. There is no error estimate.
 [[nodiscard]] inline Outcome solve_uniform(const Scene& scene, const UniformOptions& options, const Control& control = {}) {
   return detail::unless_out_of_memory([&] {
-    return detail::solve_in_own_unit(scene,
-                                     [&](const Scene& in_unit, const LightUnit&) { return detail::solve_uniform_in_unit(in_unit, options, control); });
+    return detail::solve_in_own_unit(
+        scene, [&](const Scene& in_unit, const LightUnit&) { return detail::solve_uniform_in_unit(in_unit, options, control); });
   });
 }
 

@@ -32,7 +32,7 @@ struct RenderOptions {
   std::optional<double> exposure;
   PictureMethod method = PictureMethod::mesh;
   bool quiet = false;
-  std::optional<ErrorOf> error_of;  // default: of the picture when there is one
+  std::optional<ErrorOf> error_of;      // default: of the picture when there is one
   std::optional<std::uint64_t> memory;  // bytes that the process may hold
   radiosity::Options solver;
 };

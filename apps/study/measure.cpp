@@ -89,7 +89,9 @@ Measured errors_of_run(const radiosity::Scene& scene, const TrueRadiosity& truth
 class PictureJudge {
  public:
   PictureJudge(const radiosity::Scene& scene, const apps::Camera& camera)
-      : scene_{scene}, view_{apps::make_view(camera, camera.size.value_or(apps::PictureSize{}))}, audit_{radiosity::PictureAudit::make(scene)} {}
+      : scene_{scene},
+        view_{apps::make_view(camera, camera.size.value_or(apps::PictureSize{}))},
+        audit_{radiosity::PictureAudit::make(scene)} {}
 
   [[nodiscard]] std::optional<radiosity::ErrorEstimate> operator()(const radiosity::Solution& solution,
                                                                    const radiosity::Control& control) const {
@@ -103,8 +105,10 @@ class PictureJudge {
       return sum;
     };
     const radiosity::ShownPicture shown{view_.size.width, view_.size.height,
-                                        [&](double x, double y) { return raycast::Segment{view_.eye, view_.direction(x, y)}; }, radiosity,
-                                        [](double b) { return b; }};
+                                        [&](double x, double y) {
+                                          return raycast::Segment{view_.eye, view_.direction(x, y)};
+                                        },
+                                        radiosity, [](double b) { return b; }};
     const auto error = audit_->measure(shown, {1000, 1'000'000}, 0, 1, control);
     return error ? std::optional{error->error} : std::nullopt;
   }
@@ -116,8 +120,8 @@ class PictureJudge {
 };
 
 // A run with a result, or with the reason why there is none.
-Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, const PictureJudge& judge, const Setting& setting, const MeasureOptions& options,
-                  const radiosity::Control& control, std::vector<radiosity::LeftOut>& left_out) {
+Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, const PictureJudge& judge, const Setting& setting,
+                  const MeasureOptions& options, const radiosity::Control& control, std::vector<radiosity::LeftOut>& left_out) {
   constexpr double brief = 0.3;  // seconds; what takes less is run three times, and the shortest time counts
   radiosity::Outcome outcome;
   std::uint64_t peak_bytes = 0;
@@ -129,10 +133,9 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
       Measured none;
       none.run.setting = setting.text;
       const bool stopped = again.failure.kind == radiosity::Failure::Kind::cancelled;
-      none.run.refused =
-          stopped                           ? "takes more than " + seconds_text(options.cpu_seconds_per_run) + " s of CPU time"
-          : again.failure.sentences.empty() ? "out of memory"
-                                            : again.failure.sentences.front();
+      none.run.refused = stopped ? "takes more than " + seconds_text(options.cpu_seconds_per_run) + " s of CPU time"
+                         : again.failure.sentences.empty() ? "out of memory"
+                                                           : again.failure.sentences.front();
       return none;
     }
     // Later runs find the first one's solution in memory. A comparison comes after the run proper and is not counted.

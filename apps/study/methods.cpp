@@ -153,10 +153,11 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
   Options separate = common(study);
   separate.topology = radiosity::Topology::separate;
   separate.cluster_from = std::numeric_limits<std::uint32_t>::max();
-  all.push_back(hierarchical("F, separate polygons",
-                             "hierarchical F, its light oracle, form factors and visibility unchanged, on polygons that share no vertices and "
-                             "stay flat: a quad-tree on each, as in classical hierarchical radiosity (Hanrahan 1991)",
-                             "epsilon", epsilons, separate, set_epsilon));
+  all.push_back(
+      hierarchical("F, separate polygons",
+                   "hierarchical F, its light oracle, form factors and visibility unchanged, on polygons that share no vertices and "
+                   "stay flat: a quad-tree on each, as in classical hierarchical radiosity (Hanrahan 1991)",
+                   "epsilon", epsilons, separate, set_epsilon));
   all.push_back(uniform("uniform, matrix", "every face cut evenly, the full matrix solved by Gauss-Seidel", study,
                         radiosity::UniformSolver::gauss_seidel));
   all.push_back(uniform("progressive", "every face cut evenly, the brightest leaf shoots (Cohen 1988); no matrix is stored", study,

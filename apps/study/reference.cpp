@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 
 #include <radiosity/parallel.hpp>
+#include <radiosity/path_tracer.hpp>
 #include <radiosity/polygons.hpp>
 #include <radiosity/prepare.hpp>
-#include <radiosity/path_tracer.hpp>
 #include <radiosity/sobol.hpp>
 #include <radiosity/visibility.hpp>
 

@@ -53,9 +53,9 @@ struct Run {
   std::uint64_t links = 0;  // or matrix entries, for a dense matrix
   std::uint64_t leaves = 0;
   std::uint64_t rays = 0;
-  Errors leaves_error;    // constant leaves, before reconstruction
-  Errors simple_error;    // simple reconstruction (paper figs. 6-8)
-  Errors weighted_error;  // weighted reconstruction (paper fig. 5)
+  Errors leaves_error;                                    // constant leaves, before reconstruction
+  Errors simple_error;                                    // simple reconstruction (paper figs. 6-8)
+  Errors weighted_error;                                  // weighted reconstruction (paper fig. 5)
   std::optional<radiosity::ErrorEstimate> picture_error;  // of what the scene's camera sees of it (radiosity/picture_error.hpp)
   std::optional<ErrorParts> parts;
   std::string refused;  // why there is no result; empty when there is one

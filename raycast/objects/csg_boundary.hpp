@@ -205,8 +205,7 @@ class CsgEvaluation {
     if (!(static_cast<double>(faces_) + faces > most_faces_)) return true;
     too_many_ = true;
     refusal_ = "its curved parts need more than " + std::to_string(static_cast<long long>(most_faces_)) +
-               " faces in all (the last one was '" + name +
-               "'): make several objects of it, or its parts more alike in size";
+               " faces in all (the last one was '" + name + "'): make several objects of it, or its parts more alike in size";
     return false;
   }
   static bool meet(const Box& a, const Box& b) {

@@ -47,7 +47,8 @@ TEST_CASE("render --memory: refused with a sentence, or within the limit by the 
   CHECK(refused.err.find("a larger epsilon or min_area needs less") != std::string::npos);
   CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
 
-  const program::Run best = place.run("render '" HALFLIGHT_SCENES "/cornell.scene' --quiet --audit 0 --threads 1 --target .004 "
+  const program::Run best = place.run("render '" HALFLIGHT_SCENES
+                                      "/cornell.scene' --quiet --audit 0 --threads 1 --target .004 "
                                       "--memory 30M --json report.json");
   CHECK(best.code == 4);
   CHECK(best.err.find("the outputs show the best solution so far") != std::string::npos);

@@ -27,8 +27,8 @@ std::string written(const std::string& name, double scale, const glm::dvec3& off
     std::istringstream words{line.substr(0, line.find('#'))};
     for (std::string word; words >> word;) {
       out << word << ' ';
-      const bool place = word == "vertex" || word == "from" || word == "to" || word == "center" || word == "base" || word == "eye" ||
-                         word == "target";
+      const bool place =
+          word == "vertex" || word == "from" || word == "to" || word == "center" || word == "base" || word == "eye" || word == "target";
       glm::dvec3 p{0.0};
       if (place || word == "axis") {
         words >> p.x >> p.y >> p.z;

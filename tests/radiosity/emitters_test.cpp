@@ -73,7 +73,8 @@ TEST_CASE("emitters: samples over their density give the solid angle in which th
   INFO("seed 11");
   radiosity::Random random{11, 0};
   for (int k = 0; k < 6; ++k) {
-    const glm::dvec3 x = in_frame(p, {2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0, k % 2 == 0 ? 0.0 : 0.6 * random.uniform()});
+    const glm::dvec3 x =
+        in_frame(p, {2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0, k % 2 == 0 ? 0.0 : 0.6 * random.uniform()});
     const double u = random.uniform();
     const glm::dvec3 n = k % 2 == 0 ? glm::dvec3{0, 0, 1} : radiosity::cosine_direction({0, 0, 1}, u, random.uniform());
     // f = 1 in directions of the hemisphere in which the density is above 0, by even directions and by samples over their density. The

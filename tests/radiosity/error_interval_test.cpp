@@ -41,7 +41,11 @@ double lit_by(const radiosity::Polygon& lamp, double exitance, const glm::dvec3&
 KnownScene random_known_scene(int kind, radiosity::Random& random) {
   const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
   const auto size = [&](double least, double most) { return least * std::pow(most / least, random.uniform()); };
-  Scene scene{{{"plate", Color{plate_rho}, Color{0.0}}, {"lamp", Color{0.0}, Color{1.0}}, {"dim", Color{0.0}, Color{0.01}}, {"black", Color{0.0}, Color{0.0}}}, {}};
+  Scene scene{{{"plate", Color{plate_rho}, Color{0.0}},
+               {"lamp", Color{0.0}, Color{1.0}},
+               {"dim", Color{0.0}, Color{0.01}},
+               {"black", Color{0.0}, Color{0.0}}},
+              {}};
   scene.objects = {scenes::square("plate", {0, 0, 0}, 1.0, true)};
   const double x = between(-0.7, 0.7), y = between(-0.7, 0.7);
   switch (kind) {
@@ -65,12 +69,12 @@ KnownScene random_known_scene(int kind, radiosity::Random& random) {
     case 2: {  // a bright speck, and a large dim wall that touches the plate; the wall ends below the speck
       const double s = size(0.001, 0.1);
       scene.materials[1].emission = Color{0.05 / (s * s)};
-      const radiosity::Polygon speck = rectangle_facing_down(x - s, y - s, x + s, y + s, 0.6), wall{{-1, -1, 0}, {-1, 1, 0}, {-1, 1, 0.5}, {-1, -1, 0.5}};
+      const radiosity::Polygon speck = rectangle_facing_down(x - s, y - s, x + s, y + s, 0.6),
+                               wall{{-1, -1, 0}, {-1, 1, 0}, {-1, 1, 0.5}, {-1, -1, 0.5}};
       scene.objects.push_back(scenes::plate("speck", speck, 1));
       scene.objects.push_back(scenes::plate("wall", wall, 2));
       const double bright = scene.materials[1].emission.x;
-      return {"speck and wall", std::move(scene),
-              [=](const glm::dvec3& p) { return lit_by(speck, bright, p) + lit_by(wall, 0.01, p); }};
+      return {"speck and wall", std::move(scene), [=](const glm::dvec3& p) { return lit_by(speck, bright, p) + lit_by(wall, 0.01, p); }};
     }
     default: {  // a lamp above a black screen with a hole, both parallel to the plate: what is seen of the lamp is a rectangle_facing_down
       const double hole = size(0.02, 0.3), z = between(0.3, 0.8), h = z + size(0.02, 0.5), s = size(0.1, 0.8);
@@ -136,13 +140,14 @@ int intervals_that_hold(const KnownScene& of, double truth, const radiosity::Sol
     radiosity::SurfaceError measured;
     const bool complete = radiosity::measure_to_goal<radiosity::SurfaceError>(
         [&](std::uint64_t n, std::uint32_t paths, radiosity::SurfaceError& to) { return meter.measure(n, paths, 1, {}, to); },
-        [](const radiosity::SurfaceError& e) -> const radiosity::ErrorSums& { return e.reconstructed; }, {points, 300 * std::uint64_t{points}}, measured);
+        [](const radiosity::SurfaceError& e) -> const radiosity::ErrorSums& { return e.reconstructed; },
+        {points, 300 * std::uint64_t{points}}, measured);
     REQUIRE(complete);
     const auto error = measured.reconstructed.estimate();
     if (error && error->low <= truth && truth <= error->high) { ++held; }
     if (error && !(error->low <= truth && truth <= error->high)) {
       WARN(of.name << " seed " << seed << ": " << error->low << " to " << error->high << " misses " << truth << ", points "
-                            << measured.points() << " skew " << measured.reconstructed.moments()->skewness);
+                   << measured.points() << " skew " << measured.reconstructed.moments()->skewness);
     }
   }
   return held;

@@ -104,16 +104,14 @@ TEST_CASE("a light over a bent patch falls off as the cosine with the true norma
   // A small square far away in the direction w: the light is n(x) . w, so its relative slope is w in the plane over (2 n . w).
   const raycast::PlacedObject ball{raycast::Sphere::make({0, 0, 0}, 2.0).object, {}};
   const double e = 0.05;
-  radiosity::Patch patch = radiosity::make_patch(
-      {2.0 * glm::normalize(glm::dvec3{-e, -e, 1}), 2.0 * glm::normalize(glm::dvec3{e, -e, 1}), 2.0 * glm::normalize(glm::dvec3{e, e, 1}),
-       2.0 * glm::normalize(glm::dvec3{-e, e, 1})});
+  radiosity::Patch patch = radiosity::make_patch({2.0 * glm::normalize(glm::dvec3{-e, -e, 1}), 2.0 * glm::normalize(glm::dvec3{e, -e, 1}),
+                                                  2.0 * glm::normalize(glm::dvec3{e, e, 1}), 2.0 * glm::normalize(glm::dvec3{-e, e, 1})});
   patch.bent = true;
   patch.bend = radiosity::bend_of(ball, 0, patch);
   for (const double angle : {0.2, 0.6, 1.0, 1.3}) {
     const glm::dvec3 w{std::sin(angle), 0, std::cos(angle)};
     const glm::dvec3 y{0, 1, 0}, x = glm::cross(y, w);
-    const radiosity::Patch lamp =
-        radiosity::make_patch({1000.0 * w + x - y, 1000.0 * w - x - y, 1000.0 * w - x + y, 1000.0 * w + x + y});
+    const radiosity::Patch lamp = radiosity::make_patch({1000.0 * w + x - y, 1000.0 * w - x - y, 1000.0 * w - x + y, 1000.0 * w + x + y});
     REQUIRE(glm::dot(lamp.normal, w) < -0.999);
     const glm::dvec3 slope = radiosity::variations(patch, lamp).p.slope;
     const double expected = 0.5 * std::tan(angle);
@@ -147,11 +145,23 @@ TEST_CASE("the estimate is within a factor of 3 of the error of the leaves: a la
     const glm::dvec3 axis = between(0.5, 1.5) * radiosity::cosine_direction(glm::dvec3{0, 0, 1}, random.uniform(), random.uniform());
     std::shared_ptr<const raycast::Object> shape;
     switch (seed % 5) {
-      case 0: shape = raycast::Sphere::make(at, between(0.2, 0.8)).object; break;
-      case 1: shape = raycast::Cylinder::make(at, axis, between(0.2, 0.6)).object; break;
-      case 2: shape = raycast::Cone::make(at, axis, between(0.3, 0.7), between(0.0, 0.3)).object; break;
-      case 3: shape = raycast::Superquadric::make(at, {between(0.3, 0.8), between(0.3, 0.8), between(0.3, 0.8)}, between(0.5, 1.5), between(0.5, 1.5)).object; break;
-      default: shape = scenes::box(at - glm::dvec3{0.3}, at + glm::dvec3{0.3}); break;
+      case 0:
+        shape = raycast::Sphere::make(at, between(0.2, 0.8)).object;
+        break;
+      case 1:
+        shape = raycast::Cylinder::make(at, axis, between(0.2, 0.6)).object;
+        break;
+      case 2:
+        shape = raycast::Cone::make(at, axis, between(0.3, 0.7), between(0.0, 0.3)).object;
+        break;
+      case 3:
+        shape =
+            raycast::Superquadric::make(at, {between(0.3, 0.8), between(0.3, 0.8), between(0.3, 0.8)}, between(0.5, 1.5), between(0.5, 1.5))
+                .object;
+        break;
+      default:
+        shape = scenes::box(at - glm::dvec3{0.3}, at + glm::dvec3{0.3});
+        break;
     }
     REQUIRE(shape);
     const double height = between(2.2, 4.0), side = between(0.2, 1.5);

@@ -209,8 +209,7 @@ TEST_CASE("errors of factors: few rays, a ball in a ball sees the outer one alon
     REQUIRE(prepared.prepared);
     const radiosity::FactorRows rows = radiosity::name_rows(scene);
     const auto counted = [&](std::uint32_t from, std::uint64_t lines) {
-      radiosity::RayCounter counter{
-          prepared.prepared->objects, rows.row_of, {from, false, {}, from, rows.row_of[from]}, from, 1, 2, trial};
+      radiosity::RayCounter counter{prepared.prepared->objects, rows.row_of, {from, false, {}, from, rows.row_of[from]}, from, 1, 2, trial};
       counter.extend(lines, 1);
       const auto estimate = [&](std::uint32_t to) { return Estimate{counter.factor(from, to).value, counter.factor(from, to).error}; };
       return std::pair{estimate(0), estimate(1)};
@@ -253,9 +252,9 @@ TEST_CASE("errors of factors: rectangles in the open, parallel and with a common
     const double logs = std::log1p(w * w) + std::log1p(h * h) - std::log1p(s) +
                         w * w * (std::log(w * w) + std::log1p(s) - std::log1p(w * w) - std::log(s)) +
                         h * h * (std::log(h * h) + std::log1p(s) - std::log1p(h * h) - std::log(s));
-    coverage.count(run(scene, 1, 1e-3)(0, 1),  // Howell C-14
-                   (w * std::atan(1.0 / w) + h * std::atan(1.0 / h) - std::sqrt(s) * std::atan(1.0 / std::sqrt(s)) + 0.25 * logs) /
-                       (pi * w));
+    coverage.count(
+        run(scene, 1, 1e-3)(0, 1),  // Howell C-14
+        (w * std::atan(1.0 / w) + h * std::atan(1.0 / h) - std::sqrt(s) * std::atan(1.0 / std::sqrt(s)) + 0.25 * logs) / (pi * w));
   }
   coverage.check();
 }

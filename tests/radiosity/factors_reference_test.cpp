@@ -137,7 +137,8 @@ TEST_CASE("reference: rooms with things in the way: form factors and script F wi
       }
     }
     const double factors = difference(c["F"], [&](std::size_t i, std::size_t j) { return f(i, j).value; });
-    const double scripts = difference(c["script_F"], [&](std::size_t i, std::size_t j) { return script.exchange->factor[i * n + j].value; });
+    const double scripts =
+        difference(c["script_F"], [&](std::size_t i, std::size_t j) { return script.exchange->factor[i * n + j].value; });
     line("room " + c["name"].string(), factors, stated(f), seconds);
     WARN("its script F: error " << scripts);
     CHECK(factors <= 1e-6);
@@ -202,8 +203,7 @@ TEST_CASE("reference: form factors of curved surfaces") {
     const std::string family = c["family"].string();
     const json::Value& shape = c["shape"];
     if (family == "element_to_polygon") {
-      const double value =
-          radiosity::point_to_polygon(position(shape["point"]), position(shape["normal"]), positions(shape["polygon"]));
+      const double value = radiosity::point_to_polygon(position(shape["point"]), position(shape["normal"]), positions(shape["polygon"]));
       CHECK(std::abs(value - c["F"]["F"].number()) <= 1e-14);
       ++cases;
       continue;

@@ -19,8 +19,11 @@ namespace {
 
 // A camera at `eye` that looks along +y, 90 degrees wide; displayed levels are 100 times the radiosity.
 ShownPicture seen_from(const glm::dvec3& eye, std::function<Color(std::uint32_t, std::uint32_t)> radiosity) {
-  return {32, 32, [eye](double x, double y) { return raycast::Segment{eye, {x / 16.0 - 1.0, 1.0, 1.0 - y / 16.0}}; }, std::move(radiosity),
-          [](double b) { return 100.0 * b; }};
+  return {32, 32,
+          [eye](double x, double y) {
+            return raycast::Segment{eye, {x / 16.0 - 1.0, 1.0, 1.0 - y / 16.0}};
+          },
+          std::move(radiosity), [](double b) { return 100.0 * b; }};
 }
 
 PictureError measured_picture(const radiosity::Scene& scene, const ShownPicture& picture, unsigned threads = 1) {
@@ -57,7 +60,8 @@ TEST_CASE("picture audit: an error in one tile is found in that tile") {
   CHECK(error.worst->row == 1);
   CHECK(error.worst->error.low <= 1.0);  // off by .5, where .5 is reflected
   CHECK(error.worst->error.high >= 1.0);
-  CHECK(error.over8.least <= 1.0 / 16.0 + 0.02);  CHECK(error.over8.most >= 1.0 / 16.0);
+  CHECK(error.over8.least <= 1.0 / 16.0 + 0.02);
+  CHECK(error.over8.most >= 1.0 / 16.0);
   CHECK(error.error.low <= 0.25);
   CHECK(error.error.high >= 0.25);
 }
@@ -86,7 +90,8 @@ TEST_CASE("picture audit: lamps are left out, whatever the picture shows there; 
 
 TEST_CASE("picture audit: results do not depend on the number of threads") {
   const auto picture = seen_from({0.5, 0.02, 0.5}, [](std::uint32_t x, auto) { return Color{1.0 + 0.01 * x}; });
-  const PictureError one = measured_picture(scenes::furnace_with_things(0.3), picture, 1), two = measured_picture(scenes::furnace_with_things(0.3), picture, 2);
+  const PictureError one = measured_picture(scenes::furnace_with_things(0.3), picture, 1),
+                     two = measured_picture(scenes::furnace_with_things(0.3), picture, 2);
   CHECK(one.error.relative_l2 == two.error.relative_l2);
   CHECK(one.error.high == two.error.high);
   CHECK(one.rays == two.rays);

@@ -62,8 +62,8 @@ class RandomSolids {
         const double z = glm::dot(p - at, w);
         return std::hypot(glm::length(p - at - z * w) - major, z) < minor;
       };
-      result.text = "torus" + name + "center" + show(at) + " axis" + show(w) + " radius " + std::to_string(major) + " tube " +
-                    std::to_string(minor);
+      result.text =
+          "torus" + name + "center" + show(at) + " axis" + show(w) + " radius " + std::to_string(major) + " tube " + std::to_string(minor);
     } else {
       const double height = round(random_.uniform(smallest, 3 * largest)), r = round(random_.uniform(smallest, largest));
       const double top = kind == cylinder ? r : random_.below(2) == 0 ? 0.0 : r * random_.uniform(0.1, 0.9);
@@ -81,9 +81,7 @@ class RandomSolids {
     }
     return result;
   }
-  RandomSolid any_leaf(double smallest, double largest) {
-    return leaf(static_cast<Kind>(random_.below(kinds)), smallest, largest);
-  }
+  RandomSolid any_leaf(double smallest, double largest) { return leaf(static_cast<Kind>(random_.below(kinds)), smallest, largest); }
 
   static RandomSolid combine(raycast::CsgOperation operation, std::vector<RandomSolid> parts) {
     RandomSolid result;
@@ -132,9 +130,7 @@ class RandomSolids {
     w[static_cast<int>(random_.below(3))] = random_.below(2) == 0 ? 1.0 : -1.0;
     return w;
   }
-  static std::string show(const dvec3& p) {
-    return " " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z);
-  }
+  static std::string show(const dvec3& p) { return " " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z); }
 
   Random& random_;
   double step_;
