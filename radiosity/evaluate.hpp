@@ -42,19 +42,10 @@ struct EvaluateResult {
 // What the exposed part of a patch exchanges with `other`, over what the whole patch would: its share of the area, unless the
 // other's horizon cuts the patch. Then the object that buries the rest is often the one that draws the horizon (the wall of a
 // post and the floor around it), and the share is that of the part above the horizon.
-[[nodiscard]] inline double exposed_share(const PatchEnd& end, double exposed_area, const Patch& other, Random random) {
+[[nodiscard]] inline double exposed_share(const PatchEnd& end, double exposed_area, const Patch& other) {
   const Patch& patch = *end.patch;
-  const double share = exposed_area / patch.area;
-  if (end.exposed == nullptr || above_horizon(other, patch) != 0) { return share; }
-  Polygon upper;
-  clip_to_horizon(patch.contour, other.centre, other.normal, upper);
-  const double upper_area = upper.size() < 3 ? 0.0 : glm::length(vector_area(upper));
-  if (!(upper_area > 0.0)) { return share; }
-  int above = 0;
-  for (std::uint32_t i = 0; i < 64; ++i) {
-    above += glm::dot(other.normal, draw_exposed(end, i % 16, random) - other.centre) > 0.0 ? 1 : 0;
-  }
-  return std::min(1.0, share * above / 64.0 * patch.area / upper_area);
+  if (end.exposed == nullptr || above_horizon(other, patch) != 0) { return exposed_area / patch.area; }
+  return end.exposed->share_above(patch, other.centre, other.normal);
 }
 
 // How far the light of a link is from what the link can express, at each end: RMS values relative to the mean.
@@ -123,7 +114,7 @@ class LinkEvaluator {
     const PatchEnd end_q = end(link.q);
     const VisibilityEstimate seen = visibility(*scene_, *plan_, list, end_p, end_q, patch_rounds, Random{seed_, key});
     // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
-    const double share = exposed_share(end_p, area_p, q, Random{seed_, key, 1}) * exposed_share(end_q, area_q, p, Random{seed_, key, 2});
+    const double share = exposed_share(end_p, area_p, q) * exposed_share(end_q, area_q, p);
     link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
     Variations light_varies;
     if (shape != nullptr || !node_p.leaf() || !node_q.leaf()) {
@@ -187,7 +178,7 @@ class LinkEvaluator {
   }
   [[nodiscard]] static std::uint64_t key_of(const Link& link) { return (std::uint64_t{link.p} << 32) | link.q; }
   [[nodiscard]] static LinkShape::End shape_of(const Variation& v, double shadow) {
-    return {static_cast<float>(v.linear), static_cast<float>(v.rest), static_cast<float>(shadow)};
+    return {static_cast<float>(v.linear), static_cast<float>(std::hypot(v.rest, v.limited)), static_cast<float>(shadow)};
   }
   // Everything at an end is lit as if it stood at the centre, and what is seen of the other end varies: most of all where the end is large
   // from there, for the things in between then hide it from some and not from others. Light that reaches a cluster at all reaches few of

@@ -110,6 +110,7 @@ struct Variation {
   glm::dvec3 slope{0.0};  // relative change per length, a vector in the plane of the patch
   double linear = 0.0;    // RMS of the linear part
   double rest = 0.0;      // RMS of the rest
+  double limited = 0.0;   // RMS of what variations() has taken off the linear part
 };
 struct Variations {
   Variation p, q;
@@ -146,7 +147,10 @@ template <std::size_t N>
 
 }  // namespace detail
 
-// The slopes are limited so that the kernel stays positive on both patches; what that takes off is counted as rest. Normals turn over
+// A patch that the other's horizon cuts is lit on one side of the cut alone, perhaps where no Gauss point lies: over a share s of its area,
+// which varies by sqrt(1 / s - 1) at least.
+//
+// The slopes are limited so that the kernel stays positive on both patches; what that takes off is told apart. Normals turn over
 // curved patches as they do over the surface (bend.hpp).
 [[nodiscard]] inline Variations variations(const Patch& p, const Patch& q) {
   brep::SmallList<double, 36> light_p;
@@ -181,6 +185,15 @@ template <std::size_t N>
     const double all = square * p.area * q.area / (sum * sum) - 1.0;
     result.cross = std::sqrt(std::max(0.0, all - variance(result.p) - variance(result.q)));
   }
+  const auto lit_in_part = [](const Patch& patch, const Patch& other, Variation& v) {
+    if (above_horizon(other, patch) != 0) { return; }
+    Polygon lit;
+    clip_to_horizon(patch.contour, other.centre, other.normal, lit);
+    const double area = lit.size() < 3 ? 0.0 : glm::length(vector_area(lit));
+    if (area > 0.0) { v.rest = std::max(v.rest, std::sqrt(std::max(0.0, patch.area / area - 1.0 - v.linear * v.linear))); }
+  };
+  lit_in_part(p, q, result.p);
+  lit_in_part(q, p, result.q);
   const auto steepest = [](const Patch& patch, const glm::dvec3& slope) {
     double fall = 0.0;
     for (const glm::dvec3& x : patch.contour) { fall = std::max(fall, -glm::dot(slope, x - patch.centroid)); }
@@ -190,7 +203,7 @@ template <std::size_t N>
   if (fall > 1.0) {
     for (Variation* v : {&result.p, &result.q}) {
       v->slope /= fall;
-      v->rest = std::hypot(v->rest, v->linear * (1.0 - 1.0 / fall));
+      v->limited = v->linear * (1.0 - 1.0 / fall);
       v->linear /= fall;
     }
   }

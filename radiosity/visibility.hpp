@@ -65,6 +65,17 @@ class ExposedPoints {
 
   [[nodiscard]] std::uint32_t count() const { return count_; }
 
+  // The share of the points above the plane through `on` with this normal that are exposed; of all points where none lies above.
+  [[nodiscard]] double share_above(const Patch& patch, const glm::dvec3& on, const glm::dvec3& normal) const {
+    std::uint32_t above = 0, exposed = 0;
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      if (!(glm::dot(normal, point(patch, i) - on) > 0.0)) { continue; }
+      ++above;
+      exposed += blocks_[block_of(i)] >> bit_of(i) & 1u;
+    }
+    return above > 0 ? static_cast<double>(exposed) / above : count_ / 256.0;
+  }
+
   // One of the points at random: in the given block of 4 x 4 cells, 0...15, if there is one, else anywhere. Requires a point.
   [[nodiscard]] glm::dvec3 draw(const Patch& patch, std::uint32_t block, Random& random) const {
     const std::uint64_t bits = random.bits();

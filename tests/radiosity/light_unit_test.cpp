@@ -81,7 +81,9 @@ TEST_CASE("emission times 2^k, k from -1000 to 1000: the same bits times 2^k, an
       CHECK(other_bits(solved(times(scene, k), options), one, k) == 0);
     }
   }
-  const radiosity::UniformOptions uniform{radiosity::UniformSolver::gauss_seidel, 0.02};
+  radiosity::UniformOptions uniform;
+  uniform.solver = radiosity::UniformSolver::gauss_seidel;
+  uniform.max_area = 0.02;
   const Solution one = solved(radiosity::solve_uniform(scene, uniform));
   for (const int k : {-1000, exponents(random), 1000}) {
     INFO("2^" << k << ", full matrix");
