@@ -145,17 +145,13 @@ int intervals_that_hold(const KnownScene& of, double truth, const radiosity::Sol
     REQUIRE(complete);
     const auto error = measured.reconstructed.estimate();
     if (error && error->low <= truth && truth <= error->high) { ++held; }
-    if (error && !(error->low <= truth && truth <= error->high)) {
-      WARN(of.name << " seed " << seed << ": " << error->low << " to " << error->high << " misses " << truth << ", points "
-                   << measured.points() << " skew " << measured.reconstructed.moments()->skewness);
-    }
   }
   return held;
 }
 
 }  // namespace
 
-TEST_CASE("audit: of 240 intervals over 24 scenes of known radiosity at least 93 % hold the true error") {
+TEST_CASE("audit: of 240 intervals over 24 scenes of known radiosity at least 93 % hold the true error", "[slow]") {
   INFO("seed 71");
   radiosity::Random random{71, 0};
   constexpr int scenes_asked = 24, seeds = 10;
@@ -174,7 +170,6 @@ TEST_CASE("audit: of 240 intervals over 24 scenes of known radiosity at least 93
     held += intervals_that_hold(of, truth, solution, 2000, seeds);
   }
   CHECK(held >= static_cast<int>(0.93 * scenes_asked * seeds));
-  WARN(held);
 }
 
 TEST_CASE("error target: a tighter one never ends with a worse solution, and one out of reach ends with the best") {
