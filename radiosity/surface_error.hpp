@@ -19,7 +19,6 @@
 #include <radiosity/parallel.hpp>
 #include <radiosity/path_tracer.hpp>
 #include <radiosity/sobol.hpp>
-#include <radiosity/visibility.hpp>
 
 namespace radiosity {
 
@@ -153,8 +152,9 @@ class SurfaceErrorMeter {
     const Color shown = shown_by(*mesh_);
     const InputSurface& input = inputs_[face.surface];
     if (!(exposure_->area[face.node] > 0.0)) { return sample; }
-    if (exposure_->partly_buried[face.node] && buried(*objects_, input.object, input.sheet, chord)) { return sample; }
     const raycast::SurfacePoint point = objects_->object(input.object).project(input.sheet, chord);
+    // Of a leaf that counts as exposed a corner may be buried all the same (exposure.hpp): seen from within what buries it, all is wrong.
+    if (objects_->covered(point.position, point.normal, input.object)) { return sample; }
 
     const TwoEstimates light{seed_, key, paths, [&](PathNumbers& numbers) {
                                return tracer_->radiosity(point.position, point.normal, input.object, input.sheet, numbers, sample.rays);
