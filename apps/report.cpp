@@ -148,10 +148,11 @@ void sizes_and_checks(std::string& out, const Report& report) {
   }
   row(out, "residual",
       format("%.2e after %u iterations%s", audit.residual, static_cast<unsigned>(audit.iterations),
-             audit.converged || audit.target_missed ? ""
-             : audit.interrupted                    ? " - INTERRUPTED, the best so far"
-             : !audit.shortage.empty()              ? " - OUT OF MEMORY, the best so far"
-                                                    : " - NOT CONVERGED"));
+             audit.converged           ? ""
+             : audit.interrupted       ? " - INTERRUPTED, the best so far"
+             : !audit.shortage.empty() ? " - OUT OF MEMORY, the best so far"
+             : audit.target_missed     ? ""  // said above
+                                       : " - NOT CONVERGED"));
   if (!audit.shortage.empty()) { row(out, "memory", audit.shortage); }
   out += "settings\n";
   if (report.options.refinement == radiosity::Refinement::a_posteriori) {

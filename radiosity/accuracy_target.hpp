@@ -18,7 +18,7 @@
 
 #include <radiosity/audit.hpp>
 #include <radiosity/options.hpp>
-#include <radiosity/radiosity.hpp>
+#include <radiosity/outcome.hpp>
 
 namespace radiosity {
 

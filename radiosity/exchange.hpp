@@ -226,6 +226,13 @@ namespace detail {
   return make_patch(std::move(contour), std::move(parts));
 }
 
+// The greatest distance of a corner from the plane of the patch.
+[[nodiscard]] inline double unevenness(const Patch& patch) {
+  double most = 0.0;
+  for (const glm::dvec3& x : patch.contour) { most = std::max(most, std::abs(glm::dot(patch.normal, x - patch.centre))); }
+  return most;
+}
+
 // Of patches that lie above each other's horizon.
 [[nodiscard]] inline double facing_exchange(const Patch& p, const Patch& q) {
   // Extent over distance. Gauss rules of 2, 3, 4 points a side err by less than 6 (ratio/3)^4, 4 (ratio/3)^6, 3 (ratio/3)^8.
@@ -252,11 +259,14 @@ namespace detail {
   if (p_side < 0 || q_side < 0 || !(p.area > 0.0) || !(q.area > 0.0)) { return 0.0; }
   if (p_side > 0 && q_side > 0) { return detail::facing_exchange(p, q); }
   // Faces that lie on each other cross at a tiny angle when their corners are rounded: what rises above the other by 1e-8 of the extent
-  // touches it. Rounded contours are not quite flat, so what was cut may reach below the horizon by as much.
+  // touches it. Contours with corners on a curved surface, or rounded ones, are not quite flat: what rises by no more than they do does not
+  // face the other (neighbours on a sphere), and what was cut may reach below the horizon by as much.
   const Patch cut_p = detail::above(p, q);
   const Patch cut_q = detail::above(q, p);
   if (!(cut_p.area > 0.0) || !(cut_q.area > 0.0)) { return 0.0; }
-  if (above_horizon(p, cut_q, 1e-8) < 0 || above_horizon(q, cut_p, 1e-8) < 0) { return 0.0; }
+  const double extent = p.radius + q.radius + glm::length(q.centre - p.centre);
+  const double share = std::max(1e-8, 2.0 * (detail::unevenness(p) + detail::unevenness(q)) / extent);
+  if (above_horizon(p, cut_q, share) < 0 || above_horizon(q, cut_p, share) < 0) { return 0.0; }
   return detail::facing_exchange(cut_p, cut_q);
 }
 

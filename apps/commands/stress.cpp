@@ -86,7 +86,9 @@ std::vector<const Case*> choose(const std::vector<std::string>& names, bool& kno
     if (std::any_of(chosen.begin(), chosen.end(), [&](const Case* c) { return c->name == name; })) { continue; }
     std::vector<std::string_view> all;
     for (const Case& c : stress::cases()) { all.push_back(c.name); }
-    complain("there is no case '" + name + "'" + scene_file::suggestion(name, all) + "; `halflight stress --list` names them");
+    std::string known_names;
+    for (const std::string_view known_name : all) { known_names.append(known_names.empty() ? "" : ", ").append(known_name); }
+    complain("there is no case '" + name + "'" + scene_file::suggestion(name, all) + "; there are: " + known_names);
     known = false;
   }
   return chosen;

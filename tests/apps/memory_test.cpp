@@ -73,7 +73,7 @@ TEST_CASE("the peak of a run does not contain what others took before") {
   audit.stages.push_back({"last", 0.0, 0.0, radiosity::peak_memory()});
   during = {};
   const auto taken = meter.taken(audit, "last");
-  if (!taken) { return; }  // the system does not tell
-  CHECK(*taken >= 50'000'000);
+  if (!taken) { return; }                   // the system does not tell
+  CHECK(*taken >= 50'000'000 - 64 * 4096);  // the system counts the pages of a thread in batches of 64
   CHECK(*taken < 60'000'000);
 }

@@ -237,7 +237,7 @@ TEST_CASE("halflight study refuses what it cannot measure") {
   CHECK(dark.code == 3);
   CHECK(dark.err.find("nothing emits light") != std::string::npos);
   CHECK(place.run("study wrong.scene -o out").code == 3);
-  CHECK(place.run("study missing.scene -o out").code == 3);
+  CHECK(place.run("study missing.scene -o out").code == 1);  // cannot be read
   CHECK(place.run("study dark.scene").code == 2);
   CHECK(place.run("study dark.scene ./dark.scene -o out").code == 2);
   CHECK(place.run("study dark.scene -o out --paths 0").code == 2);

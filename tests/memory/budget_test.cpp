@@ -35,7 +35,7 @@ Measured measured(const Solve& solve) {
 // Limits from far too small to more than enough.
 std::vector<std::uint64_t> limits() {
   std::vector<std::uint64_t> result;
-  for (double bytes = 3e5; bytes < 4e7; bytes *= 1.6) { result.push_back(static_cast<std::uint64_t>(bytes)); }
+  for (double bytes = 3e5; bytes < 1.2e8; bytes *= 1.6) { result.push_back(static_cast<std::uint64_t>(bytes)); }
   return result;
 }
 
