@@ -74,6 +74,6 @@ TEST_CASE("the peak of a run does not contain what others took before") {
   during = {};
   const auto taken = meter.taken(audit, "last");
   if (!taken) { return; }                   // the system does not tell
-  CHECK(*taken >= 50'000'000 - 64 * 4096);  // the system counts the pages of a thread in batches of 64
+  CHECK(*taken >= 49'000'000);  // each processor counts pages in batches of its own
   CHECK(*taken < 60'000'000);
 }

@@ -8,6 +8,8 @@
 #include <random>
 
 #include <radiosity/total_exchange.hpp>
+#include <raycast/objects/csg.hpp>
+#include <raycast/objects/disk.hpp>
 #include <raycast/objects/mesh.hpp>
 
 #include "catch.hpp"
