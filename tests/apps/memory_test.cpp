@@ -67,13 +67,13 @@ TEST_CASE("the peak of a run does not contain what others took before") {
   const char kept = before[before.size() / 2];
   before = {};
   const apps::PeakMeter meter;
-  std::vector<char> during(50'000'000, kept);
+  std::vector<char> during(52'000'000, kept);  // 2 MB more than is asked for: each processor counts pages in batches of its own
   CHECK(during[during.size() / 2] == 1);
   radiosity::Audit audit;
   audit.stages.push_back({"last", 0.0, 0.0, radiosity::peak_memory()});
   during = {};
   const auto taken = meter.taken(audit, "last");
-  if (!taken) { return; }                   // the system does not tell
-  CHECK(*taken >= 49'000'000);  // each processor counts pages in batches of its own
+  if (!taken) { return; }  // the system does not tell
+  CHECK(*taken >= 50'000'000);
   CHECK(*taken < 60'000'000);
 }

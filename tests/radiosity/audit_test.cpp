@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 
+#include <radiosity/audit_effort.hpp>
 #include <radiosity/path_tracer.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/surface_error.hpp>
@@ -133,6 +134,35 @@ TEST_CASE("a solution that is 5 % too bright is found to be 5 % too bright") {
   CAPTURE(reconstructed->relative_l2, reconstructed->standard_error);
   CHECK(std::abs(reconstructed->relative_l2 - 0.1) < 4.0 * reconstructed->standard_error);
   CHECK(measured.leaf.estimate()->relative_l2 < 0.05);
+}
+
+TEST_CASE("an audit of a target decides from fresh points, or ends at its rays") {
+  // Points of one radiosity, off by twice what is wanted or by none of it, seen through a noise of ten times that.
+  struct Points {
+    radiosity::ErrorSums sums;
+    std::uint64_t rays = 0;
+  };
+  for (const double off : {0.0, 0.04}) {
+    std::uint64_t asked = 0;
+    const auto measure = [&](std::uint64_t points, std::uint32_t paths, Points& to) {
+      for (std::uint64_t i = 0; i < points; ++i) {
+        radiosity::Random random{7, asked++};
+        const double spread = 0.2 / std::sqrt(paths);
+        const double a = spread * (random.uniform() - 0.5), b = spread * (random.uniform() - 0.5);
+        to.sums.add((off + a) * (off + b), 1.0, std::pow(0.5 * (a - b) * (a - b), 2) / 3.0);
+      }
+      to.rays += points * paths;
+      return true;
+    };
+    Points measured;
+    REQUIRE(radiosity::measure_to_goal<Points>(
+        measure, [](const Points& p) -> const radiosity::ErrorSums& { return p.sums; }, {400, 1'000'000, 0.02, 1'000'000}, measured));
+    CAPTURE(off, measured.sums.square.size(), measured.rays);
+    REQUIRE(measured.sums.estimate());
+    CHECK(measured.sums.estimate()->within(0.02) == (off == 0.0));
+    CHECK(measured.sums.square.size() < asked);  // the pilot's points are not among them
+    CHECK(measured.rays <= 1'000'000);
+  }
 }
 
 TEST_CASE("a run with an accuracy target ends when it is cancelled while its audit is undecided") {
