@@ -241,6 +241,10 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
       const std::uint64_t children = hierarchy[decisions[i] == Decision::split_p ? pairs[i].p : pairs[i].q].child_count;
       opened += pairs[i].p == pairs[i].q ? children * (children + 1) / 2 : children;
     }
+    if (result.links.size() + linked + opened > link_limit) {  // before the memory for them is asked for
+      result.too_many = result.links.size() + linked + opened;
+      return result;
+    }
     if (!fits(hierarchy.size(), result.links.size() + linked, pairs.size() + opened)) { return result; }
     std::vector<detail::Pair> next;
     next.reserve(opened);
@@ -259,10 +263,6 @@ inline std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& root
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const auto [p, q, list] = pairs[i];
       if (decisions[i] < first_seeing) { continue; }
-      if (result.links.size() + next.size() > link_limit) {  // before the memory for them is asked for
-        result.too_many = result.links.size() + next.size();
-        return result;
-      }
       bool split_p = decisions[i] == Decision::split_p && !stuck[p];
       bool split_q = decisions[i] == Decision::split_q && !stuck[q];
       if (decisions[i] != Decision::link && !split_p && !split_q) {  // stuck: up to the other, if that is a cluster

@@ -99,7 +99,7 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   audit.channels = plan.channels;
   Hierarchy& hierarchy = solution.hierarchy;
   audit.warnings = warnings(scene, frame, boundary);
-  cut_at_walls(boundary, objects.diameter());
+  if (const std::size_t left = cut_at_walls(boundary, objects.diameter())) { audit.warnings.push_back(warning_of_uncut(left)); }
   cut_long_faces(boundary, options.min_area);
   hierarchy = make_roots(boundary);
   const ClusterChoice clusters = choose_clusters(hierarchy.size(), options);

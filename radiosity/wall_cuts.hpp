@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -140,9 +141,9 @@ inline void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vector<WallLine
 }  // namespace detail
 
 // Cuts the faces of flat objects, before any refinement. Objects of which more than ten million pairs of faces would have to be looked at
-// are left alone, and so are those that are covered by a duplicate. Time: pairs of objects whose bounds meet, of which no more than thirty
-// million are looked at, and pairs of their faces.
-inline void cut_at_walls(std::vector<Surface>& surfaces, double diameter) {
+// are left alone, and so are those that are covered by a duplicate. Time: pairs of objects whose bounds meet, of which no more than
+// `most_pairs` are looked at, and pairs of their faces. Returns how many objects were left whole because of either limit.
+inline std::size_t cut_at_walls(std::vector<Surface>& surfaces, double diameter, std::size_t most_pairs = 30'000'000) {
   const double tolerance = 1e-9 * diameter;
   std::vector<std::uint32_t> order;
   std::vector<std::vector<std::uint32_t>> partners(surfaces.size());
@@ -153,11 +154,13 @@ inline void cut_at_walls(std::vector<Surface>& surfaces, double diameter) {
   }
   std::vector<raycast::Box> boxes;
   for (const std::uint32_t o : order) { boxes.push_back(surfaces[o].object->bounds()); }
-  if (boxes.empty()) { return; }
+  if (boxes.empty()) { return 0; }
   const raycast::Bvh tree{boxes};
   std::size_t pairs = 0;
   std::vector<std::uint32_t> stack;
-  for (std::size_t i = 0; i < order.size() && pairs < 30'000'000; ++i) {
+  std::size_t looked_at = 0;
+  for (; looked_at < order.size() && pairs < most_pairs; ++looked_at) {
+    const std::size_t i = looked_at;
     stack.assign(1, 0);
     while (!stack.empty()) {
       const raycast::Bvh::Node& node = tree.nodes()[stack.back()];
@@ -173,6 +176,7 @@ inline void cut_at_walls(std::vector<Surface>& surfaces, double diameter) {
     }
     pairs += partners[order[i]].size();
   }
+  std::size_t left_whole = order.size() - looked_at;
   std::vector<std::vector<detail::WallFace>> walls(surfaces.size());  // as they are before any cut
   for (const std::uint32_t o : order) {
     if (!partners[o].empty()) { walls[o] = detail::wall_faces(surfaces[o]); }
@@ -186,6 +190,7 @@ inline void cut_at_walls(std::vector<Surface>& surfaces, double diameter) {
     }
     std::size_t face_pairs = 0;
     for (const std::uint32_t w : partners[o]) { face_pairs += faces.size() * walls[w].size(); }
+    left_whole += face_pairs > 10'000'000 ? 1 : 0;
     if (faces.size() != walls[o].size() || face_pairs > 10'000'000) { continue; }
     for (std::size_t k = 0; k < faces.size(); ++k) {
       std::vector<detail::WallLine> lines;
@@ -197,6 +202,13 @@ inline void cut_at_walls(std::vector<Surface>& surfaces, double diameter) {
       if (!lines.empty()) { detail::cut_along(brep, faces[k], lines); }
     }
   }
+  return left_whole;
+}
+
+// What cut_at_walls() did not do.
+[[nodiscard]] inline std::string warning_of_uncut(std::size_t left_whole) {
+  return "the faces of " + std::to_string(left_whole) + (left_whole == 1 ? " object" : " objects") +
+         " were not cut where others stand on them: too many objects or faces touch; patches that reach under others are less exact";
 }
 
 }  // namespace radiosity

@@ -70,7 +70,8 @@ HALFLIGHT_INLINE bool Scene::blocks(const Line& line, const End& a, const End& b
     return passes(line, r);
   }
   const PlacedObject& object = objects_[i];
-  if (i == a.owner && i == b.owner && object.convex()) return false;
+  // A room whose body the line passes through once is solid before it and behind it: two spans that belong to the ends.
+  if (i == a.owner && i == b.owner && (object.convex() || (object.inside() && object.passes_once(line.segment)))) return false;
   double entry = 0.0;
   if (!object.inside() && !line.slabs(object.bounds(), 0.0, 1.0, entry)) return false;
   return blocks_by_spans(line, a, b, i);

@@ -87,6 +87,9 @@ class Object {
 
   // Those of the spans, bit for bit, that meet t in [0, 1], and perhaps others. A mesh need not look at its faces along the whole line.
   virtual void spans_of_segment(const Segment& segment, Spans& out) const { spans(segment, out); }
+
+  // Is it known, for less than spans() costs, that the line is inside along one span at most? Never true where spans() finds more.
+  [[nodiscard]] virtual bool passes_once(const Segment&) const { return convex(); }
 };
 
 // What a factory gives: the object, or a sentence that says why there is none.

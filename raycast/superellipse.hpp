@@ -35,7 +35,9 @@ class Superellipse {
       return {g.value, g.dy, g.dx};
     }
     if (x == 0.0) return {0.0, 1.0, 1.0};
-    const double ratio = y / x, power = this->power(ratio), g = root(1.0 + power), dx = g / (1.0 + power);
+    const double ratio = y / x;
+    if (ratio < flat_) return {x, 1.0, 0.0};
+    const double power = this->power(ratio), g = root(1.0 + power), dx = g / (1.0 + power);
     return {x * g, dx, dx * (ratio > 0.0 ? power / ratio : p_ > 1.0 ? 0.0 : p_ < 1.0 ? infinity : 1.0)};
   }
   // The gauge of x, y >= 0 and its derivative along (ex, ey), which must not leave the quadrant's side of an axis: at a coordinate 0 it is
@@ -100,6 +102,7 @@ class Superellipse {
   }
 
   double p_;
+  double flat_ = p_ >= 64.0 ? std::exp2(-64.0 / p_) : 0.0;  // of nearly straight sides: ratios below have a power that is lost beside 1
 };
 
 }  // namespace raycast

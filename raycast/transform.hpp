@@ -106,6 +106,9 @@ class PlacedObject {
     object_->spans_of_segment(to_object(segment), out);
   }
 
+  // Of the body, without the part of a room that is outside it.
+  [[nodiscard]] bool passes_once(const Segment& line) const { return object_->passes_once(to_object(line)); }
+
   [[nodiscard]] Crossing crossing(const Segment& line, std::uint32_t face) const { return object_->crossing(to_object(line), face); }
   [[nodiscard]] bool enters(const Segment& line, std::uint32_t face) const { return object_->enters(to_object(line), face); }
 

@@ -30,8 +30,9 @@ namespace raycast {
 class Superquadric final : public Object {
  public:
   // ring = 0: a superellipsoid; otherwise above 1. Refused: non-finite or huge coordinates; radii that are not positive, vanish beside the
-  // coordinates or differ by more than 1e6; exponents outside 0.001 to 20; another ring. Above 20 the blades of a pinched shape are thinner than
-  // 1e-12 of it over half of their length: no more than rounding, and less than the skin within which surfaces touch (scene.hpp).
+  // coordinates or differ by more than 1e6; exponents outside 0.001 to 10; another ring. Above 10 both sides of
+  // a blade lie within 1e-8 of its length, as well as project() knows the nearest point, over more than its last eighth: vertices that are
+  // put on one side come to lie on the other, and a mesh that is refined folds without end instead of following the surface.
   static Made<Superquadric> make(const glm::dvec3& centre, const glm::dvec3& radii, double profile, double around, double ring = 0.0) {
     if (!usable(centre) || !usable(radii)) return "a superquadric's centre and radii must be finite (and below 1e60)";
     const double largest = std::max({radii.x, radii.y, radii.z});
@@ -39,8 +40,8 @@ class Superquadric final : public Object {
       if (!usable_length(radii[k], Box{centre, centre}.magnitude()) || !(radii[k] >= 1e-6 * largest))
         return "a superquadric's radii must be positive, finite, not vanishing beside its centre's coordinates and within 1e6 of each "
                "other";
-    if (!(profile >= 0.001 && profile <= 20.0) || !(around >= 0.001 && around <= 20.0))
-      return "a superquadric's exponents must lie between 0.001 (a box) and 20 (needles; above, they have no thickness)";
+    if (!(profile >= 0.001 && profile <= 10.0) || !(around >= 0.001 && around <= 10.0))
+      return "a superquadric's exponents must lie between 0.001 (a box) and 10 (blades; above, both their sides are one for rounding)";
     if (ring != 0.0 && !(ring > 1.0 && ring <= 1e4))
       return "a superquadric's ring must be 0 (no hole) or lie between 1 and 10000: up to 1 the surface passes through itself";
     return std::shared_ptr<const Superquadric>(new Superquadric(centre, radii, profile, around, ring));

@@ -44,7 +44,7 @@ class Torus final : public Object {
 
   void spans(const Segment& line, Spans& out) const override {
     const double shift = nearest_parameter(line, centre_), length = glm::length(line.direction);
-    const Tube tube(frame_, (line.at(shift) - centre_) / major_, line.direction / length, minor_ / major_);
+    const Tube tube = along(line, shift, length);
     double lo = 0.0, hi = 0.0;
     if (!tube.clip(lo, hi)) return;
     std::array<double, 5> ends;  // lo, the extrema between, hi
@@ -64,6 +64,15 @@ class Torus final : public Object {
       inside = !inside;
       before = at;
     }
+  }
+
+  // Two spans have three extrema, the middle one outside.
+  [[nodiscard]] bool passes_once(const Segment& line) const override {
+    const Tube tube = along(line, nearest_parameter(line, centre_), glm::length(line.direction));
+    double lo = 0.0, hi = 0.0;
+    std::array<double, 5> ends;
+    return tube.one_extremum() || !tube.clip(lo, hi) || tube.extrema(lo, hi, ends) < 5 || tube(ends[2]).value < 0.0 ||
+           !(tube(ends[1]).value < 0.0) || !(tube(ends[3]).value < 0.0);
   }
 
   void compile(Compiler& compiler) const override {
@@ -106,6 +115,12 @@ class Torus final : public Object {
   Torus(const glm::dvec3& centre, const glm::dvec3& axis, double major, double minor)
       : centre_(centre), frame_(axis), major_(major), minor_(minor) {}
 
+  class Tube;
+  // The line from its point at `shift`, nearest to the centre.
+  [[nodiscard]] Tube along(const Segment& line, double shift, double length) const {
+    return Tube(frame_, (line.at(shift) - centre_) / major_, line.direction / length, minor_ / major_);
+  }
+
   // The line f + s e in units of the major radius, e a unit vector across f, and its signed distance from the tube of radius r.
   class Tube {
    public:
@@ -132,13 +147,12 @@ class Torus final : public Object {
       hi = std::min(hi, middle + half);
       return lo < hi;
     }
+    [[nodiscard]] bool one_extremum() const { return !(std::abs(cubic().turn) < 1.0); }
     // lo, the extrema of the quartic in between in increasing order, hi.
     std::size_t extrema(double lo, double hi, std::array<double, 5>& ends) const {
-      const double k = glm::dot(f_, f_) + (1.0 - r_) * (1.0 + r_);
-      const double p = k - 2 * (e_.x * e_.x + e_.y * e_.y), q = -2 * (f_.x * e_.x + f_.y * e_.y);  // s^3 + p s + q
+      const auto [p, q, turn] = cubic();
       std::array<double, 3> roots{};
       std::size_t found = 1;
-      const double turn = p < 0.0 ? -0.5 * q / ((-p / 3) * std::sqrt(-p / 3)) : infinity;
       if (std::abs(turn) < 1.0) {  // three real roots (Viete)
         const double angle = std::acos(turn) / 3, radius = 2 * std::sqrt(-p / 3);
         roots = {radius * std::cos(angle + 2 * std::numbers::pi / 3), radius * std::cos(angle - 2 * std::numbers::pi / 3),
@@ -163,6 +177,15 @@ class Torus final : public Object {
     }
 
    private:
+    struct Cubic {
+      double p, q, turn;  // s^3 + p s + q, with three real roots where |turn| < 1
+    };
+    [[nodiscard]] Cubic cubic() const {
+      const double k = glm::dot(f_, f_) + (1.0 - r_) * (1.0 + r_);
+      const double p = k - 2 * (e_.x * e_.x + e_.y * e_.y), q = -2 * (f_.x * e_.x + f_.y * e_.y);
+      return {p, q, p < 0.0 ? -0.5 * q / ((-p / 3) * std::sqrt(-p / 3)) : infinity};
+    }
+
     glm::dvec3 f_, e_;
     double r_;
   };
