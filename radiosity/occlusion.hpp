@@ -51,6 +51,7 @@ class Patches {
   [[nodiscard]] const Patch& operator[](std::size_t i) const { return patches_[i]; }
 
   [[nodiscard]] bool is_cluster(std::uint32_t i) const { return (*hierarchy_)[i].is_cluster(); }
+  [[nodiscard]] bool is_curved(std::uint32_t i) const { return (*hierarchy_)[i].deviation > 0.0; }
 
   // The patch as the occluder lists see it. Its descendants leave its plane by at most the tilt of the true surface over its radius.
   [[nodiscard]] raycast::PatchShape shape(std::uint32_t i) const {

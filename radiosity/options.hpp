@@ -105,7 +105,8 @@ struct Options {
 // How the caller watches and stops a run. `progress` is called from the thread that called solve().
 struct Control {
   // Once true the run ends soon: with the best solution that it has, which says so by audit.interrupted, or, when none is complete, without
-  // (Failure::Kind::cancelled). BF-refinement has one after each generation, an error target after each round; F-refinement only at its end.
+  // (Failure::Kind::cancelled). BF-refinement has one after each generation, an error target after each round, F-refinement once all links
+  // are evaluated; what is left to solve then is solved by conjugate gradients, whatever solver was asked for.
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(std::string_view stage, double fraction)> progress;
   // Called with the valid BReps of all objects after each generation of refinement.

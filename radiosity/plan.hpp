@@ -6,7 +6,8 @@
 //
 // Without shortcuts all of it is done, so that the proofs can be tested: the result is the same, bit for bit, unless a segment grazes
 // within the skin of the law of occlusion. A pair of patches that was dropped because no light can pass is linked, and the link must be
-// found to carry nothing; a segment that nothing can block is asked of the whole scene.
+// found to carry nothing; a segment that nothing can block is asked of the whole scene. Patches of one curved convex solid are not
+// linked: no two points of the solid see each other, but chord patches do, a little, where the mesh has a reflex edge.
 
 #include <algorithm>
 #include <cstdint>

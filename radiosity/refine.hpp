@@ -80,7 +80,7 @@ inline void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& h
       if (!is_input_face(hierarchy, q)) { continue; }
       if (!oracle.convex(hierarchy[p], hierarchy[q])) {
         pairs.push_back({p, q});
-      } else if (plan.shortcuts) {
+      } else if (plan.shortcuts || hierarchy[p].deviation > 0.0 || hierarchy[q].deviation > 0.0) {
         ++result.pairs_convex;
       } else {
         result.links.push_back({p, q});
@@ -91,7 +91,8 @@ inline void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& h
 }
 
 // Asks `oracle(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
-// the others keep their list and are shown to `look(pair, list, decision)`, in parallel. Without shortcuts what would be dropped is linked.
+// the others keep their list and are shown to `look(pair, list, decision)`, in parallel. Without shortcuts what would be dropped is linked,
+// but for patches of one curved convex solid (plan.hpp).
 template <class Oracle, class Look>
 std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& objects, const Plan& plan, const Patches& patches,
                              RefineResult& result, unsigned threads, const Oracle& oracle, const Look& look) {
@@ -115,7 +116,8 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
     });
     for (std::size_t k = 0; k < count; ++k) {
       Decision& decision = decisions[first + k];
-      if (decision < first_seeing && !plan.shortcuts) {
+      const bool curved = patches.is_curved(pairs[first + k].p) || patches.is_curved(pairs[first + k].q);
+      if (decision < first_seeing && !plan.shortcuts && !(decision == Decision::convex && curved)) {
         decision = Decision::link;
         pairs[first + k].list = OccluderLists::hidden;
         continue;

@@ -199,8 +199,15 @@ inline Outcome solve_at(const Scene& scene, const Options& options, const Contro
   }
   solution.row_sum = transport.row_sums();
   audit.row_sum = summarise_rows(hierarchy, exposure.area, solution.row_sum);
-  ColorSolution solved = solve_channels(hierarchy, transport, exposure.area, reflectance, emission, plan.channels, options.solver,
-                                        options.residual, options.max_iterations);
+  const auto solve_by = [&](Solver solver, const Control& until) {
+    return solve_channels(hierarchy, transport, exposure.area, reflectance, emission, plan.channels, solver, options.residual,
+                          options.max_iterations, until);
+  };
+  ColorSolution solved = solve_by(options.solver, control);
+  if (solved.cancelled) {  // all links are there: the solution by the fewest iterations is near
+    audit.interrupted = true;
+    solved = solve_by(Solver::conjugate_gradients, control.unstoppable());
+  }
   audit.residual = solved.residual;
   audit.iterations = solved.iterations;
   audit.converged = solved.converged && !audit.interrupted && audit.shortage.empty();

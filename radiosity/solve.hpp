@@ -11,7 +11,8 @@
 //   jacobi               the textbook iteration B <- E + rho H(B); its error shrinks by rho each time.
 //   gauss_seidel         the same, one input face after the other, with what the others have by now: about twice as fast.
 //   southwell            shooting (progressive refinement, Cohen et al. 1988; Southwell relaxation, Gortler et al. 1994): the input face
-//                        with the most unshot power shoots it. An iteration is as many shots as there are input faces.
+//                        with the most unshot power, for what its shot costs, shoots it. Where surfaces differ much in their links those
+//                        with the most power alone would do all the work. An iteration costs what one of Gauss-Seidel does.
 //
 // Residual: || E + rho H(B) - B || / || E + rho H(0) ||, area-weighted over all leaves. The iterate with the least
 // residual is kept; an iteration that diverges is stopped and says so. Where rho is so near 1 that B is known to no more than the
@@ -24,6 +25,7 @@
 #include <vector>
 
 #include <radiosity/conjugate_gradients.hpp>
+#include <radiosity/greatest.hpp>
 #include <radiosity/iteration.hpp>
 #include <radiosity/material.hpp>
 #include <radiosity/options.hpp>
@@ -34,7 +36,7 @@ namespace radiosity {
 
 namespace detail {
 
-inline LinearSolution jacobi(const Channel& channel, double wanted, std::uint32_t max_iterations) {
+inline LinearSolution jacobi(const Channel& channel, double wanted, std::uint32_t max_iterations, const Control& control) {
   std::vector<double> b(channel.emission);
   std::vector<double> r;
   Progress progress{channel.norm(b), b};
@@ -42,14 +44,14 @@ inline LinearSolution jacobi(const Channel& channel, double wanted, std::uint32_
     channel.residual(b, r);
     const double norm = channel.norm(r);
     progress.offer(b, norm);
-    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations) {
+    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations || control.cancelled()) {
       return finish(channel, std::move(progress), iteration, wanted);
     }
     for (std::size_t i = 0; i < b.size(); ++i) { b[i] += r[i]; }
   }
 }
 
-inline LinearSolution gauss_seidel(const Channel& channel, double wanted, std::uint32_t max_iterations) {
+inline LinearSolution gauss_seidel(const Channel& channel, double wanted, std::uint32_t max_iterations, const Control& control) {
   std::vector<double> b(channel.emission);
   std::vector<double> r;
   std::vector<double> arrived(b.size(), 0.0);
@@ -60,7 +62,7 @@ inline LinearSolution gauss_seidel(const Channel& channel, double wanted, std::u
     channel.residual(b, r);
     const double norm = channel.norm(r);
     progress.offer(b, norm);
-    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations) {
+    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations || control.cancelled()) {
       return finish(channel, std::move(progress), iteration, wanted);
     }
     for (std::uint32_t t = 0; t < trees.trees(); ++t) {
@@ -73,40 +75,63 @@ inline LinearSolution gauss_seidel(const Channel& channel, double wanted, std::u
   }
 }
 
-// b + unshot -> solution; r = unshot is the residual of b at all times, up to rounding.
-inline LinearSolution southwell(const Channel& channel, double wanted, std::uint32_t max_iterations) {
+// b + unshot -> solution; r = unshot, once all trees have received what was shot at them, is the residual of b, up to rounding. Between two
+// iterations the power of a tree is known as a bound: what it had, and the size of all that was shot at it since. `gain` is that for each
+// node and link of its shot.
+inline LinearSolution southwell(const Channel& channel, double wanted, std::uint32_t max_iterations, const Control& control) {
   std::vector<double> b(channel.emission.size(), 0.0);
   std::vector<double> unshot(channel.emission);
   std::vector<double> shot(b.size(), 0.0);
   std::vector<double> arrived(b.size(), 0.0);
   TreeTransport trees{*channel.transport};
-  const auto power = [&](std::uint32_t t) {
+  Greatest gain{std::vector<double>(trees.trees(), 0.0)};
+  std::vector<double> reflectance(trees.trees(), 0.0);
+  std::size_t step = 0;  // the work of one step of Gauss-Seidel
+  for (std::uint32_t t = 0; t < trees.trees(); ++t) {
+    step += trees.work(t);
+    for (const std::uint32_t i : trees.nodes(t)) { reflectance[t] = std::max(reflectance[t], channel.reflectance[i]); }
+  }
+  const auto receive = [&](std::uint32_t t) {
+    trees.receive(t, arrived);
     double sum = 0.0;
-    for (const std::uint32_t i : trees.nodes(t)) { sum += channel.counts(i) ? (*channel.area)[i] * std::abs(unshot[i]) : 0.0; }
-    return sum;
+    for (const std::uint32_t i : trees.nodes(t)) {
+      if (!channel.counts(i)) { continue; }
+      unshot[i] += channel.reflectance[i] * arrived[i] / (*channel.area)[i];
+      sum += (*channel.area)[i] * std::abs(unshot[i]);
+    }
+    gain.set(t, sum / static_cast<double>(trees.work(t)));
   };
-  std::vector<double> powers;
-  for (std::uint32_t t = 0; t < trees.trees(); ++t) { powers.push_back(power(t)); }
+  std::vector<double> more(trees.trees(), 0.0);  // power that one shot brings to each tree
+  std::vector<std::uint32_t> reached;
   Progress progress{channel.norm(unshot), b};
   for (std::uint32_t iteration = 0;; ++iteration) {
+    for (std::uint32_t t = 0; t < trees.trees(); ++t) { receive(t); }
     const double norm = channel.norm(unshot);
     progress.offer(b, norm);
-    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations) {
+    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations || control.cancelled()) {
       return finish(channel, std::move(progress), iteration, wanted);
     }
-    for (std::uint32_t k = 0; k < trees.trees(); ++k) {
-      const auto t = static_cast<std::uint32_t>(std::max_element(powers.begin(), powers.end()) - powers.begin());
+    for (std::size_t work = 0; work < step && !control.cancelled();) {
+      const std::uint32_t t = gain.index();
+      receive(t);
       for (const std::uint32_t i : trees.nodes(t)) {
         if (!channel.counts(i)) { continue; }
         b[i] += unshot[i];
         shot[i] = std::exchange(unshot[i], 0.0);
       }
+      gain.set(t, 0.0);
       trees.send(t, shot);
-      trees.shoot(t, arrived);
-      for (std::size_t i = 0; i < b.size(); ++i) {
-        if (channel.counts(i)) { unshot[i] += channel.reflectance[i] * arrived[i] / (*channel.area)[i]; }
+      trees.shoot(t, [&](std::uint32_t to, double arrives) {
+        const double share = reflectance[to] * std::abs(arrives);
+        if (!(share > 0.0)) { return; }
+        if (more[to] == 0.0) { reached.push_back(to); }
+        more[to] += share;
+      });
+      for (const std::uint32_t to : reached) {
+        gain.set(to, gain[to] + std::exchange(more[to], 0.0) / static_cast<double>(trees.work(to)));
       }
-      for (std::uint32_t u = 0; u < trees.trees(); ++u) { powers[u] = power(u); }
+      reached.clear();
+      work += trees.work(t);
     }
   }
 }
@@ -114,10 +139,12 @@ inline LinearSolution southwell(const Channel& channel, double wanted, std::uint
 }  // namespace detail
 
 // `reflectance` and `emission`: one number for each input surface. Solved in a unit of light of its own, a power of two: the squares of a
-// channel that is faint beside the others would vanish.
+// channel that is faint beside the others would vanish. `control` interrupts all solvers but conjugate gradients, which need few
+// iterations: what is left is the best iterate, not converged.
 [[nodiscard]] inline LinearSolution solve_channel(const Hierarchy& hierarchy, Transport& transport, const std::vector<double>& area,
                                                   const std::vector<double>& reflectance, const std::vector<double>& emission,
-                                                  Solver solver, double residual, std::uint32_t max_iterations) {
+                                                  Solver solver, double residual, std::uint32_t max_iterations,
+                                                  const Control& control = {}) {
   const double strongest = emission.empty() ? 0.0 : *std::max_element(emission.begin(), emission.end());
   const int unit = strongest > 0.0 ? std::ilogb(strongest) : 0;
   detail::Channel channel{&hierarchy, &transport, &area, {}, {}};
@@ -131,11 +158,11 @@ inline LinearSolution southwell(const Channel& channel, double wanted, std::uint
   const auto solve = [&] {
     switch (solver) {
       case Solver::jacobi:
-        return detail::jacobi(channel, residual, max_iterations);
+        return detail::jacobi(channel, residual, max_iterations, control);
       case Solver::gauss_seidel:
-        return detail::gauss_seidel(channel, residual, max_iterations);
+        return detail::gauss_seidel(channel, residual, max_iterations, control);
       case Solver::southwell:
-        return detail::southwell(channel, residual, max_iterations);
+        return detail::southwell(channel, residual, max_iterations, control);
       case Solver::conjugate_gradients:
         break;
     }
@@ -152,13 +179,15 @@ struct ColorSolution {
   double residual = 0.0;                       // the worst channel's
   std::uint32_t iterations = 0;                // the most of any channel
   bool converged = true;                       // all of them
+  bool cancelled = false;                      // before they had: this is no solution
   std::vector<std::vector<double>> histories;  // one a channel
 };
 
 // `reflectance` and `emission`: one for each input surface. With one channel the scene is grey and the others are copies.
 [[nodiscard]] inline ColorSolution solve_channels(const Hierarchy& hierarchy, Transport& transport, const std::vector<double>& area,
                                                   const std::vector<Color>& reflectance, const std::vector<Color>& emission,
-                                                  unsigned channels, Solver solver, double residual, std::uint32_t max_iterations) {
+                                                  unsigned channels, Solver solver, double residual, std::uint32_t max_iterations,
+                                                  const Control& control = {}) {
   ColorSolution solution;
   solution.radiosity.assign(hierarchy.size(), Color{0.0});
   for (int c = 0; c < static_cast<int>(channels); ++c) {
@@ -166,7 +195,11 @@ struct ColorSolution {
     std::vector<double> e;
     for (const Color& r : reflectance) { rho.push_back(r[c]); }
     for (const Color& b : emission) { e.push_back(b[c]); }
-    LinearSolution solved = solve_channel(hierarchy, transport, area, rho, e, solver, residual, max_iterations);
+    LinearSolution solved = solve_channel(hierarchy, transport, area, rho, e, solver, residual, max_iterations, control);
+    if (!solved.converged && solver != Solver::conjugate_gradients && control.cancelled()) {
+      solution.cancelled = true;
+      return solution;
+    }
     solution.residual = std::max(solution.residual, solved.residual);
     solution.iterations = std::max(solution.iterations, solved.iterations);
     solution.converged = solution.converged && solved.converged;

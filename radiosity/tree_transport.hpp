@@ -3,7 +3,8 @@
 
 // Transport tree by tree: the light that one input face receives from all others, or sends to them, without the rest of M.
 // A tree is an input face with all the nodes below it. Gauss-Seidel gathers into one tree after the other, Southwell shoots
-// from the one with the most unshot power; the sum over all trees of either is one application of Transport.
+// from the one with the most unshot power; the sum over all trees of either is one application of Transport. What is shot waits at the
+// nodes where it arrives until their tree receives it, so a shot costs what it carries, however large the trees are that it reaches.
 
 #include <cstdint>
 #include <numeric>
@@ -54,15 +55,25 @@ class TreeTransport {
     }
     collect(tree, y);
   }
-  // Writes into y what arrives at all leaves from what this tree sends.
-  void shoot(std::uint32_t tree, std::vector<double>& y) {
+  // Brings what this tree sends to the nodes at the other ends of its links, and tells reached(tree, power) of each.
+  template <class Reached>
+  void shoot(std::uint32_t tree, const Reached& reached) {
+    const auto carry = [&](const Link& link, std::uint32_t from, std::uint32_t to, const Slope& slope_from, const Slope& slope_to) {
+      const double before = arrived_[to].value;
+      Transport::carry(link, sent_[from], arrived_[to], slope_from.vector(), slope_to.vector());
+      reached(tree_[to], arrived_[to].value - before);
+    };
     for (const std::uint32_t l : links_[tree]) {
       const Link& link = transport_->links()[l];
-      if (tree_[link.p] == tree) { Transport::carry(link, sent_[link.p], arrived_[link.q], link.slope_p.vector(), link.slope_q.vector()); }
-      if (tree_[link.q] == tree) { Transport::carry(link, sent_[link.q], arrived_[link.p], link.slope_q.vector(), link.slope_p.vector()); }
+      if (tree_[link.p] == tree) { carry(link, link.p, link.q, link.slope_p, link.slope_q); }
+      if (tree_[link.q] == tree) { carry(link, link.q, link.p, link.slope_q, link.slope_p); }
     }
-    for (std::uint32_t t = 0; t < trees(); ++t) { collect(t, y); }
   }
+  // Writes into y what has been shot at the leaves of the tree since the last call.
+  void receive(std::uint32_t tree, std::vector<double>& y) { collect(tree, y); }
+
+  // What it costs to gather into the tree, or to receive and shoot: its nodes and the ends of links.
+  [[nodiscard]] std::size_t work(std::uint32_t tree) const { return nodes_[tree].size() + links_[tree].size(); }
 
  private:
   // Numbers in groups: all numbers one group after the other, and where each group begins.
@@ -100,7 +111,7 @@ class TreeTransport {
   const Transport* transport_;
   std::vector<std::uint32_t> tree_;                 // of each node
   Groups nodes_, links_;                            // of each tree
-  std::vector<Transport::Moments> sent_, arrived_;  // arrived_ is empty between two calls
+  std::vector<Transport::Moments> sent_, arrived_;  // arrived_: shot and not yet received
 };
 
 }  // namespace radiosity

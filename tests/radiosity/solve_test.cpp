@@ -2,8 +2,11 @@
 
 // Laws of the linear system: symmetry of the transport, the limits of both solvers, what closing a scene does.
 
-#include <radiosity/solve.hpp>
+#include <atomic>
+#include <cmath>
 #include <random>
+
+#include <radiosity/solve.hpp>
 
 #include "catch.hpp"
 
@@ -193,10 +196,26 @@ TEST_CASE("light that goes tree by tree is the light of the whole operator") {
   std::vector<double> gathered(x.size(), 0.0);
   std::vector<double> shot(x.size(), 0.0);
   std::vector<double> arrived(x.size(), 0.0);
+  std::size_t carried = 0;
+  std::vector<double> brought(7, 0.0), received(7, 0.0);
   for (std::uint32_t t = 0; t < 7; ++t) {
     trees.send(t, x);
-    trees.shoot(t, arrived);
-    for (std::size_t i = 0; i < x.size(); ++i) { shot[i] += arrived[i]; }
+    trees.shoot(t, [&](std::uint32_t to, double power) {
+      ++carried;
+      brought[to] += power;
+    });
+    for (std::uint32_t u = 0; u < 7; u += 2) {  // now or later: what is shot waits for those who receive it
+      trees.receive(u, arrived);
+      for (const std::uint32_t i : trees.nodes(u)) { shot[i] += arrived[i]; }
+    }
+  }
+  CHECK(carried == 2 * problem.links.size());  // both ways, once
+  for (std::uint32_t u = 0; u < 7; ++u) {
+    trees.receive(u, arrived);
+    for (const std::uint32_t i : trees.nodes(u)) { received[u] += shot[i] += arrived[i]; }
+    CHECK(brought[u] == test::Approx(received[u]).epsilon(1e-14));
+    trees.receive(u, arrived);
+    for (const std::uint32_t i : trees.nodes(u)) { CHECK(arrived[i] == 0.0); }
   }
   for (std::uint32_t t = 0; t < 7; ++t) { trees.gather(t, gathered); }
   for (std::size_t i = 7; i < x.size(); ++i) {  // sums of some ten terms in another order
@@ -289,6 +308,46 @@ TEST_CASE("a solver that is stopped too early says so and keeps its best iterate
     CHECK_FALSE(solved.converged);
     CHECK(solved.residual == *std::min_element(solved.history.begin(), solved.history.end()));
   }
+}
+
+TEST_CASE("a solver that is cancelled ends within an iteration, but conjugate gradients, which are soon done, end with the solution") {
+  Problem problem{8, 0.95, 53};
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  const std::atomic<bool> cancel{true};
+  radiosity::Control control;
+  control.cancel = &cancel;
+  const std::vector<radiosity::Color> reflectance(8, radiosity::Color{0.9}), emission(8, radiosity::Color{1.0});
+  for (const Solver solver : {Solver::conjugate_gradients, Solver::jacobi, Solver::gauss_seidel, Solver::southwell}) {
+    INFO(name(solver));
+    const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, std::vector<double>(8, 0.9),
+                                                 std::vector<double>(8, 1.0), solver, 1e-9, 1000, control);
+    const auto all = radiosity::solve_channels(problem.hierarchy, transport, problem.exposure.area, reflectance, emission, 3, solver, 1e-9,
+                                               1000, control);
+    CHECK(solved.converged == (solver == Solver::conjugate_gradients));
+    CHECK((solved.converged || solved.iterations == 0));
+    CHECK(all.cancelled == !solved.converged);
+  }
+}
+
+TEST_CASE("Southwell: an iteration costs what one of Gauss-Seidel does, though the surface that shoots most holds all links") {
+  // Two walls that see each other, F = 0.8, and black things, each linked with the first wall.
+  constexpr std::uint32_t things = 400;
+  Problem problem{things + 2, 0.0, 61};
+  std::vector<double>& area = problem.exposure.area;
+  area[1] = area[0] = 4.0;
+  for (std::uint32_t leaf = things + 2; leaf < things + 10; ++leaf) { area[leaf] = 1.0; }
+  problem.links = {{0, 1, 0.8f * 4.0f}};
+  for (std::uint32_t t = 2; t < things + 2; ++t) { problem.links.push_back({0, t, 1e-4f}); }
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  std::vector<double> reflectance(things + 2, 0.0), emission(things + 2, 0.0);
+  reflectance[0] = reflectance[1] = 1.0;
+  emission[0] = 1.0;
+  const auto solved = radiosity::solve_channel(problem.hierarchy, transport, area, reflectance, emission, Solver::southwell, 1e-12, 1);
+  REQUIRE(solved.history.size() == 2);
+  // Gauss-Seidel goes through 5 nodes a surface and each link twice: 7 things + 12; a shot of each wall takes things + 12. So there are at
+  // most 7 pairs of shots and a last one, and each shot leaves 0.8 of the light unshot; as many shots as surfaces would leave 1e-39 of it.
+  CHECK(solved.history.back() >= 0.99 * std::pow(0.8, 16));
+  CHECK(solved.history.back() <= 1.01 * std::pow(0.8, 2));  // and no less work than that of Gauss-Seidel
 }
 
 TEST_CASE("an iteration that diverges is stopped: rho times the row sums above 1") {
