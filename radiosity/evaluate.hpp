@@ -157,7 +157,7 @@ class LinkEvaluator {
     const auto across = [&](const Node& node, const Variation& v, double spread, double area) {
       return node.leaf() ? 0.0f : static_cast<float>(std::sqrt(square(arrives * v.rest) + square(sent * spread)) / area);
     };
-    const double unseen = seen.rays.cast > 0 ? square(sent) * visibility_variance(seen.fraction, static_cast<double>(seen.rays.cast)) : 0.0;
+    const double unseen = seen.proven ? 0.0 : square(sent) * visibility_variance(seen.fraction, static_cast<double>(seen.rays.cast));
     const auto buried = [&](std::uint32_t i, double area) {  // variance of the exposed area, relative
       return exposure_->partly_buried[i] ? std::max(0.0, (exposure_->whole[i] - area) / (256.0 * area)) : 0.0;
     };
@@ -271,7 +271,7 @@ inline void refit_cluster_link(const Hierarchy& hierarchy, Link& link, const Sho
       const std::size_t i = first + done + offset;
       if (shapes != nullptr && stays(i)) {
         (*shapes)[i].doubt = doubts[offset];
-      } else {
+      } else if (lists[i] != OccluderLists::hidden) {  // of a pair that was proven to exchange nothing there is none
         result.doubt.add(links[i].p, links[i].q, doubts[offset]);
       }
     }

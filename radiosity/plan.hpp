@@ -44,7 +44,6 @@ struct Plan {
   bool lossless = false;        // closed, lit, and nothing absorbs in some channel that is lit: no steady state
   std::uint32_t occluders = 0;  // objects that can stand between two patches
   std::vector<bool> outer;      // by object: the whole scene lies on one side of it, it blocks nothing
-  bool rooms_convex = true;     // every room is: nobody sees through the wall of a convex room
   std::vector<LeftOut> left_out;
 };
 
@@ -130,6 +129,7 @@ inline bool lies_on_room(const Surface& surface, const Surface& room) {
 
   const Surface* room = nullptr;
   bool holes = false;
+  bool rooms_clear = true;  // known of every pair that no room stands between: of what is in a curved one it is asked
   std::uint32_t hull = 0;
   std::vector<std::uint32_t> sheets;  // flat surfaces that block no segment
   plan.outer.assign(surfaces.size(), false);
@@ -139,8 +139,8 @@ inline bool lies_on_room(const Surface& surface, const Surface& room) {
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
     const raycast::PlacedObject& object = *surfaces[o].object;
     if (object.inside() && room == nullptr) { room = &surfaces[o]; }
+    rooms_clear = rooms_clear && (!object.inside() || (object.convex() && (object.flat() || surfaces.size() == 1)));
     if (object.inside() && object.convex()) { continue; }
-    plan.rooms_convex = plan.rooms_convex && !object.inside();
     const bool on_hull = object.flat() && !object.solid() && detail::on_the_hull(extremes, surfaces[o].brep);
     if (on_hull) {
       ++hull;
@@ -174,7 +174,7 @@ inline bool lies_on_room(const Surface& surface, const Surface& room) {
     plan.left_out.push_back({"occlusion by " + std::to_string(hull) + " outer surface" + (hull > 1 ? "s" : ""),
                              "the whole scene lies on one side of each", ""});
   }
-  if (plan.occluders == 0 && plan.rooms_convex) {
+  if (plan.occluders == 0 && rooms_clear) {
     plan.left_out.push_back({"visibility", "no object can stand between two patches", "every ray"});
   }
   const auto convex = std::count_if(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.object->convex(); });
@@ -185,8 +185,6 @@ inline bool lies_on_room(const Surface& surface, const Surface& room) {
   if (!shortcuts) {
     plan.shortcuts = false;
     plan.channels = 3;
-    plan.outer.assign(surfaces.size(), false);
-    plan.rooms_convex = false;
     plan.left_out.clear();
   }
   return plan;

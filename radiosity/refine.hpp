@@ -84,7 +84,7 @@ inline void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& h
         ++result.pairs_convex;
       } else {
         result.links.push_back({p, q});
-        result.lists.push_back(OccluderLists::none);
+        result.lists.push_back(OccluderLists::hidden);
       }
     }
   }

@@ -133,6 +133,7 @@ struct RayCount {
 
 struct VisibilityEstimate {
   double fraction = 1.0;
+  bool proven = false;  // nothing can stand between, whether segments were cast or not
   RayCount rays;
   // Standard deviation of the visible fraction from place to place on each patch, without the noise of sampling.
   double spread_p = 0.0, spread_q = 0.0;
@@ -179,7 +180,8 @@ inline constexpr std::uint32_t segments_per_round = 16;
 [[nodiscard]] inline VisibilityEstimate visibility(const raycast::Scene& scene, const Plan& plan, const raycast::OccluderList& list,
                                                    const PatchEnd& p, const PatchEnd& q, std::uint32_t rounds, Random random) {
   VisibilityEstimate estimate;
-  if (plan.shortcuts && list.known() && !list.blocked() && list.shapes().empty() && (list.rooms_clear() || plan.rooms_convex)) {
+  estimate.proven = list.clear();
+  if (plan.shortcuts && estimate.proven) {
     estimate.rays.avoided = segments_per_round;
     return estimate;
   }
