@@ -92,10 +92,12 @@ inline std::vector<Edge> edges_of(std::span<const glm::dvec3> contour) {
 }  // namespace detail
 
 // Is any part of `q` above the plane of `p`? 1 all of it, 0 some, -1 none. Parts within `share` of the extent of both count as on it, and
-// those within the rounding of coordinates: a height is the difference of two points that are each known to half a unit in the last place.
+// those within the rounding of coordinates: each is known to half a unit in the last place, the plane to as much over its radius.
 [[nodiscard]] inline int above_horizon(const Patch& p, const Patch& q, double share = 1e-12) {
-  const double rounding = std::numeric_limits<double>::epsilon() * (glm::length(p.centre) + glm::length(q.centre));
-  const double slack = share * (p.radius + q.radius + glm::length(q.centre - p.centre)) + rounding;
+  const double reach = q.radius + glm::length(q.centre - p.centre);
+  const double coordinates = glm::length(p.centre) + glm::length(q.centre);
+  const double rounding = std::numeric_limits<double>::epsilon() * coordinates * (1.0 + reach / p.radius);
+  const double slack = share * (p.radius + reach) + rounding;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const glm::dvec3& x : q.contour) {

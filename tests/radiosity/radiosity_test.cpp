@@ -2,6 +2,11 @@
 
 // The whole path against answers that are known: furnaces, exchange between plates, energy, invariance, determinism.
 
+#include <atomic>
+#include <chrono>
+#include <string_view>
+#include <thread>
+
 #include <radiosity/radiosity.hpp>
 
 #include "catch.hpp"
@@ -244,6 +249,38 @@ TEST_CASE("a cancelled run gives no solution") {
   const Outcome outcome = radiosity::solve(scenes::room_with_box(), coarse(), control);
   CHECK_FALSE(outcome.solution);
   CHECK(outcome.failure.kind == radiosity::Failure::Kind::cancelled);
+}
+
+TEST_CASE("a run that is cancelled while its links are solved ends with their solution, by conjugate gradients, and says so") {
+  radiosity::Scene scene = scenes::room_with_box();
+  for (radiosity::Material& material : scene.materials) { material.reflectance = radiosity::Color{1.0 - 1e-9}; }  // the others take hours
+  radiosity::Options options;
+  options.epsilon = 0.2;
+  options.min_area = 0.01;
+  options.audit_points = 0;
+  options.max_iterations = 4'000'000'000;
+  const radiosity::Outcome whole = radiosity::solve(scene, options);
+  REQUIRE(whole.solution);
+  for (const radiosity::Solver solver : {radiosity::Solver::jacobi, radiosity::Solver::gauss_seidel, radiosity::Solver::southwell}) {
+    INFO(name(solver));
+    options.solver = solver;
+    std::atomic<bool> cancel{false};
+    std::jthread later;
+    radiosity::Control control;
+    control.cancel = &cancel;
+    control.progress = [&](std::string_view stage, double part) {
+      if (stage != "link" || part < 1.0) { return; }
+      later = std::jthread{[&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        cancel = true;
+      }};
+    };
+    const radiosity::Outcome outcome = radiosity::solve(scene, options, control);
+    REQUIRE(outcome.solution);
+    CHECK(outcome.solution->audit.interrupted);
+    CHECK_FALSE(outcome.solution->audit.converged);
+    CHECK((outcome.solution->radiosity == whole.solution->radiosity));
+  }
 }
 
 TEST_CASE("with a time limit the best so far is returned: a valid solution, with less estimated error for more time") {
