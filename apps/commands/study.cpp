@@ -160,7 +160,7 @@ ExitCode run(const StudyOptions& given) {
     return names;
   };
   // What every study writes; the names of its pictures are known when it is done.
-  std::vector<std::string> names{"index.html", "results.csv", "results.json", "table.md"};
+  std::vector<std::string> names{"index.html", "results.csv", "results.json"};
   for (const std::string& scene : options.scenes) { names.push_back(fs::path(scene).stem().string() + ".reference.json"); }
   if (const ExitCode fault = check_outputs(in_folder(names), options.scenes); fault != ExitCode::ok) { return fault; }
   Progress progress(options.quiet);

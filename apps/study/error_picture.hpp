@@ -24,6 +24,6 @@ namespace study {
 [[nodiscard]] Drawing error_scale(double limit);
 
 // As a file of its own: method and setting above, the scale below.
-[[nodiscard]] apps::Picture error_figure(const ErrorPicture& errors, const apps::Camera& camera, double limit);
+[[nodiscard]] Drawing error_figure(const ErrorPicture& errors, const apps::Camera& camera, double limit);
 
 }  // namespace study
