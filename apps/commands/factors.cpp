@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: MIT
-#include "apps/commands/factors.hpp"
-
+// halflight factors SCENE: the form factors between the surfaces of a scene, each with its error.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <memory>
 
-#include "apps/commands/arguments.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/json.hpp"
+#include "apps/text.hpp"
 
 #include <radiosity/total_exchange.hpp>
 
 namespace apps {
 namespace {
+
+struct FactorsOptions {
+  std::string scene, csv, json, total_exchange;
+  double error = 1e-3;
+  unsigned threads = 0;
+};
 
 using radiosity::Factors;
 using radiosity::TotalExchange;
@@ -30,25 +36,6 @@ struct Channel {
 struct Seconds {
   double wall = 0.0, cpu = 0.0;
 };
-
-std::string formatted(const char* format, double x) {
-  char text[40] = "";
-  std::snprintf(text, sizeof text, format, x);
-  return text;
-}
-std::string left(std::string text, std::size_t width) {
-  text.resize(std::max(text.size() + 2, width), ' ');
-  return text;
-}
-std::string right(const std::string& text, std::size_t width) {
-  return std::string(text.size() + 2 < width ? width - text.size() : 2, ' ') + text;
-}
-
-// With the fewest digits that read back as the same number.
-std::string exact(double x) {
-  std::array<char, 40> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
-}
 
 const char* name(radiosity::FactorMethod method) {
   constexpr const char* names[] = {"faces", "meshes", "rays"};
@@ -145,9 +132,9 @@ std::string csv(const Factors& f) {
   for (std::size_t i = 0; i < f.surfaces.size(); ++i) {
     const Factors::Surface& s = f.surfaces[i];
     text += s.name;
-    for (const double x : {s.area.value, s.area.error, s.row_sum.value, s.row_sum.error}) { text += "," + exact(x); }
-    for (std::size_t j = 0; j < f.surfaces.size(); ++j) { text += "," + exact(f(i, j).value); }
-    for (std::size_t j = 0; j < f.surfaces.size(); ++j) { text += "," + exact(f(i, j).error); }
+    for (const double x : {s.area.value, s.area.error, s.row_sum.value, s.row_sum.error}) { text += "," + shortest(x); }
+    for (std::size_t j = 0; j < f.surfaces.size(); ++j) { text += "," + shortest(f(i, j).value); }
+    for (std::size_t j = 0; j < f.surfaces.size(); ++j) { text += "," + shortest(f(i, j).error); }
     text += "\n";
   }
   return text;
@@ -164,10 +151,10 @@ std::string csv(const Factors& f, const std::vector<Channel>& channels) {
     for (std::size_t i = 0; i < n; ++i) {
       text += channel.name + "," + f.surfaces[i].name;
       for (const double x : {f.surfaces[i].area.value, channel.emissivity[i], exchange.row_sum[i].value, exchange.row_sum[i].error}) {
-        text += "," + exact(x);
+        text += "," + shortest(x);
       }
-      for (std::size_t j = 0; j < n; ++j) { text += "," + exact(exchange.factor[i * n + j].value); }
-      for (std::size_t j = 0; j < n; ++j) { text += "," + exact(exchange.factor[i * n + j].error); }
+      for (std::size_t j = 0; j < n; ++j) { text += "," + shortest(exchange.factor[i * n + j].value); }
+      for (std::size_t j = 0; j < n; ++j) { text += "," + shortest(exchange.factor[i * n + j].error); }
       text += "\n";
     }
   }
@@ -230,21 +217,6 @@ std::string json(const Factors& f, const std::vector<Channel>& channels, const F
   return out.text();
 }
 
-}  // namespace
-
-void describe(CLI::App& command, FactorsOptions& options) {
-  command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
-  command.add_option("--csv", options.csv, "write the matrix: one line a surface, its factors, then their errors")->type_name("FILE");
-  command.add_option("--json", options.json, "write the matrix, its errors and how each was found")->type_name("FILE");
-  command
-      .add_option("--total-exchange", options.total_exchange,
-                  "write the total exchange factors, reflections included (script F; emissivity = 1 - reflectance); --json gets them, too")
-      ->type_name("FILE");
-  command.add_option("--error", options.error, "wanted error of each factor")->check(above_zero(1.0))->capture_default_str();
-  command.add_option("--threads", options.threads, "0: as many as the machine has; results do not depend on it")
-      ->check(whole_number(0, most_threads));
-}
-
 ExitCode run(const FactorsOptions& options) {
   const std::vector<std::string> outputs{options.csv, options.total_exchange, options.json};
   ExitCode code = check_outputs(outputs, {options.scene});
@@ -281,6 +253,22 @@ ExitCode run(const FactorsOptions& options) {
   }
   if (!print(text, outputs)) { return ExitCode::failure; }
   return result.factors->converged ? ExitCode::ok : ExitCode::not_converged;
+}
+
+}  // namespace
+
+Command factors_command() {
+  const auto options = std::make_shared<FactorsOptions>();
+  return {"factors",
+          "the form factors between the surfaces of a scene, each with its error",
+          {scene_argument(options->scene),
+           text("--csv", "FILE", options->csv, "write the matrix: one line a surface, its factors, then their errors"),
+           text("--json", "FILE", options->json, "write the matrix, its errors and how each was found"),
+           text("--total-exchange", "FILE", options->total_exchange,
+                "write the total exchange factors, reflections included (script F; emissivity = 1 - reflectance); --json gets them, too"),
+           above_zero("--error", options->error, 1.0, "wanted error of each factor").by_default(formatted("%g", options->error)),
+           whole_number("--threads", options->threads, 0, most_threads, "0: as many as the machine has; results do not depend on it")},
+          [options] { return run(*options); }};
 }
 
 }  // namespace apps

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <array>
-#include <charconv>
+#include <cmath>
 
 #include "apps/study/outcome.hpp"
 #include "apps/study/tables.hpp"
+#include "apps/text.hpp"
 
 namespace study {
 namespace {
@@ -13,12 +14,8 @@ constexpr const char* head =
     "cells_l1,cells_l2,cells_worst,points_l1,points_l2,points_worst,below_noise,"
     "part_discretisation,part_links,part_solver,part_reconstruction,picture_l2,picture_low,picture_high,refused\n";
 
-// The fewest digits that read back as the same double.
-std::string number(double x) {
-  if (!std::isfinite(x)) { return ""; }
-  std::array<char, 40> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
-}
+// Empty: not measured.
+std::string number(double x) { return std::isfinite(x) ? apps::shortest(x) : std::string(); }
 
 class Line {
  public:
