@@ -8,20 +8,24 @@
 #include <string>
 #include <string_view>
 
+#include "apps/mesh_file.hpp"
+
 namespace apps {
 
-enum class FileKind { unknown, empty, scene, script, obj, ply, off, stl, other };
+enum class FileKind { unknown, empty, scene, script, mesh, stl, other };
 
 struct FileGuess {
   FileKind kind = FileKind::unknown;
-  std::string what;  // "a polygon mesh (PLY)", "a picture (PNG)"; empty when unknown
+  std::string what;                    // "a polygon mesh (PLY)", "a picture (PNG)"; empty when unknown
+  const MeshFormat* format = nullptr;  // of a mesh
 };
 
 // By the first bytes and words.
 [[nodiscard]] FileGuess guess_kind(std::string_view bytes);
 
 // The sentence, when the file is something else than a scene, a mesh of the format that its name says, or a script of Euler operators.
-// `wanted` is what it should have been.
-[[nodiscard]] std::optional<std::string> wrong_kind(const std::string& path, std::string_view bytes, FileKind wanted);
+// `wanted` is what it should have been, `format` the format of a mesh, where it is known.
+[[nodiscard]] std::optional<std::string> wrong_kind(const std::string& path, std::string_view bytes, FileKind wanted,
+                                                    const MeshFormat* format = nullptr);
 
 }  // namespace apps

@@ -206,25 +206,21 @@ std::string verdict(std::size_t faults, const brep::Statistics& s) {
   return "NOT SOUND: " + counted(faults, "fault") + ". " + numbering;
 }
 
-FileKind kind_of(MeshFormat format) {
-  return format == MeshFormat::obj ? FileKind::obj : format == MeshFormat::ply ? FileKind::ply : FileKind::off;
-}
-
 std::optional<Mesh> load(const std::string& path, ExitCode& code) {
-  const auto format = mesh_format(path);
+  const MeshFormat* const format = mesh_format(path);
   std::string ignored;
   const auto bytes = format ? load_text(path, code) : read_text(path, ignored);
   if (!format) {
-    const auto sentence = bytes ? wrong_kind(path, *bytes, FileKind::obj) : std::nullopt;
+    const auto sentence = bytes ? wrong_kind(path, *bytes, FileKind::mesh, mesh_formats().front()) : std::nullopt;
     complain(sentence && guess_kind(*bytes).kind != FileKind::unknown ? *sentence
-                                                                      : path + ": expected a name that ends with .obj, .ply or .off");
+                                                                      : path + ": expected a name that ends with " + mesh_endings());
     code = ExitCode::usage;
     return std::nullopt;
   }
   if (!bytes) { return std::nullopt; }
   MeshResult result = read_mesh(*bytes, *format);
   if (!result.mesh) {
-    const auto sentence = wrong_kind(path, *bytes, kind_of(*format));
+    const auto sentence = wrong_kind(path, *bytes, FileKind::mesh, format);
     sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, path).c_str(), stderr));
     code = ExitCode::invalid_input;
   }
@@ -234,7 +230,7 @@ std::optional<Mesh> load(const std::string& path, ExitCode& code) {
 // An output that cannot be written is refused before any work.
 ExitCode check(const CheckOptions& options) {
   if (!options.output.empty() && !mesh_format(options.output)) {
-    complain("--output " + options.output + ": expected a name that ends with .obj, .ply or .off");
+    complain("--output " + options.output + ": expected a name that ends with " + mesh_endings());
     return ExitCode::usage;
   }
   return check_outputs({options.output}, {options.mesh});
@@ -280,9 +276,9 @@ Command check_command() {
   return {
       "check",
       "say what a polygon mesh is and everything that is wrong with it",
-      {text("mesh", "MESH", options->mesh, "the mesh: .obj, .ply or .off").must(),
+      {text("mesh", "MESH", options->mesh, "the mesh: " + mesh_endings()).must(),
        flag("--repair", options->repair, "flip faces, close holes, part fans, drop duplicates and what is unused; the file stays as it is"),
-       text("-o,--output", "FILE", options->output, "where to write the repaired mesh: .obj, .ply or .off").needing("--repair"),
+       text("-o,--output", "FILE", options->output, "where to write the repaired mesh: " + mesh_endings()).needing("--repair"),
        flag("--all", options->all, "list every fault, not only the first " + std::to_string(most) + " of each kind")},
       [options] { return run(*options); }};
 }

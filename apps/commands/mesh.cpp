@@ -185,7 +185,7 @@ std::string to_json(const SceneFile& file, const SceneMesh& mesh, const MeshOpti
 // Outputs that cannot become files are refused before any work.
 ExitCode check(const MeshOptions& options) {
   if (!options.output.empty() && !mesh_format(options.output)) {
-    complain("--output " + options.output + ": expected a name that ends with .obj, .ply or .off");
+    complain("--output " + options.output + ": expected a name that ends with " + mesh_endings());
     return ExitCode::usage;
   }
   return check_outputs({options.output, options.json.value_or("")}, {options.scene});
@@ -218,7 +218,7 @@ Command mesh_command() {
   return {
       "mesh",
       "the polygons of each object: counts, genus, area, volume, and a mesh file",
-      {scene_argument(options->scene), text("-o,--output", "FILE", options->output, "where to write the mesh: .obj, .ply or .off"), json},
+      {scene_argument(options->scene), text("-o,--output", "FILE", options->output, "where to write the mesh: " + mesh_endings()), json},
       [options] { return run(*options); }};
 }
 
