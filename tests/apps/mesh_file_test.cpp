@@ -6,6 +6,7 @@
 
 #include <brep/statistics.hpp>
 
+#include "apps/scene_file.hpp"
 #include "json.hpp"
 #include "mesh_files.hpp"
 
@@ -21,9 +22,9 @@ TEST_CASE("a mesh that was written reads back exactly, in every format") {
   std::vector<std::uint32_t> large;
   for (std::uint32_t v = 0; v < 300; ++v) large.push_back(v);
   odd.face({1, 2, 399}, 0);
-  for (const MeshFormat& format : {as_obj, ply, as_off}) check_same(read(apps::write_mesh(odd, format), format), odd);
+  for (const MeshFormat& format : {as_obj, as_ply, as_off}) check_same(read(apps::write_mesh(odd, format), format), odd);
   odd.face(large, 0);  // more corners than a byte counts
-  for (const MeshFormat& format : {as_obj, ply, as_off}) check_same(read(apps::write_mesh(odd, format), format), odd);
+  for (const MeshFormat& format : {as_obj, as_ply, as_off}) check_same(read(apps::write_mesh(odd, format), format), odd);
 }
 
 TEST_CASE("line ends, comments, blanks and a missing last line end do not change what is read") {
