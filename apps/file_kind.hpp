@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a file is, for those who give the wrong one: one sentence that names it and says what to do, in place of a parser's errors about
-// text that was never meant for it. Asked after reading has failed, so that no sound file is ever refused by a guess.
+// Guesses what a file is when a command was given the wrong one, so that one sentence can name it and say what to do, in place of a
+// parser's errors about text that was not meant for it. It is asked after reading has failed, so that no sound file is refused by a guess.
 
 #include <optional>
 #include <string>

@@ -3,10 +3,9 @@
 
 // The `.scene` file: text made for people, described in examples/scenes/README.md.
 //
-// Reading one gives a value: the scene with its cameras, or a list of errors. Every error says where it lies, what
-// stands there and what was expected.
-// No input makes it throw, crash, recurse deeply or run without end: the size of the file, the number of objects
-// that `use` may make and the corners of one polygon have limits, each with its sentence.
+// Reading one gives a value: the scene with its cameras, or a list of errors. Every error says where it lies, what stands there and what
+// was expected. No input makes it throw, crash, recurse deeply or run without end: the size of the file, the number of objects that `use`
+// may make and the corners of one polygon have limits, each with its sentence.
 //
 //     text -> lexer (words, numbers, braces, ends of lines) -> parser (statements with their places)
 //          -> build (names resolved, shapes made, groups placed) -> SceneFile
@@ -47,7 +46,7 @@ struct Camera {
   std::optional<PictureSize> size;    // of the picture, unless the command says otherwise
 };
 
-// What the file says about an object of the scene and a run does not need.
+// What the file says about an object and a run does not need; messages and `halflight info` name it.
 struct ObjectOrigin {
   std::string_view kind;  // "box", "mesh", ...
   Place place;

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <functional>
+#include <initializer_list>
 #include <memory>
 
 #include "apps/commands/command.hpp"
@@ -23,6 +25,7 @@ struct FactorsOptions {
   unsigned threads = 0;
 };
 
+using radiosity::Estimate;
 using radiosity::Factors;
 using radiosity::TotalExchange;
 
@@ -72,47 +75,45 @@ std::vector<Channel> total_exchange_of(const Factors& f, const radiosity::Scene&
 constexpr std::size_t widest = 10;    // columns that a terminal shows
 constexpr std::size_t longest = 200;  // lines of a list
 
-std::string table(const Factors& f, const Channel& channel) {
+// A line a surface: its name, one number, the sum of its row with its error, and where it fits the row itself.
+std::string matrix_text(const Factors& f, const std::string& corner, const char* column, const std::function<double(std::size_t)>& number,
+                        const std::function<Estimate(std::size_t)>& row_sum, const std::vector<Estimate>& factor) {
   const std::size_t n = f.surfaces.size();
-  const TotalExchange& exchange = channel.exchange;
-  std::string text;
-  if (n <= widest) {
-    std::size_t width = 10;
-    for (const auto& s : f.surfaces) { width = std::max(width, s.name.size() + 2); }
-    text = left("script F, " + channel.name, width) + right("emissivity", 12) + right("row sum", 12) + right("+-", 9);
-    for (const auto& s : f.surfaces) { text += right(s.name, 12); }
-    text += "\n";
-    for (std::size_t i = 0; i < n; ++i) {
-      text += left(f.surfaces[i].name, width) + right(formatted("%.6g", channel.emissivity[i]), 12) +
-              right(formatted("%.7f", exchange.row_sum[i].value), 12) + right(formatted("%.0e", exchange.row_sum[i].error), 9);
-      for (std::size_t j = 0; j < n; ++j) {
-        text += right(formatted("%.7f", exchange.factor[i * n + j].value), std::max<std::size_t>(12, f.surfaces[j].name.size() + 2));
-      }
-      text += "\n";
+  const bool fits = n <= widest;
+  std::size_t width = 10;
+  for (const auto& s : f.surfaces) { width = std::max(width, s.name.size() + 2); }
+  std::string text = left(corner, width) + right(column, 12) + right("row sum", 12) + right("+-", 9);
+  for (std::size_t j = 0; fits && j < n; ++j) { text += right(f.surfaces[j].name, 12); }
+  text += "\n";
+  for (std::size_t i = 0; i < std::min(n, longest); ++i) {
+    text += left(f.surfaces[i].name, width) + right(formatted("%.6g", number(i)), 12) + right(formatted("%.7f", row_sum(i).value), 12) +
+            right(formatted("%.0e", row_sum(i).error), 9);
+    for (std::size_t j = 0; fits && j < n; ++j) {
+      text += right(formatted("%.7f", factor[i * n + j].value), std::max<std::size_t>(12, f.surfaces[j].name.size() + 2));
     }
+    text += "\n";
   }
-  return text + "largest error of a total exchange factor (" + channel.name + "): " + formatted("%.1e", worst(exchange.factor)) + "\n";
+  return text;
+}
+
+std::string table(const Factors& f, const Channel& channel) {
+  const TotalExchange& exchange = channel.exchange;
+  const std::string matrix = f.surfaces.size() > widest
+                                 ? std::string()
+                                 : matrix_text(
+                                       f, "script F, " + channel.name, "emissivity", [&](std::size_t i) { return channel.emissivity[i]; },
+                                       [&](std::size_t i) { return exchange.row_sum[i]; }, exchange.factor);
+  return matrix + "largest error of a total exchange factor (" + channel.name + "): " + formatted("%.1e", worst(exchange.factor)) + "\n";
 }
 
 std::string summary(const Factors& f, const FactorsOptions& options, const Seconds& seconds) {
   const std::size_t n = f.surfaces.size();
-  std::size_t width = 10;
-  for (const auto& s : f.surfaces) { width = std::max(width, s.name.size() + 2); }
-  const bool matrix = n <= widest;
-  std::string text = options.scene + "\n" + left("from \\ to", width) + right("area", 12) + right("row sum", 12) + right("+-", 9);
-  for (std::size_t j = 0; matrix && j < n; ++j) { text += right(f.surfaces[j].name, 12); }
-  text += "\n";
-  for (std::size_t i = 0; i < std::min(n, longest); ++i) {
-    const Factors::Surface& s = f.surfaces[i];
-    text += left(s.name, width) + right(formatted("%.6g", s.area.value), 12) + right(formatted("%.7f", s.row_sum.value), 12) +
-            right(formatted("%.0e", s.row_sum.error), 9);
-    for (std::size_t j = 0; matrix && j < n; ++j) {
-      text += right(formatted("%.7f", f(i, j).value), std::max<std::size_t>(12, f.surfaces[j].name.size() + 2));
-    }
-    text += "\n";
-  }
+  std::string text = options.scene + "\n" +
+                     matrix_text(
+                         f, "from \\ to", "area", [&](std::size_t i) { return f.surfaces[i].area.value; },
+                         [&](std::size_t i) { return f.surfaces[i].row_sum; }, f.factor);
   if (n > longest) { text += "... and " + std::to_string(n - longest) + " more\n"; }
-  if (!matrix) { text += "The matrix has " + std::to_string(n) + " rows: --csv and --json write it.\n"; }
+  if (n > widest) { text += "The matrix has " + std::to_string(n) + " rows: --csv and --json write it.\n"; }
   std::array<std::size_t, 3> counts{};
   for (const radiosity::FactorMethod m : f.method) { ++counts[static_cast<std::size_t>(m)]; }
   text += "factors: " + std::to_string(counts[0]) + " between flat faces (" + std::to_string(f.points) + " points behind others), " +
@@ -123,39 +124,37 @@ std::string summary(const Factors& f, const FactorsOptions& options, const Secon
   return text + "time: " + formatted("%.3f", seconds.wall) + " s, CPU " + formatted("%.3f", seconds.cpu) + " s\n";
 }
 
-// One line a surface; a name has no comma (examples/scenes/README.md).
-std::string csv(const Factors& f) {
-  std::string text = "surface,area,area error,row sum,row sum error";
+// One line a surface: what is said of it, its factors, then their errors. A name has no comma (examples/scenes/README.md).
+std::string csv_head(const Factors& f, std::string text) {
   for (const auto& s : f.surfaces) { text += "," + s.name; }
   for (const auto& s : f.surfaces) { text += "," + s.name + " error"; }
-  text += "\n";
+  return text + "\n";
+}
+std::string csv_line(std::size_t i, std::string text, std::initializer_list<double> numbers, const std::vector<Estimate>& factor,
+                     std::size_t n) {
+  for (const double x : numbers) { text += "," + shortest(x); }
+  for (std::size_t j = 0; j < n; ++j) { text += "," + shortest(factor[i * n + j].value); }
+  for (std::size_t j = 0; j < n; ++j) { text += "," + shortest(factor[i * n + j].error); }
+  return text + "\n";
+}
+
+std::string csv(const Factors& f) {
+  std::string text = csv_head(f, "surface,area,area error,row sum,row sum error");
   for (std::size_t i = 0; i < f.surfaces.size(); ++i) {
     const Factors::Surface& s = f.surfaces[i];
-    text += s.name;
-    for (const double x : {s.area.value, s.area.error, s.row_sum.value, s.row_sum.error}) { text += "," + shortest(x); }
-    for (std::size_t j = 0; j < f.surfaces.size(); ++j) { text += "," + shortest(f(i, j).value); }
-    for (std::size_t j = 0; j < f.surfaces.size(); ++j) { text += "," + shortest(f(i, j).error); }
-    text += "\n";
+    text += csv_line(i, s.name, {s.area.value, s.area.error, s.row_sum.value, s.row_sum.error}, f.factor, f.surfaces.size());
   }
   return text;
 }
 
 std::string csv(const Factors& f, const std::vector<Channel>& channels) {
-  const std::size_t n = f.surfaces.size();
-  std::string text = "channel,surface,area,emissivity,row sum,row sum error";
-  for (const auto& s : f.surfaces) { text += "," + s.name; }
-  for (const auto& s : f.surfaces) { text += "," + s.name + " error"; }
-  text += "\n";
+  std::string text = csv_head(f, "channel,surface,area,emissivity,row sum,row sum error");
   for (const Channel& channel : channels) {
     const TotalExchange& exchange = channel.exchange;
-    for (std::size_t i = 0; i < n; ++i) {
-      text += channel.name + "," + f.surfaces[i].name;
-      for (const double x : {f.surfaces[i].area.value, channel.emissivity[i], exchange.row_sum[i].value, exchange.row_sum[i].error}) {
-        text += "," + shortest(x);
-      }
-      for (std::size_t j = 0; j < n; ++j) { text += "," + shortest(exchange.factor[i * n + j].value); }
-      for (std::size_t j = 0; j < n; ++j) { text += "," + shortest(exchange.factor[i * n + j].error); }
-      text += "\n";
+    for (std::size_t i = 0; i < f.surfaces.size(); ++i) {
+      text += csv_line(i, channel.name + "," + f.surfaces[i].name,
+                       {f.surfaces[i].area.value, channel.emissivity[i], exchange.row_sum[i].value, exchange.row_sum[i].error},
+                       exchange.factor, f.surfaces.size());
     }
   }
   return text;

@@ -139,7 +139,7 @@ ExitCode run(const RenderOptions& options) {
     };
   }
   const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
-  if (outcome.solution && outcome.solution->audit.interrupted) { control = control.unstoppable(); }  // what there is, is written
+  if (outcome.solution && outcome.solution->audit.interrupted) { control = control.unstoppable(); }  // the best so far is drawn and written
   progress.done();
   if (!outcome.solution) { return report_failure(outcome.failure, options.scene); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The file that keeps a reference: JSON in one fixed layout, so that reading it is no more than comparing and reading numbers.
+// The file that keeps a reference: JSON in one fixed layout, so that a reader compares its head with the expected text and reads numbers.
 #include <charconv>
 #include <cmath>
 

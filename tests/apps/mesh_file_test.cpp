@@ -2,10 +2,12 @@
 // Mesh files: what the formats allow is read, and what is written reads back.
 #include <cmath>
 #include <filesystem>
+#include <random>
 #include <string>
 
 #include <brep/statistics.hpp>
 
+#include "apps/file_kind.hpp"
 #include "apps/scene_file.hpp"
 #include "json.hpp"
 #include "mesh_files.hpp"
@@ -91,6 +93,27 @@ TEST_CASE("OBJ: a face of 200000 corners may stand before its vertices, in one l
       vertices += "v 0 0 " + std::to_string(i) + "\n";
     }
     CHECK(read(face + vertices, as_obj).corners(0).size() == n);
+  }
+}
+
+TEST_CASE("what a format writes is recognised as that format, whatever the mesh, and as no other") {
+  std::mt19937 random(17);
+  INFO("seed 17");
+  for (int run = 0; run < 50; ++run) {
+    brep::Builder mesh;
+    for (int v = 0; v < 6; ++v) mesh.vertex({1e-3 * static_cast<double>(random()), -static_cast<double>(random() % 9), 0.5});
+    const auto corner = [&] { return static_cast<std::uint32_t>(random() % 6); };
+    mesh.face({corner(), corner(), corner()}, 0);
+    for (const MeshFormat* const format : apps::mesh_formats()) {
+      const std::string bytes = apps::write_mesh(mesh, *format);
+      const apps::FileGuess guess = apps::guess_kind(bytes);
+      CHECK(guess.kind == apps::FileKind::mesh);
+      CHECK(guess.format == format);
+      CHECK(apps::mesh_format("m" + std::string(format->ending)) == format);
+      for (const MeshFormat* const wanted : apps::mesh_formats()) {
+        CHECK(apps::wrong_kind("m", bytes, apps::FileKind::mesh, wanted).has_value() == (wanted != format));
+      }
+    }
   }
 }
 
