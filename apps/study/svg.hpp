@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A drawing as SVG 1.1: self-contained, text stays text, coordinates to 1/100 pixel.
+// A drawing as SVG 1.1: self-contained, text stays text, coordinates to 1/100 pixel. Pictures are named as in SVG 2, by href without xlink.
 //
 // Colours are attributes and not a style sheet, so that every program reads them; a page that wants other tones in the dark selects
 // them by their value, as in  svg [fill="#222222"] { fill: white }.
