@@ -33,8 +33,12 @@ void write(JsonWriter& json, const Facts::Value& value) {
 
 std::string shown(const Facts::Value& value, const std::string& unit) {
   if (const auto* words = std::get_if<std::string>(&value)) { return *words; }
-  if (const auto* x = std::get_if<double>(&value)) { return unit == "%" ? percent(*x) : formatted(unit.empty() ? "%.6g" : unit.c_str(), *x); }
-  if (const auto* n = std::get_if<std::uint64_t>(&value)) { return unit == "B" ? bytes_text(*n) : unit == "1" ? std::to_string(*n) : grouped(*n); }
+  if (const auto* x = std::get_if<double>(&value)) {
+    return unit == "%" ? percent(*x) : formatted(unit.empty() ? "%.6g" : unit.c_str(), *x);
+  }
+  if (const auto* n = std::get_if<std::uint64_t>(&value)) {
+    return unit == "B" ? bytes_text(*n) : unit == "1" ? std::to_string(*n) : grouped(*n);
+  }
   return {};
 }
 

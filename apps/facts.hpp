@@ -32,15 +32,14 @@ namespace apps {
 
 class Facts {
  public:
-  using Writer = std::function<void(JsonWriter&)>;  // of a list, which no sentence names
+  // Writes a list; no sentence names one.
+  using Writer = std::function<void(JsonWriter&)>;
   using Value = std::variant<std::monostate, double, std::uint64_t, bool, std::string, Writer>;  // monostate: null
 
   // `path`: the keys from the outermost object to the value; the facts of one object follow each other. `unit`: how text shows a number:
   // "%" in per cent, "B" as bytes, "1" a count without gaps between its digits, or a printf conversion; by itself a count is grouped.
   void add(std::string path, Value value, std::string unit = {}) { rows_.push_back({std::move(path), std::move(value), std::move(unit)}); }
-  void add(std::string path, std::unsigned_integral auto count, std::string unit = {})
-    requires(!std::same_as<decltype(count), bool>)
-  {
+  void add(std::string path, std::unsigned_integral auto count, std::string unit = {}) requires(!std::same_as<decltype(count), bool>) {
     add(std::move(path), Value(std::uint64_t{count}), std::move(unit));
   }
   template <class T>

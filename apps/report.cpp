@@ -274,7 +274,8 @@ class Text {
     say("proportions", "{proportion.min} to {proportion.max}, mean {proportion.mean} (regular polygon: 1)");
     say("links", audit_.clusters > 0 ? "{links}, {cluster_links} of them with one of {clusters} clusters" : "{links}");
     say("rays", "{rays} cast, {rays_avoided} avoided: {pairs_clear} pairs proven clear, {pairs_blocked} proven blocked");
-    row("memory", facts_.text("{peak_bytes.process} at the peak of the process, ").value_or("") + *facts_.text("{bytes} held by the result"));
+    row("memory",
+        facts_.text("{peak_bytes.process} at the peak of the process, ").value_or("") + *facts_.text("{bytes} held by the result"));
   }
 
   void checks() {
@@ -287,7 +288,8 @@ class Text {
     }
     say("energy balance", "{energy_balance} amiss, {escaped} escaped");
     say("open scene",
-        "{stray_rays.escaping} of the rays from its surfaces meet nothing, {stray_rays.to_backs} a black back (+- {stray_rays.standard_error})");
+        "{stray_rays.escaping} of the rays from its surfaces meet nothing, {stray_rays.to_backs} a black back (+- "
+        "{stray_rays.standard_error})");
     say("residual", "{residual} after {iterations} iterations",
         audit_.converged           ? ""
         : audit_.interrupted       ? " - INTERRUPTED, the best so far"
@@ -309,15 +311,14 @@ class Text {
       say("exposure", "{exposure}", report_.automatic_exposure ? " (automatic)" : "");
     }
     const bool mesh = report_.picture && report_.picture->method == PictureMethod::mesh;
-    say("picture", std::string("{picture.width} x {picture.height}, of the ") + (mesh ? "mesh" : "objects (raycast)") +
-                       ", camera {picture.camera}");
+    say("picture",
+        std::string("{picture.width} x {picture.height}, of the ") + (mesh ? "mesh" : "objects (raycast)") + ", camera {picture.camera}");
   }
 
   void lists() {
     if (!audit_.warnings.empty()) { out_ += "warnings\n"; }
     for (const std::string& sentence : audit_.warnings) { out_ += "  " + sentence + "\n"; }
-    out_ += "left out\n";
-    if (audit_.left_out.empty()) { out_ += "  nothing\n"; }
+    out_ += audit_.left_out.empty() ? "left out\n  nothing\n" : "left out\n";
     for (const radiosity::LeftOut& item : audit_.left_out) {
       out_ += "  " + item.what + ": " + item.why + (item.saved.empty() ? "" : "; saved " + item.saved) +
               (item.seconds > 0.0 ? ", about " + formatted("%.2g", item.seconds) + " s" : "") + "\n";
@@ -343,7 +344,6 @@ class Text {
 }  // namespace
 
 std::string to_text(const Report& report) { return Text(report).write(); }
-
 std::string to_json(const Report& report) { return facts_of(report).json(); }
 
 }  // namespace apps

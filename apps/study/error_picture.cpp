@@ -100,8 +100,8 @@ void draw_scale(Drawing& drawing, double top, double limit) {
   for (int i = 0; i < steps; ++i) {
     const double x = left + bar * i / steps;
     // Each reaches a little under the next: no seam.
-    drawing.add(
-        rectangle({x, top + 8.0}, {left + bar * std::min<double>(i + 1.2, steps) / steps, top + 22.0}, error_tone(2.0 * (i + 0.5) / steps - 1.0)));
+    drawing.add(rectangle({x, top + 8.0}, {left + bar * std::min<double>(i + 1.2, steps) / steps, top + 22.0},
+                          error_tone(2.0 * (i + 0.5) / steps - 1.0)));
   }
   for (int i = -2; i <= 2; ++i) {
     const double x = left + bar * (0.5 + 0.25 * i);
@@ -117,8 +117,10 @@ void draw_scale(Drawing& drawing, double top, double limit) {
                       .anchor = anchor});
   }
   drawing.add(Label{.at = {left - 12.0, top + 55.0}, .text = "too dark", .size = 11.0});
-  drawing.add(Label{
-      .at = {0.5 * scale_width, top + 55.0}, .text = "error of the cell mean, of the brightest cell", .size = 11.0, .anchor = Anchor::middle});
+  drawing.add(Label{.at = {0.5 * scale_width, top + 55.0},
+                    .text = "error of the cell mean, of the brightest cell",
+                    .size = 11.0,
+                    .anchor = Anchor::middle});
   drawing.add(Label{.at = {left + bar + 12.0, top + 55.0}, .text = "too bright", .size = 11.0, .anchor = Anchor::end});
 }
 
