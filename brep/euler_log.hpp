@@ -10,18 +10,20 @@
 //   while (redo(brep)) {}      and again
 //
 // Undo runs the inverse operator (Mäntylä 1988, ch. 9) and puts the anchors back; pools hand slots out last in first out, so every
-// element comes back under its own handle. (A slot first used since stays, free, and is given out when a fresh one would be.) Data of killed elements are kept and come back too; what the user wrote into the data
-// of living elements is not logged. Records that are written without an operator (Raw, the assignment of another BRep) are not seen.
+// element comes back under its own handle. (A slot first used since stays, free, and is given out when a fresh one would be.) Data of
+// killed elements are kept and come back too; what the user wrote into the data of living elements is not logged. Records that are
+// written without an operator (Raw, the assignment of another BRep) are not seen.
 //
 // A step is 32 bytes. A BRep with NoLog pays nothing.
 
+#include <cassert>
 #include <cstddef>
 #include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <brep/euler.hpp>
+#include <brep/euler_table.hpp>
 
 namespace brep {
 
@@ -78,130 +80,6 @@ class EulerLog::For {
   Data data_of_past_, data_of_future_;
 };
 
-namespace detail {
-
-// Applies a step again; the BRep is in the state in which the step was recorded.
-template <class B>
-void apply(B& brep, const Step& s) {
-  switch (s.op) {
-    case Operator::make_segment:
-      unchecked::make_segment(brep);
-      break;
-    case Operator::kill_segment:
-      unchecked::kill_segment(brep, s.h);
-      break;
-    case Operator::split_face:
-      unchecked::split_face(brep, s.a, s.b);
-      break;
-    case Operator::join_faces:
-      unchecked::join_faces(brep, s.h);
-      break;
-    case Operator::split_vertex:
-      unchecked::split_vertex(brep, s.a, s.b);
-      break;
-    case Operator::join_vertices:
-      unchecked::join_vertices(brep, s.h);
-      break;
-    case Operator::split_edge:
-      unchecked::split_edge(brep, s.a);
-      break;
-    case Operator::bridge:
-      unchecked::bridge(brep, s.a, s.b);
-      break;
-    case Operator::cut:
-      unchecked::cut(brep, s.h);
-      break;
-    case Operator::weld:
-      unchecked::weld(brep, s.a, s.b);
-      break;
-    case Operator::unweld:
-      unchecked::unweld(brep, s.h);
-      break;
-    case Operator::set_anchor:
-      brep.set_anchor(brep.face(s.h), s.h);
-      break;
-  }
-}
-
-// The inverses of the operators that remove an edge, with the old names. Slots come back last in first out.
-template <class B>
-void undo_join_faces(B& brep, const Step& s) {
-  (void)Raw::new_edge(brep);
-  const FaceId g = Raw::new_face(brep), f = brep.face(s.a);
-  s.alone ? insert_edge(brep, twin(s.h), s.a, s.a, f) : insert_edge(brep, s.h, s.a, s.b, g);
-  rename_loop(brep, twin(s.h), twin(s.h), g);
-}
-template <class B>
-void undo_join_vertices(B& brep, const Step& s) {
-  (void)Raw::new_edge(brep);
-  const VertexId w = Raw::new_vertex(brep), v = brep.vertex(s.a);
-  s.alone ? expand_edge(brep, twin(s.h), s.a, s.a, v) : expand_edge(brep, s.h, s.a, s.b, w);
-  rename_orbit(brep, twin(s.h), twin(s.h), w);
-}
-template <class B>
-void undo_cut(B& brep, const Step& s) {
-  (void)Raw::new_edge(brep);
-  const FaceId f = brep.face(s.a), g = brep.face(s.b);
-  rename_loop(brep, s.b, s.b, f);
-  insert_edge(brep, s.h, s.a, s.b, f);
-  Raw::kill(brep, g);
-}
-template <class B>
-void undo_unweld(B& brep, const Step& s) {
-  (void)Raw::new_edge(brep);
-  const VertexId v = brep.vertex(s.a), w = brep.vertex(s.b);
-  rename_orbit(brep, s.b, s.b, v);
-  expand_edge(brep, s.h, s.a, s.b, v);
-  Raw::kill(brep, w);
-}
-
-template <class B>
-void undo(B& brep, const Step& s) {
-  switch (s.op) {
-    case Operator::make_segment:
-      unchecked::kill_segment(brep, s.h);
-      return;
-    case Operator::kill_segment:
-      unchecked::make_segment(brep);
-      break;
-    case Operator::split_face:
-      unchecked::join_faces(brep, s.h);
-      break;
-    case Operator::join_faces:
-      undo_join_faces(brep, s);
-      break;
-    case Operator::split_vertex:
-    case Operator::split_edge:
-      unchecked::join_vertices(brep, s.h);
-      break;
-    case Operator::join_vertices:
-      undo_join_vertices(brep, s);
-      break;
-    case Operator::bridge:
-      unchecked::cut(brep, s.h);
-      break;
-    case Operator::cut:
-      undo_cut(brep, s);
-      break;
-    case Operator::weld:
-      unchecked::unweld(brep, s.h);
-      break;
-    case Operator::unweld:
-      undo_unweld(brep, s);
-      break;
-    case Operator::set_anchor:
-      brep.set_anchor(brep.face(s.h), s.a);
-      return;
-  }
-  const HalfedgeId p = removes_edge(s.op) ? s.h : s.a, q = removes_edge(s.op) ? twin(s.h) : s.b;
-  Raw::at(brep, brep.face(p)).halfedge = s.face_a;
-  Raw::at(brep, brep.face(q)).halfedge = s.face_b;
-  Raw::at(brep, brep.vertex(p)).halfedge = s.vertex_a;
-  Raw::at(brep, brep.vertex(q)).halfedge = s.vertex_b;
-}
-
-}  // namespace detail
-
 // The steps that lead from the start to the present state.
 template <class B>
 [[nodiscard]] std::span<const Step> steps(const B& brep) requires(B::logs) {
@@ -236,7 +114,9 @@ bool redo(B& brep) requires(B::logs) {
   log.mode = std::decay_t<decltype(log)>::Mode::redoing;
   const Step step = log.future.back();
   log.future.pop_back();
-  detail::apply(brep, step);
+  const auto [a, b] = detail::arguments(step);
+  [[maybe_unused]] const auto answer = apply(brep, step.op, a, b);
+  assert(answer);
   log.past.push_back(step);
   log.mode = std::decay_t<decltype(log)>::Mode::recording;
   return true;

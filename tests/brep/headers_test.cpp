@@ -20,6 +20,7 @@
 #include <brep/euler_script_run.hpp>
 #include <brep/euler_script_text.hpp>
 #include <brep/euler_script_words.hpp>
+#include <brep/euler_table.hpp>
 #include <brep/extrude.hpp>
 #include <brep/geometry.hpp>
 #include <brep/glue.hpp>
