@@ -33,6 +33,7 @@
 #include <brep/polygon.hpp>
 #include <brep/pool.hpp>
 #include <brep/proportion.hpp>
+#include <brep/range.hpp>
 #include <brep/refine.hpp>
 #include <brep/repair.hpp>
 #include <brep/replay.hpp>
