@@ -15,11 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include <brep/assemble.hpp>
-#include <brep/borders.hpp>
 #include <brep/builder_input.hpp>
 #include <brep/edge_uses.hpp>
-#include <brep/orientation.hpp>
 
 namespace brep::detail {
 

@@ -92,7 +92,6 @@ using H = HalfedgeId;
 
 }  // namespace detail
 
-// clang-format off: a table
 inline constexpr std::tuple operator_table{
     OperatorRow(
         {Operator::make_segment, "make_segment", {"mvfs"}, "", 'h', 2, 1, 1, ""},
@@ -128,8 +127,7 @@ inline constexpr std::tuple operator_table{
         [](auto& brep, const Step& s) { unchecked::cut(brep, s.h); }),
     OperatorRow(
         {Operator::cut, "cut", {"kemr", "mfkrh"}, "h", 'f', 0, -1, 1, "h with one face on both sides"},
-        [](auto& brep, detail::H h, detail::H) { return cut(brep, h); },
-        [](auto& brep, const Step& s) { detail::undo_cut(brep, s); }),
+        [](auto& brep, detail::H h, detail::H) { return cut(brep, h); }, [](auto& brep, const Step& s) { detail::undo_cut(brep, s); }),
     OperatorRow(
         {Operator::weld, "weld", {}, "hh", 'h', -1, 1, 0, "a, b leave different vertices"},
         [](auto& brep, detail::H a, detail::H b) { return weld(brep, a, b); },
@@ -143,7 +141,6 @@ inline constexpr std::tuple operator_table{
         [](auto& brep, detail::H h, detail::H) { return detail::checked_set_anchor(brep, h); },
         [](auto& brep, const Step& s) { brep.set_anchor(brep.face(s.h), s.a); }),
 };
-// clang-format on
 
 // The rows without what they do.
 inline constexpr auto operator_forms =

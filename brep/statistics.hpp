@@ -20,10 +20,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <brep/assemble.hpp>
-#include <brep/borders.hpp>
 #include <brep/edge_uses.hpp>
-#include <brep/orientation.hpp>
 
 namespace brep {
 

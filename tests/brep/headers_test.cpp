@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every header of brep/ goes with every other one: here are all of them in one file, and no name hides that of another.
 
-#include <brep/assemble.hpp>
-#include <brep/borders.hpp>
 #include <brep/brep.hpp>
 #include <brep/builder.hpp>
 #include <brep/builder_input.hpp>
@@ -28,7 +26,6 @@
 #include <brep/inherit.hpp>
 #include <brep/isomorphism.hpp>
 #include <brep/neighbours.hpp>
-#include <brep/orientation.hpp>
 #include <brep/outline.hpp>
 #include <brep/polygon.hpp>
 #include <brep/pool.hpp>
@@ -45,7 +42,6 @@
 #include <brep/split_plane.hpp>
 #include <brep/statistics.hpp>
 #include <brep/step.hpp>
-#include <brep/stitch.hpp>
 #include <brep/surgery.hpp>
 #include <brep/t_vertices.hpp>
 #include <brep/tag.hpp>
