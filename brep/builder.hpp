@@ -229,13 +229,15 @@ struct BuildResult {
 
 // Builds the BRep, or reports every defect. Vertex data get `.position`, face data get `.sheet`, if they have such members.
 // A defect that is only the consequence of a reported one (the border around a face with a bad index) is not reported.
-template <class B>
-[[nodiscard]] BuildResult<B> close(const Builder& builder) {
+// The BRep gets the allocator, if one is given; what close() needs meanwhile and the defects come from the heap.
+template <class B, class... Allocator>
+[[nodiscard]] BuildResult<B> close(const Builder& builder, const Allocator&... allocator) {
+  static_assert(sizeof...(Allocator) <= 1);
   BuildResult<B> result;
   detail::Assembly assembly;  // the faces that are given by their edges, as corners
   if (!builder.edges().empty()) assembly = detail::Assembler(builder).run();
   const Builder& corners = builder.edges().empty() ? builder : assembly.builder;
-  if (assembly.defects.empty() && detail::Stitching<B>(result.brep.emplace(), corners).run()) return result;
+  if (assembly.defects.empty() && detail::Stitching<B>(result.brep.emplace(allocator...), corners).run()) return result;
   result.brep.reset();
   result.defects = diagnose(builder);
   assert(!result.defects.empty());

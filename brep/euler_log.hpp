@@ -18,6 +18,7 @@
 
 #include <cassert>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -28,24 +29,36 @@
 namespace brep {
 
 struct EulerLog {
-  template <class VertexT, class HalfedgeT, class FaceT>
+  template <class VertexT, class HalfedgeT, class FaceT, class Allocator>
   class For;
 };
 
-template <class VertexT, class HalfedgeT, class FaceT>
+template <class VertexT, class HalfedgeT, class FaceT, class Allocator>
 class EulerLog::For {
+  template <class T>
+  using List = std::vector<T, typename std::allocator_traits<Allocator>::template rebind_alloc<T>>;
+
  public:
   enum class Mode { recording, undoing, redoing };
 
-  std::vector<Step> past, future;  // future: undone steps, the next one to redo at the end
+  List<Step> past, future;  // future: undone steps, the next one to redo at the end
   Mode mode = Mode::recording;
+
+  explicit For(const Allocator& a) : past(a), future(a), data_of_past_(a), data_of_future_(a) {}
+  For(const For& other, const Allocator& a)
+      : past(other.past, a), future(other.future, a), data_of_past_(other.data_of_past_, a), data_of_future_(other.data_of_future_, a) {}
+  For(For&& other, const Allocator& a)
+      : past(std::move(other.past), a),
+        future(std::move(other.future), a),
+        data_of_past_(std::move(other.data_of_past_), a),
+        data_of_future_(std::move(other.data_of_future_), a) {}
 
   void record(const Step& step) {
     if (mode != Mode::recording) return;
     past.push_back(step);
     if (future.empty()) return;
     future.clear();
-    data_of_future_ = {};
+    data_of_future_.clear();
   }
   // Data of a killed element, and of one that comes back. Steps nest, hence stacks.
   template <class T>
@@ -64,12 +77,22 @@ class EulerLog::For {
 
  private:
   struct Data {
-    std::vector<VertexT> vertices;
-    std::vector<HalfedgeT> halfedges;
-    std::vector<FaceT> faces;
+    List<VertexT> vertices;
+    List<HalfedgeT> halfedges;
+    List<FaceT> faces;
+
+    explicit Data(const Allocator& a) : vertices(a), halfedges(a), faces(a) {}
+    Data(const Data& other, const Allocator& a) : vertices(other.vertices, a), halfedges(other.halfedges, a), faces(other.faces, a) {}
+    Data(Data&& other, const Allocator& a)
+        : vertices(std::move(other.vertices), a), halfedges(std::move(other.halfedges), a), faces(std::move(other.faces), a) {}
+    void clear() {
+      vertices.clear();
+      halfedges.clear();
+      faces.clear();
+    }
   };
   template <class T>
-  static std::vector<T>& stack(Data& data) {  // types that are the same share a stack
+  static List<T>& stack(Data& data) {  // types that are the same share a stack
     if constexpr (std::is_same_v<T, VertexT>)
       return data.vertices;
     else if constexpr (std::is_same_v<T, HalfedgeT>)

@@ -41,8 +41,11 @@ static_assert(sizeof(Step) == 32);
 
 // The log of a BRep that keeps none: no memory, no time.
 struct NoLog {
-  template <class VertexT, class HalfedgeT, class FaceT>
-  struct For {};
+  template <class VertexT, class HalfedgeT, class FaceT, class Allocator>
+  struct For {
+    explicit For(const Allocator&) {}
+    For(const For&, const Allocator&) {}
+  };
 };
 
 }  // namespace brep
