@@ -7,7 +7,7 @@
 // object writes its approximation once and every BRep can be built from it. Each polygon names its sheet: the smooth piece
 // of the object's surface to which it belongs (a cylinder has three, a box six, a sphere one).
 //
-// Faces are counter-clockwise seen from the air. close() either gives the BRep - closed, oriented, one fan at each vertex -
+// Faces are counter-clockwise seen from outside the solid. close() either gives the BRep - closed, oriented, one fan at each vertex -
 // or all defects at once, each with the elements that take part and a sentence. In defects v3 and f2 are the numbers that
 // the builder gave; they are the handles of the finished BRep too: vertex i is VertexId{i}, face i is FaceId{i}, anchored at
 // its first corner. What can be repaired, repair.hpp repairs on request.

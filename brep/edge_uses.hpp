@@ -6,7 +6,7 @@
 // pairs half-edges by a faster way, builder.hpp, as long as everything fits.)
 //
 // An edge is a pair of vertices, its uses are corners: a corner stands for the way from its vertex to that of the next corner. Faces
-// that make no sense by themselves (unusable()) use no edge. Time: one sort of the corners.
+// that are wrong by themselves (unusable()) use no edge. Time: one sort of the corners.
 
 #include <algorithm>
 #include <cstdint>

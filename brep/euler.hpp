@@ -18,8 +18,8 @@
 // The new edge always takes h = its first half, so h is even. An operator that adds an edge to a face or vertex, followed by its inverse,
 // restores every record. What a killed face or vertex had as anchor and data only a log knows (euler_log.hpp);
 // inherit.hpp says what the data of new elements are.
-// Time: O(1) plus a renaming of the half-edges of the new (killed) face or vertex; first_side_is_shorter finds in the time of the shorter side
-// which way round to ask. No operator allocates while free slots are left.
+// Time: O(1) plus a renaming of the half-edges of the new (killed) face or vertex; first_side_is_shorter finds in the time of the shorter
+// side which way round to ask. No operator allocates while free slots are left.
 
 #include <brep/brep.hpp>
 #include <brep/result.hpp>
