@@ -9,6 +9,9 @@
 
 #include <brep/edit.hpp>
 #include <brep/euler_log.hpp>
+#include <brep/euler_script_parse.hpp>
+#include <brep/euler_script_run.hpp>
+#include <brep/euler_script_text.hpp>
 #include <brep/extrude.hpp>
 #include <brep/glue.hpp>
 #include <brep/replay.hpp>
@@ -74,8 +77,10 @@ int main() {
   brep::poke_face(solid, solid.face(side));
   print("a face poked", solid);
   std::puts(brep::glue_faces(solid, side, on_lower).refusal().sentence().c_str());  // a triangle and a quadrilateral: nothing changes
+  (void)brep::triangulate_face(solid, solid.face(on_lower));
+  print("a face triangulated", solid);
   const auto triangles = brep::triangulate(solid);
-  print("triangulated", solid);
+  print("all triangulated", solid);
 
   const auto flipped = brep::flip_edge(solid, side);
   print("an edge flipped", solid);
@@ -86,6 +91,10 @@ int main() {
   const brep::Replay replay = brep::replay(brep::steps(solid), copy);
   std::printf("%zu steps replayed%s\n", replay.done, replay ? "" : ", then refused");
   print("the copy", copy);
+  Solid from_text;
+  const auto script = brep::parse_script(brep::to_text(brep::steps(solid)));  // a log is a script, too
+  const auto error = brep::run_script(*script.script, from_text);
+  print(error ? error->sentence.c_str() : "the copy from a script", from_text);
   brep::undo_to(solid, whole);
   print("before the hole again", solid);
   return triangles ? 0 : 1;
