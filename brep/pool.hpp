@@ -34,7 +34,19 @@ namespace brep {
 
 inline constexpr unsigned page_shift = 10;  // 1024 elements a page: a box pays little, a million faces a short table
 
-using DefaultAllocator = std::allocator<std::byte>;
+// The default: the heap. (Not std::allocator, whose namespace would take part in the lookup of every function that is called on a BRep.)
+template <class T>
+struct HeapAllocator {
+  using value_type = T;
+
+  HeapAllocator() = default;
+  template <class U>
+  HeapAllocator(const HeapAllocator<U>&) {}  // implicit, as allocators are
+  [[nodiscard]] T* allocate(std::size_t count) { return std::allocator<T>().allocate(count); }
+  void deallocate(T* block, std::size_t count) { std::allocator<T>().deallocate(block, count); }
+  friend bool operator==(HeapAllocator, HeapAllocator) { return true; }
+};
+using DefaultAllocator = HeapAllocator<char>;
 
 // A growing array in pages of 2^Shift elements, which are constructed one by one: few elements touch only the first part of a page.
 template <class T, unsigned Shift, class Allocator>
@@ -124,7 +136,7 @@ template <class T, class Allocator>
 class Array {
   using ElementAllocator = typename std::allocator_traits<Allocator>::template rebind_alloc<T>;
   using Traits = std::allocator_traits<ElementAllocator>;
-  static constexpr bool reallocates = std::is_same_v<ElementAllocator, std::allocator<T>>;
+  static constexpr bool reallocates = std::is_same_v<ElementAllocator, HeapAllocator<T>>;
 
  public:
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
