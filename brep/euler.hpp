@@ -162,7 +162,7 @@ Result<HalfedgeId> bridge(B& brep, HalfedgeId a, HalfedgeId b) {
 // The loop at vertex(h) keeps the face, the loop at target(h) gets the new face, which is returned. Either the shell falls into two or
 // it loses a handle (drawing: bridge, read backwards).
 //
-// Refused (nothing changes): h is dead; its sides are different faces; an end of h is the end of a spur, so that nothing would be left there.
+// Refused (nothing changes): h is dead; its sides are different faces; an end of h is the end of a spur: no edge would be left there.
 // Inverse: bridge(next(twin(h)), next(h)), read before.     Time: the edges of the new face.
 template <class B>
 Result<FaceId> cut(B& brep, HalfedgeId h) {

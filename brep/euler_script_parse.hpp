@@ -4,8 +4,8 @@
 // Reads the script text of euler_script.hpp.
 //
 // Everything that can be known without running is checked here: the words, the number and kinds of arguments (a name has the kind
-// that its operator returns), names that nobody defined. Each line with an error gives one error; the others are read on, so one pass tells all.
-// No recursion: nested functions are a list, so depth costs no stack.
+// that its operator returns), names that nobody defined. Each line with an error gives one error, and reading goes on with the next
+// line, so one pass tells all. No recursion: nested functions are a list, so depth costs no stack.
 
 #include <algorithm>
 #include <map>
