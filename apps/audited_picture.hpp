@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A drawn picture as the audit wants it (radiosity/picture_error.hpp): its rays, its radiosities and its levels of grey.
+// The rays, radiosities and grey levels of a drawn picture, in the form that the picture's audit reads (radiosity/picture_error.hpp).
 
 #include <radiosity/picture_error.hpp>
 

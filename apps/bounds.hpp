@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where the surfaces of a scene are. A room (an object with `inside`) is everything but its hollow as a solid, so the
-// bounds here are those of the shape itself.
+// The bounds of a scene's surfaces. As a solid, a room (an object with `inside`) is unbounded: everything outside its shape. Its surface is
+// that of the shape, whose bounds are taken.
 
 #include <glm/vec3.hpp>
 

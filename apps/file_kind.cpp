@@ -8,7 +8,7 @@
 
 #include <brep/euler_script.hpp>
 
-#include "apps/scene_file/keywords.hpp"
+#include "apps/scene_file/grammar.hpp"
 #include "apps/scene_file/words.hpp"
 #include "apps/utf8.hpp"
 
@@ -71,17 +71,9 @@ class FirstLines {
   std::string_view text_;
 };
 
-bool is_number(std::string_view word) { return !word.empty() && word.find_first_not_of("+-.0123456789eE") == word.npos; }
-
 template <class List>
 bool contains(const List& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
-}
-
-bool begins_obj(const std::array<std::string_view, 3>& words) {
-  constexpr std::array<std::string_view, 5> names = {"mtllib", "usemtl", "o", "g", "s"};
-  constexpr std::array<std::string_view, 4> numbers = {"v", "vn", "vt", "f"};
-  return (contains(names, words[0]) && !words[1].empty()) || (contains(numbers, words[0]) && is_number(words[1].substr(0, 1)));
 }
 
 bool begins_script(const std::array<std::string_view, 3>& words) {
@@ -91,11 +83,8 @@ bool begins_script(const std::array<std::string_view, 3>& words) {
 
 // A statement of a scene; in the first line also a word so near to one that its author meant it.
 bool begins_scene(std::string_view word, bool first) {
-  return first ? !scene_file::nearest(word, scene_file::statements).empty() : contains(scene_file::statements, word);
+  return first ? !scene_file::nearest(word, scene_file::statements()).empty() : contains(scene_file::statements(), word);
 }
-
-// "OFF" with the letters that say what else its vertices have.
-bool is_off(std::string_view word) { return word.size() <= 8 && word.ends_with("OFF") && word.find_first_not_of("STCN4nOF") == word.npos; }
 
 bool is_binary_stl(std::string_view bytes) {
   if (bytes.size() < 84) { return false; }
@@ -114,42 +103,29 @@ bool is_text(std::string_view bytes) {
   return true;
 }
 
-const char* name_of(FileKind kind) {
-  switch (kind) {
-    case FileKind::scene:
-      return "a scene";
-    case FileKind::script:
-      return "a script of Euler operators";
-    case FileKind::obj:
-      return "an OBJ file";
-    case FileKind::ply:
-      return "a PLY file";
-    case FileKind::off:
-      return "an OFF file";
-    default:
-      return "a file that halflight reads";
-  }
+std::string name_of(FileKind kind, const MeshFormat* format) {
+  if (format != nullptr) { return std::string(format->file); }
+  return kind == FileKind::scene ? "a scene" : kind == FileKind::script ? "a script of Euler operators" : "a file that halflight reads";
 }
-
-bool is_mesh(FileKind kind) { return kind == FileKind::obj || kind == FileKind::ply || kind == FileKind::off; }
 
 // What to do with it instead.
 std::string advice(const std::string& path, FileKind found, FileKind wanted) {
   constexpr const char* of_scenes = "a scene is text that names materials and objects (examples/scenes/README.md)";
-  if (is_mesh(found) && is_mesh(wanted)) { return "give it a name that ends with the right letters"; }
-  if (is_mesh(found) && wanted == FileKind::scene) {
+  const bool mesh_wanted = wanted == FileKind::mesh;
+  if (found == FileKind::mesh && mesh_wanted) { return "give it a name that ends with the right letters"; }
+  if (found == FileKind::mesh && wanted == FileKind::scene) {
     return "`halflight check " + path +
            "` examines it; to light it, write its vertices and faces into a `mesh` statement of a scene "
            "(examples/scenes/README.md)";
   }
-  if (is_mesh(found)) { return "`halflight check " + path + "` examines it"; }
-  if (found == FileKind::stl) { return "convert it to .obj, .ply or .off, which `halflight check` reads"; }
+  if (found == FileKind::mesh) { return "`halflight check " + path + "` examines it"; }
+  if (found == FileKind::stl) { return "convert it to " + mesh_endings() + ", which `halflight check` reads"; }
   if (found == FileKind::script) { return "`halflight euler " + path + "` plays it"; }
   if (found == FileKind::scene) {
     return "`halflight info " + path + "` says what is in it" +
-           (is_mesh(wanted) ? ", `halflight mesh " + path + " -o OUT.obj` writes its polygons" : "");
+           (mesh_wanted ? ", `halflight mesh " + path + " -o OUT.obj` writes its polygons" : "");
   }
-  if (is_mesh(wanted)) { return "expected a polygon mesh: .obj, .ply or .off"; }
+  if (mesh_wanted) { return "expected a polygon mesh: " + mesh_endings(); }
   return wanted == FileKind::scene ? of_scenes : "a script is text with one operator a line (examples/euler)";
 }
 
@@ -157,31 +133,31 @@ std::string advice(const std::string& path, FileKind found, FileKind wanted) {
 
 FileGuess guess_kind(std::string_view bytes) {
   if (bytes.starts_with("\xef\xbb\xbf")) { bytes.remove_prefix(3); }
-  if (bytes.find_first_not_of(blanks) == bytes.npos) { return {FileKind::empty, "empty"}; }
+  if (bytes.find_first_not_of(blanks) == bytes.npos) { return {FileKind::empty, "empty", nullptr}; }
   for (const auto& [start, what] : signatures) {
-    if (bytes.starts_with(start)) { return {FileKind::other, what}; }
+    if (bytes.starts_with(start)) { return {FileKind::other, what, nullptr}; }
   }
   FirstLines lines(bytes);
   std::array<std::string_view, 3> words;
   for (int i = 0; lines.next(words); ++i) {
-    if (i == 0 && words[0] == "ply") { return {FileKind::ply, "a polygon mesh (PLY)"}; }
-    if (i == 0 && is_off(words[0])) { return {FileKind::off, "a polygon mesh (OFF)"}; }
-    if (i == 0 && words[0] == "solid" && bytes.find("facet") != bytes.npos) { return {FileKind::stl, "a polygon mesh (STL)"}; }
-    if (begins_scene(words[0], i == 0)) { return {FileKind::scene, "a scene"}; }
-    if (begins_script(words)) { return {FileKind::script, "a script of Euler operators"}; }
-    if (begins_obj(words)) { return {FileKind::obj, "a polygon mesh (Wavefront OBJ)"}; }
-    if (i == 0 && is_binary_stl(bytes)) { return {FileKind::stl, "a polygon mesh (STL)"}; }
-    if (i == 0 && !is_text(bytes)) { return {FileKind::other, "a binary file"}; }
+    for (const MeshFormat* const format : mesh_formats()) {
+      if (format->begins(words, i == 0)) { return {FileKind::mesh, std::string(format->content), format}; }
+    }
+    if (i == 0 && words[0] == "solid" && bytes.find("facet") != bytes.npos) { return {FileKind::stl, "a polygon mesh (STL)", nullptr}; }
+    if (begins_scene(words[0], i == 0)) { return {FileKind::scene, "a scene", nullptr}; }
+    if (begins_script(words)) { return {FileKind::script, "a script of Euler operators", nullptr}; }
+    if (i == 0 && is_binary_stl(bytes)) { return {FileKind::stl, "a polygon mesh (STL)", nullptr}; }
+    if (i == 0 && !is_text(bytes)) { return {FileKind::other, "a binary file", nullptr}; }
   }
-  return {FileKind::unknown, {}};
+  return {};
 }
 
-std::optional<std::string> wrong_kind(const std::string& path, std::string_view bytes, FileKind wanted) {
+std::optional<std::string> wrong_kind(const std::string& path, std::string_view bytes, FileKind wanted, const MeshFormat* format) {
   const FileGuess guess = guess_kind(bytes);
-  if (guess.kind == wanted) { return std::nullopt; }
+  if (guess.kind == wanted && guess.format == format) { return std::nullopt; }
   if (guess.kind == FileKind::empty) { return path + " is empty; " + advice(path, guess.kind, wanted); }
-  if (guess.what.empty()) { return path + " is not " + name_of(wanted) + "; " + advice(path, guess.kind, wanted); }
-  return path + " is " + guess.what + ", not " + name_of(wanted) + "; " + advice(path, guess.kind, wanted);
+  if (guess.what.empty()) { return path + " is not " + name_of(wanted, format) + "; " + advice(path, guess.kind, wanted); }
+  return path + " is " + guess.what + ", not " + name_of(wanted, format) + "; " + advice(path, guess.kind, wanted);
 }
 
 }  // namespace apps

@@ -2,8 +2,8 @@
 #pragma once
 
 // Whole files or none. A regular file is written under a temporary name beside its target and then renamed, so at every moment the target is
-// the old file or the complete new one. When writing fails the temporary is removed and the old file stays; so it is when the program is
-// ended while writing (see remove_unfinished_file). What is no regular file is written through (output_paths.hpp).
+// the old file or the complete new one. When writing fails, or the program is ended while it writes (remove_unfinished_file), the temporary
+// is removed and the old file stays. Pipes, terminals and devices are opened and written (output_paths.hpp).
 //
 // Functions return a sentence that says what went wrong, or nothing.
 

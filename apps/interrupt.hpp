@@ -6,7 +6,7 @@
 // A command that can stop early calls watch_interrupts(): the first signal then sets a flag that the solver and the picture look at, and
 // the command ends with nothing half-written; a second one ends the program at once. Without, the first one does.
 //
-// A write beyond a limit of file size, or to a pipe that nobody reads any more, is no signal but an error of that write.
+// A write beyond the limit of file size, or to a closed pipe, raises no signal: the write fails with an error.
 
 #include <atomic>
 

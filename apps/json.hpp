@@ -11,8 +11,7 @@
 //     const std::string text = json.text();
 //
 // The caller keeps the structure right: a key before every value in an object. Bytes that are not UTF-8, as names of files may hold, become
-// U+FFFD. Numbers are written with the fewest
-// digits that read back as the same double; NaN and infinities, which JSON lacks, become null.
+// U+FFFD. Numbers are written with the fewest digits that read back as the same double; NaN and infinities, which JSON lacks, become null.
 
 #include <array>
 #include <charconv>

@@ -23,11 +23,12 @@ namespace apps {
 // What the process holds now; nothing where the system does not tell.
 [[nodiscard]] std::optional<std::uint64_t> resident_memory();
 
-// What getrusage(2) tells contains what the program that started this one held; where the system tells more, that is taken out.
+// The peak of getrusage(2) includes the memory of the program that started this one (its parent before exec). Where the system also tells
+// this process's own peak (VmHWM), the peaks of the stages are cut to it.
 void leave_out_others(std::vector<radiosity::StageTime>& stages);
 
-// What the runs of a study take one after the other in one process. The heap gives back what is free, and the peak that the system keeps is
-// reset (Linux: clear_refs, proc(5)) before each run; the run took what its peak lies above what was held at its beginning.
+// Measures the memory of one run of a study, where several runs follow each other in one process. Before the run, free memory is given back
+// to the system and the system's peak is reset (Linux: clear_refs, proc(5)). The run took its peak less what was held when it began.
 class PeakMeter {
  public:
   PeakMeter();

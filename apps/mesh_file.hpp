@@ -17,14 +17,9 @@
 
 #include <brep/builder_input.hpp>
 
-#include "apps/scene_file.hpp"
+#include "apps/input_errors.hpp"
 
 namespace apps {
-
-enum class MeshFormat { obj, ply, off };
-
-// By the ending of the name: .obj, .ply or .off in any case.
-[[nodiscard]] std::optional<MeshFormat> mesh_format(std::string_view path);
 
 struct Mesh {
   brep::Builder builder;
@@ -32,21 +27,9 @@ struct Mesh {
   std::vector<std::string> notes;                     // what was passed over and may matter
 };
 
-struct MeshError {
-  Place place;  // in a binary file: line 0, and in place of the column the byte, from 1
-  std::string sentence;
+struct MeshResult : ErrorReport {
+  std::optional<Mesh> mesh;  // nothing when there are errors
 };
-
-struct MeshResult {
-  std::optional<Mesh> mesh;       // nothing when there are errors
-  std::vector<MeshError> errors;  // in the order of the file
-  bool more_errors = false;       // reading was given up at max_errors
-};
-
-[[nodiscard]] MeshResult read_mesh(std::string_view bytes, MeshFormat format);
-
-// One line per error: "box.obj:12:8: error: ..."; the last line says so when more were found.
-[[nodiscard]] std::string to_text(const MeshResult& result, std::string_view name);
 
 // Faces that belong together, up to where the next group begins.
 struct MeshGroup {
@@ -54,8 +37,34 @@ struct MeshGroup {
   std::string name;
 };
 
+namespace mesh_file {
+class Output;  // what a reader fills (mesh_file/reading.hpp)
+}
+
+// A format: one file in mesh_file/ defines it, one line of mesh_file/mesh_file.cpp lists it.
+struct MeshFormat {
+  std::string_view ending;   // of the name, in small letters: ".obj"
+  std::string_view file;     // "an OBJ file"
+  std::string_view content;  // "a polygon mesh (Wavefront OBJ)"
+  bool text;                 // a zero byte shows that it is another file
+  // Does a file of this format have a line that begins with these three words (empty where there are fewer), as its first one?
+  bool (*begins)(std::span<const std::string_view, 3> words, bool first);
+  void (*read)(std::string_view bytes, mesh_file::Output& out);
+  std::string (*write)(const brep::Builder& builder, std::span<const MeshGroup> groups);
+};
+
+[[nodiscard]] std::span<const MeshFormat* const> mesh_formats();
+
+// ".obj, .ply or .off"
+[[nodiscard]] std::string mesh_endings();
+
+// By the ending of the name, in any case; null when no format has it.
+[[nodiscard]] const MeshFormat* mesh_format(std::string_view path);
+
+[[nodiscard]] MeshResult read_mesh(std::string_view bytes, const MeshFormat& format);
+
 // The file's bytes; PLY is binary little endian. Positions are written so that they read back exactly. Every corner must exist.
 // Groups, by rising first face, become objects in OBJ ("o name"); the other formats have no such thing.
-[[nodiscard]] std::string write_mesh(const brep::Builder& builder, MeshFormat format, std::span<const MeshGroup> groups = {});
+[[nodiscard]] std::string write_mesh(const brep::Builder& builder, const MeshFormat& format, std::span<const MeshGroup> groups = {});
 
 }  // namespace apps

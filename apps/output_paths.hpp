@@ -3,9 +3,9 @@
 
 // Where outputs go, known and checked before any work. One check serves every command.
 //
-// A regular file is replaced whole (files.hpp). What exists and is no regular file - a pipe, a terminal, /dev/null - and the streams that
-// the program was started with (/dev/stdout, /dev/fd/3; "-" is the standard output) are written through: they are never replaced.
-// Symbolic links are followed to their end, also where nothing lies there yet.
+// A regular file is replaced whole (files.hpp). Pipes, terminals, devices such as /dev/null, and the streams that the program was started
+// with (/dev/stdout, /dev/fd/3; "-" is the standard output) are opened and written, never replaced. Symbolic links are followed to their
+// end, even when the file at the end does not exist yet.
 
 #include <filesystem>
 #include <optional>
@@ -23,10 +23,10 @@ struct Destination {
 // Nothing when the path leads nowhere; errno says why.
 [[nodiscard]] std::optional<Destination> destination(const std::string& path);
 
-// Why nothing can be written there, or nothing: its folder exists and may be written to, the path is no folder, its file is not protected.
+// Why the output cannot be written: its folder is missing or protected, the path is a folder, the file is protected. Nothing when it can.
 [[nodiscard]] std::optional<std::string> check_writable(const std::string& path);
 
-// Whether both outputs are one file, however they are written: through '.', '..', symbolic and hard links.
+// Whether both paths lead to one file: through '.', '..', symbolic and hard links.
 [[nodiscard]] bool same_output(const std::string& a, const std::string& b);
 
 // Whether what is written there appears on the standard output.

@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "apps/ply.hpp"
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <unordered_map>
 
 #include "apps/color.hpp"
+#include "apps/mesh_file/ply_bytes.hpp"
 
 namespace apps {
 namespace {
-
-void put(std::string& out, std::uint32_t value) {
-  for (int shift = 0; shift < 32; shift += 8) { out += static_cast<char>(static_cast<unsigned char>(value >> shift)); }
-}
-
-void put(std::string& out, double value) {
-  static_assert(std::numeric_limits<float>::is_iec559);
-  put(out, std::bit_cast<std::uint32_t>(static_cast<float>(value)));
-}
 
 // Gives each pair of mesh vertex and colour its own number, in the order of first use.
 class Vertices {
@@ -37,18 +27,6 @@ class Vertices {
   std::uint32_t size_ = 0;
 };
 
-std::string header(std::size_t vertices, std::size_t faces, const std::vector<radiosity::InputSurface>& surfaces) {
-  std::string text = "ply\nformat binary_little_endian 1.0\ncomment halflight: radiosity in W/m2, vertex colours sRGB\n";
-  for (std::size_t i = 0; i < surfaces.size(); ++i) { text += "comment surface " + std::to_string(i) + " " + surfaces[i].name + "\n"; }
-  text += "element vertex " + std::to_string(vertices) + "\n";
-  text += "property float x\nproperty float y\nproperty float z\n";
-  text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-  text += "element face " + std::to_string(faces) + "\n";
-  text += "property list uchar int vertex_indices\n";
-  text += "property float radiosity_r\nproperty float radiosity_g\nproperty float radiosity_b\nproperty int surface\n";
-  return text + "end_header\n";
-}
-
 }  // namespace
 
 std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, double exposure) {
@@ -64,13 +42,20 @@ std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::Inp
       put(face_bytes, vertices.index(corner.vertex, rgb));
       if (vertices.size() == before) { continue; }
       const glm::dvec3& position = mesh.positions[corner.vertex];
-      for (int c = 0; c < 3; ++c) { put(vertex_bytes, position[c]); }
-      for (const std::uint8_t byte : rgb) { vertex_bytes += static_cast<char>(byte); }
+      for (int c = 0; c < 3; ++c) { put(vertex_bytes, static_cast<float>(position[c])); }
+      for (const std::uint8_t byte : rgb) { put(vertex_bytes, byte); }
     }
-    for (int c = 0; c < 3; ++c) { put(face_bytes, face.radiosity[c]); }
+    for (int c = 0; c < 3; ++c) { put(face_bytes, static_cast<float>(face.radiosity[c])); }
     put(face_bytes, face.surface);
   }
-  return header(vertices.size(), mesh.faces.size(), surfaces) + vertex_bytes + face_bytes;
+  std::vector<std::string> comments = {"halflight: radiosity in W/m2, vertex colours sRGB"};
+  for (std::size_t i = 0; i < surfaces.size(); ++i) { comments.push_back("surface " + std::to_string(i) + " " + surfaces[i].name); }
+  return ply_header(comments,
+                    {{"vertex", vertices.size(), {"float x", "float y", "float z", "uchar red", "uchar green", "uchar blue"}},
+                     {"face",
+                      mesh.faces.size(),
+                      {"list uchar int vertex_indices", "float radiosity_r", "float radiosity_g", "float radiosity_b", "int surface"}}}) +
+         vertex_bytes + face_bytes;
 }
 
 }  // namespace apps

@@ -3,10 +3,9 @@
 
 // The `.scene` file: text made for people, described in examples/scenes/README.md.
 //
-// Reading one gives a value: the scene with its cameras, or a list of errors. Every error says where it lies, what
-// stands there and what was expected. Reading does not stop at the first error; it ends after `max_errors` of them.
-// No input makes it throw, crash, recurse deeply or run without end: the size of the file, the number of objects
-// that `use` may make and the corners of one polygon have limits, each with its sentence.
+// Reading one gives a value: the scene with its cameras, or a list of errors. Every error says where it lies, what stands there and what
+// was expected. No input makes it throw, crash, recurse deeply or run without end: the size of the file, the number of objects that `use`
+// may make and the corners of one polygon have limits, each with its sentence.
 //
 //     text -> lexer (words, numbers, braces, ends of lines) -> parser (statements with their places)
 //          -> build (names resolved, shapes made, groups placed) -> SceneFile
@@ -22,26 +21,16 @@
 
 #include <radiosity/scene.hpp>
 
+#include "apps/input_errors.hpp"
+
 namespace apps {
 
-inline constexpr std::size_t max_errors = 20;
 inline constexpr std::size_t max_file_bytes = std::size_t{256} << 20;
 inline constexpr std::size_t max_objects = 100'000;
 inline constexpr std::size_t max_use_depth = 64;
 inline constexpr std::size_t max_polygon_corners = 1024;  // the test for self-intersection is quadratic
 inline constexpr double max_number = 1e30;                // products of four lengths stay far from overflow
 inline constexpr std::uint32_t max_picture_side = 16'384;
-
-// Line and column count from 1; a column is a character (not a byte) of the line.
-struct Place {
-  std::uint32_t line = 1;
-  std::uint32_t column = 1;
-};
-
-struct SceneError {
-  Place place;
-  std::string sentence;
-};
 
 struct PictureSize {
   std::uint32_t width = 800;
@@ -57,7 +46,7 @@ struct Camera {
   std::optional<PictureSize> size;    // of the picture, unless the command says otherwise
 };
 
-// What the file says about an object of the scene and a run does not need.
+// What the file says about an object and a run does not need; messages and `halflight info` name it.
 struct ObjectOrigin {
   std::string_view kind;  // "box", "mesh", ...
   Place place;
@@ -69,10 +58,8 @@ struct SceneFile {
   std::vector<Camera> cameras;
 };
 
-struct SceneResult {
-  std::optional<SceneFile> file;   // nothing when there are errors
-  std::vector<SceneError> errors;  // in the order of the file
-  bool more_errors = false;        // reading was given up at max_errors
+struct SceneResult : ErrorReport {
+  std::optional<SceneFile> file;  // nothing when there are errors
 };
 
 // The scene that `text` describes.
@@ -80,8 +67,5 @@ struct SceneResult {
 
 // The whole file, "-" for the standard input, or nothing and a sentence in `fault` (missing, a directory, unreadable, too large).
 [[nodiscard]] std::optional<std::string> read_text(const std::string& path, std::string& fault);
-
-// One line per error: "box.scene:12:8: error: ..."; the last line says so when more were found.
-[[nodiscard]] std::string to_text(const SceneResult& result, std::string_view name);
 
 }  // namespace apps

@@ -16,12 +16,14 @@
 //
 // VertexT, HalfedgeT and FaceT are the user's own types, default-constructible and movable; derive Tag into them where
 // levels are needed. Empty types cost nothing; inherit.hpp says what the data of a new element are. LogT is NoLog, or EulerLog
-// (euler_log.hpp) for a BRep that can undo. Algorithms are free functions on any `B&`.
+// (euler_log.hpp) for a BRep that can undo. All memory comes from AllocatorT (paper 2.2, "allocator class templates"), any allocator
+// of the standard's kind, whatever its value type. Algorithms are free functions on any `B&`.
 
 #include <array>
 #include <cassert>
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 #include <brep/handles.hpp>
 #include <brep/inherit.hpp>
@@ -55,9 +57,29 @@ struct Raw;
 
 }  // namespace detail
 
-template <class VertexT = NoData, class HalfedgeT = NoData, class FaceT = NoData, class LogT = NoLog>
+template <class VertexT = NoData, class HalfedgeT = NoData, class FaceT = NoData, class LogT = NoLog, class AllocatorT = DefaultAllocator>
 class BRep {
  public:
+  using allocator_type = AllocatorT;
+  BRep() : BRep(AllocatorT()) {}
+  explicit BRep(const AllocatorT& allocator) : halfedges_(allocator), vertices_(allocator), faces_(allocator), log_(allocator) {}
+  BRep(const BRep&) = default;  // allocators say themselves which one a copy gets: a polymorphic one gives the default resource
+  BRep(BRep&&) noexcept = default;
+  BRep(const BRep& other, const AllocatorT& allocator)
+      : halfedges_(other.halfedges_, allocator),
+        vertices_(other.vertices_, allocator),
+        faces_(other.faces_, allocator),
+        log_(other.log_, allocator) {}
+  BRep(BRep&& other, const AllocatorT& allocator)
+      : halfedges_(std::move(other.halfedges_), allocator),
+        vertices_(std::move(other.vertices_), allocator),
+        faces_(std::move(other.faces_), allocator),
+        log_(std::move(other.log_), allocator) {}
+  BRep& operator=(const BRep&) = default;  // the allocator stays
+  BRep& operator=(BRep&&) noexcept = default;
+  ~BRep() = default;
+  [[nodiscard]] AllocatorT get_allocator() const { return halfedges_.allocator(); }
+
   static constexpr bool logs = !std::is_same_v<LogT, NoLog>;
   using vertex_type = VertexT;
   using halfedge_type = HalfedgeT;
@@ -107,10 +129,10 @@ class BRep {
  private:
   friend struct detail::Raw;
 
-  Pool<detail::HalfedgeRecord, HalfedgeT, 2> halfedges_;
-  Pool<detail::AnchorRecord, VertexT> vertices_;
-  Pool<detail::AnchorRecord, FaceT> faces_;
-  [[no_unique_address]] typename LogT::template For<VertexT, HalfedgeT, FaceT> log_;
+  Pool<detail::HalfedgeRecord, HalfedgeT, 2, AllocatorT> halfedges_;
+  Pool<detail::AnchorRecord, VertexT, 1, AllocatorT> vertices_;
+  Pool<detail::AnchorRecord, FaceT, 1, AllocatorT> faces_;
+  [[no_unique_address]] typename LogT::template For<VertexT, HalfedgeT, FaceT, AllocatorT> log_;
 };
 
 namespace detail {

@@ -5,151 +5,123 @@
 //
 //   for (HalfedgeId h : halfedges_of(brep, f))    the loop of the face f, from its anchor
 //   for (HalfedgeId h : halfedges_from(brep, v))  the half-edges that leave v, clockwise, from halfedge(v)
-//   for (FaceId f : faces(brep))                  all living faces in index order; also vertices, edges
+//   for (FaceId f : faces(brep))                  all living faces in index order; also vertices, edges, halfedges
 //
 // A loop walk ends when it is back where it began, so the loop must not be changed while it is walked. The walks over all
 // elements may see elements that were made on the way; killing the current one is allowed.
 
 #include <cstddef>
-#include <iterator>
+#include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include <brep/brep.hpp>
+#include <brep/range.hpp>
 
 namespace brep {
 
 namespace detail {
 
+// Where a closed walk goes from h, and what it shows of it.
 struct AroundFace {
   template <class B>
-  static HalfedgeId step(const B& brep, HalfedgeId h) {
+  HalfedgeId operator()(const B& brep, HalfedgeId h) const {
     return brep.next(h);
   }
 };
 struct AroundVertex {
   template <class B>
-  static HalfedgeId step(const B& brep, HalfedgeId h) {
+  HalfedgeId operator()(const B& brep, HalfedgeId h) const {
     return brep.next(twin(h));
+  }
+};
+struct Itself {
+  template <class B>
+  HalfedgeId operator()(const B&, HalfedgeId h) const {
+    return h;
   }
 };
 
 // A closed walk: steps until the first half-edge comes back.
-template <class B, class Around>
-class Circle {
- public:
-  class iterator {
-   public:
-    using value_type = HalfedgeId;
-    using difference_type = std::ptrdiff_t;
-    using reference = HalfedgeId;
-    using pointer = const HalfedgeId*;
-    using iterator_category = std::forward_iterator_tag;
+template <class B, class Around, class Show>
+struct Circle {
+  const B* brep = nullptr;
+  HalfedgeId first{}, current{};
 
-    iterator() = default;
-    iterator(const B* brep, HalfedgeId first) : brep_(brep), first_(first), current_(first) {}
-    HalfedgeId operator*() const { return current_; }
-    iterator& operator++() {
-      current_ = Around::step(*brep_, current_);
-      if (current_ == first_) current_ = HalfedgeId{};
-      return *this;
-    }
-    iterator operator++(int) {
-      iterator before = *this;
-      ++*this;
-      return before;
-    }
-    friend bool operator==(const iterator& a, const iterator& b) { return a.current_ == b.current_; }
-
-   private:
-    const B* brep_ = nullptr;
-    HalfedgeId first_{}, current_{};
-  };
-
-  Circle(const B& brep, HalfedgeId first) : brep_(&brep), first_(first) {}
-  iterator begin() const { return iterator(brep_, first_); }
-  iterator end() const { return iterator(); }
-
- private:
-  const B* brep_;
-  HalfedgeId first_;
+  [[nodiscard]] auto value() const { return Show()(*brep, current); }
+  void step() {
+    current = Around()(*brep, current);
+    if (current == first) current = HalfedgeId{};
+  }
+  friend bool operator==(const Circle& a, const Circle& b) { return a.current == b.current; }
 };
 
-template <class IdType, class B>
-std::uint32_t index_end(const B& brep) {
-  if constexpr (std::is_same_v<IdType, VertexId>)
-    return brep.vertex_end();
-  else if constexpr (std::is_same_v<IdType, EdgeId>)
-    return brep.edge_end();
-  else
-    return brep.face_end();
+template <class Around, class Show, class B>
+[[nodiscard]] auto circle(const B& brep, HalfedgeId first) {
+  return Range(Circle<B, Around, Show>{&brep, first, first});
 }
 
 // All living elements of one kind.
 template <class B, class IdType>
-class All {
- public:
-  class iterator {
-   public:
-    using value_type = IdType;
-    using difference_type = std::ptrdiff_t;
-    using reference = IdType;
-    using pointer = const IdType*;
-    using iterator_category = std::forward_iterator_tag;
+struct All {
+  const B* brep = nullptr;
+  IdType current{};
 
-    iterator() = default;
-    explicit iterator(const B* brep) : brep_(brep), current_{0} { skip_dead(); }
-    IdType operator*() const { return current_; }
-    iterator& operator++() {
-      ++current_.index;
-      skip_dead();
-      return *this;
-    }
-    iterator operator++(int) {
-      iterator before = *this;
-      ++*this;
-      return before;
-    }
-    friend bool operator==(const iterator& a, const iterator& b) { return a.current_ == b.current_; }
-
-   private:
-    void skip_dead() {
-      const std::uint32_t end = index_end<IdType>(*brep_);
-      while (current_.index < end && !brep_->alive(current_)) ++current_.index;
-      if (current_.index >= end) current_ = IdType{};
-    }
-    const B* brep_ = nullptr;
-    IdType current_{};
-  };
-
-  explicit All(const B& brep) : brep_(&brep) {}
-  iterator begin() const { return iterator(brep_); }
-  iterator end() const { return iterator(); }
-
- private:
-  const B* brep_;
+  [[nodiscard]] IdType value() const { return current; }
+  void step() {
+    ++current.index;
+    skip_dead();
+  }
+  void skip_dead() {
+    const std::uint32_t end = this->end();
+    while (current.index < end && !brep->alive(current)) ++current.index;
+    if (current.index >= end) current = IdType{};
+  }
+  [[nodiscard]] std::uint32_t end() const {
+    if constexpr (std::is_same_v<IdType, VertexId>)
+      return brep->vertex_end();
+    else if constexpr (std::is_same_v<IdType, HalfedgeId>)
+      return brep->halfedge_end();
+    else if constexpr (std::is_same_v<IdType, EdgeId>)
+      return brep->edge_end();
+    else
+      return brep->face_end();
+  }
+  friend bool operator==(const All& a, const All& b) { return a.current == b.current; }
 };
+
+template <class IdType, class B>
+[[nodiscard]] auto all(const B& brep) {
+  All<B, IdType> walk{&brep, IdType{0}};
+  walk.skip_dead();
+  return Range(walk);
+}
 
 }  // namespace detail
 
 template <class B>
-[[nodiscard]] detail::Circle<B, detail::AroundFace> halfedges_of(const B& brep, FaceId f) {
-  return {brep, brep.halfedge(f)};
+[[nodiscard]] auto halfedges_of(const B& brep, FaceId f) {
+  return detail::circle<detail::AroundFace, detail::Itself>(brep, brep.halfedge(f));
 }
 template <class B>
-[[nodiscard]] detail::Circle<B, detail::AroundVertex> halfedges_from(const B& brep, VertexId v) {
-  return {brep, brep.halfedge(v)};
+[[nodiscard]] auto halfedges_from(const B& brep, VertexId v) {
+  return detail::circle<detail::AroundVertex, detail::Itself>(brep, brep.halfedge(v));
 }
 template <class B>
 [[nodiscard]] auto vertices(const B& brep) {
-  return detail::All<B, VertexId>(brep);
+  return detail::all<VertexId>(brep);
 }
 template <class B>
 [[nodiscard]] auto edges(const B& brep) {
-  return detail::All<B, EdgeId>(brep);
+  return detail::all<EdgeId>(brep);
+}
+template <class B>
+[[nodiscard]] auto halfedges(const B& brep) {
+  return detail::all<HalfedgeId>(brep);
 }
 template <class B>
 [[nodiscard]] auto faces(const B& brep) {
-  return detail::All<B, FaceId>(brep);
+  return detail::all<FaceId>(brep);
 }
 
 // Number of half-edges on the loop of f.

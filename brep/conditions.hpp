@@ -7,7 +7,7 @@
 // with each other and with lambdas; all_of, any_of and negate do the same for lambdas alone. Operands are copied, and asked from
 // left to right as far as needed:
 //
-//   split_recursively(brep, f, NiceSplit{}, quadrangles && Convex{} && [](const Mesh& m, FaceId g) { return m.data(g).marked(1); });
+//   split_recursively(brep, f, NiceSplit{}, quadrangles && Convex{} && [](const Mesh& m, FaceId g) { return m.data(g).sheet == 1; });
 //
 // NoTVertices stands in t_vertices.hpp, BesidePlane in split_plane.hpp. A type joins in by the member type `condition_object`.
 

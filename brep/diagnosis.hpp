@@ -3,8 +3,8 @@
 
 // What is wrong with a builder: all defects at once, each as a sentence about the builder's vertices and faces.
 //
-// close() asks only when the matching of the corners left something over, so this file is made for good answers, not for speed:
-// O(n log n) in the corners. Consequences are left out: the border around a face that could not be used, the doubled edges
+// close() calls it only after its fast way has failed, so this file aims at good sentences, not at speed: O(n log n) in the corners.
+// Consequences of a reported defect are not reported: the border around a face that could not be used, the doubled edges
 // of flipped faces, the fans at a vertex on a border that a face in the hole would join.
 
 #include <algorithm>
@@ -15,11 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include <brep/assemble.hpp>
-#include <brep/borders.hpp>
 #include <brep/builder_input.hpp>
 #include <brep/edge_uses.hpp>
-#include <brep/orientation.hpp>
 
 namespace brep::detail {
 
@@ -81,7 +78,7 @@ class Diagnosis {
     report_vertices();
     report_corners();
     if (assembly == nullptr) return;
-    std::erase_if(found_, [&](const Defect& d) {  // the mark of a broken face was reported as what it is
+    std::erase_if(found_, [&](const Defect& d) {  // the corner invalid_index of a broken face only marks it
       return !d.elements.empty() && d.elements[0].letter == 'f' && assembly->broken[d.elements[0].index];
     });
     found_.insert(found_.end(), assembly->defects.begin(), assembly->defects.end());
@@ -130,7 +127,7 @@ class Diagnosis {
     }
   }
 
-  // What is missing around a face that cannot be used has been reported with it.
+  // Reports the faces that cannot be used, and excuses their corners: what is missing around such a face is its consequence.
   void report_corners() {
     const std::uint32_t n = builder_.vertex_count();
     std::vector<std::uint32_t> seen(n, invalid_index);

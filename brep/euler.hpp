@@ -7,18 +7,19 @@
 // refused with a reason and changes nothing; the same functions in `unchecked::` trust the caller. Dual are split_face and split_vertex,
 // join_faces and join_vertices, bridge and weld, cut and unweld: exchange the words face and vertex, "on the loop of" and "leaving".
 //
-//                    v   e   f    2(s - h)              inverse
-//   make_segment    +2  +1  +1   s + 1                  kill_segment
-//   split_face          +1  +1   the same               join_faces
-//   split_vertex    +1  +1       the same               join_vertices       (split_edge is a special case)
-//   bridge              +1  -1   s - 1 or h + 1         cut
-//   weld            -1  +1       s - 1 or h + 1         unweld
+//                    v   e   f    2(s - h)              inverse             textbook names of both
+//   make_segment    +2  +1  +1   s + 1                  kill_segment        mvfs, then mev; kev, then kvfs
+//   split_face          +1  +1   the same               join_faces          mef; kef
+//   split_vertex    +1  +1       the same               join_vertices       mev; kev (split_edge is a special case)
+//   bridge              +1  -1   s - 1 or h + 1         cut                 kfmrh, then mekr; kemr, then mfkrh
+//   weld            -1  +1       s - 1 or h + 1         unweld              none: the duals of bridge and cut
 //
+// euler_table.hpp has the same as a table for programs: the script language, the log and replay read it.
 // The new edge always takes h = its first half, so h is even. An operator that adds an edge to a face or vertex, followed by its inverse,
 // restores every record. What a killed face or vertex had as anchor and data only a log knows (euler_log.hpp);
 // inherit.hpp says what the data of new elements are.
-// Time: O(1) plus a renaming of the half-edges of the new (killed) face or vertex; first_side_is_shorter finds in the time of the shorter side
-// which way round to ask. No operator allocates while free slots are left.
+// Time: O(1) plus a renaming of the half-edges of the new (killed) face or vertex; first_side_is_shorter finds in the time of the shorter
+// side which way round to ask. No operator allocates while free slots are left.
 
 #include <brep/brep.hpp>
 #include <brep/result.hpp>
@@ -27,6 +28,7 @@
 namespace brep {
 
 // Makes a new shell: two vertices, one edge, one face on both sides of it.                 counts: v+2 e+1 f+1 (s+1)
+// Textbook: mvfs, which makes a vertex without an edge, and then mev.
 //
 //      (nothing)   ==>   v *---h---> * w      h runs v -> w, next(h) = twin(h); the smallest shell there is.
 //
@@ -38,6 +40,7 @@ Result<HalfedgeId> make_segment(B& brep) {
 }
 
 // Removes a shell that is a segment. Returns true.                                         counts: v-2 e-1 f-1 (s-1)
+// Textbook: kev, and then kvfs.
 // Refused (nothing changes): h is dead; its shell has another edge.     Inverse: make_segment (all data are lost).
 template <class B>
 Result<bool> kill_segment(B& brep, HalfedgeId h) {
@@ -47,7 +50,7 @@ Result<bool> kill_segment(B& brep, HalfedgeId h) {
   return true;
 }
 
-// Inserts the edge a.vertex - b.vertex and splits their common face in two.                counts: e+1 f+1
+// Inserts the edge a.vertex - b.vertex and splits their common face in two. Textbook: mef.   counts: e+1 f+1
 //
 //      *---b---*          *---b---*
 //      |       |          |   |   |        new edge h runs a.vertex -> b.vertex;
@@ -66,6 +69,7 @@ Result<HalfedgeId> split_face(B& brep, HalfedgeId a, HalfedgeId b) {
 }
 
 // Removes the edge of h and the face on its right; the face on its left grows. Returns it.  counts: e-1 f-1
+// Textbook: kef.
 //
 //      *-------*          *-------*
 //      |   ^   |          |       |        f = face(h) stays, g = face(twin(h)) is killed,
@@ -84,6 +88,7 @@ Result<FaceId> join_faces(B& brep, HalfedgeId h) {
 }
 
 // Splits the vertex that a and b leave by a new edge in the corners before a and before b.    counts: v+1 e+1
+// Textbook: mev.
 //
 //      \   / a          \       / a       new edge h runs v -> w: next(h) = a, next(twin(h)) = b.
 //       \ /              \     /
@@ -103,6 +108,7 @@ Result<HalfedgeId> split_vertex(B& brep, HalfedgeId a, HalfedgeId b) {
 }
 
 // Contracts the edge of h into the vertex where it starts, and returns that vertex.         counts: v-1 e-1
+// Textbook: kev.
 //
 //      \         /        \ /
 //       v---h-->w    ==>   v               v = vertex(h) stays, w = target(h) is killed; its edges leave v now.
@@ -123,7 +129,7 @@ Result<VertexId> join_vertices(B& brep, HalfedgeId h) {
 //
 //      a ------h------> b    ==>    a ---h---> m ---n---> b        m = vertex(n) has default data.
 //
-// The special case of split_vertex at b where twin(h) alone changes its vertex: twin(h) runs m -> a afterwards.
+// The special case of split_vertex (mev) at b where twin(h) alone changes its vertex: twin(h) runs m -> a afterwards.
 // Refused (nothing changes): h is dead.     Inverse: join_vertices(twin(n)).     Time: O(1).
 template <class B>
 Result<HalfedgeId> split_edge(B& brep, HalfedgeId h) {
@@ -133,6 +139,7 @@ Result<HalfedgeId> split_edge(B& brep, HalfedgeId h) {
 }
 
 // Inserts the edge a.vertex - b.vertex between two faces, which become one face with one loop.   counts: e+1 f-1 (s-1 or h+1)
+// Textbook: kfmrh, which makes the loop of one face a second loop (a ring) of the other, and then mekr, which joins the two loops.
 //
 //      *-------*    *-------*         *-------*    *-------*
 //      |       |    |       |         |       |    |       |      new edge h runs a.vertex -> b.vertex: next(h) = b,
@@ -151,10 +158,11 @@ Result<HalfedgeId> bridge(B& brep, HalfedgeId a, HalfedgeId b) {
 }
 
 // Removes an edge that has the same face on both sides; its loop falls into two, and each becomes a face.   counts: e-1 f+1
+// Textbook: kemr, which leaves a face with two loops, and then mfkrh, which makes a face of the second.
 // The loop at vertex(h) keeps the face, the loop at target(h) gets the new face, which is returned. Either the shell falls into two or
 // it loses a handle (drawing: bridge, read backwards).
 //
-// Refused (nothing changes): h is dead; its sides are different faces; an end of h is the end of a spur, so that nothing would be left there.
+// Refused (nothing changes): h is dead; its sides are different faces; an end of h is the end of a spur: no edge would be left there.
 // Inverse: bridge(next(twin(h)), next(h)), read before.     Time: the edges of the new face.
 template <class B>
 Result<FaceId> cut(B& brep, HalfedgeId h) {

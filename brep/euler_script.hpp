@@ -16,8 +16,8 @@
 //   raw next h3 h5                 overwrites one field of one record: next prev vertex face (of a half-edge), anchor
 //   expect R2 R3                   validate reports faults of these rules and of no other (`expect valid`: none)
 //
-// The operators are those of euler.hpp under their own names. While a raw edit stands no operator runs, since operators trust the
-// records; further raw edits, `expect R...` and `undo` may follow.
+// The operators are the rows of euler_table.hpp under their own names or those of the textbooks: `mef h5 h0` is `split_face h5 h0`.
+// While a raw edit stands no operator runs, since operators trust the records; further raw edits, `expect R...` and `undo` may follow.
 //
 // A comment at the head of the text with an empty line behind it is about the whole: its first line is the title. Lines end with LF,
 // CR LF or CR; the text is UTF-8. Parsing: euler_script_parse.hpp; running: euler_script_run.hpp; writing a log as a script:
@@ -30,8 +30,8 @@
 #include <string_view>
 #include <vector>
 
+#include <brep/euler_table.hpp>
 #include <brep/handles.hpp>
-#include <brep/step.hpp>
 
 namespace brep {
 
@@ -39,57 +39,10 @@ struct Place {
   std::uint32_t line = 1, column = 1;  // the column counts bytes
 };
 
-enum class Command : std::uint8_t {
-  make_segment,
-  kill_segment,
-  split_face,
-  join_faces,
-  split_vertex,
-  join_vertices,
-  split_edge,
-  bridge,
-  cut,
-  weld,
-  unweld,
-  set_anchor,
-  undo,
-  redo,
-  raw,
-  expect,
-};
+enum class Command : std::uint8_t { apply, undo, redo, raw, expect };  // apply: an operator of the table, or set_anchor
 
-struct CommandForm {
-  Command command;
-  std::string_view name;
-  std::string_view arguments;  // the kinds of the arguments as letters of handles
-  char result;                 // the kind of the result; 0 when there is none
-};
-
-// In the order of Command. `raw` and `expect` have a form of their own.
-inline constexpr std::array<CommandForm, 16> command_forms{{
-    {Command::make_segment, "make_segment", "", 'h'},
-    {Command::kill_segment, "kill_segment", "h", 0},
-    {Command::split_face, "split_face", "hh", 'h'},
-    {Command::join_faces, "join_faces", "h", 'f'},
-    {Command::split_vertex, "split_vertex", "hh", 'h'},
-    {Command::join_vertices, "join_vertices", "h", 'v'},
-    {Command::split_edge, "split_edge", "h", 'h'},
-    {Command::bridge, "bridge", "hh", 'h'},
-    {Command::cut, "cut", "h", 'f'},
-    {Command::weld, "weld", "hh", 'h'},
-    {Command::unweld, "unweld", "h", 'v'},
-    {Command::set_anchor, "set_anchor", "h", 0},
-    {Command::undo, "undo", "", 0},
-    {Command::redo, "redo", "", 0},
-    {Command::raw, "raw", "", 0},
-    {Command::expect, "expect", "", 0},
-}};
-
-static_assert(static_cast<int>(Command::set_anchor) == static_cast<int>(Operator::set_anchor));
-
-[[nodiscard]] constexpr const CommandForm& form(Command command) { return command_forms[static_cast<std::size_t>(command)]; }
-// Operators and set_anchor: what the log records and `refused` may precede.
-[[nodiscard]] constexpr bool is_operator(Command command) { return command <= Command::set_anchor; }
+// In the order of Command; apply has the names of the operators. `raw` and `expect` have a form of their own.
+inline constexpr std::array<std::string_view, 5> command_names{"", "undo", "redo", "raw", "expect"};
 
 enum class Function : std::uint8_t { next, prev, twin, face, vertex, anchor };
 inline constexpr std::array<std::string_view, 6> function_names{"next", "prev", "twin", "face", "vertex", "anchor"};
@@ -111,6 +64,8 @@ inline constexpr std::string_view counted = "vefsh";  // the letters of `expect`
 struct Statement {
   Place place;
   Command command = Command::undo;
+  Operator op{};        // apply
+  std::string written;  // apply: the name of the operator as it was written, a textbook name perhaps
   bool refused = false;
   Expression result;                            // the left side: a handle, a name, or nothing; no functions
   std::vector<Expression> arguments;            // raw: the record's element and the new value

@@ -4,8 +4,8 @@
 // Reads the script text of euler_script.hpp.
 //
 // Everything that can be known without running is checked here: the words, the number and kinds of arguments (a name has the kind
-// that its operator returns), names that nobody defined. Each line with an error gives one error; the others are read on, so one pass tells all.
-// No recursion: nested functions are a list, so depth costs no stack.
+// that its operator returns), names that nobody defined. Each line with an error gives one error, and reading goes on with the next
+// line, so one pass tells all. No recursion: nested functions are a list, so depth costs no stack.
 
 #include <algorithm>
 #include <map>
@@ -84,7 +84,7 @@ inline std::optional<Statement> ScriptParser::parse_line(std::string_view line, 
   s.text = line_.substr(at_);
   while (detail::is_blank(s.text.back())) s.text.pop_back();
   if (!statement(s)) return std::nullopt;
-  if (!s.result.name.empty()) names_[s.result.name] = form(s.command).result;
+  if (!s.result.name.empty()) names_[s.result.name] = detail::result_kind(s);
   return s;
 }
 
@@ -123,47 +123,52 @@ inline bool ScriptParser::statement(Statement& s) {
     begin = at_;
     first = word();
   }
-  const auto known = std::find_if(command_forms.begin(), command_forms.end(), [&](const CommandForm& c) { return c.name == first; });
-  if (known == command_forms.end()) {
+  const OperatorForm* const known = find_operator(first);
+  const auto other = detail::find_word(command_names, first);
+  if (first.empty() || (known == nullptr && !other)) {
     at_ = begin;
     return fail(begin, "found " + found() + "; expected an operator such as split_face, or undo, redo, raw, expect, refused");
   }
-  s.command = known->command;
-  if (s.refused && !is_operator(s.command)) return fail(begin, std::string(known->name) + " cannot be refused; expected an operator");
+  s.command = known != nullptr ? Command::apply : static_cast<Command>(*other);
+  if (known != nullptr) {
+    s.op = known->op;
+    s.written = first;
+  }
+  if (s.refused && known == nullptr) return fail(begin, std::string(first) + " cannot be refused; expected an operator");
   if (s.refused && !left.empty()) return fail(left_at, "a refused operator has no result; leave out " + detail::quoted(left) + " =");
   if (!left.empty() && !left_side(s, left, left_at)) return false;
   if (s.command == Command::raw) return raw(s);
   if (s.command == Command::expect) return expect(s);
-  for (char kind : known->arguments) {
+  for (char kind : detail::argument_kinds(s)) {
     s.arguments.emplace_back();
     if (!expression(kind, s.arguments.back())) return false;
   }
   if (at_end()) return true;
-  const std::size_t n = known->arguments.size();
-  return fail(at_, "found " + found() + "; expected the end of the line: " + std::string(known->name) + " has " +
+  const std::size_t n = s.arguments.size();
+  return fail(at_, "found " + found() + "; expected the end of the line: " + detail::command_name(s) + " has " +
                        (n == 0   ? "no arguments"
                         : n == 1 ? "one argument"
                                  : "two arguments"));
 }
 
 inline bool ScriptParser::left_side(Statement& s, std::string_view text, std::size_t at) {
-  const CommandForm& c = form(s.command);
+  const char kind = detail::result_kind(s);
   s.result.place = {number_, static_cast<std::uint32_t>(at + 1)};
-  if (c.result == 0) return fail(at, std::string(c.name) + " has no result; leave out " + detail::quoted(text) + " =");
+  if (kind == 0) return fail(at, detail::command_name(s) + " has no result; leave out " + detail::quoted(text) + " =");
   s.result.handle = detail::parse_handle(text);
   if (s.result.handle.letter != 0) {
-    if (s.result.handle.letter == c.result) return true;
+    if (s.result.handle.letter == kind) return true;
     return fail(at,
-                "found " + detail::quoted(text) + "; expected " + detail::kind_name(c.result) + ", the result of " + std::string(c.name));
+                "found " + detail::quoted(text) + "; expected " + detail::kind_name(kind) + ", the result of " + detail::command_name(s));
   }
-  const bool command = std::any_of(command_forms.begin(), command_forms.end(), [&](const CommandForm& f) { return f.name == text; });
+  const bool command = find_operator(text) != nullptr || detail::find_word(command_names, text);
   const bool digit = text.front() >= '0' && text.front() <= '9';
   // h07 or v3000000000 would read like a handle and be none.
   const bool like_handle = text.size() > 1 && std::string_view("hvfe").find(text[0]) != std::string_view::npos &&
                            text.find_first_not_of("0123456789", 1) == text.npos;
   if (command || digit || like_handle || text == "refused" || detail::find_word(function_names, text)) {
-    return fail(
-        at, "found " + detail::quoted(text) + "; expected a handle such as " + c.result + "0, or a name that is no other word of scripts");
+    return fail(at,
+                "found " + detail::quoted(text) + "; expected a handle such as " + kind + "0, or a name that is no other word of scripts");
   }
   s.result.name = text;
   return true;

@@ -40,7 +40,7 @@ class ScriptRunner {
     if (outcome.kind != Outcome::Kind::done) names_.erase(s.result.name);
     if (s.refused && outcome.kind == Outcome::Kind::done) {
       outcome.kind = Outcome::Kind::failed;
-      outcome.sentence = std::string(form(s.command).name) + " was done, but the script says that it is refused";
+      outcome.sentence = std::string(name(s.op)) + " was done, but the script says that it is refused";
     }
     outcome.as_written = outcome.kind == Outcome::Kind::done || (s.refused && outcome.kind == Outcome::Kind::refused);
     return outcome;
@@ -75,11 +75,10 @@ class ScriptRunner {
     outcome.sentence = refusal.sentence();
     return outcome;
   }
-  template <class T>
-  static Outcome outcome_of(const Result<T>& result) {
+  static Outcome outcome_of(const Result<Element>& result) {
     if (!result) return refused(result.refusal());
     Outcome outcome;
-    if constexpr (!std::is_same_v<T, bool>) outcome.result = *result;
+    outcome.result = *result;
     return outcome;
   }
 
@@ -88,7 +87,7 @@ class ScriptRunner {
            : e.letter == 'v' ? brep_->alive(VertexId{e.index})
                              : brep_->alive(FaceId{e.index});
   }
-  [[nodiscard]] Element apply(Function function, Element x) const {
+  [[nodiscard]] Element value_of(Function function, Element x) const {
     const HalfedgeId h{x.index};
     switch (function) {
       case Function::next:
@@ -122,7 +121,7 @@ class ScriptRunner {
         why = refused(Refusal{Code::dead, {x}});
         return {};
       }
-      x = apply(function, x);
+      x = value_of(function, x);
     }
     return x;
   }
@@ -141,7 +140,10 @@ class ScriptRunner {
     if (s.command == Command::raw) return raw(s.field, arguments[0], arguments[1].index);
     const HalfedgeId a{arguments.empty() ? invalid_index : arguments[0].index};
     const HalfedgeId b{arguments.size() < 2 ? invalid_index : arguments[1].index};
-    Outcome outcome = operate(s.command, a, b);
+    Outcome outcome = outcome_of(apply(*brep_, s.op, a, b));
+    if (outcome.kind == Outcome::Kind::refused && !s.written.empty() && s.written != name(s.op)) {
+      outcome.sentence += " (" + s.written + " is " + std::string(name(s.op)) + " here)";
+    }
     if (outcome.kind != Outcome::Kind::done) return outcome;
     if (!s.result.name.empty()) names_[s.result.name] = outcome.result;
     if (s.result.handle.letter != 0 && s.result.handle != outcome.result) {
@@ -150,39 +152,6 @@ class ScriptRunner {
       return other;
     }
     return outcome;
-  }
-
-  Outcome operate(Command command, HalfedgeId a, HalfedgeId b) {
-    switch (command) {
-      case Command::make_segment:
-        return outcome_of(make_segment(*brep_));
-      case Command::kill_segment:
-        return outcome_of(kill_segment(*brep_, a));
-      case Command::split_face:
-        return outcome_of(split_face(*brep_, a, b));
-      case Command::join_faces:
-        return outcome_of(join_faces(*brep_, a));
-      case Command::split_vertex:
-        return outcome_of(split_vertex(*brep_, a, b));
-      case Command::join_vertices:
-        return outcome_of(join_vertices(*brep_, a));
-      case Command::split_edge:
-        return outcome_of(split_edge(*brep_, a));
-      case Command::bridge:
-        return outcome_of(bridge(*brep_, a, b));
-      case Command::cut:
-        return outcome_of(cut(*brep_, a));
-      case Command::weld:
-        return outcome_of(weld(*brep_, a, b));
-      case Command::unweld:
-        return outcome_of(unweld(*brep_, a));
-      case Command::set_anchor:
-        if (!brep_->alive(a)) return refused(Refusal{Code::dead, {a}});
-        brep_->set_anchor(brep_->face(a), a);
-        return {};
-      default:
-        return failed("not an operator");
-    }
   }
 
   // The word that a raw edit overwrites; `owner` is alive.

@@ -8,18 +8,17 @@
 #include <span>
 #include <string>
 
-#include <brep/euler_script.hpp>
+#include <brep/euler_table.hpp>
 
 namespace brep {
 
 [[nodiscard]] inline std::string to_text(const Step& s) {
-  const std::string name = brep::name(s.op);
-  const std::string made = to_string(s.h) + " = " + name;
-  if (removes_edge(s.op) || s.op == Operator::set_anchor) return name + ' ' + to_string(s.h);
-  if (s.op == Operator::make_segment) return made;
-  // split_edge returns the half that goes on; the step names the first half of the new edge.
-  if (s.op == Operator::split_edge) return to_string(twin(s.h)) + " = " + name + ' ' + to_string(s.a);
-  return made + ' ' + to_string(s.a) + ' ' + to_string(s.b);
+  const OperatorForm& row = form(s.op);
+  const auto arguments = detail::arguments(s);
+  std::string text = row.result != 'h' ? "" : to_string(row.second ? twin(s.h) : s.h) + " = ";  // the step names the first half
+  text += row.name;
+  for (std::size_t i = 0; i < row.arguments.size(); ++i) text += ' ' + to_string(arguments[i]);
+  return text;
 }
 [[nodiscard]] inline std::string to_text(std::span<const Step> steps) {
   std::string text;

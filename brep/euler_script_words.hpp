@@ -54,6 +54,14 @@ namespace detail {
   return letter == 'h' ? "a half-edge" : letter == 'v' ? "a vertex" : letter == 'f' ? "a face" : "a face or a vertex";
 }
 [[nodiscard]] constexpr char result_kind(Function f) { return f == Function::face ? 'f' : f == Function::vertex ? 'v' : 'h'; }
+[[nodiscard]] inline char result_kind(const Statement& s) { return s.command == Command::apply ? form(s.op).result : '\0'; }
+[[nodiscard]] inline std::string_view argument_kinds(const Statement& s) {
+  return s.command == Command::apply ? form(s.op).arguments : std::string_view();
+}
+[[nodiscard]] inline std::string command_name(const Statement& s) {
+  return std::string(s.command == Command::apply ? name(s.op) : command_names[static_cast<std::size_t>(s.command)]);
+}
+
 template <class Names>
 [[nodiscard]] std::optional<std::size_t> find_word(const Names& names, std::string_view word) {
   const auto at = std::find(names.begin(), names.end(), word);

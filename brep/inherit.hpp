@@ -13,9 +13,9 @@
 //   join_faces, bridge, join_vertices, weld: the element that stays keeps its data; the data of the killed one go.
 //
 // Faces are copied because a part of a face is still of its material, sheet and level; vertices are not, because a new
-// vertex lies elsewhere. A type decides for itself by a member `void inherit(const T& parent)`: it is called on default
-// data after the parent's other data are settled, instead of the copy. Surfaces of the solver live on the rule for faces: each
-// part of a split face names the sheet and the hierarchy leaf of the whole.
+// vertex lies elsewhere. A type that wants something else has a member `void inherit(const T& parent)`: it is called on the default
+// data of the new element instead of the copy. The solver's surfaces rely on the rule for faces: each part of a split face
+// names the sheet and the hierarchy leaf of the whole.
 
 #include <type_traits>
 

@@ -57,7 +57,7 @@ class Outline {
   }
 
   // Does the segment from corner i to corner j lie inside, touch the outline nowhere but at these two points, and cut two areas that are
-  // not zero? Where other corners coincide with the two, the cones at i and j say all.
+  // not zero? Other corners may coincide with these two (the ends of a bridge): there the angles of the polygon at i and j decide.
   [[nodiscard]] bool inner_diagonal(std::size_t i, std::size_t j) const {
     if (i == j || next(i) == j || next(j) == i || !in_cone(i, j) || !in_cone(j, i)) return false;
     const auto at_end = [&](std::size_t k) { return points_[k] == points_[i] || points_[k] == points_[j]; };
@@ -149,8 +149,9 @@ class Outline {
     return c_side * d_side <= 0 && a_side * b_side <= 0;
   }
 
-  // The edges k and l touch. Is it no more than that corners coincide, neither of which enters the angle of the other? Of edges that overlap
-  // otherwise than as the two sides of a bridge, a neighbour touches too, unless the outline is run through twice.
+  // The edges k and l touch. Is that harmless: do only corners coincide, and does neither enter the angle of the other? Edges that overlap
+  // and are not the two sides of a bridge need no test of their own: a neighbour of theirs touches too, unless the outline runs twice
+  // along the same points.
   [[nodiscard]] bool legal_contact(std::size_t k, std::size_t l) const {
     const std::size_t m = next(k), n = next(l);
     bool coincide = false;

@@ -9,6 +9,9 @@
 // growth may copy 16 bytes a half-edge. Measured (tests/bench/README.md): realloc by an eighth is cheaper than pages even so, and
 // the third way, one reserved range of addresses that is mapped as it fills, pays more for its page faults than it saves.
 //
+// All memory comes from the user's allocator, a copy of which each pool holds. As with the polymorphic allocators of the standard, a pool
+// keeps its allocator when it is assigned to; what cannot be handed over from another's memory is copied or moved one by one.
+//
 // Killed slots are kept in a list that runs through the dead slots themselves, last in first out: an operator and its
 // inverse give back the same handle, and a pool in steady state allocates nothing.
 //
@@ -31,26 +34,53 @@ namespace brep {
 
 inline constexpr unsigned page_shift = 10;  // 1024 elements a page: a box pays little, a million faces a short table
 
+// The default: the heap. (Not std::allocator, whose namespace would take part in the lookup of every function that is called on a BRep.)
+template <class T>
+struct HeapAllocator {
+  using value_type = T;
+
+  HeapAllocator() = default;
+  template <class U>
+  HeapAllocator(const HeapAllocator<U>&) {}  // implicit, as allocators are
+  [[nodiscard]] T* allocate(std::size_t count) { return std::allocator<T>().allocate(count); }
+  void deallocate(T* block, std::size_t count) { std::allocator<T>().deallocate(block, count); }
+  friend bool operator==(HeapAllocator, HeapAllocator) { return true; }
+};
+using DefaultAllocator = HeapAllocator<char>;
+
 // A growing array in pages of 2^Shift elements, which are constructed one by one: few elements touch only the first part of a page.
-template <class T, unsigned Shift>
+template <class T, unsigned Shift, class Allocator>
 class Pages {
+  using ElementAllocator = typename std::allocator_traits<Allocator>::template rebind_alloc<T>;
+  using TableAllocator = typename std::allocator_traits<Allocator>::template rebind_alloc<T*>;
+  using Traits = std::allocator_traits<ElementAllocator>;
+
  public:
-  Pages() = default;
+  explicit Pages(const Allocator& allocator) : pages_(TableAllocator(allocator)) {}
   Pages(Pages&& other) noexcept : pages_(std::move(other.pages_)), size_(std::exchange(other.size_, 0)) { other.pages_.clear(); }
-  Pages(const Pages& other) : Pages() {
+  Pages(const Pages& other) : Pages(other, std::allocator_traits<Allocator>::select_on_container_copy_construction(other.allocator())) {}
+  Pages(const Pages& other, const Allocator& allocator) : Pages(allocator) {
     for (std::uint32_t i = 0; i < other.size_; ++i) push_back(other[i]);
   }
-  Pages& operator=(Pages other) noexcept {
-    std::swap(pages_, other.pages_);
-    std::swap(size_, other.size_);
+  Pages(Pages&& other, const Allocator& allocator) : Pages(allocator) {
+    if (pages_.get_allocator() != other.pages_.get_allocator()) {
+      for (std::uint32_t i = 0; i < other.size_; ++i) push_back(std::move(other[i]));
+      other.clear();
+    } else {
+      swap(other);
+    }
+  }
+  Pages& operator=(const Pages& other) {
+    Pages copy(other, allocator());
+    swap(copy);
     return *this;
   }
-  ~Pages() {
-    if constexpr (!std::is_trivially_destructible_v<T>) {
-      for (std::uint32_t i = 0; i < size_; ++i) std::destroy_at(&(*this)[i]);
-    }
-    for (T* page : pages_) std::allocator<T>().deallocate(page, page_size);
+  Pages& operator=(Pages&& other) noexcept {
+    Pages taken(std::move(other), allocator());
+    swap(taken);
+    return *this;
   }
+  ~Pages() { clear(); }
 
   [[nodiscard]] T& operator[](std::uint32_t i) {
     assert(i < size_);
@@ -63,46 +93,80 @@ class Pages {
   template <class... Arguments>
   void push_back(Arguments&&... arguments) {
     if ((size_ & (page_size - 1)) == 0) add_page();
-    std::construct_at(pages_.back() + (size_ & (page_size - 1)), std::forward<Arguments>(arguments)...);
+    ElementAllocator allocator(pages_.get_allocator());
+    Traits::construct(allocator, pages_.back() + (size_ & (page_size - 1)), std::forward<Arguments>(arguments)...);
     ++size_;
   }
   [[nodiscard]] std::uint32_t size() const { return size_; }
   [[nodiscard]] std::size_t bytes() const { return pages_.size() * page_size * sizeof(T) + pages_.capacity() * sizeof(T*); }
+  [[nodiscard]] Allocator allocator() const { return Allocator(pages_.get_allocator()); }
 
  private:
   static constexpr std::uint32_t page_size = std::uint32_t{1} << Shift;
 
   void add_page() {  // the table first: a page that it has no room for would be lost
     if (pages_.size() == size_ >> Shift) pages_.push_back(nullptr);
-    if (pages_.back() == nullptr) pages_.back() = std::allocator<T>().allocate(page_size);
+    if (pages_.back() != nullptr) return;
+    ElementAllocator allocator(pages_.get_allocator());
+    pages_.back() = Traits::allocate(allocator, page_size);
+  }
+  void clear() {
+    ElementAllocator allocator(pages_.get_allocator());
+    if constexpr (!std::is_trivially_destructible_v<T>) {
+      for (std::uint32_t i = 0; i < size_; ++i) Traits::destroy(allocator, &(*this)[i]);
+    }
+    for (T* page : pages_) {
+      if (page != nullptr) Traits::deallocate(allocator, page, page_size);
+    }
+    pages_.clear();
+    size_ = 0;
+  }
+  void swap(Pages& other) {  // of equal allocators
+    pages_.swap(other.pages_);
+    std::swap(size_, other.size_);
   }
 
-  std::vector<T*> pages_;
+  std::vector<T*, TableAllocator> pages_;
   std::uint32_t size_ = 0;
 };
 
-// A growing array in one block. The records are plain words, moved by realloc, which moves large blocks by their page tables alone.
-template <class T>
+// A growing array in one block. The records are plain words. The default allocator grows it by realloc, which moves large blocks by their
+// page tables alone, so an eighth more is enough each time; other allocators copy, and get twice the room.
+template <class T, class Allocator>
 class Array {
+  using ElementAllocator = typename std::allocator_traits<Allocator>::template rebind_alloc<T>;
+  using Traits = std::allocator_traits<ElementAllocator>;
+  static constexpr bool reallocates = std::is_same_v<ElementAllocator, HeapAllocator<T>>;
+
  public:
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
 
-  Array() = default;
-  Array(Array&& other) noexcept
-      : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)), capacity_(std::exchange(other.capacity_, 0)) {}
-  Array(const Array& other) {
+  explicit Array(const Allocator& allocator) : allocator_(allocator) {}
+  Array(Array&& other) noexcept : allocator_(other.allocator_) { swap(other); }
+  Array(const Array& other) : Array(other, std::allocator_traits<Allocator>::select_on_container_copy_construction(other.allocator())) {}
+  Array(const Array& other, const Allocator& allocator) : Array(allocator) {
     if (other.size_ == 0) return;
     reserve(other.size_);
     std::memcpy(static_cast<void*>(data_), other.data_, other.size_ * sizeof(T));
     size_ = other.size_;
   }
-  Array& operator=(Array other) noexcept {
-    std::swap(data_, other.data_);
-    std::swap(size_, other.size_);
-    std::swap(capacity_, other.capacity_);
+  Array(Array&& other, const Allocator& allocator) : Array(allocator) {
+    if (allocator_ != other.allocator_) {
+      *this = static_cast<const Array&>(other);
+      Array(other.allocator()).swap(other);
+    } else {
+      swap(other);
+    }
+  }
+  Array& operator=(const Array& other) {
+    Array(other, allocator()).swap(*this);
     return *this;
   }
-  ~Array() { std::free(data_); }
+  Array& operator=(Array&& other) noexcept {
+    Array(std::move(other), allocator()).swap(*this);
+    return *this;
+  }
+  ~Array() { free(); }
 
   [[nodiscard]] T& operator[](std::uint32_t i) {
     assert(i < size_);
@@ -114,10 +178,17 @@ class Array {
   }
   [[gnu::noinline]] void reserve(std::size_t capacity) {
     if (capacity <= capacity_) return;
-    void* block = nullptr;
-    while ((block = std::realloc(static_cast<void*>(data_), capacity * sizeof(T))) == nullptr)
-      ::operator delete(::operator new(capacity * sizeof(T)));  // no memory: ends here, unless a new-handler finds some
-    data_ = static_cast<T*>(block);
+    if constexpr (reallocates) {
+      void* block = nullptr;
+      while ((block = std::realloc(static_cast<void*>(data_), capacity * sizeof(T))) == nullptr)
+        ::operator delete(::operator new(capacity * sizeof(T)));  // no memory: ends here, unless a new-handler finds some
+      data_ = static_cast<T*>(block);
+    } else {
+      T* const block = Traits::allocate(allocator_, capacity);
+      if (size_ != 0) std::memcpy(static_cast<void*>(block), data_, size_ * sizeof(T));
+      free();
+      data_ = block;
+    }
     capacity_ = capacity;
   }
   // Appends `count` records, which hold anything, and returns the index of the first.
@@ -127,19 +198,34 @@ class Array {
   }
   [[nodiscard]] std::uint32_t size() const { return size_; }
   [[nodiscard]] std::size_t bytes() const { return capacity_ * sizeof(T); }
+  [[nodiscard]] Allocator allocator() const { return Allocator(allocator_); }
 
  private:
-  void grow(std::size_t least) { reserve(std::max({least, capacity_ + capacity_ / 8, std::size_t{16}})); }
+  void grow(std::size_t least) { reserve(std::max({least, capacity_ + capacity_ / (reallocates ? 8 : 1), std::size_t{16}})); }
+  void free() {
+    if constexpr (reallocates)
+      std::free(data_);
+    else if (data_ != nullptr)
+      Traits::deallocate(allocator_, data_, capacity_);
+  }
+  void swap(Array& other) {  // of equal allocators
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+  }
 
   T* data_ = nullptr;
   std::uint32_t size_ = 0;
+  [[no_unique_address]] ElementAllocator allocator_;
   std::size_t capacity_ = 0;
 };
 
 // In place of the pages of an empty type.
-template <class T>
+template <class T, class Allocator>
 class NoPages {
  public:
+  explicit NoPages(const Allocator&) {}
+  NoPages(const NoPages&, const Allocator&) {}
   [[nodiscard]] T& operator[](std::uint32_t) const { return nothing_; }
   void push_back() {}
   [[nodiscard]] std::size_t bytes() const { return 0; }
@@ -150,20 +236,28 @@ class NoPages {
 
 // Slots of Group records (1, or 2 for the halves of an edge) that are given out and taken back together, and the user's Data of each
 // record, which are default data in every slot that allocate() gives out.
-template <class Record, class Data, std::uint32_t Group = 1>
+template <class Record, class Data, std::uint32_t Group = 1, class Allocator = DefaultAllocator>
 class Pool {
  public:
   static constexpr std::uint32_t dead_bit = 0x80000000;
   static constexpr std::uint32_t end_of_list = 0x7fffffff;
 
-  Pool() = default;
+  Pool() : Pool(Allocator()) {}
+  explicit Pool(const Allocator& allocator) : records_(allocator), data_(allocator) {}
   Pool(const Pool&) = default;
+  Pool(const Pool& other, const Allocator& allocator)
+      : free_(other.free_), records_(other.records_, allocator), count_(other.count_), data_(other.data_, allocator) {}
   Pool& operator=(const Pool&) = default;
   Pool(Pool&& other) noexcept
       : free_(std::exchange(other.free_, end_of_list)),
         records_(std::move(other.records_)),
         count_(std::exchange(other.count_, 0)),
         data_(std::move(other.data_)) {}
+  Pool(Pool&& other, const Allocator& allocator)
+      : free_(std::exchange(other.free_, end_of_list)),
+        records_(std::move(other.records_), allocator),
+        count_(std::exchange(other.count_, 0)),
+        data_(std::move(other.data_), allocator) {}
   Pool& operator=(Pool&& other) noexcept {
     records_ = std::move(other.records_);
     count_ = std::exchange(other.count_, 0);
@@ -214,6 +308,7 @@ class Pool {
   // What the next allocate() will return.
   [[nodiscard]] std::uint32_t next_allocated() const { return free_ != end_of_list ? free_ : records_.size(); }
   [[nodiscard]] std::size_t bytes() const { return records_.bytes() + data_.bytes(); }
+  [[nodiscard]] Allocator allocator() const { return records_.allocator(); }
 
  private:
   [[gnu::noinline]] std::uint32_t first_use() {  // apart, to keep the operators small
@@ -229,9 +324,10 @@ class Pool {
   }
 
   std::uint32_t free_ = end_of_list;
-  Array<Record> records_;
+  Array<Record, Allocator> records_;
   std::uint32_t count_ = 0;  // not beside free_: the compiler would join the two stores, and the next load of free_ wait for both
-  [[no_unique_address]] std::conditional_t<std::is_empty_v<Data>, NoPages<Data>, Pages<Data, page_shift + Group - 1>> data_;
+  [[no_unique_address]] std::conditional_t<std::is_empty_v<Data>, NoPages<Data, Allocator>, Pages<Data, page_shift + Group - 1, Allocator>>
+      data_;
 };
 
 }  // namespace brep

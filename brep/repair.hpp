@@ -68,7 +68,7 @@ class Repairer {
     simplify();
     drop_duplicates();
     std::size_t before;
-    do {  // parting fans can free a border from another one that does not close
+    do {  // when fans are parted, a border may come apart from another one and become closed
       before = result_.repairs.size();
       flip_and_close();
       split_fans();
@@ -90,7 +90,7 @@ class Repairer {
     for (std::size_t f = 0; f < faces_.size(); ++f) b.face(faces_[f], sheets_[f]);
     return b;
   }
-  // Vertices at faces that cannot be used: what lies around them waits until they are mended.
+  // Vertices of faces that cannot be used. Nothing is filled in or parted at them: that would repair a consequence, not the cause.
   [[nodiscard]] std::vector<bool> vertices_of(const std::vector<bool>& bad) const {
     std::vector<bool> touched(place_.size(), false);
     for (std::size_t f = 0; f < faces_.size(); ++f) {
@@ -203,7 +203,7 @@ class Repairer {
         if (v < used.size()) used[v] = true;
       }
     }
-    for (const Defect& d : assembly_.defects) {  // an inserted edge waits for its face
+    for (const Defect& d : assembly_.defects) {  // the ends of an inserted edge without a face
       for (const Element& e : d.elements) {
         if (e.letter == 'v' && e.index < used.size()) used[e.index] = true;
       }
@@ -224,7 +224,7 @@ class Repairer {
       if (d.kind == DefectKind::bad_index) return true;
       return e.letter == 'f' ? e.index < dropped_.size() && dropped_[e.index] : e.index < used.size() && !used[e.index];
     });
-    found.insert(found.begin(), unreadable_.begin(), unreadable_.end());  // with the numbers that they name
+    found.insert(found.begin(), unreadable_.begin(), unreadable_.end());  // their sentences keep the numbers of the input
   }
 
   void renumber(const std::vector<bool>& used) {
@@ -240,7 +240,7 @@ class Repairer {
       result_.builder.face(faces_[f], sheets_[f]);
       result_.old_face.push_back(f);
     }
-    for (const Defect& d : assembly_.defects) {  // edges that wait for a face go on waiting
+    for (const Defect& d : assembly_.defects) {  // inserted edges without a face stay as they are
       if (d.kind != DefectKind::unused_edge && d.kind != DefectKind::bad_index) continue;
       const std::uint32_t u = d.elements[d.elements.size() - 2].index, w = d.elements.back().index;
       const std::uint32_t face = d.kind == DefectKind::bad_index ? invalid_index - 1 : invalid_index;

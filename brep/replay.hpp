@@ -5,9 +5,8 @@
 
 #include <cstddef>
 #include <span>
-#include <type_traits>
 
-#include <brep/euler.hpp>
+#include <brep/euler_table.hpp>
 #include <brep/step.hpp>
 
 namespace brep {
@@ -27,55 +26,13 @@ template <class B>
 Replay replay(std::span<const Step> steps, B& brep) {
   Replay result;
   for (const Step& s : steps) {
-    Refusal refusal;
-    HalfedgeId made = s.h;
-    const auto take = [&](auto&& answer) {
-      refusal = answer.refusal();
-      if constexpr (std::is_same_v<std::decay_t<decltype(answer)>, Result<HalfedgeId>>) made = refusal.code == Code::none ? *answer : s.h;
-    };
-    switch (s.op) {
-      case Operator::make_segment:
-        take(make_segment(brep));
-        break;
-      case Operator::kill_segment:
-        take(kill_segment(brep, s.h));
-        break;
-      case Operator::split_face:
-        take(split_face(brep, s.a, s.b));
-        break;
-      case Operator::join_faces:
-        take(join_faces(brep, s.h));
-        break;
-      case Operator::split_vertex:
-        take(split_vertex(brep, s.a, s.b));
-        break;
-      case Operator::join_vertices:
-        take(join_vertices(brep, s.h));
-        break;
-      case Operator::split_edge:
-        take(split_edge(brep, s.a));
-        made = twin(made);  // the step names the first half of the new edge
-        break;
-      case Operator::bridge:
-        take(bridge(brep, s.a, s.b));
-        break;
-      case Operator::cut:
-        take(cut(brep, s.h));
-        break;
-      case Operator::weld:
-        take(weld(brep, s.a, s.b));
-        break;
-      case Operator::unweld:
-        take(unweld(brep, s.h));
-        break;
-      case Operator::set_anchor:
-        if (brep.alive(s.h))
-          brep.set_anchor(brep.face(s.h), s.h);
-        else
-          refusal = {Code::dead, {s.h}};
-        break;
+    const auto [a, b] = detail::arguments(s);
+    const Result<Element> answer = apply(brep, s.op, a, b);
+    Refusal refusal = answer.refusal();
+    if (answer && answer->letter == 'h') {
+      const HalfedgeId made = halfedge(edge(HalfedgeId{answer->index}));  // the step names the first half of the new edge
+      if (made != s.h) refusal = {Code::other_handle, {s.h, made}};
     }
-    if (refusal.code == Code::none && made != s.h) refusal = {Code::other_handle, {s.h, made}};
     result.refusal = refusal;
     if (refusal.code != Code::none) return result;
     ++result.done;

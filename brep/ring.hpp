@@ -30,8 +30,8 @@ namespace brep {
 // Regular refinement does well up to so many corners: the wedges of an octagon have 3/4 of the proportion of a square.
 inline constexpr std::size_t most_regular_corners = 8;
 
-// Cuts f into the cells of the ring, in the order of its corners, and the inner face, which keeps the FaceId and comes last. The cells start
-// with a copy of its data. place(brep, v) as in refine.
+// Cuts f into the cells of the ring, in the order of its corners, and the inner face, which keeps the FaceId and comes last. The cells
+// start with a copy of its data. place(brep, v) as in refine.
 // Refused (nothing changes): f is dead or has fewer than six corners; no handle is left.
 // Counts, m = ceil(n / 2): v + m, e + 2 m, f + m. Time: O(edges of f).
 template <class B, class Place>

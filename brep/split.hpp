@@ -6,15 +6,15 @@
 // A split object (split_objects.hpp) is the geometric decision where a face is cut, a condition object (conditions.hpp) decides whether
 // a face is finished; user lambdas will do for both. split_recursively cuts until each part is finished or has no place for a cut.
 //
-// It ends, whatever the two answer. Let p be the sum of (edges - 3) over the parts of more than three edges. A cut between corners
-// that are neither equal nor adjacent makes p smaller by exactly one, since the two parts of a face of n edges have n + 2 edges
-// together; any other cut is refused. A new vertex adds at most one to p for each side of its edge. Hence at most
+// The recursion ends, whatever the two objects answer. Let p be the sum of (edges - 3) over the parts of more than three edges. A
+// cut between corners that are neither equal nor adjacent makes p smaller by exactly one, since the two parts of a face of n edges
+// have n + 2 edges together; any other cut is refused. A new vertex adds at most one to p for each side of its edge. Hence at most
 // p(start) + 2 vertex_limit cuts are made. A condition that diagonals cannot reach (AreaBelow) ends when no diagonal is left: the parts
 // that miss it are reported as unfinished. AlongPlane inserts at most as many vertices as the face has edges. A split object that
 // would insert vertices beyond the limit is refused.
 //
-// Every cut is one split_face, asked for such that the shorter side is relabelled: the largest part keeps its FaceId as a rule. The data of
-// the parts follow the rule of split_face; a new vertex has default data, and its `position`, if there is one, on the edge.
+// Every cut is one split_face, with the ends in the order in which the shorter side is relabelled: the largest part keeps its FaceId as
+// a rule. The data of the parts follow the rule of split_face; a new vertex has default data, and its `position`, if there is one, on the edge.
 
 #include <cmath>
 #include <cstddef>

@@ -3,10 +3,10 @@
 
 // What a builder holds, sound or not: counts, components, borders, and the genus of what is a surface.
 //
-// A component is a set of faces that hang together by edges; where components only touch in a vertex they stay two. Its Euler
+// A component is a set of faces connected by edges; components that only touch in a vertex stay two. Its Euler
 // characteristic v - e + f counts a vertex once for each of its fans. With b borders, and if it is two-sided and no edge has
 // more than two faces, its genus h follows from v - e + f + b = 2 - 2h: closing each border with a face makes it a shell.
-// Faces that make no sense by themselves (a bad index, fewer than three corners, a vertex twice) are counted and left out.
+// Faces that are wrong by themselves (a bad index, fewer than three corners, a vertex twice) are counted and left out.
 
 #include <algorithm>
 #include <cmath>
@@ -20,10 +20,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <brep/assemble.hpp>
-#include <brep/borders.hpp>
 #include <brep/edge_uses.hpp>
-#include <brep/orientation.hpp>
 
 namespace brep {
 
@@ -169,7 +166,7 @@ class StatisticsOf {
   }
 
   // Divergence theorem over triangles from the first corner of each face; relative to a corner of the component, so that its
-  // distance from the origin costs no digits. What rounding may have made of nothing is nothing: a sheet and its back are flat.
+  // distance from the origin costs no digits. A volume within the rounding error is set to zero: that of a flat sheet and its back.
   void measure_volumes() {
     struct Sum {
       double terms = 0.0, sizes = 0.0, count = 0.0;

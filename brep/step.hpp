@@ -7,13 +7,13 @@
 // with the old names. In both cases the anchors of the faces and vertices at the edge are put back as they were, because the
 // operator had to choose others (euler_log.hpp).
 
-#include <array>
 #include <cstdint>
 
 #include <brep/handles.hpp>
 
 namespace brep {
 
+// The rows of the table in euler_table.hpp, in its order.
 enum class Operator : std::uint8_t {
   make_segment,
   kill_segment,
@@ -29,32 +29,23 @@ enum class Operator : std::uint8_t {
   set_anchor,
 };
 
-[[nodiscard]] constexpr const char* name(Operator op) {
-  constexpr std::array names{"make_segment", "kill_segment", "split_face", "join_faces", "split_vertex", "join_vertices",
-                             "split_edge",   "bridge",       "cut",        "weld",       "unweld",       "set_anchor"};
-  return names[static_cast<std::size_t>(op)];
-}
-
-// Does the operator take one half-edge, h, and remove its edge?
-[[nodiscard]] constexpr bool removes_edge(Operator op) {
-  return op == Operator::kill_segment || op == Operator::join_faces || op == Operator::join_vertices || op == Operator::cut ||
-         op == Operator::unweld;
-}
-
 struct Step {
   Operator op{};
   bool alone = false;  // join_faces: h was a one-edge face; join_vertices: its origin was the end of a spur
   HalfedgeId h;        // the half-edge that was made, or that the operator was asked to remove; the new anchor
   HalfedgeId a, b;  // the arguments of an operator that adds an edge (split_edge: h and its twin), or those of the inverse; the old anchor
-  HalfedgeId face_a, face_b, vertex_a,
-      vertex_b;  // anchors before, of the faces and vertices of a and b; of h and its twin where h is removed
+  // Anchors before, of the faces and vertices of a and b; of h and its twin where h is removed. Invalid where there was none.
+  HalfedgeId face_a, face_b, vertex_a, vertex_b;
 };
 static_assert(sizeof(Step) == 32);
 
 // The log of a BRep that keeps none: no memory, no time.
 struct NoLog {
-  template <class VertexT, class HalfedgeT, class FaceT>
-  struct For {};
+  template <class VertexT, class HalfedgeT, class FaceT, class Allocator>
+  struct For {
+    explicit For(const Allocator&) {}
+    For(const For&, const Allocator&) {}
+  };
 };
 
 }  // namespace brep

@@ -5,8 +5,8 @@
 //
 // An edge can be inserted between two corners of faces or deleted, and it can grow between two half-edges of vertices or be
 // contracted. The links do not know whether that splits a loop or merges two: insert_edge does both split_face and bridge, delete_edge
-// join_faces and cut, expand_edge split_vertex and weld, contract_edge join_vertices and unweld. What differs is who is renamed.
-// Records of faces and vertices, anchors and labels are the caller's affair.
+// join_faces and cut, expand_edge split_vertex and weld, contract_edge join_vertices and unweld. The two of each pair differ in which
+// half-edges get a new face or vertex. The caller writes the records of faces and vertices, the anchors and the labels.
 
 #include <brep/brep.hpp>
 
@@ -18,7 +18,8 @@ void link(B& brep, HalfedgeId before, HalfedgeId after) {
   Raw::at(brep, after).prev = before;
 }
 
-// The labels of a new edge. (Word by word, here and in link: records that are put together in vector registers cost more than they save.)
+// The labels of a new edge. (Each word is stored by itself, here and in link: measured faster than whole records, which the compiler puts
+// together in vector registers.)
 template <class B>
 void label(B& brep, HalfedgeId h, VertexId v, FaceId f, VertexId w, FaceId g) {
   Raw::at(brep, h).vertex = v;

@@ -4,8 +4,8 @@
 // T-vertices by level tags (paper 2.2, 4.4): split object AtTVertex, condition object NoTVertices, and the elimination before shading.
 //
 // By the level rule (refine.hpp) a vertex of higher level on the loop of a face of level l is a T-vertex, put there by a finer
-// neighbour; so the faces across both its edges have a level above l too. Cuts inside the face lie between parts of level l: where
-// one ends at the vertex, it has become a corner. No coordinates are compared, and nothing need be remembered.
+// neighbour; so the faces across both its edges have a level above l too. A cut inside the face has parts of level l on both sides: a
+// vertex where a cut ends has such a part beside it and is a corner from then on. No coordinates are compared, nothing is stored.
 //
 // Elimination connects each T-vertex to the nearest corner of its face. It usually lies on a straight edge: a cut to a corner on the
 // same line is refused as degenerate, and the next nearest corner is taken. What remains are triangles and quadrilaterals,

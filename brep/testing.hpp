@@ -26,8 +26,8 @@
 namespace brep {
 
 // How Catch2 prints a BRep in the line of a failed check.
-template <class VertexT, class HalfedgeT, class FaceT, class LogT>
-std::ostream& operator<<(std::ostream& out, const BRep<VertexT, HalfedgeT, FaceT, LogT>& brep) {
+template <class VertexT, class HalfedgeT, class FaceT, class LogT, class AllocatorT>
+std::ostream& operator<<(std::ostream& out, const BRep<VertexT, HalfedgeT, FaceT, LogT, AllocatorT>& brep) {
   return out << "the BRep with v = " << brep.vertex_count() << ", e = " << brep.edge_count() << ", f = " << brep.face_count();
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The Euler operators without the question whether they are possible: for hot loops whose caller knows. The contracts, the
+// The Euler operators without the checks: for hot loops where the caller knows that the request is possible. The contracts, the
 // drawings and the refusals stand in euler.hpp; a request that is refused there leaves a broken BRep behind here.
 //
-// Every operator is a change of links (surgery.hpp), a renaming on one side, and the choice of anchors: they are kept where
-// possible; when the anchor of a split face (vertex) falls to the new one, it stays the anchor there and the old one gets another.
-// New elements are made in the order edge, vertex, face and killed in the opposite order, on which the log relies.
+// Every operator is a change of links (surgery.hpp), a renaming on one side, and the choice of anchors. An anchor is kept where
+// possible. When a face (vertex) is split and its anchor ends up on the new face (vertex), the half-edge becomes the anchor of the new
+// one, and the old one gets another anchor. New elements are made in the order edge, vertex, face and killed in the opposite order: the
+// log relies on it, because the pools hand slots out last in first out.
 
 #include <brep/brep.hpp>
 #include <brep/surgery.hpp>
@@ -88,7 +89,7 @@ inline HalfedgeId split_vertex(B& brep, HalfedgeId a, HalfedgeId b) {
 template <class B>
 inline VertexId join_vertices(B& brep, HalfedgeId h) {
   const HalfedgeId t = twin(h);
-  // Where the walk goes on when h and t are taken out; a spur has h and t behind one another.
+  // Where the walk goes on when h and t are taken out; on a spur t follows h, or h follows t.
   const HalfedgeId after_h = brep.next(h) == t ? brep.next(t) : brep.next(h);
   const HalfedgeId after_t = brep.next(t) == h ? brep.next(h) : brep.next(t);
   Raw::note(brep, Operator::join_vertices, h, after_h, after_t, brep.next(t) == h);

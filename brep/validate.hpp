@@ -14,8 +14,8 @@
 //
 // These are the rules of structure. Loops, spurs and faces of one edge obey them; what an algorithm may want beyond has
 // the numbers from R9 on, in validate_constraints.hpp. Counting cannot replace R1 to R5: a box and a loose ring of
-// faces have v - e + f = 2 together, like one sphere. The other way round it can: where R1 to R7 hold, every shell is a closed
-// orientable surface and R8 is Euler's theorem, so a sound BRep is not flooded. Where they do not, R8 says which shell counts wrong.
+// faces have v - e + f = 2 together, like one sphere. But R1 to R7 imply R8: every shell is then a closed orientable surface, for
+// which R8 is Euler's theorem. So shells are counted only where one of R1 to R7 fails, to say which shell has wrong counts.
 //
 // Linear time, also on damaged records. `is_valid` is the fast pass, without allocation; `validate` asks it first and looks for
 // sentences (validate_explain.hpp) only when it says no.
@@ -31,7 +31,7 @@ namespace brep {
 
 namespace detail {
 
-// A walk over as many slots as must be dead meets dead ones only and ends. No slot comes twice: the list would not end.
+// The free list has as many slots as there are dead ones, all dead, and then ends. So no slot is on it twice: such a list never ends.
 template <class PoolType>
 bool free_list_is_sound(const PoolType& pool, std::uint32_t step) {
   if (pool.size() % step != 0 || pool.count() > pool.size() / step) return false;
@@ -43,7 +43,7 @@ bool free_list_is_sound(const PoolType& pool, std::uint32_t step) {
   return i == PoolType::end_of_list;
 }
 
-// Does a living half-edge go on to this dead slot? When next(h) is followed to a record whose prev is h, that record says so.
+// Does a living half-edge h have this dead slot as its next? Then the record in the slot has h as its prev (R3), so the slot tells.
 template <class Halfedges>
 bool is_entered(const Halfedges& halfedges, std::uint32_t dead) {
   for (std::uint32_t x : {dead, dead + 1}) {
@@ -54,7 +54,7 @@ bool is_entered(const Halfedges& halfedges, std::uint32_t dead) {
 }
 
 // One look at each edge, in the order of memory. Afterwards next is a permutation of the live half-edges with the inverse prev, it
-// keeps the face, and twin followed by next keeps the vertex. Whether next is alive is asked from the side of the dead.
+// keeps the face, and twin followed by next keeps the vertex. That no next is dead is asked of the dead slots (is_entered).
 template <class B>
 bool steps_are_sound(const B& brep) {
   const auto& halfedges = Raw::halfedges(brep);

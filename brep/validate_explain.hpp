@@ -5,8 +5,8 @@
 //
 // A sentence says what is wrong, where, how it can be seen, and the usual cause. The rules are those of validate.hpp and are
 // looked at in the order R7 (which slots live), R1 (which handles may be followed), R3, R2 (single steps), R6, R4, R5
-// (walks), R8 (shells). A walk stops at a link that has its sentence already. What lies beyond is not called a second
-// loop: such sentences are only written where all links are sound. Linear time and memory.
+// (walks), R8 (shells). A walk stops at a link that has been reported. The half-edges beyond it are not reported as a second loop:
+// such sentences are only written where all links are sound. Linear time and memory.
 
 #include <cstddef>
 #include <cstdint>

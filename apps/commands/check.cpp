@@ -1,22 +1,33 @@
 // SPDX-License-Identifier: MIT
-#include "apps/commands/check.hpp"
-
+// halflight check MESH: counts, components, genus, volume, and every fault that keeps the mesh from being a closed surface.
+//
+// With --repair what can be repaired is repaired and told, and -o writes the result; then faults are what remains. Exit
+// code: 0 without faults, 3 with faults or when the file cannot be understood, 1 when it cannot be read or written.
 #include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string_view>
 
 #include <brep/builder.hpp>
 #include <brep/repair.hpp>
 #include <brep/statistics.hpp>
 
-#include "apps/commands/arguments.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/mesh_file.hpp"
+#include "apps/text.hpp"
 
 namespace apps {
 namespace {
+
+struct CheckOptions {
+  std::string mesh;
+  std::string output;  // empty: none
+  bool repair = false;
+  bool all = false;  // lists at full length
+};
 
 constexpr std::size_t most = 10;  // lines of a list, unless --all
 
@@ -89,17 +100,8 @@ const char* title(brep::RepairKind kind) {
   return "repairs";
 }
 
-std::string number(double x) {
-  char text[40] = "";
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
-}
-std::string triple(const glm::dvec3& v) { return number(v.x) + " " + number(v.y) + " " + number(v.z); }
 std::string counted(std::size_t n, std::string one, const char* plural = nullptr) {
   return std::to_string(n) + " " + (n == 1 ? one : plural != nullptr ? std::string(plural) : one + "s");
-}
-std::string cell(const std::string& text, std::size_t width) {
-  return std::string(text.size() < width ? width - text.size() : 0, ' ') + text + "  ";
 }
 
 // "468 quadrilaterals, 32 triangles", the most frequent first.
@@ -124,15 +126,16 @@ std::string component_table(const brep::Statistics& s, bool all) {
   const std::size_t shown = all ? list.size() : std::min(list.size(), most);
   for (std::size_t i = 0; i < shown; ++i) {
     const brep::Component& c = list[i];
-    std::string remark = c.volume ? number(*c.volume) + (*c.volume < 0.0 ? " (inside out: the faces look inwards)" : "") : "-";
+    std::string remark = c.volume ? formatted("%.6g", *c.volume) + (*c.volume < 0.0 ? " (inside out: the faces look inwards)" : "") : "-";
     if (!c.two_sided) {
       remark = "- (one-sided)";
     } else if (!c.oriented) {
       remark = c.nonmanifold_edges > 0 ? "- (edges with more than two faces)" : "- (flipped faces)";
     }
-    text += "  " + cell(to_string(c.first), 9) + cell(std::to_string(c.vertices), 9) + cell(std::to_string(c.edges), 8) +
-            cell(std::to_string(c.faces), 8) + cell(std::to_string(c.euler()), 6) + cell(c.two_sided ? std::to_string(c.borders) : "-", 8) +
-            cell(c.genus ? std::to_string(*c.genus) : "-", 6) + " " + remark + "\n";
+    text += "  " + right(to_string(c.first), 9, 0) + right(std::to_string(c.vertices), 11) + right(std::to_string(c.edges), 10) +
+            right(std::to_string(c.faces), 10) + right(std::to_string(c.euler()), 8) +
+            right(c.two_sided ? std::to_string(c.borders) : "-", 10) + right(c.genus ? std::to_string(*c.genus) : "-", 8) + "   " + remark +
+            "\n";
   }
   if (shown < list.size()) { text += "  ... and " + std::to_string(list.size() - shown) + " smaller ones (--all lists them)\n"; }
   return text;
@@ -203,25 +206,21 @@ std::string verdict(std::size_t faults, const brep::Statistics& s) {
   return "NOT SOUND: " + counted(faults, "fault") + ". " + numbering;
 }
 
-FileKind kind_of(MeshFormat format) {
-  return format == MeshFormat::obj ? FileKind::obj : format == MeshFormat::ply ? FileKind::ply : FileKind::off;
-}
-
 std::optional<Mesh> load(const std::string& path, ExitCode& code) {
-  const auto format = mesh_format(path);
+  const MeshFormat* const format = mesh_format(path);
   std::string ignored;
   const auto bytes = format ? load_text(path, code) : read_text(path, ignored);
   if (!format) {
-    const auto sentence = bytes ? wrong_kind(path, *bytes, FileKind::obj) : std::nullopt;
+    const auto sentence = bytes ? wrong_kind(path, *bytes, FileKind::mesh, mesh_formats().front()) : std::nullopt;
     complain(sentence && guess_kind(*bytes).kind != FileKind::unknown ? *sentence
-                                                                      : path + ": expected a name that ends with .obj, .ply or .off");
+                                                                      : path + ": expected a name that ends with " + mesh_endings());
     code = ExitCode::usage;
     return std::nullopt;
   }
   if (!bytes) { return std::nullopt; }
   MeshResult result = read_mesh(*bytes, *format);
   if (!result.mesh) {
-    const auto sentence = wrong_kind(path, *bytes, kind_of(*format));
+    const auto sentence = wrong_kind(path, *bytes, FileKind::mesh, format);
     sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, path).c_str(), stderr));
     code = ExitCode::invalid_input;
   }
@@ -231,22 +230,10 @@ std::optional<Mesh> load(const std::string& path, ExitCode& code) {
 // An output that cannot be written is refused before any work.
 ExitCode check(const CheckOptions& options) {
   if (!options.output.empty() && !mesh_format(options.output)) {
-    complain("--output " + options.output + ": expected a name that ends with .obj, .ply or .off");
+    complain("--output " + options.output + ": expected a name that ends with " + mesh_endings());
     return ExitCode::usage;
   }
   return check_outputs({options.output}, {options.mesh});
-}
-
-}  // namespace
-
-void describe(CLI::App& command, CheckOptions& options) {
-  command.add_option("mesh", options.mesh, "the mesh: .obj, .ply or .off")->required()->type_name("MESH");
-  auto* repair = command.add_flag("--repair", options.repair,
-                                  "flip faces, close holes, part fans, drop duplicates and what is unused; the file stays as it is");
-  command.add_option("-o,--output", options.output, "where to write the repaired mesh: .obj, .ply or .off")
-      ->type_name("FILE")
-      ->needs(repair);
-  command.add_flag("--all", options.all, "list every fault, not only the first " + std::to_string(most) + " of each kind");
 }
 
 ExitCode run(const CheckOptions& options) {
@@ -280,6 +267,20 @@ ExitCode run(const CheckOptions& options) {
   if (!options.output.empty()) { text += "\nwritten: " + options.output + "\n"; }
   if (!print(text, {options.output})) { return ExitCode::failure; }
   return remaining.empty() && !nothing_left ? ExitCode::ok : ExitCode::invalid_input;
+}
+
+}  // namespace
+
+Command check_command() {
+  const auto options = std::make_shared<CheckOptions>();
+  return {
+      "check",
+      "say what a polygon mesh is and everything that is wrong with it",
+      {text("mesh", "MESH", options->mesh, "the mesh: " + mesh_endings()).must(),
+       flag("--repair", options->repair, "flip faces, close holes, part fans, drop duplicates and what is unused; the file stays as it is"),
+       text("-o,--output", "FILE", options->output, "where to write the repaired mesh: " + mesh_endings()).needing("--repair"),
+       flag("--all", options->all, "list every fault, not only the first " + std::to_string(most) + " of each kind")},
+      [options] { return run(*options); }};
 }
 
 }  // namespace apps

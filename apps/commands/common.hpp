@@ -19,25 +19,26 @@ namespace apps {
 // The whole file, "-" for the standard input; on failure says why and sets `code` to failure.
 [[nodiscard]] std::optional<std::string> load_text(const std::string& path, ExitCode& code);
 
-// Reads and parses; on failure prints every error to stderr and sets `code`. What is no scene at all gets one sentence.
+// Reads and parses; on failure prints every error to stderr and sets `code`. A file of another kind gets one sentence (file_kind.hpp).
 [[nodiscard]] std::optional<SceneFile> load_scene(const std::string& path, ExitCode& code);
-// The same of a text that is at hand.
+// The same for a text that has been read already.
 [[nodiscard]] std::optional<SceneFile> load_scene(const std::string& path, const std::string& text, ExitCode& code);
 
-// Outputs that are an input, or one another, or cannot be written, are refused before any work (output_paths.hpp). Empty names are none.
+// Refuses, before any work, outputs that cannot be written, that are an input, or that are the same file as another output
+// (output_paths.hpp). Empty names are passed over.
 [[nodiscard]] ExitCode check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
 // Replaces the file; on failure says why.
 [[nodiscard]] bool save(const std::string& path, const std::string& bytes);
 
-// The text for the user: to the standard output, or to stderr when one of the outputs is the standard output. False when it could not be
-// written and this was said. A pipe that nobody reads any more is none of it: who reads no further has what was wanted.
+// Prints the text on the standard output, or on stderr when one of the outputs is the standard output. When it cannot be written, says so
+// and returns false. A closed pipe is no failure: its reader, such as `head`, has all that it wants.
 [[nodiscard]] bool print(const std::string& text, const std::vector<std::string>& outputs = {});
 
 // One line on stderr: "halflight: sentence".
 void complain(const std::string& sentence);
 
-// What is wrong with a scene, one line each: "name: error: sentence"; the first of many.
+// What is wrong with a scene, one line each: "name: error: sentence"; the first max_errors of them.
 void complain_of(const std::string& name, const std::vector<std::string>& sentences);
 
 }  // namespace apps

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "apps/commands/euler.hpp"
-
+// halflight euler SCRIPT -o OUT.svg|OUT.html: plays a script of Euler operators and draws each step.
+// halflight euler --interactive: reads the statements from the terminal.
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string_view>
 #include <utility>
 
 #include <brep/euler_script_parse.hpp>
 
+#include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/euler/html.hpp"
 #include "apps/euler/interactive.hpp"
@@ -16,6 +18,12 @@
 
 namespace apps {
 namespace {
+
+struct EulerOptions {
+  std::string script;
+  std::vector<std::string> outputs;
+  bool interactive = false;
+};
 
 constexpr std::size_t most_edges = 200000;  // in all pictures of a script: minutes of drawing, hundreds of megabytes
 
@@ -31,27 +39,6 @@ std::string summary(const euler::Story& story) {
   const euler::Frame& end = story.frames.back();
   return story.title + "\nsteps: " + std::to_string(story.frames.size() - 1) + "\n" + euler::counts(end) + "\n" + euler::equation(end) +
          "\n";
-}
-
-}  // namespace
-
-void describe(CLI::App& command, EulerOptions& options) {
-  auto* const script = command.add_option("script", options.script, "the script; see examples/euler")->type_name("SCRIPT");
-  command
-      .add_option("-o,--output", options.outputs,
-                  "OUT.html: a page to step through; OUT.svg: all steps for print (with --interactive: the last step). May be repeated")
-      ->type_name("OUT")
-      ->check(CLI::Validator(
-          [](std::string& path) {
-            return ends_with(path, ".svg") || ends_with(path, ".html") ? std::string()
-                                                                       : "expected a name that ends in .svg or .html, found '" + path + "'";
-          },
-          ""));
-  auto* const interactive = command.add_flag("--interactive", options.interactive, "read operators from the terminal; `help` lists them");
-  interactive->excludes(script);
-  command.callback([&options] {
-    if (options.script.empty() && !options.interactive) { throw CLI::RequiredError("SCRIPT or --interactive"); }
-  });
 }
 
 ExitCode run(const EulerOptions& options) {
@@ -84,6 +71,25 @@ ExitCode run(const EulerOptions& options) {
   for (const std::string& output : options.outputs) { out += "written: " + output + "\n"; }
   if (!print(out, options.outputs)) { return ExitCode::failure; }
   return story.errors.empty() ? ExitCode::ok : ExitCode::invalid_input;
+}
+
+}  // namespace
+
+Command euler_command() {
+  const auto options = std::make_shared<EulerOptions>();
+  Argument output =
+      texts("-o,--output", "OUT", options->outputs,
+            "OUT.html: a page to step through; OUT.svg: all steps for print (with --interactive: the last step). May be repeated");
+  output.take = [keep = output.take](const std::string& path) {
+    const bool known = ends_with(path, ".svg") || ends_with(path, ".html");
+    return known ? keep(path) : "expected a name that ends in .svg or .html, found '" + path + "'";
+  };
+  return {"euler",
+          "play a script of Euler operators; draw each step",
+          {text("script", "SCRIPT", options->script, "the script; see examples/euler"), output,
+           flag("--interactive", options->interactive, "read operators from the terminal; `help` lists them").without({"script"})},
+          [options] { return run(*options); },
+          [options] { return std::string(options->script.empty() && !options->interactive ? "SCRIPT or --interactive" : ""); }};
 }
 
 }  // namespace apps

@@ -1,22 +1,31 @@
 // SPDX-License-Identifier: MIT
-#include "apps/commands/factors.hpp"
-
+// halflight factors SCENE: the form factors between the surfaces of a scene, each with its error.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <functional>
+#include <initializer_list>
+#include <memory>
 
-#include "apps/commands/arguments.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/json.hpp"
+#include "apps/text.hpp"
 
 #include <radiosity/total_exchange.hpp>
 
 namespace apps {
 namespace {
 
+struct FactorsOptions {
+  std::string scene, csv, json, total_exchange;
+  double error = 1e-3;
+  unsigned threads = 0;
+};
+
+using radiosity::Estimate;
 using radiosity::Factors;
 using radiosity::TotalExchange;
 
@@ -30,25 +39,6 @@ struct Channel {
 struct Seconds {
   double wall = 0.0, cpu = 0.0;
 };
-
-std::string formatted(const char* format, double x) {
-  char text[40] = "";
-  std::snprintf(text, sizeof text, format, x);
-  return text;
-}
-std::string left(std::string text, std::size_t width) {
-  text.resize(std::max(text.size() + 2, width), ' ');
-  return text;
-}
-std::string right(const std::string& text, std::size_t width) {
-  return std::string(text.size() + 2 < width ? width - text.size() : 2, ' ') + text;
-}
-
-// With the fewest digits that read back as the same number.
-std::string exact(double x) {
-  std::array<char, 40> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
-}
 
 const char* name(radiosity::FactorMethod method) {
   constexpr const char* names[] = {"faces", "meshes", "rays"};
@@ -85,47 +75,45 @@ std::vector<Channel> total_exchange_of(const Factors& f, const radiosity::Scene&
 constexpr std::size_t widest = 10;    // columns that a terminal shows
 constexpr std::size_t longest = 200;  // lines of a list
 
-std::string table(const Factors& f, const Channel& channel) {
+// A line a surface: its name, one number, the sum of its row with its error, and where it fits the row itself.
+std::string matrix_text(const Factors& f, const std::string& corner, const char* column, const std::function<double(std::size_t)>& number,
+                        const std::function<Estimate(std::size_t)>& row_sum, const std::vector<Estimate>& factor) {
   const std::size_t n = f.surfaces.size();
-  const TotalExchange& exchange = channel.exchange;
-  std::string text;
-  if (n <= widest) {
-    std::size_t width = 10;
-    for (const auto& s : f.surfaces) { width = std::max(width, s.name.size() + 2); }
-    text = left("script F, " + channel.name, width) + right("emissivity", 12) + right("row sum", 12) + right("+-", 9);
-    for (const auto& s : f.surfaces) { text += right(s.name, 12); }
-    text += "\n";
-    for (std::size_t i = 0; i < n; ++i) {
-      text += left(f.surfaces[i].name, width) + right(formatted("%.6g", channel.emissivity[i]), 12) +
-              right(formatted("%.7f", exchange.row_sum[i].value), 12) + right(formatted("%.0e", exchange.row_sum[i].error), 9);
-      for (std::size_t j = 0; j < n; ++j) {
-        text += right(formatted("%.7f", exchange.factor[i * n + j].value), std::max<std::size_t>(12, f.surfaces[j].name.size() + 2));
-      }
-      text += "\n";
+  const bool fits = n <= widest;
+  std::size_t width = 10;
+  for (const auto& s : f.surfaces) { width = std::max(width, s.name.size() + 2); }
+  std::string text = left(corner, width) + right(column, 12) + right("row sum", 12) + right("+-", 9);
+  for (std::size_t j = 0; fits && j < n; ++j) { text += right(f.surfaces[j].name, 12); }
+  text += "\n";
+  for (std::size_t i = 0; i < std::min(n, longest); ++i) {
+    text += left(f.surfaces[i].name, width) + right(formatted("%.6g", number(i)), 12) + right(formatted("%.7f", row_sum(i).value), 12) +
+            right(formatted("%.0e", row_sum(i).error), 9);
+    for (std::size_t j = 0; fits && j < n; ++j) {
+      text += right(formatted("%.7f", factor[i * n + j].value), std::max<std::size_t>(12, f.surfaces[j].name.size() + 2));
     }
+    text += "\n";
   }
-  return text + "largest error of a total exchange factor (" + channel.name + "): " + formatted("%.1e", worst(exchange.factor)) + "\n";
+  return text;
+}
+
+std::string table(const Factors& f, const Channel& channel) {
+  const TotalExchange& exchange = channel.exchange;
+  const std::string matrix = f.surfaces.size() > widest
+                                 ? std::string()
+                                 : matrix_text(
+                                       f, "script F, " + channel.name, "emissivity", [&](std::size_t i) { return channel.emissivity[i]; },
+                                       [&](std::size_t i) { return exchange.row_sum[i]; }, exchange.factor);
+  return matrix + "largest error of a total exchange factor (" + channel.name + "): " + formatted("%.1e", worst(exchange.factor)) + "\n";
 }
 
 std::string summary(const Factors& f, const FactorsOptions& options, const Seconds& seconds) {
   const std::size_t n = f.surfaces.size();
-  std::size_t width = 10;
-  for (const auto& s : f.surfaces) { width = std::max(width, s.name.size() + 2); }
-  const bool matrix = n <= widest;
-  std::string text = options.scene + "\n" + left("from \\ to", width) + right("area", 12) + right("row sum", 12) + right("+-", 9);
-  for (std::size_t j = 0; matrix && j < n; ++j) { text += right(f.surfaces[j].name, 12); }
-  text += "\n";
-  for (std::size_t i = 0; i < std::min(n, longest); ++i) {
-    const Factors::Surface& s = f.surfaces[i];
-    text += left(s.name, width) + right(formatted("%.6g", s.area.value), 12) + right(formatted("%.7f", s.row_sum.value), 12) +
-            right(formatted("%.0e", s.row_sum.error), 9);
-    for (std::size_t j = 0; matrix && j < n; ++j) {
-      text += right(formatted("%.7f", f(i, j).value), std::max<std::size_t>(12, f.surfaces[j].name.size() + 2));
-    }
-    text += "\n";
-  }
+  std::string text = options.scene + "\n" +
+                     matrix_text(
+                         f, "from \\ to", "area", [&](std::size_t i) { return f.surfaces[i].area.value; },
+                         [&](std::size_t i) { return f.surfaces[i].row_sum; }, f.factor);
   if (n > longest) { text += "... and " + std::to_string(n - longest) + " more\n"; }
-  if (!matrix) { text += "The matrix has " + std::to_string(n) + " rows: --csv and --json write it.\n"; }
+  if (n > widest) { text += "The matrix has " + std::to_string(n) + " rows: --csv and --json write it.\n"; }
   std::array<std::size_t, 3> counts{};
   for (const radiosity::FactorMethod m : f.method) { ++counts[static_cast<std::size_t>(m)]; }
   text += "factors: " + std::to_string(counts[0]) + " between flat faces (" + std::to_string(f.points) + " points behind others), " +
@@ -136,39 +124,37 @@ std::string summary(const Factors& f, const FactorsOptions& options, const Secon
   return text + "time: " + formatted("%.3f", seconds.wall) + " s, CPU " + formatted("%.3f", seconds.cpu) + " s\n";
 }
 
-// One line a surface; a name has no comma (examples/scenes/README.md).
-std::string csv(const Factors& f) {
-  std::string text = "surface,area,area error,row sum,row sum error";
+// One line a surface: what is said of it, its factors, then their errors. A name has no comma (examples/scenes/README.md).
+std::string csv_head(const Factors& f, std::string text) {
   for (const auto& s : f.surfaces) { text += "," + s.name; }
   for (const auto& s : f.surfaces) { text += "," + s.name + " error"; }
-  text += "\n";
+  return text + "\n";
+}
+std::string csv_line(std::size_t i, std::string text, std::initializer_list<double> numbers, const std::vector<Estimate>& factor,
+                     std::size_t n) {
+  for (const double x : numbers) { text += "," + shortest(x); }
+  for (std::size_t j = 0; j < n; ++j) { text += "," + shortest(factor[i * n + j].value); }
+  for (std::size_t j = 0; j < n; ++j) { text += "," + shortest(factor[i * n + j].error); }
+  return text + "\n";
+}
+
+std::string csv(const Factors& f) {
+  std::string text = csv_head(f, "surface,area,area error,row sum,row sum error");
   for (std::size_t i = 0; i < f.surfaces.size(); ++i) {
     const Factors::Surface& s = f.surfaces[i];
-    text += s.name;
-    for (const double x : {s.area.value, s.area.error, s.row_sum.value, s.row_sum.error}) { text += "," + exact(x); }
-    for (std::size_t j = 0; j < f.surfaces.size(); ++j) { text += "," + exact(f(i, j).value); }
-    for (std::size_t j = 0; j < f.surfaces.size(); ++j) { text += "," + exact(f(i, j).error); }
-    text += "\n";
+    text += csv_line(i, s.name, {s.area.value, s.area.error, s.row_sum.value, s.row_sum.error}, f.factor, f.surfaces.size());
   }
   return text;
 }
 
 std::string csv(const Factors& f, const std::vector<Channel>& channels) {
-  const std::size_t n = f.surfaces.size();
-  std::string text = "channel,surface,area,emissivity,row sum,row sum error";
-  for (const auto& s : f.surfaces) { text += "," + s.name; }
-  for (const auto& s : f.surfaces) { text += "," + s.name + " error"; }
-  text += "\n";
+  std::string text = csv_head(f, "channel,surface,area,emissivity,row sum,row sum error");
   for (const Channel& channel : channels) {
     const TotalExchange& exchange = channel.exchange;
-    for (std::size_t i = 0; i < n; ++i) {
-      text += channel.name + "," + f.surfaces[i].name;
-      for (const double x : {f.surfaces[i].area.value, channel.emissivity[i], exchange.row_sum[i].value, exchange.row_sum[i].error}) {
-        text += "," + exact(x);
-      }
-      for (std::size_t j = 0; j < n; ++j) { text += "," + exact(exchange.factor[i * n + j].value); }
-      for (std::size_t j = 0; j < n; ++j) { text += "," + exact(exchange.factor[i * n + j].error); }
-      text += "\n";
+    for (std::size_t i = 0; i < f.surfaces.size(); ++i) {
+      text += csv_line(i, channel.name + "," + f.surfaces[i].name,
+                       {f.surfaces[i].area.value, channel.emissivity[i], exchange.row_sum[i].value, exchange.row_sum[i].error},
+                       exchange.factor, f.surfaces.size());
     }
   }
   return text;
@@ -230,21 +216,6 @@ std::string json(const Factors& f, const std::vector<Channel>& channels, const F
   return out.text();
 }
 
-}  // namespace
-
-void describe(CLI::App& command, FactorsOptions& options) {
-  command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
-  command.add_option("--csv", options.csv, "write the matrix: one line a surface, its factors, then their errors")->type_name("FILE");
-  command.add_option("--json", options.json, "write the matrix, its errors and how each was found")->type_name("FILE");
-  command
-      .add_option("--total-exchange", options.total_exchange,
-                  "write the total exchange factors, reflections included (script F; emissivity = 1 - reflectance); --json gets them, too")
-      ->type_name("FILE");
-  command.add_option("--error", options.error, "wanted error of each factor")->check(above_zero(1.0))->capture_default_str();
-  command.add_option("--threads", options.threads, "0: as many as the machine has; results do not depend on it")
-      ->check(whole_number(0, most_threads));
-}
-
 ExitCode run(const FactorsOptions& options) {
   const std::vector<std::string> outputs{options.csv, options.total_exchange, options.json};
   ExitCode code = check_outputs(outputs, {options.scene});
@@ -281,6 +252,22 @@ ExitCode run(const FactorsOptions& options) {
   }
   if (!print(text, outputs)) { return ExitCode::failure; }
   return result.factors->converged ? ExitCode::ok : ExitCode::not_converged;
+}
+
+}  // namespace
+
+Command factors_command() {
+  const auto options = std::make_shared<FactorsOptions>();
+  return {"factors",
+          "the form factors between the surfaces of a scene, each with its error",
+          {scene_argument(options->scene),
+           text("--csv", "FILE", options->csv, "write the matrix: one line a surface, its factors, then their errors"),
+           text("--json", "FILE", options->json, "write the matrix, its errors and how each was found"),
+           text("--total-exchange", "FILE", options->total_exchange,
+                "write the total exchange factors, reflections included (script F; emissivity = 1 - reflectance); --json gets them, too"),
+           above_zero("--error", options->error, 1.0, "wanted error of each factor").by_default(formatted("%g", options->error)),
+           whole_number("--threads", options->threads, 0, most_threads, "0: as many as the machine has; results do not depend on it")},
+          [options] { return run(*options); }};
 }
 
 }  // namespace apps

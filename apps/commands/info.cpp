@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "apps/commands/info.hpp"
-
+// halflight info SCENE: what is in a scene, without solving it.
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <string_view>
 
 #include "apps/bounds.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
+#include "apps/text.hpp"
 
 #include <radiosity/cluster_choice.hpp>
 #include <radiosity/prepare.hpp>
@@ -14,20 +16,11 @@
 namespace apps {
 namespace {
 
-std::string number(double x) {
-  char text[40] = "";
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
-}
+struct InfoOptions {
+  std::string scene;
+};
 
-std::string triple(const glm::dvec3& v) { return number(v.x) + " " + number(v.y) + " " + number(v.z); }
-
-std::string color(const radiosity::Color& c) { return radiosity::is_grey(c) ? number(c.x) : triple(c); }
-
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(text.size() + 2, width), ' ');
-  return text;
-}
+std::string color(const radiosity::Color& c) { return radiosity::is_grey(c) ? formatted("%.6g", c.x) : triple(c); }
 
 constexpr std::size_t most = 200;  // lines of a list
 
@@ -37,7 +30,7 @@ std::string materials(const radiosity::Scene& scene) {
   std::string out = "materials: " + std::to_string(scene.materials.size()) + "\n";
   for (std::size_t i = 0; i < scene.materials.size() && i < most; ++i) {
     const radiosity::Material& m = scene.materials[i];
-    out += "  " + padded(m.name, 18) + "reflectance " + color(m.reflectance);
+    out += "  " + left(m.name, 18) + "reflectance " + color(m.reflectance);
     out += (radiosity::is_black(m.emission) ? "" : "   emission " + color(m.emission) + " W/m2") + "\n";
   }
   return out + and_more(scene.materials.size());
@@ -64,7 +57,7 @@ std::string objects(const SceneFile& file, const radiosity::Prepared& prepared) 
     const radiosity::SceneObject& o = scene.objects[i];
     const auto first = o.material.front();
     const bool one = std::all_of(o.material.begin(), o.material.end(), [&](auto m) { return m == first; });
-    out += "  " + padded(o.name, 18) + padded(std::string(file.origins[i].kind), 10);
+    out += "  " + left(o.name, 18) + left(std::string(file.origins[i].kind), 10);
     out += one ? scene.materials[first].name : "materials by sheet";
     out += std::string(o.placement.inside ? ", seen from inside" : o.shape->solid() ? "" : ", one-sided") + "\n";
   }
@@ -76,8 +69,8 @@ std::string cameras(const SceneFile& file) {
       "cameras: " + std::to_string(file.cameras.size()) + (file.cameras.empty() ? " (render uses an automatic view)\n" : "\n");
   for (std::size_t i = 0; i < file.cameras.size() && i < most; ++i) {
     const Camera& camera = file.cameras[i];
-    out += "  " + padded(camera.name, 18) + "eye " + triple(camera.eye) + "   look " + triple(camera.forward) + "   fov " +
-           number(camera.field_of_view) + "\n";
+    out += "  " + left(camera.name, 18) + "eye " + triple(camera.eye) + "   look " + triple(camera.forward) + "   fov " +
+           formatted("%.6g", camera.field_of_view) + "\n";
   }
   return out + and_more(file.cameras.size());
 }
@@ -104,12 +97,6 @@ std::string summary(const SceneFile& file, const radiosity::Prepared& prepared, 
          objects(file, prepared) + cameras(file) + plan(prepared);
 }
 
-}  // namespace
-
-void describe(CLI::App& command, InfoOptions& options) {
-  command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
-}
-
 ExitCode run(const InfoOptions& options) {
   ExitCode code = ExitCode::ok;
   const auto file = load_scene(options.scene, code);
@@ -120,6 +107,13 @@ ExitCode run(const InfoOptions& options) {
     return ExitCode::invalid_input;
   }
   return print(summary(*file, *preparation.prepared, options.scene)) ? ExitCode::ok : ExitCode::failure;
+}
+
+}  // namespace
+
+Command info_command() {
+  const auto options = std::make_shared<InfoOptions>();
+  return {"info", "say what is in a scene without solving it", {scene_argument(options->scene)}, [options] { return run(*options); }};
 }
 
 }  // namespace apps

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "apps/commands/mesh.hpp"
-
+// halflight mesh SCENE [-o OUT.obj]: the polygons of each object as the solver sees them before it refines (paper 4.1: the
+// approximation), with their counts, shells, genus, area and volume.
+//
+// What is written are the faces that give and receive light: a closed object is a closed mesh, a polygon is one face without its
+// black back. The numbers are those of the written mesh, so `halflight check OUT` finds the same ones. Vertices and faces of
+// different objects are never merged. Nothing is solved, and coordinates are those of the scene, unrounded.
 #include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,14 +17,21 @@
 #include <brep/statistics.hpp>
 #include <radiosity/surface.hpp>
 
-#include "apps/commands/arguments.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/json.hpp"
 #include "apps/mesh_file.hpp"
+#include "apps/text.hpp"
 #include "apps/version.hpp"
 
 namespace apps {
 namespace {
+
+struct MeshOptions {
+  std::string scene;
+  std::string output;               // empty: none
+  std::optional<std::string> json;  // empty: standard output, in place of the text
+};
 
 struct Measure {
   std::size_t vertices = 0, edges = 0, faces = 0, shells = 0, borders = 0;
@@ -107,26 +120,12 @@ std::optional<SceneMesh> make_mesh(const SceneFile& file, const std::string& nam
   return faults.empty() ? std::optional(std::move(result)) : std::nullopt;
 }
 
-std::string number(double x) {
-  char text[40] = "";
-  std::snprintf(text, sizeof text, "%.9g", x);
-  return text;
-}
-
 std::string row(const std::string& name, const Measure& m, std::size_t width, bool room) {
-  std::string line = "  " + name + std::string(width - name.size(), ' ');
-  const auto cell = [&line](const std::string& text, std::size_t size) {
-    line += std::string(size > text.size() ? size - text.size() : 1, ' ') + text;
-  };
-  cell(std::to_string(m.vertices), 10);
-  cell(std::to_string(m.edges), 10);
-  cell(std::to_string(m.faces), 10);
-  cell(std::to_string(m.euler()), 9);
-  cell(std::to_string(m.shells), 8);
-  cell(std::to_string(m.borders), 9);
-  cell(std::to_string(m.genus), 7);
-  cell(number(m.area), 15);
-  cell(m.volume ? number(*m.volume) : "-", 15);
+  std::string line = left("  " + name, width + 2, 0);
+  for (const std::size_t n : {m.vertices, m.edges, m.faces}) { line += right(std::to_string(n), 10, 1); }
+  line += right(std::to_string(m.euler()), 9, 1) + right(std::to_string(m.shells), 8, 1) + right(std::to_string(m.borders), 9, 1) +
+          right(std::to_string(m.genus), 7, 1) + right(formatted("%.9g", m.area), 15, 1) +
+          right(m.volume ? formatted("%.9g", *m.volume) : "-", 15, 1);
   return line + (room ? "  (seen from inside)\n" : "\n");
 }
 
@@ -186,20 +185,10 @@ std::string to_json(const SceneFile& file, const SceneMesh& mesh, const MeshOpti
 // Outputs that cannot become files are refused before any work.
 ExitCode check(const MeshOptions& options) {
   if (!options.output.empty() && !mesh_format(options.output)) {
-    complain("--output " + options.output + ": expected a name that ends with .obj, .ply or .off");
+    complain("--output " + options.output + ": expected a name that ends with " + mesh_endings());
     return ExitCode::usage;
   }
   return check_outputs({options.output, options.json.value_or("")}, {options.scene});
-}
-
-}  // namespace
-
-void describe(CLI::App& command, MeshOptions& options) {
-  command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
-  command.add_option("-o,--output", options.output, "where to write the mesh: .obj, .ply or .off")->type_name("FILE");
-  command.add_option("--json", options.json, "the numbers as JSON: into FILE, or in place of the text")
-      ->type_name("[FILE]")
-      ->expected(0, 1);
 }
 
 ExitCode run(const MeshOptions& options) {
@@ -218,6 +207,19 @@ ExitCode run(const MeshOptions& options) {
   const std::string text = numbers ? to_json(*file, *mesh, options) : to_text(*file, *mesh, options);
   if (!print(text, {options.output, options.json.value_or("")})) { return ExitCode::failure; }
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Command mesh_command() {
+  const auto options = std::make_shared<MeshOptions>();
+  Argument json = text("--json", "[FILE]", options->json, "the numbers as JSON: into FILE, or in place of the text");
+  json.values = Argument::Values::optional;
+  return {
+      "mesh",
+      "the polygons of each object: counts, genus, area, volume, and a mesh file",
+      {scene_argument(options->scene), text("-o,--output", "FILE", options->output, "where to write the mesh: " + mesh_endings()), json},
+      [options] { return run(*options); }};
 }
 
 }  // namespace apps

@@ -1,50 +1,27 @@
 // SPDX-License-Identifier: MIT
-#include "apps/commands/render.hpp"
-
+// halflight render SCENE [-o OUT.png] [-o OUT.ply] ...: solves a scene, writes pictures and meshes, prints the report.
+//
+// What can be known to fail is refused before the solver starts: extensions, folders, the camera's name. Outputs are
+// encoded in memory and then replace their files one by one, each whole (files.hpp).
 #include <algorithm>
 #include <charconv>
-#include <chrono>
-#include <cstdio>
-#include <ctime>
 #include <limits>
-#include <map>
+#include <memory>
 #include <utility>
 
-#include <radiosity/picture_error.hpp>
-#include <radiosity/radiosity.hpp>
-
-#include "apps/audited_picture.hpp"
-#include "apps/commands/arguments.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
+#include "apps/commands/render_outputs.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/memory.hpp"
-#include "apps/picture.hpp"
-#include "apps/ply.hpp"
-#include "apps/png.hpp"
 #include "apps/progress.hpp"
-#include "apps/raycast_picture.hpp"
-#include "apps/report.hpp"
+#include "apps/text.hpp"
 
 namespace apps {
 namespace {
 
-enum class Format { png, ply };
-
-std::optional<Format> format_of(const std::string& path) {
-  if (path.size() > 4 && path.ends_with(".png")) { return Format::png; }
-  if (path.size() > 4 && path.ends_with(".ply")) { return Format::ply; }
-  return std::nullopt;
-}
-
-bool has_picture(const RenderOptions& options) {
-  for (const std::string& output : options.outputs) {
-    if (format_of(output) == Format::png) { return true; }
-  }
-  return false;
-}
-
 // WxH, each side from 1 to max_picture_side.
-std::optional<PictureSize> parse_size(const std::string& text) {
+std::optional<PictureSize> parse_size(std::string_view text) {
   PictureSize size;
   const char* const end = text.data() + text.size();
   const auto [cross, width_code] = std::from_chars(text.data(), end, size.width);
@@ -53,6 +30,10 @@ std::optional<PictureSize> parse_size(const std::string& text) {
   if (height_code != std::errc() || rest != end) { return std::nullopt; }
   const auto fits = [](std::uint32_t side) { return side >= 1 && side <= max_picture_side; };
   return fits(size.width) && fits(size.height) ? std::optional(size) : std::nullopt;
+}
+
+std::string size_fault(const std::string& text) {
+  return "expected WIDTHxHEIGHT, each 1 to " + std::to_string(max_picture_side) + ", found '" + text + "'";
 }
 
 std::optional<Camera> choose_camera(const SceneFile& file, const std::string& name) {
@@ -75,7 +56,7 @@ std::vector<std::string> all_outputs(const RenderOptions& options) {
 // Outputs that cannot become files are refused before any work.
 ExitCode check(const RenderOptions& options) {
   for (const std::string& path : options.outputs) {
-    if (!format_of(path)) {
+    if (!render_format(path)) {
       complain("--output " + path + ": expected a name that ends with .png or .ply");
       return ExitCode::usage;
     }
@@ -100,18 +81,6 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
   return ExitCode::invalid_input;
 }
 
-class Stopwatch {
- public:
-  [[nodiscard]] radiosity::StageTime stop(std::string name) const {
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_;
-    return {std::move(name), wall.count(), static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC, radiosity::peak_memory()};
-  }
-
- private:
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-  std::clock_t cpu_ = std::clock();
-};
-
 // What --memory leaves for the run: less what the program and the scene hold now. The picture is drawn when the run holds its solution
 // alone, a third of its peak at most.
 std::optional<std::uint64_t> memory_left(const RenderOptions& options, const Camera& camera) {
@@ -130,183 +99,11 @@ std::optional<std::uint64_t> memory_left(const RenderOptions& options, const Cam
   return std::min(left, 3 * (left - picture));
 }
 
-struct Output {
-  std::string path;
-  std::string bytes;
-};
-
-// Draws a solution as it will be shown, and audits what it has drawn.
-class Artist {
- public:
-  Artist(const RenderOptions& options, const SceneFile& file, const Camera& camera)
-      : options_{options}, file_{file}, view_{make_view(camera, options.size.value_or(camera.size.value_or(PictureSize{})))} {}
-
-  [[nodiscard]] double exposure(const radiosity::Mesh& mesh) const {
-    return options_.exposure ? *options_.exposure : automatic_exposure(mesh, file_.scene);
-  }
-  [[nodiscard]] PictureSize size() const { return view_.size; }
-  // Nothing when interrupted.
-  [[nodiscard]] std::optional<Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame,
-                                            const radiosity::Control& control) const {
-    const double by = exposure(mesh);
-    if (options_.method == PictureMethod::mesh) { return apps::draw(mesh, view_, by, 4, control.cancel); }
-    const radiosity::Lookup lookup(file_.scene, mesh, frame);
-    return apps::draw(lookup, view_, by, options_.solver.threads, 4, control);
-  }
-  [[nodiscard]] std::optional<radiosity::PictureError> audit(const Picture& picture, double exposure, const radiosity::AuditGoal& goal,
-                                                             const radiosity::Control& control) {
-    if (!asked_) {
-      audit_ = radiosity::PictureAudit::make(file_.scene);
-      asked_ = true;
-    }
-    if (!audit_) { return std::nullopt; }
-    return audit_->measure(audited(picture, view_, exposure), goal, options_.solver.threads, options_.solver.seed, control);
-  }
-
- private:
-  const RenderOptions& options_;
-  const SceneFile& file_;
-  View view_;
-  std::optional<radiosity::PictureAudit> audit_;
-  bool asked_ = false;
-};
-
-// Everything that is to be written, in memory. Nothing when interrupted.
-std::optional<std::vector<Output>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
-                                          const radiosity::Solution& solution, const radiosity::Control& control, Report& report) {
-  if (control.cancelled()) { return std::nullopt; }
-  std::vector<Output> outputs;
-  std::string png;
-  if (has_picture(options)) {
-    const Stopwatch watch;
-    const auto picture = artist.draw(solution.mesh, solution.frame, control);
-    if (!picture) { return std::nullopt; }
-    png = to_png(*picture);
-    report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
-    std::vector<radiosity::StageTime> stages{watch.stop("picture")};
-    leave_out_others(stages);
-    report.picture_time = stages.front();
-    if (!report.audit.picture_error && options.solver.audit_points > 0) {
-      const Stopwatch audit_watch;
-      report.audit.picture_error =
-          artist.audit(*picture, report.exposure, radiosity::goal_to_know(report.audit, options.solver.audit_points), control);
-      stages = {audit_watch.stop("picture audit")};
-      leave_out_others(stages);
-      report.audit.stages.push_back(stages.front());
-      report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, its error not measured
-    }
-  }
-  for (const std::string& path : options.outputs) {
-    const bool is_png = format_of(path) == Format::png;
-    outputs.push_back({path, is_png ? png : to_ply(solution.mesh, radiosity::surfaces(file.scene), report.exposure)});
-    report.files.push_back(path);
-  }
-  if (!options.json.empty()) {
-    report.files.push_back(options.json);
-    outputs.push_back({options.json, to_json(report)});
-  }
-  return outputs;
-}
-
-ExitCode write_all(const std::vector<Output>& outputs) {
-  for (const Output& output : outputs) {
+ExitCode write_all(const std::vector<RenderOutput>& outputs) {
+  for (const RenderOutput& output : outputs) {
     if (!save(output.path, output.bytes)) { return ExitCode::failure; }
   }
   return ExitCode::ok;
-}
-
-}  // namespace
-
-void describe(CLI::App& command, RenderOptions& options) {
-  radiosity::Options& solver = options.solver;
-  command.add_option("scene", options.scene, "the .scene file")->required()->type_name("SCENE");
-  command
-      .add_option("-o,--output", options.outputs,
-                  "what to write: a picture (.png) or a mesh (.ply); repeat for more; without, the report alone")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
-  auto* error =
-      command.add_option("--error", solver.error, "refine until the measured relative L2 error is at most this")->check(above_zero(1.0));
-  command
-      .add_option("--error-of", options.error_of,
-                  "what --error is about: picture, what the camera sees (the default with a .png), or surfaces, all of them by area")
-      ->transform(one_of(std::map<std::string, ErrorOf>{{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}}))
-      ->needs(error);
-  // BF-refinement is asked for by what ends it.
-  const auto bf = [&solver](const std::string&) { solver.refinement = radiosity::Refinement::a_posteriori; };
-  auto* target =
-      command
-          .add_option(
-              "--target", solver.target,
-              "BF-refinement (paper 4.4), split by the light that links carry, until the estimated relative L2 error is at most this")
-          ->check(above_zero(1.0))
-          ->each(bf)
-          ->excludes(error);
-  auto* time = command
-                   .add_option("--time", solver.time,
-                               "BF-refinement, what promises most first, for this many seconds; the audit and the picture come on top")
-                   ->check(above_zero(1e6))
-                   ->each(bf)
-                   ->excludes(error)
-                   ->excludes(target);
-  command.add_option("--epsilon", solver.epsilon, "largest form factor of a link (default " + CLI::detail::to_string(solver.epsilon) + ")")
-      ->check(above_zero(1.0))
-      ->excludes(error)
-      ->excludes(target)
-      ->excludes(time);
-  command.add_option("--min-area", solver.min_area, "smallest patch, relative to the area of the scene")
-      ->check(above_zero(1.0))
-      ->excludes(error)
-      ->excludes(target)
-      ->excludes(time);
-  command
-      .add_option("--light-epsilon", solver.light_epsilon,
-                  "share of the error that the light of a lamp may cause by varying over one patch (default: a quarter of epsilon)")
-      ->check(above_zero(1.0))
-      ->excludes(error)
-      ->excludes(target)
-      ->excludes(time);
-  command.add_option("--camera", options.camera, "camera of the scene (default: the first; without any, an automatic view)");
-  command
-      .add_option_function<std::string>(
-          "--size", [&options](const std::string& text) { options.size = parse_size(text); },
-          "picture size in pixels (default: the camera's, else 800x600)")
-      ->type_name("WxH")
-      ->check([](const std::string& text) {
-        return parse_size(text) ? std::string()
-                                : "expected WIDTHxHEIGHT, each 1 to " + std::to_string(max_picture_side) + ", found '" + text + "'";
-      });
-  command
-      .add_option("--method", options.method,
-                  "what the picture shows: mesh, the triangles of the solution, or raycast, the objects themselves with smooth outlines")
-      ->transform(one_of(std::map<std::string, PictureMethod>{{"mesh", PictureMethod::mesh}, {"raycast", PictureMethod::raycast}}));
-  command.add_option("--exposure", options.exposure, "factor from radiance to picture (default: automatic)")
-      ->check(above_zero(std::numeric_limits<double>::max()));
-  command.add_option("--threads", solver.threads, "threads (default: all); results do not depend on it")
-      ->check(whole_number(1, most_threads));
-  command.add_option("--seed", solver.seed, "seed of all random choices")
-      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
-  command.add_option("--audit", solver.audit_points, "points at which the error is measured; 0: none")->check(whole_number(0, 100'000'000));
-  std::map<std::string, radiosity::Solver> solvers;
-  for (const auto s :
-       {radiosity::Solver::conjugate_gradients, radiosity::Solver::jacobi, radiosity::Solver::gauss_seidel, radiosity::Solver::southwell}) {
-    solvers.emplace(name(s), s);
-  }
-  command.add_option("--solver", solver.solver, "cg, jacobi, gauss-seidel or southwell")->transform(one_of(solvers));
-  command.add_option("--reconstruction", solver.reconstruction, "weighted or simple (paper fig. 5), or constant: one colour a leaf")
-      ->transform(one_of(std::map<std::string, radiosity::Reconstruction>{{"weighted", radiosity::Reconstruction::weighted},
-                                                                          {"simple", radiosity::Reconstruction::simple},
-                                                                          {"constant", radiosity::Reconstruction::constant}}));
-  command.add_flag("!--no-shortcuts", solver.shortcuts,
-                   "do all that the report would tell as left out; the result is the same, to the bit");
-  command
-      .add_option_function<std::string>(
-          "--memory", [&options](const std::string& text) { options.memory = parse_memory(text); },
-          "most memory that the program may hold, such as 500M or 2G; a run that would need more ends before")
-      ->type_name("BYTES")
-      ->check(memory_fault);
-  command.add_option("--json", options.json, "write the report as JSON, too")->type_name("FILE");
-  command.add_flag("--quiet", options.quiet, "no narration and no progress bar");
 }
 
 ExitCode run(const RenderOptions& options) {
@@ -342,7 +139,7 @@ ExitCode run(const RenderOptions& options) {
     };
   }
   const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
-  if (outcome.solution && outcome.solution->audit.interrupted) { control = control.unstoppable(); }  // what there is, is written
+  if (outcome.solution && outcome.solution->audit.interrupted) { control = control.unstoppable(); }  // the best so far is drawn and written
   progress.done();
   if (!outcome.solution) { return report_failure(outcome.failure, options.scene); }
 
@@ -370,6 +167,76 @@ ExitCode run(const RenderOptions& options) {
   if (solution.audit.converged) { return ExitCode::ok; }
   complain("not converged: the outputs show what was reached");
   return ExitCode::not_converged;
+}
+
+// What each option is, and where its value goes.
+std::vector<Argument> arguments(RenderOptions& options) {
+  radiosity::Options& solver = options.solver;
+  // BF-refinement is asked for by what ends it.
+  const auto bf = [&solver](Argument argument) {
+    argument.take = [&solver, keep = argument.take](const std::string& text) {
+      solver.refinement = radiosity::Refinement::a_posteriori;
+      return keep(text);
+    };
+    return argument;
+  };
+  const std::vector<std::string> ends{"--error", "--target", "--time"};  // of the refinement: one at most
+  using radiosity::Reconstruction, radiosity::Solver;
+  return {
+      scene_argument(options.scene),
+      texts("-o,--output", "FILE", options.outputs,
+            "what to write: a picture (.png) or a mesh (.ply); repeat for more; without, the report alone", Argument::Values::repeated),
+      above_zero("--error", solver.error, 1.0, "refine until the measured relative L2 error is at most this"),
+      one_of<std::optional<ErrorOf>, ErrorOf>(
+          "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},
+          "what --error is about: picture, what the camera sees (the default with a .png), or surfaces, all of them by area")
+          .needing("--error"),
+      bf(above_zero(
+             "--target", solver.target, 1.0,
+             "BF-refinement (paper 4.4), split by the light that links carry, until the estimated relative L2 error is at most this"))
+          .without({"--error"}),
+      bf(above_zero("--time", solver.time, 1e6,
+                    "BF-refinement, what promises most first, for this many seconds; the audit and the picture come on top"))
+          .without({"--error", "--target"}),
+      above_zero("--epsilon", solver.epsilon, 1.0, "largest form factor of a link (default " + formatted("%g", solver.epsilon) + ")")
+          .without(ends),
+      above_zero("--min-area", solver.min_area, 1.0, "smallest patch, relative to the area of the scene").without(ends),
+      above_zero("--light-epsilon", solver.light_epsilon, 1.0,
+                 "share of the error that the light of a lamp may cause by varying over one patch (default: a quarter of epsilon)")
+          .without(ends),
+      text("--camera", "TEXT", options.camera, "camera of the scene (default: the first; without any, an automatic view)"),
+      parsed("--size", "WxH", options.size, parse_size, size_fault, "picture size in pixels (default: the camera's, else 800x600)"),
+      one_of<PictureMethod, PictureMethod>(
+          "--method", options.method, {{"mesh", PictureMethod::mesh}, {"raycast", PictureMethod::raycast}},
+          "what the picture shows: mesh, the triangles of the solution, or raycast, the objects themselves with smooth outlines"),
+      above_zero("--exposure", options.exposure, std::numeric_limits<double>::max(),
+                 "factor from radiance to picture (default: automatic)"),
+      whole_number("--threads", solver.threads, 1, most_threads, "threads (default: all); results do not depend on it"),
+      whole_number("--seed", solver.seed, 0, std::numeric_limits<std::uint64_t>::max(), "seed of all random choices"),
+      whole_number("--audit", solver.audit_points, 0, 100'000'000, "points at which the error is measured; 0: none"),
+      one_of<Solver, Solver>("--solver", solver.solver,
+                             {{"cg", Solver::conjugate_gradients},
+                              {"gauss-seidel", Solver::gauss_seidel},
+                              {"jacobi", Solver::jacobi},
+                              {"southwell", Solver::southwell}},
+                             "cg, jacobi, gauss-seidel or southwell"),
+      one_of<Reconstruction, Reconstruction>(
+          "--reconstruction", solver.reconstruction,
+          {{"constant", Reconstruction::constant}, {"simple", Reconstruction::simple}, {"weighted", Reconstruction::weighted}},
+          "weighted or simple (paper fig. 5), or constant: one colour a leaf"),
+      flag("--no-shortcuts", solver.shortcuts, "do all that the report would tell as left out; the result is the same, to the bit", false),
+      parsed("--memory", "BYTES", options.memory, parse_memory, memory_fault,
+             "most memory that the program may hold, such as 500M or 2G; a run that would need more ends before"),
+      text("--json", "FILE", options.json, "write the report as JSON, too"),
+      flag("--quiet", options.quiet, "no narration and no progress bar"),
+  };
+}
+
+}  // namespace
+
+Command render_command() {
+  const auto options = std::make_shared<RenderOptions>();
+  return {"render", "solve a scene; write a picture or a mesh and the report", arguments(*options), [options] { return run(*options); }};
 }
 
 }  // namespace apps

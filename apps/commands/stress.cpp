@@ -1,33 +1,30 @@
 // SPDX-License-Identifier: MIT
-#include "apps/commands/stress.hpp"
-
+// halflight stress [CASE...]: stiff and extreme scenes, each figure against its bound; exit code 1 when one fails.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <memory>
 #include <utility>
 
-#include "apps/commands/arguments.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/json.hpp"
 #include "apps/scene_file/words.hpp"
 #include "apps/stress/case.hpp"
+#include "apps/text.hpp"
 
 namespace apps {
 namespace {
 
+struct StressOptions {
+  std::vector<std::string> cases;  // none: all
+  std::string json;
+  bool list = false;
+};
+
 using stress::Case;
 using stress::Figure;
 using stress::Findings;
-
-std::string number(double x) {
-  char text[40] = "";
-  std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
-}
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(text.size() + 1, width), ' ');
-  return text;
-}
 
 const char* sign(Figure::Bound kind) { return kind == Figure::Bound::at_most ? "<= " : kind == Figure::Bound::at_least ? ">= " : "=  "; }
 
@@ -43,10 +40,10 @@ std::string done(const Findings& findings) {
 }
 
 std::string to_text(const Case& which, const Findings& findings) {
-  std::string text = padded(std::string{which.name}, 18) + std::string{which.what} + "\n";
+  std::string text = left(std::string{which.name}, 18, 1) + std::string{which.what} + "\n";
   for (const Figure& f : findings.figures()) {
-    text += "  " + padded(f.what, 66) + padded(number(f.measured), 11) + sign(f.kind) + padded(number(f.bound), 9) +
-            (f.holds() ? "ok" : "FAILED") + "\n";
+    text += "  " + left(f.what, 66, 1) + left(formatted("%.3g", f.measured), 11, 1) + sign(f.kind) +
+            left(formatted("%.3g", f.bound), 9, 1) + (f.holds() ? "ok" : "FAILED") + "\n";
   }
   text += "  " + done(findings) + ": " + std::string{which.why} + "\n";
   if (!findings.refusals().empty()) { text += "  refusal: " + findings.refusals().front() + "\n"; }
@@ -94,21 +91,13 @@ std::vector<const Case*> choose(const std::vector<std::string>& names, bool& kno
   return chosen;
 }
 
-}  // namespace
-
-void describe(CLI::App& command, StressOptions& options) {
-  command.add_option("case", options.cases, "cases to run (default: all)")->type_name("CASE");
-  command.add_flag("--list", options.list, "name the cases and run none");
-  command.add_option("--json", options.json, "write figures, bounds and verdicts as JSON, too")->type_name("FILE");
-}
-
 ExitCode run(const StressOptions& options) {
   bool known = true;
   const std::vector<const Case*> chosen = choose(options.cases, known);
   if (!known) { return ExitCode::usage; }
   if (options.list) {
     std::string list;
-    for (const Case* c : chosen) { list += padded(std::string{c->name}, 18) + std::string{c->what} + "\n"; }
+    for (const Case* c : chosen) { list += left(std::string{c->name}, 18, 1) + std::string{c->what} + "\n"; }
     return print(list) ? ExitCode::ok : ExitCode::failure;
   }
   const std::vector<std::string> outputs{options.json};
@@ -132,6 +121,18 @@ ExitCode run(const StressOptions& options) {
   if (!print(total + (failed.empty() ? "all hold" : "FAILED: " + failed) + "\n", outputs)) { return ExitCode::failure; }
   std::fprintf(stderr, "CPU time %.1f s\n", static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);  // stdout is the same every time
   return failed.empty() ? ExitCode::ok : ExitCode::failure;
+}
+
+}  // namespace
+
+Command stress_command() {
+  const auto options = std::make_shared<StressOptions>();
+  return {
+      "stress",
+      "solve stiff and extreme scenes, each figure against its bound",
+      {texts("case", "CASE", options->cases, "cases to run (default: all)"), flag("--list", options->list, "name the cases and run none"),
+       text("--json", "FILE", options->json, "write figures, bounds and verdicts as JSON, too")},
+      [options] { return run(*options); }};
 }
 
 }  // namespace apps

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "apps/commands/study.hpp"
-
+// halflight study SCENE... -o DIR: error against time, memory and links for every method, measured on each scene.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
 
-#include "apps/commands/arguments.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/memory.hpp"
@@ -18,11 +19,24 @@
 #include "apps/study/measure.hpp"
 #include "apps/study/pages.hpp"
 #include "apps/study/reference.hpp"
+#include "apps/text.hpp"
 #include "apps/version.hpp"
 #include "apps/view.hpp"
 
 namespace apps {
 namespace {
+
+struct StudyOptions {
+  std::vector<std::string> scenes;
+  std::string folder;
+  double seconds = 12.0;       // CPU time of one run
+  std::uint64_t paths = 8192;  // a point of the reference
+  std::uint32_t dense = 3000;  // leaves up to which the parts of an error are told apart
+  bool quick = false;
+  bool quiet = false;
+  unsigned threads = 0;
+  std::optional<std::uint64_t> memory;  // bytes that a run may take
+};
 
 namespace fs = std::filesystem;
 
@@ -58,12 +72,6 @@ std::string title_of(const std::string& text) {
   const std::size_t end = std::min(text.size(), text.find('\n', mark));
   const std::size_t first = text.find_first_not_of("# \t\r", mark);
   return first < end ? text.substr(first, text.find_last_not_of(" \t\r", end - 1) + 1 - first) : std::string();
-}
-
-std::string percent(double x) {
-  char text[32] = "";
-  std::snprintf(text, sizeof text, "%.3g %%", 100.0 * x);
-  return text;
 }
 
 // One scene; false when there is nothing to show of it. `code` says why.
@@ -105,34 +113,6 @@ bool study_scene(const std::string& path, const StudyOptions& options, const rad
   return !result.methods.empty();
 }
 
-}  // namespace
-
-void describe(CLI::App& command, StudyOptions& options) {
-  command.add_option("scenes", options.scenes, "the .scene files")->required()->type_name("SCENE");
-  command.add_option("-o,--output", options.folder, "folder for tables, plots, pictures and the page; made when there is none")
-      ->required()
-      ->type_name("DIR");
-  auto* seconds = command.add_option("--time-per-run", options.seconds, "CPU seconds after which a run is stopped")
-                      ->check(above_zero(1e6))
-                      ->capture_default_str();
-  auto* paths = command.add_option("--paths", options.paths, "paths at each point of a path-traced reference")
-                    ->check(whole_number(8, 100'000'000))
-                    ->capture_default_str();
-  command.add_option("--dense", options.dense, "leaves up to which a dense solution tells the parts of an error apart")
-      ->check(whole_number(0, 20'000))
-      ->capture_default_str();
-  command.add_flag("--quick", options.quick, "a first look: short runs, a noisy reference")->excludes(seconds)->excludes(paths);
-  command
-      .add_option_function<std::string>(
-          "--memory", [&options](const std::string& text) { options.memory = parse_memory(text); },
-          "most memory that one run may take, such as 500M or 2G; one that would need more is refused, or ends with the best that fits")
-      ->type_name("BYTES")
-      ->check(memory_fault);
-  command.add_option("--threads", options.threads, "0: as many as the machine has; results do not depend on it")
-      ->check(whole_number(0, most_threads));
-  command.add_flag("-q,--quiet", options.quiet, "no narration on stderr");
-}
-
 ExitCode run(const StudyOptions& given) {
   StudyOptions options = given;
   if (options.quick) {
@@ -160,7 +140,7 @@ ExitCode run(const StudyOptions& given) {
     return names;
   };
   // What every study writes; the names of its pictures are known when it is done.
-  std::vector<std::string> names{"index.html", "results.csv", "results.json", "table.md"};
+  std::vector<std::string> names{"index.html", "results.csv", "results.json"};
   for (const std::string& scene : options.scenes) { names.push_back(fs::path(scene).stem().string() + ".reference.json"); }
   if (const ExitCode fault = check_outputs(in_folder(names), options.scenes); fault != ExitCode::ok) { return fault; }
   Progress progress(options.quiet);
@@ -194,6 +174,30 @@ ExitCode run(const StudyOptions& given) {
   for (const std::string& file : files) { text += "written: " + file + "\n"; }
   if (!print(text)) { return ExitCode::failure; }
   return code;
+}
+
+}  // namespace
+
+Command study_command() {
+  const auto options = std::make_shared<StudyOptions>();
+  return {
+      "study",
+      "error against time, memory and links for every method on each scene",
+      {texts("scenes", "SCENE", options->scenes, "the .scene files").must(),
+       text("-o,--output", "DIR", options->folder, "folder for tables, plots, pictures and the page; made when there is none").must(),
+       above_zero("--time-per-run", options->seconds, 1e6, "CPU seconds after which a run is stopped")
+           .by_default(formatted("%g", options->seconds)),
+       whole_number("--paths", options->paths, 8, 100'000'000, "paths at each point of a path-traced reference")
+           .by_default(std::to_string(options->paths)),
+       whole_number("--dense", options->dense, 0, 20'000, "leaves up to which a dense solution tells the parts of an error apart")
+           .by_default(std::to_string(options->dense)),
+       flag("--quick", options->quick, "a first look: short runs, a noisy reference").without({"--time-per-run", "--paths"}),
+       parsed(
+           "--memory", "BYTES", options->memory, parse_memory, memory_fault,
+           "most memory that one run may take, such as 500M or 2G; one that would need more is refused, or ends with the best that fits"),
+       whole_number("--threads", options->threads, 0, most_threads, "0: as many as the machine has; results do not depend on it"),
+       flag("-q,--quiet", options->quiet, "no narration on stderr")},
+      [options] { return run(*options); }};
 }
 
 }  // namespace apps

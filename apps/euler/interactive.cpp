@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <iostream>
 #include <string>
+#include <string_view>
 
 #include <unistd.h>
 
 #include <brep/euler_script_parse.hpp>
 #include <brep/euler_script_text.hpp>
+#include <brep/euler_table.hpp>
 
 #include "apps/euler/html.hpp"
 #include "apps/euler/story.hpp"
@@ -20,16 +22,29 @@
 namespace apps::euler {
 namespace {
 
-constexpr const char* help =
-    "operators    h = make_segment              kill_segment h\n"
-    "             h = split_face a b            join_faces h         a, b on one face\n"
-    "             h = split_vertex a b          join_vertices h      a, b leave one vertex; a a: a spur\n"
-    "             h = bridge a b                cut h                a, b on different faces\n"
-    "             h = weld a b                  unweld h             a, b leave different vertices\n"
-    "             h = split_edge a              set_anchor h\n"
+constexpr const char* more_help =
     "arguments    h7, a name that was given with =, next(x) prev(x) twin(x), anchor(f1), anchor(v3)\n"
     "others       undo, redo, expect v 8 e 12 f 6, raw next h3 h5 (damages a record; undo repairs it)\n"
     "             show (all records), save FILE (the steps as a script), help, quit\n";
+
+// The operators with their arguments, what must hold of these, and the textbook names, which are understood as well.
+std::string help() {
+  std::string out;
+  for (const brep::OperatorForm& row : brep::operator_forms) {
+    std::string call = (row.result == 'h' ? "h = " : "") + std::string(row.name);
+    call += row.arguments.size() == 2 ? " a b" : row.arguments.empty() ? "" : row.result == 'h' ? " a" : " h";
+    std::string textbook;
+    for (const std::string_view word : row.textbook) {
+      if (!word.empty()) { textbook += (textbook.empty() ? "" : ", ") + std::string(word); }
+    }
+    std::array<char, 120> line{};
+    std::snprintf(line.data(), line.size(), "%-12s %-23s %-37s %s", out.empty() ? "operators" : "", call.c_str(),
+                  std::string(row.where).c_str(), textbook.c_str());
+    const std::string text = line.data();
+    out += text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
+  }
+  return out + more_help;
+}
 
 std::string records_table(const Records& r) {
   const auto name = [](char letter, std::uint32_t i) {
@@ -69,7 +84,7 @@ class Conversation {
     const std::string text = begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
     if (text == "quit" || text == "exit" || std::ferror(stdout) != 0) { return false; }
     if (text == "help" || text == "?") {
-      say(help);
+      say(help());
     } else if (text == "show") {
       say(records_table(teller_.story().frames.back().records));
     } else if (text == "save" || text.rfind("save ", 0) == 0) {

@@ -126,8 +126,34 @@ class ObjReader {
   std::map<std::string_view, std::size_t> unread_;
 };
 
+void read(std::string_view bytes, Output& out) { ObjReader(bytes, out).run(); }
+
+std::string write(const brep::Builder& builder, std::span<const MeshGroup> groups) {
+  std::string out;
+  for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) {
+    out += "v ";
+    put_position(out, builder.position(v));
+  }
+  auto group = groups.begin();
+  for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
+    for (; group != groups.end() && group->first_face <= f; ++group) { out += "o " + group->name + '\n'; }
+    out += 'f';
+    for (std::uint32_t v : builder.corners(f)) { out += ' ' + std::to_string(std::uint64_t{v} + 1); }
+    out += '\n';
+  }
+  return out;
+}
+
+bool begins(std::span<const std::string_view, 3> words, bool) {
+  constexpr std::array<std::string_view, 5> names = {"mtllib", "usemtl", "o", "g", "s"};
+  constexpr std::array<std::string_view, 4> numbers = {"v", "vn", "vt", "f"};
+  if (words[1].empty() || words[1] == "=") { return false; }  // "s = ..." is a line of a script
+  return contains(names, words[0]) || (contains(numbers, words[0]) && words[1].find_first_of("+-.0123456789eE") == 0);
+}
+
 }  // namespace
 
-void read_obj(std::string_view bytes, Output& out) { ObjReader(bytes, out).run(); }
+extern const MeshFormat obj_format;
+constinit const MeshFormat obj_format{".obj", "an OBJ file", "a polygon mesh (Wavefront OBJ)", true, begins, read, write};
 
 }  // namespace apps::mesh_file

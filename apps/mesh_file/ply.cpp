@@ -8,6 +8,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "apps/mesh_file/ply_bytes.hpp"
 #include "apps/mesh_file/reading.hpp"
 
 namespace apps::mesh_file {
@@ -292,8 +293,31 @@ class PlyReader {
   std::vector<std::uint32_t> corners_;
 };
 
+void read(std::string_view bytes, Output& out) { PlyReader(bytes, out).run(); }
+
+std::string write(const brep::Builder& builder, std::span<const MeshGroup>) {
+  std::size_t most = 0;
+  for (std::uint32_t f = 0; f < builder.face_count(); ++f) { most = std::max(most, builder.corners(f).size()); }
+  const bool wide = most > 255;  // more corners than a byte counts
+  std::string out =
+      ply_header({}, {{"vertex", builder.vertex_count(), {"double x", "double y", "double z"}},
+                      {"face", builder.face_count(), {wide ? "list int int vertex_indices" : "list uchar int vertex_indices"}}});
+  for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) {
+    for (int i = 0; i < 3; ++i) { put(out, builder.position(v)[i]); }
+  }
+  for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
+    const std::size_t corners = builder.corners(f).size();
+    wide ? put(out, static_cast<std::uint32_t>(corners)) : put(out, static_cast<std::uint8_t>(corners));
+    for (const std::uint32_t v : builder.corners(f)) { put(out, v); }
+  }
+  return out;
+}
+
+bool begins(std::span<const std::string_view, 3> words, bool first) { return first && words[0] == "ply"; }
+
 }  // namespace
 
-void read_ply(std::string_view bytes, Output& out) { PlyReader(bytes, out).run(); }
+extern const MeshFormat ply_format;
+constinit const MeshFormat ply_format{".ply", "a PLY file", "a polygon mesh (PLY)", false, begins, read, write};
 
 }  // namespace apps::mesh_file

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <utility>
+
+#include "apps/text.hpp"
 
 namespace apps::mesh_file {
 namespace {
@@ -13,7 +14,7 @@ constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c
 
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-// Of `at`, counted from 1. A byte that continues a character in UTF-8 is no column of its own.
+// Of `at`, counted from 1. Bytes that continue a UTF-8 character are not counted.
 std::uint32_t column(const char* start, const char* at) {
   return static_cast<std::uint32_t>(1 + std::count_if(start, at, [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
 }
@@ -28,22 +29,6 @@ std::optional<T> parse(std::string_view word) {
 }
 
 }  // namespace
-
-void Output::error(Place place, std::string sentence) {
-  if (errors_.size() < max_errors) {
-    errors_.push_back({place, std::move(sentence)});
-  } else {
-    more_ = true;
-  }
-}
-
-MeshResult Output::take() {
-  if (errors_.empty()) { return {std::move(mesh), {}, false}; }
-  std::stable_sort(errors_.begin(), errors_.end(), [](const MeshError& a, const MeshError& b) {
-    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-  });
-  return {std::nullopt, std::move(errors_), more_};
-}
 
 Lines::Lines(std::string_view text, bool comments, bool continued) : text_(text), comments_(comments), continued_(continued) {
   if (text_.substr(0, 3) == byte_order_mark) { at_ = 3; }
@@ -108,6 +93,8 @@ std::optional<double> to_number(std::string_view word) {
 }
 
 std::optional<std::int64_t> to_integer(std::string_view word) { return parse<std::int64_t>(word); }
+
+void put_position(std::string& out, const glm::dvec3& p) { out += shortest(p.x) + ' ' + shortest(p.y) + ' ' + shortest(p.z) + '\n'; }
 
 std::string shown(std::string_view word) {
   constexpr std::size_t longest = 40;

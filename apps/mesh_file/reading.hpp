@@ -8,25 +8,28 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "apps/mesh_file.hpp"
 
 namespace apps::mesh_file {
 
-// The errors of one file and the mesh that is read. Never holds more than max_errors; then full() is true and reading stops.
+// The mesh that is read, and what is wrong with the file.
 class Output {
  public:
   Mesh mesh;
 
-  void error(Place place, std::string sentence);
-  [[nodiscard]] bool full() const { return more_; }
-  [[nodiscard]] bool good() const { return errors_.empty(); }
-  [[nodiscard]] MeshResult take();
+  void error(Place place, std::string sentence) { errors_.add(place, std::move(sentence)); }
+  [[nodiscard]] bool full() const { return errors_.full(); }
+  [[nodiscard]] bool good() const { return errors_.count() == 0; }
+  [[nodiscard]] MeshResult take() {
+    const bool sound = good();
+    return {errors_.take(), sound ? std::optional(std::move(mesh)) : std::nullopt};
+  }
 
  private:
-  std::vector<MeshError> errors_;
-  bool more_ = false;
+  Errors errors_;
 };
 
 // Text line by line; lines end with LF, CR LF or CR. Words are separated by blanks.
@@ -69,8 +72,7 @@ class Lines {
 // The first three words from `first` on are a position; errors say what is wrong. Nothing when there is an error.
 [[nodiscard]] std::optional<glm::dvec3> read_position(const Lines& lines, std::size_t first, Output& out);
 
-void read_obj(std::string_view bytes, Output& out);
-void read_ply(std::string_view bytes, Output& out);
-void read_off(std::string_view bytes, Output& out);
+// "1 0.5 2" and the end of the line, so that it reads back exactly.
+void put_position(std::string& out, const glm::dvec3& p);
 
 }  // namespace apps::mesh_file

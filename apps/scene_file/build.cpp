@@ -13,8 +13,8 @@
 #include <glm/geometric.hpp>
 
 #include "apps/bounds.hpp"
+#include "apps/scene_file/csg.hpp"
 #include "apps/scene_file/groups.hpp"
-#include "apps/scene_file/shapes.hpp"
 #include "apps/scene_file/words.hpp"
 
 namespace apps::scene_file {
@@ -67,10 +67,10 @@ SceneFile Builder::build() {
   }
   if (errors_.count() == 0) { place(); }
   if (errors_.count() == 0 && file_.scene.objects.empty()) {
-    errors_.add(
-        {1, 1},
-        "the scene is empty; expected at least one object (polygon, disk, box, sphere, cylinder, cone, torus, superquadric, mesh, union, "
-        "intersection, difference or use)");
+    std::vector<std::string_view> words;
+    for (const ObjectKind& kind : object_kinds()) { words.push_back(kind.word); }
+    words.push_back("use");
+    errors_.add({1, 1}, "the scene is empty; expected at least one object (" + list_of(words) + ")");
   }
   return std::move(file_);
 }
@@ -135,8 +135,8 @@ void Builder::make(const std::vector<Item>& items) {
 }
 
 Made Builder::make(const ObjectSyntax& object) {
-  if (!is_csg(object.kind)) {
-    Made made{make_shape(object, errors_), {}};
+  if (!is_csg(*object.kind)) {
+    Made made{object.kind->make(object, errors_), {}};
     if (made.shape != nullptr) { made.material = sheet_materials(object, *made.shape); }
     return made;
   }
@@ -152,7 +152,7 @@ Made Builder::make(const ObjectSyntax& object) {
 // One material for every sheet of every leaf, in their order: the leaf's own, or that of the nearest statement around it.
 void Builder::operand_materials(const ObjectSyntax& object, const Name* around, const CsgShape& csg, std::size_t& leaf,
                                 std::vector<std::uint32_t>& out) {
-  if (is_csg(object.kind)) {
+  if (is_csg(*object.kind)) {
     const Name* const own = object.material ? &*object.material : around;
     for (const ObjectSyntax& operand : object.operands) { operand_materials(operand, own, csg, leaf, out); }
     return;
@@ -271,7 +271,7 @@ void Builder::place(const ObjectSyntax& object, const std::string& prefix, const
     return;
   }
   file_.scene.objects.push_back({std::move(name), made.shape, placement, made.material});
-  file_.origins.push_back({to_string(object.kind), object.name.place});
+  file_.origins.push_back({object.kind->word, object.name.place});
 }
 
 }  // namespace

@@ -170,59 +170,37 @@ void Parser::face_clause(const Token& keyword, ObjectSyntax& out) {
   out.faces.push_back(face);
 }
 
-// A number above 0: a radius, or the ring of a superquadric in units of its radii.
-void Parser::length_clause(const Token& keyword, std::optional<Placed<double>>& out) {
-  const Place place = token_.place;
-  double value = 0.0;
-  if (!numbers(keyword, std::span(&value, 1))) { return; }
-  if (!(value >= 1.0 / max_number)) {
-    return error(place, "expected a " + std::string(keyword.text) + " above 0, found " + std::to_string(value));
+// A clause that the table of the grammar gives to this kind of object.
+void Parser::own_clause(const Token& keyword, Form form, ObjectSyntax& out) {
+  Given given{keyword.text, form == Form::vector ? keyword.place : token_.place, {}};
+  if (form == Form::face) { return face_clause(keyword, out); }
+  if (form == Form::vertex) {
+    glm::dvec3 position{0.0};
+    if (vector(keyword, position)) { out.vertices.push_back({position, keyword.place}); }
+    return;
   }
-  out = Placed<double>{value, place};
+  const std::size_t count = form == Form::vector ? 3 : form == Form::pair ? 2 : 1;
+  if (!numbers(keyword, std::span(given.numbers).first(count))) { return; }
+  if (form == Form::length && !(given.numbers[0] >= 1.0 / max_number)) {
+    return error(given.place, "expected a " + std::string(keyword.text) + " above 0, found " + std::to_string(given.numbers[0]));
+  }
+  out.given.push_back(given);
 }
 
 void Parser::object_clause(const Token& keyword, ObjectSyntax& out) {
   const std::string_view word = keyword.text;
   if (placement_clause(keyword, out.placement)) { return; }
-  if (word == "from") {
-    vector(keyword, out.from);
-  } else if (word == "to") {
-    vector(keyword, out.to);
-  } else if (word == "center") {
-    vector(keyword, out.center);
-  } else if (word == "base") {
-    vector(keyword, out.base);
-  } else if (word == "axis") {
-    vector(keyword, out.axis);
-  } else if (word == "sheet") {
+  for (const Clause& clause : out.kind->clauses) {
+    if (clause.word == word) { return own_clause(keyword, clause.form, out); }
+  }
+  if (word == "sheet") {
     sheet_clause(out);
-  } else if (word == "face") {
-    face_clause(keyword, out);
   } else if (word == "inside") {
     out.inside = keyword.place;
-  } else if (word == "vertex") {
-    glm::dvec3 position{0.0};
-    if (vector(keyword, position)) { out.vertices.push_back({position, keyword.place}); }
-  } else if (word == "normal") {
-    vector(keyword, out.normal);
-  } else if (word == "radii") {
-    vector(keyword, out.radii);
-  } else if (word == "radius") {
-    length_clause(keyword, out.radius);
-  } else if (word == "top") {
-    length_clause(keyword, out.top);
-  } else if (word == "tube") {
-    length_clause(keyword, out.tube);
-  } else if (word == "ring") {
-    length_clause(keyword, out.ring);
-  } else if (word == "exponents") {
-    const Place place = token_.place;
-    std::array<double, 2> values{};
-    if (numbers(keyword, values)) { out.exponents = Placed<std::array<double, 2>>{values, place}; }
-  } else if (word == "material") {
-    Name given;
-    if (!name("material", given)) { return skip_rest(); }
-    out.material = std::move(given);
+  } else {
+    Name material;
+    if (!name("material", material)) { return skip_rest(); }
+    out.material = std::move(material);
   }
 }
 

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "apps/scene_file/shapes.hpp"
+#include "apps/scene_file/csg.hpp"
 
 namespace apps::scene_file {
 namespace {
@@ -30,17 +30,17 @@ class Operands {
         errors_.add(syntax.name.place, quoted(syntax.name.text) + ": " + *sentence);
       }
     }
-    if (!is_csg(syntax.kind)) {
-      result.solid = make_shape(syntax, errors_);
+    if (!is_csg(*syntax.kind)) {
+      result.solid = syntax.kind->make(syntax, errors_);
       out_.leaves.push_back(result.solid);
       if (result.solid && !result.solid->solid()) {
         errors_.add(syntax.name.place, quoted(syntax.name.text) + " has no inside; operands are closed solids");
       }
       return result;
     }
-    result.operation = syntax.kind == Kind::unite          ? raycast::CsgOperation::unite
-                       : syntax.kind == Kind::intersection ? raycast::CsgOperation::intersect
-                                                           : raycast::CsgOperation::subtract;
+    result.operation = syntax.kind->word == "union"          ? raycast::CsgOperation::unite
+                       : syntax.kind->word == "intersection" ? raycast::CsgOperation::intersect
+                                                             : raycast::CsgOperation::subtract;
     std::unordered_map<std::string_view, Place> names;
     for (const ObjectSyntax& operand : syntax.operands) {
       const auto [earlier, is_new] = names.emplace(operand.name.text, operand.name.place);
@@ -66,7 +66,7 @@ CsgShape make_csg(const ObjectSyntax& syntax, Errors& errors) {
   const raycast::CsgNode tree = Operands(result, errors).node(syntax, {}, true);
   if (errors.count() > before) { return result; }
   auto made = raycast::Csg::make(tree);
-  if (!made) { errors.add(syntax.name.place, std::string(to_string(syntax.kind)) + " " + quoted(syntax.name.text) + ": " + made.refusal); }
+  if (!made) { errors.add(syntax.name.place, std::string(syntax.kind->word) + " " + quoted(syntax.name.text) + ": " + made.refusal); }
   result.whole = std::move(made.object);
   return result;
 }

@@ -70,7 +70,7 @@ bool Groups::expand(ObjectSyntax& syntax, std::size_t depth, Expansion& expansio
       } else {
         const UseSyntax& use = std::get<UseSyntax>(item);
         ObjectSyntax inner;
-        inner.kind = Kind::unite;
+        inner.kind = kind_of("union");
         inner.name = use.name;
         inner.placement = use.placement;
         inner.group = use.group;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/scene_file/lexer.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
-#include <utility>
 
 #include "apps/utf8.hpp"
 
@@ -24,30 +22,6 @@ std::size_t character_length(std::string_view text, std::size_t at) {
 }
 
 }  // namespace
-
-void Errors::add(Place place, std::string sentence) {
-  if (list_.size() < max_errors) {
-    list_.push_back({place, std::move(sentence)});
-  } else {
-    full_ = true;
-  }
-}
-
-bool Errors::just_reported(Place place) const {
-  return !list_.empty() && list_.back().place.line == place.line && list_.back().place.column == place.column;
-}
-
-std::vector<SceneError> Errors::take_sorted() {
-  std::stable_sort(list_.begin(), list_.end(), [](const SceneError& a, const SceneError& b) {
-    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-  });
-  // What is in a group is looked at once for every use as an operand.
-  const auto same = [](const SceneError& a, const SceneError& b) {
-    return a.place.line == b.place.line && a.place.column == b.place.column && a.sentence == b.sentence;
-  };
-  list_.erase(std::unique(list_.begin(), list_.end(), same), list_.end());
-  return std::move(list_);
-}
 
 Lexer::Lexer(std::string_view text, Errors& errors) : text_(text), errors_(errors) {
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";

@@ -15,21 +15,6 @@
 
 namespace apps::scene_file {
 
-// The errors of one file. Never holds more than max_errors; then full() is true and reading stops.
-class Errors {
- public:
-  void add(Place place, std::string sentence);
-  [[nodiscard]] std::size_t count() const { return list_.size(); }
-  [[nodiscard]] bool full() const { return full_; }
-  // The last error lies there, so that what stands there need not be blamed twice.
-  [[nodiscard]] bool just_reported(Place place) const;
-  [[nodiscard]] std::vector<SceneError> take_sorted();
-
- private:
-  std::vector<SceneError> list_;
-  bool full_ = false;
-};
-
 struct Token {
   enum class Kind { word, number, open, close, end_of_line, end_of_file };
   Kind kind = Kind::end_of_file;

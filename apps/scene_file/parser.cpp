@@ -3,10 +3,8 @@
 #include "apps/scene_file/parser.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
-#include "apps/scene_file/keywords.hpp"
 #include "apps/scene_file/words.hpp"
 
 namespace apps::scene_file {
@@ -22,7 +20,7 @@ SceneSyntax Parser::scene() {
 
 void Parser::statement(SceneSyntax& out) {
   if (at(Token::Kind::end_of_line)) { return next(); }
-  if (!at(Token::Kind::word) || !contains(statements, token_.text)) { return unknown_statement(); }
+  if (!at(Token::Kind::word) || !contains(statements(), token_.text)) { return unknown_statement(); }
   const std::string_view word = token_.text;
   next();
   if (word == "material") {
@@ -49,8 +47,8 @@ void Parser::unknown_statement() {
   const bool word = found.kind == Token::Kind::word;
   error(found.place, (word ? "unknown word " : "expected a statement, found ") + describe(found) +
                          (found.kind == Token::Kind::open ? "; a block opens on the line of its statement"
-                          : word                          ? "; expected " + list_of(statements) + suggestion(found.text, statements)
-                                                          : "; expected " + list_of(statements)));
+                          : word                          ? "; expected " + list_of(statements()) + suggestion(found.text, statements())
+                                                          : "; expected " + list_of(statements())));
   skip_statement();
   if (at(Token::Kind::end_of_line)) { next(); }
 }
@@ -61,7 +59,7 @@ template <class Clause>
 void Parser::clauses(std::string_view statement, Words known, Clause&& clause) {
   std::optional<Place> block;
   bool line_begins = false;
-  std::array<std::optional<Place>, most_words> given;
+  std::vector<std::optional<Place>> given(known.size());  // where each word stands last
   while (true) {
     const bool first_of_line = std::exchange(line_begins, false);
     if (at(Token::Kind::end_of_file)) { return block ? unclosed(*block) : void(); }
@@ -94,7 +92,7 @@ void Parser::clauses(std::string_view statement, Words known, Clause&& clause) {
     } else if (!block && at(Token::Kind::word) && contains(known, token_.text)) {
       error(token_.place, "operands stand in a block; expected '{' before " + quoted(token_.text));
       skip_statement();
-    } else if (block && first_of_line && at(Token::Kind::word) && contains(statements, token_.text)) {
+    } else if (block && first_of_line && at(Token::Kind::word) && contains(statements(), token_.text)) {
       return error(token_.place, "expected '}' before " + quoted(token_.text) + ", to close the block that begins at " + to_string(*block));
     } else {
       if (!errors_.just_reported(token_.place)) {
@@ -143,17 +141,17 @@ void Parser::camera(SceneSyntax& out) {
 }
 
 // Nothing when there is no name. `depth`: unions, intersections and differences around it.
-std::optional<ObjectSyntax> Parser::object(Kind kind, std::size_t depth) {
+std::optional<ObjectSyntax> Parser::object(const ObjectKind& kind, std::size_t depth) {
   const std::size_t before = errors_.count();
   ObjectSyntax syntax;
-  syntax.kind = kind;
-  if (!name(to_string(kind), syntax.name)) {
+  syntax.kind = &kind;
+  if (!name(kind.word, syntax.name)) {
     skip_statement();
     expect_end_of_line();
     return std::nullopt;
   }
-  clauses(to_string(kind), clause_words(kind), [&](const Token& keyword) {
-    if (const auto operand_kind = kind_of(keyword.text)) {
+  clauses(kind.word, clause_words(kind), [&](const Token& keyword) {
+    if (const ObjectKind* const operand_kind = kind_of(keyword.text)) {
       operand(*operand_kind, syntax, depth + 1);
     } else if (keyword.text == "use") {
       operand_use(syntax);
@@ -166,7 +164,7 @@ std::optional<ObjectSyntax> Parser::object(Kind kind, std::size_t depth) {
   return syntax;
 }
 
-void Parser::operand(Kind kind, ObjectSyntax& out, std::size_t depth) {
+void Parser::operand(const ObjectKind& kind, ObjectSyntax& out, std::size_t depth) {
   if (depth >= max_use_depth) {
     error(token_.place, "unions, intersections and differences are nested deeper than " + std::to_string(max_use_depth));
     skip_statement();
@@ -179,7 +177,7 @@ void Parser::operand_use(ObjectSyntax& out) {
   auto read = use();
   if (!read) { return; }
   ObjectSyntax syntax;
-  syntax.kind = Kind::unite;
+  syntax.kind = kind_of("union");
   syntax.name = std::move(read->name);
   syntax.placement = read->placement;
   syntax.sound = read->sound;
@@ -189,32 +187,17 @@ void Parser::operand_use(ObjectSyntax& out) {
 
 // What each kind of object cannot be without. Operands may get their material from around.
 void Parser::require_clauses(const ObjectSyntax& object, bool operand) {
-  const Kind kind = object.kind;
-  const auto require = [&](bool given, std::string_view what) {
-    if (!given) {
-      error(object.name.place, std::string(to_string(kind)) + " " + quoted(object.name.text) + " has no " + std::string(what));
-    }
+  const ObjectKind& kind = *object.kind;
+  const auto require = [&](bool given, const std::string& what) {
+    if (!given) { error(object.name.place, std::string(kind.word) + " " + quoted(object.name.text) + " has no " + what); }
   };
-  const auto is_one_of = [kind](std::initializer_list<Kind> list) { return std::find(list.begin(), list.end(), kind) != list.end(); };
-  if (is_one_of({Kind::unite, Kind::intersection, Kind::difference})) {
-    return require(!object.operands.empty(), "operands; expected solids between '{' and '}'");
+  if (is_csg(kind)) { return require(!object.operands.empty(), "operands; expected solids between '{' and '}'"); }
+  for (const Clause& clause : kind.clauses) {
+    const bool given = clause.form == Form::vertex ? !object.vertices.empty()
+                       : clause.form == Form::face ? !object.faces.empty()
+                                                   : object.find(clause.word) != nullptr;
+    require(given || !clause.required, "'" + std::string(clause.word) + "'");
   }
-  if (kind == Kind::box) {
-    require(object.from.has_value(), "'from'");
-    require(object.to.has_value(), "'to'");
-  }
-  if (is_one_of({Kind::sphere, Kind::disk, Kind::torus, Kind::superquadric})) { require(object.center.has_value(), "'center'"); }
-  if (is_one_of({Kind::cylinder, Kind::cone})) { require(object.base.has_value(), "'base'"); }
-  if (is_one_of({Kind::cylinder, Kind::cone, Kind::torus})) { require(object.axis.has_value(), "'axis'"); }
-  if (kind == Kind::disk) { require(object.normal.has_value(), "'normal'"); }
-  if (is_one_of({Kind::sphere, Kind::disk, Kind::cylinder, Kind::cone, Kind::torus})) { require(object.radius.has_value(), "'radius'"); }
-  if (kind == Kind::torus) { require(object.tube.has_value(), "'tube'"); }
-  if (kind == Kind::superquadric) {
-    require(object.radii.has_value(), "'radii'");
-    require(object.exponents.has_value(), "'exponents'");
-  }
-  if (kind == Kind::polygon || kind == Kind::mesh) { require(!object.vertices.empty(), "'vertex'"); }
-  if (kind == Kind::mesh) { require(!object.faces.empty(), "'face'"); }
   if (!operand) { require(object.material.has_value() || !object.sheets.empty(), "'material'"); }
 }
 
@@ -258,17 +241,17 @@ void Parser::group(SceneSyntax& out) {
       return keep();
     }
     const Token found = token_;
-    const auto kind = kind_of(found.text);
+    const ObjectKind* const kind = kind_of(found.text);
     if (found.kind == Token::Kind::end_of_line) {
       next();
-    } else if (found.kind == Token::Kind::word && (kind || found.text == "use")) {
+    } else if (found.kind == Token::Kind::word && (kind != nullptr || found.text == "use")) {
       next();
-      if (!kind) {
+      if (kind == nullptr) {
         if (auto read = use()) { syntax.items.emplace_back(std::move(*read)); }
       } else if (auto read = object(*kind)) {
         syntax.items.emplace_back(std::move(*read));
       }
-    } else if (found.kind == Token::Kind::word && contains(statements, found.text)) {
+    } else if (found.kind == Token::Kind::word && contains(statements(), found.text)) {
       error(found.place, quoted(found.text) +
                              " cannot stand inside a group; expected '}' to close the group "
                              "that begins at " +

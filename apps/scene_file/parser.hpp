@@ -9,7 +9,6 @@
 // line inside a block, shows that a closing brace is missing.
 
 #include <cstddef>
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -31,7 +30,7 @@ class Parser {
   void material(SceneSyntax& out);
   void camera(SceneSyntax& out);
   void group(SceneSyntax& out);
-  [[nodiscard]] std::optional<ObjectSyntax> object(Kind kind, std::size_t depth = 0);
+  [[nodiscard]] std::optional<ObjectSyntax> object(const ObjectKind& kind, std::size_t depth = 0);
   [[nodiscard]] std::optional<UseSyntax> use();
   void unknown_statement();
 
@@ -41,12 +40,12 @@ class Parser {
   void material_clause(const Token& keyword, MaterialSyntax& out);
   void camera_clause(const Token& keyword, CameraSyntax& out);
   void object_clause(const Token& keyword, ObjectSyntax& out);
-  void operand(Kind kind, ObjectSyntax& out, std::size_t depth);
+  void operand(const ObjectKind& kind, ObjectSyntax& out, std::size_t depth);
   void operand_use(ObjectSyntax& out);
   void require_clauses(const ObjectSyntax& object, bool operand);
   void sheet_clause(ObjectSyntax& out);
   void face_clause(const Token& keyword, ObjectSyntax& out);
-  void length_clause(const Token& keyword, std::optional<Placed<double>>& out);
+  void own_clause(const Token& keyword, Form form, ObjectSyntax& out);
   bool placement_clause(const Token& keyword, raycast::Placement& out);
   void rotate_clause(const Token& keyword, raycast::Placement& out);
   void scale_clause(const Token& keyword, raycast::Placement& out);
@@ -56,7 +55,6 @@ class Parser {
   bool number(std::string_view clause, double& out, double most = max_number);
   bool numbers(const Token& keyword, std::span<double> out);
   bool vector(const Token& keyword, glm::dvec3& out);
-  bool vector(const Token& keyword, std::optional<Placed<glm::dvec3>>& out);
   bool whole_number(std::string_view what, std::uint32_t most, std::uint32_t& out);
   bool name(std::string_view of_what, Name& out);
   bool no_more_numbers(std::string_view clause, std::string_view takes);

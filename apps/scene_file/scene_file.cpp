@@ -15,12 +15,11 @@
 namespace apps {
 
 SceneResult parse_scene(std::string_view text) {
-  scene_file::Errors errors;
+  Errors errors;
   const scene_file::SceneSyntax syntax = scene_file::Parser(text, errors).scene();
   SceneResult result;
   SceneFile file = scene_file::build(syntax, errors);
-  result.more_errors = errors.full();
-  result.errors = errors.take_sorted();
+  static_cast<ErrorReport&>(result) = errors.take();
   if (result.errors.empty()) { result.file = std::move(file); }
   return result;
 }
@@ -59,18 +58,6 @@ std::optional<std::string> read_text(const std::string& path, std::string& fault
     return std::nullopt;
   }
   text.resize(size);
-  return text;
-}
-
-std::string to_text(const SceneResult& result, std::string_view name) {
-  std::string text;
-  const auto line = [&](Place place, const std::string& sentence) {
-    text.append(name).append(":").append(scene_file::to_string(place)).append(": error: ").append(sentence).append("\n");
-  };
-  for (const SceneError& error : result.errors) { line(error.place, error.sentence); }
-  if (result.more_errors) {
-    text.append(name).append(": given up after ").append(std::to_string(result.errors.size())).append(" errors\n");
-  }
   return text;
 }
 

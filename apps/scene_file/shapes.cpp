@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/scene_file/shapes.hpp"
-
+// The kinds of objects: the table of the grammar, and what makes the shape of each.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -22,12 +21,13 @@
 #include <raycast/objects/torus.hpp>
 #include <raycast/planar.hpp>
 
+#include "apps/scene_file/lexer.hpp"
+#include "apps/scene_file/syntax.hpp"
+
 namespace apps::scene_file {
 namespace {
 
-using Shape = std::shared_ptr<const raycast::Object>;
-
-std::string who(const ObjectSyntax& syntax) { return std::string(to_string(syntax.kind)) + " " + quoted(syntax.name.text) + ": "; }
+std::string who(const ObjectSyntax& syntax) { return std::string(syntax.kind->word) + " " + quoted(syntax.name.text) + ": "; }
 
 // Takes the object out of what a factory of raycast/ returned, or reports its sentence.
 template <class Made>
@@ -38,48 +38,60 @@ Shape take(Made made, const ObjectSyntax& syntax, Place place, Errors& errors) {
 }
 
 Shape make_box(const ObjectSyntax& syntax, Errors& errors) {
-  const glm::dvec3 lo = glm::min(syntax.from->value, syntax.to->value);
-  const glm::dvec3 hi = glm::max(syntax.from->value, syntax.to->value);
+  const glm::dvec3 lo = glm::min(syntax.vector("from"), syntax.vector("to"));
+  const glm::dvec3 hi = glm::max(syntax.vector("from"), syntax.vector("to"));
   for (int i = 0; i < 3; ++i) {
     if (lo[i] < hi[i]) { continue; }
-    errors.add(syntax.to->place, who(syntax) + "has no size along " + std::string(1, "xyz"[i]) + "; 'from' and 'to' are opposite corners");
+    errors.add(syntax.place("to"),
+               who(syntax) + "has no size along " + std::string(1, "xyz"[i]) + "; 'from' and 'to' are opposite corners");
     return nullptr;
   }
-  return take(raycast::BoxObject::make(lo, hi), syntax, syntax.to->place, errors);
+  return take(raycast::BoxObject::make(lo, hi), syntax, syntax.place("to"), errors);
 }
 
 Shape make_disk(const ObjectSyntax& syntax, Errors& errors) {
-  if (syntax.normal->value == glm::dvec3(0.0)) {
-    errors.add(syntax.normal->place, who(syntax) + "'normal' has no direction; expected the vector towards which the disk shines");
+  if (syntax.vector("normal") == glm::dvec3(0.0)) {
+    errors.add(syntax.place("normal"), who(syntax) + "'normal' has no direction; expected the vector towards which the disk shines");
     return nullptr;
   }
-  return take(raycast::Disk::make(syntax.center->value, syntax.normal->value, syntax.radius->value), syntax, syntax.name.place, errors);
+  return take(raycast::Disk::make(syntax.vector("center"), syntax.vector("normal"), syntax.number("radius")), syntax, syntax.name.place,
+              errors);
 }
 
-// Cylinders, cones and tori.
-Shape make_turned(const ObjectSyntax& syntax, Errors& errors) {
-  const glm::dvec3& axis = syntax.axis->value;
-  const double radius = syntax.radius->value;
-  if (axis == glm::dvec3(0.0)) {
-    errors.add(syntax.axis->place, who(syntax) + "'axis' has no length; expected the vector " +
-                                       (syntax.kind == Kind::torus ? "through the hole" : "from the bottom to the top"));
-    return nullptr;
-  }
-  if (syntax.kind == Kind::torus) {
-    return take(raycast::Torus::make(syntax.center->value, axis, radius, syntax.tube->value), syntax, syntax.tube->place, errors);
-  }
-  if (syntax.kind == Kind::cylinder) {
-    return take(raycast::Cylinder::make(syntax.base->value, axis, radius), syntax, syntax.name.place, errors);
-  }
-  const double top = syntax.top ? syntax.top->value : 0.0;
-  return take(raycast::Cone::make(syntax.base->value, axis, radius, top), syntax, syntax.name.place, errors);
+Shape make_sphere(const ObjectSyntax& syntax, Errors& errors) {
+  return take(raycast::Sphere::make(syntax.vector("center"), syntax.number("radius")), syntax, syntax.name.place, errors);
+}
+
+bool has_axis(const ObjectSyntax& syntax, const char* direction, Errors& errors) {
+  if (syntax.vector("axis") != glm::dvec3(0.0)) { return true; }
+  errors.add(syntax.place("axis"), who(syntax) + "'axis' has no length; expected the vector " + direction);
+  return false;
+}
+
+Shape make_cylinder(const ObjectSyntax& syntax, Errors& errors) {
+  if (!has_axis(syntax, "from the bottom to the top", errors)) { return nullptr; }
+  return take(raycast::Cylinder::make(syntax.vector("base"), syntax.vector("axis"), syntax.number("radius")), syntax, syntax.name.place,
+              errors);
+}
+
+Shape make_cone(const ObjectSyntax& syntax, Errors& errors) {
+  if (!has_axis(syntax, "from the bottom to the top", errors)) { return nullptr; }
+  const double top = syntax.find("top") != nullptr ? syntax.number("top") : 0.0;
+  return take(raycast::Cone::make(syntax.vector("base"), syntax.vector("axis"), syntax.number("radius"), top), syntax, syntax.name.place,
+              errors);
+}
+
+Shape make_torus(const ObjectSyntax& syntax, Errors& errors) {
+  if (!has_axis(syntax, "through the hole", errors)) { return nullptr; }
+  return take(raycast::Torus::make(syntax.vector("center"), syntax.vector("axis"), syntax.number("radius"), syntax.number("tube")), syntax,
+              syntax.place("tube"), errors);
 }
 
 Shape make_superquadric(const ObjectSyntax& syntax, Errors& errors) {
-  const auto [profile, around] = syntax.exponents->value;
-  const double ring = syntax.ring ? syntax.ring->value : 0.0;
-  return take(raycast::Superquadric::make(syntax.center->value, syntax.radii->value, profile, around, ring), syntax,
-              ring > 0.0 && !(ring > 1.0) ? syntax.ring->place : syntax.exponents->place, errors);
+  const auto [profile, around, unused] = syntax.find("exponents")->numbers;
+  const double ring = syntax.find("ring") != nullptr ? syntax.number("ring") : 0.0;
+  return take(raycast::Superquadric::make(syntax.vector("center"), syntax.vector("radii"), profile, around, ring), syntax,
+              syntax.place(ring > 0.0 && !(ring > 1.0) ? "ring" : "exponents"), errors);
 }
 
 // Place of the vertex that lies farthest off the mean plane, if that is off by more than rounding; else `fallback`.
@@ -165,30 +177,24 @@ Shape make_mesh(const ObjectSyntax& syntax, Errors& errors) {
 
 }  // namespace
 
-Shape make_shape(const ObjectSyntax& syntax, Errors& errors) {
-  switch (syntax.kind) {
-    case Kind::polygon:
-      return make_polygon(syntax, errors);
-    case Kind::box:
-      return make_box(syntax, errors);
-    case Kind::sphere:
-      return take(raycast::Sphere::make(syntax.center->value, syntax.radius->value), syntax, syntax.name.place, errors);
-    case Kind::disk:
-      return make_disk(syntax, errors);
-    case Kind::cylinder:
-    case Kind::cone:
-    case Kind::torus:
-      return make_turned(syntax, errors);
-    case Kind::superquadric:
-      return make_superquadric(syntax, errors);
-    case Kind::mesh:
-      return make_mesh(syntax, errors);
-    case Kind::unite:
-    case Kind::intersection:
-    case Kind::difference:
-      break;  // make_csg
-  }
-  return nullptr;
+std::span<const ObjectKind> object_kinds() {
+  using enum Form;
+  static const std::vector<ObjectKind> table = {
+      // word, its clauses, does it enclose anything, what makes it
+      {"polygon", {{"vertex", vertex}}, false, make_polygon},
+      {"disk", {{"center", vector}, {"normal", vector}, {"radius", length}}, false, make_disk},
+      {"box", {{"from", vector}, {"to", vector}}, true, make_box},
+      {"sphere", {{"center", vector}, {"radius", length}}, true, make_sphere},
+      {"cylinder", {{"base", vector}, {"axis", vector}, {"radius", length}}, true, make_cylinder},
+      {"cone", {{"base", vector}, {"axis", vector}, {"radius", length}, {"top", length, false}}, true, make_cone},
+      {"torus", {{"center", vector}, {"axis", vector}, {"radius", length}, {"tube", length}}, true, make_torus},
+      {"superquadric", {{"center", vector}, {"radii", vector}, {"exponents", pair}, {"ring", length, false}}, true, make_superquadric},
+      {"mesh", {{"vertex", vertex}, {"face", face}}, true, make_mesh},
+      {"union", {}},
+      {"intersection", {}},
+      {"difference", {}},
+  };
+  return table;
 }
 
 }  // namespace apps::scene_file

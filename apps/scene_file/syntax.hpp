@@ -5,6 +5,7 @@
 // Names are not resolved yet. A statement that had an error of its own is kept with sound == false: its name is
 // known, so that nothing that refers to it is blamed, but it is not built.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -18,6 +19,7 @@
 #include <raycast/transform.hpp>
 
 #include "apps/scene_file.hpp"
+#include "apps/scene_file/grammar.hpp"
 
 namespace apps::scene_file {
 
@@ -26,9 +28,15 @@ struct Name {
   Place place;
 };
 
-template <class T>
-struct Placed {
-  T value{};
+// The numbers of a clause: one, two or three.
+struct Given {
+  std::string_view word;
+  Place place;
+  std::array<double, 3> numbers{};
+};
+
+struct PlacedVertex {
+  glm::dvec3 value{0.0};
   Place place;
 };
 
@@ -44,9 +52,6 @@ struct CameraSyntax {
   bool sound = true;
 };
 
-enum class Kind { polygon, disk, box, sphere, cylinder, cone, torus, superquadric, mesh, unite, intersection, difference };
-[[nodiscard]] std::string_view to_string(Kind kind);
-
 struct SheetSyntax {
   Name sheet;
   Name material;
@@ -59,24 +64,32 @@ struct FaceSyntax {
 };
 
 struct ObjectSyntax {
-  Kind kind = Kind::polygon;
+  const ObjectKind* kind = nullptr;
   Name name;
   bool sound = true;
   std::optional<Name> material;
   std::vector<SheetSyntax> sheets;
   raycast::Placement placement;
   std::optional<Place> inside;
-  // box: from, to; sphere: center, radius; disk: center, normal, radius; cylinder: base, axis, radius; cone: base, axis, radius, top;
-  // torus: center, axis, radius, tube; superquadric: center, radii, exponents, ring; polygon: vertices; mesh: vertices, faces;
-  // unite, intersection, difference: operands
-  std::optional<Placed<glm::dvec3>> from, to, center, base, axis, normal, radii;
-  std::optional<Placed<double>> radius, top, tube, ring;
-  std::optional<Placed<std::array<double, 2>>> exponents;
-  std::vector<Placed<glm::dvec3>> vertices;
+  std::vector<Given> given;  // the clauses of its own kind, as the table of the grammar names them, but for vertices and faces
+  std::vector<PlacedVertex> vertices;
   std::vector<std::uint32_t> corners;
   std::vector<FaceSyntax> faces;
   std::vector<ObjectSyntax> operands;
   std::optional<Name> group;  // of a union that is written as a use, among operands: its operands are what is in the group
+
+  // Null when the clause was not given.
+  [[nodiscard]] const Given* find(std::string_view word) const {
+    const auto found = std::find_if(given.begin(), given.end(), [&](const Given& g) { return g.word == word; });
+    return found == given.end() ? nullptr : &*found;
+  }
+  // Of a clause that was given.
+  [[nodiscard]] double number(std::string_view word) const { return find(word)->numbers[0]; }
+  [[nodiscard]] glm::dvec3 vector(std::string_view word) const {
+    const auto& [x, y, z] = find(word)->numbers;
+    return {x, y, z};
+  }
+  [[nodiscard]] Place place(std::string_view word) const { return find(word)->place; }
 };
 
 struct UseSyntax {

@@ -116,13 +116,6 @@ bool Parser::vector(const Token& keyword, glm::dvec3& out) {
   return sound;
 }
 
-bool Parser::vector(const Token& keyword, std::optional<Placed<glm::dvec3>>& out) {
-  glm::dvec3 value{0.0};
-  const bool sound = vector(keyword, value);
-  out = Placed<glm::dvec3>{value, keyword.place};
-  return sound;
-}
-
 bool Parser::whole_number(std::string_view what, std::uint32_t most, std::uint32_t& out) {
   const Token found = token_;
   double value = 0.0;

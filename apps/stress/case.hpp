@@ -59,14 +59,20 @@ class Findings {
   std::uint32_t solved_ = 0;
 };
 
+// A row: what is stressed, why what is done is right, and the scenes with their figures.
 struct Case {
   std::string_view name;
   std::string_view what;
-  std::string_view why;  // what is done is right
+  std::string_view why;
   void (*run)(Findings&);
 };
 
-// In the order in which they are run.
+[[nodiscard]] std::vector<Case> light_cases();     // reflectance, emission, the linear system
+[[nodiscard]] std::vector<Case> contact_cases();   // what touches, coincides, overlaps
+[[nodiscard]] std::vector<Case> boundary_cases();  // shells, normals, what hides what
+[[nodiscard]] std::vector<Case> size_cases();      // scale, place, thinness, number and depth
+
+// All of them, in the order in which they are run.
 [[nodiscard]] const std::vector<Case>& cases();
 
 }  // namespace apps::stress

@@ -54,7 +54,7 @@ inline radiosity::Material furnace_material(double rho) { return {"furnace", rad
 inline radiosity::Scene furnace_cube(double rho) { return {{furnace_material(rho)}, {object("room", box({0, 0, 0}, {1, 1, 1}), 0, true)}}; }
 
 inline radiosity::Scene furnace_sphere(double rho) {
-  return {{furnace_material(rho)}, {object("ball", raycast::Sphere::make({0, 0, 0}, 1.0).object, 0, true)}};
+  return {{furnace_material(rho)}, {object("sphere", raycast::Sphere::make({0, 0, 0}, 1.0).object, 0, true)}};
 }
 
 // A furnace with things in it: a box on the floor, a sphere in the air, a cylinder against nothing.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A checksum that finds accidents: FNV-1a of 64 bits (Fowler, Noll and Vo 1991). It is no defence against someone who wants to
-// deceive.
+// FNV-1a of 64 bits (Fowler, Noll and Vo 1991): finds files that were damaged by accident, not by intent.
 
 #include <bit>
 #include <cstdint>

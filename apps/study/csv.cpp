@@ -1,39 +1,40 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
-#include <charconv>
+#include <cmath>
 
 #include "apps/study/outcome.hpp"
 #include "apps/study/tables.hpp"
+#include "apps/text.hpp"
 
 namespace study {
 namespace {
 
-constexpr const char* head =
+constexpr std::string_view head =
     "scene,reference,noise,point_noise,method,setting,reconstruction,cpu_seconds,seconds_saved,peak_bytes,bytes,links,leaves,rays,"
     "cells_l1,cells_l2,cells_worst,points_l1,points_l2,points_worst,below_noise,"
     "part_discretisation,part_links,part_solver,part_reconstruction,picture_l2,picture_low,picture_high,refused\n";
 
-// The fewest digits that read back as the same double.
-std::string number(double x) {
-  if (!std::isfinite(x)) { return ""; }
-  std::array<char, 40> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
-}
+constexpr auto columns = static_cast<std::size_t>(1 + std::count(head.begin(), head.end(), ','));
+
+// Empty: not measured.
+std::string number(double x) { return std::isfinite(x) ? apps::shortest(x) : std::string(); }
 
 class Line {
  public:
   void field(std::string_view text) {
-    text_ += (first_ ? "" : ",") + csv_field(text);
-    first_ = false;
+    text_ += (fields_ == 0 ? "" : ",") + csv_field(text);
+    ++fields_;
   }
-  void empty(int count) {
+  void empty(std::size_t count) {
     for (; count > 0; --count) { field(""); }
   }
+  [[nodiscard]] std::size_t fields() const { return fields_; }
   [[nodiscard]] std::string end() const { return text_ + "\n"; }
 
  private:
   std::string text_;
-  bool first_ = true;
+  std::size_t fields_ = 0;
 };
 
 void add_errors(Line& line, const Errors& errors, const Reference& reference) {
@@ -63,7 +64,7 @@ std::string run_line(const SceneStudy& scene, const Method& method, const Run& r
   line.field(run.setting);
   line.field(names[static_cast<std::size_t>(stage)]);
   if (!run.refused.empty()) {
-    line.empty(20);
+    line.empty(columns - 1 - line.fields());  // the reason stands in the last column
     line.field(run.refused);
     return line.end();
   }
@@ -100,7 +101,7 @@ std::string csv_field(std::string_view text) {
 }
 
 std::string to_csv(const Study& study) {
-  std::string text = head;
+  std::string text(head);
   for (const SceneStudy& scene : study.scenes) {
     for (const Method& method : scene.methods) {
       for (const Run& run : method.runs) {

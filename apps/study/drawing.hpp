@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A drawing as data: shapes and labels in the order in which they cover each other. What draws (plot.hpp, error_picture.hpp) fills one;
-// to_svg() (svg.hpp) and rasterize() (raster.hpp) write the same drawing as vectors and as pixels.
+// A drawing as data: shapes, labels and pictures in the order in which they cover each other. What draws (plot.hpp, error_picture.hpp)
+// fills one; to_svg() (svg.hpp) writes it.
 //
 // Units are CSS pixels; x to the right, y down. Three tones have a meaning, so that a page may exchange them in the dark.
 
@@ -48,13 +48,22 @@ struct Label {
   bool upright = true;  // or it runs from the bottom to the top
 };
 
+// Pixels, scaled to fill a rectangle.
+struct Image {
+  glm::dvec2 low{0.0};  // the upper left corner
+  double width = 0.0;
+  double height = 0.0;
+  std::string png;  // the bytes of the file
+};
+
 struct Drawing {
   double width = 0.0;
   double height = 0.0;
-  std::vector<std::variant<Shape, Label>> items;
+  std::vector<std::variant<Shape, Label, Image>> items;
 
   Shape& add(Shape shape) { return std::get<Shape>(items.emplace_back(std::move(shape))); }
   Label& add(Label label) { return std::get<Label>(items.emplace_back(std::move(label))); }
+  Image& add(Image image) { return std::get<Image>(items.emplace_back(std::move(image))); }
 };
 
 [[nodiscard]] inline Shape line(const glm::dvec2& from, const glm::dvec2& to, double width, Tone tone = ink) {

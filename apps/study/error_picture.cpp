@@ -12,14 +12,15 @@
 
 #include <glm/geometric.hpp>
 
+#include "apps/png.hpp"
 #include "apps/study/numbers.hpp"
-#include "apps/study/raster.hpp"
 
 namespace study {
 namespace {
 
 constexpr Tone background = 0xb4b4b4;
 constexpr double scale_width = 480.0;
+constexpr double scale_height = 62.0;
 
 // Radiosity that draw() shows as exactly this tone at exposure 1: pi times the linear value.
 radiosity::Color shown_as(Tone tone) {
@@ -90,19 +91,37 @@ void draw_creases(apps::Picture& picture, const apps::Picture& normals) {
   }
 }
 
-apps::Picture below(const apps::Picture& upper, const apps::Picture& lower) {
-  apps::Picture result{std::max(upper.width, lower.width), upper.height + lower.height, {}, {}};
-  result.rgb.assign(std::size_t{3} * result.width * result.height, 255);
-  std::uint32_t top = 0;
-  for (const apps::Picture* part : {&upper, &lower}) {
-    for (std::uint32_t y = 0; y < part->height; ++y) {
-      const auto first = part->rgb.begin() + static_cast<std::ptrdiff_t>(std::size_t{3} * y * part->width);
-      std::copy(first, first + std::ptrdiff_t{3} * part->width,
-                result.rgb.begin() + static_cast<std::ptrdiff_t>(std::size_t{3} * (top + y) * result.width));
-    }
-    top += part->height;
+// From `top` downwards.
+void draw_scale(Drawing& drawing, double top, double limit) {
+  constexpr double left = 20.0;
+  constexpr double bar = scale_width - 2.0 * left;
+  constexpr int steps = 88;
+  drawing.height = top + scale_height;
+  for (int i = 0; i < steps; ++i) {
+    const double x = left + bar * i / steps;
+    // Each reaches a little under the next: no seam.
+    drawing.add(rectangle({x, top + 8.0}, {left + bar * std::min<double>(i + 1.2, steps) / steps, top + 22.0},
+                          error_tone(2.0 * (i + 0.5) / steps - 1.0)));
   }
-  return result;
+  for (int i = -2; i <= 2; ++i) {
+    const double x = left + bar * (0.5 + 0.25 * i);
+    drawing.add(line({x, top + 22.0}, {x, top + 26.0}, 1.0));
+    const std::string sign = i > 0 ? "+" : i < 0 ? "−" : "";
+    const Anchor anchor = i == -2 ? Anchor::start : i == 2 ? Anchor::end : Anchor::middle;
+    drawing.add(Label{.at = {x + (i == -2  ? -12.0
+                                  : i == 2 ? 12.0
+                                           : 0.0),
+                             top + 39.0},
+                      .text = (std::abs(i) == 2 ? (i < 0 ? "≤ " : "≥ ") : "") + sign + percent(std::abs(0.5 * i * limit)),
+                      .size = 11.0,
+                      .anchor = anchor});
+  }
+  drawing.add(Label{.at = {left - 12.0, top + 55.0}, .text = "too dark", .size = 11.0});
+  drawing.add(Label{.at = {0.5 * scale_width, top + 55.0},
+                    .text = "error of the cell mean, of the brightest cell",
+                    .size = 11.0,
+                    .anchor = Anchor::middle});
+  drawing.add(Label{.at = {left + bar + 12.0, top + 55.0}, .text = "too bright", .size = 11.0, .anchor = Anchor::end});
 }
 
 }  // namespace
@@ -152,46 +171,23 @@ apps::Picture error_picture(const ErrorPicture& errors, const apps::Camera& came
 }
 
 Drawing error_scale(double limit) {
-  constexpr double left = 20.0;
-  constexpr double bar = scale_width - 2.0 * left;
-  constexpr int steps = 88;
   Drawing drawing;
   drawing.width = scale_width;
-  drawing.height = 62.0;
-  for (int i = 0; i < steps; ++i) {
-    const double x = left + bar * i / steps;
-    // Each reaches a little under the next: no seam.
-    drawing.add(
-        rectangle({x, 8.0}, {left + bar * std::min<double>(i + 1.2, steps) / steps, 22.0}, error_tone(2.0 * (i + 0.5) / steps - 1.0)));
-  }
-  for (int i = -2; i <= 2; ++i) {
-    const double x = left + bar * (0.5 + 0.25 * i);
-    drawing.add(line({x, 22.0}, {x, 26.0}, 1.0));
-    const std::string sign = i > 0 ? "+" : i < 0 ? "−" : "";
-    const Anchor anchor = i == -2 ? Anchor::start : i == 2 ? Anchor::end : Anchor::middle;
-    drawing.add(Label{.at = {x + (i == -2  ? -12.0
-                                  : i == 2 ? 12.0
-                                           : 0.0),
-                             39.0},
-                      .text = (std::abs(i) == 2 ? (i < 0 ? "≤ " : "≥ ") : "") + sign + percent(std::abs(0.5 * i * limit)),
-                      .size = 11.0,
-                      .anchor = anchor});
-  }
-  drawing.add(Label{.at = {left - 12.0, 55.0}, .text = "too dark", .size = 11.0});
-  drawing.add(Label{
-      .at = {0.5 * scale_width, 55.0}, .text = "error of the cell mean, of the brightest cell", .size = 11.0, .anchor = Anchor::middle});
-  drawing.add(Label{.at = {left + bar + 12.0, 55.0}, .text = "too bright", .size = 11.0, .anchor = Anchor::end});
+  draw_scale(drawing, 0.0, limit);
   return drawing;
 }
 
-apps::Picture error_figure(const ErrorPicture& errors, const apps::Camera& camera, double limit) {
-  Drawing head;
-  head.width = scale_width;
-  head.height = 28.0;
-  head.add(Label{.at = {8.0, 19.0}, .text = errors.method + ", " + errors.setting, .size = 13.0, .bold = true});
-  constexpr double density = 1.5;
-  constexpr auto width = static_cast<std::uint32_t>(density * scale_width);
-  return below(below(rasterize(head, density), error_picture(errors, camera, limit, width)), rasterize(error_scale(limit), density));
+Drawing error_figure(const ErrorPicture& errors, const apps::Camera& camera, double limit) {
+  constexpr double density = 1.5;  // pixels of the picture for each of the drawing
+  constexpr double head = 28.0;
+  const apps::Picture picture = error_picture(errors, camera, limit, static_cast<std::uint32_t>(density * scale_width));
+  const double height = picture.height / density;
+  Drawing drawing;
+  drawing.width = scale_width;
+  drawing.add(Label{.at = {8.0, 19.0}, .text = errors.method + ", " + errors.setting, .size = 13.0, .bold = true});
+  drawing.add(Image{{0.0, head}, scale_width, height, apps::to_png(picture)});
+  draw_scale(drawing, head + height, limit);
+  return drawing;
 }
 
 }  // namespace study

@@ -3,7 +3,7 @@
 
 // Where a method errs: the cells of the reference in the scene's view, coloured by their error. Too dark is blue, too bright orange, white
 // is right: told apart by colour-blind readers, and in grey print the blue end is darker than the orange one. All pictures
-// of a scene have the same scale. What is grey emits, or is no part of the scene; dark lines are creases and outlines.
+// of a scene have the same scale. Grey: surfaces that emit, and the background. Dark lines are creases and outlines.
 
 #include "apps/picture.hpp"
 #include "apps/study/drawing.hpp"
@@ -24,6 +24,6 @@ namespace study {
 [[nodiscard]] Drawing error_scale(double limit);
 
 // As a file of its own: method and setting above, the scale below.
-[[nodiscard]] apps::Picture error_figure(const ErrorPicture& errors, const apps::Camera& camera, double limit);
+[[nodiscard]] Drawing error_figure(const ErrorPicture& errors, const apps::Camera& camera, double limit);
 
 }  // namespace study

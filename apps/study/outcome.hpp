@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What tables and plots say about a run: an error is never given below the noise of the reference that it was measured against. Where
-// it lies below, what is known is that it is at most the noise, and that is what is said.
+// What tables and plots say about a run. An error that was measured below the noise of its reference is known only to be at most that
+// noise: the noise is given in its place, and marked.
 
 #include <array>
 #include <cmath>

@@ -8,11 +8,9 @@
 #include <utility>
 
 #include "apps/files.hpp"
-#include "apps/png.hpp"
 #include "apps/study/error_picture.hpp"
 #include "apps/study/figures.hpp"
 #include "apps/study/page.hpp"
-#include "apps/study/raster.hpp"
 #include "apps/study/svg.hpp"
 #include "apps/study/tables.hpp"
 
@@ -51,17 +49,16 @@ std::vector<File> files(const Study& study) {
   add("index", ".html", [&study] { return page(study); });
   add("results", ".csv", [&study] { return to_csv(study); });
   add("results", ".json", [&study] { return to_json(study); });
-  add("table", ".md", [&study] { return to_markdown(study); });
   for (const SceneStudy& scene : study.scenes) {
     const std::string stem = file_name(scene.scene) + "_";
     for (Figure& figure : figures(study, scene)) {
       add(stem + figure.name, ".svg", [figure] { return to_svg_file(figure.drawing, figure.caption); });
-      add(stem + figure.name, ".png", [figure] { return apps::to_png(rasterize(figure.drawing, 2.0)); });
     }
     const double limit = error_limit(scene);
     for (const ErrorPicture& picture : scene.pictures) {
-      add(stem + "error_" + file_name(picture.method), ".png",
-          [&scene, &picture, limit] { return apps::to_png(error_figure(picture, scene.camera, limit)); });
+      add(stem + "error_" + file_name(picture.method), ".svg", [&scene, &picture, limit] {
+        return to_svg_file(error_figure(picture, scene.camera, limit), "error picture: " + picture.method + ", " + picture.setting);
+      });
     }
   }
   return result;

@@ -4,9 +4,9 @@
 // A study as files in a folder:
 //
 //   index.html                       everything, one page (page.hpp)
-//   results.csv results.json table.md
-//   SCENE_cpu.svg .png, SCENE_memory.*, SCENE_links.*, SCENE_reconstruction.*
-//   SCENE_error_METHOD.png           false-colour error pictures
+//   results.csv results.json         all numbers
+//   SCENE_cpu.svg, SCENE_memory.svg, SCENE_links.svg, SCENE_reconstruction.svg
+//   SCENE_error_METHOD.svg           false-colour error pictures
 
 #include <optional>
 #include <string>

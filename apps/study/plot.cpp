@@ -10,7 +10,7 @@
 #include "apps/study/log_axis.hpp"
 #include "apps/study/numbers.hpp"
 #include "apps/study/pareto.hpp"
-#include "apps/study/stroke_font.hpp"
+#include "apps/study/svg.hpp"
 
 namespace study {
 namespace {

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The file that keeps a reference: JSON in one fixed layout, so that reading it is no more than comparing and reading numbers.
-#include <array>
+// The file that keeps a reference: JSON in one fixed layout, so that a reader compares its head with the expected text and reads numbers.
 #include <charconv>
 #include <cmath>
 
 #include "apps/study/checksum.hpp"
 #include "apps/study/reference.hpp"
+#include "apps/text.hpp"
 
 namespace study {
 namespace {
-
-std::string number(double x) {
-  std::array<char, 40> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
-}
 
 // Everything before the values.
 std::string head(const std::string& key, const std::string& checksum, std::uint64_t paths, std::size_t points) {
@@ -45,8 +40,8 @@ std::string to_cache(const TrueRadiosity& truth, const std::string& key) {
   std::string values;
   for (const ReferencePoint& p : truth.points) {
     values += values.empty() ? "\n" : ",\n";
-    for (int c = 0; c < 3; ++c) { values += number(p.radiosity[c]) + ","; }
-    for (int c = 0; c < 3; ++c) { values += number(p.standard_error[c]) + (c < 2 ? "," : ""); }
+    for (int c = 0; c < 3; ++c) { values += apps::shortest(p.radiosity[c]) + ","; }
+    for (int c = 0; c < 3; ++c) { values += apps::shortest(p.standard_error[c]) + (c < 2 ? "," : ""); }
   }
   return head(key, checksum_of(truth.paths, values), truth.paths, truth.points.size()) + values + std::string(tail);
 }

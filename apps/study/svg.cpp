@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "apps/study/svg.hpp"
 
+#include <array>
 #include <cstdio>
 
 #include "apps/markup.hpp"
+#include "apps/study/base64.hpp"
 
 namespace study {
 namespace {
@@ -51,7 +53,31 @@ std::string element(const Label& label) {
   return result + ">" + apps::escaped(label.text) + "</text>\n";
 }
 
+std::string element(const Image& image) {
+  return "<image x=\"" + number(image.low.x) + "\" y=\"" + number(image.low.y) + "\" width=\"" + number(image.width) + "\" height=\"" +
+         number(image.height) + "\" href=\"data:image/png;base64," + base64(image.png) + "\"/>\n";
+}
+
 }  // namespace
+
+double text_width(std::string_view text, double size) {
+  // Of Helvetica, whose metrics Arial and Liberation Sans share, in thousandths of the size; from the space to '~'.
+  static constexpr std::array<int, 95> advance = {
+      278, 278, 355, 556, 556, 889, 667, 191, 333,  333, 389, 584, 278, 333, 278, 278, 556, 556, 556, 556, 556, 556, 556, 556,
+      556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833, 722, 778,
+      667, 778, 722, 667, 611, 722, 667, 944, 667,  667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278, 556,
+      556, 222, 222, 500, 222, 833, 556, 556, 556,  556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584};
+  double width = 0.0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= ' ' && byte <= '~') {
+      width += advance[byte - std::size_t{' '}];
+    } else if (byte < 0x80 || byte >= 0xc0) {
+      width += 584;  // any other character is as wide as a sign of arithmetic
+    }
+  }
+  return 1e-3 * size * width;
+}
 
 std::string to_svg(const Drawing& drawing, const std::string& description) {
   const std::string width = number(drawing.width);

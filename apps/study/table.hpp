@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The tables of a scene as rows of text, which Markdown and the page write in their own way.
+// The tables of a scene as rows of text, which the page shows.
 
 #include <string>
 #include <vector>

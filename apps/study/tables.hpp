@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A study as tables: for spreadsheets and statistics (CSV), for programs (JSON), for people (Markdown).
-//
-// In all three an error below the noise of its reference is given as that noise, and marked (outcome.hpp).
+// The numbers of a study: for spreadsheets and statistics (CSV), for programs (JSON). In both an error below the noise of its reference is given as that noise, and marked (outcome.hpp).
 
 #include <string>
 #include <string_view>
@@ -21,8 +19,5 @@ namespace study {
 
 // The same, nested, and what was derived from it: Pareto fronts and slopes. Its keys are described in examples/scenes/README.md.
 [[nodiscard]] std::string to_json(const Study& study);
-
-// For each scene one row a method, what it needs for an error; then one row a run.
-[[nodiscard]] std::string to_markdown(const Study& study);
 
 }  // namespace study

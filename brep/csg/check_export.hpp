@@ -2,7 +2,7 @@
 #pragma once
 
 // What is lost when an exact solid is written with coordinates in double: edges that shrink to a point, faces that lose their area or turn
-// over. The exact solid is sound whatever stands here; a program that reads the rounded one may stumble.
+// over. The exact solid is sound even so; another program may fail on the rounded one.
 //
 // Coordinates keep 2^-27 of the spacing of the grid, some 2^-53 of the model. Faces that come to touch or cross each other by rounding,
 // without collapsing themselves, are not looked for.

@@ -6,8 +6,8 @@
 // A face meets the line in points of its boundary, between which the line runs inside the face, outside, or along an edge of it. To know
 // which, walk along the line with two bits, "inside just to the left" and "inside just to the right": an edge that reaches the line from a
 // side turns the bit of that side. Both bits: inside; one bit: along an edge. The walks of both faces together give the common
-// segments, cut at every point of either boundary, and all common points. Faces in one plane are not compared: what their borders
-// do to each other, the neighbours of the borders tell.
+// segments, cut at every point of either boundary, and all common points. Faces in one plane are not compared: where their
+// borders meet, the faces on the other sides of these borders lie in other planes and find the common points.
 
 #include <algorithm>
 #include <cstdint>

@@ -4,8 +4,8 @@
 // Where each face lies with respect to the other operand: breadth-first search over the faces, from the common edges (paper 2.2, last
 // sentence).
 //
-// A label spreads over every edge that is not common to both operands. Parts without a common edge are asked for a point: a vertex that
-// does not touch the other operand, or the middle of an edge.
+// A label spreads over every edge that is not common to both operands. For a part without a common edge one of its points is tested
+// (point_in_solid.hpp): a vertex that does not touch the other operand, or the middle of an edge.
 
 #include <cstdint>
 #include <vector>

@@ -4,8 +4,8 @@
 // One operation on two boundaries, step by step as in the paper (2.2): intersect the faces pairwise, collect the loops of common edges, cut
 // along them, label by breadth-first search, select, reglue.
 //
-// All three operations are two: a - b is the intersection of a with b turned inside out. The steps stand in files of their own; here is
-// their order. Cost: one pass over both operands, and work near the common edges.
+// Two operations do for all three: a - b is the intersection of a with b turned inside out. Each step has a file of its own; here is their
+// order. Cost: one pass over both operands, and work near the common edges.
 
 #include <algorithm>
 #include <array>

@@ -10,8 +10,8 @@
 //
 // Filter: a point keeps its coordinates rounded down to a multiple of 2^-27. With N = |a| + |b| + |c|, a x + b y + c z + d in doubles is
 // wrong by less than N 2^-27 for the coordinates and N 2^-25 for rounding; beyond N 2^-24 its sign is right. Rounding down is monotone
-// and the same for equal points: points with different coordinates are ordered as these, and equal points have equal ones, which is how
-// they are found.
+// and the same for equal points: points with different rounded coordinates have the order of these, and equal points have equal ones, so a
+// hash of the rounded coordinates finds them (point_table.hpp).
 
 #include <cmath>
 #include <cstddef>

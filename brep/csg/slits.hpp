@@ -5,7 +5,7 @@
 //
 // Where a wall has no thickness along an edge - a round hole that touches the front of its block from inside - four faces meet there. The
 // operations take the two of each solid wedge as neighbours, so the front is cut along the edge: its boundary runs there and back, and each
-// side goes on in the hole. No program that reads polygons bears such a slit. Here the parts of the front are neighbours instead, and so
+// side goes on in the hole. Programs that read polygons fail on such a slit. Here the parts of the front are neighbours instead, and so
 // are those of the hole. The surface is the same set of points, still a closed 2-manifold; the slit is gone.
 
 #include <cstdint>

@@ -139,7 +139,7 @@ TEST_CASE("damaged scene files are refused with a place and a reason, quickly") 
     CHECK(seconds.count() < 20.0);  // a guard against a hang, not a measurement: all are far below a second
     REQUIRE_FALSE(result.errors.empty());
     CHECK(result.errors.size() <= apps::max_errors);
-    for (const apps::SceneError& error : result.errors) {
+    for (const apps::InputError& error : result.errors) {
       CHECK(error.place.line >= 1);
       CHECK(error.place.column >= 1);
       CHECK(error.sentence.size() > 10);

@@ -2,10 +2,13 @@
 // Mesh files: what the formats allow is read, and what is written reads back.
 #include <cmath>
 #include <filesystem>
+#include <random>
 #include <string>
 
 #include <brep/statistics.hpp>
 
+#include "apps/file_kind.hpp"
+#include "apps/scene_file.hpp"
 #include "json.hpp"
 #include "mesh_files.hpp"
 
@@ -21,16 +24,14 @@ TEST_CASE("a mesh that was written reads back exactly, in every format") {
   std::vector<std::uint32_t> large;
   for (std::uint32_t v = 0; v < 300; ++v) large.push_back(v);
   odd.face({1, 2, 399}, 0);
-  for (const MeshFormat format : {MeshFormat::obj, MeshFormat::ply, MeshFormat::off})
-    check_same(read(apps::write_mesh(odd, format), format), odd);
+  for (const MeshFormat& format : {as_obj, as_ply, as_off}) check_same(read(apps::write_mesh(odd, format), format), odd);
   odd.face(large, 0);  // more corners than a byte counts
-  for (const MeshFormat format : {MeshFormat::obj, MeshFormat::ply, MeshFormat::off})
-    check_same(read(apps::write_mesh(odd, format), format), odd);
+  for (const MeshFormat& format : {as_obj, as_ply, as_off}) check_same(read(apps::write_mesh(odd, format), format), odd);
 }
 
 TEST_CASE("line ends, comments, blanks and a missing last line end do not change what is read") {
-  for (const MeshFormat format : {MeshFormat::obj, MeshFormat::off}) {
-    const std::string text = format == MeshFormat::obj ? cube_obj : apps::write_mesh(cube(), format);
+  for (const MeshFormat& format : {as_obj, as_off}) {
+    const std::string text = format.ending == ".obj" ? cube_obj : apps::write_mesh(cube(), format);
     for (const std::string& variant :
          {replaced(text, "\n", "\r\n"), replaced(text, "\n", "\r"), replaced(text, "\n", "\n\n"), replaced(text, "\n", " # said\n"),
           replaced(text, " ", " \t "), text.substr(0, text.size() - 1), "\xef\xbb\xbf" + text}) {
@@ -43,14 +44,14 @@ TEST_CASE("OBJ: every form of a corner, numbers from the end, continued lines, s
   const std::string more = "o cube\ng a b\ns off\nusemtl steel\nvt 0 0\nvn 0 0 1\n";
   for (const char* form :
        {"f 1/1 3/1 4/1 2/1", "f 1//1 3//1 4//1 2//1", "f 1/1/1 3/1/1 4/1/1 2/1/1", "f -8 -6 -5 -7", "f 1 3 \\\n4 2", "f 1/-1 3 4/ 2"}) {
-    check_same(read(more + replaced(cube_obj, "f 1 3 4 2", form), MeshFormat::obj), cube());
+    check_same(read(more + replaced(cube_obj, "f 1 3 4 2", form), as_obj), cube());
   }
-  check_same(read(replaced(cube_obj, "v 1 1 1", "v 1 1 1 1.0"), MeshFormat::obj), cube());
-  check_same(read(replaced(cube_obj, "v 1 1 1", "v +1.0e0 1. 10e-1 0.5 0.5 0.5"), MeshFormat::obj), cube());
+  check_same(read(replaced(cube_obj, "v 1 1 1", "v 1 1 1 1.0"), as_obj), cube());
+  check_same(read(replaced(cube_obj, "v 1 1 1", "v +1.0e0 1. 10e-1 0.5 0.5 0.5"), as_obj), cube());
   // Faces may stand before their vertices.
   const std::size_t f = cube_obj.find("f ");
-  check_same(read(cube_obj.substr(f) + cube_obj.substr(0, f), MeshFormat::obj), cube());
-  const auto lines = apps::read_mesh(cube_obj + "l 1 2\nl 2 3\n", MeshFormat::obj);
+  check_same(read(cube_obj.substr(f) + cube_obj.substr(0, f), as_obj), cube());
+  const auto lines = apps::read_mesh(cube_obj + "l 1 2\nl 2 3\n", as_obj);
   REQUIRE(lines.mesh.has_value());
   REQUIRE(lines.mesh->notes.size() == 1);
   CHECK(begins(lines.mesh->notes[0], "2 lines 'l' passed over"));
@@ -60,25 +61,25 @@ TEST_CASE("OBJ: every form of a corner, numbers from the end, continued lines, s
 
 TEST_CASE("PLY: odd types, unknown elements and properties, both byte orders") {
   for (const bool big : {false, true}) {
-    check_same(read(odd_ply<std::uint8_t, std::int32_t, float>(big, "uchar", "int", "float"), MeshFormat::ply), cube());
-    check_same(read(odd_ply<std::int8_t, std::uint8_t, double>(big, "int8", "uint8", "float64"), MeshFormat::ply), cube());
-    check_same(read(odd_ply<std::int16_t, std::uint16_t, double>(big, "short", "ushort", "double"), MeshFormat::ply), cube());
-    check_same(read(odd_ply<std::uint32_t, std::int8_t, std::int16_t>(big, "uint32", "char", "int16"), MeshFormat::ply), cube());
-    check_same(read(odd_ply<std::int32_t, std::uint32_t, float>(big, "int", "uint32", "float32"), MeshFormat::ply), cube());
+    check_same(read(odd_ply<std::uint8_t, std::int32_t, float>(big, "uchar", "int", "float"), as_ply), cube());
+    check_same(read(odd_ply<std::int8_t, std::uint8_t, double>(big, "int8", "uint8", "float64"), as_ply), cube());
+    check_same(read(odd_ply<std::int16_t, std::uint16_t, double>(big, "short", "ushort", "double"), as_ply), cube());
+    check_same(read(odd_ply<std::uint32_t, std::int8_t, std::int16_t>(big, "uint32", "char", "int16"), as_ply), cube());
+    check_same(read(odd_ply<std::int32_t, std::uint32_t, float>(big, "int", "uint32", "float32"), as_ply), cube());
   }
   const std::string text =
       "ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty float x\r\nproperty float y\r\nproperty float z\r\nelement face 1\r\n"
       "property list uchar int vertex_indices\r\nend_header\r\n0 0 0\r\n1 0 0\r\n\r\n0 1 0\r\n3 0 1 2";
-  CHECK(read(text, MeshFormat::ply).face_count() == 1);
+  CHECK(read(text, as_ply).face_count() == 1);
 }
 
 TEST_CASE("OFF: keywords, counts on the keyword's line, no keyword, colours and normals") {
-  const std::string text = apps::write_mesh(cube(), MeshFormat::off);
+  const std::string text = apps::write_mesh(cube(), as_off);
   for (const char* head : {"OFF 8 6 12\n", "COFF\n8 6 0\n", "NOFF\n8 6\n", "STCNOFF # all\n\n8 6 0 # counts\n", "8 6 12\n"}) {
-    check_same(read(replaced(text, "OFF\n8 6 0\n", head), MeshFormat::off), cube());
+    check_same(read(replaced(text, "OFF\n8 6 0\n", head), as_off), cube());
   }
-  check_same(read(replaced(text, "1 1 1\n", "1 1 1 0 0 1 255 255 255 0\n"), MeshFormat::off), cube());
-  check_same(read(replaced(text, "4 0 2 3 1\n", "4 0 2 3 1  0.5 0.5 0.5\n"), MeshFormat::off), cube());
+  check_same(read(replaced(text, "1 1 1\n", "1 1 1 0 0 1 255 255 255 0\n"), as_off), cube());
+  check_same(read(replaced(text, "4 0 2 3 1\n", "4 0 2 3 1  0.5 0.5 0.5\n"), as_off), cube());
 }
 
 // Minutes when the column of each corner is counted from the start of its line.
@@ -91,15 +92,36 @@ TEST_CASE("OBJ: a face of 200000 corners may stand before its vertices, in one l
       face += blank + std::to_string(i);
       vertices += "v 0 0 " + std::to_string(i) + "\n";
     }
-    CHECK(read(face + vertices, MeshFormat::obj).corners(0).size() == n);
+    CHECK(read(face + vertices, as_obj).corners(0).size() == n);
+  }
+}
+
+TEST_CASE("what a format writes is recognised as that format, whatever the mesh, and as no other") {
+  std::mt19937 random(17);
+  INFO("seed 17");
+  for (int run = 0; run < 50; ++run) {
+    brep::Builder mesh;
+    for (int v = 0; v < 6; ++v) mesh.vertex({1e-3 * static_cast<double>(random()), -static_cast<double>(random() % 9), 0.5});
+    const auto corner = [&] { return static_cast<std::uint32_t>(random() % 6); };
+    mesh.face({corner(), corner(), corner()}, 0);
+    for (const MeshFormat* const format : apps::mesh_formats()) {
+      const std::string bytes = apps::write_mesh(mesh, *format);
+      const apps::FileGuess guess = apps::guess_kind(bytes);
+      CHECK(guess.kind == apps::FileKind::mesh);
+      CHECK(guess.format == format);
+      CHECK(apps::mesh_format("m" + std::string(format->ending)) == format);
+      for (const MeshFormat* const wanted : apps::mesh_formats()) {
+        CHECK(apps::wrong_kind("m", bytes, apps::FileKind::mesh, wanted).has_value() == (wanted != format));
+      }
+    }
   }
 }
 
 TEST_CASE("the format follows from the name") {
-  CHECK(apps::mesh_format("a.obj") == MeshFormat::obj);
-  CHECK(apps::mesh_format("dir/A.PLY") == MeshFormat::ply);
-  CHECK(apps::mesh_format("x.Off") == MeshFormat::off);
-  for (const char* name : {"", ".obj", "obj", "a.obj.gz", "a.stl"}) CHECK_FALSE(apps::mesh_format(name).has_value());
+  CHECK(apps::mesh_format("a.obj") == &as_obj);
+  CHECK(apps::mesh_format("dir/A.PLY") == &as_ply);
+  CHECK(apps::mesh_format("x.Off") == &as_off);
+  for (const char* name : {"", ".obj", "obj", "a.obj.gz", "a.stl"}) CHECK(apps::mesh_format(name) == nullptr);
 }
 
 TEST_CASE("real meshes have the counts and the manifold status that independent software found") {
@@ -113,7 +135,7 @@ TEST_CASE("real meshes have the counts and the manifold status that independent 
     std::string fault;
     const auto bytes = apps::read_text(path, fault);
     REQUIRE(bytes.has_value());
-    const brep::Builder builder = read(*bytes, MeshFormat::obj);
+    const brep::Builder builder = read(*bytes, as_obj);
     const brep::Statistics s = brep::statistics(builder);
     const auto number = [&](const char* key) { return static_cast<std::size_t>(entry[key].number()); };
     CHECK(s.vertices == number("vertices"));

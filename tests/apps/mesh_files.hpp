@@ -17,12 +17,15 @@
 namespace mesh_files {
 
 using apps::MeshFormat;
+inline const MeshFormat& as_obj = *apps::mesh_format("a.obj");
+inline const MeshFormat& as_ply = *apps::mesh_format("a.ply");
+inline const MeshFormat& as_off = *apps::mesh_format("a.off");
 
 inline const std::string cube_obj =
     "# a cube\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
     "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
 
-inline brep::Builder cube() { return std::move(apps::read_mesh(cube_obj, MeshFormat::obj).mesh->builder); }
+inline brep::Builder cube() { return std::move(apps::read_mesh(cube_obj, as_obj).mesh->builder); }
 
 inline void check_same(const brep::Builder& a, const brep::Builder& b) {
   REQUIRE(a.vertex_count() == b.vertex_count());
@@ -32,14 +35,14 @@ inline void check_same(const brep::Builder& a, const brep::Builder& b) {
     CHECK(std::equal(a.corners(f).begin(), a.corners(f).end(), b.corners(f).begin(), b.corners(f).end()));
   }
 }
-inline brep::Builder read(const std::string& bytes, MeshFormat format) {
+inline brep::Builder read(const std::string& bytes, const MeshFormat& format) {
   apps::MeshResult result = apps::read_mesh(bytes, format);
   INFO(apps::to_text(result, "file"));
   REQUIRE(result.mesh.has_value());
   return std::move(result.mesh->builder);
 }
 // The first error as text, without the file's name.
-inline std::string error(const std::string& bytes, MeshFormat format) {
+inline std::string error(const std::string& bytes, const MeshFormat& format) {
   const apps::MeshResult result = apps::read_mesh(bytes, format);
   CHECK(result.mesh.has_value() == result.errors.empty());
   const std::string text = apps::to_text(result, "");

@@ -160,7 +160,7 @@ TEST_CASE("every error is reported at its line and column with its sentence") {
     INFO(c.text << "\nexpected " << c.line << ":" << c.column << " " << c.part << "\ngot\n" << apps::to_text(result, "test"));
     CHECK_FALSE(result.file);
     bool found = false;
-    for (const apps::SceneError& error : result.errors) {
+    for (const apps::InputError& error : result.errors) {
       found = found || (error.place.line == c.line && error.place.column == c.column && error.sentence.find(c.part) != std::string::npos);
     }
     CHECK(found);

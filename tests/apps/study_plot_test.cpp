@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plots of a study: fits, fronts and axes by their laws; the same drawing as vectors and as pixels.
+// Plots of a study: fits, fronts and axes by their laws.
 #include "catch.hpp"
 
 #include <cmath>
@@ -13,8 +13,6 @@
 #include "apps/study/numbers.hpp"
 #include "apps/study/pareto.hpp"
 #include "apps/study/plot.hpp"
-#include "apps/study/raster.hpp"
-#include "apps/study/stroke_font.hpp"
 #include "apps/study/svg.hpp"
 #include "markup.hpp"
 
@@ -30,20 +28,6 @@ std::vector<CostPoint> power_law(double factor, double exponent, int count) {
     points.push_back({cost, factor * std::pow(cost, exponent), false});
   }
   return points;
-}
-
-// Pixels of this tone within `reach` of a point of the drawing.
-int ink_near(const apps::Picture& picture, double scale, const glm::dvec2& at, double reach, Tone tone) {
-  int count = 0;
-  for (std::uint32_t y = 0; y < picture.height; ++y) {
-    for (std::uint32_t x = 0; x < picture.width; ++x) {
-      const glm::dvec2 p((x + 0.5) / scale, (y + 0.5) / scale);
-      const apps::Rgb8 rgb = picture.pixel(x, y);
-      const Tone here = (Tone{rgb[0]} << 16U) | (Tone{rgb[1]} << 8U) | rgb[2];
-      if (glm::distance(p, at) <= reach && here == tone) { ++count; }
-    }
-  }
-  return count;
 }
 
 std::vector<Curve> two_curves() {
@@ -227,85 +211,13 @@ TEST_CASE("a plot's SVG is well-formed, whatever the names, and its marks stand 
   }
 }
 
-TEST_CASE("the pixels of a plot have ink where its shapes are, at every scale") {
-  const std::vector<Curve> curves = two_curves();
-  const Drawing drawing = plot({"title", "cost", "error"}, curves, 0.002);
-  const PlotFrame frame(curves, 0.002);
-  for (const double scale : {1.0, 2.0}) {
-    const apps::Picture picture = rasterize(drawing, scale);
-    CHECK(picture.width == static_cast<std::uint32_t>(std::lround(scale * drawing.width)));
-    for (const Curve& curve : curves) {
-      for (const CostPoint& p : curve.points) {
-        // A mark's inner circle of radius 2 px holds 4 pi scale^2 pixels; those of the other curve's lines may cover some.
-        const int count = ink_near(picture, scale, frame.at(p.cost, p.error), 2.0, p.limited ? paper : curve.style.tone);
-        CHECK(count >= 6.0 * scale * scale);
-      }
-    }
-    const glm::dvec2 corner(frame.left + 200.0, 10.0);
-    // The axis is a pixel wide and lies between two: at the scale 1 both are half covered.
-    if (scale > 1.0) { CHECK(ink_near(picture, scale, {frame.left, frame.top + 100.0}, 3.0, ink) > 0); }
-    CHECK(ink_near(picture, scale, corner, 3.0, paper) > 0);  // nothing
-  }
-}
-
-TEST_CASE("areas and lines cover as many pixels as they are large") {
-  Drawing drawing;
-  drawing.width = 60.0;
-  drawing.height = 40.0;
-  const auto dark = [](const apps::Picture& picture) {  // in pixels
-    double sum = 0.0;
-    for (const std::uint8_t value : picture.rgb) { sum += (255.0 - value) / 255.0 / 3.0; }
-    return sum;
-  };
-  drawing.add(rectangle({10.25, 5.5}, {30.5, 20.25}, 0x000000));
-  // Four lines a pixel: rows are exact to a quarter, of 20.25 x 14.75; values are rounded to 1/255.
-  CHECK(dark(rasterize(drawing, 1.0)) == test::Approx(20.25 * 14.75).margin(0.5));
-  drawing.items.clear();
-  drawing.add(line({10.0, 10.0}, {50.0, 30.0}, 3.0, 0x000000));
-  // Length times width and two half discs; the linear edge is off by less than 2 % of the outline's pixels.
-  const double area = 3.0 * std::hypot(40.0, 20.0) + 2.25 * 3.14159;
-  CHECK(dark(rasterize(drawing, 1.0)) == test::Approx(area).epsilon(0.03));
-  CHECK(dark(rasterize(drawing, 2.0)) == test::Approx(4.0 * area).epsilon(0.03));
-  // A dashed line has its part of the ink: 6 of 10, and round ends of 3 px.
-  drawing.items.clear();
-  Shape dashed = line({5.0, 20.0}, {55.0, 20.0}, 2.0, 0x000000);
-  dashed.dashes = {6.0, 4.0};
-  drawing.add(dashed);
-  CHECK(dark(rasterize(drawing, 2.0)) == test::Approx(4.0 * 5.0 * (12.0 + 3.14159)).epsilon(0.03));
-  // Half transparent twice is three quarters.
-  drawing.items.clear();
-  Shape pale = rectangle({10.0, 10.0}, {20.0, 20.0}, 0x000000);
-  pale.opacity = 0.5;
-  drawing.add(pale);
-  drawing.add(pale);
-  CHECK(dark(rasterize(drawing, 1.0)) == test::Approx(75.0).margin(0.5));
-}
-
-TEST_CASE("every character has strokes of its own within its width; unknown ones are boxes") {
-  std::set<std::string> shapes;
-  for (char c = '!'; c <= '~'; ++c) {
-    CAPTURE(c);
-    const std::string text(1, c);
-    const auto strokes = text_strokes(text, 10.0);
-    REQUIRE_FALSE(strokes.empty());
-    std::string shape;
-    for (const Polyline& stroke : strokes) {
-      for (const glm::dvec2& p : stroke) {
-        CHECK(p.x >= -0.5);
-        CHECK(p.x <= text_width(text, 10.0) + 0.5);
-        CHECK(p.y >= -8.5);  // above the baseline
-        CHECK(p.y <= 2.5);
-        shape += std::to_string(p.x) + " " + std::to_string(p.y) + " ";
-      }
-      shape += "|";
-    }
-    CHECK(shapes.insert(shape).second);
-  }
-  CHECK(text_strokes(" ", 10.0).empty());
-  CHECK(text_width("−±×ε≤", 10.0) > 0.0);
-  CHECK(text_strokes("é", 10.0).size() == 1);  // one box, not two
+TEST_CASE("the width of a text is that of its characters, however many bytes they have; what is broken has a width, too") {
+  CHECK(text_width("", 10.0) == 0.0);
   CHECK(text_width("ab", 10.0) == test::Approx(text_width("a", 10.0) + text_width("b", 10.0)));
-  for (const char* broken : {"\xff", "\xe2\x82", "\x80\x80"}) { CHECK(text_width(broken, 10.0) > 0.0); }
+  CHECK(text_width("ab", 20.0) == test::Approx(2.0 * text_width("ab", 10.0)));
+  CHECK(text_width("−×", 10.0) == test::Approx(2.0 * text_width("+", 10.0)));
+  for (char c = ' '; c <= '~'; ++c) { CHECK(text_width(std::string(1, c), 10.0) > 1.9); }  // the least is the apostrophe's, .191
+  for (const char* broken : {"\xff", "\xe2\x82"}) { CHECK(text_width(broken, 10.0) > 0.0); }
 }
 
 TEST_CASE("plots of nothing and of one point are drawn, too") {

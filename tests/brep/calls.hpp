@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <brep/euler.hpp>
-#include <brep/step.hpp>
+#include <brep/euler_table.hpp>
 
 #include "shapes.hpp"
 
@@ -25,7 +24,7 @@ struct Call {
 };
 
 inline std::string to_string(const Call& call) {
-  std::string text = name(call.op);
+  std::string text(name(call.op));
   for (HalfedgeId h : {call.a, call.b}) {
     if (h.valid()) text += ' ' + brep::to_string(h);
   }
@@ -41,7 +40,7 @@ inline std::string to_string(std::span<const Call> list) {
   return op == Operator::split_face || op == Operator::split_vertex || op == Operator::bridge || op == Operator::weld;
 }
 
-// v, e, f afterwards minus before.
+// v, e, f afterwards minus before: written from the comments in euler.hpp, not from the table.
 struct Change {
   int v, e, f;
 };
@@ -82,42 +81,10 @@ struct Answer {
 
 template <class B>
 Answer apply(B& m, const Call& call) {
-  const auto answer = [](const auto& result) {
-    Answer x{result.has_value(), {}, result.refusal()};
-    if constexpr (std::is_same_v<decltype(result), const brep::Result<HalfedgeId>&>) {
-      if (x.done) x.made = *result;
-    }
-    return x;
-  };
-  switch (call.op) {
-    case Operator::make_segment:
-      return answer(make_segment(m));
-    case Operator::kill_segment:
-      return answer(kill_segment(m, call.a));
-    case Operator::split_face:
-      return answer(split_face(m, call.a, call.b));
-    case Operator::join_faces:
-      return answer(join_faces(m, call.a));
-    case Operator::split_vertex:
-      return answer(split_vertex(m, call.a, call.b));
-    case Operator::join_vertices:
-      return answer(join_vertices(m, call.a));
-    case Operator::split_edge:
-      return answer(split_edge(m, call.a));
-    case Operator::bridge:
-      return answer(bridge(m, call.a, call.b));
-    case Operator::cut:
-      return answer(cut(m, call.a));
-    case Operator::weld:
-      return answer(weld(m, call.a, call.b));
-    case Operator::unweld:
-      return answer(unweld(m, call.a));
-    case Operator::set_anchor:
-      if (!m.alive(call.a)) return {false, {}, {Code::dead, {call.a}}};
-      m.set_anchor(m.face(call.a), call.a);
-      return {true, {}, {}};
-  }
-  return {};
+  const brep::Result<brep::Element> answer = brep::apply(m, call.op, call.a, call.b);
+  Answer x{answer.has_value(), {}, answer.refusal()};
+  if (x.done && answer->letter == 'h') x.made = HalfedgeId{answer->index};
+  return x;
 }
 
 // The call that takes `call` back, as the comments in euler.hpp give it; `before` is the BRep in which it is still to be applied, `made` what

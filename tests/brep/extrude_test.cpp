@@ -40,7 +40,7 @@ TEST_CASE("extrude_face: the cap keeps its handle, each side is a quadrilateral 
   for (std::uint32_t n : {3u, 4u, 7u}) {
     Mesh m = shapes::build(shapes::prism_builder(n));
     const FaceId top{1};
-    m.data(top).mark(4);
+    m.data(top).label = 4;
     const auto old = loop(m, top);
     const double whole = volume(m), base = area(m, top);
     const std::size_t v = m.vertex_count(), e = m.edge_count(), f = m.face_count();
@@ -52,7 +52,7 @@ TEST_CASE("extrude_face: the cap keeps its handle, each side is a quadrilateral 
     REQUIRE(cap.size() == n);
     for (std::size_t i = 0; i < n; ++i) {
       const FaceId side = m.face(twin(cap[i]));
-      CHECK((degree(m, side) == 4 && m.data(side).marked(4) && m.data(side).sheet == 1));
+      CHECK((degree(m, side) == 4 && m.data(side).label == 4 && m.data(side).sheet == 1));
       CHECK(m.next(m.next(twin(cap[i]))) == old[i]);
       const glm::dvec3 lifted = m.data(m.vertex(cap[i])).position - m.data(m.vertex(old[i])).position;
       CHECK(glm::distance(lifted, glm::dvec3{0.1, 0.2, 2.5}) < 1e-15);
@@ -107,7 +107,7 @@ TEST_CASE("poke_face: n triangles around the centroid, and joining the spokes gi
   for (std::uint32_t n : {3u, 4u, 9u}) {
     Mesh m = shapes::build(shapes::prism_builder(n));
     const FaceId top{1};
-    m.data(top).mark(1);
+    m.data(top).label = 1;
     const auto before = records(m);
     const glm::dvec3 middle = centroid(m, top);
     const double whole = area(m, top);
@@ -119,7 +119,7 @@ TEST_CASE("poke_face: n triangles around the centroid, and joining the spokes gi
     double sum = 0.0;
     std::vector<HalfedgeId> spokes;
     for (HalfedgeId h : halfedges_from(m, centre)) {
-      CHECK((degree(m, m.face(h)) == 3 && m.data(m.face(h)).marked(1)));
+      CHECK((degree(m, m.face(h)) == 3 && m.data(m.face(h)).label == 1));
       sum += area(m, m.face(h));
       spokes.push_back(h);
     }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every header of brep/ goes with every other one: here are all of them in one file, and no name hides that of another.
 
-#include <brep/assemble.hpp>
-#include <brep/borders.hpp>
 #include <brep/brep.hpp>
 #include <brep/builder.hpp>
 #include <brep/builder_input.hpp>
@@ -20,6 +18,7 @@
 #include <brep/euler_script_run.hpp>
 #include <brep/euler_script_text.hpp>
 #include <brep/euler_script_words.hpp>
+#include <brep/euler_table.hpp>
 #include <brep/extrude.hpp>
 #include <brep/geometry.hpp>
 #include <brep/glue.hpp>
@@ -27,11 +26,11 @@
 #include <brep/inherit.hpp>
 #include <brep/isomorphism.hpp>
 #include <brep/neighbours.hpp>
-#include <brep/orientation.hpp>
 #include <brep/outline.hpp>
 #include <brep/polygon.hpp>
 #include <brep/pool.hpp>
 #include <brep/proportion.hpp>
+#include <brep/range.hpp>
 #include <brep/refine.hpp>
 #include <brep/repair.hpp>
 #include <brep/replay.hpp>
@@ -43,7 +42,6 @@
 #include <brep/split_plane.hpp>
 #include <brep/statistics.hpp>
 #include <brep/step.hpp>
-#include <brep/stitch.hpp>
 #include <brep/surgery.hpp>
 #include <brep/t_vertices.hpp>
 #include <brep/tag.hpp>

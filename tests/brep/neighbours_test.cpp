@@ -4,6 +4,7 @@
 #include <brep/neighbours.hpp>
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 
 #include <brep/euler.hpp>
@@ -125,4 +126,37 @@ TEST_CASE("incidence is mutual on random maps with every degenerate state") {
     }
     check_reciprocity(m);
   }
+}
+
+TEST_CASE("all walks are forward ranges whose iterators outlive them, and the algorithms of std::ranges take them") {
+  const auto check = [](const auto& range) {
+    using R = std::decay_t<decltype(range)>;
+    static_assert(std::ranges::forward_range<const R> && std::ranges::common_range<const R> && std::ranges::borrowed_range<R>);
+    auto it = range.begin();
+    const auto again = it++;  // forward: a copy passes the same elements
+    std::vector<typename R::iterator::value_type> a(range.begin(), range.end()), b;
+    for (auto other = again; other != range.end(); ++other) b.push_back(*other);
+    CHECK(a == b);
+    CHECK(!range.empty());
+    CHECK(static_cast<std::size_t>(std::ranges::distance(range)) == a.size());
+    CHECK((a.size() == 1 ? it == range.end() : *it == a[1]));
+  };
+  Bare m = shapes::build<Bare>(shapes::cube_builder());
+  check(halfedges_of(m, FaceId{0}));
+  check(vertices_of(m, FaceId{0}));
+  check(edges_of(m, FaceId{0}));
+  check(neighbours_of(m, FaceId{0}));
+  check(halfedges_from(m, VertexId{0}));
+  check(edges_of(m, VertexId{0}));
+  check(faces_of(m, VertexId{0}));
+  check(neighbours_of(m, VertexId{0}));
+  check(vertices(m));
+  check(edges(m));
+  check(halfedges(m));
+  check(faces(m));
+  CHECK(std::ranges::all_of(faces(m), [&](FaceId f) { return degree(m, f) == 4; }));
+  const auto found = std::ranges::find(halfedges_of(m, FaceId{2}), m.prev(m.halfedge(FaceId{2})));  // of a range that is gone
+  CHECK(*found == m.prev(m.halfedge(FaceId{2})));
+  CHECK(std::ranges::max(vertices(m)) == VertexId{7});
+  CHECK((faces(Bare()).empty() && halfedges(Bare()).empty()));
 }

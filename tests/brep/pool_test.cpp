@@ -154,17 +154,6 @@ TEST_CASE("a BRep of movable data that cannot be copied works") {
   CHECK(*moved.data(moved.face(s)).owned == 1);
 }
 
-TEST_CASE("tags: marks are independent of each other and of the level") {
-  Tag tag;
-  tag.level = 3;
-  tag.mark(0);
-  tag.mark(7);
-  CHECK((tag.marked(0) && tag.marked(7) && !tag.marked(3)));
-  tag.unmark(0);
-  CHECK((!tag.marked(0) && tag.marked(7) && tag.level == 3));
-  static_assert(sizeof(Tag) == 2);
-}
-
 TEST_CASE("a small list keeps its values when it outgrows its inline storage") {
   SmallList<int, 4> list;
   for (int i = 0; i < 100; ++i) {

@@ -45,7 +45,7 @@ TEST_CASE("a face of n corners: children, levels, counts, corner 0, centroid") {
     INFO("n = " << n);
     Mesh m = shapes::build(shapes::prism_builder(n));
     const FaceId top{1};
-    m.data(top).marks = 5;
+    m.data(top).label = 5;
     const auto before = corners(m, top);
     std::vector<VertexId> old_corner;
     for (HalfedgeId h : before) old_corner.push_back(m.vertex(h));
@@ -67,7 +67,7 @@ TEST_CASE("a face of n corners: children, levels, counts, corner 0, centroid") {
       const auto c = corners(m, child);
       CHECK(c.size() == (n == 3 ? 3 : 4));
       CHECK(m.halfedge(child) == c[0]);
-      CHECK((m.data(child).level == 1 && m.data(child).sheet == 1 && m.data(child).marks == 5));
+      CHECK((m.data(child).level == 1 && m.data(child).sheet == 1 && m.data(child).label == 5));
       if (k < n) CHECK(m.vertex(c[0]) == old_corner[k]);
       if (k < n) {  // (c_k, m_k, centre, m_{k-1})
         const auto at = [&](std::size_t i) { return m.data(m.vertex(c[i])).position; };

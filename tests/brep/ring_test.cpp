@@ -30,7 +30,7 @@ TEST_CASE("cut_ring: counts, corners, level and data of the cells and of the inn
   for (const std::uint32_t n : {6u, 7u, 9u, 12u, 16u, 33u, 256u}) {
     INFO("n = " << n);
     Mesh m = shapes::build(shapes::prism_builder(n));
-    m.data(top).marks = 5;
+    m.data(top).label = 5;
     const auto before = corners(m, top);
     const double whole = area(m, top);
     const std::size_t v = m.vertex_count(), e = m.edge_count(), f = m.face_count(), half = (n + 1) / 2;
@@ -49,7 +49,7 @@ TEST_CASE("cut_ring: counts, corners, level and data of the cells and of the inn
       const FaceId part = (*parts)[k];
       const std::size_t wanted = k == half ? half : k + 1 == half && n % 2 == 1 ? 4 : 5;
       CHECK(corners(m, part).size() == wanted);
-      CHECK((m.data(part).level == 0 && m.data(part).marks == 5));
+      CHECK((m.data(part).level == 0 && m.data(part).label == 5));
       CHECK(is_convex(m, part));
       if (k < half) { CHECK(m.halfedge(part) == before[2 * k]); }
       sum += area(m, part);

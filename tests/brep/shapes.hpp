@@ -25,6 +25,7 @@ struct Vertex : brep::Tag {
 };
 struct Face : brep::Tag {
   std::uint32_t sheet = 77;
+  int label = 0;  // anything of the user's
 };
 using Mesh = brep::BRep<Vertex, brep::NoData, Face>;
 

@@ -18,7 +18,7 @@ std::size_t check_split(const Points& outline) {
   const double whole = area(m, FaceId{0});
   const glm::dvec3 n = normal(m, FaceId{0});
   REQUIRE(whole > 0.0);
-  m.data(FaceId{0}).mark(3);
+  m.data(FaceId{0}).label = 3;
   const auto parts = split_until_convex(m, FaceId{0});
   if (!parts) UNSCOPED_INFO(parts.refusal().sentence());
   REQUIRE(parts);
@@ -30,7 +30,7 @@ std::size_t check_split(const Points& outline) {
   for (FaceId f : *parts) {
     CHECK(is_convex(m, f));
     CHECK(glm::dot(normal(m, f), n) > 0.999);
-    CHECK(m.data(f).marked(3));
+    CHECK(m.data(f).label == 3);
     sum += area(m, f);
   }
   CHECK(sum == test::Approx(whole).epsilon(1e-12));

@@ -27,7 +27,7 @@ std::size_t check_parts(const Points& outline, const Split& split, const Conditi
   Mesh m = shapes::build(shapes::pillow_builder(outline));
   const double whole = area(m, FaceId{0});
   const glm::dvec3 n = normal(m, FaceId{0});
-  m.data(FaceId{0}).mark(6);
+  m.data(FaceId{0}).label = 6;
   const auto before = shapes::records(m);
   const auto parts = split_recursively(m, FaceId{0}, split, condition);
   REQUIRE(parts);
@@ -35,7 +35,7 @@ std::size_t check_parts(const Points& outline, const Split& split, const Conditi
   check_cover(m, parts->faces, whole, n);
   std::size_t missed = 0;
   for (FaceId f : parts->faces) {
-    CHECK(m.data(f).marked(6));
+    CHECK(m.data(f).label == 6);
     if (!condition(m, f)) ++missed;
   }
   CHECK(missed == parts->unfinished.size());

@@ -19,7 +19,7 @@ void require(bool holds, const char* law) {
   std::abort();
 }
 
-void read_as_mesh(std::string_view text, apps::MeshFormat format) {
+void read_as_mesh(std::string_view text, const apps::MeshFormat& format) {
   const apps::MeshResult result = apps::read_mesh(text, format);
   require(result.mesh.has_value() == result.errors.empty(), "either a mesh or errors");
   if (!result.mesh) return;
@@ -40,6 +40,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const apps::SceneResult scene = apps::parse_scene(text);
   require(scene.file.has_value() == scene.errors.empty(), "either a scene or errors");
-  for (const auto format : {apps::MeshFormat::obj, apps::MeshFormat::ply, apps::MeshFormat::off}) read_as_mesh(text, format);
+  for (const apps::MeshFormat* const format : apps::mesh_formats()) read_as_mesh(text, *format);
   return 0;
 }

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "apps/commands/usage.hpp"
+// The one file that knows CLI11. What is wrong with a command line is told in one sentence: an unknown word with the nearest that is
+// known, an option without its value.
+#include "apps/commands/command_line.hpp"
 
 #include <filesystem>
-#include <string_view>
+#include <optional>
+#include <span>
+#include <sstream>
 #include <system_error>
-#include <vector>
 
-#include "apps/scene_file/words.hpp"
+#include <CLI/CLI.hpp>
+
+#include "apps/commands/common.hpp"
+#include "apps/version.hpp"
 
 namespace apps {
 namespace {
@@ -100,13 +106,12 @@ std::string sentence_of(const CLI::App& app, const CLI::ParseError& error, std::
   return text;
 }
 
-}  // namespace
-
 std::string explain(const CLI::App& app, const CLI::ParseError& error, std::span<const char* const> arguments) {
   const std::vector<CLI::App*> used = app.get_subcommands();
   return sentence_of(app, error, arguments) + "\n`halflight " + (used.empty() ? "" : used.front()->get_name() + " ") + "--help` says more.";
 }
 
+// An argument without a word in it, such as that of --json "" or --json=: no option takes it.
 std::optional<std::string> empty_argument(std::span<const char* const> arguments) {
   std::string before = "the command";
   for (const std::string argument : arguments) {
@@ -115,6 +120,78 @@ std::optional<std::string> empty_argument(std::span<const char* const> arguments
     before = argument;
   }
   return std::nullopt;
+}
+
+void add(CLI::App& command, const Argument& argument) {
+  if (argument.value.empty()) {
+    command.add_flag_callback(
+        argument.names, [take = argument.take] { static_cast<void>(take({})); }, argument.description);
+    return;
+  }
+  using Values = Argument::Values;
+  CLI::Option* option = nullptr;
+  if (argument.values == Values::optional) {  // CLI11 checks no value that is not there
+    option = command.add_option_function<std::string>(
+        argument.names, [take = argument.take](const std::string& text) { static_cast<void>(take(text)); }, argument.description);
+    option->expected(0, 1);
+  } else {
+    if (argument.values == Values::one) {
+      option = command.add_option_function<std::string>(argument.names, [](const std::string&) {}, argument.description);
+    } else {
+      option = command.add_option_function<std::vector<std::string>>(
+          argument.names, [](const std::vector<std::string>&) {}, argument.description);
+      option->allow_extra_args(argument.values == Values::many);
+    }
+    option->check(CLI::Validator([take = argument.take](std::string& text) { return take(text); }, ""));
+  }
+  option->type_name(argument.value)->required(argument.required);
+  if (!argument.preset.empty()) { option->default_str(argument.preset); }
+}
+
+void describe(CLI::App& app, const Command& command) {
+  CLI::App& described = *app.add_subcommand(command.name, command.summary);
+  for (const Argument& argument : command.arguments) { add(described, argument); }
+  for (const Argument& argument : command.arguments) {
+    CLI::Option* const option = described.get_option(argument.names.substr(argument.names.find(',') + 1));
+    for (const std::string& other : argument.excludes) { option->excludes(described.get_option(other)); }
+    for (const std::string& other : argument.needs) { option->needs(described.get_option(other)); }
+  }
+  if (!command.missing) { return; }
+  described.callback([missing = command.missing] {
+    if (const std::string what = missing(); !what.empty()) { throw CLI::RequiredError(what); }
+  });
+}
+
+}  // namespace
+
+ExitCode run_program(const std::vector<Command>& commands, int argc, char** argv) {
+  CLI::App app("Radiosity for scenes of diffuse surfaces: every run says how wrong it is and how long it took.", "halflight");
+  app.set_version_flag("--version", std::string("halflight ") + version);
+  app.footer(
+      "Exit codes: 0 done, 1 failure, 2 wrong usage, 3 invalid scene, mesh or script, 4 not converged.\n"
+      "'-' as a scene is the standard input; an output '-' is the standard output, and what is told goes to stderr then.");
+  app.require_subcommand(1);
+  for (const Command& command : commands) { describe(app, command); }
+  const std::span<const char* const> arguments(argv + 1, argv + argc);
+  if (const auto fault = empty_argument(arguments)) {
+    complain(*fault);
+    return ExitCode::usage;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) {
+      complain(explain(app, error, arguments));
+      return ExitCode::usage;
+    }
+    std::ostringstream help;
+    app.exit(error, help);
+    return print(help.str()) ? ExitCode::ok : ExitCode::failure;
+  }
+  for (const Command& command : commands) {
+    if (app.got_subcommand(command.name)) { return command.run(); }
+  }
+  return ExitCode::usage;
 }
 
 }  // namespace apps

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A command of the program as data: every argument is a row that says how it is written, what it means and where its value goes.
+// command_line.cpp reads the command line by these rows, and it alone knows CLI11. A new command is one file with a function that
+// returns a Command, declared below, and one line in halflight.cpp.
+
+#include <charconv>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/exit_code.hpp"
+#include "apps/scene_file/words.hpp"
+#include "apps/text.hpp"
+
+namespace apps {
+
+struct Argument {
+  // How many values stand behind the name: one; one, and the name may be repeated; one or more; one or none.
+  enum class Values { one, repeated, many, optional };
+
+  std::string names;  // "scene", which is known by its place, or "-o,--output"
+  std::string value;  // what stands for the value in the help: "FILE"; of a flag: empty
+  std::string description;
+  std::function<std::string(const std::string&)> take;  // keeps a value, or says what was expected and found; of a flag: of any text
+  Values values = Values::one;
+  std::string preset = {};  // what holds without this argument, for the help
+  bool required = false;
+  std::vector<std::string> excludes = {}, needs = {};  // other arguments
+
+  [[nodiscard]] Argument must() const {
+    return with([](Argument& a) { a.required = true; });
+  }
+  [[nodiscard]] Argument without(const std::vector<std::string>& others) const {
+    return with([&](Argument& a) { a.excludes = others; });
+  }
+  [[nodiscard]] Argument needing(const std::string& other) const {
+    return with([&](Argument& a) { a.needs = {other}; });
+  }
+  [[nodiscard]] Argument by_default(const std::string& text) const {
+    return with([&](Argument& a) { a.preset = text; });
+  }
+
+ private:
+  template <class Change>
+  [[nodiscard]] Argument with(const Change& change) const {
+    Argument result = *this;
+    change(result);
+    return result;
+  }
+};
+
+struct Command {
+  std::string name, summary;
+  std::vector<Argument> arguments;  // their values go into options that `run` keeps alive
+  std::function<ExitCode()> run;
+  std::function<std::string()> missing = {};  // what the command cannot do without, where no single argument is required
+};
+
+[[nodiscard]] Command render_command();
+[[nodiscard]] Command info_command();
+[[nodiscard]] Command mesh_command();
+[[nodiscard]] Command check_command();
+[[nodiscard]] Command factors_command();
+[[nodiscard]] Command stress_command();
+[[nodiscard]] Command euler_command();
+[[nodiscard]] Command study_command();
+
+// --- kinds of arguments; `target` must outlive the reading of the command line
+
+[[nodiscard]] inline Argument flag(std::string names, bool& target, std::string description, bool value = true) {
+  const auto take = [&target, value](const std::string&) {
+    target = value;
+    return std::string();
+  };
+  return {std::move(names), "", std::move(description), take};
+}
+
+template <class Target>
+[[nodiscard]] Argument text(std::string names, std::string value, Target& target, std::string description) {
+  const auto take = [&target](const std::string& given) {
+    target = given;
+    return std::string();
+  };
+  return {std::move(names), std::move(value), std::move(description), take};
+}
+
+[[nodiscard]] inline Argument texts(std::string names, std::string value, std::vector<std::string>& target, std::string description,
+                                    Argument::Values values = Argument::Values::many) {
+  const auto take = [&target](const std::string& given) {
+    target.push_back(given);
+    return std::string();
+  };
+  return {std::move(names), std::move(value), std::move(description), take, values};
+}
+
+[[nodiscard]] inline Argument scene_argument(std::string& target) { return text("scene", "SCENE", target, "the .scene file").must(); }
+
+// A number in (0, most]; NaN is refused, too.
+template <class Target>
+[[nodiscard]] Argument above_zero(std::string names, Target& target, double most, std::string description) {
+  const auto take = [&target, most](const std::string& text) {
+    double value = 0.0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool good = code == std::errc() && end == text.data() + text.size() && value > 0.0 && value <= most;
+    if (good) { target = value; }
+    return good ? std::string() : "expected a number above 0 and at most " + formatted("%g", most) + ", found '" + text + "'";
+  };
+  return {std::move(names), "NUMBER", std::move(description), take};
+}
+
+// Digits alone: no sign, so that -1 does not become the largest number.
+template <class Target>
+[[nodiscard]] Argument whole_number(std::string names, Target& target, std::uint64_t least, std::uint64_t most, std::string description) {
+  const auto take = [&target, least, most](const std::string& text) {
+    std::uint64_t value = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool good = code == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
+    if (good) { target = static_cast<Target>(value); }
+    return good ? std::string()
+                : "expected a whole number from " + std::to_string(least) + " to " + std::to_string(most) + ", found '" + text + "'";
+  };
+  return {std::move(names), "NUMBER", std::move(description), take};
+}
+
+// One of the names; the value that it stands for is kept.
+template <class Target, class Value>
+[[nodiscard]] Argument one_of(std::string names, Target& target, std::vector<std::pair<std::string_view, Value>> known,
+                              std::string description) {
+  const auto take = [&target, known = std::move(known)](const std::string& text) {
+    std::vector<std::string_view> words;
+    for (const auto& [name, value] : known) {
+      if (name == text) {
+        target = value;
+        return std::string();
+      }
+      words.push_back(name);
+    }
+    return "expected " + scene_file::list_of(words) + ", found '" + text + "'" + scene_file::suggestion(text, words);
+  };
+  return {std::move(names), "NAME", std::move(description), take};
+}
+
+// What `parse` makes of the text is kept; where that is nothing, `fault` says what was expected.
+template <class Target, class Value>
+[[nodiscard]] Argument parsed(std::string names, std::string value, Target& target, std::optional<Value> (*parse)(std::string_view),
+                              std::string (*fault)(const std::string&), std::string description) {
+  const auto take = [&target, parse, fault](const std::string& text) {
+    if (const auto found = parse(text)) {
+      target = *found;
+      return std::string();
+    }
+    return fault(text);
+  };
+  return {std::move(names), std::move(value), std::move(description), take};
+}
+
+inline constexpr std::uint64_t most_threads = 1024;
+
+}  // namespace apps

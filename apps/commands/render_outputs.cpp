@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "apps/commands/render_outputs.hpp"
+
+#include <chrono>
+#include <ctime>
+#include <utility>
+
+#include "apps/audited_picture.hpp"
+#include "apps/memory.hpp"
+#include "apps/ply.hpp"
+#include "apps/png.hpp"
+#include "apps/raycast_picture.hpp"
+
+namespace apps {
+namespace {
+
+class Stopwatch {
+ public:
+  [[nodiscard]] radiosity::StageTime stop(std::string name) const {
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_;
+    return {std::move(name), wall.count(), static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC, radiosity::peak_memory()};
+  }
+
+ private:
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_ = std::clock();
+};
+
+}  // namespace
+
+std::optional<RenderFormat> render_format(const std::string& path) {
+  if (path.size() > 4 && path.ends_with(".png")) { return RenderFormat::png; }
+  if (path.size() > 4 && path.ends_with(".ply")) { return RenderFormat::ply; }
+  return std::nullopt;
+}
+
+bool has_picture(const RenderOptions& options) {
+  for (const std::string& output : options.outputs) {
+    if (render_format(output) == RenderFormat::png) { return true; }
+  }
+  return false;
+}
+
+std::optional<Picture> Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Control& control) const {
+  const double by = exposure(mesh);
+  if (options_.method == PictureMethod::mesh) { return apps::draw(mesh, view_, by, 4, control.cancel); }
+  const radiosity::Lookup lookup(file_.scene, mesh, frame);
+  return apps::draw(lookup, view_, by, options_.solver.threads, 4, control);
+}
+
+std::optional<radiosity::PictureError> Artist::audit(const Picture& picture, double exposure, const radiosity::AuditGoal& goal,
+                                                     const radiosity::Control& control) {
+  if (!asked_) {
+    audit_ = radiosity::PictureAudit::make(file_.scene);
+    asked_ = true;
+  }
+  if (!audit_) { return std::nullopt; }
+  return audit_->measure(audited(picture, view_, exposure), goal, options_.solver.threads, options_.solver.seed, control);
+}
+
+std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
+                                                const radiosity::Solution& solution, const radiosity::Control& control, Report& report) {
+  if (control.cancelled()) { return std::nullopt; }
+  std::vector<RenderOutput> outputs;
+  std::string png;
+  if (has_picture(options)) {
+    const Stopwatch watch;
+    const auto picture = artist.draw(solution.mesh, solution.frame, control);
+    if (!picture) { return std::nullopt; }
+    png = to_png(*picture);
+    report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
+    std::vector<radiosity::StageTime> stages{watch.stop("picture")};
+    leave_out_others(stages);
+    report.picture_time = stages.front();
+    if (!report.audit.picture_error && options.solver.audit_points > 0) {
+      const Stopwatch audit_watch;
+      report.audit.picture_error =
+          artist.audit(*picture, report.exposure, radiosity::goal_to_know(report.audit, options.solver.audit_points), control);
+      stages = {audit_watch.stop("picture audit")};
+      leave_out_others(stages);
+      report.audit.stages.push_back(stages.front());
+      report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, its error not measured
+    }
+  }
+  for (const std::string& path : options.outputs) {
+    const bool is_png = render_format(path) == RenderFormat::png;
+    outputs.push_back({path, is_png ? png : to_ply(solution.mesh, radiosity::surfaces(file.scene), report.exposure)});
+    report.files.push_back(path);
+  }
+  if (!options.json.empty()) {
+    report.files.push_back(options.json);
+    outputs.push_back({options.json, to_json(report)});
+  }
+  return outputs;
+}
+
+}  // namespace apps

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What `halflight render` is asked for, and what it writes: the picture, drawn and audited, the mesh, and the report.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <radiosity/options.hpp>
+#include <radiosity/picture_error.hpp>
+#include <radiosity/radiosity.hpp>
+
+#include "apps/picture.hpp"
+#include "apps/report.hpp"
+#include "apps/scene_file.hpp"
+
+namespace apps {
+
+enum class ErrorOf { picture, surfaces };
+
+struct RenderOptions {
+  std::string scene;
+  std::vector<std::string> outputs;  // *.png, *.ply
+  std::string json;                  // empty: none
+  std::string camera;                // empty: the first of the file, or the automatic one
+  std::optional<PictureSize> size;
+  std::optional<double> exposure;
+  PictureMethod method = PictureMethod::mesh;
+  bool quiet = false;
+  std::optional<ErrorOf> error_of;      // default: of the picture when there is one
+  std::optional<std::uint64_t> memory;  // bytes that the process may hold
+  radiosity::Options solver;
+};
+
+enum class RenderFormat { png, ply };
+
+// By the ending of the name.
+[[nodiscard]] std::optional<RenderFormat> render_format(const std::string& path);
+
+[[nodiscard]] bool has_picture(const RenderOptions& options);
+
+// Draws a solution as it will be shown, and audits what it has drawn.
+class Artist {
+ public:
+  Artist(const RenderOptions& options, const SceneFile& file, const Camera& camera)
+      : options_{options}, file_{file}, view_{make_view(camera, options.size.value_or(camera.size.value_or(PictureSize{})))} {}
+
+  [[nodiscard]] double exposure(const radiosity::Mesh& mesh) const {
+    return options_.exposure ? *options_.exposure : automatic_exposure(mesh, file_.scene);
+  }
+  [[nodiscard]] PictureSize size() const { return view_.size; }
+  // Nothing when interrupted.
+  [[nodiscard]] std::optional<Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame,
+                                            const radiosity::Control& control) const;
+  [[nodiscard]] std::optional<radiosity::PictureError> audit(const Picture& picture, double exposure, const radiosity::AuditGoal& goal,
+                                                             const radiosity::Control& control);
+
+ private:
+  const RenderOptions& options_;
+  const SceneFile& file_;
+  View view_;
+  std::optional<radiosity::PictureAudit> audit_;
+  bool asked_ = false;
+};
+
+struct RenderOutput {
+  std::string path;
+  std::string bytes;
+};
+
+// Everything that is to be written, in memory; the report is completed. Nothing when interrupted.
+[[nodiscard]] std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera,
+                                                              Artist& artist, const radiosity::Solution& solution,
+                                                              const radiosity::Control& control, Report& report);
+
+}  // namespace apps

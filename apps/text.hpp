@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Numbers and columns as text, for what the commands print.
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+
+namespace apps {
+
+// By one printf conversion of a double: formatted("%.3g", x).
+[[nodiscard]] inline std::string formatted(const char* format, double x) {
+  std::array<char, 400> text{};  // %f of the largest double has 309 digits before the point
+  std::snprintf(text.data(), text.size(), format, x);
+  return text.data();
+}
+
+// With the fewest digits that read back as the same number.
+[[nodiscard]] inline std::string shortest(double x) {
+  std::array<char, 40> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
+}
+
+// 0.0123 as "1.23 %".
+[[nodiscard]] inline std::string percent(double part) { return formatted("%.3g %%", 100.0 * part); }
+
+// A vector of three: "1 0.5 2".
+template <class Vector>
+[[nodiscard]] std::string triple(const Vector& v) {
+  return formatted("%.6g", v.x) + " " + formatted("%.6g", v.y) + " " + formatted("%.6g", v.z);
+}
+
+// Filled with blanks behind, or before, to `width` characters; at least `gap` of them.
+[[nodiscard]] inline std::string left(std::string text, std::size_t width, std::size_t gap = 2) {
+  text.resize(std::max(text.size() + gap, width), ' ');
+  return text;
+}
+[[nodiscard]] inline std::string right(const std::string& text, std::size_t width, std::size_t gap = 2) {
+  return std::string(std::max(width, text.size() + gap) - text.size(), ' ') + text;
+}
+
+}  // namespace apps
