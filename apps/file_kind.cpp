@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <brep/euler_script.hpp>
+#include <brep/euler_table.hpp>
 
 #include "apps/scene_file/grammar.hpp"
 #include "apps/scene_file/words.hpp"
@@ -78,7 +79,7 @@ bool contains(const List& list, std::string_view word) {
 
 bool begins_script(const std::array<std::string_view, 3>& words) {
   const std::string_view command = words[1] == "=" ? words[2] : words[0];
-  return std::any_of(brep::command_forms.begin(), brep::command_forms.end(), [&](const auto& form) { return form.name == command; });
+  return brep::find_operator(command) != nullptr || (!command.empty() && contains(brep::command_names, command));
 }
 
 // A statement of a scene; in the first line also a word so near to one that its author meant it.
