@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The rays, radiosities and grey levels of a drawn picture, in the form that the picture's audit reads (radiosity/picture_error.hpp).
+// The rays, radiosities and grey levels of a drawn picture, in the form that the picture's audit reads (radiosity/audit/picture_error.hpp).
 
-#include <radiosity/picture_error.hpp>
+#include <radiosity/audit/picture_error.hpp>
 
 #include "apps/color.hpp"
 #include "apps/picture.hpp"

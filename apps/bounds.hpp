@@ -6,7 +6,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/scene.hpp>
+#include <radiosity/scene/scene.hpp>
 #include <raycast/box.hpp>
 
 namespace apps {

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include <radiosity/material.hpp>
+#include <radiosity/scene/material.hpp>
 
 namespace apps {
 

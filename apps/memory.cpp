@@ -11,7 +11,8 @@
 #include <malloc.h>
 #endif
 
-#include <radiosity/memory.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/support/memory.hpp>
 
 namespace apps {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Memory as the program's user means it: of the whole process. What the library predicts (radiosity/memory.hpp) comes on top of what the
+// Memory as the program's user means it: of the whole process. What the library predicts (radiosity/support/memory.hpp) comes on top of what the
 // program and the scene hold already.
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include <radiosity/audit.hpp>
+#include <radiosity/result/audit.hpp>
 
 namespace apps {
 

@@ -11,6 +11,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+
 namespace apps {
 namespace {
 

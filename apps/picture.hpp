@@ -20,8 +20,8 @@
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/mesh.hpp>
-#include <radiosity/scene.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "apps/color.hpp"
 #include "apps/view.hpp"

@@ -8,6 +8,9 @@
 #include "apps/color.hpp"
 #include "apps/mesh_file/ply_bytes.hpp"
 
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/scene.hpp>
+
 namespace apps {
 namespace {
 

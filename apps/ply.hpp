@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include <radiosity/mesh.hpp>
-#include <radiosity/scene.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/scene.hpp>
 
 namespace apps {
 

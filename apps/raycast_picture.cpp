@@ -9,7 +9,10 @@
 
 #include <glm/vec2.hpp>
 
-#include <radiosity/parallel.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/support/parallel.hpp>
 
 namespace apps {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 // The picture of the true objects: rays through the same sample points as those of the mesh picture (picture.hpp), each shaded with the
-// solved radiosity at the point that it meets (radiosity/lookup.hpp). Silhouettes are those of the objects at any zoom; on plane
+// solved radiosity at the point that it meets (radiosity/picture/lookup.hpp). Silhouettes are those of the objects at any zoom; on plane
 // surfaces it is the mesh picture. Exposure, clamping and averaging are the same, too.
 //
 // A pixel begins with one sample in each row and each column of its grid, of which the mean is exact where the colour changes evenly.
@@ -11,8 +11,8 @@
 
 #include <optional>
 
-#include <radiosity/lookup.hpp>
-#include <radiosity/options.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/scene/options.hpp>
 
 #include "apps/picture.hpp"
 #include "apps/view.hpp"

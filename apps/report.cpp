@@ -9,6 +9,12 @@
 #include "apps/text.hpp"
 #include "apps/version.hpp"
 
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/visibility/plan.hpp>
+
 namespace apps {
 namespace {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <radiosity/audit.hpp>
-#include <radiosity/options.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/scene/options.hpp>
 
 namespace apps {
 

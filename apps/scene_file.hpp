@@ -19,7 +19,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/scene.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "apps/input_errors.hpp"
 

@@ -8,6 +8,10 @@
 
 #include "apps/bounds.hpp"
 
+#include <raycast/box.hpp>
+
+#include <radiosity/scene/scene.hpp>
+
 namespace apps {
 
 glm::dvec3 View::to_view(const glm::dvec3& world) const {

@@ -4,8 +4,10 @@
 
 #include <cstdio>
 
+#include <brep/brep.hpp>
 #include <brep/euler_log.hpp>
 #include <brep/euler_script_text.hpp>
+#include <brep/handles.hpp>
 #include <brep/shells.hpp>
 
 namespace {

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/sphere.hpp>
+#include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
 
 int main() {
   const auto ball = raycast::Sphere::make({0, 0, 1}, 1.0);

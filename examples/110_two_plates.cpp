@@ -7,6 +7,9 @@
 #include <raycast/objects/polygon.hpp>
 
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/scene.hpp>
 
 int main() {
   radiosity::Scene scene;

@@ -2,11 +2,21 @@
 // An object of your own: derive from raycast::Object, write four methods, and every part of the program takes it. This one is a lens, the
 // part that two balls of radius 1 have in common; its sheets are the two spherical caps.
 
+#include <brep/builder_input.hpp>
 #include <cstdio>
+
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <raycast/box.hpp>
 #include <raycast/circle.hpp>
+#include <raycast/object.hpp>
 #include <raycast/objects/disk.hpp>
 #include <raycast/objects/sphere.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/spans.hpp>
+#include <raycast/transform.hpp>
 
 class Lens final : public raycast::Object {
  public:

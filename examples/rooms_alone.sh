@@ -9,8 +9,8 @@ trap 'rm -rf "$folder"' EXIT
 printf '%-10s %-28s %8s %8s %10s %10s  %s\n' room program brep/ raycast/ radiosity/ 'code (B)' 'with -O2 -DNDEBUG'
 measure() { # ROOM PROGRAM FORBIDDEN
     source=examples/$2.cpp
-    "$compiler" -std=c++20 -I. -MM "$source" | tr ' ' '\n' >"$folder/headers"
-    "$compiler" -std=c++20 -I. -O2 -DNDEBUG -c "$source" -o "$folder/object"
+    "$compiler" -std=c++20 -DHALFLIGHT_HEADER_ONLY -I. -MM "$source" | tr ' ' '\n' >"$folder/headers"
+    "$compiler" -std=c++20 -DHALFLIGHT_HEADER_ONLY -I. -O2 -DNDEBUG -c "$source" -o "$folder/object"
     code=$(size "$folder/object" | awk 'NR == 2 { print $1 }')
     of() { grep -c "^$1/" "$folder/headers" || true; }
     printf '%-10s %-28s %8s %8s %10s %10s\n' "$1" "$source" "$(of brep)" "$(of raycast)" "$(of radiosity)" "$code"

@@ -3,9 +3,11 @@
 
 // Sixteen segments, as they run between two patches or through a pixel: what Scene::occluded16 and closest16 are asked.
 
-#include "ray.hpp"
-
 #include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/ray.hpp>
 
 namespace raycast {
 

@@ -13,13 +13,13 @@
 //
 // Boxes of nodes are grown by the margin and rounded outwards; so a node is never missed for a shape that could be met.
 
-#include "isa.hpp"
-#include "planar.hpp"
-
+#include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 namespace raycast {
 
@@ -114,43 +114,15 @@ struct Compiled {
 
   [[nodiscard]] bool few() const { return nodes.empty() || !leaves.empty(); }
   [[nodiscard]] glm::dvec3 local(const glm::dvec3& p) const { return (p - centre) * scale; }
-  [[nodiscard]] std::uint32_t object_of(std::uint32_t shape) const {
-    const std::uint32_t i = index_of(shape);
-    switch (kind_of(shape)) {
-      case Kind::triangle:
-        return triangles[i / 8].object[i % 8];
-      case Kind::quad:
-        return quads[i / 8].object[i % 8];
-      case Kind::ball:
-        return balls[i / 8].object[i % 8];
-      case Kind::body:
-        return bodies[i].object;
-      case Kind::cylinder:
-        return tubes[i].object;
-      case Kind::guard:
-        return guards[i];
-      case Kind::form:
-        return forms[i].object;
-      default:
-        return others[i];
-    }
-  }
-  [[nodiscard]] std::size_t bytes() const {
-    return nodes.capacity() * sizeof(Node) + triangles.capacity() * sizeof(FaceBlock<3>) + quads.capacity() * sizeof(FaceBlock<4>) +
-           balls.capacity() * sizeof(BallBlock) + bodies.capacity() * sizeof(Body) + planes.capacity() * 16 +
-           tubes.capacity() * sizeof(Tube) + forms.capacity() * sizeof(Form) +
-           (guards.capacity() + others.capacity() + leaves.capacity() + rooms.capacity() + room_bodies.capacity()) * sizeof(std::uint32_t) +
-           roles.capacity() + bounds.capacity() * sizeof(FloatBox);
-  }
+  [[nodiscard]] std::uint32_t object_of(std::uint32_t shape) const;
+  [[nodiscard]] std::size_t bytes() const;
 };
 
 // May a span of the object lie within the solid that owns an end of a segment? Not when their bounds are apart.
-[[nodiscard]] inline bool may_contain(const Compiled& scene, std::uint32_t owner, std::uint32_t object) {
-  if (owner == 0xffffffffu || owner == object || scene.roles[owner] != Role::solid) return false;
-  const FloatBox &a = scene.bounds[owner], &b = scene.bounds[object];
-  for (std::size_t k = 0; k < 3; ++k)
-    if (a.hi[k] < b.lo[k] || b.hi[k] < a.lo[k]) return false;
-  return true;
-}
+[[nodiscard]] bool may_contain(const Compiled& scene, std::uint32_t owner, std::uint32_t object);
 
 }  // namespace raycast
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <raycast/compiled.cpp>
+#endif

@@ -13,11 +13,6 @@
 // A sheet is a smooth piece of the surface: a sphere has one, a cylinder three, a box six. Objects are immutable after they were made,
 // so any number of threads may ask. They speak in their own coordinates; transform.hpp places them in the world.
 
-#include <brep/builder.hpp>
-
-#include "box.hpp"
-#include "spans.hpp"
-
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -25,6 +20,14 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+
+#include <glm/vec3.hpp>
+
+#include <brep/builder_input.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/spans.hpp>
 
 namespace raycast {
 

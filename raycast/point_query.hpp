@@ -4,9 +4,17 @@
 // Walks through a Bvh from a point: what lies around it, and what lies nearest to it. What the items are is the caller's business.
 // Both walks are exact in terms of the boxes that the tree was built from, and neither touches the heap.
 
-#include "bvh.hpp"
-
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <utility>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
 
 namespace raycast {
 

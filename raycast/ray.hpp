@@ -10,8 +10,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <cmath>
-
 namespace raycast {
 
 struct Segment {

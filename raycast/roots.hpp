@@ -11,9 +11,11 @@
 // An interval on which f' keeps its sign has one sign change or none; one on which f cannot reach 0 by these slopes has none; any other
 // one is divided. Near a touching point the division ends when what is left lies within `negligible` of 0.
 
-#include "spans.hpp"
-
+#include <algorithm>
 #include <cmath>
+
+#include <raycast/box.hpp>
+#include <raycast/spans.hpp>
 
 namespace raycast {
 

@@ -23,19 +23,27 @@
 //
 // All queries are const, thread-safe, and use no heap (a line that crosses a mesh more than eight times excepted).
 
-#include "bundle.hpp"
-#include "compiled.hpp"
-#include "planar.hpp"
-#include "shaft.hpp"
-#include "transform.hpp"
-
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
-#ifndef HALFLIGHT_INLINE
-#define HALFLIGHT_INLINE inline
-#endif
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bundle.hpp>
+#include <raycast/compiled.hpp>
+#include <raycast/isa.hpp>
+#include <raycast/object.hpp>
+#include <raycast/planar.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/shaft.hpp>
+#include <raycast/spans.hpp>
+#include <raycast/transform.hpp>
 
 namespace raycast {
 
@@ -180,9 +188,9 @@ class Scene {
 
 }  // namespace raycast
 
-#ifndef HALFLIGHT_RAYCAST_APART
-#include "first_hit.hpp"
-#include "law.hpp"
-#include "lists.hpp"
-#include "occlusion.hpp"
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <raycast/first_hit.cpp>
+#include <raycast/occluder_lists.cpp>
+#include <raycast/occlusion.cpp>
+#include <raycast/scene.cpp>
 #endif

@@ -15,11 +15,14 @@
 // Convex owners: a segment whose end lies on or in a convex object that owns it is never blocked by that object. This is proven for
 // the contour, and holds for descendants because their vertices lie on the surface too, and their points in the hull of these.
 
-#include "object.hpp"
-
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <span>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/object.hpp>
 
 namespace raycast {
 

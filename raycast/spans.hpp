@@ -6,14 +6,14 @@
 //
 // Spans are made for every ray, so the first eight live inside the object and no heap is touched before the ninth.
 
-#include "box.hpp"
-
 #include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
+
+#include <raycast/box.hpp>
 
 namespace raycast {
 

@@ -4,7 +4,12 @@
 // A walk in double precision along a line through a Bvh. What lies in the leaves is the caller's business: it is a lambda. No box that the
 // line meets is missed (box.hpp), and the heap is not touched.
 
-#include "bvh.hpp"
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
 
 namespace raycast {
 

@@ -5,15 +5,17 @@
 // into nodes of up to eight children by the cheapest of all mergers. A leaf holds up to eight shapes of one kind, which are tested side
 // by side: one costs as much as eight.
 
-#include "compile.hpp"
-#include "kernels.hpp"
-
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include <raycast/compile.hpp>
+#include <raycast/compiled.hpp>
+#include <raycast/kernels.hpp>
 
 namespace raycast {
 

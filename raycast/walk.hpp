@@ -4,8 +4,15 @@
 // A walk in double precision along a line through a compiled scene. No box that the line meets is missed (box.hpp), and the heap is not
 // touched.
 
-#include "box.hpp"
-#include "kernels.hpp"
+#include <cstddef>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/compiled.hpp>
+#include <raycast/kernels.hpp>
+#include <raycast/ray.hpp>
 
 namespace raycast {
 

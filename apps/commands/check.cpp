@@ -10,7 +10,10 @@
 #include <memory>
 #include <string_view>
 
+#include <brep/brep.hpp>
 #include <brep/builder.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/handles.hpp>
 #include <brep/repair.hpp>
 #include <brep/statistics.hpp>
 

@@ -136,7 +136,8 @@ void add(CLI::App& command, const Argument& argument) {
     option->expected(0, 1);
   } else {
     if (argument.values == Values::one) {
-      option = command.add_option_function<std::string>(argument.names, [](const std::string&) {}, argument.description);
+      option = command.add_option_function<std::string>(
+          argument.names, [](const std::string&) {}, argument.description);
     } else {
       option = command.add_option_function<std::vector<std::string>>(
           argument.names, [](const std::vector<std::string>&) {}, argument.description);

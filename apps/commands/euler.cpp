@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include <brep/euler_script.hpp>
 #include <brep/euler_script_parse.hpp>
 
 #include "apps/commands/command.hpp"

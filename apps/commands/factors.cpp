@@ -14,7 +14,12 @@
 #include "apps/json.hpp"
 #include "apps/text.hpp"
 
-#include <radiosity/total_exchange.hpp>
+#include <radiosity/factors/factor_integral.hpp>
+#include <radiosity/factors/factor_run.hpp>
+#include <radiosity/factors/factors.hpp>
+#include <radiosity/factors/total_exchange.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
 
 namespace apps {
 namespace {

@@ -10,8 +10,18 @@
 #include "apps/commands/common.hpp"
 #include "apps/text.hpp"
 
-#include <radiosity/cluster_choice.hpp>
-#include <radiosity/prepare.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+
+#include <raycast/box.hpp>
+
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/refinement/cluster_choice.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/prepare.hpp>
 
 namespace apps {
 namespace {

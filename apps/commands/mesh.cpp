@@ -14,8 +14,15 @@
 
 #include <glm/geometric.hpp>
 
+#include <brep/builder_input.hpp>
+#include <brep/circulators.hpp>
+#include <brep/geometry.hpp>
+#include <brep/handles.hpp>
 #include <brep/statistics.hpp>
-#include <radiosity/surface.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"

@@ -17,6 +17,15 @@
 #include "apps/progress.hpp"
 #include "apps/text.hpp"
 
+#include <radiosity/audit/audit_effort.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/support/memory.hpp>
+
 namespace apps {
 namespace {
 

@@ -11,6 +11,18 @@
 #include "apps/png.hpp"
 #include "apps/raycast_picture.hpp"
 
+#include <radiosity/audit/audit_effort.hpp>
+#include <radiosity/audit/picture_error.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/memory.hpp>
+
 namespace apps {
 namespace {
 

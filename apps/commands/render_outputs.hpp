@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include <radiosity/options.hpp>
-#include <radiosity/picture_error.hpp>
+#include <radiosity/audit/picture_error.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/scene/options.hpp>
 
 #include "apps/picture.hpp"
 #include "apps/report.hpp"

@@ -23,6 +23,8 @@
 #include "apps/version.hpp"
 #include "apps/view.hpp"
 
+#include <radiosity/scene/options.hpp>
+
 namespace apps {
 namespace {
 

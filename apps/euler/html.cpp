@@ -6,6 +6,10 @@
 #include "apps/json.hpp"
 #include "apps/markup.hpp"
 
+#include <brep/euler_script_run.hpp>
+#include <brep/handles.hpp>
+#include <brep/validate_explain.hpp>
+
 namespace apps::euler {
 namespace {
 

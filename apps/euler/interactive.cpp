@@ -9,9 +9,14 @@
 
 #include <unistd.h>
 
+#include <brep/euler_log.hpp>
+#include <brep/euler_script.hpp>
 #include <brep/euler_script_parse.hpp>
+#include <brep/euler_script_run.hpp>
 #include <brep/euler_script_text.hpp>
 #include <brep/euler_table.hpp>
+#include <brep/handles.hpp>
+#include <brep/validate_explain.hpp>
 
 #include "apps/euler/html.hpp"
 #include "apps/euler/story.hpp"

@@ -13,6 +13,8 @@
 
 #include "apps/euler/labels.hpp"
 
+#include <brep/handles.hpp>
+
 namespace apps::euler {
 namespace {
 

@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include <brep/handles.hpp>
+
 namespace apps::euler {
 namespace {
 

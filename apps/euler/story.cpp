@@ -3,6 +3,10 @@
 
 #include <utility>
 
+#include <brep/circulators.hpp>
+#include <brep/euler_script.hpp>
+#include <brep/euler_script_run.hpp>
+
 namespace apps::euler {
 
 Teller::Teller(Solid& solid, bool drawn) : solid_(solid), drawn_(drawn), runner_(solid) { remember(story_.frames.emplace_back()); }

@@ -12,6 +12,10 @@
 
 #include "apps/markup.hpp"
 
+#include <brep/euler_script_run.hpp>
+#include <brep/handles.hpp>
+#include <brep/validate_explain.hpp>
+
 namespace apps::euler {
 namespace {
 

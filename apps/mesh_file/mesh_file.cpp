@@ -8,6 +8,8 @@
 #include "apps/mesh_file/reading.hpp"
 #include "apps/scene_file/words.hpp"
 
+#include <brep/builder_input.hpp>
+
 namespace apps {
 namespace mesh_file {
 

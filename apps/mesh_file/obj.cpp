@@ -7,6 +7,8 @@
 
 #include "apps/mesh_file/reading.hpp"
 
+#include <brep/builder_input.hpp>
+
 namespace apps::mesh_file {
 namespace {
 

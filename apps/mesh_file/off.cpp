@@ -3,6 +3,8 @@
 // Normals, colours and texture coordinates after a position and colours after a face are passed over.
 #include "apps/mesh_file/reading.hpp"
 
+#include <brep/builder_input.hpp>
+
 namespace apps::mesh_file {
 namespace {
 

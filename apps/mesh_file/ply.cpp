@@ -11,6 +11,8 @@
 #include "apps/mesh_file/ply_bytes.hpp"
 #include "apps/mesh_file/reading.hpp"
 
+#include <brep/builder_input.hpp>
+
 namespace apps::mesh_file {
 namespace {
 

@@ -17,6 +17,9 @@
 #include "apps/scene_file/groups.hpp"
 #include "apps/scene_file/words.hpp"
 
+#include <raycast/object.hpp>
+#include <raycast/transform.hpp>
+
 namespace apps::scene_file {
 namespace {
 

@@ -11,6 +11,10 @@
 #include "apps/scene_file/parser.hpp"
 #include "apps/scene_file/words.hpp"
 
+#include <raycast/transform.hpp>
+
+#include <radiosity/scene/material.hpp>
+
 namespace apps::scene_file {
 namespace {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Unions, intersections and differences. A file of its own: no other one needs brep/csg.
 #include <raycast/objects/csg.hpp>
+#include <raycast/objects/csg_tree.hpp>
+#include <raycast/transform.hpp>
 
 #include <string>
 #include <unordered_map>

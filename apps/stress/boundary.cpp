@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Shells and normals that are not as they should be, and what hides what.
 #include <raycast/objects/mesh.hpp>
+#include <raycast/objects/sphere.hpp>
 #include <raycast/objects/superquadric.hpp>
 #include <raycast/objects/torus.hpp>
 
 #include "apps/stress/case.hpp"
 #include "apps/stress/measures.hpp"
 #include "apps/stress/scenes.hpp"
+
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
 
 namespace apps::stress {
 namespace {

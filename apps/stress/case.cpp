@@ -4,6 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+
 namespace apps::stress {
 
 radiosity::Solution Findings::solve(const radiosity::Scene& scene, const radiosity::Options& options, const radiosity::Control& control) {

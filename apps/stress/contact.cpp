@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Things that touch, coincide, overlap, or nearly do.
+#include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/mesh.hpp>
+#include <raycast/objects/sphere.hpp>
 
 #include "apps/stress/case.hpp"
 #include "apps/stress/measures.hpp"
 #include "apps/stress/scenes.hpp"
+
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
 
 namespace apps::stress {
 namespace {

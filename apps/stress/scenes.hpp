@@ -14,7 +14,7 @@
 #include <raycast/objects/polygon.hpp>
 #include <raycast/objects/sphere.hpp>
 
-#include <radiosity/scene.hpp>
+#include <radiosity/scene/scene.hpp>
 
 namespace apps::stress {
 

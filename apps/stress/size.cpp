@@ -12,6 +12,13 @@
 #include "apps/stress/measures.hpp"
 #include "apps/stress/scenes.hpp"
 
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+
 namespace apps::stress {
 namespace {
 

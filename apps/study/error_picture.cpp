@@ -15,6 +15,9 @@
 #include "apps/png.hpp"
 #include "apps/study/numbers.hpp"
 
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/material.hpp>
+
 namespace study {
 namespace {
 

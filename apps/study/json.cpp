@@ -8,6 +8,8 @@
 #include "apps/study/pareto.hpp"
 #include "apps/study/tables.hpp"
 
+#include <radiosity/visibility/plan.hpp>
+
 namespace study {
 namespace {
 

@@ -12,8 +12,18 @@
 #include <thread>
 #include <utility>
 
-#include <radiosity/lookup.hpp>
-#include <radiosity/picture_error.hpp>
+#include <raycast/ray.hpp>
+
+#include <radiosity/audit/picture_error.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/result/comparison.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/visibility/plan.hpp>
 
 #include "apps/view.hpp"
 

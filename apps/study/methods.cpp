@@ -5,7 +5,12 @@
 #include <limits>
 #include <utility>
 
-#include <radiosity/uniform.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/run/uniform.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
 
 namespace study {
 namespace {

@@ -14,6 +14,8 @@
 #include "apps/study/svg.hpp"
 #include "apps/study/table.hpp"
 
+#include <radiosity/visibility/plan.hpp>
+
 namespace study {
 namespace {
 

@@ -6,12 +6,22 @@
 
 #include <glm/geometric.hpp>
 
-#include <radiosity/parallel.hpp>
-#include <radiosity/path_tracer.hpp>
-#include <radiosity/polygons.hpp>
-#include <radiosity/prepare.hpp>
-#include <radiosity/sobol.hpp>
-#include <radiosity/visibility.hpp>
+#include <raycast/object.hpp>
+
+#include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/hierarchy/polygons.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/parallel.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/support/sobol.hpp>
+#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/prepare.hpp>
+#include <radiosity/visibility/visibility.hpp>
 
 #include "apps/files.hpp"
 #include "apps/scene_file.hpp"

@@ -3,7 +3,7 @@
 
 // What the radiosity of a scene truly is, at fixed points: every input surface is cut into cells, every cell holds up to four stratified
 // points of the true surface that are not buried. In a closed scene where every surface emits 1 - rho times the same, B is
-// that number everywhere (the furnace; any shapes, any occluders); else each point is path-traced (radiosity/path_tracer.hpp) and brings its standard errors.
+// that number everywhere (the furnace; any shapes, any occluders); else each point is path-traced (radiosity/audit/path_tracer.hpp) and brings its standard errors.
 //
 // Path-traced values are kept in a file, with a checksum of all they depend on and one of themselves: a file that is damaged, or
 // made for another scene, is made anew and never trusted.
@@ -16,10 +16,10 @@
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/material.hpp>
-#include <radiosity/options.hpp>
-#include <radiosity/plan.hpp>
-#include <radiosity/scene.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/visibility/plan.hpp>
 
 #include "apps/study/results.hpp"
 

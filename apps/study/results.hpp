@@ -13,8 +13,8 @@
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/error_estimate.hpp>
-#include <radiosity/plan.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/visibility/plan.hpp>
 
 #include "apps/scene_file.hpp"
 
@@ -56,7 +56,7 @@ struct Run {
   Errors leaves_error;                                    // constant leaves, before reconstruction
   Errors simple_error;                                    // simple reconstruction (paper figs. 6-8)
   Errors weighted_error;                                  // weighted reconstruction (paper fig. 5)
-  std::optional<radiosity::ErrorEstimate> picture_error;  // of what the scene's camera sees of it (radiosity/picture_error.hpp)
+  std::optional<radiosity::ErrorEstimate> picture_error;  // of what the scene's camera sees of it (radiosity/audit/picture_error.hpp)
   std::optional<ErrorParts> parts;
   std::string refused;  // why there is no result; empty when there is one
 };

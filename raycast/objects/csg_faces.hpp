@@ -3,87 +3,26 @@
 
 // Makes the faces of a CSG tree's boundary convex, and takes away those that are thinner than the coordinates are exact.
 
-#include <algorithm>
 #include <string>
-#include <tuple>
-#include <vector>
 
-#include <brep/geometry.hpp>
-#include <brep/split.hpp>
-#include <brep/unchecked.hpp>
-
-#include "csg_leaf.hpp"
+#include <raycast/objects/csg_leaf.hpp>
+#include <raycast/objects/csg_tree.hpp>
 
 namespace raycast::detail {
 
 // A face without area has no normal and no inside. It goes into the neighbour at its longest edge; nothing moves by more than it is thin.
-inline void take_away_slivers(CsgBRep& brep) {
-  std::vector<brep::FaceId> thin;
-  for (const brep::FaceId f : brep::faces(brep)) {
-    const auto corners = brep::positions(brep, f);
-    const double size = brep::extent(corners);
-    if (!(brep::area(corners) > 1e-9 * size * size) && !brep::is_convex(corners)) thin.push_back(f);
-  }
-  for (const brep::FaceId f : thin) {
-    if (!brep.alive(f)) continue;
-    brep::HalfedgeId longest{};
-    double length = -1.0;
-    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
-      const double l = glm::length(brep.data(brep.target(h)).position - brep.data(brep.vertex(h)).position);
-      if (brep.face(brep::twin(h)) == f || l <= length) continue;
-      longest = brep::twin(h);
-      length = l;
-    }
-    if (length < 0.0) continue;
-    const brep::FaceId g = brep::unchecked::join_faces(brep, longest);
-    for (bool again = true; again;) {  // of further common edges a spur is left
-      again = false;
-      for (const brep::HalfedgeId h : brep::halfedges_of(brep, g)) {
-        if (brep.next(h) != brep::twin(h) || brep.next(brep::twin(h)) == h) continue;
-        brep::unchecked::join_vertices(brep, h);  // the end goes into the origin
-        again = true;
-        break;
-      }
-    }
-  }
-}
+void take_away_slivers(CsgBRep& brep);
 
 // Cuts all faces by diagonals until they are convex. `planar`: refused, with a sentence, is a face that is not simple. Else faces need not
 // be quite planar: where no diagonal is found they fall into triangles.
-[[nodiscard]] inline std::string cut_into_convex_parts(CsgBRep& brep, const CsgTree& tree, bool planar) {
-  std::vector<brep::FaceId> concave;
-  for (const brep::FaceId f : brep::faces(brep))
-    if (!brep::is_convex(brep, f)) concave.push_back(f);
-  for (const brep::FaceId f : concave) {
-    const auto parts = brep::split_until_convex(brep, f);
-    if (parts) continue;
-    const auto refusal = [&](const brep::Refusal& why) {
-      return "a face of '" + std::string(tree.sheet_name(brep.data(f).sheet)) +
-             "' is too thin to be cut into convex parts: " + why.sentence();
-    };
-    if (planar) return refusal(parts.refusal());
-    const auto split = brep::first_of(brep::AtNonConvexCorner{}, brep::AtBestEar{});
-    if (const auto warped = brep::split_recursively(brep, f, split, brep::Convex{} || brep::triangles); !warped)
-      return refusal(warped.refusal());
-  }
-  return {};
-}
+[[nodiscard]] std::string cut_into_convex_parts(CsgBRep& brep, const CsgTree& tree, bool planar);
 
 // Where a solid touches itself, several edges may join the same two vertices, which no list of polygons can say. All but one get a vertex
 // in their middle.
-inline void tell_edges_apart(CsgBRep& brep) {
-  std::vector<std::tuple<std::uint32_t, std::uint32_t, brep::EdgeId>> ends;
-  for (const brep::EdgeId e : brep::edges(brep)) {
-    const std::uint32_t a = brep.vertex(brep::halfedge(e)).index, b = brep.target(brep::halfedge(e)).index;
-    ends.emplace_back(std::min(a, b), std::max(a, b), e);
-  }
-  std::sort(ends.begin(), ends.end());
-  for (std::size_t i = 1; i < ends.size(); ++i) {
-    const auto& [a, b, e] = ends[i];
-    if (std::get<0>(ends[i - 1]) != a || std::get<1>(ends[i - 1]) != b) continue;
-    const glm::dvec3 middle = 0.5 * (brep.data(brep::VertexId{a}).position + brep.data(brep::VertexId{b}).position);
-    brep.data(brep.vertex(brep::unchecked::split_edge(brep, brep::halfedge(e)))).position = middle;
-  }
-}
+void tell_edges_apart(CsgBRep& brep);
 
 }  // namespace raycast::detail
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <raycast/objects/csg_faces.cpp>
+#endif

@@ -5,9 +5,24 @@
 // share theirs without it: a PlacedObject is an object and a placement.) Everything is asked of the shared object in its own coordinates;
 // project is then the nearest point up to the map's condition number, see transform.hpp.
 
-#include "../transform.hpp"
-
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <brep/builder_input.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/object.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/spans.hpp>
+#include <raycast/transform.hpp>
 
 namespace raycast {
 

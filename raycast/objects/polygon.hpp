@@ -7,9 +7,25 @@
 // With D the distance of the ray's origin from the polygon, t |d| is known to 4 u D |d| / |n.d|; the line test of planar.hpp makes
 // polygons that share an edge (equal corner coordinates) watertight. A line in the polygon's own plane does not meet it.
 
-#include "../planar.hpp"
-
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/builder_input.hpp>
+#include <brep/polygon.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/object.hpp>
+#include <raycast/planar.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/spans.hpp>
 
 namespace raycast {
 

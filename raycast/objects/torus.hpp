@@ -12,12 +12,23 @@
 // coefficients of the quartic decide no digit of the result. A grazing line is judged by the value at the extremum. Crossings are
 // known to 32 u (D + R) across the surface, and hit or miss is decided rightly when the line passes the surface by more.
 
-#include "../circle.hpp"
-#include "../compile.hpp"
-#include "../roots.hpp"
-
 #include <array>
-#include <vector>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/builder_input.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/circle.hpp>
+#include <raycast/compile.hpp>
+#include <raycast/object.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/roots.hpp>
+#include <raycast/spans.hpp>
 
 namespace raycast {
 
@@ -25,91 +36,24 @@ class Torus final : public Object {
  public:
   // Refused: non-finite or huge coordinates; an axis without length; a minor radius that is not positive, not below the major one, or
   // below 1e-4 of it; a torus that vanishes beside its centre's coordinates.
-  static Made<Torus> make(const glm::dvec3& centre, const glm::dvec3& axis, double major, double minor) {
-    if (!usable(centre) || !usable(axis)) return "a torus's centre and axis must be finite (and below 1e60)";
-    if (!usable_length(glm::length(axis), 0.0)) return "a torus's axis must have a length: it is the direction through the hole";
-    const double magnitude = Box{centre, centre}.magnitude();
-    if (!usable_length(major, magnitude) || !usable_length(minor, magnitude))
-      return "a torus's radii must be positive, finite and not vanishing beside its centre's coordinates";
-    if (!(minor < major)) return "a torus's minor radius must be below the major one: otherwise the surface passes through itself";
-    if (!(minor >= 1e-4 * major)) return "a torus's minor radius must be at least 1e-4 of the major one";
-    return std::shared_ptr<const Torus>(new Torus(centre, axis, major, minor));
-  }
+  static Made<Torus> make(const glm::dvec3& centre, const glm::dvec3& axis, double major, double minor);
 
-  [[nodiscard]] Box bounds() const override {
-    Box box;
-    frame_.extend(box, centre_, major_);
-    return box.grown(minor_ + 4 * unit_roundoff * (box.magnitude() + minor_));
-  }
+  [[nodiscard]] Box bounds() const override;
 
-  void spans(const Segment& line, Spans& out) const override {
-    const double shift = nearest_parameter(line, centre_), length = glm::length(line.direction);
-    const Tube tube = along(line, shift, length);
-    double lo = 0.0, hi = 0.0;
-    if (!tube.clip(lo, hi)) return;
-    std::array<double, 5> ends;  // lo, the extrema between, hi
-    const std::size_t count = tube.extrema(lo, hi, ends);
-    const auto t = [&](double s) { return shift + s * (major_ / length); };
-    bool inside = false;  // the clip's ends are outside, up to rounding
-    double entry = 0.0, before = lo;
-    for (std::size_t i = 1; i < count; ++i) {
-      const double at = ends[i];
-      if ((i + 1 < count && tube(at).value < 0.0) == inside) {
-        before = at;
-        continue;
-      }
-      const double root = bracketed_root(tube, before, at, inside, 0.5 * (before + at));
-      if (inside) out.push(Span{{t(entry), 0}, {t(root), 0}});
-      entry = root;
-      inside = !inside;
-      before = at;
-    }
-  }
+  void spans(const Segment& line, Spans& out) const override;
 
   // Two spans have three extrema, the middle one outside.
-  [[nodiscard]] bool passes_once(const Segment& line) const override {
-    const Tube tube = along(line, nearest_parameter(line, centre_), glm::length(line.direction));
-    double lo = 0.0, hi = 0.0;
-    std::array<double, 5> ends;
-    return tube.one_extremum() || !tube.clip(lo, hi) || tube.extrema(lo, hi, ends) < 5 || tube(ends[2]).value < 0.0 ||
-           !(tube(ends[1]).value < 0.0) || !(tube(ends[3]).value < 0.0);
-  }
+  [[nodiscard]] bool passes_once(const Segment& line) const override;
 
   void compile(Compiler& compiler) const override {
     compiler.superquadric(centre_, frame_.into(minor_, minor_), 2.0, 2.0, major_ / minor_);
   }
 
-  [[nodiscard]] SurfacePoint project(std::uint32_t, const glm::dvec3& p) const override {
-    const glm::dvec3 f = p - centre_, radial = frame_.radial(f);
-    const double z = glm::dot(f, frame_.w), x = glm::dot(f, radial) - major_, length = std::hypot(x, z);
-    const glm::dvec3 normal = length > 0.0 ? glm::normalize((x / length) * radial + (z / length) * frame_.w) : radial;
-    return {centre_ + major_ * radial + minor_ * normal, normal};
-  }
+  [[nodiscard]] SurfacePoint project(std::uint32_t, const glm::dvec3& p) const override;
 
   // n columns about the axis and m rows about the tube, multiples of 4 between 8 and 512, whose quadrilaterals are trapezoids. The chord error
   // of a cell is at most (dn^2 (R + r) + 2 dn dm r + dm^2 r) / 8 for angles dn, dm (Filip, Magedson, Markot 1986).
-  void approximate(double tolerance, brep::Builder& out) const override {
-    tolerance = std::min(tolerance, 0.25 * minor_);  // a mesh that is still a ring
-    int n = 8, m = 8;
-    for (;;) {
-      const double dn = 2 * std::numbers::pi / n, dm = 2 * std::numbers::pi / m;
-      const double around = dn * dn * (major_ + minor_), across = dm * dm * minor_;
-      if (around + 2 * dn * dm * minor_ + across <= 8 * tolerance || (n >= 512 && m >= 512)) break;
-      (n < 512 && (around >= across || m >= 512) ? n : m) += 4;
-    }
-    std::vector<std::uint32_t> ring;
-    for (int i = 0; i < n; ++i) {
-      const glm::dvec2 turn = circle_point(i, n);
-      const glm::dvec3 radial = turn.x * frame_.u + turn.y * frame_.v;
-      for (int j = 0; j < m; ++j) {
-        const glm::dvec2 p = circle_point(j, m);
-        ring.push_back(out.vertex(centre_ + (major_ + minor_ * p.x) * radial + (minor_ * p.y) * frame_.w));
-      }
-    }
-    const auto at = [&](int i, int j) { return ring[static_cast<std::size_t>(i % n * m + j % m)]; };
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < m; ++j) out.face({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}, 0);
-  }
+  void approximate(double tolerance, brep::Builder& out) const override;
 
  private:
   Torus(const glm::dvec3& centre, const glm::dvec3& axis, double major, double minor)
@@ -129,62 +73,18 @@ class Torus final : public Object {
           e_(glm::dot(e, frame.u), glm::dot(e, frame.v), glm::dot(e, frame.w)),
           r_(r) {}
 
-    [[nodiscard]] Sample operator()(double s) const {
-      const double x = f_.x + s * e_.x, y = f_.y + s * e_.y, z = f_.z + s * e_.z;
-      const double rho = std::sqrt(x * x + y * y), off = rho - 1.0, distance = std::sqrt(off * off + z * z);
-      return {distance - r_, (off * (x * e_.x + y * e_.y) / rho + z * e_.z) / distance};
-    }
+    [[nodiscard]] Sample operator()(double s) const;
     // The part of the line within the ball of radius 1 + r and the slab |z| <= r. Both a few u too large.
-    [[nodiscard]] bool clip(double& lo, double& hi) const {
-      const double grown = 1.0 + 16 * unit_roundoff, ball = (1.0 + r_) * grown, l = glm::length(f_);
-      if (!(l < ball)) return false;
-      hi = std::sqrt((ball - l) * (ball + l));
-      lo = -hi;
-      const double slab = r_ * grown + 16 * unit_roundoff;
-      if (e_.z == 0.0) return std::abs(f_.z) <= slab;
-      const double middle = -f_.z / e_.z, half = slab / std::abs(e_.z);
-      lo = std::max(lo, middle - half);
-      hi = std::min(hi, middle + half);
-      return lo < hi;
-    }
+    [[nodiscard]] bool clip(double& lo, double& hi) const;
     [[nodiscard]] bool one_extremum() const { return !(std::abs(cubic().turn) < 1.0); }
     // lo, the extrema of the quartic in between in increasing order, hi.
-    std::size_t extrema(double lo, double hi, std::array<double, 5>& ends) const {
-      const auto [p, q, turn] = cubic();
-      std::array<double, 3> roots{};
-      std::size_t found = 1;
-      if (std::abs(turn) < 1.0) {  // three real roots (Viete)
-        const double angle = std::acos(turn) / 3, radius = 2 * std::sqrt(-p / 3);
-        roots = {radius * std::cos(angle + 2 * std::numbers::pi / 3), radius * std::cos(angle - 2 * std::numbers::pi / 3),
-                 radius * std::cos(angle)};
-        found = 3;
-      } else {  // one (Cardano, the sum without cancellation first)
-        const double half = 0.5 * q, root = std::sqrt(std::max(0.0, half * half + p * p * p / 27));
-        const double large = std::cbrt(half >= 0.0 ? -(half + root) : root - half);
-        roots[0] = large == 0.0 ? 0.0 : large - p / (3 * large);
-      }
-      std::size_t count = 0;
-      ends[count++] = lo;
-      for (std::size_t i = 0; i < found; ++i) {
-        for (int newton = 0; newton < 2; ++newton) {
-          const double s = roots[i], slope = 3 * s * s + p, step = ((s * s + p) * s + q) / slope;
-          if (std::abs(step) <= 1e-3 * std::abs(s)) roots[i] = s - step;
-        }
-        if (roots[i] > ends[count - 1] && roots[i] < hi) ends[count++] = roots[i];
-      }
-      ends[count++] = hi;
-      return count;
-    }
+    std::size_t extrema(double lo, double hi, std::array<double, 5>& ends) const;
 
    private:
     struct Cubic {
       double p, q, turn;  // s^3 + p s + q, with three real roots where |turn| < 1
     };
-    [[nodiscard]] Cubic cubic() const {
-      const double k = glm::dot(f_, f_) + (1.0 - r_) * (1.0 + r_);
-      const double p = k - 2 * (e_.x * e_.x + e_.y * e_.y), q = -2 * (f_.x * e_.x + f_.y * e_.y);
-      return {p, q, p < 0.0 ? -0.5 * q / ((-p / 3) * std::sqrt(-p / 3)) : infinity};
-    }
+    [[nodiscard]] Cubic cubic() const;
 
     glm::dvec3 f_, e_;
     double r_;
@@ -196,3 +96,7 @@ class Torus final : public Object {
 };
 
 }  // namespace raycast
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <raycast/objects/torus.cpp>
+#endif

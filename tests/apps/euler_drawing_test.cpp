@@ -7,7 +7,10 @@
 #include <random>
 #include <set>
 
+#include <brep/brep.hpp>
+#include <brep/circulators.hpp>
 #include <brep/euler.hpp>
+#include <brep/handles.hpp>
 #include <glm/geometric.hpp>
 
 #include "catch.hpp"

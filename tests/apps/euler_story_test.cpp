@@ -2,7 +2,9 @@
 // What the stepper tells of a script, and its page and strip as text.
 #include "apps/euler/story.hpp"
 
+#include <brep/euler_script.hpp>
 #include <brep/euler_script_parse.hpp>
+#include <brep/euler_script_run.hpp>
 
 #include "apps/euler/html.hpp"
 #include "apps/euler/svg.hpp"

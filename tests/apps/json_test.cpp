@@ -10,6 +10,10 @@
 #include "apps/report.hpp"
 #include "json.hpp"
 
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/scene/material.hpp>
+
 TEST_CASE("what the writer writes the reader reads") {
   apps::JsonWriter writer;
   writer.open_object();

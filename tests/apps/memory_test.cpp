@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include <radiosity/memory.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/support/memory.hpp>
 
 #include "apps/memory.hpp"
 #include "json.hpp"

@@ -5,6 +5,9 @@
 #include <random>
 #include <string>
 
+#include <brep/brep.hpp>
+#include <brep/builder.hpp>
+#include <brep/builder_input.hpp>
 #include <brep/statistics.hpp>
 
 #include "apps/file_kind.hpp"

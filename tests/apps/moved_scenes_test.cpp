@@ -10,8 +10,14 @@
 
 #include <glm/geometric.hpp>
 
-#include <radiosity/lookup.hpp>
+#include <radiosity/picture/lookup.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "example_scenes.hpp"
 

@@ -11,6 +11,10 @@
 #include "apps/png.hpp"
 #include "small_mesh.hpp"
 
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+
 namespace {
 
 using radiosity::Color;

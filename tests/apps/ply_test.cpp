@@ -10,6 +10,10 @@
 #include "apps/ply.hpp"
 #include "small_mesh.hpp"
 
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+
 namespace {
 
 using radiosity::Color;

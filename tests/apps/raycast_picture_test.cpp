@@ -9,7 +9,10 @@
 #include <numbers>
 #include <string>
 
+#include <radiosity/picture/lookup.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/options.hpp>
 
 #include "apps/picture.hpp"
 #include "apps/raycast_picture.hpp"

@@ -10,6 +10,8 @@
 #include "apps/bounds.hpp"
 #include "apps/scene_file.hpp"
 
+#include <raycast/spans.hpp>
+
 namespace {
 
 apps::SceneFile parsed(const std::string& text) {

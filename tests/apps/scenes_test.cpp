@@ -10,6 +10,8 @@
 #include <vector>
 
 #include <radiosity/radiosity.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
 
 #include "example_scenes.hpp"
 #include "generations.hpp"

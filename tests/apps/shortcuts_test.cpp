@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a scene does not need is left out (radiosity/plan.hpp): with everything done all the same, each result has the same bits.
+// What a scene does not need is left out (radiosity/visibility/plan.hpp): with everything done all the same, each result has the same bits.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -7,6 +7,12 @@
 #include <string>
 
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/visibility/plan.hpp>
 
 #include "example_scenes.hpp"
 

@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <utility>
 
-#include <radiosity/mesh.hpp>
+#include <radiosity/result/mesh.hpp>
 
 // Adds a face with new vertices; counter-clockwise from the bright side.
 inline void add_face(radiosity::Mesh& mesh, std::initializer_list<std::pair<glm::dvec3, radiosity::Color>> corners,

@@ -12,6 +12,9 @@
 #include "json.hpp"
 #include "program.hpp"
 
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+
 namespace {
 
 using radiosity::Color;

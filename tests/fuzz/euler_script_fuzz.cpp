@@ -5,9 +5,14 @@
 // back to nothing, redo to the same records, and the log, written as a script, makes the same records in another BRep. Grown
 // solids are left alone beyond max_edges, so that a run takes well under a millisecond.
 
+#include <brep/brep.hpp>
+#include <brep/circulators.hpp>
+#include <brep/euler_log.hpp>
+#include <brep/euler_script.hpp>
 #include <brep/euler_script_parse.hpp>
 #include <brep/euler_script_run.hpp>
 #include <brep/euler_script_text.hpp>
+#include <brep/handles.hpp>
 
 #include <cstdint>
 #include <cstdio>

@@ -11,6 +11,8 @@
 #include "apps/mesh_file.hpp"
 #include "apps/scene_file.hpp"
 
+#include <brep/builder_input.hpp>
+
 namespace {
 
 void require(bool holds, const char* law) {

@@ -25,9 +25,11 @@
 #include <utility>
 #include <vector>
 
+#include <raycast/object.hpp>
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/cone.hpp>
 #include <raycast/objects/csg.hpp>
+#include <raycast/objects/csg_tree.hpp>
 #include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/disk.hpp>
 #include <raycast/objects/mesh.hpp>
@@ -36,7 +38,14 @@
 #include <raycast/objects/superquadric.hpp>
 #include <raycast/objects/torus.hpp>
 
+#include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
 
 namespace {
 

@@ -5,7 +5,13 @@
 #include <algorithm>
 #include <vector>
 
-#include <radiosity/uniform.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/run/uniform.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/memory.hpp>
 
 #include "apps/stress/scenes.hpp"
 

@@ -9,6 +9,11 @@
 #include <pthread.h>
 
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/parallel.hpp>
 
 #include "apps/stress/scenes.hpp"
 

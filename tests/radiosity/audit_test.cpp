@@ -6,10 +6,25 @@
 #include <atomic>
 #include <cmath>
 
-#include <radiosity/audit_effort.hpp>
-#include <radiosity/path_tracer.hpp>
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+
+#include <radiosity/audit/audit_effort.hpp>
+#include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/audit/surface_error.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/radiosity.hpp>
-#include <radiosity/surface_error.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/prepare.hpp>
 
 #include "catch.hpp"
 #include "scenes.hpp"

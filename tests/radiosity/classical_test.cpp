@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include <radiosity/uniform.hpp>
+#include <radiosity/run/uniform.hpp>
 
 #include "catch.hpp"
 #include "scenes.hpp"

@@ -3,6 +3,11 @@
 // Laws of solutions with clusters, by F- and by BF-refinement: what they agree with, and that they are the same for any number of threads.
 
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/visibility/plan.hpp>
 
 #include "catch.hpp"
 

@@ -3,9 +3,23 @@
 // Laws of the hierarchy above the input faces: what clusters may change and what they may not.
 
 #include <numeric>
-#include <radiosity/clusters.hpp>
-#include <radiosity/link_schedule.hpp>
+#include <radiosity/clusters/cluster_exchange.hpp>
+#include <radiosity/clusters/clusters.hpp>
+#include <radiosity/clusters/face_clusters.hpp>
+#include <radiosity/geometry/directions.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/links/link_schedule.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/solver/transport.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/prepare.hpp>
 #include <random>
 
 #include <raycast/objects/cylinder.hpp>

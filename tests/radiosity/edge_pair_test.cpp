@@ -8,7 +8,10 @@
 
 #include "catch.hpp"
 
-#include <radiosity/exchange.hpp>
+#include <radiosity/exchange/edge_pair.hpp>
+#include <radiosity/exchange/exchange.hpp>
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/patch.hpp>
 
 namespace edge_laws {  // test files are compiled together
 

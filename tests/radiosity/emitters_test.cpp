@@ -6,11 +6,17 @@
 #include <cmath>
 #include <cstdint>
 
+#include <raycast/objects/cylinder.hpp>
+#include <raycast/objects/sphere.hpp>
 #include <raycast/objects/torus.hpp>
 
-#include <radiosity/emitters.hpp>
-#include <radiosity/path_tracer.hpp>
-#include <radiosity/prepare.hpp>
+#include <radiosity/audit/emitters.hpp>
+#include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/prepare.hpp>
 
 #include "catch.hpp"
 #include "scenes.hpp"

@@ -7,9 +7,23 @@
 #include <cstdint>
 #include <functional>
 
-#include <radiosity/audit_effort.hpp>
+#include <raycast/objects/sphere.hpp>
+
+#include <radiosity/audit/audit_effort.hpp>
+#include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/audit/surface_error.hpp>
+#include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/radiosity.hpp>
-#include <radiosity/surface_error.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/prepare.hpp>
 
 #include "catch.hpp"
 #include "scenes.hpp"

@@ -11,12 +11,27 @@
 
 #include <glm/geometric.hpp>
 
+#include <radiosity/exchange/exchange.hpp>
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/bend.hpp>
+#include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <raycast/object.hpp>
 #include <raycast/objects/cone.hpp>
 #include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/sphere.hpp>
 #include <raycast/objects/superquadric.hpp>
 #include <raycast/objects/torus.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
 
 #include "catch.hpp"
 #include "scenes.hpp"

@@ -3,12 +3,25 @@
 // What stands behind the stiff and extreme scenes, which are solved and measured by `halflight stress` (tests/apps/stress_test.cpp):
 // warnings that name what is doubtful and nothing else, closing that is never done by force, faces that are cut at walls.
 
-#include <radiosity/prepare.hpp>
+#include <radiosity/audit/warnings.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/hierarchy/wall_cuts.hpp>
 #include <radiosity/radiosity.hpp>
-#include <radiosity/wall_cuts.hpp>
-#include <radiosity/warnings.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/solver/transport.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/prepare.hpp>
 #include <raycast/objects/mesh.hpp>
 
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
 #include <brep/testing.hpp>
 
 #include "catch.hpp"

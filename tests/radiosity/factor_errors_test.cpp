@@ -8,10 +8,21 @@
 #include <random>
 
 #include <raycast/objects/disk.hpp>
+#include <raycast/objects/sphere.hpp>
 
 #include "catch.hpp"
 #include "factors_of.hpp"
 #include "scenes.hpp"
+
+#include <radiosity/factors/factor_integral.hpp>
+#include <radiosity/factors/factor_rays.hpp>
+#include <radiosity/factors/factor_rows.hpp>
+#include <radiosity/factors/factor_run.hpp>
+#include <radiosity/factors/factors.hpp>
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/visibility/prepare.hpp>
 
 namespace factor_errors {
 

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include <radiosity/factors.hpp>
+#include <radiosity/factors/factors.hpp>
 
 #include "catch.hpp"
 

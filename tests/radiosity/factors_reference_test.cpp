@@ -5,7 +5,11 @@
 
 #include <ctime>
 
-#include <radiosity/total_exchange.hpp>
+#include <radiosity/factors/factor_integral.hpp>
+#include <radiosity/factors/factors.hpp>
+#include <radiosity/factors/total_exchange.hpp>
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/scene/scene.hpp>
 #include <raycast/objects/mesh.hpp>
 
 #include "catch.hpp"

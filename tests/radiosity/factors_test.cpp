@@ -7,10 +7,24 @@
 #include <numbers>
 #include <random>
 
-#include <radiosity/total_exchange.hpp>
+#include <radiosity/factors/factor_integral.hpp>
+#include <radiosity/factors/factor_rays.hpp>
+#include <radiosity/factors/factor_rows.hpp>
+#include <radiosity/factors/factor_run.hpp>
+#include <radiosity/factors/factors.hpp>
+#include <radiosity/factors/total_exchange.hpp>
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/sobol.hpp>
+#include <radiosity/visibility/prepare.hpp>
+#include <radiosity/visibility/shadow.hpp>
 #include <raycast/objects/csg.hpp>
+#include <raycast/objects/csg_tree.hpp>
+#include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/disk.hpp>
 #include <raycast/objects/mesh.hpp>
+#include <raycast/objects/sphere.hpp>
 
 #include "catch.hpp"
 #include "factors_of.hpp"

@@ -7,7 +7,9 @@
 
 #include "catch.hpp"
 
-#include <radiosity/exchange.hpp>
+#include <radiosity/exchange/exchange.hpp>
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/patch.hpp>
 
 using radiosity::exchange;
 using radiosity::make_patch;

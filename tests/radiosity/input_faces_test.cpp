@@ -3,10 +3,33 @@
 // Input faces that are not convex, or of many corners: a wall with windows is one root of the hierarchy, above its convex parts, and the cap of
 // a cylinder one above a ring of cells.
 
+#include <brep/ring.hpp>
+
+#include <raycast/object.hpp>
 #include <raycast/objects/csg.hpp>
+#include <raycast/objects/csg_tree.hpp>
+#include <raycast/objects/cylinder.hpp>
 
 #include "catch.hpp"
 #include "scenes.hpp"
+
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/hierarchy/polygons.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/hierarchy/wall_cuts.hpp>
+#include <radiosity/oracle/oracle.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/prepare.hpp>
 
 using radiosity::Color;
 using radiosity::Node;

@@ -6,7 +6,18 @@
 #include <cmath>
 #include <vector>
 
+#include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/prepare.hpp>
 #include <raycast/objects/sphere.hpp>
 
 #include "catch.hpp"

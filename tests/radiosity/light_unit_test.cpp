@@ -7,7 +7,11 @@
 #include <random>
 
 #include <radiosity/radiosity.hpp>
-#include <radiosity/uniform.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/run/uniform.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "catch.hpp"
 #include "scenes.hpp"

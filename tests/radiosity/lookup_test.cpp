@@ -10,7 +10,21 @@
 #include <random>
 #include <vector>
 
-#include <radiosity/lookup.hpp>
+#include <raycast/box.hpp>
+#include <raycast/objects/cylinder.hpp>
+#include <raycast/objects/sphere.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/geometry/chord.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "scenes.hpp"
 

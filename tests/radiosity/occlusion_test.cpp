@@ -8,6 +8,21 @@
 #include "generations.hpp"
 #include "radiosity/scenes.hpp"
 
+#include <raycast/bundle.hpp>
+#include <raycast/compiled.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/shaft.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/oracle/oracle.hpp>
+#include <radiosity/refinement/refine.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/prepare.hpp>
+
 using radiosity::Decision;
 using radiosity::OccluderLists;
 

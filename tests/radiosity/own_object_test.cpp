@@ -6,7 +6,19 @@
 #include <cmath>
 #include <optional>
 
-#include <radiosity/lookup.hpp>
+#include <brep/builder_input.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/object.hpp>
+#include <raycast/objects/sphere.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/spans.hpp>
+
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "scenes.hpp"
 

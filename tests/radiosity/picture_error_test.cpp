@@ -5,7 +5,13 @@
 #include <cmath>
 #include <cstdint>
 
-#include <radiosity/picture_error.hpp>
+#include <raycast/objects/sphere.hpp>
+#include <raycast/ray.hpp>
+
+#include <radiosity/audit/picture_error.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "catch.hpp"
 #include "scenes.hpp"

@@ -7,7 +7,12 @@
 #include <string_view>
 #include <thread>
 
+#include <radiosity/hierarchy/links.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "catch.hpp"
 #include "generations.hpp"

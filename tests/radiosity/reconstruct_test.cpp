@@ -7,6 +7,23 @@
 #include "catch.hpp"
 #include "radiosity/scenes.hpp"
 
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+
+#include <raycast/object.hpp>
+#include <raycast/objects/cylinder.hpp>
+#include <raycast/objects/sphere.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/picture/reconstruct.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/prepare.hpp>
+
 using radiosity::Reconstruction;
 
 namespace {

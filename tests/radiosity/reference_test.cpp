@@ -4,7 +4,16 @@
 
 #include "catch.hpp"
 
-#include <radiosity/lookup.hpp>
+#include <raycast/objects/sphere.hpp>
+
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "reference_data.hpp"
 #include "reference_scene.hpp"

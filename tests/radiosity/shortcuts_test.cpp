@@ -10,7 +10,13 @@
 #include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/sphere.hpp>
 
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "scenes.hpp"
 

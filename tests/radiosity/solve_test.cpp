@@ -6,7 +6,15 @@
 #include <cmath>
 #include <random>
 
-#include <radiosity/solve.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/solver/iteration.hpp>
+#include <radiosity/solver/solve.hpp>
+#include <radiosity/solver/transport.hpp>
+#include <radiosity/solver/tree_transport.hpp>
+#include <radiosity/visibility/exposure.hpp>
 
 #include "catch.hpp"
 

@@ -5,13 +5,27 @@
 #include <random>
 
 #include <brep/validate.hpp>
-#include <radiosity/long_faces.hpp>
-#include <radiosity/prepare.hpp>
+#include <radiosity/clusters/clusters.hpp>
+#include <radiosity/hierarchy/buried.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/long_faces.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/hierarchy/wall_cuts.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/refinement/refine.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/prepare.hpp>
 #include <raycast/objects/mesh.hpp>
 #include <raycast/objects/sphere.hpp>
 #include <raycast/objects/superquadric.hpp>
 #include <raycast/objects/torus.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/spans.hpp>
+#include <raycast/transform.hpp>
 
 #include "catch.hpp"
 #include "scenes.hpp"

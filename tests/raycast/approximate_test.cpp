@@ -5,7 +5,11 @@
 
 #include <brep/brep.hpp>
 #include <brep/builder.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/circulators.hpp>
 #include <brep/geometry.hpp>
+#include <brep/handles.hpp>
+#include <brep/polygon.hpp>
 
 using namespace raycast;
 using namespace test;

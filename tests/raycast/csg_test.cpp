@@ -2,6 +2,11 @@
 // Union, intersection and difference of solids against an oracle that knows nothing of lines: the implicit functions of the leaves.
 #include "primitives.hpp"
 
+#include <brep/builder.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+
 #include <raycast/objects/csg.hpp>
 
 using namespace raycast;

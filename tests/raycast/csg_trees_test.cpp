@@ -3,6 +3,11 @@
 // has.
 #include "random_solids.hpp"
 
+#include <brep/builder.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+
 using namespace raycast;
 using test::dvec3;
 using test::RandomSolid;

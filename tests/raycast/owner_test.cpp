@@ -3,6 +3,8 @@
 
 #include "support.hpp"
 
+#include <brep/builder_input.hpp>
+
 using namespace raycast;
 using namespace test;
 

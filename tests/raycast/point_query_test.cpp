@@ -5,6 +5,8 @@
 #include <random>
 #include <vector>
 
+#include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
 #include <raycast/point_query.hpp>
 
 namespace {

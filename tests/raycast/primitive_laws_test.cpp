@@ -4,6 +4,9 @@
 #include "primitives.hpp"
 
 #include <brep/brep.hpp>
+#include <brep/builder.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/polygon.hpp>
 
 #include <limits>
 

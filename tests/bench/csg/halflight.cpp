@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // brep/csg in the bench.
+#include <brep/brep.hpp>
 #include <brep/builder.hpp>
+#include <brep/builder_input.hpp>
 #include <brep/csg/csg.hpp>
 
 #include <algorithm>

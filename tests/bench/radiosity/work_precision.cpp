@@ -13,10 +13,19 @@
 #include <string>
 #include <vector>
 
+#include <raycast/object.hpp>
 #include <raycast/objects/mesh.hpp>
 #include <raycast/objects/polygon.hpp>
+#include <raycast/scene.hpp>
 
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "json.hpp"
 

@@ -14,6 +14,11 @@
 #include <ctime>
 #include <functional>
 
+#include <raycast/bundle.hpp>
+#include <raycast/compiled.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/shaft.hpp>
+
 namespace {
 
 using namespace bench;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "sets.hpp"
 
+#include <raycast/object.hpp>
 #include <raycast/objects/mesh.hpp>
 #include <raycast/objects/polygon.hpp>
 #include <raycast/objects/sphere.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/transform.hpp>
 
 #include <cmath>
 #include <cstdio>

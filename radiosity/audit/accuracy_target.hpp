@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The rounds that meet an error target: ever finer solutions, until the audit witnesses that one is fine enough.
+//
+// What the rounds are does not depend on the target, only where they end: so a tighter target ends at the same solution as a looser one,
+// or at a finer one. A run gives up when the next round would need more than link_budget links, when the thresholds have reached their
+// floor, or when three rounds running were no better than the best before them. It then returns the last one, unless an earlier one is
+// better beyond the doubt of both audits.
+
+#include <cstdint>
+#include <functional>
+
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/options.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// `solve_round` solves at a given fineness, while so many bytes are held by an earlier solution, and measures the errors.
+[[nodiscard]] Outcome solve_to_error(const Options& options, bool of_picture,
+                                     const std::function<Outcome(const Options&, std::uint64_t held)>& solve_round);
+
+}  // namespace detail
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/audit/accuracy_target.cpp>
+#endif

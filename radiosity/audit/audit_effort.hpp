@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How many points, and how many paths at each, an audit takes. Whoever looks at a measurement to decide whether to go on measuring stops
+// more often when it is wrong in the wanted direction. So a small pilot decides, and what is reported is measured at fresh points
+// whose number was fixed before.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
+
+namespace radiosity {
+
+struct AuditGoal {
+  std::uint64_t points = 2000;     // about: a quarter of them at least, more where the points differ much
+  std::uint64_t rays = 0;          // at most, unless the least number of points takes more
+  std::optional<double> wanted{};  // relative L2 that is to be shown, or shown to be missed; else the error is to be known to a quarter
+  std::uint64_t rays_to_show = 0;  // at most when the pilot finds the error to be what is wanted: that is then all that is left to do
+};
+
+// As many rays of paths as the solution took time: a ray of a path costs as much as two segments of links or two thirds of a link.
+[[nodiscard]] inline std::uint64_t rays_worth(const Audit& audit) { return (audit.rays + 3 * audit.links) / 2; }
+
+// For an audit without a target: as long as the solution took, or 2000 rays a point.
+[[nodiscard]] inline AuditGoal goal_to_know(const Audit& audit, std::uint32_t points) {
+  return {points, std::max<std::uint64_t>(rays_worth(audit), 2000 * std::uint64_t{points})};
+}
+
+// `measure(points, paths, result)` adds that many fresh points to the result and returns false when it was cancelled; a Measured has
+// `rays`, and `sums(measured)` are those that matter. False when it was cancelled: the result then has no meaning.
+template <class Measured>
+[[nodiscard]] bool measure_to_goal(const std::function<bool(std::uint64_t points, std::uint32_t paths, Measured&)>& measure,
+                                   const std::function<const ErrorSums&(const Measured&)>& sums, const AuditGoal& goal, Measured& result) {
+  const std::uint64_t least = std::max<std::uint64_t>(16, goal.points / 4);
+  const double target = goal.wanted ? *goal.wanted * *goal.wanted : 0.0;
+  std::uint64_t few = std::clamp<std::uint64_t>(goal.points / 8, 16, 512);  // points of the pilot
+  std::uint32_t paths = 16;
+  std::uint64_t points = least;
+  for (;;) {
+    Measured pilot;
+    if (!measure(few, paths, pilot)) { return false; }
+    const double rays_a_point = static_cast<double>(pilot.rays) / static_cast<double>(few);
+    const auto affordable = [&](double factor, std::uint64_t rays) {
+      return factor * static_cast<double>(least) * rays_a_point <= static_cast<double>(rays);
+    };
+    const std::optional<ErrorSums::Moments> seen = sums(pilot).moments();
+    if (!seen) {  // too few points see light
+      if (4 * few > 64 * least || !affordable(4.0 * static_cast<double>(few) / static_cast<double>(least), goal.rays)) { break; }
+      points = few *= 4;
+      continue;
+    }
+    const double doubt = std::sqrt(seen->variance / static_cast<double>(sums(pilot).square.size()));
+    if (goal.wanted && seen->ratio - 4.0 * doubt > target) {  // too large, whatever the noise
+      points = few;
+      break;
+    }
+    const std::uint64_t rays = goal.wanted && seen->ratio <= target ? std::max(goal.rays, goal.rays_to_show) : goal.rays;
+    // The noise of the paths falls with the square of their number, so more paths at fewer points pay until it is half of the variance. From
+    // few points its share is mostly seen too small.
+    if (seen->noise_share > 0.2 && affordable(4.0, rays)) {
+      paths *= 4;
+      continue;
+    }
+    if (seen->noise_share < 1.0 / 32.0) { paths /= 4; }
+    // The standard error of the mean that is needed. The pilot's own doubt stands in for an error that it hides.
+    const double off = goal.wanted ? std::max(std::abs(target - seen->ratio), 0.1 * target) / 2.5 : 0.25 * std::max(seen->ratio, doubt);
+    const double needed = off > 0.0 ? 1.2 * seen->variance / (off * off) : 0.0;
+    const auto most = std::max(static_cast<double>(least), static_cast<double>(rays) / rays_a_point);
+    points = static_cast<std::uint64_t>(std::clamp(needed, static_cast<double>(least), most));
+    break;
+  }
+  return measure(points, paths, result);
+}
+
+}  // namespace radiosity

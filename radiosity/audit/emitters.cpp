@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/audit/emitters.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/brep.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/material.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+HALFLIGHT_INLINE std::vector<std::array<glm::dvec3, 3>> compact_triangles(const std::vector<Polygon>& faces) {
+  std::vector<std::array<glm::dvec3, 3>> pieces;
+  for (const Polygon& face : faces) {
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) { pieces.push_back({face[0], face[i], face[i + 1]}); }
+  }
+  const std::size_t most = std::max<std::size_t>(4096, 2 * pieces.size());
+  for (std::size_t k = 0; k < pieces.size() && pieces.size() < most;) {
+    auto& [a, b, c] = pieces[k];
+    const double ab = glm::length(b - a), bc = glm::length(c - b), ca = glm::length(a - c);
+    const double longest = std::max({ab, bc, ca});
+    const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+    if (!(area > 0.0) || longest * longest <= 8.0 * area) {  // a right triangle of two equal legs has 4
+      ++k;
+      continue;
+    }
+    while (glm::length(b - a) < longest) {  // now a b is the longest
+      const glm::dvec3 first = a;
+      a = b;
+      b = c;
+      c = first;
+    }
+    const glm::dvec3 middle = 0.5 * (a + b);
+    const std::array<glm::dvec3, 3> rest{middle, b, c};
+    b = middle;
+    pieces.push_back(rest);
+  }
+  return pieces;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
+  for (const Surface& surface : surfaces) {
+    std::vector<std::vector<Polygon>> curved(surface.object->sheet_count());  // faces, by sheet
+    for (const brep::FaceId f : brep::faces(surface.brep)) {
+      const std::uint32_t sheet = surface.brep.data(f).sheet;
+      if (sheet == brep::no_sheet) { continue; }
+      const Color& exitance = emission[surface.first_surface + sheet];
+      if (is_black(exitance)) { continue; }
+      Polygon polygon;
+      for (const brep::HalfedgeId h : brep::halfedges_of(surface.brep, f)) {
+        polygon.push_back(surface.brep.data(surface.brep.vertex(h)).position);
+      }
+      if (surface.object->flat()) {
+        add_flat(surface.first_surface + sheet, polygon, exitance.x + exitance.y + exitance.z);
+      } else {
+        curved[sheet].push_back(std::move(polygon));
+      }
+    }
+    for (std::uint32_t s = 0; s < curved.size(); ++s) {
+      const Color& exitance = emission[surface.first_surface + s];
+      if (!curved[s].empty()) {
+        add_curved(surface.first_surface + s, curved[s], *surface.object, s, exitance.x + exitance.y + exitance.z);
+      }
+    }
+  }
+  if (shapes_.empty()) { return; }
+  nodes_.reserve(2 * shapes_.size());
+  nodes_.emplace_back();
+  build(0, 0, static_cast<std::uint32_t>(shapes_.size()));
+}
+
+HALFLIGHT_INLINE void Emitters::add_flat(std::uint32_t surface, const Polygon& polygon, double exitance) {
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    Shape shape;
+    shape.corner = {polygon[0], polygon[i], polygon[i + 1]};
+    const auto& [a, b, c] = shape.corner;
+    const glm::dvec3 twice = glm::cross(b - a, c - a);
+    const double length = glm::length(twice);
+    if (!(length > 0.0)) { continue; }
+    shape.normal = twice / length;
+    shape.area = 0.5 * length;
+    shape.centre = (a + b + c) / 3.0;
+    for (const glm::dvec3& p : shape.corner) { shape.radius = std::max(shape.radius, glm::length(p - shape.centre)); }
+    shape.power = exitance * shape.area;
+    shape.surface = surface;
+    shapes_.push_back(shape);
+  }
+}
+
+HALFLIGHT_INLINE void Emitters::add_curved(std::uint32_t surface, const std::vector<Polygon>& faces, const raycast::PlacedObject& object,
+                                           std::uint32_t sheet, double exitance) {
+  const auto pieces = detail::compact_triangles(faces);
+  // How far the surface bulges out of its faces: half as much again as in the middle of the worst.
+  double bulge = object.slack();
+  double area = 0.0;
+  raycast::Box bounds;
+  for (const auto& [a, b, c] : pieces) {
+    const glm::dvec3 middle = (a + b + c) / 3.0;
+    bulge = std::max(bulge, 1.5 * glm::length(object.project(sheet, middle).position - middle));
+    area += 0.5 * glm::length(glm::cross(b - a, c - a));
+    for (const glm::dvec3& p : {a, b, c}) { bounds.extend(p); }
+  }
+  const glm::dvec3 centre = 0.5 * (bounds.lo + bounds.hi);
+  double radius = 0.0;
+  for (const auto& piece : pieces) {
+    for (const glm::dvec3& p : piece) { radius = std::max(radius, glm::length(p - centre)); }
+  }
+  // From afar a convex surface shows a quarter of its area on average (Cauchy 1832); a sphere that shows no more than twice that will do.
+  if (std::numbers::pi * (radius + bulge) * (radius + bulge) <= 0.5 * area) {
+    Shape whole;
+    whole.centre = centre;
+    whole.radius = radius + bulge;
+    whole.area = area;
+    whole.power = exitance * area;
+    whole.surface = surface;
+    shapes_.push_back(whole);
+    return;
+  }
+  for (const auto& piece : pieces) {
+    Shape shape;
+    const auto& [a, b, c] = piece;
+    shape.area = 0.5 * glm::length(glm::cross(b - a, c - a));
+    if (!(shape.area > 0.0)) { continue; }
+    shape.centre = (a + b + c) / 3.0;
+    for (const glm::dvec3& p : piece) { shape.radius = std::max(shape.radius, glm::length(p - shape.centre)); }
+    shape.radius += bulge;
+    shape.power = exitance * shape.area;
+    shape.surface = surface;
+    shapes_.push_back(shape);
+  }
+}
+
+// Halves the shapes [first, last): between surfaces while there are several, then by place.
+HALFLIGHT_INLINE void Emitters::build(std::uint32_t index, std::uint32_t first, std::uint32_t last) {
+  Node node;
+  const std::span<Shape> shapes = std::span{shapes_}.subspan(first, last - first);
+  raycast::Box bounds, centres;
+  node.normal = shapes[0].normal;
+  node.offset = glm::dot(node.normal, shapes[0].centre);
+  for (const Shape& shape : shapes) {
+    centres.extend(shape.centre);
+    bounds.extend(shape.centre - shape.radius);
+    bounds.extend(shape.centre + shape.radius);
+    node.power += shape.power;
+    node.several = node.several || shape.surface != shapes[0].surface;
+    if (shape.normal != shapes[0].normal || glm::dot(node.normal, shape.centre) != node.offset) { node.normal = glm::dvec3{0.0}; }
+  }
+  node.centre = shapes.size() == 1 ? shapes[0].centre : 0.5 * (bounds.lo + bounds.hi);
+  for (const Shape& shape : shapes) { node.radius = std::max(node.radius, glm::length(shape.centre - node.centre) + shape.radius); }
+  node.leaf = shapes.size() == 1;
+  node.first = first;
+  if (!node.leaf) {
+    const glm::dvec3 extent = centres.hi - centres.lo;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    auto middle = shapes.begin() + static_cast<std::ptrdiff_t>(shapes.size() / 2);
+    if (node.several) {
+      std::sort(shapes.begin(), shapes.end(), [](const Shape& a, const Shape& b) { return a.surface < b.surface; });
+      // Of the borders between surfaces the one nearest to the middle.
+      auto border = std::partition_point(shapes.begin(), shapes.end(), [&](const Shape& s) { return s.surface < middle->surface; });
+      if (border == shapes.begin()) {
+        border = std::partition_point(shapes.begin(), shapes.end(), [&](const Shape& s) { return s.surface <= middle->surface; });
+      }
+      middle = border;
+    } else {
+      std::nth_element(shapes.begin(), middle, shapes.end(),
+                       [axis](const Shape& a, const Shape& b) { return a.centre[axis] < b.centre[axis]; });
+    }
+    const auto half = first + static_cast<std::uint32_t>(middle - shapes.begin());
+    node.first = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.resize(nodes_.size() + 2);
+    nodes_[index] = node;
+    build(node.first, first, half);
+    build(node.first + 1, half, last);
+    return;
+  }
+  nodes_[index] = node;
+}
+
+// 0 when nothing below can be seen from the front side of x, or shows its front to x.
+HALFLIGHT_INLINE double Emitters::importance(const Node& node, const glm::dvec3& x, const glm::dvec3& n) const {
+  const glm::dvec3 d = node.centre - x;
+  if (!(glm::dot(n, d) + node.radius > 0.0)) { return 0.0; }
+  if (node.normal != glm::dvec3{0.0} && !(glm::dot(node.normal, x) > node.offset)) { return 0.0; }
+  return node.power / std::max({glm::dot(d, d), node.radius * node.radius, std::numeric_limits<double>::min()});
+}
+
+// The probability of the first child. Between surfaces neither gets less than a tenth, for the brighter one may be hidden. NaN when
+// neither child can be seen.
+HALFLIGHT_INLINE double Emitters::first_share(const Node& node, const glm::dvec3& x, const glm::dvec3& n) const {
+  const double first = importance(nodes_[node.first], x, n);
+  const double second = importance(nodes_[node.first + 1], x, n);
+  const double share = first / (first + second);
+  return node.several && first > 0.0 && second > 0.0 ? 0.1 + 0.8 * share : share;
+}
+
+HALFLIGHT_INLINE double Emitters::density_of(const Shape& shape, const glm::dvec3& x, const glm::dvec3& w, bool meets) {
+  if (shape.flat()) {
+    const double cosine = -glm::dot(shape.normal, w);
+    const double height = glm::dot(shape.normal, x - shape.corner[0]);
+    if (!(cosine > 0.0) || !(height > 0.0)) { return 0.0; }
+    const double distance = height / cosine;
+    if (!meets) {
+      const glm::dvec3 p = x + distance * w;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3& a = shape.corner[i];
+        if (glm::dot(glm::cross(shape.corner[(i + 1) % 3] - a, p - a), shape.normal) < 0.0) { return 0.0; }
+      }
+    }
+    return distance * distance / (cosine * shape.area);
+  }
+  const glm::dvec3 d = shape.centre - x;
+  const double r2 = glm::dot(d, d);
+  const double sine2 = shape.radius * shape.radius / r2;
+  if (!(sine2 < 1.0)) { return 0.25 * std::numbers::inv_pi; }  // x is within
+  const glm::dvec3 off = glm::cross(w, d);
+  if (!meets && (glm::dot(off, off) > shape.radius * shape.radius || !(glm::dot(w, d) > 0.0))) { return 0.0; }
+  const double solid_angle = 2.0 * std::numbers::pi * sine2 / (1.0 + std::sqrt(1.0 - sine2));
+  return 1.0 / solid_angle;
+}
+
+HALFLIGHT_INLINE double Emitters::density(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w, std::uint32_t sampled) const {
+  if (nodes_.empty()) { return 0.0; }
+  struct Entry {
+    std::uint32_t node;
+    double probability;
+  };
+  std::array<Entry, 128> stack;  // the tree halves surfaces, then their shapes: 2 x 32 levels at most, two entries each
+  std::size_t top = 0;
+  stack[top++] = {0, 1.0};
+  double sum = 0.0;
+  while (top > 0) {
+    const auto [index, probability] = stack[--top];
+    const Node& node = nodes_[index];
+    if (node.leaf) {
+      sum += probability * density_of(shapes_[node.first], x, w, index == sampled);
+      continue;
+    }
+    const glm::dvec3 d = node.centre - x;
+    const glm::dvec3 off = glm::cross(w, d);
+    const double reach = 1.000001 * node.radius;  // rounding must not lose the leaf that was sampled
+    if (glm::dot(off, off) > reach * reach || (!(glm::dot(w, d) > 0.0) && glm::dot(d, d) > reach * reach)) { continue; }
+    const double share = first_share(node, x, n);
+    if (share > 0.0) { stack[top++] = {node.first, probability * share}; }
+    if (share < 1.0) { stack[top++] = {node.first + 1, probability * (1.0 - share)}; }
+  }
+  return sum;
+}
+
+}  // namespace radiosity

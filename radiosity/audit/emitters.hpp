@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Directions in which light may come to a point, for the path tracer: what emits, as shapes in a binary tree. A shape is chosen on the
+// way down the tree, at each node by power over squared distance (Conty Estevez and Kulla 2018), then a direction towards it.
+//
+//   flat emitters     the triangles of their faces; a point of a triangle, spread evenly over its area
+//   curved emitters   spheres around pieces of their faces, large enough for the true surface; a direction, spread evenly over the solid
+//                     angle of the sphere. One sphere for the whole of a compact one.
+//
+// The shapes only propose directions: what a direction carries is found by a ray. So a shape may be larger than what it stands for,
+// overlap others or be hidden, and every direction has a density() that can be computed, which the balance heuristic needs (Veach and
+// Guibas 1995).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/transform.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/support/random.hpp>
+
+namespace radiosity {
+
+class Emitters {
+ public:
+  Emitters() = default;
+  // `surfaces` are boundaries in the frame, refined or not; `emission`: radiant exitance of each input surface.
+  Emitters(const std::vector<Surface>& surfaces, const std::vector<Color>& emission);
+
+  [[nodiscard]] bool empty() const { return nodes_.empty(); }
+
+  struct Sample {
+    glm::dvec3 direction{0.0};  // unit
+    double density = 0.0;       // per solid angle, of all shapes together
+  };
+  // A direction from the point x into the hemisphere of the unit normal n; none when the chosen shape cannot be seen from there.
+  template <class Numbers>
+  [[nodiscard]] std::optional<Sample> sample(const glm::dvec3& x, const glm::dvec3& n, Numbers& random) const;
+
+  // The density per solid angle of the directions that sample() gives, in the unit direction w. They may sum to less than 1: what is
+  // missing are samples that gave none.
+  [[nodiscard]] double density(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w) const { return density(x, n, w, none); }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffff;
+
+  struct Shape {
+    std::array<glm::dvec3, 3> corner{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};  // of a triangle
+    glm::dvec3 normal{0.0};                                                               // of a triangle, unit; 0: a sphere
+    glm::dvec3 centre{0.0};
+    double radius = 0.0;  // of the sphere, or of one around the triangle
+    double area = 0.0;    // of the triangle, or of the piece that the sphere stands for
+    double power = 0.0;
+    std::uint32_t surface = 0;
+    [[nodiscard]] bool flat() const { return normal != glm::dvec3{0.0}; }
+  };
+  struct Node {
+    glm::dvec3 centre{0.0};  // of a sphere around all shapes below
+    double radius = 0.0;
+    double power = 0.0;
+    glm::dvec3 normal{0.0};   // of all shapes below, when they lie in one plane; else 0
+    double offset = 0.0;      // of that plane
+    std::uint32_t first = 0;  // its shape, or the first of its two children
+    bool leaf = true;
+    bool several = false;  // surfaces below
+  };
+
+  void add_flat(std::uint32_t surface, const Polygon& polygon, double exitance);
+  void add_curved(std::uint32_t surface, const std::vector<Polygon>& faces, const raycast::PlacedObject& object, std::uint32_t sheet,
+                  double exitance);
+  void build(std::uint32_t node, std::uint32_t first, std::uint32_t last);
+  [[nodiscard]] double importance(const Node& node, const glm::dvec3& x, const glm::dvec3& n) const;
+  [[nodiscard]] double first_share(const Node& node, const glm::dvec3& x, const glm::dvec3& n) const;
+  [[nodiscard]] static double density_of(const Shape& shape, const glm::dvec3& x, const glm::dvec3& w, bool meets);
+  // As above; the direction is known to meet the shape of the leaf `sampled`, whatever rounding says.
+  [[nodiscard]] double density(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w, std::uint32_t sampled) const;
+
+  std::vector<Shape> shapes_;
+  std::vector<Node> nodes_;  // the root first
+};
+
+namespace detail {
+
+// Triangles that are hardly longer than wide: needles are halved across their longest edge, into 4096 pieces at most.
+std::vector<std::array<glm::dvec3, 3>> compact_triangles(const std::vector<Polygon>& faces);
+
+}  // namespace detail
+
+template <class Numbers>
+std::optional<Emitters::Sample> Emitters::sample(const glm::dvec3& x, const glm::dvec3& n, Numbers& random) const {
+  if (nodes_.empty()) { return std::nullopt; }
+  double choice = random.uniform();
+  const double u = random.uniform();
+  const double v = random.uniform();
+  std::uint32_t index = 0;
+  while (!nodes_[index].leaf) {
+    const Node& node = nodes_[index];
+    const double share = first_share(node, x, n);
+    if (!(share >= 0.0)) { return std::nullopt; }
+    if (choice < share) {
+      choice = std::min(choice / share, 1.0 - 0x1p-53);
+      index = node.first;
+    } else {
+      choice = std::min((choice - share) / (1.0 - share), 1.0 - 0x1p-53);
+      index = node.first + 1;
+    }
+  }
+  const Shape& shape = shapes_[nodes_[index].first];
+  glm::dvec3 w{0.0};
+  if (shape.flat()) {
+    const double root = std::sqrt(u);
+    const auto& [a, b, c] = shape.corner;
+    w = (1.0 - root) * (a - x) + root * (1.0 - v) * (b - x) + root * v * (c - x);
+  } else {
+    const glm::dvec3 d = shape.centre - x;
+    const double r2 = glm::dot(d, d);
+    const double sine2 = shape.radius * shape.radius / r2;
+    const double angle = 2.0 * std::numbers::pi * v;
+    const bool within = !(sine2 < 1.0);
+    const double below = within ? 2.0 * u : u * sine2 / (1.0 + std::sqrt(1.0 - sine2));  // 1 - cosine, from the axis
+    const glm::dvec3 axis = r2 > 0.0 ? d / std::sqrt(r2) : n;
+    const double sine = std::sqrt(std::max(0.0, below * (2.0 - below)));
+    const auto [s, t] = orthonormal(axis);
+    w = sine * std::cos(angle) * s + sine * std::sin(angle) * t + (1.0 - below) * axis;
+  }
+  const double length = glm::length(w);
+  if (!(length > 0.0)) { return std::nullopt; }
+  w /= length;
+  if (!(glm::dot(n, w) > 0.0)) { return std::nullopt; }
+  const double found = density(x, n, w, index);
+  if (!(found > 0.0)) { return std::nullopt; }
+  return Sample{w, found};
+}
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/audit/emitters.cpp>
+#endif

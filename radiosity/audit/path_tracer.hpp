@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Unbiased radiosity at a point of a true surface, by path tracing on the original objects. It shares nothing with the
+// solver but the scene: no mesh, no form factors, no links.
+//
+// B(x) = E(x) + rho(x) * mean of B(y) over the points y seen from x in cosine-distributed directions. At each point of a path the emitted
+// light is found twice, in a direction towards an emitter (emitters.hpp) and in the cosine-distributed one in which the path goes
+// on; the balance heuristic weighs the two (Veach and Guibas 1995). With p the density of the first per solid angle, light that
+// arrives in a direction at the angle t to the normal counts E / (p + cos t / pi) * cos t / pi: never more than E, so that no lamp,
+// however small, near or bright beside others, makes a rare path count much. Paths end by Russian roulette with the largest channel
+// of rho, but not at their first point; they take 1 / (1 - rho) bounces on average: see most_bounces.
+
+#include <algorithm>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/bundle.hpp>
+#include <raycast/object.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/audit/emitters.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/plan.hpp>
+
+namespace radiosity {
+
+class PathTracer {
+ public:
+  // `surfaces` are boundaries of the compiled objects in the frame; the coarser, the faster. They are not needed any more after this.
+  PathTracer(const Scene& scene, const raycast::Scene& objects, const std::vector<Surface>& surfaces) : objects_{&objects} {
+    std::vector<Color> emission;
+    for (const InputSurface& s : radiosity::surfaces(scene)) {
+      materials_.push_back(scene.materials[s.material]);
+      emission.push_back(materials_.back().emission);
+    }
+    for (const Material& material : scene.materials) {
+      const Color& rho = material.reflectance;
+      brightest_ = std::max({brightest_, rho.x, rho.y, rho.z});
+    }
+    for (const Surface& surface : surfaces) { first_surface_.push_back(surface.first_surface); }
+    emitters_ = Emitters{surfaces, emission};
+  }
+
+  // Largest reflectance of the scene.
+  [[nodiscard]] double brightest() const { return brightest_; }
+  [[nodiscard]] std::uint32_t surface(std::uint32_t object, std::uint32_t sheet) const { return first_surface_[object] + sheet; }
+  [[nodiscard]] const Material& material(std::uint32_t surface) const { return materials_[surface]; }
+
+  struct Light {
+    Color all{0.0};     // B
+    Color direct{0.0};  // the part of it that is emitted, or was reflected once
+  };
+  // One estimate of B at the point x of a surface with unit normal n (into the air). `random` gives numbers by uniform(): independent
+  // ones, or those of a path of an even sequence (sobol.hpp).
+  template <class Numbers>
+  [[nodiscard]] Light radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Numbers& random,
+                                std::uint64_t& rays) const {
+    const Material* material = &materials_[surface(object, sheet)];
+    Light result{material->emission, material->emission};
+    Color throughput{1.0};
+    for (bool first = true;; first = false) {
+      const auto arrives = [&](const Color& light) {
+        result.all += light;
+        if (first) { result.direct += light; }
+      };
+      const Color& rho = material->reflectance;
+      throughput *= rho;
+      if (is_black(throughput)) { return result; }
+      const double u = random.uniform();
+      const glm::dvec3 onwards = cosine_direction(n, u, random.uniform());
+      if (const std::optional<Emitters::Sample> lamp = emitters_.sample(x, n, random)) {
+        const std::optional<raycast::Hit> hit = first_front(x, lamp->direction, object, rays);
+        if (hit) { arrives(throughput * emission(*hit) * balance(lamp->density, glm::dot(n, lamp->direction))); }
+      }
+      if (!first) {
+        const double survival = std::min(1.0 - 1.0 / most_bounces, std::max({rho.x, rho.y, rho.z}));
+        if (!(random.uniform() < survival)) { return result; }
+        throughput /= survival;
+      }
+
+      const std::optional<raycast::Hit> hit = first_front(x, onwards, object, rays);
+      if (!hit) { return result; }
+      if (!is_black(emission(*hit))) {
+        arrives(throughput * emission(*hit) * balance(emitters_.density(x, n, onwards), glm::dot(n, onwards)));
+      }
+      const raycast::SurfacePoint point =
+          objects_->object(hit->object).project(hit->sheet, raycast::Segment{x, onwards * objects_->diameter()}.at(hit->t));
+      x = point.position;
+      n = point.normal;
+      object = hit->object;
+      material = &materials_[surface(object, hit->sheet)];
+    }
+  }
+
+ private:
+  [[nodiscard]] const Color& emission(const raycast::Hit& hit) const { return materials_[surface(hit.object, hit.sheet)].emission; }
+
+  // What the ray from x, on a surface of `object`, meets, if that shows its front.
+  [[nodiscard]] std::optional<raycast::Hit> first_front(const glm::dvec3& x, const glm::dvec3& direction, std::uint32_t object,
+                                                        std::uint64_t& rays) const {
+    ++rays;
+    const auto hit = objects_->closest({x, direction * objects_->diameter()}, object);
+    return hit && hit->front ? hit : std::nullopt;
+  }
+
+  // What light of one counts in a direction: cosine / pi over the densities of both ways to find it.
+  [[nodiscard]] static double balance(double density, double cosine) {
+    const double own = std::max(0.0, cosine) * std::numbers::inv_pi;
+    return own > 0.0 ? own / (density + own) : 0.0;
+  }
+
+  const raycast::Scene* objects_;
+  std::vector<Material> materials_;           // one a surface
+  std::vector<std::uint32_t> first_surface_;  // one an object
+  Emitters emitters_;
+  double brightest_ = 0.0;
+};
+
+}  // namespace radiosity

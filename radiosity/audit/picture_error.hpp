@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The error of a picture: what the camera does not see does not count, and what it sees large counts much. Pixels are drawn evenly; the
+// truth of a pixel is the mean of the path-traced radiosity over its square, estimated twice and independently (error_estimate.hpp).
+// Pixels in which a lamp shows are left out, for its radiosity is exact by definition and would hide all else, unless every surface
+// emits; so are those that see nothing. Errors are relative to the reflected radiosity. It does not matter how the picture was made.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <raycast/object.hpp>
+#include <raycast/ray.hpp>
+
+#include <radiosity/audit/audit_effort.hpp>
+#include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/scene/light_unit.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/visibility/prepare.hpp>
+
+namespace radiosity {
+
+// A picture as the audit wants it.
+struct ShownPicture {
+  std::uint32_t width = 0, height = 0;
+  // The ray through the point (x, y), in pixels from the top left corner, in the scene's coordinates; its length does not matter.
+  std::function<raycast::Segment(double x, double y)> ray;
+  // What the pixel shows: mean radiosity over its square, W/m2, without any limit of brightness.
+  std::function<Color(std::uint32_t x, std::uint32_t y)> radiosity;
+  // The level, 0 to 255, at which the radiosity of one channel is displayed.
+  std::function<double(double radiosity)> level;
+};
+
+class PictureAudit {
+ public:
+  // Nothing for a scene that is faulty, or of which paths do not end (plan.hpp).
+  [[nodiscard]] static std::optional<PictureAudit> make(const Scene& scene);
+
+  // Nothing when cancelled, or when no visible pixel reflects light. `rays`: see AuditGoal. Depends on picture, goal and seed alone.
+  [[nodiscard]] std::optional<PictureError> measure(const ShownPicture& picture, const AuditGoal& goal, unsigned threads,
+                                                    std::uint64_t seed, const Control& control = {}) const;
+
+ private:
+  struct Sample {
+    std::uint32_t x = 0, y = 0;
+    double square = 0.0, reference = 0.0, noise = 0.0;
+    double levels = 0.0, noise_in_levels = 0.0;  // the largest difference of a channel; of its two estimates from each other
+    std::uint64_t rays = 0;
+    bool valid = false;
+  };
+  struct Measured {
+    std::vector<Sample> samples;
+    ErrorSums sums;
+    std::uint32_t side = 0;
+    std::uint64_t rays = 0;
+  };
+  struct Seen {
+    raycast::SurfacePoint point;
+    std::uint32_t object = 0, sheet = 0;
+  };
+
+  PictureAudit(const Scene& scene, const LightUnit& unit, Prepared prepared);
+
+  // The first surface that shows its front; backs are looked through, as in the pictures (lookup.hpp).
+  [[nodiscard]] std::optional<Seen> seen(const ShownPicture& picture, double x, double y, std::uint64_t& rays) const;
+  [[nodiscard]] const Color& emission(const Seen& at) const { return tracer_.material(tracer_.surface(at.object, at.sheet)).emission; }
+
+  // A pixel of the cell (column, row) of side x side cells of the picture.
+  [[nodiscard]] Sample measure_pixel(const ShownPicture& picture, std::uint64_t seed, std::uint64_t key, std::size_t column,
+                                     std::size_t row, std::uint32_t side, std::uint32_t paths) const;
+
+  [[nodiscard]] static std::size_t tile(const ShownPicture& picture, const Sample& sample) {
+    return 4 * (std::size_t{4} * sample.y / picture.height) + std::size_t{4} * sample.x / picture.width;
+  }
+
+  [[nodiscard]] std::optional<PictureError> summary(const ShownPicture& picture, const Measured& measured) const;
+
+  LightUnit unit_;
+  std::unique_ptr<Prepared> prepared_;  // the tracer points into it
+  PathTracer tracer_;
+  bool all_emit_ = false;  // every surface does
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/audit/picture_error.cpp>
+#endif

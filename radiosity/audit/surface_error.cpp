@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/audit/surface_error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/parallel.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/support/sobol.hpp>
+#include <radiosity/visibility/exposure.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE SurfaceErrorMeter::SurfaceErrorMeter(const Scene& scene, const raycast::Scene& objects, const PathTracer& tracer,
+                                                      const Exposure& exposure, const Mesh& mesh, const Mesh* direct, std::uint64_t seed)
+    : objects_{&objects}, tracer_{&tracer}, exposure_{&exposure}, mesh_{&mesh}, direct_{direct}, inputs_{surfaces(scene)}, seed_{seed} {
+  const auto corner = [&](std::uint32_t c) -> const glm::dvec3& { return mesh.positions[mesh.corners[c].vertex]; };
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const MeshFace& face = mesh.faces[f];
+    const Color reflected = face.radiosity - tracer.material(face.surface).emission;
+    for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
+      const std::uint32_t a = face.first_corner;
+      const double area = 0.5 * glm::length(glm::cross(corner(a + k) - corner(a), corner(a + k + 1) - corner(a)));
+      triangles_.push_back({f, a + k, a + k + 1, area, glm::dot(reflected, reflected)});
+      total_ += area;
+      light_ += area * triangles_.back().light;
+    }
+  }
+  double before = 0.0;
+  for (Triangle& triangle : triangles_) { before = triangle.until = before + triangle.area * density(triangle); }
+}
+
+HALFLIGHT_INLINE bool SurfaceErrorMeter::measure(std::uint64_t points, std::uint32_t paths, unsigned threads, const Control& control,
+                                                 SurfaceError& result) {
+  if (!(total_ > 0.0)) { return true; }
+  std::vector<Sample> samples(points);
+  const std::uint64_t first_key = keys_;
+  keys_ += points;
+  constexpr std::size_t batch = 512;  // between two looks at the cancel flag
+  for (std::size_t first = 0; first < points && !control.cancelled(); first += batch) {
+    parallel_for(
+        std::min<std::size_t>(batch, points - first), threads,
+        [&](std::size_t offset) {
+          const std::size_t i = first + offset;
+          if (!control.cancelled()) {
+            samples[i] =
+                measure_one(first_key + i, static_cast<double>(i) / static_cast<double>(points), 1.0 / static_cast<double>(points), paths);
+          }
+        },
+        4);
+    control.report("audit", static_cast<double>(std::min<std::size_t>(first + batch, points)) / static_cast<double>(points));
+  }
+  if (control.cancelled()) { return false; }
+  for (const Sample& sample : samples) {
+    result.rays += sample.rays;
+    if (!sample.valid) { continue; }
+    result.leaf.add(sample.leaf, sample.reference, sample.noise);
+    result.reconstructed.add(sample.reconstructed, sample.reference, sample.noise);
+    result.direct += sample.direct;
+    result.other += sample.other;
+  }
+  return true;
+}
+
+HALFLIGHT_INLINE SurfaceErrorMeter::Sample SurfaceErrorMeter::measure_one(std::uint64_t key, double from, double width,
+                                                                          std::uint32_t paths) const {
+  Sample sample;
+  Random random{seed_, key, 0x6175646974ull};
+  const double at = from + width * random.uniform();
+  auto triangle = std::upper_bound(triangles_.begin(), triangles_.end(), at, [](double a, const Triangle& t) { return a < t.until; });
+  if (triangle == triangles_.end()) { --triangle; }
+  const MeshFace& face = mesh_->faces[triangle->face];
+  const double root = std::sqrt(random.uniform());
+  const double v = random.uniform();
+  const glm::dvec3 weight{1.0 - root, root * (1.0 - v), root * v};
+  const glm::uvec3 corners{face.first_corner, triangle->first, triangle->second};
+  glm::dvec3 chord{0.0};
+  for (int k = 0; k < 3; ++k) { chord += weight[k] * mesh_->positions[mesh_->corners[corners[k]].vertex]; }
+  const auto shown_by = [&](const Mesh& of) {
+    Color sum{0.0};
+    for (int k = 0; k < 3; ++k) { sum += weight[k] * of.corners[corners[k]].radiosity; }
+    return sum;
+  };
+  const Color shown = shown_by(*mesh_);
+  const InputSurface& input = inputs_[face.surface];
+  if (!(exposure_->area[face.node] > 0.0)) { return sample; }
+  const raycast::SurfacePoint point = objects_->object(input.object).project(input.sheet, chord);
+  // Of a leaf that counts as exposed a corner may be buried all the same (exposure.hpp): seen from within what buries it, all is wrong.
+  if (objects_->covered(point.position, point.normal, input.object)) { return sample; }
+
+  const TwoEstimates light{seed_, key, paths, [&](PathNumbers& numbers) {
+                             return tracer_->radiosity(point.position, point.normal, input.object, input.sheet, numbers, sample.rays);
+                           }};
+  const Color& emission = tracer_->material(face.surface).emission;
+  const double weight_of_point = 1.0 / (total_ * density(*triangle));
+  sample.leaf = weight_of_point * glm::dot(light.all[0] - face.radiosity, light.all[1] - face.radiosity);
+  sample.reconstructed = weight_of_point * glm::dot(light.all[0] - shown, light.all[1] - shown);
+  sample.reference = weight_of_point * glm::dot(light.all[0] - emission, light.all[1] - emission);
+  if (direct_ != nullptr) {
+    const Color once = shown_by(*direct_);
+    sample.direct = weight_of_point * glm::dot(light.direct[0] - once, light.direct[1] - once);
+    const Color rest = shown - once;
+    sample.other = weight_of_point * glm::dot(light.all[0] - light.direct[0] - rest, light.all[1] - light.direct[1] - rest);
+  }
+  sample.noise = weight_of_point * weight_of_point * light.noise();
+  sample.valid = true;
+  return sample;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The error of a solution on all surfaces, each part of their area counting alike: the mesh against path-traced radiosities at random
+// points of it (error_estimate.hpp). Half of the points are spread evenly over the area, half by the square of the reflected radiosity,
+// for where there is light most of the error is; each counts with the inverse of its density, which is at most 2.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/scene.hpp>
+
+#include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/support/sobol.hpp>
+#include <radiosity/visibility/exposure.hpp>
+
+namespace radiosity {
+
+// Two independent estimates of the radiosity at a point, each the mean of `paths` paths of an even sequence. `key` names the point.
+// `first_point(numbers, estimate)` traces one path and returns the light that it found.
+struct TwoEstimates {
+  Color all[2] = {Color{0.0}, Color{0.0}};
+  Color direct[2] = {Color{0.0}, Color{0.0}};  // the part that is emitted, or was reflected once
+
+  template <class Trace>
+  TwoEstimates(std::uint64_t seed, std::uint64_t key, std::uint32_t paths, const Trace& trace) {
+    for (std::uint64_t half = 0; half < 2; ++half) {
+      const Sobol4 first{seed, 4 * key + 2 * half};
+      const Sobol4 second{seed, 4 * key + 2 * half + 1};
+      for (std::uint32_t k = 0; k < paths; ++k) {
+        PathNumbers numbers{first, second, k, Random{seed, key, half << 32 | k}};
+        const PathTracer::Light light = trace(numbers);
+        all[half] += light.all / static_cast<double>(paths);
+        direct[half] += light.direct / static_cast<double>(paths);
+      }
+    }
+  }
+
+  // What the noise of both adds to the variance of the product of their errors. The product of two errors of variance v has the variance
+  // v^2; so has a third of the square of half their squared difference.
+  [[nodiscard]] double noise() const {
+    const double half_square = 0.5 * glm::dot(all[0] - all[1], all[0] - all[1]);
+    return half_square * half_square / 3.0;
+  }
+};
+
+struct SurfaceError {
+  ErrorSums leaf, reconstructed;     // of the constant on each leaf; of the radiosity that is interpolated between the mesh's corners
+  double direct = 0.0, other = 0.0;  // squared errors of the light that was reflected once, and of the rest, summed over the points
+  std::uint64_t rays = 0;
+
+  [[nodiscard]] std::uint64_t points() const { return leaf.square.size(); }
+};
+
+class SurfaceErrorMeter {
+ public:
+  // The mesh is in the frame; `direct`, if given: the same mesh, but with the light that was reflected once. The references must outlive
+  // the meter.
+  SurfaceErrorMeter(const Scene& scene, const raycast::Scene& objects, const PathTracer& tracer, const Exposure& exposure, const Mesh& mesh,
+                    const Mesh* direct, std::uint64_t seed);
+
+  // Adds `points` fresh points, spread evenly over the mesh; those that are buried do not count. False when cancelled.
+  [[nodiscard]] bool measure(std::uint64_t points, std::uint32_t paths, unsigned threads, const Control& control, SurfaceError& result);
+
+ private:
+  struct Triangle {
+    std::uint32_t face, first, second;  // corners face.first_corner, first, second
+    double area, light;                 // square of the reflected radiosity
+    double until = 0.0;                 // share of the points that fall on it or one before
+  };
+  struct Sample {
+    double leaf = 0.0, reconstructed = 0.0, reference = 0.0, noise = 0.0, direct = 0.0, other = 0.0;
+    std::uint64_t rays = 0;
+    bool valid = false;
+  };
+
+  // Of the points, per area.
+  [[nodiscard]] double density(const Triangle& triangle) const {
+    return light_ > 0.0 ? 0.5 / total_ + 0.5 * triangle.light / light_ : 1.0 / total_;
+  }
+
+  // At a point of the part [from, from + width] of all, 1 the whole.
+  [[nodiscard]] Sample measure_one(std::uint64_t key, double from, double width, std::uint32_t paths) const;
+
+  const raycast::Scene* objects_;
+  const PathTracer* tracer_;
+  const Exposure* exposure_;
+  const Mesh* mesh_;
+  const Mesh* direct_;
+  std::vector<InputSurface> inputs_;
+  std::vector<Triangle> triangles_;
+  double total_ = 0.0, light_ = 0.0;  // area, and the integral of the light over it
+  std::uint64_t keys_ = 0;            // of the random numbers that were used
+  std::uint64_t seed_;
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/audit/surface_error.cpp>
+#endif

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/audit/warnings.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <brep/brep.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bundle.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/hierarchy/buried.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/parallel.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/visibility.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+inline constexpr std::size_t most_warnings = 20;  // of one kind
+
+// Edges at which the surface of an object ends.
+HALFLIGHT_INLINE std::size_t open_edges(const Surface& surface) {
+  const SurfaceBRep& brep = surface.brep;
+  std::size_t count = 0;
+  for (const brep::FaceId f : brep::faces(brep)) {
+    if (brep.data(f).sheet != brep::no_sheet) { continue; }
+    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
+      count += brep.data(brep.face(brep::twin(h))).sheet != brep::no_sheet ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE std::vector<std::string> warnings(const Scene& scene, const Frame& frame, const std::vector<Surface>& surfaces) {
+  std::vector<std::string> sentences;
+  const auto name = [&](std::uint32_t o) { return "'" + scene.objects[o].name + "'"; };
+  const auto add = [&](std::size_t& count, std::string sentence) {
+    if (count++ < detail::most_warnings) { sentences.push_back(std::move(sentence)); }
+  };
+  const auto more = [&](std::size_t count, const char* what) {
+    if (count > detail::most_warnings) { sentences.push_back("and more " + std::string{what}); }
+  };
+  std::size_t count = 0;
+  for (const auto& [a, b] : detail::twins(surfaces, detail::most_warnings + 1)) {
+    add(count, "objects " + name(a) + " and " + name(b) + " are the same surface at the same place: duplicates; " + name(b) +
+                   " is seen, being the later one, and " + name(a) + " is covered by it");
+  }
+  more(count, "duplicates");
+  count = 0;
+  for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
+    if (surfaces[o].object->solid() || input_faces(surfaces[o]).size() < 2) { continue; }
+    add(count, "object " + name(o) + " is an open shell with " + std::to_string(detail::open_edges(surfaces[o])) +
+                   " open edges: its back is black and takes no light");
+  }
+  more(count, "open shells");
+  // How well the coordinates of the scene are known, in the frame: half a unit in the last place of the largest.
+  const double magnitude = std::max({std::abs(frame.centre.x), std::abs(frame.centre.y), std::abs(frame.centre.z)});
+  const double known = raycast::unit_roundoff * magnitude * frame.scale;
+  if (known > 1e-10) {
+    char text[160] = "";
+    std::snprintf(text, sizeof text, "the scene lies %.0e of its sizes from the origin, where coordinates are rounded to %.0e of its size",
+                  magnitude * frame.scale, known);
+    sentences.push_back(text + std::string{": surfaces that are nearer to each other may touch or not"});
+  }
+  return sentences;
+}
+
+HALFLIGHT_INLINE std::vector<std::string> warnings_of_buried(const Scene& scene, const Hierarchy& hierarchy, const Exposure& exposure) {
+  std::vector<double> area(scene.objects.size(), 0.0);
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (hierarchy[i].leaf()) { area[hierarchy[i].object] += exposure.area[i]; }
+  }
+  std::vector<std::string> sentences;
+  for (std::size_t o = 0; o < area.size() && sentences.size() < detail::most_warnings; ++o) {
+    if (area[o] > 0.0) { continue; }
+    sentences.push_back("object '" + scene.objects[o].name + "' is buried: all of its surface lies in or under other objects and is dark");
+  }
+  return sentences;
+}
+
+HALFLIGHT_INLINE StrayRays stray_rays(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const Hierarchy& hierarchy,
+                                      const Patches& patches, const Exposure& exposure, std::uint32_t rays, unsigned threads,
+                                      std::uint64_t seed) {
+  std::vector<std::uint32_t> leaves;
+  std::vector<double> until;  // cumulative area
+  double total = 0.0;
+  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
+    if (!hierarchy[i].leaf() || !(exposure.area[i] > 0.0)) { continue; }
+    leaves.push_back(i);
+    until.push_back(total += exposure.area[i]);
+  }
+  if (leaves.empty()) { return {}; }
+  enum class End : char { front, back, nowhere };
+  std::vector<End> ends(rays, End::front);
+  parallel_for(rays, threads, [&](std::size_t k) {
+    Random random{seed, k, 0x7374726179ull};
+    const double at = (static_cast<double>(k) + random.uniform()) / rays * total;
+    const auto found = static_cast<std::size_t>(std::upper_bound(until.begin(), until.end(), at) - until.begin());
+    const std::uint32_t i = leaves[std::min(found, leaves.size() - 1)];
+    const ExposedPoints* const points = exposure.points(i);
+    glm::dvec3 p{0.0};
+    if (points != nullptr) {
+      p = points->draw(patches[i], static_cast<std::uint32_t>(random.bits() & 15u), random);
+    } else {
+      const double u = random.uniform();
+      p = sample(patches[i], u, random.uniform());
+    }
+    const Node& node = hierarchy[i];
+    const raycast::SurfacePoint from = objects.object(node.object).project(node.surface - surfaces[node.object].first_surface, p);
+    const double u = random.uniform();
+    const auto hit = objects.closest({from.position, cosine_direction(from.normal, u, random.uniform()) * objects.diameter()}, node.object);
+    ends[k] = !hit ? End::nowhere : hit->front ? End::front : End::back;
+  });
+  StrayRays stray;
+  stray.escaping = static_cast<double>(std::count(ends.begin(), ends.end(), End::nowhere)) / rays;
+  stray.to_backs = static_cast<double>(std::count(ends.begin(), ends.end(), End::back)) / rays;
+  stray.standard_error = 0.5 / std::sqrt(static_cast<double>(rays));
+  return stray;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a sound scene makes doubtful. It is solved all the same, by rules that are fixed, and the run says where they may not be what was
+// meant: two objects at one place (the later one is seen, raycast/scene.hpp), objects of which nothing shows, open shells (their backs are
+// black), coordinates that are known no better than surfaces must be told apart.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <raycast/scene.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+
+namespace radiosity {
+
+// `surfaces` before refinement: afterwards they have more edges.
+[[nodiscard]] std::vector<std::string> warnings(const Scene& scene, const Frame& frame, const std::vector<Surface>& surfaces);
+
+// Objects of which nothing is exposed, those that a warning of duplicates names included.
+[[nodiscard]] std::vector<std::string> warnings_of_buried(const Scene& scene, const Hierarchy& hierarchy, const Exposure& exposure);
+
+// One ray from each of `rays` points spread over the exposed area.
+[[nodiscard]] StrayRays stray_rays(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const Hierarchy& hierarchy,
+                                   const Patches& patches, const Exposure& exposure, std::uint32_t rays, unsigned threads,
+                                   std::uint64_t seed);
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/audit/warnings.cpp>
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The exchange of a link with a cluster at one end or both, occlusion included. Pairs of points are drawn on the faces, a face with the
+// probability of its share of the area that its cluster shows to the other end; each pair counts with the kernel over that
+// probability, so the mean is an unbiased estimate of A_p F_pq over the faces that turn to each other. What hides one face behind
+// another of the same cluster is met by the rays like everything else.
+//
+// Between a face f of p and a face g of q the link then stands for G w_f w_g, with w_f the share of f in what p shows towards q
+// (directions.hpp), A_f shown_f / sum: the same weights distribute what arrives and collect what is sent (transport.hpp).
+
+#include <cstddef>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/scene.hpp>
+
+#include <radiosity/clusters/clusters.hpp>
+#include <radiosity/geometry/directions.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+
+namespace radiosity {
+
+// One end of a cluster link: a cluster, or a patch, which shows its area by the cosine alone.
+struct ClusterEnd {
+  std::uint32_t node = no_node;
+  Aim towards;         // the other end
+  double shown = 0.0;  // area in that direction; of a patch, its area
+};
+
+struct ClusterExchange {
+  double exchange = 0.0;
+  double fraction = 1.0;  // of the light that is not blocked
+  double spread = 0.0;    // standard deviation of one sample of the exchange over its mean
+  std::uint64_t rays = 0;
+};
+
+class ClusterSampler {
+ public:
+  // The references must outlive the sampler; the hierarchy may grow. Without `exposure` everything counts as exposed.
+  ClusterSampler(const raycast::Scene& scene, const Hierarchy& hierarchy, const Patches& patches, const Exposure* exposure,
+                 const ShownAreas& shown)
+      : scene_{&scene}, hierarchy_{&hierarchy}, patches_{&patches}, exposure_{exposure}, shown_{&shown} {}
+
+  // The end `node` of a link whose other end lies in `direction`, of any length but 0.
+  [[nodiscard]] ClusterEnd end(std::uint32_t node, const glm::dvec3& direction) const;
+
+  // Rounds of 16 pairs of points: one when all are clear or all are blocked, and count about the same, else `rounds`.
+  [[nodiscard]] ClusterExchange operator()(const ClusterEnd& p, const ClusterEnd& q, std::uint32_t rounds, Random random) const;
+
+ private:
+  struct Point {
+    glm::dvec3 position{0.0};
+    glm::dvec3 normal{0.0};
+    double per_shown = 1.0;  // area of its face over what that shows
+    std::uint32_t object = 0;
+  };
+  // A face that is nearly edge on from the centre is drawn rarely and would count for very much: cut off.
+  static constexpr double most_weight = 4.0;
+
+  [[nodiscard]] double area(std::size_t i) const { return exposure_ != nullptr ? exposure_->area[i] : (*hierarchy_)[i].area; }
+
+  // `u`, uniform in [0, 1), chooses the face.
+  [[nodiscard]] Point draw(const ClusterEnd& end, double u, Random& random) const;
+
+  const raycast::Scene* scene_;
+  const Hierarchy* hierarchy_;
+  const Patches* patches_;
+  const Exposure* exposure_;
+  const ShownAreas* shown_;
+};
+
+// Sets the exchange and the directions of a link with a cluster at one end or both.
+ClusterExchange evaluate_cluster_link(const ClusterSampler& sampler, const Hierarchy& hierarchy, Link& link, std::uint32_t rounds,
+                                      Random random);
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/clusters/cluster_exchange.cpp>
+#endif

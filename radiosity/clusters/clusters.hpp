@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The hierarchy upwards: one tree above all input faces, so that nobody has to look at all pairs of them (the paper's O(k^2) initial
+// linking). The link of its root with itself stands for all of the scene, and refinement begins there (Smits, Arvo and Greenberg 1994;
+// Sillion 1995).
+//
+//   inside an object   clusters of faces over the dual graph of its BRep (face_clusters.hpp)
+//   above the objects  the groups of a bounding volume hierarchy over their bounds
+//   rooms              what surrounds everything is next to everything: its faces, or their clusters, lie right under the root
+//
+// Binary trees are flattened: a cluster has up to eight children, and few clusters have less than four. Each child of a cluster is a
+// cluster or an input face. Clusters do not mix the faces of an object with those of others, but for the groups above objects.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <raycast/box.hpp>
+
+#include <radiosity/clusters/face_clusters.hpp>
+#include <radiosity/geometry/directions.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// Below `top`, groups of the binary tree that become children of one cluster.
+std::vector<std::uint32_t> children_of(const Grouping& tree, std::uint32_t top, const std::vector<std::uint32_t>& sizes);
+
+// Bounds of every item, the roots with these numbers, and group.
+std::vector<raycast::Box> bounds_of(const Grouping& tree, const Hierarchy& roots, const std::vector<std::uint32_t>& numbers);
+
+}  // namespace detail
+
+// Puts clusters above the roots that make_roots() gave. The faces of the surfaces know their new nodes afterwards. Requires two roots.
+[[nodiscard]] Hierarchy make_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots);
+
+// How much area each cluster shows in each direction of the lattice.
+class ShownAreas {
+ public:
+  ShownAreas() = default;
+  // `area`: of each node, what counts of it.
+  template <class Area>
+  ShownAreas(const Hierarchy& hierarchy, const Area& area) {
+    std::size_t end = 0;  // of clusters and input faces
+    std::size_t clusters = 0;
+    for (; end < hierarchy.size() && (hierarchy[end].is_cluster() || is_input_face(hierarchy, end)); ++end) {
+      clusters += hierarchy[end].is_cluster() ? 1 : 0;
+    }
+    areas_.assign(clusters * direction_count, 0.0);
+    for (std::size_t i = end; i-- > 0;) {
+      if (hierarchy[i].parent == no_node) { continue; }
+      double* const to = &areas_[hierarchy[hierarchy[i].parent].cluster * direction_count];
+      if (hierarchy[i].is_cluster()) {
+        const double* const from = of(hierarchy[i]);
+        for (std::size_t k = 0; k < direction_count; ++k) { to[k] += from[k]; }
+      } else {
+        add_shown(hierarchy[i].normal, area(i), to);
+      }
+    }
+  }
+
+  // Of a cluster, for all directions.
+  [[nodiscard]] const double* of(const Node& cluster) const { return &areas_[cluster.cluster * direction_count]; }
+  [[nodiscard]] double of(const Node& cluster, const Aim& towards) const;
+
+ private:
+  std::vector<double> areas_;
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/clusters/clusters.cpp>
+#endif

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/exchange/exchange.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/small_list.hpp>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/exchange/edge_pair.hpp>
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/bend.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+HALFLIGHT_INLINE std::vector<Edge> edges_of(std::span<const glm::dvec3> contour) {
+  std::vector<Edge> edges;
+  edges.reserve(contour.size());
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const glm::dvec3 d = contour[(i + 1) % contour.size()] - contour[i];
+    const double length = glm::length(d);
+    if (length > 0.0) { edges.push_back({contour[i], d / length, length}); }
+  }
+  return edges;
+}
+
+HALFLIGHT_INLINE double contour_exchange(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double scale, double tolerance) {
+  const std::vector<Edge> a = edges_of(p);
+  const std::vector<Edge> b = edges_of(q);
+  // Each pair of edges may err by its share.
+  const double share = 2.0 * std::numbers::pi * tolerance / (scale * scale * static_cast<double>(a.size() * b.size()));
+  double sum = 0.0;
+  int asked = 0;
+  for (const Edge& e : a) {
+    for (const Edge& f : b) {
+      // The unit of length falls out of the closed integrals; in units of the pair r is at most 1 and an edge has |int ln r| <= 1.7 (of
+      // length 1, r = 0 in its middle).
+      const Edge es{(e.start - p[0]) / scale, e.direction, e.length / scale};
+      const Edge fs{(f.start - p[0]) / scale, f.direction, f.length / scale};
+      const double cosine = glm::dot(e.direction, f.direction);
+      if (1.7 * std::abs(cosine) * std::min(es.length, fs.length) <= share) { continue; }
+      sum += cosine * edge_pair(es, fs, share / std::abs(cosine), asked);
+    }
+  }
+  return sum * scale * scale / (2.0 * std::numbers::pi);
+}
+
+// Far rule: sum over both rules of weight weight cos cos / (pi r^2).
+[[nodiscard]] HALFLIGHT_INLINE double kernel_exchange(std::span<const QuadraturePoint> p, const glm::dvec3& n,
+                                                      std::span<const QuadraturePoint> q, const glm::dvec3& m) {
+  double sum = 0.0;
+  for (const QuadraturePoint& a : p) {
+    double row = 0.0;
+    for (const QuadraturePoint& b : q) {
+      const glm::dvec3 d = b.position - a.position;
+      const double r2 = glm::dot(d, d);
+      row += b.weight * glm::dot(n, d) * -glm::dot(m, d) / (r2 * r2);
+    }
+    sum += a.weight * row;
+  }
+  return std::max(0.0, sum / std::numbers::pi);
+}
+
+// A patch much smaller than the other: Lambert's contour of the large one, averaged over the Gauss points of the small one.
+[[nodiscard]] HALFLIGHT_INLINE double point_exchange(const Patch& small, const Patch& large) {
+  double sum = 0.0;
+  for (const QuadraturePoint& a : small.rule3) { sum += a.weight * point_to_polygon(a.position, small.normal, large.contour); }
+  return sum;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE int above_horizon(const Patch& p, const Patch& q, double share) {
+  const double reach = q.radius + glm::length(q.centre - p.centre);
+  const double coordinates = glm::length(p.centre) + glm::length(q.centre);
+  const double rounding = std::numeric_limits<double>::epsilon() * coordinates * (1.0 + reach / p.radius);
+  const double slack = share * (p.radius + reach) + rounding;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const glm::dvec3& x : q.contour) {
+    const double height = glm::dot(p.normal, x - p.centre);
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  return high <= slack ? -1 : low >= -slack ? 1 : 0;
+}
+
+namespace detail {
+
+// From the light at the Gauss points of a patch (the weight included). Without light: none.
+template <std::size_t N>
+[[nodiscard]] Variation variation(const Patch& patch, const brep::SmallList<double, N>& light) {
+  Variation result;
+  double sum = 0.0;
+  double square = 0.0;
+  double area = 0.0;
+  glm::dvec3 moment{0.0};
+  for (std::size_t i = 0; i < patch.rule3.size(); ++i) {
+    const QuadraturePoint& a = patch.rule3[i];
+    sum += light[i];
+    square += light[i] * light[i] / a.weight;
+    area += a.weight;
+    moment += light[i] * (a.position - patch.centroid);
+  }
+  if (!(sum > 0.0)) { return result; }
+  moment /= sum;
+  result.slope = patch.inverse_inertia * moment;
+  const double linear = glm::dot(result.slope, moment);  // slope . inertia . slope
+  result.linear = std::sqrt(std::max(0.0, linear));
+  result.rest = std::sqrt(std::max(0.0, square * area / (sum * sum) - 1.0 - linear));
+  return result;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE Variations variations(const Patch& p, const Patch& q) {
+  brep::SmallList<double, 36> light_p;
+  brep::SmallList<double, 36> light_q;
+  brep::SmallList<glm::dvec3, 36> normal_q;
+  for (std::size_t j = 0; j < q.rule3.size(); ++j) {
+    light_q.push_back(0.0);
+    normal_q.push_back(normal_over(q, q.rule3[j].position));
+  }
+  double sum = 0.0;
+  double square = 0.0;
+  for (const QuadraturePoint& a : p.rule3) {
+    const glm::dvec3 normal_p = normal_over(p, a.position);
+    double row = 0.0;
+    for (std::size_t j = 0; j < q.rule3.size(); ++j) {
+      const QuadraturePoint& b = q.rule3[j];
+      const glm::dvec3 d = b.position - a.position;
+      const double r2 = glm::dot(d, d);
+      const double cosines = std::max(0.0, glm::dot(normal_p, d)) * std::max(0.0, -glm::dot(normal_q[j], d));
+      const double kernel = cosines / (r2 * r2);
+      const double light = a.weight * b.weight * kernel;
+      row += light;
+      square += light * kernel;
+      light_q[j] += light;
+    }
+    light_p.push_back(row);
+    sum += row;
+  }
+  Variations result{detail::variation(p, light_p), detail::variation(q, light_q), 0.0, sum / std::numbers::pi};
+  const auto variance = [](const Variation& v) { return v.linear * v.linear + v.rest * v.rest; };
+  if (sum > 0.0) {
+    const double all = square * p.area * q.area / (sum * sum) - 1.0;
+    result.cross = std::sqrt(std::max(0.0, all - variance(result.p) - variance(result.q)));
+  }
+  const auto lit_in_part = [](const Patch& patch, const Patch& other, Variation& v) {
+    if (above_horizon(other, patch) != 0) { return; }
+    Polygon lit;
+    clip_to_horizon(patch.contour, other.centre, other.normal, lit);
+    const double area = lit.size() < 3 ? 0.0 : glm::length(vector_area(lit));
+    if (area > 0.0) { v.rest = std::max(v.rest, std::sqrt(std::max(0.0, patch.area / area - 1.0 - v.linear * v.linear))); }
+  };
+  lit_in_part(p, q, result.p);
+  lit_in_part(q, p, result.q);
+  const auto steepest = [](const Patch& patch, const glm::dvec3& slope) {
+    double fall = 0.0;
+    for (const glm::dvec3& x : patch.contour) { fall = std::max(fall, -glm::dot(slope, x - patch.centroid)); }
+    return fall;
+  };
+  const double fall = steepest(p, result.p.slope) + steepest(q, result.q.slope);
+  if (fall > 1.0) {
+    for (Variation* v : {&result.p, &result.q}) {
+      v->slope /= fall;
+      v->limited = v->linear * (1.0 - 1.0 / fall);
+      v->linear /= fall;
+    }
+  }
+  return result;
+}
+
+namespace detail {
+
+HALFLIGHT_INLINE Patch above(const Patch& patch, const Patch& other) {
+  Polygon contour;
+  clip_to_horizon(patch.contour, other.centre, other.normal, contour);
+  if (contour.size() < 3) { return {}; }
+  std::vector<Polygon> parts;
+  for (const Polygon& part : patch.parts) {
+    Polygon upper;
+    clip_to_horizon(part, other.centre, other.normal, upper);
+    if (upper.size() >= 3) { parts.push_back(std::move(upper)); }
+  }
+  return make_patch(std::move(contour), std::move(parts));
+}
+
+// The greatest distance of a corner from the plane of the patch.
+[[nodiscard]] HALFLIGHT_INLINE double unevenness(const Patch& patch) {
+  double most = 0.0;
+  for (const glm::dvec3& x : patch.contour) { most = std::max(most, std::abs(glm::dot(patch.normal, x - patch.centre))); }
+  return most;
+}
+
+// Of patches that lie above each other's horizon.
+[[nodiscard]] HALFLIGHT_INLINE double facing_exchange(const Patch& p, const Patch& q) {
+  // Extent over distance. Gauss rules of 2, 3, 4 points a side err by less than 6 (ratio/3)^4, 4 (ratio/3)^6, 3 (ratio/3)^8.
+  const double distance = glm::length(q.centre - p.centre);
+  const double extent = p.radius + q.radius;
+  // Round ratios would be met as equalities by the patches of regular meshes, and rounding would choose the rule.
+  if (extent < 0.0997 * distance) { return kernel_exchange(p.rule2, p.normal, q.rule2, q.normal); }
+  if (extent < 0.3493 * distance) { return kernel_exchange(p.rule3, p.normal, q.rule3, q.normal); }
+  if (extent < 0.6491 * distance) { return kernel_exchange(p.rule4, p.normal, q.rule4, q.normal); }
+  // Against a patch a thousand times its size a patch is hardly more than a point, and the difference of both contours cancels.
+  if (p.radius < 0.997e-3 * q.radius) { return point_exchange(p, q); }
+  if (q.radius < 0.997e-3 * p.radius) { return point_exchange(q, p); }
+  const double scale = extent + distance;
+  const double tolerance = 1e-8 * std::min(p.area, q.area);
+  return std::max(0.0, contour_exchange(p.contour, q.contour, scale, tolerance));
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE double exchange(const Patch& p, const Patch& q) {
+  const int q_side = above_horizon(p, q);
+  const int p_side = above_horizon(q, p);
+  if (p_side < 0 || q_side < 0 || !(p.area > 0.0) || !(q.area > 0.0)) { return 0.0; }
+  if (p_side > 0 && q_side > 0) { return detail::facing_exchange(p, q); }
+  // Faces that lie on each other cross at a tiny angle when their corners are rounded: what rises above the other by 1e-8 of the extent
+  // touches it. Contours with corners on a curved surface, or rounded ones, are not quite flat: what rises by no more than they do does not
+  // face the other (neighbours on a sphere), and what was cut may reach below the horizon by as much.
+  const Patch cut_p = detail::above(p, q);
+  const Patch cut_q = detail::above(q, p);
+  if (!(cut_p.area > 0.0) || !(cut_q.area > 0.0)) { return 0.0; }
+  const double extent = p.radius + q.radius + glm::length(q.centre - p.centre);
+  const double share = std::max(1e-8, 2.0 * (detail::unevenness(p) + detail::unevenness(q)) / extent);
+  if (above_horizon(p, cut_q, share) < 0 || above_horizon(q, cut_p, share) < 0) { return 0.0; }
+  return detail::facing_exchange(cut_p, cut_q);
+}
+
+}  // namespace radiosity

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/factors/factor_faces.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/inline.hpp>
+
+#include <radiosity/exchange/exchange.hpp>
+#include <radiosity/factors/factor_integral.hpp>
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/visibility/shadow.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE Shaft::Shaft(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double slack) : slack_{slack} {
+  for (const glm::dvec3& x : p) { box_.extend(x); }
+  for (const glm::dvec3& x : q) { box_.extend(x); }
+  support(p, q);
+  support(q, p);
+}
+
+HALFLIGHT_INLINE bool Shaft::misses(std::span<const glm::dvec3> corners) const {
+  raycast::Box box;
+  for (const glm::dvec3& x : corners) { box.extend(x); }
+  for (int k = 0; k < 3; ++k) {
+    if (box.hi[k] <= box_.lo[k] + slack_ || box.lo[k] >= box_.hi[k] - slack_) {
+      // Touching: of a flat shaft along an axis this says nothing, the planes decide.
+      if (box_.hi[k] - box_.lo[k] > 4.0 * slack_) { return true; }
+    }
+  }
+  return std::any_of(planes_.begin(), planes_.end(), [&](const HalfSpace& plane) {
+    return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& x) { return plane.height(x) <= slack_; });
+  });
+}
+
+HALFLIGHT_INLINE bool Shaft::misses(const raycast::Box& box) const {
+  std::array<glm::dvec3, 8> corners{};
+  for (std::size_t c = 0; c < 8; ++c) {
+    corners[c] = {c & 1 ? box.hi.x : box.lo.x, c & 2 ? box.hi.y : box.lo.y, c & 4 ? box.hi.z : box.lo.z};
+  }
+  return misses(std::span<const glm::dvec3>{corners});
+}
+
+HALFLIGHT_INLINE void Shaft::support(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q) {
+  offer({p[0], glm::normalize(vector_area(p))}, p, q);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const glm::dvec3 edge = p[i + 1 < p.size() ? i + 1 : 0] - p[i];
+    for (const glm::dvec3& corner : q) {
+      const glm::dvec3 normal = glm::cross(edge, corner - p[i]);
+      const double length = glm::length(normal);
+      if (!(length > 0.0)) { continue; }
+      offer({p[i], normal / length}, p, q);
+      offer({p[i], -normal / length}, p, q);
+    }
+  }
+}
+
+namespace detail {
+
+HALFLIGHT_INLINE bool hides(const Blocker& blocker, std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double slack) {
+  const std::size_t n = blocker.contour.size();
+  return std::all_of(p.begin(), p.end(), [&](const glm::dvec3& x) {
+    const double height = glm::dot(blocker.normal, x - blocker.contour[0]);
+    return std::all_of(q.begin(), q.end(), [&](const glm::dvec3& y) {
+      const double other = glm::dot(blocker.normal, y - blocker.contour[0]);
+      if (!(std::min(height, other) < -slack && std::max(height, other) > slack)) { return false; }
+      const glm::dvec3 hit = x + (y - x) * (height / (height - other));
+      for (std::size_t i = 0; i < n; ++i) {
+        const glm::dvec3& corner = blocker.contour[i];
+        const glm::dvec3 side = blocker.contour[(i + 1) % n] - corner;
+        if (!(glm::dot(glm::cross(side, hit - corner), blocker.normal) > slack * glm::length(side))) { return false; }
+      }
+      return true;
+    });
+  });
+}
+
+// Of two faces that see all of each other: by both contours unless they are far apart or of very different size (exchange.hpp).
+[[nodiscard]] HALFLIGHT_INLINE Estimate clear_exchange(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q) {
+  const Patch a = make_patch({p.begin(), p.end()});
+  const Patch b = make_patch({q.begin(), q.end()});
+  const double distance = glm::length(b.centre - a.centre);
+  const double extent = a.radius + b.radius;
+  if (extent < 0.0997 * distance) {  // by the first of the far rules: 6 (ratio / 3)^4
+    const double value = exchange(a, b);
+    return {value, 1e-5 * value};
+  }
+  const double scale = extent + distance;
+  const double smaller = std::min(a.area, b.area);
+  const double value = std::clamp(contour_exchange(p, q, scale, 1e-9 * smaller), 0.0, smaller);
+  return {value, 1e-9 * smaller + 1e-13 * scale * scale};
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE Estimate exchange(std::span<const glm::dvec3> p, const glm::dvec3& n, std::span<const glm::dvec3> q, const glm::dvec3& m,
+                                   std::span<const Blocker> blockers, double slack, const IntegralLimits& limits, std::uint64_t& asked) {
+  Piece upper_p;
+  Piece upper_q;
+  Piece lower;
+  detail::part(p, {q[0], m}, upper_p, lower);
+  detail::part(q, {p[0], n}, upper_q, lower);
+  const auto flat = [&](const Piece& piece, const HalfSpace& plane) {
+    return std::all_of(piece.begin(), piece.end(), [&](const glm::dvec3& x) { return plane.height(x) <= slack; });
+  };
+  if (upper_p.empty() || upper_q.empty() || flat(upper_p, {q[0], m}) || flat(upper_q, {p[0], n})) { return {}; }
+  const double area_p = glm::length(vector_area(upper_p));
+  const double area_q = glm::length(vector_area(upper_q));
+  if (!(area_p > slack * slack) || !(area_q > slack * slack)) { return {}; }
+  const Shaft shaft{upper_p, upper_q, slack};
+  std::vector<Blocker> between;
+  for (const Blocker& blocker : blockers) {
+    if (!shaft.misses(blocker.contour)) { between.push_back(blocker); }
+  }
+  if (between.empty()) { return detail::clear_exchange(upper_p, upper_q); }
+  const bool over_p = area_p <= area_q;
+  const Piece& domain = over_p ? upper_p : upper_q;
+  const Piece& seen = over_p ? upper_q : upper_p;
+  const glm::dvec3& normal = over_p ? n : m;
+  const auto hidden = [&](std::span<const glm::dvec3> part) {
+    return std::any_of(between.begin(), between.end(), [&](const Blocker& b) { return detail::hides(b, part, seen, slack); });
+  };
+  if (hidden(domain)) { return {}; }
+  ShadowedTarget target{seen, over_p ? m : n, between, slack};
+  const auto f = [&](const glm::dvec3& x) { return target.form_factor(x, normal); };
+  const auto clear = [&](const glm::dvec3& x) { return point_to_polygon(x, normal, seen); };
+  const auto certain = [&](std::span<const glm::dvec3> part) {
+    if (hidden(part)) { return true; }
+    const Shaft own{part, seen, slack};
+    return std::all_of(between.begin(), between.end(), [&](const Blocker& b) { return own.misses(b.contour); });
+  };
+  return detail::Integral{domain, normal, f, clear, certain, limits}.run(asked);
+}
+
+}  // namespace radiosity

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Form factors between flat faces behind flat faces. What stands between two faces is found by the planes of their shaft (the convex hull
+// of both); where nothing does, the exchange is that of exchange.hpp. Where one of them hides all, it is 0. Else the exact factor from a
+// point to what it sees of the other face (shadow.hpp) is integrated over the smaller one (factor_integral.hpp).
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+
+#include <radiosity/factors/factor_integral.hpp>
+#include <radiosity/visibility/shadow.hpp>
+
+namespace radiosity {
+
+// The shaft between two convex polygons that lie above each other's horizon: its planes have both on their inner side.
+class Shaft {
+ public:
+  Shaft(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double slack);
+
+  // Is it certain that a convex body with these corners and bounds stands in no segment between the two, except by touching it?
+  [[nodiscard]] bool misses(std::span<const glm::dvec3> corners) const;
+  [[nodiscard]] bool misses(const raycast::Box& box) const;
+
+ private:
+  // Planes through an edge of `p` that have all of both on one side, the plane of `p` among them.
+  void support(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q);
+  void offer(const HalfSpace& plane, std::span<const glm::dvec3> p, std::span<const glm::dvec3> q) {
+    const auto inside = [&](const glm::dvec3& x) { return plane.height(x) >= -0.25 * slack_; };
+    if (std::all_of(p.begin(), p.end(), inside) && std::all_of(q.begin(), q.end(), inside)) { planes_.push_back(plane); }
+  }
+
+  double slack_;
+  raycast::Box box_;
+  std::vector<HalfSpace> planes_;
+};
+
+namespace detail {
+
+// Does the blocker stand in every segment between a corner of p and one of q? Then it does in all segments between the two: what it hides
+// of q from a point is convex, and so are the points of p from which it hides a corner of q.
+[[nodiscard]] bool hides(const Blocker& blocker, std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double slack);
+
+}  // namespace detail
+
+// The exchange of two convex faces behind blockers, in the squared unit of the coordinates. Those of the blockers that the shaft does not
+// meet are left out; `asked` counts the points, and stays where it was when nothing stands in between.
+[[nodiscard]] Estimate exchange(std::span<const glm::dvec3> p, const glm::dvec3& n, std::span<const glm::dvec3> q, const glm::dvec3& m,
+                                std::span<const Blocker> blockers, double slack, const IntegralLimits& limits, std::uint64_t& asked);
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/factors/factor_faces.cpp>
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Input faces of which nothing can be seen, found before any pair of faces is looked at: of a thousand boxes at one place 999 are covered by
+// the last, of nested boxes all but the outermost are in the dark. Refinement would split them all against each other, as near as they
+// are, and only then find that nothing of them is exposed (exposure.hpp).
+//
+// Proven, in the sense of raycast::Scene::covered: a face is buried when a later object is the same surface at the same place, or when a
+// convex solid holds its corners, and all that finer patches can bulge, deeper than any skin. Faces for which neither is found are treated
+// as visible: of curved solids those with gaps to the next that are narrower than the bulge of its chord patches.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// Pairs (earlier, later) of objects whose surfaces are the same: each corner of one is a corner of the other, or lies on it when it is
+// curved, and the other way round, to 1e-9 of the size, and both face the same way. Compared are objects whose bounds agree to a millionth
+// of the scene. Each object is the earlier one of one pair at most; no more than `most` pairs are looked for.
+std::vector<std::array<std::uint32_t, 2>> twins(const std::vector<Surface>& surfaces,
+                                                std::size_t most = std::numeric_limits<std::size_t>::max());
+
+}  // namespace detail
+
+// Which input faces are proven to be buried, and which clusters have no other; by node. Time: n log n, and, among solids that hold each
+// other, up to 256 solids a face.
+[[nodiscard]] std::vector<bool> buried_nodes(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy);
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/hierarchy/buried.cpp>
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/hierarchy/extremes.hpp>
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/brep.hpp>
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/hierarchy/surface.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE Extremes::Extremes(const std::vector<Surface>& surfaces) {
+  for (const Surface& surface : surfaces) {
+    if (surface.object->exact()) {
+      for (const brep::VertexId v : brep::vertices(surface.brep)) { points_.push_back(surface.brep.data(v).position); }
+    } else {
+      for (int corner = 0; corner < 8; ++corner) { points_.push_back(corner_of(surface.object->bounds(), corner)); }
+    }
+  }
+  std::vector<raycast::Box> boxes;
+  boxes.reserve(points_.size());
+  for (const glm::dvec3& p : points_) { boxes.push_back({p, p}); }
+  tree_ = raycast::Bvh{boxes};
+}
+
+HALFLIGHT_INLINE bool Extremes::any_above(const glm::dvec3& point, const glm::dvec3& normal, double slack) const {
+  if (tree_.empty()) { return false; }
+  const auto above = [&](const glm::dvec3& p) { return glm::dot(normal, p - point) > slack; };
+  std::vector<std::uint32_t> stack{0};
+  while (!stack.empty()) {
+    const raycast::Bvh::Node& node = tree_.nodes()[stack.back()];
+    stack.pop_back();
+    const int highest = (normal.x > 0.0 ? 1 : 0) + (normal.y > 0.0 ? 2 : 0) + (normal.z > 0.0 ? 4 : 0);
+    if (!above(corner_of(node.box, highest))) { continue; }
+    if (node.count == 0) {
+      stack.insert(stack.end(), {node.first, node.first + 1});
+      continue;
+    }
+    for (const std::uint32_t item : tree_.items(node)) {
+      if (above(points_[item])) { return true; }
+    }
+  }
+  return false;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The points that bound a scene, in a tree: which of them lie above a plane is asked for every outer surface, and a scene may have many.
+// Objects with plane faces are bounded by their vertices, others by the corners of their bounds.
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
+
+#include <radiosity/hierarchy/surface.hpp>
+
+namespace radiosity {
+
+class Extremes {
+ public:
+  Extremes() = default;
+  explicit Extremes(const std::vector<Surface>& surfaces);
+
+  // Does any point lie more than `slack` above the plane through `point` with this normal? A walk down a tree, but for scenes of which
+  // very much lies in the plane.
+  [[nodiscard]] bool any_above(const glm::dvec3& point, const glm::dvec3& normal, double slack) const;
+
+ private:
+  [[nodiscard]] static glm::dvec3 corner_of(const raycast::Box& box, int corner) {
+    return {corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z};
+  }
+
+  std::vector<glm::dvec3> points_;
+  raycast::Bvh tree_;
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/hierarchy/extremes.cpp>
+#endif

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/hierarchy/long_faces.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/brep.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/circulators.hpp>
+#include <brep/geometry.hpp>
+#include <brep/handles.hpp>
+#include <brep/split.hpp>
+#include <brep/split_objects.hpp>
+#include <brep/split_plane.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+
+namespace radiosity {
+
+// Faces up to the first proportion are left as they are; the parts of longer ones have the second.
+inline constexpr double longest_face = 8.0, longest_part = 4.0;
+
+// Faces with a smaller share of the area of all are left as they are: refinement makes few patches of them.
+inline constexpr double least_long_share = 0.01;
+
+namespace detail {
+
+// A face along its longest edge.
+struct FaceLength {
+  glm::dvec3 along{0.0};  // unit
+  glm::dvec3 middle{0.0};
+  double length = 0.0, width = 0.0, area = 0.0;
+
+  explicit FaceLength(const Polygon& polygon) {
+    double longest = 0.0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const glm::dvec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+      if (glm::length(edge) > longest * (1.0 + 0x1p-20)) {
+        longest = glm::length(edge);
+        along = edge / longest;
+      }
+    }
+    double low = 0.0;
+    double high = 0.0;
+    for (const glm::dvec3& p : polygon) {
+      const double at = glm::dot(p - polygon[0], along);
+      low = std::min(low, at);
+      high = std::max(high, at);
+    }
+    length = high - low;
+    area = glm::length(vector_area(polygon));
+    width = length > 0.0 ? area / length : 0.0;
+    middle = polygon[0] + 0.5 * (low + high) * along;
+  }
+};
+
+}  // namespace detail
+
+HALFLIGHT_INLINE void cut_long_faces(std::vector<Surface>& surfaces, double min_area) {
+  double area = 0.0;
+  for (const Surface& surface : surfaces) {
+    for (const brep::FaceId f : brep::faces(surface.brep)) {
+      if (surface.brep.data(f).sheet != brep::no_sheet) { area += glm::length(brep::vector_area(surface.brep, f)); }
+    }
+  }
+  const double smallest = 4.0 * min_area * area;
+  for (Surface& surface : surfaces) {
+    std::vector<std::uint32_t> faces_of_sheet(surface.object->sheet_count(), 0);
+    for (const brep::FaceId f : brep::faces(surface.brep)) {
+      if (surface.brep.data(f).sheet != brep::no_sheet) { ++faces_of_sheet[surface.brep.data(f).sheet]; }
+    }
+    const auto is_long = [&](const SurfaceBRep& brep, brep::FaceId f, double proportion) {
+      const detail::FaceLength face{corner_polygon(brep, f)};
+      return face.length > proportion * face.width && face.area > smallest;
+    };
+    const auto finished = [&](const SurfaceBRep& brep, brep::FaceId f) { return !is_long(brep, f, longest_part); };
+    const auto across = [&](const SurfaceBRep& brep, brep::FaceId f) {
+      const detail::FaceLength face{corner_polygon(brep, f)};
+      const brep::Cut cut = brep::AlongPlane{face.middle, face.along}(brep, f);
+      if (!cut.a.valid() || surface.object->flat()) { return cut; }
+      const double touch = 1e-12 * surface.object->bounds().diameter();
+      const auto on_surface = [&](brep::HalfedgeId h, double on) {
+        const glm::dvec3 p = (1.0 - on) * brep.data(brep.vertex(h)).position + on * brep.data(brep.target(h)).position;
+        return glm::length(surface.object->project(brep.data(f).sheet, p).position - p) <= touch;
+      };
+      return on_surface(cut.a, cut.on_a) && on_surface(cut.b, cut.on_b) ? cut : brep::Cut{};
+    };
+    const auto in_parts = [&](brep::FaceId f) { return surface.object->flat() && faces_of_sheet[surface.brep.data(f).sheet] > 1; };
+    std::vector<brep::FaceId> faces;
+    for (const brep::FaceId f : brep::faces(surface.brep)) {
+      if (surface.brep.data(f).sheet == brep::no_sheet || in_parts(f) || !is_long(surface.brep, f, longest_face)) { continue; }
+      if (glm::length(brep::vector_area(surface.brep, f)) >= least_long_share * area) { faces.push_back(f); }
+    }
+    // A refusal leaves the face as it was: whole, it costs more links, and is no less valid.
+    for (const brep::FaceId f : faces) { (void)brep::split_recursively(surface.brep, f, across, finished, 1u << 17); }
+  }
+}
+
+}  // namespace radiosity

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/hierarchy/surface.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/brep.hpp>
+#include <brep/builder.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/circulators.hpp>
+#include <brep/conditions.hpp>
+#include <brep/geometry.hpp>
+#include <brep/handles.hpp>
+#include <brep/refine.hpp>
+#include <brep/result.hpp>
+#include <brep/ring.hpp>
+#include <brep/small_list.hpp>
+#include <brep/split.hpp>
+#include <brep/split_objects.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/scene/options.hpp>
+
+namespace radiosity {
+
+// Chord error of the first approximation, relative to the size of the object. Refinement goes on from there.
+inline constexpr double first_chord_error = 0.01;
+
+HALFLIGHT_INLINE SurfaceResult make_surface(const raycast::PlacedObject& object, std::uint32_t first_surface) {
+  const raycast::Box box = object.bounds();
+  brep::Builder builder;
+  object.approximate(first_chord_error * glm::length(box.hi - box.lo), builder);
+  auto closed = brep::close<SurfaceBRep>(builder);
+  if (!closed.brep) {
+    std::string sentence = "its approximation is not a closed boundary";
+    for (const auto& defect : closed.defects) { sentence += "; " + defect.sentence; }
+    return {std::nullopt, std::move(sentence)};
+  }
+  Surface surface{&object, first_surface, std::move(*closed.brep), Topology::shared};
+  std::vector<brep::FaceId> concave;
+  for (const brep::FaceId f : brep::faces(surface.brep)) {
+    if (surface.brep.data(f).sheet != brep::no_sheet && !brep::is_convex(surface.brep, f)) { concave.push_back(f); }
+  }
+  for (const brep::FaceId f : concave) {
+    const auto parts = brep::split_until_convex(surface.brep, f);
+    if (parts) { continue; }
+    // A chord patch that was cut along another solid need not be planar: ears are cut off, down to triangles if it must be.
+    const bool warped = parts.refusal().code == brep::Code::not_planar && !object.flat();
+    const auto split = brep::first_of(brep::AtNonConvexCorner{}, brep::AtBestEar{});
+    if (!warped || !brep::split_recursively(surface.brep, f, split, brep::Convex{} || brep::triangles)) {
+      return {std::nullopt, parts.refusal().sentence()};
+    }
+  }
+  for (const brep::FaceId f : brep::faces(surface.brep)) { surface.brep.data(f).part = f.index; }
+  return {std::move(surface), {}};
+}
+
+// Moves a vertex to the sheets of the faces around it: onto the surface, or onto the curve where two sheets meet.
+HALFLIGHT_INLINE void place_on_object(const raycast::PlacedObject& object, SurfaceBRep& brep, brep::VertexId v) {
+  if (object.flat()) { return; }
+  glm::dvec3& position = brep.data(v).position;
+  for (int round = 0; round < 8; ++round) {
+    const glm::dvec3 before = position;
+    for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) {
+      const std::uint32_t sheet = brep.data(brep.face(h)).sheet;
+      if (sheet != brep::no_sheet) { position = object.project(sheet, position).position; }
+    }
+    if (position == before) { return; }
+  }
+}
+
+HALFLIGHT_INLINE Polygon corner_polygon(const SurfaceBRep& brep, brep::FaceId f) {
+  Polygon polygon;
+  for (const brep::HalfedgeId h : brep::corners(brep, f)) { polygon.push_back(brep.data(brep.vertex(h)).position); }
+  return polygon;
+}
+
+// Makes the leaf node of a face and enters it in the face.
+HALFLIGHT_INLINE Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, std::uint32_t parent, std::uint32_t index) {
+  const Polygon polygon = corner_polygon(surface.brep, f);
+  Node node;
+  const glm::dvec3 area = vector_area(polygon);
+  node.area = glm::length(area);
+  node.normal = node.area > 0.0 ? area / node.area : glm::dvec3{0.0};
+  for (const glm::dvec3& p : polygon) { node.centre += p / static_cast<double>(polygon.size()); }
+  for (const glm::dvec3& p : polygon) { node.radius = std::max(node.radius, glm::length(p - node.centre)); }
+  if (!surface.object->flat()) {
+    const std::uint32_t sheet = surface.brep.data(f).sheet;
+    for (const glm::dvec3& p : polygon) {
+      const glm::dvec3 true_normal = surface.object->project(sheet, p).normal;
+      node.deviation = std::max(node.deviation, std::min(1.0, glm::length(glm::cross(node.normal, true_normal))));
+    }
+  }
+  node.parent = parent;
+  node.object = object;
+  node.surface = surface.first_surface + surface.brep.data(f).sheet;
+  node.corners = static_cast<std::uint32_t>(polygon.size());
+  node.face = f;
+  surface.brep.data(f).node = index;
+  return node;
+}
+
+HALFLIGHT_INLINE std::size_t radiating_faces(const Surface& surface) {
+  std::size_t count = 0;
+  for (const brep::FaceId f : brep::faces(surface.brep)) { count += surface.brep.data(f).sheet != brep::no_sheet ? 1 : 0; }
+  return count;
+}
+
+HALFLIGHT_INLINE std::vector<std::vector<brep::FaceId>> input_faces(const Surface& surface) {
+  const SurfaceBRep& brep = surface.brep;
+  std::vector<std::vector<brep::FaceId>> result;
+  std::vector<bool> seen(brep.face_end(), false);
+  for (const brep::FaceId f : brep::faces(brep)) {
+    if (seen[f.index] || brep.data(f).sheet == brep::no_sheet) { continue; }
+    std::vector<brep::FaceId>& parts = result.emplace_back(1, f);
+    seen[f.index] = true;
+    if (!surface.object->flat()) { continue; }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (const brep::HalfedgeId h : brep::halfedges_of(brep, parts[i])) {
+        const brep::FaceId across = brep.face(brep::twin(h));
+        if (seen[across.index] || brep.data(across).sheet != brep.data(f).sheet) { continue; }
+        seen[across.index] = true;
+        parts.push_back(across);
+      }
+    }
+    std::vector<std::uint32_t> from;
+    for (const brep::FaceId part : parts) { from.push_back(brep.data(part).part); }
+    std::sort(from.begin(), from.end());
+    if (std::adjacent_find(from.begin(), from.end()) == from.end()) { continue; }
+    const std::vector<brep::FaceId> cut = std::move(parts);
+    result.pop_back();
+    for (const brep::FaceId part : cut) { result.emplace_back(1, part); }
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE Hierarchy make_roots(std::vector<Surface>& surfaces) {
+  Hierarchy hierarchy;
+  for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
+    for (const std::vector<brep::FaceId>& parts : input_faces(surfaces[o])) {
+      const auto root = static_cast<std::uint32_t>(hierarchy.size());
+      if (parts.size() == 1) {
+        hierarchy.push_back(make_leaf(surfaces[o], o, parts[0], no_node, root));
+        continue;
+      }
+      hierarchy.emplace_back();
+      glm::dvec3 area{0.0};
+      Node whole;
+      for (const brep::FaceId f : parts) {
+        const auto index = static_cast<std::uint32_t>(hierarchy.size());
+        hierarchy.push_back(make_leaf(surfaces[o], o, f, root, index));
+        area += hierarchy[index].area * hierarchy[index].normal;
+        whole.centre += hierarchy[index].area * hierarchy[index].centre;
+        whole.area += hierarchy[index].area;
+      }
+      whole.centre = whole.area > 0.0 ? whole.centre / whole.area : hierarchy[root + 1].centre;
+      whole.normal = glm::length(area) > 0.0 ? glm::normalize(area) : glm::dvec3{0.0};
+      for (std::size_t i = root + 1; i < hierarchy.size(); ++i) {
+        for (const glm::dvec3& p : corner_polygon(surfaces[o].brep, hierarchy[i].face)) {
+          whole.radius = std::max(whole.radius, glm::length(p - whole.centre));
+        }
+      }
+      whole.surface = hierarchy[root + 1].surface;
+      whole.object = o;
+      whole.first_child = root + 1;
+      whole.child_count = static_cast<std::uint32_t>(parts.size());
+      hierarchy[root] = whole;
+    }
+  }
+  return hierarchy;
+}
+
+// Does splitting make the patches of a curved object smaller? Flat patches fall to a quarter each time. Where a surface folds within the
+// rounding of its coordinates (the tip of a needle) new vertices come to lie on old ones, and one child is as large as its parent for ever:
+// it is given up when four splits together did not make it as small as one should.
+[[nodiscard]] HALFLIGHT_INLINE bool shrinks(const Hierarchy& hierarchy, std::uint32_t index) {
+  std::uint32_t ancestor = index;
+  for (int k = 0; k < 4; ++k) {
+    if (is_input_face(hierarchy, ancestor)) { return true; }
+    ancestor = hierarchy[ancestor].parent;
+  }
+  return hierarchy[index].area < 0.25 * hierarchy[ancestor].area;
+}
+
+HALFLIGHT_INLINE bool subdivide(std::vector<Surface>& surfaces, Hierarchy& hierarchy, std::uint32_t index) {
+  const std::uint32_t object = hierarchy[index].object;
+  Surface& surface = surfaces[object];
+  if (!surface.object->flat() && !shrinks(hierarchy, index)) { return false; }
+  const auto place = [&](SurfaceBRep& brep, brep::VertexId v) {
+    if (surface.topology == Topology::shared) { place_on_object(*surface.object, brep, v); }
+  };
+  const bool ring = surface.topology == Topology::shared && hierarchy[index].corners > brep::most_regular_corners;
+  const auto faces =
+      ring ? brep::cut_ring(surface.brep, hierarchy[index].face, place) : brep::refine(surface.brep, hierarchy[index].face, place);
+  if (!faces) { return false; }
+  const auto first = static_cast<std::uint32_t>(hierarchy.size());
+  for (const brep::FaceId f : *faces) {
+    hierarchy.push_back(make_leaf(surface, object, f, index, static_cast<std::uint32_t>(hierarchy.size())));
+  }
+  hierarchy[index].first_child = first;
+  hierarchy[index].child_count = static_cast<std::uint32_t>(faces->size());
+  hierarchy[index].face = brep::FaceId{};
+  if (ring) { hierarchy[index].corners = 0; }
+  return true;
+}
+
+// The contour of a polygon in convex parts that share corners, bit by bit, with a bridge to each hole. Diagonals that span the parts, each
+// joining two that were not connected, vanish: the parts become one disk. The others are the bridges, and slits that lead to a corner
+// inside; these are left out.
+[[nodiscard]] HALFLIGHT_INLINE Polygon contour_of_parts(const std::vector<Polygon>& parts) {
+  struct Side {
+    std::array<double, 6> ends;
+    std::size_t part, corner;
+    bool vanished = false;
+    bool operator<(const Side& other) const { return ends < other.ends; }
+  };
+  const auto ends = [](const glm::dvec3& a, const glm::dvec3& b) { return std::array<double, 6>{a.x, a.y, a.z, b.x, b.y, b.z}; };
+  const auto next = [&](std::size_t part, std::size_t corner) { return corner + 1 < parts[part].size() ? corner + 1 : 0; };
+  std::vector<Side> sides;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    for (std::size_t i = 0; i < parts[k].size(); ++i) { sides.push_back({ends(parts[k][i], parts[k][next(k, i)]), k, i}); }
+  }
+  std::sort(sides.begin(), sides.end());
+  const auto find_side = [&](const glm::dvec3& a, const glm::dvec3& b) {
+    const auto found = std::lower_bound(sides.begin(), sides.end(), Side{ends(a, b), 0, 0});
+    return found != sides.end() && found->ends == ends(a, b) ? &*found : nullptr;
+  };
+  std::vector<std::size_t> group(parts.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const auto root = [&](std::size_t k) {
+    while (group[k] != k) { k = group[k] = group[group[k]]; }
+    return k;
+  };
+  const Side* start = nullptr;
+  for (Side& side : sides) {
+    Side* const back = find_side(parts[side.part][next(side.part, side.corner)], parts[side.part][side.corner]);
+    if (back == nullptr) {
+      start = &side;
+    } else if (root(side.part) != root(back->part)) {
+      group[root(side.part)] = root(back->part);
+      side.vanished = back->vanished = true;
+    }
+  }
+  Polygon polygon;
+  const Side* side = start;
+  do {
+    const glm::dvec3& corner_of_side = parts[side->part][side->corner];
+    if (polygon.size() > 1 && polygon[polygon.size() - 2] == corner_of_side) {
+      polygon.pop_back();  // to the end of a slit and back
+    } else {
+      polygon.push_back(corner_of_side);
+    }
+    for (std::size_t part = side->part, corner = side->corner;;) {
+      corner = next(part, corner);
+      const glm::dvec3 &from = parts[part][corner], &to = parts[part][next(part, corner)];
+      side = find_side(from, to);
+      if (!side->vanished) { break; }
+      const Side* const back = find_side(to, from);
+      part = back->part, corner = back->corner;
+    }
+  } while (side != start);
+  while (polygon.size() > 2 && polygon[polygon.size() - 2] == polygon.front()) {
+    polygon.resize(polygon.size() - 2);
+  }  // a slit at the start
+  return polygon;
+}
+
+HALFLIGHT_INLINE Polygon contour(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, std::uint32_t index) {
+  const auto corner0 = [&](std::uint32_t i) {
+    while (!hierarchy[i].leaf()) { i = hierarchy[i].first_child; }
+    const SurfaceBRep& brep = surfaces[hierarchy[i].object].brep;
+    return brep.data(brep.vertex(brep::corners(brep, hierarchy[i].face)[0])).position;
+  };
+  const Node& node = hierarchy[index];
+  if (node.leaf()) { return corner_polygon(surfaces[node.object].brep, node.face); }
+  if (node.in_parts()) {
+    std::vector<Polygon> parts;
+    for (std::uint32_t k = 0; k < node.child_count; ++k) { parts.push_back(contour(surfaces, hierarchy, node.first_child + k)); }
+    return contour_of_parts(parts);
+  }
+  Polygon polygon;
+  for (std::uint32_t k = 0; k < node.corners; ++k) { polygon.push_back(corner0(node.first_child + k)); }
+  return polygon;
+}
+
+}  // namespace radiosity

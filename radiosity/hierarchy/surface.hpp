@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The boundary of one object as the solver needs it: a BRep whose vertices, half-edges and faces carry derived
+// attributes (paper 2.2, 4.2). Vertices and faces carry level tags; faces know their sheet and their hierarchy
+// leaf; half-edges carry the normal and the colour of their origin as seen from their face (paper 4.5).
+//
+// A vertex that refinement inserts is placed on the object by Object::project, so the mesh follows the true shape
+// as it gets finer; on an edge between two sheets it is placed on both.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <brep/brep.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/handles.hpp>
+#include <brep/tag.hpp>
+
+#include <raycast/transform.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+
+namespace radiosity {
+
+struct SurfaceVertex : brep::Tag {
+  glm::dvec3 position{0.0};
+};
+
+struct SurfaceHalfedge {
+  glm::dvec3 normal{0.0};
+  Color radiosity{0.0};
+};
+
+struct SurfaceFace : brep::Tag {
+  std::uint32_t sheet = brep::no_sheet;
+  std::uint32_t node = no_node;              // the hierarchy leaf that stands on this face
+  std::uint32_t part = brep::invalid_index;  // the face of the boundary, once all are convex, from which this one was cut
+};
+
+using SurfaceBRep = brep::BRep<SurfaceVertex, SurfaceHalfedge, SurfaceFace>;
+
+struct Surface {
+  const raycast::PlacedObject* object = nullptr;
+  std::uint32_t first_surface = 0;  // input surface of sheet 0
+  SurfaceBRep brep;
+  Topology topology = Topology::shared;
+};
+
+// The approximation of a placed object with convex faces, or a sentence that says why there is none.
+struct SurfaceResult {
+  std::optional<Surface> surface;
+  std::string fault;
+};
+
+[[nodiscard]] SurfaceResult make_surface(const raycast::PlacedObject& object, std::uint32_t first_surface);
+
+// Corner positions of a face, corner 0 first, T-vertices left out.
+[[nodiscard]] Polygon corner_polygon(const SurfaceBRep& brep, brep::FaceId f);
+
+// Faces that belong to a sheet: those that give and receive light.
+[[nodiscard]] std::size_t radiating_faces(const Surface& surface);
+
+// The input faces of a surface, each by its convex parts: a face that is not convex was cut by diagonals, and of an object with flat sheets
+// the parts are known again by their sheet. One that was cut at a wall (wall_cuts.hpp) falls into all its parts: no patch spans the wall.
+// Holes and backs are left out.
+[[nodiscard]] std::vector<std::vector<brep::FaceId>> input_faces(const Surface& surface);
+
+// One root for each input face of each surface (paper 4.2); below that of a face in convex parts are the leaves of the parts.
+[[nodiscard]] Hierarchy make_roots(std::vector<Surface>& surfaces);
+
+// Splits a leaf: its face is refined by Euler operators and the new faces become its children. A face of many corners is first cut into a
+// ring and what it surrounds: its children are parts of it. False when the BRep refuses (the level tag is full), or when it does
+// not get smaller; then nothing has changed.
+[[nodiscard]] bool subdivide(std::vector<Surface>& surfaces, Hierarchy& hierarchy, std::uint32_t index);
+
+// The corners of any node: those of its face when it is a leaf, the contour of its parts when it has some, else corner 0 of its first
+// children.
+[[nodiscard]] Polygon contour(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, std::uint32_t index);
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/hierarchy/surface.cpp>
+#endif

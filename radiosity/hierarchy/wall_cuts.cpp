@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/hierarchy/wall_cuts.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/brep.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+#include <brep/split.hpp>
+#include <brep/split_objects.hpp>
+#include <brep/split_plane.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/buried.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+struct WallFace {
+  Polygon polygon;
+  glm::dvec3 normal{0.0};
+  raycast::Box box;
+};
+
+// Of a line across a face that walls must cover to cut it. About half, and no round number, which walls would meet as an equality.
+inline constexpr double share_of_walls = 0.47;
+
+// A line across a face and the intervals of it on which walls stand.
+struct WallLine {
+  glm::dvec3 point{0.0}, normal{0.0};  // the plane of the walls
+  glm::dvec3 along{0.0};               // unit
+  std::vector<std::pair<double, double>> intervals;
+
+  [[nodiscard]] double at(const glm::dvec3& p) const { return glm::dot(p - point, along); }
+  // Length of what the walls cover between two places.
+  [[nodiscard]] double covered(double from, double to) const {
+    double sum = 0.0;
+    double reached = from;
+    for (const auto& [lo, hi] : intervals) {
+      sum += std::max(0.0, std::min(hi, to) - std::max(lo, reached));
+      reached = std::max(reached, hi);
+    }
+    return sum;
+  }
+};
+
+HALFLIGHT_INLINE std::vector<WallFace> wall_faces(const Surface& surface) {
+  std::vector<WallFace> faces;
+  for (const brep::FaceId f : brep::faces(surface.brep)) {
+    if (surface.brep.data(f).sheet == brep::no_sheet) { continue; }
+    WallFace face{corner_polygon(surface.brep, f), {}, {}};
+    const glm::dvec3 area = vector_area(face.polygon);
+    if (!(glm::length(area) > 0.0)) { continue; }
+    face.normal = glm::normalize(area);
+    for (const glm::dvec3& p : face.polygon) { face.box.extend(p); }
+    faces.push_back(std::move(face));
+  }
+  return faces;
+}
+
+HALFLIGHT_INLINE bool boxes_meet(const raycast::Box& a, const raycast::Box& b, double margin) {
+  for (int k = 0; k < 3; ++k) {
+    if (!(a.lo[k] - margin <= b.hi[k] && b.lo[k] - margin <= a.hi[k])) { return false; }
+  }
+  return true;
+}
+
+// Adds the interval on which `wall` stands on or goes through the plane of `face`, if it rises into the air before it.
+HALFLIGHT_INLINE void add_wall(const WallFace& face, const WallFace& wall, double tolerance, std::vector<WallLine>& lines) {
+  const glm::dvec3 across = glm::cross(face.normal, wall.normal);
+  if (!(glm::length(across) > 1e-6)) { return; }
+  const glm::dvec3 along = glm::normalize(across);
+  const Polygon& w = wall.polygon;
+  const auto height = [&](const glm::dvec3& p) { return glm::dot(face.normal, p - face.polygon[0]); };
+  double top = 0.0;
+  double from = std::numeric_limits<double>::infinity();
+  double to = -from;
+  const auto meet = [&](const glm::dvec3& p) {
+    from = std::min(from, glm::dot(p - w[0], along));
+    to = std::max(to, glm::dot(p - w[0], along));
+  };
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    const glm::dvec3& a = w[i];
+    const glm::dvec3& b = w[(i + 1) % w.size()];
+    const double ha = height(a);
+    const double hb = height(b);
+    top = std::max(top, ha);
+    if (std::abs(ha) <= tolerance) { meet(a); }
+    if ((ha > tolerance && hb < -tolerance) || (ha < -tolerance && hb > tolerance)) { meet(a + ha / (ha - hb) * (b - a)); }
+  }
+  if (!(top > tolerance) || !(to - from > tolerance)) { return; }
+  for (WallLine& line : lines) {
+    const double cosine = glm::dot(line.normal, wall.normal);
+    if (std::abs(cosine) < 1.0 - 1e-12 || std::abs(glm::dot(line.normal, w[0] - line.point)) > tolerance) { continue; }
+    const double turn = glm::dot(along, line.along) < 0.0 ? -1.0 : 1.0;
+    const double shift = line.at(w[0]);
+    line.intervals.emplace_back(shift + std::min(turn * from, turn * to), shift + std::max(turn * from, turn * to));
+    return;
+  }
+  lines.push_back({w[0], wall.normal, along, {{from, to}}});
+}
+
+// Cuts one face along its lines.
+HALFLIGHT_INLINE void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vector<WallLine>& lines) {
+  for (WallLine& line : lines) { std::sort(line.intervals.begin(), line.intervals.end()); }
+  const auto place = [&](const SurfaceBRep& b, brep::FaceId part) {
+    for (const WallLine& line : lines) {
+      const brep::Cut cut = brep::AlongPlane{line.point, line.normal}(b, part);
+      if (!cut.a.valid()) { continue; }
+      const auto point = [&](brep::HalfedgeId h, double on) {
+        return (1.0 - on) * b.data(b.vertex(h)).position + on * b.data(b.target(h)).position;
+      };
+      const double p = line.at(point(cut.a, cut.on_a));
+      const double q = line.at(point(cut.b, cut.on_b));
+      if (line.covered(std::min(p, q), std::max(p, q)) >= share_of_walls * std::abs(p - q)) { return cut; }
+    }
+    return brep::Cut{};
+  };
+  // A refusal leaves the face as it was: whole, it is less exact, and no less valid.
+  (void)brep::split_recursively(
+      brep, face, place, [](const SurfaceBRep&, brep::FaceId) { return false; }, 1024);
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double diameter, std::size_t most_pairs) {
+  const double tolerance = 1e-9 * diameter;
+  std::vector<std::uint32_t> order;
+  std::vector<std::vector<std::uint32_t>> partners(surfaces.size());
+  std::vector<bool> covered(surfaces.size(), false);
+  for (const auto& pair : detail::twins(surfaces)) { covered[pair[0]] = true; }
+  for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
+    if (surfaces[o].object->flat() && !covered[o]) { order.push_back(o); }
+  }
+  std::vector<raycast::Box> boxes;
+  for (const std::uint32_t o : order) { boxes.push_back(surfaces[o].object->bounds()); }
+  if (boxes.empty()) { return 0; }
+  const raycast::Bvh tree{boxes};
+  std::size_t pairs = 0;
+  std::vector<std::uint32_t> stack;
+  std::size_t looked_at = 0;
+  for (; looked_at < order.size() && pairs < most_pairs; ++looked_at) {
+    const std::size_t i = looked_at;
+    stack.assign(1, 0);
+    while (!stack.empty()) {
+      const raycast::Bvh::Node& node = tree.nodes()[stack.back()];
+      stack.pop_back();
+      if (!detail::boxes_meet(boxes[i], node.box, tolerance)) { continue; }
+      if (node.count == 0) {
+        stack.insert(stack.end(), {node.first, node.first + 1});
+        continue;
+      }
+      for (const std::uint32_t k : tree.items(node)) {
+        if (k != i && detail::boxes_meet(boxes[i], boxes[k], tolerance)) { partners[order[i]].push_back(order[k]); }
+      }
+    }
+    pairs += partners[order[i]].size();
+  }
+  std::size_t left_whole = order.size() - looked_at;
+  std::vector<std::vector<detail::WallFace>> walls(surfaces.size());  // as they are before any cut
+  for (const std::uint32_t o : order) {
+    if (!partners[o].empty()) { walls[o] = detail::wall_faces(surfaces[o]); }
+  }
+  for (const std::uint32_t o : order) {
+    std::sort(partners[o].begin(), partners[o].end());
+    SurfaceBRep& brep = surfaces[o].brep;
+    std::vector<brep::FaceId> faces;
+    for (const brep::FaceId f : brep::faces(brep)) {
+      if (!partners[o].empty() && brep.data(f).sheet != brep::no_sheet) { faces.push_back(f); }
+    }
+    std::size_t face_pairs = 0;
+    for (const std::uint32_t w : partners[o]) { face_pairs += faces.size() * walls[w].size(); }
+    left_whole += face_pairs > 10'000'000 ? 1 : 0;
+    if (faces.size() != walls[o].size() || face_pairs > 10'000'000) { continue; }
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      std::vector<detail::WallLine> lines;
+      for (const std::uint32_t w : partners[o]) {
+        for (const detail::WallFace& wall : walls[w]) {
+          if (detail::boxes_meet(walls[o][k].box, wall.box, tolerance)) { detail::add_wall(walls[o][k], wall, tolerance, lines); }
+        }
+      }
+      if (!lines.empty()) { detail::cut_along(brep, faces[k], lines); }
+    }
+  }
+  return left_whole;
+}
+
+}  // namespace radiosity

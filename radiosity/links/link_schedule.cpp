@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/links/link_schedule.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/hierarchy/links.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE LinkSchedule::LinkSchedule(std::size_t nodes, Links& links) {
+  if (links.size() < few) {
+    rounds_.push_back({{0, links.size()}});
+    return;
+  }
+  arrange(nodes, links);
+  const std::vector<std::size_t> first = first_of_blocks(tiles_of(nodes, links), links);
+  std::vector<std::size_t> blocks;
+  for (std::size_t b = 0; b < tiles * tiles; ++b) {
+    if (first[b] < first[b + 1]) { blocks.push_back(b); }
+  }
+  const auto size = [&](std::size_t b) { return first[b + 1] - first[b]; };
+  std::stable_sort(blocks.begin(), blocks.end(), [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
+  std::vector<std::uint64_t> busy;  // the tiles of each round, one bit each
+  for (const std::size_t b : blocks) {
+    const std::uint64_t both = std::uint64_t{1} << b / tiles | std::uint64_t{1} << b % tiles;
+    std::size_t round = 0;
+    while (round < busy.size() && (busy[round] & both) != 0) { ++round; }
+    if (round == busy.size()) {
+      busy.push_back(0);
+      rounds_.emplace_back();
+    }
+    busy[round] |= both;
+    rounds_[round].push_back({first[b], first[b + 1]});
+  }
+}
+
+HALFLIGHT_INLINE std::vector<std::uint8_t> LinkSchedule::tiles_of(std::size_t nodes, const Links& links) {
+  std::vector<std::uint32_t> ends(nodes, 0);
+  for (const Link& link : links) {
+    ++ends[link.p];
+    ++ends[link.q];
+  }
+  std::vector<std::uint8_t> tile(nodes);
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < nodes; ++i) {
+    tile[i] = static_cast<std::uint8_t>(std::min(tiles - 1, before * tiles / (2 * links.size())));
+    before += ends[i];
+  }
+  return tile;
+}
+
+HALFLIGHT_INLINE std::size_t LinkSchedule::block_of(const std::vector<std::uint8_t>& tile, const Link& link) {
+  const std::size_t a = tile[link.p];
+  const std::size_t b = tile[link.q];
+  return std::max(a, b) * tiles + std::min(a, b);
+}
+
+HALFLIGHT_INLINE std::vector<std::size_t> LinkSchedule::first_of_blocks(const std::vector<std::uint8_t>& tile, const Links& links) {
+  std::vector<std::size_t> first(tiles * tiles + 1, 0);
+  for (const Link& link : links) { ++first[block_of(tile, link) + 1]; }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  return first;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a link would have cost that was left out: some links of the run are done once more as if nothing were known of them,
+// and timed. Results never depend on it.
+
+#include <algorithm>
+#include <cstddef>
+#include <ctime>
+
+#include <raycast/shaft.hpp>
+
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/links/evaluate.hpp>
+#include <radiosity/visibility/visibility.hpp>
+
+namespace radiosity {
+
+// Seconds of CPU time, averages over links between patches; 0 when there is none.
+struct LinkCost {
+  double form_factor = 0.0;
+  double ray = 0.0;   // one segment
+  double link = 0.0;  // all of it
+};
+
+// Times at most 256 links, spread evenly; a millisecond or two. To be called when no other thread works.
+[[nodiscard]] inline LinkCost link_cost(const LinkEvaluator& evaluator, const Links& links) {
+  constexpr std::size_t most = 256;
+  Links chosen;
+  for (std::size_t i = 0; i < links.size(); i += 1 + links.size() / most) {
+    if (evaluator.between_patches(links[i])) { chosen.push_back(links[i]); }
+  }
+  if (chosen.empty()) { return {}; }
+  const auto seconds = [](std::clock_t from) { return static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC; };
+  RayCount rays;
+  const std::clock_t start = std::clock();
+  for (const Link& link : chosen) { rays += evaluator.segments(link); }
+  const double casting = seconds(start);
+  const std::clock_t middle = std::clock();
+  for (Link& link : chosen) { (void)evaluator(link, {}); }
+  const double all = seconds(middle);
+  const auto n = static_cast<double>(chosen.size());
+  return {std::max(0.0, all - casting) / n, rays.cast > 0 ? casting / static_cast<double>(rays.cast) : 0.0, all / n};
+}
+
+}  // namespace radiosity

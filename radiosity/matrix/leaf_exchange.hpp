@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The exchange between any two leaves, made when it is asked for and not kept: what methods without links work with. Form factors,
+// occluder lists and visibility are those of the links (evaluate.hpp); what can stand between two input faces is looked up once
+// for all their leaves.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <raycast/scene.hpp>
+
+#include <radiosity/exchange/doubt.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/links/evaluate.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/visibility.hpp>
+
+namespace radiosity {
+
+[[nodiscard]] std::size_t exposed_leaves(const Hierarchy& hierarchy, const Exposure& exposure);
+
+// The exchange between the leaves of which something is exposed.
+class LeafExchange {
+ public:
+  // The references must outlive this; the hierarchy stays as it is.
+  LeafExchange(const raycast::Scene& objects, const Plan& plan, const std::vector<Surface>& surfaces, const Hierarchy& hierarchy,
+               const Patches& patches, const Exposure& exposure, const LinkEvaluator& evaluator);
+
+  [[nodiscard]] std::size_t size() const { return leaves_.size(); }
+  [[nodiscard]] std::uint32_t node(std::size_t i) const { return leaves_[i]; }
+  [[nodiscard]] double area(std::size_t i) const { return area_[i]; }  // exposed
+
+  // A_i F_ij = A_j F_ji with visibility, in the squared unit of the frame. Its doubt has no part by node: leaves express all.
+  [[nodiscard]] float operator()(std::size_t i, std::size_t j, RayCount& rays, Doubt* doubt = nullptr) const;
+
+  [[nodiscard]] std::size_t bytes() const { return (lists_.capacity() * sizeof(std::uint32_t)) + occluders_.bytes(); }
+
+ private:
+  static constexpr std::uint32_t nothing = 0xfffffffd;  // of two roots: they exchange no light
+
+  // Faces of one flat sheet or of one convex solid do not see each other, and no flat face sees itself.
+  [[nodiscard]] static bool may_exchange(const std::vector<Surface>& surfaces, const Node& a, const Node& b, bool same);
+
+  const raycast::Scene* objects_;
+  const Plan* plan_;
+  const Hierarchy* hierarchy_;
+  const Patches* patches_;
+  const LinkEvaluator* evaluator_;
+  std::vector<std::uint32_t> leaves_, roots_;
+  std::vector<double> area_;
+  std::size_t count_ = 0;             // of roots
+  std::vector<std::uint32_t> lists_;  // of each pair of roots
+  OccluderLists occluders_;
+};
+
+// What the leaves do with light, in the order of LeafExchange.
+struct LeafMaterials {
+  std::vector<Color> reflectance, emission;
+};
+
+// `reflectance` and `emission`: one for each input surface.
+[[nodiscard]] LeafMaterials leaf_materials(const LeafExchange& exchange, const Hierarchy& hierarchy, const std::vector<Color>& reflectance,
+                                           const std::vector<Color>& emission);
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/matrix/leaf_exchange.cpp>
+#endif

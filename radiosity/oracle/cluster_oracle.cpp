@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/oracle/cluster_oracle.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/clusters/clusters.hpp>
+#include <radiosity/geometry/directions.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/oracle/oracle.hpp>
+
+namespace radiosity {
+
+// Distance of the centres over the sum of the radii, at least.
+inline constexpr double cluster_separation = 1.5;
+
+HALFLIGHT_INLINE double most_shown(const Node& node, const ShownAreas& shown, const glm::dvec3& d, double spread) {
+  if (!node.is_cluster()) { return node.area * std::clamp(glm::dot(node.normal, d) + spread, 0.0, 1.0); }
+  const Aim towards = aim(d);
+  double most = 0.0;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const std::uint32_t k = towards.direction[j];
+    const glm::dvec3 lattice{detail::direction_lattice.x[k], detail::direction_lattice.y[k], detail::direction_lattice.z[k]};
+    most = std::max(most, shown.of(node)[k] / glm::length(lattice));
+  }
+  return std::min(most, std::numbers::pi * node.radius * node.radius);
+}
+
+HALFLIGHT_INLINE Decision cluster_oracle(const Hierarchy& hierarchy, std::uint32_t p, std::uint32_t q, const ShownAreas& shown,
+                                         double epsilon, double min_area) {
+  const Node& a = hierarchy[p];
+  const Node& b = hierarchy[q];
+  // A patch that may not be split any more leaves it to the cluster.
+  const auto splits = [&](const Node& node) { return node.is_cluster() || !node.leaf() || node.area > min_area; };
+  const Decision larger = splits(a) && (a.radius >= b.radius || !splits(b)) ? Decision::split_p : Decision::split_q;
+  const glm::dvec3 to_b = b.centre - a.centre;
+  const double r = glm::length(to_b);
+  const double extent = a.radius + b.radius;
+  if (!(r >= cluster_separation * extent)) { return larger; }
+  if (std::max(a.area, b.area) <= min_area) { return Decision::link; }
+  const glm::dvec3 d = to_b / r;
+  const double spread = extent / r;
+  const double seen = std::max(most_shown(a, shown, d, spread), most_shown(b, shown, -d, spread));
+  return seen <= epsilon * std::numbers::pi * (r * r + seen) ? Decision::link : larger;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/oracle/light_oracle.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/shaft.hpp>
+
+#include <radiosity/clusters/cluster_exchange.hpp>
+#include <radiosity/clusters/clusters.hpp>
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/oracle/cluster_oracle.hpp>
+#include <radiosity/oracle/oracle.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/visibility.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& scene, const raycast::Scene& objects, const Plan& plan, const Patches& patches,
+                                          const Hierarchy& hierarchy, const ShownAreas& shown, double epsilon, std::uint64_t seed,
+                                          const std::vector<bool>& buried)
+    : objects_{&objects},
+      plan_{&plan},
+      patches_{&patches},
+      hierarchy_{&hierarchy},
+      shown_{&shown},
+      sampler_{objects, hierarchy, patches, nullptr, shown},
+      epsilon_{epsilon},
+      seed_{seed} {
+  for (const InputSurface& input : radiosity::surfaces(scene)) {
+    const Color& emission = scene.materials[input.material].emission;
+    emission_.push_back(std::max({emission.x, emission.y, emission.z}));
+  }
+  double power = 0.0;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (!is_input_face(hierarchy, i) || (i < buried.size() && buried[i])) { continue; }
+    const Node& root = hierarchy[i];
+    power += root.area * emission_[root.surface];
+    scene_area_ += root.area;
+  }
+  for (double& e : emission_) { e = power > 0.0 ? e / power * scene_area_ : 0.0; }
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {
+    const Node& node = hierarchy[i];
+    if (!node.is_cluster()) { continue; }
+    if (of_cluster_.size() <= node.cluster) { of_cluster_.resize(node.cluster + 1); }
+    double sum = 0.0;
+    double& brightest = of_cluster_[node.cluster].brightest;
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
+      const Node& child = hierarchy[c];
+      sum += child.area * emission(child);
+      brightest = std::max(brightest, child.is_cluster() ? of_cluster_[child.cluster].brightest : emission(child));
+    }
+    of_cluster_[node.cluster].mean = node.area > 0.0 ? sum / node.area : 0.0;
+  }
+}
+
+HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::uint32_t q, const raycast::OccluderList& list,
+                                                        RayCount& rays) const {
+  const Hierarchy& nodes = *hierarchy_;
+  const bool q_shines = emission(nodes[q]) >= emission(nodes[p]);
+  const std::uint32_t receiver = q_shines ? p : q;
+  const Node& to = nodes[receiver];
+  const Node& from = nodes[q_shines ? q : p];
+  // A light that was split into k parts has k links here, whose variations add up to between sqrt k and k of one.
+  const double parts = from.is_cluster() ? 1.0 : nodes[input_face(nodes, q_shines ? q : p)].area / from.area;
+  const double weight = emission(from) * std::sqrt(parts * to.area / scene_area_);
+  if (!(weight > epsilon_)) { return no_node; }
+  if (to.is_cluster() || from.is_cluster()) { return wants_cluster_split(receiver, q_shines ? q : p, weight, rays); }
+
+  const Patch& patch = (*patches_)[receiver];
+  double low = 1.0;
+  double high = 0.0;
+  const double tilt = std::asin(to.deviation);
+  const auto look = [&](const glm::dvec3& x) {
+    const glm::dvec3 d = from.centre - x;
+    const double r2 = glm::dot(d, d);
+    const double angle = std::acos(std::clamp(glm::dot(to.normal, d) / std::sqrt(r2), -1.0, 1.0));
+    const double facing = disk_estimate(x, d / std::sqrt(r2), from.centre, from.normal, from.area);
+    low = std::min(low, facing * std::max(0.0, std::cos(angle + tilt)));
+    high = std::max(high, facing * std::max(0.0, std::cos(std::max(0.0, angle - tilt))));
+  };
+  for (const glm::dvec3& x : patch.contour) { look(x); }
+  look(nearest_point(to, from.centre));
+  if (weight * (high - low) > std::sqrt(12.0) * epsilon_) { return receiver; }
+  if (!(weight * high * 0.5 > epsilon_)) { return no_node; }  // sqrt(V (1 - V)) is at most one half
+
+  const Patch& light = (*patches_)[q_shines ? q : p];
+  // The smallest shadow that matters covers this part of the patch. Segments enough to meet it three times are cast, unless they are too
+  // many or their first have told.
+  const double mean = weight * 0.5 * (low + high);
+  const double least = epsilon_ * epsilon_ / (mean * mean);
+  const double rounds = std::clamp(std::ceil(3.0 / (segments_per_round * least)), 1.0, 16.0);
+  double arrives = 0.0;
+  for (double round = 0.0; round < rounds; round += 1.0) {
+    const VisibilityEstimate seen =
+        visibility(*objects_, *plan_, list, {&patch, to.object}, {&light, from.object}, 1,
+                   Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull + static_cast<std::uint64_t>(round)});
+    rays += seen.rays;
+    arrives += seen.fraction;
+    const double fraction = arrives / (round + 1.0);
+    if (mean * std::sqrt(std::max(0.0, fraction * (1.0 - fraction))) > epsilon_) { return receiver; }
+    if (seen.rays.cast == 0) { break; }  // proven
+  }
+  return no_node;
+}
+
+HALFLIGHT_INLINE std::uint32_t LightOracle::wants_cluster_split(std::uint32_t receiver, std::uint32_t source, double weight,
+                                                                RayCount& rays) const {
+  const Node& to = (*hierarchy_)[receiver];
+  const Node& from = (*hierarchy_)[source];
+  const glm::dvec3 d = from.centre - to.centre;
+  const double r = glm::length(d);
+  // A lamp among other things is taken by itself, before its light is looked at.
+  const bool mixed = from.is_cluster() && of_cluster_[from.cluster].brightest > 2.0 * of_cluster_[from.cluster].mean;
+  const double area = most_shown(from, *shown_, -d / r, 0.0);
+  const auto at = [&](double distance) { return area / (std::numbers::pi * distance * distance + area); };
+  const double high = at(r - to.radius);
+  const double low = at(r + to.radius);
+  if (weight * (high - low) > std::sqrt(12.0) * epsilon_) { return mixed ? source : receiver; }
+  if (!(weight * high * 0.5 > epsilon_)) { return no_node; }
+  if (mixed) { return source; }
+  const ClusterExchange seen = sampler_(sampler_.end(receiver, d), sampler_.end(source, -d), 1,
+                                        Random{seed_, (std::uint64_t{receiver} << 32) | source, 0x736861646f77ull});
+  rays.cast += seen.rays;
+  const double mean = 0.5 * (low + high);
+  return weight * mean * std::sqrt(seen.fraction * (1.0 - seen.fraction)) > epsilon_ ? receiver : no_node;
+}
+
+}  // namespace radiosity

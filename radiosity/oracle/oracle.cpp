@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/oracle/oracle.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE glm::dvec3 nearest_point(const Node& patch, const glm::dvec3& x) {
+  const glm::dvec3 d = x - patch.centre;
+  const glm::dvec3 in_plane = d - glm::dot(d, patch.normal) * patch.normal;
+  const double length = glm::length(in_plane);
+  return patch.centre + (length > patch.radius ? patch.radius / length : 1.0) * in_plane;
+}
+
+// Greatest height of patch q, or of any finer part of it, above the plane of p or of any finer part of p: the height of q's centre
+// plus the reach of its disk along p's normal. On curved objects finer parts bulge and tilt by the deviation of their normals.
+[[nodiscard]] HALFLIGHT_INLINE double reach_above(const Node& p, const Node& q) {
+  const glm::dvec3 d = q.centre - p.centre;
+  const double cosine = glm::dot(p.normal, q.normal);
+  const double flat = glm::dot(p.normal, d) + q.radius * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  if (p.deviation == 0.0 && q.deviation == 0.0) { return flat; }
+  return flat + q.radius * q.deviation + p.deviation * (glm::length(d) + q.radius);
+}
+
+// The larger of both disk estimates F_pq and F_qp. Where a patch crosses the other's horizon the light changes from some to none
+// across it, and the cosine of its highest point stands for that of its centre. Where the disks are closer than
+// their size, the point of the larger one that is nearest to the smaller is looked at as well: a small lamp just above a large
+// floor is far from its centre.
+//
+// Patches of regular meshes meet the conditions in here as equalities: a wall that stands on a floor has its lowest point in the floor's
+// plane, squares lie at simple multiples of their size. `even` keeps rounding from deciding, so that scale and place do not matter.
+[[nodiscard]] HALFLIGHT_INLINE double form_factor_estimate(const Node& p, const Node& q) {
+  const glm::dvec3 d = q.centre - p.centre;
+  const double r = glm::length(d);
+  if (!(r > 0.0)) { return 1.0; }
+  constexpr double even = 1.0 - 0x1p-30;
+  const auto cosine = [&](const Node& from, const Node& to) {
+    const double centre = glm::dot(from.normal, to.centre - from.centre);
+    const double highest = reach_above(from, to);
+    const bool crosses = 2.0 * centre < even * highest;  // the lowest point lies as far below the centre as the highest above
+    return std::clamp((crosses ? highest : centre) / r, 0.0, 1.0);
+  };
+  const double area = std::max(p.area, q.area);
+  const double estimate = cosine(p, q) * cosine(q, p) * area / (std::numbers::pi * r * r + area);
+  if (r >= 2.0 * even * (p.radius + q.radius)) { return estimate; }
+  const Node& large = p.radius >= even * q.radius ? p : q;
+  const Node& small = &large == &p ? q : p;
+  return std::max(estimate, disk_estimate(small.centre, small.normal, nearest_point(large, small.centre), large.normal, large.area));
+}
+
+HALFLIGHT_INLINE Decision f_oracle(const Node& p, const Node& q, double epsilon, double min_area) {
+  const double slack = 1e-9 * (p.radius + q.radius + glm::length(q.centre - p.centre));
+  if (reach_above(p, q) <= slack || reach_above(q, p) <= slack) { return Decision::drop; }
+  if (p.in_parts() && p.child_count > most_linked_parts) { return Decision::split_p; }
+  if (q.in_parts() && q.child_count > most_linked_parts) { return Decision::split_q; }
+  if (form_factor_estimate(p, q) <= epsilon) { return Decision::link; }
+  if (std::max(p.area, q.area) <= min_area) { return Decision::link; }
+  return q.area > p.area * (1.0 + 0x1p-20) ? Decision::split_q : Decision::split_p;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/picture/lookup.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bundle.hpp>
+#include <raycast/bvh.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+#include <raycast/point_query.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/geometry/chord.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE Lookup::Lookup(const Scene& scene, const Mesh& mesh, const Frame& frame)
+    : frame_{frame}, objects_{compile(scene, frame)}, rounding_{256 * raycast::unit_roundoff * objects_.bounds().magnitude()} {
+  const std::vector<InputSurface> inputs = surfaces(scene);
+  for (std::uint32_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].sheet == 0) { first_sheet_.push_back(i); }
+  }
+  sheets_.resize(inputs.size());
+  corners_.resize(mesh.corners.size());
+  for (const MeshFace& face : mesh.faces) {
+    const InputSurface& input = inputs[face.surface];
+    for (std::uint32_t c = face.first_corner; c < face.first_corner + face.corner_count; ++c) {
+      const glm::dvec3 position = (mesh.positions[mesh.corners[c].vertex] - frame.centre) * frame.scale;
+      corners_[c] = {position, objects_.object(input.object).project(input.sheet, position).normal, mesh.corners[c].radiosity};
+    }
+    for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
+      sheets_[face.surface].triangles.push_back({{face.first_corner, face.first_corner + k, face.first_corner + k + 1}});
+    }
+  }
+  for (std::uint32_t i = 0; i < inputs.size(); ++i) {
+    std::vector<raycast::Box> boxes;
+    for (const Triangle& triangle : sheets_[i].triangles) {
+      boxes.push_back(region(triangle, objects_.object(inputs[i].object), inputs[i].sheet));
+    }
+    sheets_[i].tree = raycast::Bvh(boxes, 8.0);  // Newton's method takes as long as several boxes
+  }
+}
+
+HALFLIGHT_INLINE ChordTriangle Lookup::chord(const Triangle& triangle) const {
+  ChordTriangle result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.position[i] = corners_[triangle.corner[i]].position;
+    result.normal[i] = corners_[triangle.corner[i]].normal;
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE raycast::Box Lookup::region(const Triangle& triangle, const raycast::PlacedObject& object, std::uint32_t sheet) const {
+  const ChordTriangle flat = chord(triangle);
+  const auto& [a, b, c] = flat.position;
+  raycast::Box box;
+  for (const glm::dvec3& p : flat.position) { box.extend(p); }
+  double distance = 0.0;
+  if (!object.flat()) {
+    for (const glm::dvec3& p : {0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (a + b + c) / 3.0}) {
+      distance = std::max(distance, glm::length(object.project(sheet, p).position - p));
+    }
+  }
+  return box.grown(2.0 * (distance + object.slack()) + rounding_);
+}
+
+HALFLIGHT_INLINE Color Lookup::blend(const Triangle& triangle, const glm::dvec3& weight) const {
+  Color sum{0.0};
+  for (int i = 0; i < 3; ++i) { sum += weight[i] * corners_[triangle.corner[i]].radiosity; }
+  return sum;
+}
+
+HALFLIGHT_INLINE std::optional<Color> Lookup::at(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const {
+  const Sheet& on = sheets_[first_sheet_[object] + sheet];
+  const glm::dvec3& point = place.position;
+  // Of several triangles one that faces the same way, and of these the nearer one: the far side of a thin solid, and beyond a crease, is
+  // on the same sheet. On a common wall they agree.
+  const auto faces = [&](const ChordTriangle& flat) {
+    const auto& [a, b, c] = flat.position;
+    return glm::dot(glm::cross(b - a, c - a), place.normal) > 0.0;
+  };
+  constexpr double slip = 1e-9;
+  const Triangle* best = nullptr;
+  bool best_faces = false;
+  ChordPoint foot;
+  raycast::around(on.tree, point, [&](std::uint32_t i) {
+    const ChordTriangle flat = chord(on.triangles[i]);
+    const std::optional<ChordPoint> candidate = chord_point(flat, point);
+    if (!candidate || candidate->depth() < -slip) { return; }
+    const bool facing = faces(flat);
+    if (best != nullptr && (facing < best_faces || (facing == best_faces && !(std::abs(candidate->offset) < std::abs(foot.offset))))) {
+      return;
+    }
+    best = &on.triangles[i];
+    best_faces = facing;
+    foot = *candidate;
+  });
+  if (best != nullptr) {
+    const glm::dvec3 weight = glm::max(foot.weight, 0.0);
+    return blend(*best, weight / (weight.x + weight.y + weight.z));
+  }
+  const auto nearest = raycast::nearest(on.tree, point, [&](std::uint32_t i) {
+    const ChordTriangle flat = chord(on.triangles[i]);
+    const glm::dvec3 w = nearest_in_triangle(flat.position, point);
+    const glm::dvec3 gap = w.x * flat.position[0] + w.y * flat.position[1] + w.z * flat.position[2] - point;
+    return glm::dot(gap, gap) * (faces(flat) ? 1.0 : 16.0);
+  });
+  if (!nearest) { return std::nullopt; }
+  const Triangle& triangle = on.triangles[*nearest];
+  return blend(triangle, nearest_in_triangle(chord(triangle).position, point));
+}
+
+HALFLIGHT_INLINE std::optional<Color> Lookup::seen(const glm::dvec3& eye, const glm::dvec3& direction) const {
+  const auto found = seen16(eye, std::span(&direction, 1))[0];
+  if (!found) { return std::nullopt; }
+  return found->radiosity;
+}
+
+HALFLIGHT_INLINE std::array<std::optional<Lookup::Seen>, 16> Lookup::seen16(const glm::dvec3& eye,
+                                                                            std::span<const glm::dvec3> directions) const {
+  std::array<std::optional<Seen>, 16> result;
+  raycast::Segments16 rays;
+  for (unsigned i = 0; i < directions.size(); ++i) {
+    rays.set(i, {(eye - frame_.centre) * frame_.scale, directions[i]}, raycast::no_object, raycast::no_object);
+  }
+  constexpr int most = 10'000;  // surfaces passed: only backs and buried ones are, so this ends what rounding might not
+  for (int passed = 0; passed < most && rays.lanes != 0; ++passed) {
+    const raycast::Hits16 hits = objects_.closest16(rays);
+    rays.lanes &= hits.met;
+    for (std::uint32_t rest = rays.lanes; rest != 0; rest &= rest - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(rest));
+      const raycast::Hit& hit = hits.hit[i];
+      const raycast::Segment ray = rays.at(i);
+      const raycast::SurfacePoint place = objects_.object(hit.object).project(hit.sheet, ray.at(hit.t));
+      if (const std::optional<Color> color = shade(hit, place)) {
+        result[i] = Seen{first_sheet_[hit.object] + hit.sheet, *color};
+        rays.lanes &= ~(1u << i);
+      } else {
+        rays.set(i, {place.position, ray.direction}, hit.object, raycast::no_object);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The solved radiosity as a function on the true objects: what a ray sees, the mesh never being looked at for shape. A ray finds the
+// point of an object; the colours come from the triangle of the object's mesh that stands for this point (chord.hpp), interpolated
+// from its corners as the mesh itself is shaded (paper 4.5). So silhouettes, rims and the curves where objects meet are exact, while
+// the colours are those of the reconstruction: exact at its vertices, continuous over every sheet, and on plane sheets the same.
+//
+// Each input surface has a tree over its triangles. A box holds the part of the true surface that its triangle stands for: it is
+// grown by twice the distance between the two, measured at the middle of the triangle and of its edges, where a paraboloid through
+// the corners is farthest away. A point in no prism (beyond the chord of a cap's rim) takes the nearest point of the mesh.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bundle.hpp>
+#include <raycast/bvh.hpp>
+#include <raycast/object.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/geometry/chord.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+
+namespace radiosity {
+
+class Lookup {
+ public:
+  // `mesh` is a solution of the scene, in the scene's coordinates; `frame` that of the solution. Both inputs may go after this.
+  Lookup(const Scene& scene, const Mesh& mesh, const Frame& frame);
+
+  // The radiosity at a point of a sheet of an object, in the coordinates of the frame. Nothing where the sheet has no mesh because it
+  // is buried. Cost: a walk down a tree.
+  [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const glm::dvec3& point) const {
+    return at(object, sheet, {point, objects_.object(object).project(sheet, point).normal});
+  }
+
+  // What is seen from `eye` in `direction` (of any length), in the scene's coordinates: the first surface that shows its front and is
+  // not buried under another object. Nothing where the ray meets none. Backs do not hide what lies behind them, so one looks into a
+  // room from outside, and out of a solid.
+  [[nodiscard]] std::optional<Color> seen(const glm::dvec3& eye, const glm::dvec3& direction) const;
+
+  struct Seen {
+    std::uint32_t surface;  // number of the input surface
+    Color radiosity{0.0};
+  };
+  // As above in up to sixteen directions: faster when they are close to each other.
+  [[nodiscard]] std::array<std::optional<Seen>, 16> seen16(const glm::dvec3& eye, std::span<const glm::dvec3> directions) const;
+
+ private:
+  struct Corner {
+    glm::dvec3 position{0.0};
+    glm::dvec3 normal{0.0};
+    Color radiosity{0.0};
+  };
+  struct Triangle {
+    std::uint32_t corner[3];
+  };
+  struct Sheet {
+    std::vector<Triangle> triangles;
+    raycast::Bvh tree;  // over the triangles
+  };
+
+  // At a place of the sheet of which the normal is known.
+  [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const;
+  // Where a ray has met something: nothing at a back, and where another object covers the place.
+  [[nodiscard]] std::optional<Color> shade(const raycast::Hit& hit, const raycast::SurfacePoint& place) const {
+    if (!hit.front || objects_.covered(place.position, place.normal, hit.object)) { return std::nullopt; }
+    return at(hit.object, hit.sheet, place);
+  }
+  [[nodiscard]] ChordTriangle chord(const Triangle& triangle) const;
+  [[nodiscard]] raycast::Box region(const Triangle& triangle, const raycast::PlacedObject& object, std::uint32_t sheet) const;
+  [[nodiscard]] Color blend(const Triangle& triangle, const glm::dvec3& weight) const;
+
+  Frame frame_;
+  raycast::Scene objects_;
+  std::vector<std::uint32_t> first_sheet_;  // one an object
+  std::vector<Sheet> sheets_;               // one an input surface
+  std::vector<Corner> corners_;             // those of the mesh, in the frame
+  double rounding_ = 0.0;
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/picture/lookup.cpp>
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// From one radiosity a leaf to a colour at every half-edge, for Gouraud shading (paper 4.5). T-vertices are eliminated
+// first, so that neighbouring triangles share their corners. The colour at the origin of half-edge e is
+//
+//      B_e = sum_l w_l B_face(l) / sum_l w_l        over all half-edges l that leave the same vertex,
+//
+//   simple    w_l = angle of face(l) at the vertex
+//   weighted  w_l = angle * max(0, N_e . N_l), the paper's fig. 5: smooth over a curved surface, and no bleeding over
+//             the edge of a box. N is the normal of the true surface there, stored in the half-edge.
+//   constant  that of face(e) alone: the solution as it is
+//
+// The angle makes the average independent of how a T-vertex was connected. Faces of another material, and faces that
+// are buried under another object, do not count; a corner with buried faces alone takes the mean of its face's others.
+// Constant, a buried face takes the mean of its weighted corners: a sliver of it may show at the foot of what buries it.
+
+#include <cstdint>
+#include <vector>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/visibility/exposure.hpp>
+
+namespace radiosity {
+
+// Connects every T-vertex of the leaves to a corner of its face, but for separate polygons. Returns the number of new faces.
+std::uint64_t eliminate_t_vertices(std::vector<Surface>& surfaces);
+
+// Fills the half-edge normals and colours of all surfaces. `radiosity` and `exposure` have one entry a node,
+// `materials` one a surface.
+void reconstruct(std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const Exposure& exposure, const std::vector<Color>& radiosity,
+                 const std::vector<std::uint32_t>& materials, Reconstruction kind);
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/picture/reconstruct.cpp>
+#endif

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/radiosity.hpp>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/audit/accuracy_target.hpp>
+#include <radiosity/audit/audit_effort.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/out_of_memory.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/result/own_unit.hpp>
+#include <radiosity/run/run.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/light_unit.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// solve() for sound options and light in its own unit (light_unit.hpp).
+HALFLIGHT_INLINE Outcome solve_in_rounds(const Scene& scene, const Options& options, const Control& control) {
+  if (!options.error) { return solve_within_memory(scene, options, control); }
+  const bool of_picture = static_cast<bool>(control.picture_error);
+  Outcome outcome = solve_to_error(
+      options, of_picture, [&](const Options& round, std::uint64_t held) { return solve_within_memory(scene, round, control, held); });
+  if (of_picture && outcome.solution && !outcome.solution->audit.converged && !control.cancelled()) {
+    // That the error is too large was decided by few pixels; how large it is takes more.
+    Audit& audit = outcome.solution->audit;
+    std::vector<StageTime> stages;
+    Stopwatch watch{stages};
+    const auto again = control.picture_error(outcome.solution->mesh, outcome.solution->frame, goal_to_know(audit, options.audit_points));
+    if (again) { audit.picture_error = again; }
+    watch.lap("audit");
+    add_times(audit.stages, stages);
+  }
+  return outcome;
+}
+
+// solve(), but memory may run out.
+HALFLIGHT_INLINE Outcome solve_sound(const Scene& scene, const Options& options, const Control& control) {
+  std::vector<std::string> sentences = faults(options);
+  if (!sentences.empty()) { return failed(Failure::Kind::invalid_options, std::move(sentences)); }
+  return solve_in_own_unit(scene, [&](const Scene& in_unit, const LightUnit& unit) {
+    Control own = control;
+    if (control.picture_error) {
+      own.picture_error = [&](const Mesh& mesh, const Frame& frame, const AuditGoal& goal) {
+        Mesh in_watts = mesh;
+        (void)to_watts(in_watts, unit);
+        return control.picture_error(in_watts, frame, goal);
+      };
+    }
+    return solve_in_rounds(in_unit, options, own);
+  });
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE Outcome solve(const Scene& scene, const Options& options, const Control& control) {
+  return detail::unless_out_of_memory([&] { return detail::solve_sound(scene, options, control); });
+}
+
+}  // namespace radiosity

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// BF-refinement (paper 4.4): start with a very coarse mesh, solve, refine by what the links carry, repeat.
+//
+// The error of a link is estimated from what it cannot express times the radiosity that it carries (link_error.hpp). In each generation
+// the links with the largest errors are replaced by those of the children of the end that contributes most, until the estimate
+// meets its target. A leaf over which the light varies too much, though linearly, is split by itself: its links stay where they are.
+//
+// Where there are clusters (clusters.hpp) the coarse mesh is made of them: F-refinement opens the link of their root with itself down to
+// pairs that lie apart, so that one direction stands for the other end; all below such a pair lies apart as well. From there on
+// clusters are opened and patches split alike, by what their links carry.
+//
+// A link through which no segment came is kept, without light, until its children are asked or it would not matter: a door between
+// two rooms is small, and what one coarse link loses nobody would find again. The children know how many segments were blocked before.
+//
+// Invariants: those of refine.hpp. Deterministic: links are evaluated in parallel, everything else goes in the order of the links.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <raycast/scene.hpp>
+
+#include <radiosity/clusters/clusters.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/links/evaluate.hpp>
+#include <radiosity/refinement/refine.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/memory.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/plan.hpp>
+
+namespace radiosity {
+
+struct BfResult {
+  RefineResult refined;
+  EvaluateResult evaluated;
+  std::uint64_t evaluations = 0;  // of links
+  std::uint32_t generations = 0;
+  double estimate = 0.0;       // relative L2 error, with this part of the variation over leaves,
+  double leaf_estimate = 0.0;  // and with all of it
+  double unseen = 0.0;         // share of its square that is due to links through which no segment came
+  bool interrupted = false;
+  std::uint64_t too_large = 0;  // bytes that a finer solution would have needed, when that was more than the budget allows
+};
+
+// Seconds that refinement may take, from some beginning.
+class Deadline {
+ public:
+  explicit Deadline(std::optional<double> seconds) : seconds_{seconds} {}
+
+  // How many links can be evaluated in what is left, when `links` were until now; the last solution takes its part.
+  [[nodiscard]] std::size_t links_left(std::uint64_t links) const;
+  [[nodiscard]] bool limited() const { return seconds_.has_value(); }
+
+ private:
+  std::optional<double> seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Links, evaluated, and leaves such that the estimated relative error, with `leaf_part` of the variation over leaves (leaf_error.hpp), is at
+// most `target`, or, with a limit, as many as the deadline allows. Stops before when there is nothing left to split, at 2^-24 of the
+// scene's area, or when there would be more than `most_links` or more memory would be needed than the budget allows.
+// Exposure, and what the clusters show of it, grow with the hierarchy; the evaluator refers to both.
+[[nodiscard]] BfResult bf_refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan, const std::vector<Color>& reflectance,
+                                 const std::vector<Color>& emission, std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches,
+                                 Exposure& exposure, ShownAreas& shown, const LinkEvaluator& evaluator, double target, double leaf_part,
+                                 const Deadline& deadline, std::size_t most_links, unsigned threads, std::uint64_t seed,
+                                 const Control& control = {}, const MemoryBudget& budget = {});
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/refinement/bf_refine.cpp>
+#endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/refinement/leaf_error.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// Mean over a patch of the square of g . (x - c).
+HALFLIGHT_INLINE double mean_square(const Patch& patch, const glm::dvec3& g) {
+  double sum = 0.0;
+  for (const QuadraturePoint& x : patch.rule3) {
+    const double change = glm::dot(g, x.position - patch.centroid);
+    sum += x.weight * change * change;
+  }
+  return patch.area > 0.0 ? sum / patch.area : 0.0;
+}
+
+HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const Hierarchy& hierarchy, const Patches& patches, const Exposure& exposure,
+                                                 const Links& links, const std::vector<Color>& reflectance,
+                                                 const std::vector<Color>& radiosity) {
+  LeafErrors errors;
+  const std::vector<double>& area = exposure.area;
+  struct Gradient {
+    std::array<glm::dvec3, 3> sum{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};  // of the irradiance, one a channel
+    Color squares{0.0};                                                                // of the links for themselves
+  };
+  std::vector<Gradient> gradient(hierarchy.size());
+  const auto arrives = [&](std::uint32_t i, double exchange, const Color& sent, const glm::dvec3& slope) {
+    const Color light = exchange / area[i] * sent;
+    for (std::size_t c = 0; c < 3; ++c) { gradient[i].sum[c] += light[static_cast<int>(c)] * slope; }
+    gradient[i].squares += light * light * glm::dot(slope, slope);
+  };
+  for (const Link& link : links) {
+    const double exchange = static_cast<double>(link.exchange);
+    if (hierarchy[link.p].is_cluster() || hierarchy[link.q].is_cluster()) { continue; }
+    if (!(exchange > 0.0) || !(area[link.p] > 0.0) || !(area[link.q] > 0.0)) { continue; }
+    arrives(link.p, exchange, radiosity[link.q], link.slope_p.vector());
+    arrives(link.q, exchange, radiosity[link.p], link.slope_q.vector());
+  }
+  errors.squares.assign(hierarchy.size(), 0.0f);
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    const Node& node = hierarchy[i];
+    if (node.is_cluster() || !(area[i] > 0.0)) { continue; }
+    for (std::uint32_t k = node.first_child; k < node.first_child + node.child_count; ++k) {
+      for (std::size_t c = 0; c < 3; ++c) { gradient[k].sum[c] += gradient[i].sum[c]; }
+      gradient[k].squares += gradient[i].squares;
+    }
+    if (!node.leaf()) { continue; }
+    double square = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const glm::dvec3& g = gradient[i].sum[c];
+      const double rho = reflectance[node.surface][static_cast<int>(c)];
+      const double error = area[i] * rho * rho * mean_square(patches[i], g);
+      square += error;
+      if (error > 0.0) { errors.apart += error * gradient[i].squares[static_cast<int>(c)] / glm::dot(g, g); }
+    }
+    errors.squares[i] = static_cast<float>(square);
+    errors.sum += square;
+  }
+  return errors;
+}
+
+HALFLIGHT_INLINE double variation_by_siblings(const Hierarchy& hierarchy, const std::vector<double>& area,
+                                              const std::vector<Color>& radiosity) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    const Node& node = hierarchy[i];
+    if (node.leaf() || node.is_cluster() || !(area[i] > 0.0)) { continue; }
+    double among = 0.0, leaves = 0.0;
+    for (std::uint32_t k = node.first_child; k < node.first_child + node.child_count; ++k) {
+      const Color off = radiosity[k] - radiosity[i];
+      among += area[k] * glm::dot(off, off);
+      leaves += hierarchy[k].leaf() ? area[k] : 0.0;
+    }
+    sum += among / 3.0 * leaves / area[i];
+  }
+  return sum;
+}
+
+}  // namespace detail
+
+}  // namespace radiosity

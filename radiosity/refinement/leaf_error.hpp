@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The error of leaves by what varies over them. A link passes the linear part of its light on to the leaves below it, but a leaf i has one
+// constant. With g_i the gradient of the irradiance that all links at i and above it bring there, added as vectors,
+//
+//     e_i^2 = A_i rho^2 (mean over i of (g_i . (x - c_i))^2)               mends: splitting i, while its links stay where they are
+//
+// which is an error of the constants; of a picture, that interpolates between leaves, a part of it. On curved objects the slopes of the
+// links, and so the gradient, hold the turn of the normals (bend.hpp).
+
+#include <algorithm>
+#include <vector>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// By the variation of the light over each leaf, squared.
+struct LeafErrors {
+  std::vector<float> squares;  // one a node; none where the leaves are not told apart
+  double sum = 0.0;
+  double apart = 0.0;  // what the sum would be if links were independent
+
+  // Links at one place vary alike, or against each other (in a furnace nothing is left), and so does what they cannot express.
+  [[nodiscard]] double alike() const { return apart > 0.0 ? std::clamp(sum / apart, 1e-4, 1e2) : 1.0; }
+};
+
+// Of links that have their slopes, at leaves too.
+LeafErrors estimate_leaf_errors(const Hierarchy& hierarchy, const Patches& patches, const Exposure& exposure, const Links& links,
+                                const std::vector<Color>& reflectance, const std::vector<Color>& radiosity);
+
+// What siblings tell where the slopes at leaves are not known: leaves of one parent differ as the light changes over the parent. Where it
+// changes linearly, four halves of it, squares or triangles, vary a third as much each as they do among each other.
+double variation_by_siblings(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<Color>& radiosity);
+
+}  // namespace detail
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/refinement/leaf_error.cpp>
+#endif

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/refinement/link_error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+#include <raycast/shaft.hpp>
+
+#include <radiosity/exchange/doubt.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/links/evaluate.hpp>
+#include <radiosity/refinement/leaf_error.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/solver/transport.hpp>
+#include <radiosity/support/parallel.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+struct NodeLight {
+  Color mean{0.0};
+  Color variance{0.0};  // over the leaves of the node
+};
+
+// `radiosity`: of every node, inner nodes area averages.
+HALFLIGHT_INLINE std::vector<NodeLight> light_of_nodes(const Hierarchy& hierarchy, const std::vector<double>& area,
+                                                       const std::vector<Color>& radiosity) {
+  std::vector<NodeLight> light(hierarchy.size());
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {
+    light[i].mean = radiosity[i];
+    const Node& node = hierarchy[i];
+    if (node.leaf() || !(area[i] > 0.0)) { continue; }
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
+      const Color off = radiosity[c] - radiosity[i];
+      light[i].variance += area[c] / area[i] * (light[c].variance + off * off);
+    }
+  }
+  return light;
+}
+
+HALFLIGHT_INLINE ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves,
+                                                      const Hierarchy& hierarchy, const Exposure& exposure, const Links& links,
+                                                      const std::vector<LinkShape>& shapes, const std::vector<Color>& reflectance,
+                                                      const std::vector<Color>& emission, const std::vector<Color>& radiosity) {
+  ErrorEstimation result;
+  const std::vector<double>& area = exposure.area;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (!hierarchy[i].leaf()) { continue; }
+    const Color reflected = radiosity[i] - emission[hierarchy[i].surface];
+    result.norm += area[i] * glm::dot(reflected, reflected);
+  }
+  const std::vector<NodeLight> light = light_of_nodes(hierarchy, area, radiosity);
+  std::vector<Color> of_clusters;  // mean reflectance
+  const auto rho = [&](const Node& node) { return node.is_cluster() ? of_clusters[node.cluster] : reflectance[node.surface]; };
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {
+    const Node& node = hierarchy[i];
+    if (!node.is_cluster()) { continue; }
+    if (of_clusters.size() <= node.cluster) { of_clusters.resize(node.cluster + 1, Color{0.0}); }
+    Color sum{0.0};
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { sum += area[c] * rho(hierarchy[c]); }
+    of_clusters[node.cluster] = area[i] > 0.0 ? sum / area[i] : sum;
+  }
+  const auto square = [](double x) { return x * x; };
+  const auto received = [&](double g2, std::uint32_t i) {  // squared, from a radiosity of 1
+    const Color r = rho(hierarchy[i]);
+    return area[i] > 0.0 ? g2 / area[i] * r * r : Color{0.0};
+  };
+  const auto varies = [&](const LinkShape::End& shape) { return square(shape.rest) + square(shape.shadow); };
+  // What node i receives from clusters by the wrong mixture of their faces: links of one node err alike.
+  std::vector<double> alike(light.size(), 0.0);
+  const auto mixture = [&](const Color& to, std::uint32_t from, const LinkShape::End& shape) {
+    return std::sqrt(glm::dot(to, light[from].variance) * varies(shape));
+  };
+  const auto bright = [&](std::uint32_t from) {  // mean of B^2 where it counts
+    return light[from].mean * light[from].mean + (hierarchy[from].is_cluster() ? light[from].variance : Color{0.0});
+  };
+  std::vector<double> across(light.size(), 0.0);  // rests of the links of each node
+  const auto over_node = [&](const Color& to, std::uint32_t from, const LinkShape::End& shape) {
+    return static_cast<double>(shape.rest) * std::sqrt(glm::dot(to, bright(from)));
+  };
+  const double cancel = std::min(1.0, alike_at_leaves);
+  // What a link from `from` adds to the squared error over node i.
+  const auto over = [&](const Color& to, std::uint32_t from, std::uint32_t i, const LinkShape::End& shape) {
+    const double own = over_node(to, from, shape);
+    const bool apart = hierarchy[i].leaf() || hierarchy[i].is_cluster();
+    const double all = apart ? own * own : alike_across ? *alike_across * own * own : own * across[i];
+    return cancel * all + square(shape.shadow) * glm::dot(to, bright(from));
+  };
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const auto& [p, q] = std::pair{links[i].p, links[i].q};
+    const double g2 = square(links[i].exchange);
+    if (hierarchy[q].is_cluster()) { alike[p] += mixture(received(g2, p), q, shapes[i].q); }
+    if (hierarchy[p].is_cluster()) { alike[q] += mixture(received(g2, q), p, shapes[i].p); }
+    if (alike_across) { continue; }
+    across[p] += over_node(received(g2, p), q, shapes[i].p);
+    across[q] += over_node(received(g2, q), p, shapes[i].q);
+  }
+  result.links.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const Link& link = links[i];
+    const Node& p = hierarchy[link.p];
+    const Node& q = hierarchy[link.q];
+    const LinkShape& shape = shapes[i];
+    const double g2 = square(link.exchange);
+    const Color to_p = received(g2, link.p);
+    const Color to_q = received(g2, link.q);
+    const NodeLight& from_p = light[link.p];
+    const NodeLight& from_q = light[link.q];
+    const double cross = std::min(1.0, square(shape.cross));  // a link that lit each place from one other alone would pass on s_q itself
+    double mend_p = over(to_p, link.q, link.p, shape.p);
+    double mend_q = over(to_q, link.p, link.q, shape.q);
+    mend_p += p.is_cluster() ? mixture(to_q, link.p, shape.p) * alike[link.q] : glm::dot(to_q, from_p.variance) * (varies(shape.p) + cross);
+    mend_q += q.is_cluster() ? mixture(to_p, link.q, shape.q) * alike[link.p] : glm::dot(to_p, from_q.variance) * (varies(shape.q) + cross);
+    if (shape.sampling > 0.0f) {
+      const double noise = square(shape.sampling);
+      const bool split_p = p.is_cluster() == q.is_cluster() ? p.radius >= q.radius : p.is_cluster();
+      (q.is_cluster() || !split_p ? mend_q : mend_p) += glm::dot(received(noise, link.p), bright(link.q));
+      (p.is_cluster() || split_p ? mend_p : mend_q) += glm::dot(received(noise, link.q), bright(link.p));
+    }
+    result.links[i] = {static_cast<float>(mend_p), static_cast<float>(mend_q)};
+    result.of_links += mend_p + mend_q;
+    if (!(link.exchange > 0.0f)) { result.unseen += mend_p + mend_q; }
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Patches& patches,
+                                                  const Exposure& exposure, const Links& links, const std::vector<Color>& reflectance,
+                                                  const std::vector<Color>& emission, const std::vector<Color>& radiosity,
+                                                  const DoubtSum& doubt, unsigned threads) {
+  const std::vector<double>& area = exposure.area;
+  const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(emission[hierarchy[i].surface]); };
+  struct Sample {
+    std::vector<std::uint32_t> from;
+    Links links;
+    std::vector<LinkShape> shapes;
+    double each = 0.0;  // links that one stands for
+  };
+  Sample of_lights, others;
+  for (std::uint32_t i = 0; i < links.size(); ++i) { (emits(links[i].p) || emits(links[i].q) ? of_lights : others).from.push_back(i); }
+  // The part of a linear variation over a node that is left over its leaves: the sum of the squares of their areas over that of its own.
+  std::vector<double> over_leaves(hierarchy.size(), 0.0);
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {
+    const Node& node = hierarchy[i];
+    if (node.leaf()) { over_leaves[i] = area[i] * area[i]; }
+    for (std::uint32_t k = node.first_child; k < node.first_child + node.child_count; ++k) { over_leaves[i] += over_leaves[k]; }
+  }
+  LeafErrors leaves;
+  Links scaled;  // as if they were all
+  const auto draw = [&](Sample& sample, std::size_t most) {
+    const std::size_t count = std::min(sample.from.size(), most);
+    sample.links.resize(count);
+    sample.shapes.resize(count);
+    parallel_for(count, threads, [&](std::size_t i) {
+      Link& link = sample.links[i] = links[sample.from[i * sample.from.size() / count]];
+      const float closed = link.exchange;
+      (void)evaluator(link, {}, &sample.shapes[i]);
+      link.exchange = closed;
+    });
+    sample.each = count > 0 ? static_cast<double>(sample.from.size()) / static_cast<double>(count) : 0.0;
+    const auto arrives = [&](std::uint32_t i, std::uint32_t sender, double exchange, float linear) {
+      if (hierarchy[i].is_cluster() || !(area[i] > 0.0)) { return; }
+      const Color light = exchange / area[i] * double{linear} * reflectance[hierarchy[i].surface] * radiosity[sender];
+      const double square = sample.each * over_leaves[i] / area[i] * glm::dot(light, light);
+      leaves.apart += square;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      const Link& link = sample.links[i];
+      scaled.push_back(link);
+      scaled.back().exchange *= static_cast<float>(sample.each);
+      arrives(link.p, link.q, static_cast<double>(link.exchange), sample.shapes[i].p.linear);
+      arrives(link.q, link.p, static_cast<double>(link.exchange), sample.shapes[i].q.linear);
+    }
+  };
+  draw(of_lights, 1024);
+  draw(others, 3072);
+  // A leaf that is a whole input face has no siblings; and where the sample is all the links, their slopes tell more.
+  const LeafErrors by_slopes = estimate_leaf_errors(hierarchy, patches, exposure, scaled, reflectance, radiosity);
+  if (scaled.size() == links.size()) {
+    leaves = by_slopes;
+  } else {
+    leaves.sum = variation_by_siblings(hierarchy, area, radiosity);
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) { leaves.sum += is_input_face(hierarchy, i) ? by_slopes.squares[i] : 0.0f; }
+  }
+  ErrorEstimation result;
+  result.of_leaves = leaves.sum;
+  for (const Sample* sample : {&of_lights, &others}) {
+    const ErrorEstimation errors = estimate_link_errors(std::sqrt(doubt.alike(area)), leaves.alike(), hierarchy, exposure, sample->links,
+                                                        sample->shapes, reflectance, emission, radiosity);
+    result.of_links += sample->each * errors.of_links;
+    result.norm = errors.norm;
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE std::string estimate_doubt(const Hierarchy& hierarchy, const Exposure& exposure, Transport& transport,
+                                            const std::vector<Color>& reflectance, const std::vector<Color>& emission,
+                                            const std::vector<Color>& radiosity, double unseen, bool closed) {
+  constexpr double most_unseen = 0.5;
+  constexpr double most_growth = 5.0;
+  if (unseen > most_unseen) { return "most of it is light that may pass where no segment did"; }
+  if (closed) { return {}; }
+  double once = 0.0;
+  double all = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    std::vector<double> sent(hierarchy.size(), 0.0);
+    std::vector<double> arrived;
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+      if (hierarchy[i].leaf()) { sent[i] = emission[hierarchy[i].surface][c]; }
+    }
+    transport.apply(sent, arrived);
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+      if (!hierarchy[i].leaf()) { continue; }
+      once += reflectance[hierarchy[i].surface][c] * arrived[i];
+      all += exposure.area[i] * (radiosity[i][c] - sent[i]);
+    }
+  }
+  if (!(all > most_growth * once)) { return {}; }
+  return "light is reflected many times, and errors grow with it";
+}
+
+}  // namespace detail
+
+}  // namespace radiosity

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The relative L2 error of a solution, estimated from what its links cannot express (LinkShape) times the radiosity that they carry
+// (paper 4.4), and from what its leaves cannot. For p receiving from q, with the irradiance H = G B_q / A_p and the deviation
+// S = G s_q / A_p, s_q the standard deviation of B over q's leaves:
+//
+//     e_p^2 = A_p rho^2 H^2 (rest_p^2 + shadow_p^2)                        mends: splitting p
+//           + A_p rho^2 S^2 (rest_q^2 + shadow_q^2 + cross^2)              mends: splitting q
+//           + A_p rho^2 (sampling B_q / A_p)^2                             mends: splitting the larger
+//
+// summed over the channels, and the same for q receiving from p. What varies over a
+// leaf comes on top (leaf_error.hpp).
+//
+// Links that lie at one node err alike, as in a corner of a room: their rest adds up as it is. Where only a sample of the links is looked
+// at, the row sums tell how much that makes (DoubtSum::alike), for light that is the same everywhere; of light that is not, the truth lies
+// between that and independence, and the geometric mean of both is taken. Where the gradients of different links cancel over the leaves,
+// as they do in a furnace, rests cancel by the same factor.
+//
+// A cluster shows other faces to each direction: there the mean of B^2 stands for the square of what it sends, the noise of sampling is
+// mended by splitting the source, and the S of different links of one node add up as they are, for each mixes bright faces with dark ones
+// in the same way. The estimate of the whole is sqrt(sum of all e^2) over the norm of the reflected radiosity: all other errors of
+// different links count as independent. Errors that are passed on by further reflections are not followed.
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <radiosity/exchange/doubt.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/links/evaluate.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/solver/transport.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// What the split of each end of a link would mend, squared.
+struct LinkError {
+  float p = 0.0f, q = 0.0f;
+  [[nodiscard]] float sum() const { return p + q; }
+};
+
+// How much of the variation over a leaf is an error: all of it, or the part that a picture which interpolates still misses.
+[[nodiscard]] constexpr double leaf_part(Reconstruction kind) { return kind >= Reconstruction::constant ? 1.0 : 0.5; }
+
+// All squared.
+struct ErrorEstimation {
+  std::vector<LinkError> links;
+  double of_links = 0.0, of_leaves = 0.0;
+  double unseen = 0.0;  // part of the links: those through which no segment came
+  double norm = 0.0;    // of the reflected radiosity
+
+  [[nodiscard]] double sum(double part) const { return of_links + part * part * of_leaves; }
+  [[nodiscard]] double relative(double part) const { return norm > 0.0 ? std::sqrt(sum(part) / norm) : 0.0; }
+};
+
+// The errors of links alone, and the norm. `alike_across` inner nodes: how much more squared errors are than those of independent links,
+// given where these are not all the links; `alike_at_leaves`: LeafErrors::alike().
+ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves, const Hierarchy& hierarchy,
+                                     const Exposure& exposure, const Links& links, const std::vector<LinkShape>& shapes,
+                                     const std::vector<Color>& reflectance, const std::vector<Color>& emission,
+                                     const std::vector<Color>& radiosity);
+
+// For links that were not made by BF-refinement: from at most 1024 links of lights and 3072 others, spread evenly; their shapes are
+// found now.
+ErrorEstimation sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Patches& patches,
+                                 const Exposure& exposure, const Links& links, const std::vector<Color>& reflectance,
+                                 const std::vector<Color>& emission, const std::vector<Color>& radiosity, const DoubtSum& doubt,
+                                 unsigned threads);
+
+// Why the estimate is no bound, or nothing. It does not know what a segment never found, nor how errors grow when light that is wrong is
+// reflected again and again; a closed scene keeps its row sums, and what errs there has no mean. `unseen`: share of its square that is
+// due to links through which no segment came.
+std::string estimate_doubt(const Hierarchy& hierarchy, const Exposure& exposure, Transport& transport,
+                           const std::vector<Color>& reflectance, const std::vector<Color>& emission, const std::vector<Color>& radiosity,
+                           double unseen, bool closed);
+
+}  // namespace detail
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/refinement/link_error.cpp>
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// F-refinement (paper 4.4): every pair of input faces is linked where the oracle allows, and patches are split where it does
+// not; where a light shines, the light oracle is asked as well. The work goes generation by generation: the oracles answer
+// for all open pairs in parallel, then links and splits are carried out in the order of the pairs and of the nodes. So the
+// result is the same for any number of threads, and a split asked for by many pairs happens once.
+//
+// Where there are clusters (clusters.hpp) the work begins with the pair of their root with itself, and clusters are opened as patches are
+// split.
+//
+// Each pair knows what can stand between its patches (occlusion.hpp): a pair that is proven hidden is dropped with all pairs below it.
+//
+// Invariant: after each generation every BRep is valid and every unordered pair of leaves that can face and see each other is
+// covered by exactly one link or open pair between ancestors (or the leaves themselves).
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <raycast/scene.hpp>
+#include <raycast/shaft.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/oracle/oracle.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/memory.hpp>
+#include <radiosity/support/parallel.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/visibility.hpp>
+
+namespace radiosity {
+
+struct RefineResult {
+  Links links;                       // without their exchange
+  std::vector<std::uint32_t> lists;  // of each link: the index of its list of occluders
+  OccluderLists occluders;
+  std::uint64_t pairs_tested = 0;   // questions to the oracle
+  std::uint64_t pairs_dropped = 0;  // proven to face away from each other
+  std::uint64_t pairs_hidden = 0;   // proven to be hidden from each other by one object, or one is buried
+  std::uint64_t pairs_dark = 0;     // of input faces: neither emits, and light that reflects reaches neither
+  std::uint64_t pairs_convex = 0;   // never asked: faces of one flat sheet or one convex solid cannot see each other
+  RayCount rays;                    // segments cast to find shadow boundaries
+  std::uint32_t generations = 0;
+  std::vector<std::uint32_t> inner;  // leaves of concave curved objects: their children will see each other
+  bool cancelled = false;
+  std::uint64_t too_many = 0;   // links that would be needed, at least, when that is more than `link_limit`
+  std::uint64_t too_large = 0;  // bytes that would be needed, at least, when that is more than the budget allows
+};
+
+// 100 million links are 2.4 GB, and 2.8 GB until they are evaluated; a scene that asks for more is refused rather than left to exhaust
+// the memory.
+inline constexpr std::size_t link_limit = 100'000'000;
+
+namespace detail {
+
+struct Pair {
+  std::uint32_t p, q;
+  std::uint32_t list = OccluderLists::none;  // of the pair, or of the pair of ancestors from which it comes
+};
+
+// Asks `oracle(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
+// the others keep their list and are shown to `look(pair, list, decision)`, in parallel. Without shortcuts what would be dropped is linked,
+// but for patches of one curved convex solid (plan.hpp).
+template <class Oracle, class Look>
+std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& objects, const Plan& plan, const Patches& patches,
+                             RefineResult& result, unsigned threads, const Oracle& oracle, const Look& look) {
+  std::vector<Decision> decisions(pairs.size(), Decision::drop);
+  constexpr std::size_t batch = 1 << 14;  // lists of full length that live at a time
+  std::vector<raycast::OccluderList> lists(std::min(batch, pairs.size()));
+  for (std::size_t first = 0; first < pairs.size(); first += batch) {
+    const std::size_t count = std::min(batch, pairs.size() - first);
+    parallel_for(count, threads, [&](std::size_t k) {
+      const Pair& pair = pairs[first + k];
+      Decision& decision = decisions[first + k];
+      decision = oracle(pair.p, pair.q);
+      lists[k] = {};
+      if (decision == Decision::drop || decision == Decision::convex) { return; }
+      lists[k] = result.occluders.of(pair.p, pair.q, pair.list, objects, plan, patches);
+      if (lists[k].blocked()) {
+        decision = Decision::hide;
+      } else {
+        look(first + k, lists[k], decision);
+      }
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      Decision& decision = decisions[first + k];
+      const bool curved = patches.is_curved(pairs[first + k].p) || patches.is_curved(pairs[first + k].q);
+      if (decision < first_seeing && !plan.shortcuts && !(decision == Decision::convex && curved)) {
+        decision = Decision::link;
+        pairs[first + k].list = OccluderLists::hidden;
+        continue;
+      }
+      result.pairs_dropped += decision == Decision::drop ? 1 : 0;
+      result.pairs_convex += decision == Decision::convex ? 1 : 0;
+      result.pairs_hidden += decision == Decision::hide ? 1 : 0;
+      if (decision < first_seeing) { continue; }
+      pairs[first + k].list = result.occluders.keep(lists[k], pairs[first + k].list);
+    }
+  }
+  result.pairs_tested += pairs.size();
+  return decisions;
+}
+
+}  // namespace detail
+
+// Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots that are not
+// buried. `light_epsilon`: of the light
+// oracle, which is not asked when it is 0.
+[[nodiscard]] RefineResult refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan, std::vector<Surface>& surfaces,
+                                  Hierarchy& hierarchy, Patches& patches, double epsilon, double min_area, double light_epsilon,
+                                  unsigned threads, std::uint64_t seed, const Control& control = {}, const MemoryBudget& budget = {});
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/refinement/refine.cpp>
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Radiosity as it was before the hierarchy: every input face is cut evenly, whatever the light does, and every leaf exchanges light
+// with every other, by a full matrix (Goral et al. 1984, here with Gauss-Seidel) or by shooting (Cohen et al. 1988). The
+// path to the solution is that of radiosity.hpp with other refinement and other solvers; the result has the same form.
+
+#include <cstdint>
+#include <optional>
+
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+
+namespace radiosity {
+
+enum class UniformSolver { gauss_seidel, progressive };
+
+struct UniformOptions {
+  UniformSolver solver = UniformSolver::gauss_seidel;
+  double max_area = 1e-3;            // largest leaf, relative to the total area of the scene
+  double residual = 1e-8;            // of Gauss-Seidel, relative to the emission
+  double unshot = 1e-2;              // of shooting: power at which it ends, relative to the emitted power
+  std::uint32_t max_leaves = 20000;  // more are refused: the matrix takes 4 bytes a pair
+  Reconstruction reconstruction = Reconstruction::weighted;
+  std::optional<std::uint32_t> compare;  // as in Options
+  unsigned threads = 0;
+  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> memory;  // as in Options
+};
+
+// `links` of the audit counts the entries of the matrix, or the exchanges that were made and not kept. There is no error estimate.
+[[nodiscard]] Outcome solve_uniform(const Scene& scene, const UniformOptions& options, const Control& control = {});
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/run/uniform.cpp>
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The unit of light in which a run computes: a power of two, so that the strongest emission of the scene lies in [1, 2).
+//
+// Radiosity is linear in the emission, but norms and errors square it: below 1e-154 W/m2 the squares vanish, above 1e154 they overflow.
+// A change of the unit by a power of two changes no digit of a result, so every finite emission gives the same relative answer.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+
+namespace radiosity {
+
+// The light in the unit is the light in W/m2 times 2^-exponent.
+struct LightUnit {
+  int exponent = 0;
+
+  [[nodiscard]] Color to_unit(const Color& c) const { return times(c, -exponent); }
+  [[nodiscard]] Color to_watts(const Color& c) const { return times(c, exponent); }
+
+ private:
+  [[nodiscard]] static Color times(const Color& c, int power) {
+    return {std::ldexp(c.x, power), std::ldexp(c.y, power), std::ldexp(c.z, power)};
+  }
+};
+
+// Of the materials that objects use; where nothing shines, W/m2 itself. The scene must be sound.
+[[nodiscard]] inline LightUnit light_unit(const Scene& scene) {
+  double strongest = 0.0;
+  for (const SceneObject& object : scene.objects) {
+    for (const std::uint32_t m : object.material) {
+      const Color& e = scene.materials[m].emission;
+      strongest = std::max({strongest, e.x, e.y, e.z});
+    }
+  }
+  return strongest > 0.0 ? LightUnit{std::ilogb(strongest)} : LightUnit{};
+}
+
+[[nodiscard]] inline Scene in_unit(Scene scene, const LightUnit& unit) {
+  for (Material& material : scene.materials) { material.emission = unit.to_unit(material.emission); }
+  return scene;
+}
+
+}  // namespace radiosity

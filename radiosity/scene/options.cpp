@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/scene/options.hpp>
+
+#include <string>
+#include <vector>
+
+#include <raycast/inline.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE std::vector<std::string> faults(const Options& options) {
+  std::vector<std::string> sentences;
+  const auto check = [&](const char* name, double value, bool sound, const char* range) {
+    if (!sound) { sentences.push_back(std::string{name} + " is " + std::to_string(value) + "; it must be " + range); }
+  };
+  check("epsilon", options.epsilon, options.epsilon > 0.0, "above 0");
+  check("min_area", options.min_area, options.min_area >= 0.0, "0 or more");
+  check("target", options.target, options.target > 0.0, "above 0");
+  if (options.light_epsilon) { check("light_epsilon", *options.light_epsilon, *options.light_epsilon > 0.0, "above 0"); }
+  if (options.time) {
+    check("time", *options.time, *options.time > 0.0, "above 0");
+    if (options.error) { sentences.emplace_back("a time limit and an error target exclude each other; give one"); }
+    if (options.refinement == Refinement::a_priori) {
+      sentences.emplace_back("a time limit needs BF-refinement: F-refinement knows no best-first");
+    }
+  }
+  if (options.memory && *options.memory == 0) { sentences.emplace_back("memory is 0; it must be above 0, or be left out for no limit"); }
+  check("residual", options.residual, options.residual > 0.0, "above 0");
+  if (options.error) {
+    check("error", *options.error, *options.error > 0.0, "above 0");
+    if (options.audit_points == 0) { sentences.emplace_back("an error target needs the audit as its witness; give it some points"); }
+  }
+  return sentences;
+}
+
+}  // namespace radiosity

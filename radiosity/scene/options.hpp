@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a run may be told. Every number is dimensionless: a scene that is scaled or moved gives the same result.
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace radiosity {
+
+struct Surface;
+struct Mesh;
+struct Frame;
+struct AuditGoal;
+struct PictureError;
+
+// How the faces of an object hang together: neighbours share their vertices, or each is a polygon of its own, the root of a classical
+// quad-tree (polygons.hpp).
+enum class Topology { shared, separate };
+enum class Solver { conjugate_gradients, jacobi, gauss_seidel, southwell };
+inline constexpr const char* name(Solver solver) {
+  constexpr const char* names[] = {"cg", "jacobi", "gauss-seidel", "southwell"};
+  return names[static_cast<int>(solver)];
+}
+enum class Refinement { a_posteriori, a_priori };  // BF- and F-refinement (paper 4.4)
+// Paper fig. 5; simple ignores the normals (figs. 6-8); constant shows the solution itself, one colour a leaf; none: nobody asks for a
+// picture, the mesh is as with constant and errors are those of the leaves.
+enum class Reconstruction { weighted, simple, constant, none };
+inline constexpr const char* name(Reconstruction reconstruction) {
+  constexpr const char* names[] = {"weighted", "simple", "constant", "none"};
+  return names[static_cast<int>(reconstruction)];
+}
+
+struct Options {
+  Refinement refinement = Refinement::a_priori;
+  // BF-refinement goes on until the estimated relative L2 error is at most this,
+  double target = 0.02;
+  // or, instead, until refinement has used this many seconds (wall): the links that promise most come first, the result is the best so far
+  // and, as its only option, depends on the machine. The audit comes on top.
+  std::optional<double> time;
+  // F-refinement (paper 4.4): a pair is linked when its estimated form factor is at most epsilon,
+  double epsilon = 0.005;
+  // or when both patches are no larger than min_area, relative to the total area of the scene.
+  double min_area = 6e-5;
+  // Where a light shines a patch is split, too, while the light varies across it by more than this share of the relative L2 error; down to
+  // a quarter of min_area, for shadows have sharper edges than all other light, or below by the square of what this is finer than a quarter
+  // of epsilon. Default: a quarter of epsilon.
+  std::optional<double> light_epsilon;
+  // Accuracy target: target, or epsilon and min_area, fall round by round until the audited relative L2 error is at most this: that of the
+  // picture when Control::picture_error is given, else that over all surfaces.
+  std::optional<double> error;
+
+  // Input faces from which on clusters are built above them; below, all pairs of input faces are looked at.
+  std::uint32_t cluster_from = 300;
+
+  Solver solver = Solver::conjugate_gradients;
+  double residual = 1e-8;  // relative to the residual of B = 0
+  std::uint32_t max_iterations = 1000;
+  Reconstruction reconstruction = Reconstruction::weighted;
+  bool shortcuts = true;  // false: what the plan proves needless (plan.hpp) is done all the same, for the same result
+  Topology topology = Topology::shared;
+  // For studies: the solution brings a Comparison (comparison.hpp), with a dense solution when it has no more leaves than this.
+  std::optional<std::uint32_t> compare;
+
+  std::uint32_t audit_points = 2000;  // at least, at which the error is measured (audit_effort.hpp); 0: no error estimate
+  unsigned threads = 0;               // 0: as many as the machine has; results do not depend on it
+  // Bytes that the run may take on top of what the process holds when it begins, predicted from the numbers of nodes, links and pairs before
+  // they are made (memory.hpp). A run that would need more ends with the best solution that it has, which says so by audit.shortage, or,
+  // when none is complete, without (Failure::Kind::out_of_memory): BF-refinement and error targets have one, F-refinement has not.
+  std::optional<std::uint64_t> memory;
+  std::uint64_t seed = 1;
+};
+
+// A sentence for every option that makes no sense; empty when a run can begin.
+[[nodiscard]] std::vector<std::string> faults(const Options& options);
+
+// How the caller watches and stops a run. `progress` is called from the thread that called solve().
+struct Control {
+  // Once true the run ends soon: with the best solution that it has, which says so by audit.interrupted, or, when none is complete, without
+  // (Failure::Kind::cancelled). BF-refinement has one after each generation, an error target after each round, F-refinement once all links
+  // are evaluated; what is left to solve then is solved by conjugate gradients, whatever solver was asked for.
+  const std::atomic<bool>* cancel = nullptr;
+  std::function<void(std::string_view stage, double fraction)> progress;
+  // Called with the valid BReps of all objects after each generation of refinement.
+  std::function<void(const std::vector<Surface>&)> after_generation;
+
+  // Measures the error of the picture that will be made of a mesh, in the scene's coordinates and in W/m2, of a solution with this frame
+  // (picture_error.hpp): an error target is then that of the picture. Nothing when it cannot.
+  std::function<std::optional<PictureError>(const Mesh&, const Frame&, const AuditGoal&)> picture_error;
+
+  [[nodiscard]] bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
+  // The same, but nothing stops the run.
+  [[nodiscard]] Control unstoppable() const { return {nullptr, progress, after_generation, picture_error}; }
+  void report(std::string_view stage, double fraction) const {
+    if (progress) { progress(stage, fraction); }
+  }
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/scene/options.cpp>
+#endif

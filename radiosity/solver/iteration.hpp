@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the iterations of solve.hpp share: one channel of the linear system, its residual, the best iterate and when to stop.
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/solver/transport.hpp>
+
+namespace radiosity {
+
+struct LinearSolution {
+  std::vector<double> radiosity;  // of every node: leaves solved, inner nodes area averages
+  double residual = 0.0;          // relative, of the radiosity returned
+  std::uint32_t iterations = 0;
+  bool converged = false;
+  std::vector<double> history;  // the relative residual after each iteration, that of the start first
+};
+
+namespace detail {
+
+// One channel of the problem: leaves with exposed area only.
+struct Channel {
+  const Hierarchy* hierarchy = nullptr;
+  Transport* transport = nullptr;
+  const std::vector<double>* area = nullptr;
+  std::vector<double> reflectance, emission;  // one a node; leaves count
+
+  [[nodiscard]] bool counts(std::size_t i) const { return (*hierarchy)[i].leaf() && (*area)[i] > 0.0; }
+
+  // r = E + rho H(B) - B.
+  void residual(const std::vector<double>& b, std::vector<double>& r) const {
+    transport->apply(b, r);
+    for (std::size_t i = 0; i < r.size(); ++i) { r[i] = counts(i) ? emission[i] + reflectance[i] * r[i] / (*area)[i] - b[i] : 0.0; }
+  }
+
+  [[nodiscard]] double norm(const std::vector<double>& r) const;
+};
+
+// Keeps the best iterate and tells when to stop.
+struct Progress {
+  Progress(double start_norm, const std::vector<double>& b) : start{start_norm}, best{b} {}
+
+  double start = 0.0;  // norm of E
+  std::vector<double> best;
+  double best_norm = std::numeric_limits<double>::infinity();
+
+  std::vector<double> history;
+
+  void offer(const std::vector<double>& b, double norm);
+  [[nodiscard]] bool diverged(double norm) const { return !(norm <= 1e3 * best_norm); }
+  // Below this a residual is rounding: B and H(B) are sums of some ten terms a level, each known to half an epsilon.
+  [[nodiscard]] static double rounding(double norm_of_b) { return 16.0 * std::numeric_limits<double>::epsilon() * norm_of_b; }
+};
+
+LinearSolution finish(const Channel& channel, Progress progress, std::uint32_t iterations, double wanted);
+
+}  // namespace detail
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/solver/iteration.cpp>
+#endif

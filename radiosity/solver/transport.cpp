@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/solver/transport.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/geometry/directions.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/links/link_schedule.hpp>
+#include <radiosity/support/parallel.hpp>
+#include <radiosity/visibility/exposure.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE Transport::Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads)
+    : hierarchy_{&hierarchy},
+      links_{&links},
+      exposure_{&exposure},
+      threads_{threads},
+      schedule_{hierarchy.size(), links},
+      scale_(hierarchy.size(), 1.0) {
+  while (above_ < hierarchy.size() && (hierarchy[above_].is_cluster() || is_input_face(hierarchy, above_))) { ++above_; }
+  for (std::size_t i = 0; i < above_; ++i) { clusters_ += hierarchy[i].is_cluster() ? 1 : 0; }
+  if (clusters_ == 0) { above_ = 0; }
+  for (const auto& round : schedule_.rounds()) { round_sizes_.push_back(round.size()); }
+}
+
+HALFLIGHT_INLINE void Transport::Moments::divide(double area) {  // a node that is buried carries nothing
+  const double factor = area > 0.0 ? 1.0 / area : 0.0;
+  value *= factor;
+  slope *= factor;
+}
+
+HALFLIGHT_INLINE void Transport::apply(const std::vector<double>& x, std::vector<double>& y) {
+  sent_.resize(x.size());
+  arrived_.assign(x.size(), {});
+  sent_bins_.assign(clusters_ * direction_count, 0.0);
+  arrived_bins_.assign(clusters_ * direction_count, 0.0);
+  for (std::size_t i = x.size(); i-- > 0;) {
+    if (!is_cluster(i)) { pull(i, x, sent_); }
+    if (i < above_) { gather_into_cluster(i); }
+  }
+  parallel_rounds(round_sizes_, threads_, [&](std::size_t round, std::size_t b) {
+    const LinkSchedule::Block block = schedule_.rounds()[round][b];
+    for (std::size_t k = block.begin; k < block.end; ++k) {
+      const Link& link = (*links_)[k];
+      if (is_cluster(link.p) || is_cluster(link.q)) {
+        const double from_p = sent_by(link.p, link.slope_p);
+        const double from_q = sent_by(link.q, link.slope_q);
+        arrive_at(link.q, link.slope_q, static_cast<double>(link.exchange) * from_p);
+        arrive_at(link.p, link.slope_p, static_cast<double>(link.exchange) * from_q);
+      } else {
+        carry(link, sent_[link.p], arrived_[link.q], link.slope_p.vector(), link.slope_q.vector());
+        carry(link, sent_[link.q], arrived_[link.p], link.slope_q.vector(), link.slope_p.vector());
+      }
+    }
+  });
+  y.assign(x.size(), 0.0);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (i < above_) { hand_out_from_cluster(i); }
+    if (!is_cluster(i)) { push(i, arrived_, y); }
+  }
+}
+
+HALFLIGHT_INLINE void Transport::pull(std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const {
+  const Node& node = (*hierarchy_)[i];
+  const std::vector<glm::dvec3>& centroid = exposure_->centroid;
+  Moments own;
+  if (node.leaf()) {
+    own.value = exposure_->area[i] > 0.0 ? x[i] * scale_[i] : 0.0;
+  } else {
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
+      own.value += exposure_->area[c] * sent[c].value;
+      own.slope += exposure_->area[c] * (sent[c].slope + sent[c].value * (centroid[c] - centroid[i]));
+    }
+    own.divide(exposure_->area[i]);
+  }
+  sent[i] = own;
+}
+
+HALFLIGHT_INLINE void Transport::carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& slope_from,
+                                       const glm::dvec3& slope_to) {
+  const double exchange = static_cast<double>(link.exchange);
+  to.value += exchange * (from.value + glm::dot(slope_from, from.slope));
+  to.slope += exchange * from.value * slope_to;
+}
+
+HALFLIGHT_INLINE void Transport::push(std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const {
+  const Node& node = (*hierarchy_)[i];
+  const std::vector<glm::dvec3>& centroid = exposure_->centroid;
+  Moments& own = arrived[i];  // of a child, its parent has divided it
+  if (node.parent == no_node || is_cluster(node.parent)) { own.divide(exposure_->area[i]); }
+  if (node.leaf()) { y[i] += own.value * exposure_->area[i] * scale_[i]; }
+  for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
+    arrived[c].divide(exposure_->area[c]);
+    arrived[c].value += own.value + glm::dot(own.slope, centroid[c] - centroid[i]);
+    arrived[c].slope += own.slope;
+  }
+}
+
+HALFLIGHT_INLINE std::vector<double> Transport::row_sums() {
+  std::vector<double> y;
+  apply(std::vector<double>(hierarchy_->size(), 1.0), y);
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const bool counts = (*hierarchy_)[i].leaf() && exposure_->area[i] > 0.0;
+    y[i] = counts ? y[i] / exposure_->area[i] : 0.0;
+  }
+  return y;
+}
+
+HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tolerance) {
+  const std::vector<double>& area = exposure_->area;
+  for (int round = 0; round < 400; ++round) {
+    const std::vector<double> rows = row_sums();
+    double worst = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!(rows[i] > 0.0)) { continue; }
+      worst = std::max(worst, std::abs(rows[i] - 1.0));
+      scale_[i] /= std::sqrt(rows[i]);
+    }
+    if (worst < tolerance) { break; }
+  }
+  double square = 0.0;
+  double total = 0.0;
+  for (std::size_t i = 0; i < scale_.size(); ++i) {
+    if (!(*hierarchy_)[i].leaf()) { continue; }
+    square += area[i] * (scale_[i] - 1.0) * (scale_[i] - 1.0);
+    total += area[i];
+  }
+  const double rms = total > 0.0 ? std::sqrt(square / total) : 0.0;
+  if (rms <= limit) { return rms; }
+  std::fill(scale_.begin(), scale_.end(), 1.0);
+  return std::nullopt;
+}
+
+HALFLIGHT_INLINE void Transport::gather_into_cluster(std::size_t i) {
+  const Node& node = (*hierarchy_)[i];
+  if (node.parent == no_node) { return; }
+  double* const to = bins(sent_bins_, node.parent);
+  if (node.is_cluster()) {
+    const double* const from = bins(sent_bins_, i);
+    for (std::size_t k = 0; k < direction_count; ++k) { to[k] += from[k]; }
+  } else {
+    add_shown(node.normal, exposure_->area[i] * sent_[i].value, to);
+  }
+}
+
+HALFLIGHT_INLINE void Transport::hand_out_from_cluster(std::size_t i) {
+  const Node& node = (*hierarchy_)[i];
+  if (node.parent == no_node) { return; }
+  const double* const from = bins(arrived_bins_, node.parent);
+  if (node.is_cluster()) {
+    double* const to = bins(arrived_bins_, i);
+    for (std::size_t k = 0; k < direction_count; ++k) { to[k] += from[k]; }
+  } else {
+    arrived_[i].value += exposure_->area[i] * dot_shown(node.normal, from);
+  }
+}
+
+HALFLIGHT_INLINE double Transport::sent_by(std::uint32_t i, const Slope& towards) {
+  if (!is_cluster(i)) { return sent_[i].value; }
+  const Aim at = aim(towards.vector());
+  const double* const from = bins(sent_bins_, i);
+  return at.weight[0] * from[at.direction[0]] + at.weight[1] * from[at.direction[1]] + at.weight[2] * from[at.direction[2]];
+}
+
+HALFLIGHT_INLINE void Transport::arrive_at(std::uint32_t i, const Slope& towards, double power) {
+  if (!is_cluster(i)) {
+    arrived_[i].value += power;
+    return;
+  }
+  const Aim at = aim(towards.vector());
+  double* const to = bins(arrived_bins_, i);
+  for (std::size_t j = 0; j < 3; ++j) { to[at.direction[j]] += at.weight[j] * power; }
+}
+
+}  // namespace radiosity

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The transport of light as one symmetric operator M on leaf radiosities: (M B)_i is the power that arrives at leaf i
+// per W/m2 sent, so the irradiance of leaf i is (M B)_i / A_i. One application pulls radiosity up to the nodes as area
+// averages and first moments, carries it over every link both ways, and pushes what arrived down to the leaves
+// (Hanrahan 1991; here with the slopes of links.hpp).
+//
+// A cluster (clusters.hpp) has no radiosity of its own but sends what its faces show in each direction of a lattice, and hands
+// what arrives from there to its faces by what they show of themselves to it: P has one row for each direction of each cluster, and
+// the link of a cluster picks the three rows around the direction of its other end.
+//
+// In matrix form M = D P' G P D with P the pull, G the symmetric links, P' the transpose of P, and a diagonal D that is
+// 1 unless the scene is closed: there D makes every row sum exactly what a closed scene demands.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <radiosity/geometry/directions.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/links/link_schedule.hpp>
+#include <radiosity/visibility/exposure.hpp>
+
+namespace radiosity {
+
+class Transport {
+ public:
+  // The references must outlive the operator. Arranges the links (link_schedule.hpp).
+  Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads = 1);
+
+  // Light on its way, of a node: what it sends (mean of B over its area, and of B (x - c)), or what arrives at it (irradiance at the
+  // centroid c, and its gradient).
+  struct Moments {
+    double value = 0.0;
+    glm::dvec3 slope{0.0};
+
+    void divide(double area);
+  };
+
+  // y = M x. Both have one value a node; x is read and y written at the leaves, the rest of y is 0.
+  void apply(const std::vector<double>& x, std::vector<double>& y);
+
+  // The three steps of apply(), for those who go through the scene in another order.
+  // What node i sends, from the radiosity of a leaf or from what its children send.
+  void pull(std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const;
+  // What one end of a link sends, added to what arrives at the other, times its area.
+  static void carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& slope_from, const glm::dvec3& slope_to);
+  // Adds what arrived at node i, by links and from its parent, to its children or, for a leaf, to y. Parents first.
+  void push(std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const;
+
+  [[nodiscard]] const Hierarchy& hierarchy() const { return *hierarchy_; }
+  [[nodiscard]] const Links& links() const { return *links_; }
+
+  // What each leaf sees of the scene: the sum of its form factors. 1 in a closed scene. Inner nodes hold 0.
+  [[nodiscard]] std::vector<double> row_sums();
+
+  // Closes a scene that is proven closed: finds D with all row sums 1, within the tolerance (symmetric scaling, van Leersum 1989), so that
+  // what quadrature and sampled visibility got wrong in the rows does not grow by rho / (1 - rho) in the solution.
+  // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS of D - 1, or nothing, and no D, when that
+  // is beyond `limit`: then something other than quadrature and sampling is wrong.
+  std::optional<double> close(double limit, double tolerance = 1e-12);
+
+ private:
+  [[nodiscard]] bool is_cluster(std::size_t i) const { return i < above_ && (*hierarchy_)[i].is_cluster(); }
+  [[nodiscard]] double* bins(std::vector<double>& of, std::size_t i) const { return &of[(*hierarchy_)[i].cluster * direction_count]; }
+
+  // What the cluster or input face i sends, added to what its cluster sends. Children before their parents.
+  void gather_into_cluster(std::size_t i);
+  // What arrived at the cluster of i from all directions, added to what arrives at i. Parents first.
+  void hand_out_from_cluster(std::size_t i);
+  // Mean radiosity that an end of a cluster link sends along it. `towards` of a cluster: cluster_exchange.hpp.
+  [[nodiscard]] double sent_by(std::uint32_t i, const Slope& towards);
+  void arrive_at(std::uint32_t i, const Slope& towards, double power);
+
+  const Hierarchy* hierarchy_;
+  const Links* links_;
+  const Exposure* exposure_;
+  unsigned threads_;
+  LinkSchedule schedule_;
+  std::vector<std::size_t> round_sizes_;
+  std::size_t above_ = 0;  // clusters and input faces, when there are clusters
+  std::size_t clusters_ = 0;
+  std::vector<double> scale_;                     // D, at the leaves
+  std::vector<Moments> sent_, arrived_;           // scratch of apply(), kept because it is asked for many times
+  std::vector<double> sent_bins_, arrived_bins_;  // of the clusters, direction by direction
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/solver/transport.cpp>
+#endif

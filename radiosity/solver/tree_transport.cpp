@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/solver/tree_transport.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/solver/transport.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE TreeTransport::TreeTransport(const Transport& transport) : transport_{&transport} {
+  const Hierarchy& hierarchy = transport.hierarchy();
+  const Links& links = transport.links();
+  tree_.resize(hierarchy.size());
+  std::uint32_t trees = 0;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) { tree_[i] = hierarchy[i].parent == no_node ? trees++ : tree_[hierarchy[i].parent]; }
+  nodes_ = Groups(trees, hierarchy.size(), [&](auto&& add) {
+    for (std::uint32_t i = 0; i < hierarchy.size(); ++i) { add(tree_[i], i); }
+  });
+  links_ = Groups(trees, 2 * links.size(), [&](auto&& add) {
+    for (std::uint32_t i = 0; i < links.size(); ++i) {
+      add(tree_[links[i].p], i);
+      if (tree_[links[i].q] != tree_[links[i].p]) { add(tree_[links[i].q], i); }
+    }
+  });
+  sent_.resize(hierarchy.size());
+  arrived_.resize(hierarchy.size());
+}
+
+HALFLIGHT_INLINE void TreeTransport::gather(std::uint32_t tree, std::vector<double>& y) {
+  for (const std::uint32_t l : links_[tree]) {
+    const Link& link = transport_->links()[l];
+    if (tree_[link.p] == tree) { Transport::carry(link, sent_[link.q], arrived_[link.p], link.slope_q.vector(), link.slope_p.vector()); }
+    if (tree_[link.q] == tree) { Transport::carry(link, sent_[link.p], arrived_[link.q], link.slope_p.vector(), link.slope_q.vector()); }
+  }
+  collect(tree, y);
+}
+
+HALFLIGHT_INLINE void TreeTransport::collect(std::uint32_t tree, std::vector<double>& y) {
+  for (const std::uint32_t i : nodes_[tree]) { y[i] = 0.0; }
+  for (const std::uint32_t i : nodes_[tree]) {
+    transport_->push(i, arrived_, y);
+    arrived_[i] = {};
+  }
+}
+
+}  // namespace radiosity

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Transport tree by tree: the light that one input face receives from all others, or sends to them, without the rest of M.
+// A tree is an input face with all the nodes below it. Gauss-Seidel gathers into one tree after the other, Southwell shoots
+// from the one with the most unshot power; the sum over all trees of either is one application of Transport. What is shot waits at the
+// nodes where it arrives until their tree receives it, so a shot costs what it carries, however large the trees are that it reaches.
+
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/solver/transport.hpp>
+
+namespace radiosity {
+
+class TreeTransport {
+ public:
+  // The reference must outlive the operator.
+  explicit TreeTransport(const Transport& transport);
+
+  [[nodiscard]] std::uint32_t trees() const { return static_cast<std::uint32_t>(nodes_.size()); }
+  // The nodes of a tree, parents before children.
+  [[nodiscard]] std::span<const std::uint32_t> nodes(std::uint32_t tree) const { return nodes_[tree]; }
+
+  // From now on the tree sends what its leaves radiate by x.
+  void send(std::uint32_t tree, const std::vector<double>& x) {
+    const auto all = nodes_[tree];
+    for (std::size_t k = all.size(); k-- > 0;) { transport_->pull(all[k], x, sent_); }
+  }
+  // Writes into y what arrives at the leaves of the tree from what all trees send.
+  void gather(std::uint32_t tree, std::vector<double>& y);
+  // Brings what this tree sends to the nodes at the other ends of its links, and tells reached(tree, power) of each.
+  template <class Reached>
+  void shoot(std::uint32_t tree, const Reached& reached) {
+    const auto carry = [&](const Link& link, std::uint32_t from, std::uint32_t to, const Slope& slope_from, const Slope& slope_to) {
+      const double before = arrived_[to].value;
+      Transport::carry(link, sent_[from], arrived_[to], slope_from.vector(), slope_to.vector());
+      reached(tree_[to], arrived_[to].value - before);
+    };
+    for (const std::uint32_t l : links_[tree]) {
+      const Link& link = transport_->links()[l];
+      if (tree_[link.p] == tree) { carry(link, link.p, link.q, link.slope_p, link.slope_q); }
+      if (tree_[link.q] == tree) { carry(link, link.q, link.p, link.slope_q, link.slope_p); }
+    }
+  }
+  // Writes into y what has been shot at the leaves of the tree since the last call.
+  void receive(std::uint32_t tree, std::vector<double>& y) { collect(tree, y); }
+
+  // What it costs to gather into the tree, or to receive and shoot: its nodes and the ends of links.
+  [[nodiscard]] std::size_t work(std::uint32_t tree) const { return nodes_[tree].size() + links_[tree].size(); }
+
+ private:
+  // Numbers in groups: all numbers one group after the other, and where each group begins.
+  class Groups {
+   public:
+    Groups() = default;
+    template <class Each>
+    Groups(std::uint32_t groups, std::size_t numbers, Each&& each) : first_(groups + 1, 0) {
+      each([&](std::uint32_t group, std::uint32_t) { ++first_[group + 1]; });
+      std::partial_sum(first_.begin(), first_.end(), first_.begin());
+      std::vector<std::uint64_t> next(first_.begin(), first_.end() - 1);
+      numbers_.reserve(numbers);
+      numbers_.resize(first_.back());
+      each([&](std::uint32_t group, std::uint32_t number) { numbers_[next[group]++] = number; });
+    }
+    [[nodiscard]] std::size_t size() const { return first_.size() - 1; }
+    [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t group) const {
+      return std::span(numbers_).subspan(first_[group], first_[group + 1] - first_[group]);
+    }
+
+   private:
+    std::vector<std::uint64_t> first_{0};
+    std::vector<std::uint32_t> numbers_;
+  };
+
+  // Pushes what has arrived at the nodes of a tree into y and leaves nothing behind.
+  void collect(std::uint32_t tree, std::vector<double>& y);
+
+  const Transport* transport_;
+  std::vector<std::uint32_t> tree_;                 // of each node
+  Groups nodes_, links_;                            // of each tree
+  std::vector<Transport::Moments> sent_, arrived_;  // arrived_: shot and not yet received
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/solver/tree_transport.cpp>
+#endif

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Points in the unit cube of four dimensions that fill it far more evenly than random ones: Sobol's sequence (Sobol 1967; direction
+// numbers of Joe and Kuo 2008), scrambled by random digits (Owen 1995). Each scramble is an unbiased estimate of an integral by itself, so
+// the spread of some of them is the standard error of their mean; the error of each falls almost like 1 / n instead of 1 / sqrt(n).
+//
+// The scramble is a hash that lets each bit depend on the higher ones alone (Laine and Karras 2011, constants of Burley 2020).
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <radiosity/support/random.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+[[nodiscard]] constexpr std::uint32_t reverse_bits(std::uint32_t x) {
+  x = (x >> 16) | (x << 16);
+  x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
+  x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
+  x = ((x & 0xccccccccu) >> 2) | ((x & 0x33333333u) << 2);
+  return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
+}
+
+[[nodiscard]] constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t key) {
+  x = reverse_bits(x);
+  x ^= x * 0x3d20adeau;
+  x += key;
+  x *= (key >> 16) | 1u;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return reverse_bits(x);
+}
+
+// Direction numbers: dimension 0 is the radical inverse; the others belong to the polynomials x + 1, x^2 + x + 1 and x^3 + x + 1.
+[[nodiscard]] constexpr std::array<std::array<std::uint32_t, 32>, 4> sobol_directions() {
+  constexpr std::uint32_t degree[4] = {0, 1, 2, 3};
+  constexpr std::uint32_t inner[4] = {0, 0, 1, 1};  // coefficients between the first and the last
+  constexpr std::uint32_t first[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 3, 0}, {1, 3, 1}};
+  std::array<std::array<std::uint32_t, 32>, 4> v{};
+  for (std::uint32_t k = 0; k < 32; ++k) { v[0][k] = 0x80000000u >> k; }
+  for (std::size_t d = 1; d < 4; ++d) {
+    const std::uint32_t s = degree[d];
+    for (std::uint32_t k = 0; k < 32; ++k) {
+      if (k < s) {
+        v[d][k] = first[d][k] << (31 - k);
+        continue;
+      }
+      v[d][k] = v[d][k - s] ^ (v[d][k - s] >> s);
+      for (std::uint32_t j = 1; j < s; ++j) {
+        if ((inner[d] >> (s - 1 - j)) & 1u) { v[d][k] ^= v[d][k - j]; }
+      }
+    }
+  }
+  return v;
+}
+inline constexpr std::array<std::array<std::uint32_t, 32>, 4> sobol_direction = sobol_directions();
+
+}  // namespace detail
+
+// One scrambled sequence: the scramble is chosen by the key, results are a pure function of key and index.
+class Sobol4 {
+ public:
+  explicit constexpr Sobol4(std::uint64_t seed, std::uint64_t key = 0) {
+    Random random{seed, key, 0x736f626f6cull};
+    for (std::uint32_t& k : keys_) { k = static_cast<std::uint32_t>(random.bits() >> 32); }
+  }
+
+  // Point `index`, each coordinate in (0, 1).
+  [[nodiscard]] constexpr std::array<double, 4> operator()(std::uint32_t index) const {
+    std::array<double, 4> point{};
+    for (std::size_t d = 0; d < 4; ++d) {
+      std::uint32_t x = 0;
+      std::uint32_t bits = index;
+      for (std::size_t k = 0; bits != 0; ++k, bits >>= 1) {
+        if (bits & 1u) { x ^= detail::sobol_direction[d][k]; }
+      }
+      point[d] = (detail::owen_scramble(x, keys_[d]) + 0.5) * 0x1p-32;
+    }
+    return point;
+  }
+
+ private:
+  std::array<std::uint32_t, 4> keys_{};
+};
+
+// The numbers of path `index` of a family: the first eight, which decide most, are coordinates of two Sobol points, all further ones are
+// independent. The second point is that of another index (Burley 2020), so that both together are even, too.
+class PathNumbers {
+ public:
+  PathNumbers(const Sobol4& first, const Sobol4& second, std::uint32_t index, Random rest)
+      : points_{first(index), second(detail::owen_scramble(index, 0x9e3779b9u))}, rest_{rest} {}
+
+  [[nodiscard]] double uniform() {
+    if (used_ == 8) { return rest_.uniform(); }
+    const std::size_t k = used_++;
+    return points_[k / 4][k % 4];
+  }
+
+ private:
+  std::array<std::array<double, 4>, 2> points_;
+  std::size_t used_ = 0;
+  Random rest_;
+};
+
+}  // namespace radiosity

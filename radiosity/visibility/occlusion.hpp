@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What is known of the occlusion of pairs of nodes. The first pair that is looked at gets a list of the shapes that can stand between
+// its patches; pairs of descendants inherit the list and only filter it (raycast/shaft.hpp). Two outcomes end the search for the whole
+// subtree: nothing can stand in between, or one convex object hides everything.
+//
+// Lists are kept in one array, a word and the shapes each; a list from which nothing was filtered is that of its parent.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <raycast/scene.hpp>
+#include <raycast/shaft.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/visibility/plan.hpp>
+
+namespace radiosity {
+
+// The patches of all nodes, made once a node: the corners of a node never change.
+class Patches {
+ public:
+  // The references must outlive the patches; the hierarchy may grow between two calls of extend().
+  Patches(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy) : surfaces_{&surfaces}, hierarchy_{&hierarchy} {}
+
+  void extend(unsigned threads);
+  [[nodiscard]] const Patch& operator[](std::size_t i) const { return patches_[i]; }
+
+  [[nodiscard]] bool is_cluster(std::uint32_t i) const { return (*hierarchy_)[i].is_cluster(); }
+  [[nodiscard]] bool is_curved(std::uint32_t i) const { return (*hierarchy_)[i].deviation > 0.0; }
+
+  // The patch as the occluder lists see it. Its descendants leave its plane by at most the tilt of the true surface over its radius.
+  [[nodiscard]] raycast::PatchShape shape(std::uint32_t i) const {
+    const Node& node = (*hierarchy_)[i];
+    return {patches_[i].contour, node.object, node.radius * node.deviation};
+  }
+
+ private:
+  const std::vector<Surface>* surfaces_;
+  const Hierarchy* hierarchy_;
+  std::vector<Patch> patches_;
+};
+
+class OccluderLists {
+ public:
+  // Indices that stand for no list: none has been made, or it was too long to keep; nothing stands between; proven to exchange nothing, and
+  // linked all the same.
+  static constexpr std::uint32_t none = 0xffffffff, clear = 0xfffffffe, hidden = 0xfffffffd;
+
+  [[nodiscard]] raycast::OccluderList operator[](std::uint32_t index) const;
+
+  // The list of a pair of nodes; `ancestors` is the index of a pair of their ancestors. Of clusters nothing is known.
+  [[nodiscard]] raycast::OccluderList of(std::uint32_t p, std::uint32_t q, std::uint32_t ancestors, const raycast::Scene& scene,
+                                         const Plan& plan, const Patches& patches) const;
+
+  // Keeps a list that `of` gave for these ancestors. Requires that not everything is blocked.
+  [[nodiscard]] std::uint32_t keep(const raycast::OccluderList& list, std::uint32_t ancestors);
+
+  [[nodiscard]] std::size_t bytes() const { return words_.capacity() * sizeof(std::uint32_t); }
+
+ private:
+  std::vector<std::uint32_t> words_;  // of each list: twice its length, plus 1 when no room is in the way; then the shapes
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/visibility/occlusion.cpp>
+#endif

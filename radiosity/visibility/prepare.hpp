@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Everything of a run that comes before light: the frame, the objects compiled for rays, one BRep an object, and the plan of
+// what the scene does not need.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/visibility/plan.hpp>
+
+namespace radiosity {
+
+struct Prepared {
+  Frame frame;
+  raycast::Scene objects;         // in the frame
+  std::vector<Surface> surfaces;  // boundary of each object, unrefined; they point into `objects`
+  Plan plan;
+};
+
+struct PrepareResult {
+  std::optional<Prepared> prepared;
+  std::vector<std::string> faults;  // every reason why there is none
+};
+
+[[nodiscard]] inline PrepareResult prepare(const Scene& scene, bool shortcuts = true) {
+  std::vector<std::string> sentences = faults(scene);
+  if (!sentences.empty()) { return {std::nullopt, std::move(sentences)}; }
+  const std::optional<Frame> frame = make_frame(scene);
+  if (!frame) { return {std::nullopt, {"the scene has no finite size"}}; }
+  Prepared prepared{*frame, compile(scene, *frame), {}, {}};
+  std::uint32_t first_surface = 0;
+  for (std::uint32_t o = 0; o < prepared.objects.size(); ++o) {
+    SurfaceResult made = make_surface(prepared.objects.object(o), first_surface);
+    first_surface += prepared.objects.object(o).sheet_count();
+    if (made.surface) {
+      prepared.surfaces.push_back(std::move(*made.surface));
+    } else {
+      sentences.push_back("object '" + scene.objects[o].name + "': " + made.fault);
+    }
+  }
+  if (!sentences.empty()) { return {std::nullopt, std::move(sentences)}; }
+  prepared.plan = make_plan(scene, prepared.surfaces, shortcuts);
+  return {std::move(prepared), {}};
+}
+
+}  // namespace radiosity

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/visibility/shadow.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+HALFLIGHT_INLINE void part(std::span<const glm::dvec3> polygon, const HalfSpace& plane, Piece& inside, Piece& outside) {
+  inside.clear();
+  outside.clear();
+  if (polygon.empty()) { return; }
+  double height = plane.height(polygon[0]);
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3& a = polygon[i];
+    const glm::dvec3& b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
+    const double next = plane.height(b);
+    if (height >= 0.0) { inside.push_back(a); }
+    if (height <= 0.0) { outside.push_back(a); }
+    if ((height > 0.0 && next < 0.0) || (height < 0.0 && next > 0.0)) {
+      const glm::dvec3 cut = a + (b - a) * (height / (height - next));
+      inside.push_back(cut);
+      outside.push_back(cut);
+    }
+    height = next;
+  }
+  if (inside.size() < 3) { inside.clear(); }
+  if (outside.size() < 3) { outside.clear(); }
+}
+
+[[nodiscard]] HALFLIGHT_INLINE bool all_outside(std::span<const glm::dvec3> polygon, const HalfSpace& plane) {
+  return std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return plane.height(p) <= 0.0; });
+}
+
+HALFLIGHT_INLINE void cut_away(std::vector<Piece>& pieces, std::span<const HalfSpace> planes) {
+  const std::size_t count = pieces.size();
+  std::size_t kept = 0;  // of the old ones; new ones are appended behind them
+  Piece inside;
+  Piece outside;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (std::any_of(planes.begin(), planes.end(), [&](const HalfSpace& plane) { return all_outside(pieces[i], plane); })) {
+      if (kept != i) { pieces[kept] = pieces[i]; }
+      ++kept;
+      continue;
+    }
+    Piece rest = pieces[i];
+    for (const HalfSpace& plane : planes) {
+      part(rest, plane, inside, outside);
+      if (!outside.empty()) { pieces.push_back(outside); }
+      rest = inside;
+      if (rest.empty()) { break; }
+    }
+  }
+  pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(kept), pieces.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE double ShadowedTarget::form_factor(const glm::dvec3& x, const glm::dvec3& n) {
+  const HalfSpace horizon{x, n};
+  const HalfSpace before{target_[0], m_};
+  detail::part(target_, horizon, first_, second_);
+  pieces_.clear();
+  if (!first_.empty()) { pieces_.push_back(first_); }
+  for (const Blocker& blocker : blockers_) {
+    if (pieces_.empty()) { return 0.0; }
+    const double height = glm::dot(blocker.normal, x - blocker.contour[0]);
+    if (std::abs(height) <= slack_) { continue; }  // seen edge on
+    detail::part(blocker.contour, horizon, first_, second_);
+    shade_ = first_;
+    detail::part(shade_, before, first_, second_);
+    if (first_.empty() || flat(first_, horizon) || flat(first_, before)) { continue; }
+    planes_.clear();
+    for (std::size_t i = 0; i < first_.size(); ++i) {
+      const glm::dvec3 across = glm::cross(first_[i] - x, first_[i + 1 < first_.size() ? i + 1 : 0] - x);
+      if (glm::dot(across, across) > 0.0) { planes_.push_back({x, height > 0.0 ? -across : across}); }
+    }
+    detail::cut_away(pieces_, planes_);
+  }
+  double sum = 0.0;
+  for (const Piece& piece : pieces_) { sum += point_to_polygon(x, n, piece); }
+  return sum;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/visibility/visibility.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/bundle.hpp>
+#include <raycast/compiled.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/shaft.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/plan.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE glm::dvec3 sample(const Patch& patch, double u, double v) {
+  double rest = u * patch.area;
+  const std::size_t parts = std::max<std::size_t>(1, patch.parts.size());
+  for (std::size_t k = 0; k < parts; ++k) {
+    const Polygon& q = patch.parts.empty() ? patch.contour : patch.parts[k];
+    for (std::size_t i = 1; i + 1 < q.size(); ++i) {
+      const double area = 0.5 * glm::dot(glm::cross(q[i] - q[0], q[i + 1] - q[0]), patch.normal);
+      if (rest < area || (i + 2 == q.size() && k + 1 == parts)) {
+        const double root = std::sqrt(std::clamp(area > 0.0 ? rest / area : 0.0, 0.0, 1.0));
+        return q[0] + root * (1.0 - v) * (q[i] - q[0]) + root * v * (q[i + 1] - q[0]);
+      }
+      rest -= area;
+    }
+  }
+  return patch.centre;
+}
+
+HALFLIGHT_INLINE ExposedPoints::ExposedPoints(const raycast::Scene& scene, std::uint32_t object, std::uint32_t sheet, const Patch& patch,
+                                              std::uint64_t key)
+    : key_{key} {
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    if (buried(scene, object, sheet, point(patch, i))) { continue; }
+    blocks_[block_of(i)] = static_cast<std::uint16_t>(blocks_[block_of(i)] | 1u << bit_of(i));
+    ++count_;
+  }
+}
+
+HALFLIGHT_INLINE double ExposedPoints::share_above(const Patch& patch, const glm::dvec3& on, const glm::dvec3& normal) const {
+  std::uint32_t above = 0, exposed = 0;
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    if (!(glm::dot(normal, point(patch, i) - on) > 0.0)) { continue; }
+    ++above;
+    exposed += blocks_[block_of(i)] >> bit_of(i) & 1u;
+  }
+  return above > 0 ? static_cast<double>(exposed) / above : count_ / 256.0;
+}
+
+HALFLIGHT_INLINE glm::dvec3 ExposedPoints::draw(const Patch& patch, std::uint32_t block, Random& random) const {
+  const std::uint64_t bits = random.bits();
+  if (blocks_[block] == 0) {
+    std::uint32_t left = static_cast<std::uint32_t>(bits % count_);
+    for (block = 0; left >= static_cast<std::uint32_t>(std::popcount(blocks_[block])); ++block) {
+      left -= static_cast<std::uint32_t>(std::popcount(blocks_[block]));
+    }
+  }
+  std::uint32_t chosen = blocks_[block];
+  for (auto skip = static_cast<std::uint32_t>(bits >> 32) % static_cast<std::uint32_t>(std::popcount(chosen)); skip > 0; --skip) {
+    chosen &= chosen - 1;
+  }
+  const auto bit = static_cast<std::uint32_t>(std::countr_zero(chosen));
+  return point(patch, (block / 4 * 4 + bit / 4) * 16 + block % 4 * 4 + bit % 4);
+}
+
+HALFLIGHT_INLINE glm::dvec3 ExposedPoints::point(const Patch& patch, std::uint32_t i) const {
+  Random random{key_, i};
+  const double u = (i % 16 + random.uniform()) / 16.0;
+  return sample(patch, u, (i / 16 + random.uniform()) / 16.0);
+}
+
+HALFLIGHT_INLINE glm::dvec3 draw_exposed(const PatchEnd& end, std::uint32_t cell, Random& random) {
+  if (end.exposed != nullptr) { return end.exposed->draw(*end.patch, cell, random); }
+  const double u = (cell % 4 + random.uniform()) / 4.0;
+  return sample(*end.patch, u, (cell / 4 + random.uniform()) / 4.0);
+}
+
+HALFLIGHT_INLINE RayCount& RayCount::operator+=(const RayCount& other) {
+  cast += other.cast;
+  avoided += other.avoided;
+  return *this;
+}
+
+// Segments that arrived, by the sixteenth of the patch where they end.
+class CellCounts {
+ public:
+  void add(std::uint32_t cell, bool clear) {
+    ++all_[cell];
+    if (clear) { ++clear_[cell]; }
+  }
+  // Between the means of the cells; the noise p (1 - p) / (n - 1) of each mean is taken off. Cells of one segment do not count.
+  [[nodiscard]] double spread() const {
+    double n = 0.0, sum = 0.0, square = 0.0, noise = 0.0;
+    for (std::size_t c = 0; c < 16; ++c) {
+      if (all_[c] < 2) { continue; }
+      const double mean = static_cast<double>(clear_[c]) / all_[c];
+      n += 1.0;
+      sum += mean;
+      square += mean * mean;
+      noise += mean * (1.0 - mean) / (all_[c] - 1.0);
+    }
+    if (n < 2.0) { return 0.0; }
+    return std::sqrt(std::max(0.0, (square - sum * sum / n) / (n - 1.0) - noise / n));
+  }
+
+ private:
+  std::array<std::uint16_t, 16> all_{}, clear_{};
+};
+
+// The corner of a patch that is highest above the plane of another.
+[[nodiscard]] HALFLIGHT_INLINE glm::dvec3 highest_corner(const Patch& patch, const Patch& above) {
+  const auto height = [&](const glm::dvec3& x) { return glm::dot(above.normal, x); };
+  return *std::max_element(patch.contour.begin(), patch.contour.end(),
+                           [&](const glm::dvec3& a, const glm::dvec3& b) { return height(a) < height(b); });
+}
+
+HALFLIGHT_INLINE VisibilityEstimate visibility(const raycast::Scene& scene, const Plan& plan, const raycast::OccluderList& list,
+                                               const PatchEnd& p, const PatchEnd& q, std::uint32_t rounds, Random random) {
+  VisibilityEstimate estimate;
+  estimate.proven = list.clear();
+  if (plan.shortcuts && estimate.proven) {
+    estimate.rays.avoided = segments_per_round;
+    return estimate;
+  }
+  const double softening = 0.01 * std::min(p.patch->area, q.patch->area);  // bounds the weight of touching points
+  double total = 0.0;
+  double arrived = 0.0;
+  std::uint32_t clear = 0;
+  std::uint32_t blocked = 0;
+  CellCounts cells_p;
+  CellCounts cells_q;
+  std::uint32_t last_occluder = raycast::no_shape;
+  const auto opposite = [](std::uint32_t cell, std::uint32_t shift) { return (cell * 5u ^ shift) & 15u; };
+  for (std::uint32_t round = 0; round < rounds; ++round) {
+    const auto shift = static_cast<std::uint32_t>(random.bits() & 15u);
+    raycast::Segments16 segments;
+    std::array<double, segments_per_round> weights{};
+    for (std::uint32_t i = 0; i < segments_per_round; ++i) {
+      const glm::dvec3 x = draw_exposed(p, i, random);
+      const glm::dvec3 y = draw_exposed(q, opposite(i, shift), random);
+      const glm::dvec3 d = y - x;
+      const double r2 = glm::dot(d, d) + softening;
+      weights[i] = std::max(0.0, glm::dot(p.patch->normal, d)) * std::max(0.0, -glm::dot(q.patch->normal, d)) / (r2 * r2);
+      if (weights[i] > 0.0) { segments.set(i, {x, d}, p.object, q.object); }
+    }
+    const std::uint32_t occluded = scene.occluded16(segments, plan.shortcuts ? list : raycast::OccluderList{}, last_occluder);
+    for (std::uint32_t i = 0; i < segments_per_round; ++i) {
+      if (!(weights[i] > 0.0)) { continue; }
+      const bool arrives = (occluded >> i & 1u) == 0;
+      total += weights[i];
+      arrived += arrives ? weights[i] : 0.0;
+      ++estimate.rays.cast;
+      ++(arrives ? clear : blocked);
+      cells_p.add(i, arrives);
+      cells_q.add(opposite(i, shift), arrives);
+    }
+    if (clear + blocked >= segments_per_round / 2 && (clear == 0 || blocked == 0)) { break; }
+  }
+  if (clear > 0 && blocked > 0) {
+    estimate.spread_p = cells_p.spread();
+    estimate.spread_q = cells_q.spread();
+  }
+  if (total > 0.0) {
+    estimate.fraction = arrived / total;
+    return estimate;
+  }
+  // No sample is above both horizons: what is highest above them decides.
+  const glm::dvec3 x = highest_corner(*p.patch, *q.patch);
+  raycast::Segments16 segment;
+  segment.set(0, {x, highest_corner(*q.patch, *p.patch) - x}, p.object, q.object);
+  estimate.fraction = scene.occluded16(segment, plan.shortcuts ? list : raycast::OccluderList{}, last_occluder) != 0 ? 0.0 : 1.0;
+  ++estimate.rays.cast;
+  return estimate;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bundle.hpp>
+#include <raycast/compiled.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/kernels.hpp>
+#include <raycast/object.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/spans.hpp>
+#include <raycast/transform.hpp>
+#include <raycast/walk.hpp>
+
+namespace raycast {
+
+HALFLIGHT_INLINE bool Scene::Search::clip(const Compiled& scene) {
+  const glm::dvec3 o = scene.local(ray.origin), d = ray.direction * scene.scale;
+  t0 = 0.0, t1 = infinity;
+  for (int k = 0; k < 3; ++k) {
+    const double lo = (-1.25 - o[k]) / d[k], hi = (1.25 - o[k]) / d[k];
+    if (d[k] == 0.0 && !(std::abs(o[k]) <= 1.25)) return false;
+    if (d[k] == 0.0) continue;
+    t0 = std::max(t0, std::min(lo, hi));
+    t1 = std::min(t1, std::max(lo, hi));
+  }
+  return t0 < t1;
+}
+
+// Asks the law about one object.
+struct Scene::Asker {
+  const Scene& scene;
+  Search* searches;  // by lane
+
+  float operator()(unsigned lane, std::uint32_t object) const {
+    Search& s = searches[lane];
+    scene.approach(Line(s.ray), s.source, object, s.nearest);
+    return static_cast<float>(std::min((s.nearest.limit - s.t0) / (s.t1 - s.t0), 1.0)) * 1.00001f + 1e-6f;
+  }
+  [[nodiscard]] bool near(unsigned lane, std::uint32_t object) const {
+    const Search& s = searches[lane];
+    return object == s.source.owner || scene.objects_[object].bounds().contains(s.ray.origin, 2 * scene.skin(s.source, object));
+  }
+};
+
+// Of what the search has left over, which is complete up to `limit`. A solid's first entry is that of its spans if no face is left before
+// it is passed: then these pair with it.
+HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, float limit) const {
+  const Segment& ray = search.ray;
+  Nearest& nearest = search.nearest;
+  for (unsigned i = 0; i < entries.count; ++i) {
+    const std::uint32_t object = entries.entry[i].object;
+    const auto other = [&](const Entries::Entry& e) { return e.object != object; };
+    if (!std::all_of(entries.entry, entries.entry + i, other)) continue;
+    if (const Record& r = records_[object]; r.corner_count) {  // a polygon that is crossed for certain: as approach() has it
+      const double step = glm::dot(r.normal, ray.direction), t = -glm::dot(r.normal, ray.origin - r.point) / step;
+      if (t <= nearest.limit) offer(ray, Hit{t, object, 0, step < 0.0}, nearest);
+      continue;
+    }
+    Crossing first{infinity, 0};
+    bool by_spans = !entries.complete;
+    const bool only = entries.count == 1 && entries.entry[0].sure;
+    for (unsigned j = i; j < entries.count && !by_spans; ++j) {
+      const Entries::Entry& e = entries.entry[j];
+      if (e.object != object) continue;
+      by_spans = !only && !(e.timed && e.to < entries.exit && e.to <= limit);
+      if (by_spans || !(e.sure || objects_[object].enters(ray, e.face))) continue;
+      const Crossing at = objects_[object].crossing(ray, e.face);
+      if (at.t < first.t || (at.t == first.t && at.sheet < first.sheet)) first = at;
+    }
+    if (by_spans)
+      approach(Line(ray), search.source, object, nearest);
+    else if (first.t > 0.0 && first.t < infinity && first.t <= nearest.limit)
+      offer(ray, Hit{first.t, object, first.sheet, true}, nearest);
+  }
+  if (entries.complete) return;
+  const Line line(ray);
+  for (std::uint32_t i = 0; i < objects_.size(); ++i)
+    if (compiled_.roles[i] == Role::solid && !objects_[i].inside()) approach(line, search.source, i, nearest);
+}
+
+HALFLIGHT_INLINE void Scene::approach_bounded(Search& search) const {
+  if (compiled_.nodes.empty() || !search.clip(compiled_)) return;
+  const Segment& ray = search.ray;
+  const glm::dvec3 o = compiled_.local(ray.origin), d = ray.direction * compiled_.scale;
+  const glm::dvec3 from = o + search.t0 * d, along = (search.t1 - search.t0) * d;
+  const Segment inner{from / compiled_.scale + compiled_.centre, along / compiled_.scale};
+  Rays16 rays;
+  if (!(Box{o, o}.magnitude() < 1e6) || !HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, inner, search.source.owner, no_object, rays))) {
+    const Line line(ray);
+    objects_along(compiled_, ray, 0.0, search.nearest.limit, [&](std::uint32_t i) {
+      approach(line, search.source, i, search.nearest);
+      return false;
+    });
+    return;
+  }
+  Asker asker{*this, &search};
+  Entries entries;
+  float limit = 1.0f;
+  HALFLIGHT_DISPATCH(isa_, first(compiled_, rays, 0, 0, limit, entries, asker));
+  decide(search, entries, limit);
+}
+
+HALFLIGHT_INLINE Hits16 Scene::closest16(const Segments16& rays) const {
+  Hits16 result;
+  Search searches[16];
+  Segments16 inner;
+  const double per_scale = 1.0 / compiled_.scale;  // a power of two
+  for (std::uint32_t rest = rays.lanes; rest; rest &= rest - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(rest));
+    Search& s = searches[i];
+    s = {rays.at(i), end_at(rays.source[i])};
+    if (!has_line(s.ray)) continue;
+    for (const std::uint32_t room : compiled_.rooms) approach(Line(s.ray), s.source, room, s.nearest);
+    const glm::dvec3 o = compiled_.local(s.ray.origin), d = s.ray.direction * compiled_.scale;
+    if (!(Box{o, o}.magnitude() < 1e6)) {
+      approach_bounded(s);
+    } else if (s.clip(compiled_)) {
+      inner.set(i, {(o + s.t0 * d) * per_scale + compiled_.centre, (s.t1 - s.t0) * d * per_scale}, s.source.owner, no_object);
+    }
+  }
+  if (inner.lanes && !compiled_.nodes.empty()) {
+    Rays16 converted;
+    unsigned lines = 0;
+    const unsigned near = HALFLIGHT_DISPATCH(isa_, convert(compiled_, inner, converted, lines));
+    Asker asker{*this, searches};
+    Entries entries[16];
+    alignas(64) float limits[16];
+    std::fill(limits, limits + 16, 1.0f);
+    HALFLIGHT_DISPATCH(isa_, first16(compiled_, converted, near, limits, entries, asker));
+    for (std::uint32_t rest = inner.lanes; rest; rest &= rest - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(rest));
+      if (near >> i & 1u)
+        decide(searches[i], entries[i], limits[i]);
+      else
+        approach_bounded(searches[i]);
+    }
+  }
+  for (std::uint32_t rest = rays.lanes; rest; rest &= rest - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(rest));
+    result.hit[i] = searches[i].nearest.hit;
+    result.met |= static_cast<std::uint32_t>(result.hit[i].object != no_object) << i;
+  }
+  return result;
+}
+
+}  // namespace raycast

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/polygon.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bundle.hpp>
+#include <raycast/compiled.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/kernels.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/shaft.hpp>
+#include <raycast/spans.hpp>
+#include <raycast/transform.hpp>
+
+namespace raycast {
+
+namespace detail {
+
+// Four points whose hull contains the contour; the contour itself if it has no more.
+HALFLIGHT_INLINE std::array<glm::dvec3, 4> four_corners(std::span<const glm::dvec3> contour) {
+  if (contour.size() <= 4) return {contour[0], contour[1], contour[2], contour[std::min<std::size_t>(3, contour.size() - 1)]};
+  const glm::dvec3 n = brep::normal(contour), u = glm::normalize(contour[1] - contour[0]), v = glm::cross(n, u);
+  double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
+  for (const glm::dvec3& p : contour) {
+    const double x = glm::dot(p - contour[0], u), y = glm::dot(p - contour[0], v);
+    u0 = std::min(u0, x), u1 = std::max(u1, x), v0 = std::min(v0, y), v1 = std::max(v1, y);
+  }
+  const auto at = [&](double x, double y) { return contour[0] + x * u + y * v; };
+  return {at(u0, v0), at(u1, v0), at(u1, v1), at(u0, v1)};
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE OccluderList Scene::occluders(const PatchShape& a, const PatchShape& b) const { return list_of(nullptr, a, b); }
+HALFLIGHT_INLINE OccluderList Scene::filter(const OccluderList& parent, const PatchShape& a, const PatchShape& b) const {
+  if (parent.blocked() || parent.clear() || !parent.known()) return parent;
+  return list_of(&parent, a, b);
+}
+
+HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const PatchShape& a, const PatchShape& b) const {
+  OccluderList list;
+  Corners16 c;
+  const std::array<glm::dvec3, 4> p = detail::four_corners(a.contour), q = detail::four_corners(b.contour);
+  float pf[3][4], qf[3][4];
+  double reach = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const glm::dvec3 o = compiled_.local(p[i]), t = compiled_.local(q[i]);
+    for (int k = 0; k < 3; ++k) {
+      pf[k][i] = static_cast<float>(o[k]), qf[k][i] = static_cast<float>(t[k]);
+      reach = std::max({reach, std::abs(o[k]), std::abs(t[k])});
+    }
+  }
+  const double bulge = std::max(a.bulge, b.bulge);
+  if (!(reach + bulge * compiled_.scale < 1.5)) return list;  // not in the compiled scene
+  c.bulge = bulge > 0.0 ? static_cast<float>(bulge * compiled_.scale) * 1.0001f + 0x1p-24f : 0.0f;
+  c.source = a.owner, c.target = b.owner;
+  HALFLIGHT_DISPATCH(isa_, spread_corners(pf, qf, c));
+  const bool faces_alone =
+      parent && parent->known() && std::all_of(parent->shapes().begin(), parent->shapes().end(), [](std::uint32_t shape) {
+        return kind_of(shape) == Kind::triangle || kind_of(shape) == Kind::quad;
+      });
+  if (!faces_alone) HALFLIGHT_DISPATCH(isa_, widen(c));  // faces are compared with the corners
+
+  // A polygon matters only if some corner lies behind its plane and another before it, by more than rounding: half the skin of
+  // scene.hpp for points that are themselves known to a fraction of it.
+  const auto touches = [&](std::uint32_t object) {
+    const Record& r = records_[object];
+    double low = infinity, high = -infinity;
+    for (const auto& contour : {p, q})
+      for (const glm::dvec3& x : contour) {
+        const double height = glm::dot(r.normal, x - r.point);
+        low = std::min(low, height), high = std::max(high, height);
+      }
+    return !(low - bulge >= -0.5 * rounding_ || high + bulge <= 0.5 * rounding_);
+  };
+  const auto skips = [&](std::uint32_t object) {
+    return objects_[object].convex() && (a.owner == b.owner || within(object, object == a.owner ? a.contour : b.contour));
+  };
+  const std::uint32_t count =
+      parent ? HALFLIGHT_DISPATCH(isa_, narrow(compiled_, c, parent->shapes_.data(), parent->count_, list.shapes_.data(), touches, skips))
+             : HALFLIGHT_DISPATCH(isa_, gather(compiled_, c, list.shapes_.data(), OccluderList::capacity, touches, skips));
+  if (count == ~0u) {
+    list.state_ = OccluderList::State::blocked;
+  } else if (count <= OccluderList::capacity) {
+    list.state_ = OccluderList::State::listed;
+    list.count_ = count;
+  }
+  list.rooms_clear_ = (parent && parent->rooms_clear_) || rooms_clear(a, b);
+  return list;
+}
+
+// Are all points on or in the convex object, as well as rounding can tell? Then so is their hull.
+HALFLIGHT_INLINE bool Scene::within(std::uint32_t object, std::span<const glm::dvec3> points) const {
+  const PlacedObject& body = objects_[object];
+  for (const glm::dvec3& p : points) {
+    const Segment inwards = between(p, body.bounds().centre());
+    if (!has_line(inwards)) continue;
+    Spans spans;
+    body.spans(inwards, spans);
+    if (spans.size() != 1 || !(spans[0].in.t * glm::length(inwards.direction) <= 0.25 * rounding_) || !(spans[0].out.t >= 0.0))
+      return false;
+  }
+  return true;
+}
+
+// A convex polyhedral room blocks nothing between patches that lie in it or on it.
+HALFLIGHT_INLINE bool Scene::rooms_clear(const PatchShape& a, const PatchShape& b) const {
+  for (std::size_t r = 0; r < compiled_.rooms.size(); ++r) {
+    const std::uint32_t room = compiled_.rooms[r];
+    if (!objects_[room].convex()) return false;
+    if (a.owner == room && b.owner == room) continue;
+    for (const PatchShape* patch : {&a, &b})
+      if (patch->owner != room &&
+          !std::all_of(patch->contour.begin(), patch->contour.end(), [&](const glm::dvec3& p) { return in_room(r, p, patch->bulge); }))
+        return false;
+  }
+  return true;
+}
+
+HALFLIGHT_INLINE std::uint32_t Scene::occluded16(const Segments16& segments, const OccluderList& list, std::uint32_t& hint) const {
+  if (list.clear()) return 0;
+  if (list.blocked()) {
+    std::uint32_t lines = 0;
+    for (unsigned i = 0; i < 16; ++i)
+      if (segments.lanes >> i & 1u) lines |= static_cast<std::uint32_t>(has_line(segments.at(i))) << i;
+    return lines;
+  }
+  return occluded16(segments, list.known() ? list.shapes_.data() : nullptr, list.count_, list.rooms_clear_, hint);
+}
+
+}  // namespace raycast
