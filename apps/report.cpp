@@ -13,6 +13,7 @@
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
+#include <radiosity/support/left_out.hpp>
 #include <radiosity/visibility/plan.hpp>
 
 namespace apps {

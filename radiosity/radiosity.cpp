@@ -15,6 +15,7 @@
 #include <radiosity/result/out_of_memory.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/own_unit.hpp>
+#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/run.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/light_unit.hpp>

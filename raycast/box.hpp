@@ -8,11 +8,15 @@
 // with a relative slack of 8u. A direction component of +-0 gives +-inf, and 0 * inf = NaN when the origin lies on the slab's plane;
 // comparisons are written so that a NaN leaves the interval as it is, which counts the plane as inside.
 
-#include <raycast/ray.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/ray.hpp>
 
 namespace raycast {
 

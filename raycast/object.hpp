@@ -29,6 +29,10 @@
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
 
+namespace brep {
+class Builder;  // brep/builder_input.hpp
+}
+
 namespace raycast {
 
 struct SurfacePoint {

@@ -7,6 +7,7 @@
 
 #include <brep/circulators.hpp>
 #include <brep/validate.hpp>
+#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/radiosity.hpp>
 
 #include "catch.hpp"

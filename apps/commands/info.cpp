@@ -20,6 +20,7 @@
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/support/left_out.hpp>
 #include <radiosity/visibility/plan.hpp>
 #include <radiosity/visibility/prepare.hpp>
 

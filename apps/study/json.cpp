@@ -8,6 +8,7 @@
 #include "apps/study/pareto.hpp"
 #include "apps/study/tables.hpp"
 
+#include <radiosity/support/left_out.hpp>
 #include <radiosity/visibility/plan.hpp>
 
 namespace study {

@@ -23,6 +23,7 @@
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/support/left_out.hpp>
 #include <radiosity/visibility/plan.hpp>
 
 #include "apps/view.hpp"

@@ -14,6 +14,7 @@
 #include "apps/study/svg.hpp"
 #include "apps/study/table.hpp"
 
+#include <radiosity/support/left_out.hpp>
 #include <radiosity/visibility/plan.hpp>
 
 namespace study {

@@ -17,6 +17,7 @@
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 

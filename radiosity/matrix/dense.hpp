@@ -59,6 +59,10 @@ struct DenseSolution {
 [[nodiscard]] DenseSolution shoot(const LeafExchange& exchange, const LeafMaterials& materials, double wanted, std::uint64_t max_shots,
                                   unsigned threads, const Control& control = {});
 
+// The radiosity of the leaves by Gauss-Seidel on the full matrix; empty when cancelled. One entry a node.
+[[nodiscard]] std::vector<Color> dense_radiosity(const LeafExchange& exchange, const LeafMaterials& materials, bool closed,
+                                                 std::size_t nodes, double residual, unsigned threads, const Control& control);
+
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY

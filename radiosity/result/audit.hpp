@@ -13,7 +13,7 @@
 
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/material.hpp>
-#include <radiosity/visibility/plan.hpp>
+#include <radiosity/support/left_out.hpp>
 
 namespace radiosity {
 

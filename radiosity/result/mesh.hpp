@@ -3,8 +3,6 @@
 
 // The result as a picture or a file wants it: positions, faces of three or four corners, a colour at every corner (the half-edge
 // colours of paper 4.5) and the radiosity of the leaf that the face belongs to.
-// Buried leaves are left out, but for those that touch an exposed one: a curved object stands in front of its chords, and what
-// shows between the two must not be a hole.
 
 #include <cstdint>
 #include <vector>
@@ -12,9 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
-#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
-#include <radiosity/visibility/exposure.hpp>
 
 namespace radiosity {
 
@@ -37,12 +33,4 @@ struct Mesh {
   std::vector<MeshFace> faces;  // counter-clockwise from the bright side
 };
 
-// Positions are in the frame.
-[[nodiscard]] Mesh make_mesh(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const Exposure& exposure,
-                             const std::vector<Color>& radiosity);
-
 }  // namespace radiosity
-
-#ifdef HALFLIGHT_HEADER_ONLY
-#include <radiosity/result/mesh.cpp>
-#endif

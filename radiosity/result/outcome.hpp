@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a run gives back, and the times of its stages.
+// What a run gives back.
 
-#include <chrono>
-#include <ctime>
 #include <optional>
 #include <string>
 #include <utility>
@@ -49,32 +47,8 @@ struct Outcome {
 
 namespace detail {
 
-// Measures the wall and CPU time of stages that follow one another, and the memory at their ends.
-class Stopwatch {
- public:
-  explicit Stopwatch(std::vector<StageTime>& stages) : stages_{&stages} {}
-
-  // Ends the stage that began with the last call (or the construction).
-  void lap(std::string name);
-
- private:
-  std::vector<StageTime>* stages_;
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-  std::clock_t cpu_ = std::clock();
-};
-
-// Adds the times of one round to those of the rounds before it, stage by stage.
-void add_times(std::vector<StageTime>& total, const std::vector<StageTime>& round);
-
-// The total, of which neither the audit nor a comparison is a part.
-void sum_times(Audit& audit);
-
 inline Outcome failed(Failure::Kind kind, std::vector<std::string> sentences) { return {std::nullopt, {kind, std::move(sentences)}}; }
 
 }  // namespace detail
 
 }  // namespace radiosity
-
-#ifdef HALFLIGHT_HEADER_ONLY
-#include <radiosity/result/outcome.cpp>
-#endif

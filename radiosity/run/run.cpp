@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/matrix/dense.hpp>
+#include <radiosity/picture/make_mesh.hpp>
+#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/run.hpp>
 
 #include <algorithm>

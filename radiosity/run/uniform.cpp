@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/picture/make_mesh.hpp>
+#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/uniform.hpp>
 
 #include <cstddef>

@@ -13,6 +13,10 @@
 
 #include <radiosity/scene/scene.hpp>
 
+namespace raycast {
+class Scene;  // raycast/scene.hpp
+}
+
 namespace radiosity {
 
 struct Frame {

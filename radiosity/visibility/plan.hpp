@@ -15,15 +15,9 @@
 
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/support/left_out.hpp>
 
 namespace radiosity {
-
-struct LeftOut {
-  std::string what;
-  std::string why;
-  std::string saved;
-  double seconds = 0.0;  // of CPU time that were saved, about; 0: not known
-};
 
 // A closed scene with a reflectance above 1 - 1 / most_bounces is not path-traced: it would take too long, and to end paths earlier
 // would make their variance infinite. In a scene not proven closed paths leave; those that do not are ended at this length

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>

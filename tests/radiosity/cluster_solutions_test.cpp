@@ -7,6 +7,7 @@
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/support/left_out.hpp>
 #include <radiosity/visibility/plan.hpp>
 
 #include "catch.hpp"

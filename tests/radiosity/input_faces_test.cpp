@@ -13,6 +13,7 @@
 #include "catch.hpp"
 #include "scenes.hpp"
 
+#include <radiosity/exchange/exchange.hpp>
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
@@ -30,6 +31,7 @@
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 #include <radiosity/visibility/prepare.hpp>
+#include <radiosity/visibility/visibility.hpp>
 
 using radiosity::Color;
 using radiosity::Node;

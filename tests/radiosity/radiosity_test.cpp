@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>

@@ -6,6 +6,7 @@
 
 #include <raycast/objects/sphere.hpp>
 
+#include <radiosity/exchange/exchange.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/radiosity.hpp>

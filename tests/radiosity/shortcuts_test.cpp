@@ -10,6 +10,7 @@
 #include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/sphere.hpp>
 
+#include <radiosity/exchange/exchange.hpp>
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/radiosity.hpp>

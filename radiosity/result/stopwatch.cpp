@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/result/mesh.hpp>
+#include <radiosity/picture/make_mesh.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +17,7 @@
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/visibility/exposure.hpp>
