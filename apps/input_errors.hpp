@@ -40,7 +40,9 @@ struct ErrorReport {
 [[nodiscard]] inline std::string to_text(const ErrorReport& report, std::string_view name) {
   std::string text;
   for (const auto& [place, sentence] : report.errors) {
-    text.append(name).append(place.line == 0 ? ":byte " : ":" + std::to_string(place.line) + ":").append(std::to_string(place.column));
+    text.append(name).append(place.line == 0 ? ":byte " : ":");
+    if (place.line > 0) { text.append(std::to_string(place.line)).append(":"); }
+    text.append(std::to_string(place.column));
     text.append(": error: ").append(sentence).append("\n");
   }
   if (report.more_errors) {
