@@ -24,14 +24,14 @@
 
 namespace raycast {
 
-HALFLIGHT_INLINE void Compiler::ball(const glm::dvec3& centre, double radius) {
+HALFLIGHT_INLINE void Compiler::sphere(const glm::dvec3& centre, double radius) {
   if (object_->inside()) return;
   if (!similar_) return superquadric(centre, glm::dmat3(1.0 / radius), 2.0, 2.0, 0.0);  // an ellipsoid
   const glm::dvec3 c = map(centre);
   const double r = radius * stretch_ * out_.scale;
   Box box{c - r, c + r};
-  add(box, Kind::ball, static_cast<std::uint32_t>(balls_.size()));
-  balls_.push_back({static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z), static_cast<float>(r)});
+  add(box, Kind::sphere, static_cast<std::uint32_t>(spheres_.size()));
+  spheres_.push_back({static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z), static_cast<float>(r)});
 }
 
 HALFLIGHT_INLINE void Compiler::cylinder(const glm::dvec3& base, const AxisFrame& frame, double radius, double height) {
@@ -39,10 +39,10 @@ HALFLIGHT_INLINE void Compiler::cylinder(const glm::dvec3& base, const AxisFrame
   if (!similar_) return cone(base, frame.into(radius, height), 1.0, 0.0);
   const glm::dvec3 axis = height * frame.w;
   const glm::dvec3 b = map(base), w = object_->placement().linear * axis * out_.scale, unit = glm::normalize(w);
-  Tube tube{{}, {}, static_cast<float>(glm::length(w)), static_cast<float>(radius * stretch_ * out_.scale), index_};
-  for (int k = 0; k < 3; ++k) tube.base[k] = static_cast<float>(b[k]), tube.axis[k] = static_cast<float>(unit[k]);
-  add_object_box(Kind::cylinder, static_cast<std::uint32_t>(tubes_.size()));
-  tubes_.push_back(tube);
+  CylinderShape cylinder{{}, {}, static_cast<float>(glm::length(w)), static_cast<float>(radius * stretch_ * out_.scale), index_};
+  for (int k = 0; k < 3; ++k) cylinder.base[k] = static_cast<float>(b[k]), cylinder.axis[k] = static_cast<float>(unit[k]);
+  add_object_box(Kind::cylinder, static_cast<std::uint32_t>(cylinders_.size()));
+  cylinders_.push_back(cylinder);
 }
 
 HALFLIGHT_INLINE void Compiler::superquadric(const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring) {
@@ -197,24 +197,24 @@ HALFLIGHT_INLINE std::uint32_t Compiler::emit(Kind kind, std::span<const Item> i
       return emit_faces(out_.triangles, items);
     case Kind::quad:
       return emit_faces(out_.quads, items);
-    case Kind::ball: {
-      BallBlock block{};
+    case Kind::sphere: {
+      SphereBlock block{};
       for (std::size_t i = 0; i < 8; ++i) {
         block.object[i] = no_object_id;
         block.radius[i] = -1.0f;
         for (std::size_t k = 0; k < 3; ++k) block.centre[k][i] = 8.0f;
         if (i >= items.size()) continue;
-        for (std::size_t k = 0; k < 3; ++k) block.centre[k][i] = balls_[items[i].data][k];
-        block.radius[i] = balls_[items[i].data][3];
+        for (std::size_t k = 0; k < 3; ++k) block.centre[k][i] = spheres_[items[i].data][k];
+        block.radius[i] = spheres_[items[i].data][3];
         block.object[i] = items[i].object;
       }
-      out_.balls.push_back(block);
-      return 8 * static_cast<std::uint32_t>(out_.balls.size() - 1);
+      out_.spheres.push_back(block);
+      return 8 * static_cast<std::uint32_t>(out_.spheres.size() - 1);
     }
     case Kind::body:
       return append(out_.bodies, [&](const Item& item) { return bodies_[item.data]; });
     case Kind::cylinder:
-      return append(out_.tubes, [&](const Item& item) { return tubes_[item.data]; });
+      return append(out_.cylinders, [&](const Item& item) { return cylinders_[item.data]; });
     case Kind::form:
       return append(out_.forms, [&](const Item& item) { return forms_[item.data]; });
     case Kind::guard:

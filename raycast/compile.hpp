@@ -32,7 +32,7 @@ class Compiler {
  public:
   // --- What Object::compile may call. Only one kind per object. ---
 
-  void ball(const glm::dvec3& centre, double radius);
+  void sphere(const glm::dvec3& centre, double radius);
   void cylinder(const glm::dvec3& base, const AxisFrame& frame, double radius, double height);
   // |x, y| <= 1, z = 0 where x, y, z are unit (p - centre).
   void disk(const glm::dvec3& centre, const glm::dmat3& unit) { form(FormKind::disk, centre, unit, 0.0, 0.0, 0.0, 0.0); }
@@ -101,9 +101,9 @@ class Compiler {
   Compiled& out_;
   std::vector<Item> items_;
   std::vector<Face> faces_;
-  std::vector<std::array<float, 4>> balls_;
+  std::vector<std::array<float, 4>> spheres_;
   std::vector<Body> bodies_;
-  std::vector<Tube> tubes_;
+  std::vector<CylinderShape> cylinders_;
   std::vector<Form> forms_;
   std::vector<glm::dvec3> world_;
   std::uint32_t face_count_ = 0;

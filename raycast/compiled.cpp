@@ -15,12 +15,12 @@ HALFLIGHT_INLINE std::uint32_t Compiled::object_of(std::uint32_t shape) const {
       return triangles[i / 8].object[i % 8];
     case Kind::quad:
       return quads[i / 8].object[i % 8];
-    case Kind::ball:
-      return balls[i / 8].object[i % 8];
+    case Kind::sphere:
+      return spheres[i / 8].object[i % 8];
     case Kind::body:
       return bodies[i].object;
     case Kind::cylinder:
-      return tubes[i].object;
+      return cylinders[i].object;
     case Kind::guard:
       return guards[i];
     case Kind::form:
@@ -32,8 +32,8 @@ HALFLIGHT_INLINE std::uint32_t Compiled::object_of(std::uint32_t shape) const {
 
 HALFLIGHT_INLINE std::size_t Compiled::bytes() const {
   return nodes.capacity() * sizeof(Node) + triangles.capacity() * sizeof(FaceBlock<3>) + quads.capacity() * sizeof(FaceBlock<4>) +
-         balls.capacity() * sizeof(BallBlock) + bodies.capacity() * sizeof(Body) + planes.capacity() * 16 +
-         tubes.capacity() * sizeof(Tube) + forms.capacity() * sizeof(Form) +
+         spheres.capacity() * sizeof(SphereBlock) + bodies.capacity() * sizeof(Body) + planes.capacity() * 16 +
+         cylinders.capacity() * sizeof(CylinderShape) + forms.capacity() * sizeof(Form) +
          (guards.capacity() + others.capacity() + leaves.capacity() + rooms.capacity() + room_bodies.capacity()) * sizeof(std::uint32_t) +
          roles.capacity() + bounds.capacity() * sizeof(FloatBox);
 }

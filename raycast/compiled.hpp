@@ -25,7 +25,7 @@ namespace raycast {
 
 // The kinds of shapes. faces: convex polygons of three or four corners; body: a convex solid behind planes; guard: the bounds of an object
 // that is kept as faces; form: a shape with a formula in coordinates of its own; other: bounds of an object that is asked through its spans.
-enum class Kind : std::uint32_t { triangle, quad, ball, body, cylinder, guard, other, form };
+enum class Kind : std::uint32_t { triangle, quad, sphere, body, cylinder, guard, other, form };
 
 // A shape's name: its kind and its index among its kind.
 [[nodiscard]] constexpr std::uint32_t shape_id(Kind kind, std::uint32_t index) { return static_cast<std::uint32_t>(kind) << 29 | index; }
@@ -39,14 +39,14 @@ struct alignas(64) FaceBlock {
   float row[Edges + 1][4][8];
   std::uint32_t object[8], face[8];  // of an unused place: no_object, and heights of 1 everywhere, which nothing crosses
 };
-struct alignas(64) BallBlock {
+struct alignas(64) SphereBlock {
   float centre[3][8], radius[8];
   std::uint32_t object[8];
 };
 struct Body {
   std::uint32_t first, count, object;  // planes: heights outside
 };
-struct Tube {  // a cylinder
+struct CylinderShape {
   float base[3], axis[3], height, radius;
   std::uint32_t object;
 };
@@ -99,10 +99,10 @@ struct Compiled {
   std::vector<Node> nodes;  // the first is the root; none without shapes
   std::vector<FaceBlock<3>> triangles;
   std::vector<FaceBlock<4>> quads;
-  std::vector<BallBlock> balls;
+  std::vector<SphereBlock> spheres;
   std::vector<Body> bodies;
   std::vector<std::array<float, 4>> planes;
-  std::vector<Tube> tubes;
+  std::vector<CylinderShape> cylinders;
   std::vector<Form> forms;
   std::vector<std::uint32_t> guards, others;  // objects
   std::vector<std::uint32_t> leaves;  // of a scene of few shapes, where occlusion is a loop over them: all leaves, with shapes of their own

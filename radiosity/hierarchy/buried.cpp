@@ -153,7 +153,7 @@ class ConvexSolids {
   [[nodiscard]] static bool around(const raycast::Box& outer, const raycast::Box& box) {
     return glm::all(glm::lessThanEqual(outer.lo, box.lo)) && glm::all(glm::lessThanEqual(box.hi, outer.hi));
   }
-  // A ball of this radius lies within the octahedron of sqrt 3 times the size; all that lies between such octahedra lies in the solid.
+  // A sphere of this radius lies within the octahedron of sqrt 3 times the size; all that lies between such octahedra lies in the solid.
   [[nodiscard]] static bool holds(const raycast::PlacedObject& solid, const Polygon& points, double margin) {
     const glm::dvec3 centre = solid.bounds().centre();
     const auto inside = [&](const glm::dvec3& p) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The ball around a centre; one sheet.
+// The sphere around a centre; one sheet.
 //
 // Intersection: the origin is moved to the point l of the line nearest to the centre; then r^2 - |l|^2 = (r - |l|)(r + |l|) has no
 // cancellation in terms of the distance. With D the distance of the origin from the centre, the crossings are known to 32 u D
@@ -39,7 +39,7 @@ class Sphere final : public Object {
 
   void spans(const Segment& line, Spans& out) const override;
 
-  void compile(Compiler& compiler) const override { compiler.ball(centre_, radius_); }
+  void compile(Compiler& compiler) const override { compiler.sphere(centre_, radius_); }
 
   [[nodiscard]] SurfacePoint project(std::uint32_t, const glm::dvec3& p) const override;
 
