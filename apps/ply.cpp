@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "apps/color.hpp"
-#include "apps/mesh_file/ply_bytes.hpp"
-
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/scene.hpp>
+
+#include "apps/color.hpp"
+#include "apps/mesh_file/ply_bytes.hpp"
 
 namespace apps {
 namespace {

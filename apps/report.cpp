@@ -5,16 +5,15 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/facts.hpp"
-#include "apps/text.hpp"
-#include "apps/version.hpp"
-
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/support/left_out.hpp>
-#include <radiosity/visibility/plan.hpp>
+
+#include "apps/facts.hpp"
+#include "apps/text.hpp"
+#include "apps/version.hpp"
 
 namespace apps {
 namespace {

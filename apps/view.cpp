@@ -6,11 +6,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "apps/bounds.hpp"
-
 #include <raycast/box.hpp>
 
 #include <radiosity/scene/scene.hpp>
+
+#include "apps/bounds.hpp"
 
 namespace apps {
 

@@ -9,17 +9,17 @@
 #include <initializer_list>
 #include <memory>
 
-#include "apps/commands/command.hpp"
-#include "apps/commands/common.hpp"
-#include "apps/json.hpp"
-#include "apps/text.hpp"
-
 #include <radiosity/factors/factor_integral.hpp>
 #include <radiosity/factors/factor_run.hpp>
 #include <radiosity/factors/factors.hpp>
 #include <radiosity/factors/total_exchange.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
+
+#include "apps/commands/command.hpp"
+#include "apps/commands/common.hpp"
+#include "apps/json.hpp"
+#include "apps/text.hpp"
 
 namespace apps {
 namespace {

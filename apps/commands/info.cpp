@@ -5,11 +5,6 @@
 #include <memory>
 #include <string_view>
 
-#include "apps/bounds.hpp"
-#include "apps/commands/command.hpp"
-#include "apps/commands/common.hpp"
-#include "apps/text.hpp"
-
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
@@ -23,6 +18,11 @@
 #include <radiosity/support/left_out.hpp>
 #include <radiosity/visibility/plan.hpp>
 #include <radiosity/visibility/prepare.hpp>
+
+#include "apps/bounds.hpp"
+#include "apps/commands/command.hpp"
+#include "apps/commands/common.hpp"
+#include "apps/text.hpp"
 
 namespace apps {
 namespace {

@@ -9,14 +9,6 @@
 #include <memory>
 #include <utility>
 
-#include "apps/commands/command.hpp"
-#include "apps/commands/common.hpp"
-#include "apps/commands/render_outputs.hpp"
-#include "apps/interrupt.hpp"
-#include "apps/memory.hpp"
-#include "apps/progress.hpp"
-#include "apps/text.hpp"
-
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/error_estimate.hpp>
@@ -25,6 +17,14 @@
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/support/memory.hpp>
+
+#include "apps/commands/command.hpp"
+#include "apps/commands/common.hpp"
+#include "apps/commands/render_outputs.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/memory.hpp"
+#include "apps/progress.hpp"
+#include "apps/text.hpp"
 
 namespace apps {
 namespace {

@@ -5,12 +5,6 @@
 #include <ctime>
 #include <utility>
 
-#include "apps/audited_picture.hpp"
-#include "apps/memory.hpp"
-#include "apps/ply.hpp"
-#include "apps/png.hpp"
-#include "apps/raycast_picture.hpp"
-
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/audit/picture_error.hpp>
 #include <radiosity/picture/lookup.hpp>
@@ -22,6 +16,12 @@
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/memory.hpp>
+
+#include "apps/audited_picture.hpp"
+#include "apps/memory.hpp"
+#include "apps/ply.hpp"
+#include "apps/png.hpp"
+#include "apps/raycast_picture.hpp"
 
 namespace apps {
 namespace {

@@ -10,6 +10,8 @@
 #include <thread>
 #include <utility>
 
+#include <radiosity/scene/options.hpp>
+
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/interrupt.hpp"
@@ -22,8 +24,6 @@
 #include "apps/text.hpp"
 #include "apps/version.hpp"
 #include "apps/view.hpp"
-
-#include <radiosity/scene/options.hpp>
 
 namespace apps {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "apps/euler/html.hpp"
 
+#include <brep/euler_script_run.hpp>
+#include <brep/handles.hpp>
+#include <brep/validate_explain.hpp>
+
 #include "apps/euler/html_page.hpp"
 #include "apps/euler/svg.hpp"
 #include "apps/json.hpp"
 #include "apps/markup.hpp"
-
-#include <brep/euler_script_run.hpp>
-#include <brep/handles.hpp>
-#include <brep/validate_explain.hpp>
 
 namespace apps::euler {
 namespace {

@@ -11,9 +11,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "apps/euler/labels.hpp"
-
 #include <brep/handles.hpp>
+
+#include "apps/euler/labels.hpp"
 
 namespace apps::euler {
 namespace {

@@ -10,11 +10,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "apps/markup.hpp"
-
 #include <brep/euler_script_run.hpp>
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
+
+#include "apps/markup.hpp"
 
 namespace apps::euler {
 namespace {

@@ -5,10 +5,10 @@
 #include <array>
 #include <cctype>
 
+#include <brep/builder_input.hpp>
+
 #include "apps/mesh_file/reading.hpp"
 #include "apps/scene_file/words.hpp"
-
-#include <brep/builder_input.hpp>
 
 namespace apps {
 namespace mesh_file {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <map>
 
-#include "apps/mesh_file/reading.hpp"
-
 #include <brep/builder_input.hpp>
+
+#include "apps/mesh_file/reading.hpp"
 
 namespace apps::mesh_file {
 namespace {

@@ -8,10 +8,10 @@
 #include <cstring>
 #include <type_traits>
 
+#include <brep/builder_input.hpp>
+
 #include "apps/mesh_file/ply_bytes.hpp"
 #include "apps/mesh_file/reading.hpp"
-
-#include <brep/builder_input.hpp>
 
 namespace apps::mesh_file {
 namespace {

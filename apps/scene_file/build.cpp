@@ -12,13 +12,13 @@
 
 #include <glm/geometric.hpp>
 
+#include <raycast/object.hpp>
+#include <raycast/transform.hpp>
+
 #include "apps/bounds.hpp"
 #include "apps/scene_file/csg.hpp"
 #include "apps/scene_file/groups.hpp"
 #include "apps/scene_file/words.hpp"
-
-#include <raycast/object.hpp>
-#include <raycast/transform.hpp>
 
 namespace apps::scene_file {
 namespace {

@@ -8,12 +8,12 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "apps/scene_file/parser.hpp"
-#include "apps/scene_file/words.hpp"
-
 #include <raycast/transform.hpp>
 
 #include <radiosity/scene/material.hpp>
+
+#include "apps/scene_file/parser.hpp"
+#include "apps/scene_file/words.hpp"
 
 namespace apps::scene_file {
 namespace {

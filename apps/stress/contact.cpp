@@ -4,15 +4,15 @@
 #include <raycast/objects/mesh.hpp>
 #include <raycast/objects/sphere.hpp>
 
-#include "apps/stress/case.hpp"
-#include "apps/stress/measures.hpp"
-#include "apps/stress/scenes.hpp"
-
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
+
+#include "apps/stress/case.hpp"
+#include "apps/stress/measures.hpp"
+#include "apps/stress/scenes.hpp"
 
 namespace apps::stress {
 namespace {

@@ -8,16 +8,16 @@
 #include <raycast/objects/superquadric.hpp>
 #include <raycast/objects/torus.hpp>
 
-#include "apps/stress/case.hpp"
-#include "apps/stress/measures.hpp"
-#include "apps/stress/scenes.hpp"
-
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
+
+#include "apps/stress/case.hpp"
+#include "apps/stress/measures.hpp"
+#include "apps/stress/scenes.hpp"
 
 namespace apps::stress {
 namespace {

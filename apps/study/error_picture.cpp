@@ -12,11 +12,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "apps/png.hpp"
-#include "apps/study/numbers.hpp"
-
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
+
+#include "apps/png.hpp"
+#include "apps/study/numbers.hpp"
 
 namespace study {
 namespace {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <utility>
 
+#include <radiosity/support/left_out.hpp>
+#include <radiosity/visibility/plan.hpp>
+
 #include "apps/study/outcome.hpp"
 #include "apps/study/pareto.hpp"
 #include "apps/study/tables.hpp"
-
-#include <radiosity/support/left_out.hpp>
-#include <radiosity/visibility/plan.hpp>
 
 namespace study {
 namespace {

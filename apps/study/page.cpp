@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include <radiosity/support/left_out.hpp>
+#include <radiosity/visibility/plan.hpp>
+
 #include "apps/markup.hpp"
 #include "apps/png.hpp"
 #include "apps/study/base64.hpp"
@@ -13,9 +16,6 @@
 #include "apps/study/page_style.hpp"
 #include "apps/study/svg.hpp"
 #include "apps/study/table.hpp"
-
-#include <radiosity/support/left_out.hpp>
-#include <radiosity/visibility/plan.hpp>
 
 namespace study {
 namespace {
