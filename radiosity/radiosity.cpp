@@ -15,7 +15,7 @@
 #include <radiosity/result/out_of_memory.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/own_unit.hpp>
-#include <radiosity/run/run.hpp>
+#include <radiosity/run/solve_at.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/light_unit.hpp>
 #include <radiosity/scene/options.hpp>

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <raycast/inline.hpp>
-#include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 #include <raycast/transform.hpp>
 
@@ -17,9 +16,9 @@
 #include <radiosity/oracle/light_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/oracle/pair_oracle.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
 #include <radiosity/support/memory.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 #include <radiosity/visibility/plan.hpp>
@@ -31,15 +30,15 @@ namespace detail {
 
 // Where refinement begins: with the pair of the root cluster with itself, or all pairs of input faces. In `inner` the input faces whose own
 // parts may face each other.
-HALFLIGHT_INLINE void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const Plan& plan,
-                                  const PairOracle& oracle, std::vector<Pair>& pairs, RefineResult& result) {
+HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const PairOracle& oracle, std::vector<Pair>& pairs, RefineResult& result) {
+  const Hierarchy& hierarchy = scene.hierarchy;
   const auto count = static_cast<std::uint32_t>(hierarchy.size());
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!is_input_face(hierarchy, i) || oracle.buried(i)) { continue; }
-    const raycast::PlacedObject& object = *surfaces[hierarchy[i].object].object;
+    const raycast::PlacedObject& object = *scene.surfaces[hierarchy[i].object].object;
     if ((object.inside() || !object.convex()) && !object.flat()) { result.inner.push_back(i); }
   }
-  if (count > 0 && hierarchy[0].is_cluster()) {
+  if (scene.clustered()) {
     pairs.push_back({0, 0});
     return;
   }
@@ -49,7 +48,7 @@ HALFLIGHT_INLINE void first_pairs(const std::vector<Surface>& surfaces, const Hi
       if (!is_input_face(hierarchy, q)) { continue; }
       if (!oracle.convex(hierarchy[p], hierarchy[q])) {
         pairs.push_back({p, q});
-      } else if (plan.shortcuts || hierarchy[p].deviation > 0.0 || hierarchy[q].deviation > 0.0) {
+      } else if (scene.plan.shortcuts || hierarchy[p].deviation > 0.0 || hierarchy[q].deviation > 0.0) {
         ++result.pairs_convex;
       } else {
         result.links.push_back({p, q});
@@ -60,14 +59,13 @@ HALFLIGHT_INLINE void first_pairs(const std::vector<Surface>& surfaces, const Hi
 }
 
 // Which roots send light: those that emit, and those that reflect and are reached, over pairs that may be linked, from one that sends.
-HALFLIGHT_INLINE std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& roots, const std::vector<Pair>& pairs,
+HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, const std::vector<Pair>& pairs,
                                                  const std::vector<Decision>& decisions) {
+  const Hierarchy& roots = scene.hierarchy;
   std::vector<bool> sends(roots.size(), false), reflects(roots.size(), false);
-  const std::vector<InputSurface> inputs = radiosity::surfaces(scene);
   for (std::size_t i = 0; i < roots.size(); ++i) {
-    const Material& material = scene.materials[inputs[roots[i].surface].material];
-    sends[i] = !is_black(material.emission);
-    reflects[i] = !is_black(material.reflectance);
+    sends[i] = !is_black(scene.emission[roots[i].surface]);
+    reflects[i] = !is_black(scene.reflectance[roots[i].surface]);
   }
   for (bool grew = true; grew;) {
     grew = false;
@@ -83,18 +81,20 @@ HALFLIGHT_INLINE std::vector<bool> sending_roots(const Scene& scene, const Hiera
 
 }  // namespace detail
 
-HALFLIGHT_INLINE RefineResult refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan, std::vector<Surface>& surfaces,
-                                     Hierarchy& hierarchy, Patches& patches, double epsilon, double min_area, double light_epsilon,
-                                     unsigned threads, std::uint64_t seed, const Control& control, const MemoryBudget& budget) {
+HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& fineness) {
+  const Plan& plan = scene.plan;
+  const Control& control = scene.control;
+  Hierarchy& hierarchy = scene.hierarchy;
   RefineResult result;
-  const PairOracle oracle{surfaces, hierarchy};
-  const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), light_epsilon, seed, oracle.buried()};
-  min_area *= light.scene_area();
-  const double finer = std::min(1.0, light_epsilon / (0.25 * epsilon));
+  const PairOracle oracle{scene.surfaces, hierarchy};
+  const LightOracle light{scene.input,    scene.objects,          plan,       scene.patches,  hierarchy,
+                          oracle.shown(), fineness.light_epsilon, scene.seed, oracle.buried()};
+  const double min_area = fineness.min_area * light.scene_area();
+  const double finer = std::min(1.0, fineness.light_epsilon / (0.25 * fineness.epsilon));
   const double light_min_area = 0.25 * min_area * finer * finer;
   std::vector<RayCount> rays;
 
-  const bool clustered = !hierarchy.empty() && hierarchy[0].is_cluster();
+  const bool clustered = scene.clustered();
   if (!clustered && hierarchy.size() * hierarchy.size() / 2 > link_limit) {
     result.too_many = hierarchy.size() * hierarchy.size() / 2;
     return result;
@@ -102,13 +102,13 @@ HALFLIGHT_INLINE RefineResult refine(const Scene& scene, const raycast::Scene& o
   // Whether so many may be made; if not, the result says what they would need.
   const auto fits = [&](std::uint64_t nodes, std::uint64_t links, std::uint64_t open) {
     const MemoryBudget::Counts counts{nodes, links, open, result.occluders.bytes()};
-    if (!budget.allows(counts)) { result.too_large = budget.peak(counts); }
+    if (!scene.budget.allows(counts)) { result.too_large = scene.budget.peak(counts); }
     return result.too_large == 0;
   };
   if (!fits(hierarchy.size(), 0, clustered ? 1 : hierarchy.size() * hierarchy.size() / 2)) { return result; }
   std::vector<detail::Pair> pairs;
   std::vector<std::uint32_t>& inner = result.inner;
-  detail::first_pairs(surfaces, hierarchy, plan, oracle, pairs, result);
+  detail::first_pairs(scene, oracle, pairs, result);
 
   std::vector<bool> stuck;  // leaves that the BRep refused to split
   while (!pairs.empty()) {
@@ -120,13 +120,13 @@ HALFLIGHT_INLINE RefineResult refine(const Scene& scene, const raycast::Scene& o
       result.too_many = result.links.size() + pairs.size();
       return result;
     }
-    patches.extend(threads);
+    scene.patches.extend(scene.threads);
     rays.assign(pairs.size(), {});
     std::vector<Decision> decisions = detail::decide(
-        pairs, objects, plan, patches, result, threads, [&](std::uint32_t p, std::uint32_t q) { return oracle(p, q, epsilon, min_area); },
+        scene, pairs, result, [&](std::uint32_t p, std::uint32_t q) { return oracle(p, q, fineness.epsilon, min_area); },
         [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
           const auto [p, q, index] = pairs[i];
-          if (decision != Decision::link || !(light_epsilon > 0.0)) { return; }
+          if (decision != Decision::link || !(fineness.light_epsilon > 0.0)) { return; }
           const std::uint32_t split = light.wants_split(p, q, list, rays[i]);
           if (split != no_node && hierarchy[split].area > light_min_area) { decision = split == p ? Decision::split_p : Decision::split_q; }
         });
@@ -134,7 +134,7 @@ HALFLIGHT_INLINE RefineResult refine(const Scene& scene, const raycast::Scene& o
 
     // No light passes between two that send none. A closed scene keeps such pairs, for its row sums.
     if (result.generations == 0 && !plan.closed && !clustered) {
-      const std::vector<bool> sends = detail::sending_roots(scene, hierarchy, pairs, decisions);
+      const std::vector<bool> sends = detail::sending_roots(scene, pairs, decisions);
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         if (sends[pairs[i].p] || sends[pairs[i].q] || decisions[i] < first_seeing) { continue; }
         result.pairs_dark += plan.shortcuts ? 1 : 0;
@@ -155,7 +155,7 @@ HALFLIGHT_INLINE RefineResult refine(const Scene& scene, const raycast::Scene& o
     for (std::uint32_t i = 0; i < before; ++i) { nodes += asked[i] && hierarchy[i].leaf() ? hierarchy[i].corners : 0; }
     if (!fits(nodes, result.links.size(), pairs.size())) { return result; }
     for (std::uint32_t i = 0; i < before; ++i) {
-      if (asked[i] && hierarchy[i].leaf() && !subdivide(surfaces, hierarchy, i)) { stuck[i] = true; }
+      if (asked[i] && hierarchy[i].leaf() && !subdivide(scene.surfaces, hierarchy, i)) { stuck[i] = true; }
     }
 
     std::uint64_t linked = 0, opened = 0;  // links that are made now, pairs that the next generation will have
@@ -216,7 +216,7 @@ HALFLIGHT_INLINE RefineResult refine(const Scene& scene, const raycast::Scene& o
     inner = std::move(still_inner);
     pairs = std::move(next);
     ++result.generations;
-    if (control.after_generation) { control.after_generation(surfaces); }
+    if (control.after_generation) { control.after_generation(scene.surfaces); }
     control.report("refine", pairs.empty() ? 1.0 : 1.0 - 1.0 / (1.0 + result.generations));
   }
   return result;
