@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <utility>
 
@@ -20,7 +21,7 @@ namespace radiosity {
 
 namespace detail {
 
-// One run at a given fineness (paper 4). `budget`: its limits are set; what is fixed becomes known here.
+// One run at a given fineness. `budget`: its limits are set; what the run takes anyhow becomes known later.
 HALFLIGHT_INLINE Outcome solve_at(const Scene& scene, const Options& options, const Control& control, const MemoryBudget& budget) {
   Run run{scene, options, control, budget};
   for (const auto next : {stage::build, stage::refine, stage::expose, stage::link, stage::solve, stage::compare_matrix, stage::reconstruct,
