@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which links and leaves a generation of BF-refinement splits: those with the largest errors, until those of the rest would meet the target,
-// as far as time, memory and the limit of links allow.
+// Which links and leaves a generation of BF-refinement splits: those with the largest errors, until those of the rest would meet the
+// target, as far as time, memory and the limit of links allow.
 
 #include <optional>
 

@@ -79,10 +79,9 @@ HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
   if (scene.plan.closed) { (void)transport.close(10.0, 1e-3); }
   const ColorSolution light = solve_channels(scene.hierarchy, transport, scene.exposure.area, scene.reflectance, scene.emission,
                                              scene.plan.channels, Solver::conjugate_gradients, 1e-3, 40);
-  LeafErrors leaves = estimate_leaf_errors(scene.hierarchy, scene.patches, scene.exposure, links, scene.reflectance, light.radiosity);
+  LeafErrors leaves = estimate_leaf_errors(scene, links, light.radiosity);
   BfErrors errors;
-  errors.links = estimate_link_errors(std::nullopt, leaves.alike(), scene.hierarchy, scene.exposure, links, state.shapes, scene.reflectance,
-                                      scene.emission, light.radiosity);
+  errors.links = estimate_link_errors(std::nullopt, leaves.alike(), scene, links, state.shapes, light.radiosity);
   errors.links.of_leaves = leaves.sum;
   errors.leaves = std::move(leaves.squares);
   for (float& e : errors.leaves) { e *= static_cast<float>(leaf_part * leaf_part); }

@@ -53,8 +53,8 @@ class Deadline {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// The estimated relative error, with `leaf_part` of the variation over leaves (leaf_error.hpp), is to be at most `target`, or, with a limit,
-// as small as the deadline allows.
+// The estimated relative error, with `leaf_part` of the variation over leaves (leaf_error.hpp), is to be at most `target`, or, with a
+// limit, as small as the deadline allows.
 struct BfGoal {
   double target = 0.0;
   double leaf_part = 1.0;

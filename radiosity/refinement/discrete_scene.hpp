@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A scene as a run cuts it up: the prepared scene, the hierarchy over its surfaces, and for each node of the hierarchy its patch and what of
-// it is exposed. Refinement lets it grow; everything after refinement reads it.
+// A scene as a run cuts it up: the prepared scene, the hierarchy over its surfaces, and for each node of the hierarchy its patch and what
+// of it is exposed. Refinement lets it grow; everything after refinement reads it.
 
 #include <cstdint>
 #include <vector>

@@ -67,15 +67,12 @@ HALFLIGHT_INLINE void estimate_error(Run& run) {
   const Solution& solution = run.solution;
   Audit& audit = run.solution.audit;
   if (run.f_refined() && run.options.audit_points > 0) {
-    const ErrorEstimation errors =
-        sampled_estimate(scene.evaluator, scene.hierarchy, scene.patches, scene.exposure, solution.links, scene.reflectance, scene.emission,
-                         solution.radiosity, run.evaluated.doubt, scene.threads);
+    const ErrorEstimation errors = sampled_estimate(scene, solution.links, solution.radiosity, run.evaluated.doubt);
     audit.estimated_error = errors.relative(leaf_part(run.options.reconstruction));
     audit.estimated_leaf_error = errors.relative(1.0);
   }
   if (audit.estimated_error) {
-    audit.estimate_doubt = estimate_doubt(scene.hierarchy, scene.exposure, *run.transport, scene.reflectance, scene.emission,
-                                          solution.radiosity, run.unseen, audit.closure.has_value());
+    audit.estimate_doubt = estimate_doubt(scene, *run.transport, solution.radiosity, run.unseen, audit.closure.has_value());
   }
 }
 

@@ -153,8 +153,8 @@ HALFLIGHT_INLINE Outcome solve_uniform_in_unit(const Scene& scene, const Uniform
   std::optional<Failure> failure = build_evenly(run, options);
   if (failure) { return ended(failure); }
   const DiscreteScene& cut = run.scene;
-  const LeafExchange exchange{cut.objects, cut.plan, cut.surfaces, cut.hierarchy, cut.patches, cut.exposure, cut.evaluator};
-  const LeafMaterials leaves = leaf_materials(exchange, cut.hierarchy, cut.reflectance, cut.emission);
+  const LeafExchange exchange{cut};
+  const LeafMaterials leaves = leaf_materials(exchange, cut);
   failure = check_size(run, options, exchange);
   if (!failure) { failure = solve_leaves(run, options, exchange, leaves); }
   if (!failure) { failure = compare_leaves(run, options, exchange, leaves); }
