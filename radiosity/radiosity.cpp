@@ -16,7 +16,7 @@
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/own_unit.hpp>
 #include <radiosity/result/stopwatch.hpp>
-#include <radiosity/run/run.hpp>
+#include <radiosity/run/solve_at.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/light_unit.hpp>
 #include <radiosity/scene/options.hpp>

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <raycast/inline.hpp>
-#include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 #include <raycast/transform.hpp>
 
@@ -15,12 +14,11 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/surface.hpp>
-#include <radiosity/links/evaluate.hpp>
 #include <radiosity/oracle/oracle.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -31,10 +29,8 @@ HALFLIGHT_INLINE std::size_t exposed_leaves(const Hierarchy& hierarchy, const Ex
   return count;
 }
 
-HALFLIGHT_INLINE LeafExchange::LeafExchange(const raycast::Scene& objects, const Plan& plan, const std::vector<Surface>& surfaces,
-                                            const Hierarchy& hierarchy, const Patches& patches, const Exposure& exposure,
-                                            const LinkEvaluator& evaluator)
-    : objects_{&objects}, plan_{&plan}, hierarchy_{&hierarchy}, patches_{&patches}, evaluator_{&evaluator} {
+HALFLIGHT_INLINE LeafExchange::LeafExchange(const DiscreteScene& scene) : scene_{&scene} {
+  const Hierarchy& hierarchy = scene.hierarchy;
   std::vector<std::uint32_t> root_of(hierarchy.size());  // as an index of roots
   std::vector<std::uint32_t> root_nodes;
   Hierarchy roots;
@@ -48,9 +44,9 @@ HALFLIGHT_INLINE LeafExchange::LeafExchange(const raycast::Scene& objects, const
     } else {
       root_of[i] = root_of[node.parent];
     }
-    if (!node.leaf() || !(exposure.area[i] > 0.0)) { continue; }
+    if (!node.leaf() || !(scene.exposure.area[i] > 0.0)) { continue; }
     leaves_.push_back(i);
-    area_.push_back(exposure.area[i]);
+    area_.push_back(scene.exposure.area[i]);
     roots_.push_back(root_of[i]);
   }
   // What can stand between two input faces is looked up once for all their leaves.
@@ -58,13 +54,14 @@ HALFLIGHT_INLINE LeafExchange::LeafExchange(const raycast::Scene& objects, const
   lists_.assign(count_ * count_, nothing);
   for (std::size_t p = 0; p < count_; ++p) {
     for (std::size_t q = p; q < count_; ++q) {
-      if (!may_exchange(surfaces, roots[p], roots[q], p == q)) { continue; }
+      if (!may_exchange(scene.surfaces, roots[p], roots[q], p == q)) { continue; }
       std::uint32_t& index = lists_[p * count_ + q];
       if (p == q) {
         index = OccluderLists::none;
         continue;
       }
-      const raycast::OccluderList list = occluders_.of(root_nodes[p], root_nodes[q], OccluderLists::none, objects, plan, patches);
+      const raycast::OccluderList list =
+          occluders_.of(root_nodes[p], root_nodes[q], OccluderLists::none, scene.objects, scene.plan, scene.patches);
       if (list.blocked() || f_oracle(roots[p], roots[q], 1.0, 0.0) == Decision::drop) { continue; }
       index = lists_[q * count_ + p] = occluders_.keep(list, OccluderLists::none);
     }
@@ -75,10 +72,10 @@ HALFLIGHT_INLINE float LeafExchange::operator()(std::size_t i, std::size_t j, Ra
   const std::uint32_t index = lists_[roots_[i] * count_ + roots_[j]];
   if (i == j || index == nothing) { return 0.0f; }
   Link link{leaves_[std::min(i, j)], leaves_[std::max(i, j)]};
-  if (f_oracle((*hierarchy_)[link.p], (*hierarchy_)[link.q], 1.0, 0.0) == Decision::drop) { return 0.0f; }
-  const raycast::OccluderList list = occluders_.of(link.p, link.q, index, *objects_, *plan_, *patches_);
+  if (f_oracle(scene_->hierarchy[link.p], scene_->hierarchy[link.q], 1.0, 0.0) == Decision::drop) { return 0.0f; }
+  const raycast::OccluderList list = occluders_.of(link.p, link.q, index, scene_->objects, scene_->plan, scene_->patches);
   if (list.blocked()) { return 0.0f; }
-  rays += (*evaluator_)(link, list, nullptr, doubt);
+  rays += scene_->evaluator(link, list, nullptr, doubt);
   return link.exchange;
 }
 
@@ -89,12 +86,12 @@ HALFLIGHT_INLINE bool LeafExchange::may_exchange(const std::vector<Surface>& sur
   return !object.flat() || !(same || a.surface == b.surface);
 }
 
-HALFLIGHT_INLINE LeafMaterials leaf_materials(const LeafExchange& exchange, const Hierarchy& hierarchy,
-                                              const std::vector<Color>& reflectance, const std::vector<Color>& emission) {
+HALFLIGHT_INLINE LeafMaterials leaf_materials(const LeafExchange& exchange, const DiscreteScene& scene) {
   LeafMaterials result;
   for (std::size_t i = 0; i < exchange.size(); ++i) {
-    result.reflectance.push_back(reflectance[hierarchy[exchange.node(i)].surface]);
-    result.emission.push_back(emission[hierarchy[exchange.node(i)].surface]);
+    const std::uint32_t surface = scene.hierarchy[exchange.node(i)].surface;
+    result.reflectance.push_back(scene.reflectance[surface]);
+    result.emission.push_back(scene.emission[surface]);
   }
   return result;
 }

@@ -9,16 +9,13 @@
 #include <cstdint>
 #include <vector>
 
-#include <raycast/scene.hpp>
-
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
-#include <radiosity/links/evaluate.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -28,9 +25,8 @@ namespace radiosity {
 // The exchange between the leaves of which something is exposed.
 class LeafExchange {
  public:
-  // The references must outlive this; the hierarchy stays as it is.
-  LeafExchange(const raycast::Scene& objects, const Plan& plan, const std::vector<Surface>& surfaces, const Hierarchy& hierarchy,
-               const Patches& patches, const Exposure& exposure, const LinkEvaluator& evaluator);
+  // The scene must outlive this; its hierarchy stays as it is.
+  explicit LeafExchange(const DiscreteScene& scene);
 
   [[nodiscard]] std::size_t size() const { return leaves_.size(); }
   [[nodiscard]] std::uint32_t node(std::size_t i) const { return leaves_[i]; }
@@ -47,11 +43,7 @@ class LeafExchange {
   // Faces of one flat sheet or of one convex solid do not see each other, and no flat face sees itself.
   [[nodiscard]] static bool may_exchange(const std::vector<Surface>& surfaces, const Node& a, const Node& b, bool same);
 
-  const raycast::Scene* objects_;
-  const Plan* plan_;
-  const Hierarchy* hierarchy_;
-  const Patches* patches_;
-  const LinkEvaluator* evaluator_;
+  const DiscreteScene* scene_;
   std::vector<std::uint32_t> leaves_, roots_;
   std::vector<double> area_;
   std::size_t count_ = 0;             // of roots
@@ -64,9 +56,7 @@ struct LeafMaterials {
   std::vector<Color> reflectance, emission;
 };
 
-// `reflectance` and `emission`: one for each input surface.
-[[nodiscard]] LeafMaterials leaf_materials(const LeafExchange& exchange, const Hierarchy& hierarchy, const std::vector<Color>& reflectance,
-                                           const std::vector<Color>& emission);
+[[nodiscard]] LeafMaterials leaf_materials(const LeafExchange& exchange, const DiscreteScene& scene);
 
 }  // namespace radiosity
 

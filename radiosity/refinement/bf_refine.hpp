@@ -20,22 +20,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
-#include <raycast/scene.hpp>
-
-#include <radiosity/clusters/clusters.hpp>
-#include <radiosity/hierarchy/hierarchy.hpp>
-#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/links/evaluate.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/refine.hpp>
-#include <radiosity/scene/material.hpp>
-#include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
-#include <radiosity/support/memory.hpp>
-#include <radiosity/visibility/exposure.hpp>
-#include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
 
 namespace radiosity {
 
@@ -65,15 +53,18 @@ class Deadline {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Links, evaluated, and leaves such that the estimated relative error, with `leaf_part` of the variation over leaves (leaf_error.hpp), is at
-// most `target`, or, with a limit, as many as the deadline allows. Stops before when there is nothing left to split, at 2^-24 of the
-// scene's area, or when there would be more than `most_links` or more memory would be needed than the budget allows.
-// Exposure, and what the clusters show of it, grow with the hierarchy; the evaluator refers to both.
-[[nodiscard]] BfResult bf_refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan, const std::vector<Color>& reflectance,
-                                 const std::vector<Color>& emission, std::vector<Surface>& surfaces, Hierarchy& hierarchy, Patches& patches,
-                                 Exposure& exposure, ShownAreas& shown, const LinkEvaluator& evaluator, double target, double leaf_part,
-                                 const Deadline& deadline, std::size_t most_links, unsigned threads, std::uint64_t seed,
-                                 const Control& control = {}, const MemoryBudget& budget = {});
+// The estimated relative error, with `leaf_part` of the variation over leaves (leaf_error.hpp), is to be at most `target`, or, with a
+// limit, as small as the deadline allows.
+struct BfGoal {
+  double target = 0.0;
+  double leaf_part = 1.0;
+  Deadline deadline;
+};
+
+// Makes links, evaluated, and leaves that meet the goal. Stops before when there is nothing left to split, at 2^-24 of the scene's area,
+// or when there would be more links than `link_limit` or more memory would be needed than the budget allows.
+// Exposure, and what the clusters show of it, grow with the hierarchy.
+[[nodiscard]] BfResult bf_refine(DiscreteScene& scene, const BfGoal& goal);
 
 }  // namespace radiosity
 

@@ -14,6 +14,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
@@ -32,11 +33,10 @@ HALFLIGHT_INLINE double mean_square(const Patch& patch, const glm::dvec3& g) {
   return patch.area > 0.0 ? sum / patch.area : 0.0;
 }
 
-HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const Hierarchy& hierarchy, const Patches& patches, const Exposure& exposure,
-                                                 const Links& links, const std::vector<Color>& reflectance,
-                                                 const std::vector<Color>& radiosity) {
+HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity) {
   LeafErrors errors;
-  const std::vector<double>& area = exposure.area;
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const std::vector<double>& area = scene.exposure.area;
   struct Gradient {
     std::array<glm::dvec3, 3> sum{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};  // of the irradiance, one a channel
     Color squares{0.0};                                                                // of the links for themselves
@@ -66,8 +66,8 @@ HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const Hierarchy& hierarchy, con
     double square = 0.0;
     for (std::size_t c = 0; c < 3; ++c) {
       const glm::dvec3& g = gradient[i].sum[c];
-      const double rho = reflectance[node.surface][static_cast<int>(c)];
-      const double error = area[i] * rho * rho * mean_square(patches[i], g);
+      const double rho = scene.reflectance[node.surface][static_cast<int>(c)];
+      const double error = area[i] * rho * rho * mean_square(scene.patches[i], g);
       square += error;
       if (error > 0.0) { errors.apart += error * gradient[i].squares[static_cast<int>(c)] / glm::dot(g, g); }
     }

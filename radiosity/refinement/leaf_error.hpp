@@ -14,9 +14,8 @@
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
-#include <radiosity/visibility/exposure.hpp>
-#include <radiosity/visibility/occlusion.hpp>
 
 namespace radiosity {
 
@@ -33,8 +32,7 @@ struct LeafErrors {
 };
 
 // Of links that have their slopes, at leaves too.
-LeafErrors estimate_leaf_errors(const Hierarchy& hierarchy, const Patches& patches, const Exposure& exposure, const Links& links,
-                                const std::vector<Color>& reflectance, const std::vector<Color>& radiosity);
+LeafErrors estimate_leaf_errors(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity);
 
 // What siblings tell where the slopes at leaves are not known: leaves of one parent differ as the light changes over the parent. Where it
 // changes linearly, four halves of it, squares or triangles, vary a third as much each as they do among each other.

@@ -20,12 +20,11 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/evaluate.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/leaf_error.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/solver/transport.hpp>
 #include <radiosity/support/parallel.hpp>
-#include <radiosity/visibility/exposure.hpp>
-#include <radiosity/visibility/occlusion.hpp>
 
 namespace radiosity {
 
@@ -53,19 +52,19 @@ HALFLIGHT_INLINE std::vector<NodeLight> light_of_nodes(const Hierarchy& hierarch
 }
 
 HALFLIGHT_INLINE ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves,
-                                                      const Hierarchy& hierarchy, const Exposure& exposure, const Links& links,
-                                                      const std::vector<LinkShape>& shapes, const std::vector<Color>& reflectance,
-                                                      const std::vector<Color>& emission, const std::vector<Color>& radiosity) {
+                                                      const DiscreteScene& scene, const Links& links, const std::vector<LinkShape>& shapes,
+                                                      const std::vector<Color>& radiosity) {
   ErrorEstimation result;
-  const std::vector<double>& area = exposure.area;
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const std::vector<double>& area = scene.exposure.area;
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
     if (!hierarchy[i].leaf()) { continue; }
-    const Color reflected = radiosity[i] - emission[hierarchy[i].surface];
+    const Color reflected = radiosity[i] - scene.emission[hierarchy[i].surface];
     result.norm += area[i] * glm::dot(reflected, reflected);
   }
   const std::vector<NodeLight> light = light_of_nodes(hierarchy, area, radiosity);
   std::vector<Color> of_clusters;  // mean reflectance
-  const auto rho = [&](const Node& node) { return node.is_cluster() ? of_clusters[node.cluster] : reflectance[node.surface]; };
+  const auto rho = [&](const Node& node) { return node.is_cluster() ? of_clusters[node.cluster] : scene.reflectance[node.surface]; };
   for (std::size_t i = hierarchy.size(); i-- > 0;) {
     const Node& node = hierarchy[i];
     if (!node.is_cluster()) { continue; }
@@ -138,12 +137,11 @@ HALFLIGHT_INLINE ErrorEstimation estimate_link_errors(std::optional<double> alik
   return result;
 }
 
-HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Patches& patches,
-                                                  const Exposure& exposure, const Links& links, const std::vector<Color>& reflectance,
-                                                  const std::vector<Color>& emission, const std::vector<Color>& radiosity,
-                                                  const DoubtSum& doubt, unsigned threads) {
-  const std::vector<double>& area = exposure.area;
-  const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(emission[hierarchy[i].surface]); };
+HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity,
+                                                  const DoubtSum& doubt) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const std::vector<double>& area = scene.exposure.area;
+  const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(scene.emission[hierarchy[i].surface]); };
   struct Sample {
     std::vector<std::uint32_t> from;
     Links links;
@@ -165,16 +163,16 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const LinkEvaluator& evaluator
     const std::size_t count = std::min(sample.from.size(), most);
     sample.links.resize(count);
     sample.shapes.resize(count);
-    parallel_for(count, threads, [&](std::size_t i) {
+    parallel_for(count, scene.threads, [&](std::size_t i) {
       Link& link = sample.links[i] = links[sample.from[i * sample.from.size() / count]];
       const float closed = link.exchange;
-      (void)evaluator(link, {}, &sample.shapes[i]);
+      (void)scene.evaluator(link, {}, &sample.shapes[i]);
       link.exchange = closed;
     });
     sample.each = count > 0 ? static_cast<double>(sample.from.size()) / static_cast<double>(count) : 0.0;
     const auto arrives = [&](std::uint32_t i, std::uint32_t sender, double exchange, float linear) {
       if (hierarchy[i].is_cluster() || !(area[i] > 0.0)) { return; }
-      const Color light = exchange / area[i] * double{linear} * reflectance[hierarchy[i].surface] * radiosity[sender];
+      const Color light = exchange / area[i] * double{linear} * scene.reflectance[hierarchy[i].surface] * radiosity[sender];
       const double square = sample.each * over_leaves[i] / area[i] * glm::dot(light, light);
       leaves.apart += square;
     };
@@ -189,7 +187,7 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const LinkEvaluator& evaluator
   draw(of_lights, 1024);
   draw(others, 3072);
   // A leaf that is a whole input face has no siblings; and where the sample is all the links, their slopes tell more.
-  const LeafErrors by_slopes = estimate_leaf_errors(hierarchy, patches, exposure, scaled, reflectance, radiosity);
+  const LeafErrors by_slopes = estimate_leaf_errors(scene, scaled, radiosity);
   if (scaled.size() == links.size()) {
     leaves = by_slopes;
   } else {
@@ -199,17 +197,17 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const LinkEvaluator& evaluator
   ErrorEstimation result;
   result.of_leaves = leaves.sum;
   for (const Sample* sample : {&of_lights, &others}) {
-    const ErrorEstimation errors = estimate_link_errors(std::sqrt(doubt.alike(area)), leaves.alike(), hierarchy, exposure, sample->links,
-                                                        sample->shapes, reflectance, emission, radiosity);
+    const ErrorEstimation errors =
+        estimate_link_errors(std::sqrt(doubt.alike(area)), leaves.alike(), scene, sample->links, sample->shapes, radiosity);
     result.of_links += sample->each * errors.of_links;
     result.norm = errors.norm;
   }
   return result;
 }
 
-HALFLIGHT_INLINE std::string estimate_doubt(const Hierarchy& hierarchy, const Exposure& exposure, Transport& transport,
-                                            const std::vector<Color>& reflectance, const std::vector<Color>& emission,
-                                            const std::vector<Color>& radiosity, double unseen, bool closed) {
+HALFLIGHT_INLINE std::string estimate_doubt(const DiscreteScene& scene, Transport& transport, const std::vector<Color>& radiosity,
+                                            double unseen, bool closed) {
+  const Hierarchy& hierarchy = scene.hierarchy;
   constexpr double most_unseen = 0.5;
   constexpr double most_growth = 5.0;
   if (unseen > most_unseen) { return "most of it is light that may pass where no segment did"; }
@@ -220,13 +218,13 @@ HALFLIGHT_INLINE std::string estimate_doubt(const Hierarchy& hierarchy, const Ex
     std::vector<double> sent(hierarchy.size(), 0.0);
     std::vector<double> arrived;
     for (std::size_t i = 0; i < hierarchy.size(); ++i) {
-      if (hierarchy[i].leaf()) { sent[i] = emission[hierarchy[i].surface][c]; }
+      if (hierarchy[i].leaf()) { sent[i] = scene.emission[hierarchy[i].surface][c]; }
     }
     transport.apply(sent, arrived);
     for (std::size_t i = 0; i < hierarchy.size(); ++i) {
       if (!hierarchy[i].leaf()) { continue; }
-      once += reflectance[hierarchy[i].surface][c] * arrived[i];
-      all += exposure.area[i] * (radiosity[i][c] - sent[i]);
+      once += scene.reflectance[hierarchy[i].surface][c] * arrived[i];
+      all += scene.exposure.area[i] * (radiosity[i][c] - sent[i]);
     }
   }
   if (!(all > most_growth * once)) { return {}; }

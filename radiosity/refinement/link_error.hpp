@@ -28,14 +28,12 @@
 #include <vector>
 
 #include <radiosity/exchange/doubt.hpp>
-#include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/evaluate.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/solver/transport.hpp>
-#include <radiosity/visibility/exposure.hpp>
-#include <radiosity/visibility/occlusion.hpp>
 
 namespace radiosity {
 
@@ -63,24 +61,19 @@ struct ErrorEstimation {
 
 // The errors of links alone, and the norm. `alike_across` inner nodes: how much more squared errors are than those of independent links,
 // given where these are not all the links; `alike_at_leaves`: LeafErrors::alike().
-ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves, const Hierarchy& hierarchy,
-                                     const Exposure& exposure, const Links& links, const std::vector<LinkShape>& shapes,
-                                     const std::vector<Color>& reflectance, const std::vector<Color>& emission,
-                                     const std::vector<Color>& radiosity);
+ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves, const DiscreteScene& scene,
+                                     const Links& links, const std::vector<LinkShape>& shapes, const std::vector<Color>& radiosity);
 
 // For links that were not made by BF-refinement: from at most 1024 links of lights and 3072 others, spread evenly; their shapes are
 // found now.
-ErrorEstimation sampled_estimate(const LinkEvaluator& evaluator, const Hierarchy& hierarchy, const Patches& patches,
-                                 const Exposure& exposure, const Links& links, const std::vector<Color>& reflectance,
-                                 const std::vector<Color>& emission, const std::vector<Color>& radiosity, const DoubtSum& doubt,
-                                 unsigned threads);
+ErrorEstimation sampled_estimate(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity,
+                                 const DoubtSum& doubt);
 
 // Why the estimate is no bound, or nothing. It does not know what a segment never found, nor how errors grow when light that is wrong is
 // reflected again and again; a closed scene keeps its row sums, and what errs there has no mean. `unseen`: share of its square that is
 // due to links through which no segment came.
-std::string estimate_doubt(const Hierarchy& hierarchy, const Exposure& exposure, Transport& transport,
-                           const std::vector<Color>& reflectance, const std::vector<Color>& emission, const std::vector<Color>& radiosity,
-                           double unseen, bool closed);
+std::string estimate_doubt(const DiscreteScene& scene, Transport& transport, const std::vector<Color>& radiosity, double unseen,
+                           bool closed);
 
 }  // namespace detail
 

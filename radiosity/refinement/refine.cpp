@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <raycast/inline.hpp>
-#include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 #include <raycast/transform.hpp>
 
@@ -17,9 +17,9 @@
 #include <radiosity/oracle/light_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/oracle/pair_oracle.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
 #include <radiosity/support/memory.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 #include <radiosity/visibility/plan.hpp>
@@ -31,15 +31,15 @@ namespace detail {
 
 // Where refinement begins: with the pair of the root cluster with itself, or all pairs of input faces. In `inner` the input faces whose own
 // parts may face each other.
-HALFLIGHT_INLINE void first_pairs(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const Plan& plan,
-                                  const PairOracle& oracle, std::vector<Pair>& pairs, RefineResult& result) {
+HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const PairOracle& oracle, std::vector<Pair>& pairs, RefineResult& result) {
+  const Hierarchy& hierarchy = scene.hierarchy;
   const auto count = static_cast<std::uint32_t>(hierarchy.size());
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!is_input_face(hierarchy, i) || oracle.buried(i)) { continue; }
-    const raycast::PlacedObject& object = *surfaces[hierarchy[i].object].object;
+    const raycast::PlacedObject& object = *scene.surfaces[hierarchy[i].object].object;
     if ((object.inside() || !object.convex()) && !object.flat()) { result.inner.push_back(i); }
   }
-  if (count > 0 && hierarchy[0].is_cluster()) {
+  if (scene.clustered()) {
     pairs.push_back({0, 0});
     return;
   }
@@ -49,7 +49,7 @@ HALFLIGHT_INLINE void first_pairs(const std::vector<Surface>& surfaces, const Hi
       if (!is_input_face(hierarchy, q)) { continue; }
       if (!oracle.convex(hierarchy[p], hierarchy[q])) {
         pairs.push_back({p, q});
-      } else if (plan.shortcuts || hierarchy[p].deviation > 0.0 || hierarchy[q].deviation > 0.0) {
+      } else if (scene.plan.shortcuts || hierarchy[p].deviation > 0.0 || hierarchy[q].deviation > 0.0) {
         ++result.pairs_convex;
       } else {
         result.links.push_back({p, q});
@@ -60,14 +60,13 @@ HALFLIGHT_INLINE void first_pairs(const std::vector<Surface>& surfaces, const Hi
 }
 
 // Which roots send light: those that emit, and those that reflect and are reached, over pairs that may be linked, from one that sends.
-HALFLIGHT_INLINE std::vector<bool> sending_roots(const Scene& scene, const Hierarchy& roots, const std::vector<Pair>& pairs,
+HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, const std::vector<Pair>& pairs,
                                                  const std::vector<Decision>& decisions) {
+  const Hierarchy& roots = scene.hierarchy;
   std::vector<bool> sends(roots.size(), false), reflects(roots.size(), false);
-  const std::vector<InputSurface> inputs = radiosity::surfaces(scene);
   for (std::size_t i = 0; i < roots.size(); ++i) {
-    const Material& material = scene.materials[inputs[roots[i].surface].material];
-    sends[i] = !is_black(material.emission);
-    reflects[i] = !is_black(material.reflectance);
+    sends[i] = !is_black(scene.emission[roots[i].surface]);
+    reflects[i] = !is_black(scene.reflectance[roots[i].surface]);
   }
   for (bool grew = true; grew;) {
     grew = false;
@@ -81,145 +80,188 @@ HALFLIGHT_INLINE std::vector<bool> sending_roots(const Scene& scene, const Hiera
   return sends;
 }
 
+// F-refinement between two generations.
+struct FRefinement {
+  FRefinement(DiscreteScene& of, const Fineness& to)
+      : scene{of},
+        fineness{to},
+        oracle{of.surfaces, of.hierarchy},
+        light{of.input, of.objects, of.plan, of.patches, of.hierarchy, oracle.shown(), to.light_epsilon, of.seed, oracle.buried()},
+        min_area{to.min_area * light.scene_area()} {
+    const double finer = std::min(1.0, fineness.light_epsilon / (0.25 * fineness.epsilon));
+    light_min_area = 0.25 * min_area * finer * finer;
+  }
+
+  // Whether so many may be made; if not, the result says what they would need.
+  [[nodiscard]] bool few_enough(std::uint64_t links) {
+    if (links > link_limit) { result.too_many = links; }
+    return result.too_many == 0;
+  }
+  [[nodiscard]] bool fits(std::uint64_t nodes, std::uint64_t links, std::uint64_t open) {
+    const MemoryBudget::Counts counts{nodes, links, open, result.occluders.bytes()};
+    if (!scene.budget.allows(counts)) { result.too_large = scene.budget.peak(counts); }
+    return result.too_large == 0;
+  }
+
+  DiscreteScene& scene;
+  Fineness fineness;
+  PairOracle oracle;
+  LightOracle light;
+  double min_area;  // in the squared unit of the frame
+  double light_min_area = 0.0;
+  std::vector<Pair> pairs;  // open
+  std::vector<bool> stuck;  // leaves that the BRep refused to split
+  RefineResult result;
+};
+
+// What to do with each open pair.
+HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
+  DiscreteScene& scene = state.scene;
+  scene.patches.extend(scene.threads);
+  std::vector<RayCount> rays(state.pairs.size());
+  std::vector<Decision> decisions = decide(
+      scene, state.pairs, state.result,
+      [&](std::uint32_t p, std::uint32_t q) { return state.oracle(p, q, state.fineness.epsilon, state.min_area); },
+      [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
+        const auto [p, q, index] = state.pairs[i];
+        if (decision != Decision::link || !(state.fineness.light_epsilon > 0.0)) { return; }
+        const std::uint32_t split = state.light.wants_split(p, q, list, rays[i]);
+        if (split != no_node && scene.hierarchy[split].area > state.light_min_area) {
+          decision = split == p ? Decision::split_p : Decision::split_q;
+        }
+      });
+  for (const RayCount& r : rays) { state.result.rays += r; }
+  return decisions;
+}
+
+// No light passes between two input faces that send none. A closed scene keeps such pairs, for its row sums.
+HALFLIGHT_INLINE void drop_dark_pairs(FRefinement& state, std::vector<Decision>& decisions) {
+  const bool shortcuts = state.scene.plan.shortcuts;
+  const std::vector<bool> sends = sending_roots(state.scene, state.pairs, decisions);
+  for (std::size_t i = 0; i < state.pairs.size(); ++i) {
+    if (sends[state.pairs[i].p] || sends[state.pairs[i].q] || decisions[i] < first_seeing) { continue; }
+    state.result.pairs_dark += shortcuts ? 1 : 0;
+    decisions[i] = shortcuts ? Decision::drop : Decision::link;
+  }
+  std::erase_if(state.result.inner, [&](std::uint32_t i) { return !sends[i]; });
+}
+
+// Splits the leaves that any pair asks for, in the order of their index. False, and nothing is split, when memory does not suffice.
+[[nodiscard]] HALFLIGHT_INLINE bool split_leaves(FRefinement& state, const std::vector<Decision>& decisions) {
+  Hierarchy& hierarchy = state.scene.hierarchy;
+  std::vector<bool> asked(hierarchy.size(), false);
+  state.stuck.resize(hierarchy.size(), false);
+  for (std::size_t i = 0; i < state.pairs.size(); ++i) {
+    if (decisions[i] == Decision::split_p) { asked[state.pairs[i].p] = true; }
+    if (decisions[i] == Decision::split_q) { asked[state.pairs[i].q] = true; }
+  }
+  const auto before = static_cast<std::uint32_t>(hierarchy.size());
+  std::uint64_t nodes = before;
+  for (std::uint32_t i = 0; i < before; ++i) { nodes += asked[i] && hierarchy[i].leaf() ? hierarchy[i].corners : 0; }
+  if (!state.fits(nodes, state.result.links.size(), state.pairs.size())) { return false; }
+  for (std::uint32_t i = 0; i < before; ++i) {
+    if (asked[i] && hierarchy[i].leaf() && !subdivide(state.scene.surfaces, hierarchy, i)) { state.stuck[i] = true; }
+  }
+  return true;
+}
+
+// How many pairs the next generation will have; nothing when these, or the links that are made now, are more than there may be.
+[[nodiscard]] HALFLIGHT_INLINE std::optional<std::uint64_t> count_opened(FRefinement& state, const std::vector<Decision>& decisions) {
+  const Hierarchy& hierarchy = state.scene.hierarchy;
+  std::uint64_t links = state.result.links.size(), opened = 0;
+  for (std::size_t i = 0; i < state.pairs.size(); ++i) {
+    links += decisions[i] == Decision::link ? 1 : 0;
+    if (decisions[i] != Decision::split_p && decisions[i] != Decision::split_q) { continue; }
+    const std::uint64_t children = hierarchy[decisions[i] == Decision::split_p ? state.pairs[i].p : state.pairs[i].q].child_count;
+    opened += state.pairs[i].p == state.pairs[i].q ? children * (children + 1) / 2 : children;
+  }
+  if (!state.few_enough(links + opened) || !state.fits(hierarchy.size(), links, state.pairs.size() + opened)) { return std::nullopt; }
+  return opened;
+}
+
+// The pairs of the children of `split` with the other node, or with each other.
+HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, std::uint32_t other, std::uint32_t list,
+                              std::vector<Pair>& pairs) {
+  const std::uint32_t first = hierarchy[split].first_child;
+  const std::uint32_t last = first + hierarchy[split].child_count;
+  for (std::uint32_t a = first; a < last; ++a) {
+    if (split != other) {
+      pairs.push_back({a, other, list});
+      continue;
+    }
+    // A cluster with itself: all pairs of its children, and the clusters among them with themselves.
+    for (std::uint32_t b = hierarchy[a].is_cluster() ? a : a + 1; b < last; ++b) { pairs.push_back({a, b}); }
+  }
+}
+
+// Links the pairs for which that was decided, and replaces those that are split by the pairs of the children.
+HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Decision>& decisions, std::vector<Pair>& next) {
+  const Hierarchy& hierarchy = state.scene.hierarchy;
+  for (std::size_t i = 0; i < state.pairs.size(); ++i) {
+    const auto [p, q, list] = state.pairs[i];
+    if (decisions[i] < first_seeing) { continue; }
+    bool split_p = decisions[i] == Decision::split_p && !state.stuck[p];
+    bool split_q = decisions[i] == Decision::split_q && !state.stuck[q];
+    if (decisions[i] != Decision::link && !split_p && !split_q) {  // stuck: up to the other, if that is a cluster
+      split_p = hierarchy[p].is_cluster();
+      split_q = hierarchy[q].is_cluster();
+    }
+    if (split_p || split_q) {
+      split_p ? descend(hierarchy, p, q, list, next) : descend(hierarchy, q, p, list, next);
+    } else {
+      state.result.links.push_back({p, q});
+      state.result.lists.push_back(list);
+    }
+  }
+}
+
+// Parts of one hollow face see each other.
+HALFLIGHT_INLINE void descend_inner(FRefinement& state, std::vector<Pair>& next) {
+  const Hierarchy& hierarchy = state.scene.hierarchy;
+  std::vector<std::uint32_t> still_inner;
+  for (const std::uint32_t p : state.result.inner) {
+    if (hierarchy[p].leaf()) {
+      still_inner.push_back(p);
+      continue;
+    }
+    const std::uint32_t first = hierarchy[p].first_child;
+    const std::uint32_t last = first + hierarchy[p].child_count;
+    for (std::uint32_t a = first; a < last; ++a) {
+      still_inner.push_back(a);
+      for (std::uint32_t b = a + 1; b < last; ++b) { next.push_back({a, b}); }
+    }
+  }
+  state.result.inner = std::move(still_inner);
+}
+
 }  // namespace detail
 
-HALFLIGHT_INLINE RefineResult refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan, std::vector<Surface>& surfaces,
-                                     Hierarchy& hierarchy, Patches& patches, double epsilon, double min_area, double light_epsilon,
-                                     unsigned threads, std::uint64_t seed, const Control& control, const MemoryBudget& budget) {
-  RefineResult result;
-  const PairOracle oracle{surfaces, hierarchy};
-  const LightOracle light{scene, objects, plan, patches, hierarchy, oracle.shown(), light_epsilon, seed, oracle.buried()};
-  min_area *= light.scene_area();
-  const double finer = std::min(1.0, light_epsilon / (0.25 * epsilon));
-  const double light_min_area = 0.25 * min_area * finer * finer;
-  std::vector<RayCount> rays;
-
-  const bool clustered = !hierarchy.empty() && hierarchy[0].is_cluster();
-  if (!clustered && hierarchy.size() * hierarchy.size() / 2 > link_limit) {
-    result.too_many = hierarchy.size() * hierarchy.size() / 2;
-    return result;
+HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& fineness) {
+  detail::FRefinement state{scene, fineness};
+  RefineResult& result = state.result;
+  const std::uint64_t all_pairs = scene.clustered() ? 0 : scene.hierarchy.size() * scene.hierarchy.size() / 2;
+  if (!state.few_enough(all_pairs) || !state.fits(scene.hierarchy.size(), 0, scene.clustered() ? 1 : all_pairs)) {
+    return std::move(result);
   }
-  // Whether so many may be made; if not, the result says what they would need.
-  const auto fits = [&](std::uint64_t nodes, std::uint64_t links, std::uint64_t open) {
-    const MemoryBudget::Counts counts{nodes, links, open, result.occluders.bytes()};
-    if (!budget.allows(counts)) { result.too_large = budget.peak(counts); }
-    return result.too_large == 0;
-  };
-  if (!fits(hierarchy.size(), 0, clustered ? 1 : hierarchy.size() * hierarchy.size() / 2)) { return result; }
-  std::vector<detail::Pair> pairs;
-  std::vector<std::uint32_t>& inner = result.inner;
-  detail::first_pairs(surfaces, hierarchy, plan, oracle, pairs, result);
-
-  std::vector<bool> stuck;  // leaves that the BRep refused to split
-  while (!pairs.empty()) {
-    if (control.cancelled()) {
-      result.cancelled = true;
-      return result;
-    }
-    if (result.links.size() + pairs.size() > link_limit) {
-      result.too_many = result.links.size() + pairs.size();
-      return result;
-    }
-    patches.extend(threads);
-    rays.assign(pairs.size(), {});
-    std::vector<Decision> decisions = detail::decide(
-        pairs, objects, plan, patches, result, threads, [&](std::uint32_t p, std::uint32_t q) { return oracle(p, q, epsilon, min_area); },
-        [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
-          const auto [p, q, index] = pairs[i];
-          if (decision != Decision::link || !(light_epsilon > 0.0)) { return; }
-          const std::uint32_t split = light.wants_split(p, q, list, rays[i]);
-          if (split != no_node && hierarchy[split].area > light_min_area) { decision = split == p ? Decision::split_p : Decision::split_q; }
-        });
-    for (const RayCount& r : rays) { result.rays += r; }
-
-    // No light passes between two that send none. A closed scene keeps such pairs, for its row sums.
-    if (result.generations == 0 && !plan.closed && !clustered) {
-      const std::vector<bool> sends = detail::sending_roots(scene, hierarchy, pairs, decisions);
-      for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (sends[pairs[i].p] || sends[pairs[i].q] || decisions[i] < first_seeing) { continue; }
-        result.pairs_dark += plan.shortcuts ? 1 : 0;
-        decisions[i] = plan.shortcuts ? Decision::drop : Decision::link;
-      }
-      std::erase_if(inner, [&](std::uint32_t i) { return !sends[i]; });
-    }
-
-    // Leaves are split in the order of their index.
-    std::vector<bool> asked(hierarchy.size(), false);
-    stuck.resize(hierarchy.size(), false);
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (decisions[i] == Decision::split_p) { asked[pairs[i].p] = true; }
-      if (decisions[i] == Decision::split_q) { asked[pairs[i].q] = true; }
-    }
-    const auto before = static_cast<std::uint32_t>(hierarchy.size());
-    std::uint64_t nodes = before;
-    for (std::uint32_t i = 0; i < before; ++i) { nodes += asked[i] && hierarchy[i].leaf() ? hierarchy[i].corners : 0; }
-    if (!fits(nodes, result.links.size(), pairs.size())) { return result; }
-    for (std::uint32_t i = 0; i < before; ++i) {
-      if (asked[i] && hierarchy[i].leaf() && !subdivide(surfaces, hierarchy, i)) { stuck[i] = true; }
-    }
-
-    std::uint64_t linked = 0, opened = 0;  // links that are made now, pairs that the next generation will have
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      linked += decisions[i] == Decision::link ? 1 : 0;
-      if (decisions[i] != Decision::split_p && decisions[i] != Decision::split_q) { continue; }
-      const std::uint64_t children = hierarchy[decisions[i] == Decision::split_p ? pairs[i].p : pairs[i].q].child_count;
-      opened += pairs[i].p == pairs[i].q ? children * (children + 1) / 2 : children;
-    }
-    if (result.links.size() + linked + opened > link_limit) {  // before the memory for them is asked for
-      result.too_many = result.links.size() + linked + opened;
-      return result;
-    }
-    if (!fits(hierarchy.size(), result.links.size() + linked, pairs.size() + opened)) { return result; }
+  detail::first_pairs(scene, state.oracle, state.pairs, result);
+  while (!state.pairs.empty()) {
+    result.cancelled = scene.control.cancelled();
+    if (result.cancelled || !state.few_enough(result.links.size() + state.pairs.size())) { break; }
+    std::vector<Decision> decisions = detail::ask_oracles(state);
+    if (result.generations == 0 && !scene.plan.closed && !scene.clustered()) { detail::drop_dark_pairs(state, decisions); }
+    if (!detail::split_leaves(state, decisions)) { break; }
+    const std::optional<std::uint64_t> opened = detail::count_opened(state, decisions);
+    if (!opened) { break; }
     std::vector<detail::Pair> next;
-    next.reserve(opened);
-    const auto descend = [&](std::uint32_t split, std::uint32_t other, std::uint32_t list) {
-      const std::uint32_t first = hierarchy[split].first_child;
-      const std::uint32_t last = first + hierarchy[split].child_count;
-      for (std::uint32_t a = first; a < last; ++a) {
-        if (split != other) {
-          next.push_back({a, other, list});
-          continue;
-        }
-        // A cluster with itself: all pairs of its children, and the clusters among them with themselves.
-        for (std::uint32_t b = hierarchy[a].is_cluster() ? a : a + 1; b < last; ++b) { next.push_back({a, b}); }
-      }
-    };
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const auto [p, q, list] = pairs[i];
-      if (decisions[i] < first_seeing) { continue; }
-      bool split_p = decisions[i] == Decision::split_p && !stuck[p];
-      bool split_q = decisions[i] == Decision::split_q && !stuck[q];
-      if (decisions[i] != Decision::link && !split_p && !split_q) {  // stuck: up to the other, if that is a cluster
-        split_p = hierarchy[p].is_cluster();
-        split_q = hierarchy[q].is_cluster();
-      }
-      if (split_p || split_q) {
-        split_p ? descend(p, q, list) : descend(q, p, list);
-      } else {
-        result.links.push_back({p, q});
-        result.lists.push_back(list);
-      }
-    }
-    std::vector<std::uint32_t> still_inner;
-    for (const std::uint32_t p : inner) {
-      if (hierarchy[p].leaf()) {
-        still_inner.push_back(p);
-        continue;
-      }
-      const std::uint32_t first = hierarchy[p].first_child;
-      const std::uint32_t last = first + hierarchy[p].child_count;
-      for (std::uint32_t a = first; a < last; ++a) {
-        still_inner.push_back(a);
-        for (std::uint32_t b = a + 1; b < last; ++b) { next.push_back({a, b}); }
-      }
-    }
-    inner = std::move(still_inner);
-    pairs = std::move(next);
+    next.reserve(*opened);
+    detail::link_or_descend(state, decisions, next);
+    detail::descend_inner(state, next);
+    state.pairs = std::move(next);
     ++result.generations;
-    if (control.after_generation) { control.after_generation(surfaces); }
-    control.report("refine", pairs.empty() ? 1.0 : 1.0 - 1.0 / (1.0 + result.generations));
+    if (scene.control.after_generation) { scene.control.after_generation(scene.surfaces); }
+    scene.control.report("refine", state.pairs.empty() ? 1.0 : 1.0 - 1.0 / (1.0 + result.generations));
   }
-  return result;
+  return std::move(result);
 }
 
 }  // namespace radiosity

@@ -19,19 +19,13 @@
 #include <cstdint>
 #include <vector>
 
-#include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 
-#include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
-#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/oracle/oracle.hpp>
-#include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
-#include <radiosity/support/memory.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -68,20 +62,20 @@ struct Pair {
 // the others keep their list and are shown to `look(pair, list, decision)`, in parallel. Without shortcuts what would be dropped is linked,
 // but for patches of one curved convex solid (plan.hpp).
 template <class Oracle, class Look>
-std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& objects, const Plan& plan, const Patches& patches,
-                             RefineResult& result, unsigned threads, const Oracle& oracle, const Look& look) {
+std::vector<Decision> decide(const DiscreteScene& scene, std::vector<Pair>& pairs, RefineResult& result, const Oracle& oracle,
+                             const Look& look) {
   std::vector<Decision> decisions(pairs.size(), Decision::drop);
   constexpr std::size_t batch = 1 << 14;  // lists of full length that live at a time
   std::vector<raycast::OccluderList> lists(std::min(batch, pairs.size()));
   for (std::size_t first = 0; first < pairs.size(); first += batch) {
     const std::size_t count = std::min(batch, pairs.size() - first);
-    parallel_for(count, threads, [&](std::size_t k) {
+    parallel_for(count, scene.threads, [&](std::size_t k) {
       const Pair& pair = pairs[first + k];
       Decision& decision = decisions[first + k];
       decision = oracle(pair.p, pair.q);
       lists[k] = {};
       if (decision == Decision::drop || decision == Decision::convex) { return; }
-      lists[k] = result.occluders.of(pair.p, pair.q, pair.list, objects, plan, patches);
+      lists[k] = result.occluders.of(pair.p, pair.q, pair.list, scene.objects, scene.plan, scene.patches);
       if (lists[k].blocked()) {
         decision = Decision::hide;
       } else {
@@ -90,8 +84,8 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
     });
     for (std::size_t k = 0; k < count; ++k) {
       Decision& decision = decisions[first + k];
-      const bool curved = patches.is_curved(pairs[first + k].p) || patches.is_curved(pairs[first + k].q);
-      if (decision < first_seeing && !plan.shortcuts && !(decision == Decision::convex && curved)) {
+      const bool curved = scene.patches.is_curved(pairs[first + k].p) || scene.patches.is_curved(pairs[first + k].q);
+      if (decision < first_seeing && !scene.plan.shortcuts && !(decision == Decision::convex && curved)) {
         decision = Decision::link;
         pairs[first + k].list = OccluderLists::hidden;
         continue;
@@ -109,12 +103,14 @@ std::vector<Decision> decide(std::vector<Pair>& pairs, const raycast::Scene& obj
 
 }  // namespace detail
 
-// Builds the links of the hierarchy, splitting leaves as needed. `min_area` is relative to the area of all roots that are not
-// buried. `light_epsilon`: of the light
-// oracle, which is not asked when it is 0.
-[[nodiscard]] RefineResult refine(const Scene& scene, const raycast::Scene& objects, const Plan& plan, std::vector<Surface>& surfaces,
-                                  Hierarchy& hierarchy, Patches& patches, double epsilon, double min_area, double light_epsilon,
-                                  unsigned threads, std::uint64_t seed, const Control& control = {}, const MemoryBudget& budget = {});
+// How fine the links are. `min_area` is relative to the area of all roots that are not buried; the light oracle is not asked when its
+// `light_epsilon` is 0.
+struct Fineness {
+  double epsilon = 0.0, min_area = 0.0, light_epsilon = 0.0;
+};
+
+// Builds the links of the hierarchy, splitting leaves as needed.
+[[nodiscard]] RefineResult refine(DiscreteScene& scene, const Fineness& fineness);
 
 }  // namespace radiosity
 

@@ -1,22 +1,70 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// One run at a given fineness.
+// All that a run holds while its stages (stages.hpp) go over it, one after the other.
 
-#include <cstdint>
+#include <optional>
+#include <vector>
 
+#include <glm/vec3.hpp>
+
+#include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/links/evaluate.hpp>
+#include <radiosity/refinement/cluster_choice.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/refinement/refine.hpp>
+#include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/solver/transport.hpp>
+#include <radiosity/support/memory.hpp>
 
 namespace radiosity {
 
 namespace detail {
 
-// solve_at within the memory that there is. When BF-refinement has run out of it, the run is made again, in the memory that is free then, up
-// to the last generation that had a solution, or to one before it: what the first run held is in no state to go on from. Generations
-// grow, so that takes no longer than the run that was lost.
-[[nodiscard]] Outcome solve_within_memory(const Scene& scene, const Options& options, const Control& control, std::uint64_t held = 0);
+struct Run {
+  // The scene must outlive the run. `within`: the limits are set; what the run takes anyhow becomes known later.
+  Run(const Scene& input, const Options& with, const Control& control, const MemoryBudget& within);
+
+  // Checks the scene and compiles it; why that was not possible.
+  [[nodiscard]] std::optional<Failure> prepare_scene();
+  // The mesh, in the frame, of the leaves as they are now, with this light.
+  [[nodiscard]] Mesh picture(const std::vector<Color>& radiosity, Reconstruction kind);
+  // The result once all stages are done.
+  [[nodiscard]] Outcome finish();
+
+  // Without light, or without reflection, B = E on the input faces.
+  [[nodiscard]] bool needs_links() const { return (scene.plan.lit && scene.plan.reflects) || !scene.plan.shortcuts; }
+  [[nodiscard]] bool f_refined() const { return needs_links() && options.refinement == Refinement::a_priori; }
+  [[nodiscard]] bool bf_refined() const { return needs_links() && options.refinement == Refinement::a_posteriori; }
+
+  Options options;
+  Solution solution;  // what is known of it; its hierarchy stays in the scene until the end
+  Stopwatch watch{solution.audit.stages};
+  DiscreteScene scene;
+  std::optional<PathTracer> tracer;  // of the boundaries before they were cut
+  ClusterChoice clusters;
+  RefineResult refined;
+  EvaluateResult evaluated;
+  double unseen = 0.0;  // part of the estimated error
+  std::optional<Transport> transport;
+  bool t_vertices = false;     // some were eliminated
+  std::optional<Mesh> direct;  // of the light that was reflected once
+};
+
+[[nodiscard]] inline std::optional<Failure> cancelled() {
+  return Failure{Failure::Kind::cancelled, {"the run was interrupted before there was a solution"}};
+}
+
+// From the frame into the scene's own coordinates.
+inline void to_scene(Mesh& mesh, const Frame& frame) {
+  for (glm::dvec3& p : mesh.positions) { p = frame.to_scene(p); }
+}
 
 }  // namespace detail
 

@@ -6,167 +6,169 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
-#include <brep/brep.hpp>
 
 #include <raycast/inline.hpp>
-#include <raycast/scene.hpp>
 
-#include <radiosity/clusters/clusters.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/polygons.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/wall_cuts.hpp>
-#include <radiosity/links/evaluate.hpp>
 #include <radiosity/matrix/dense.hpp>
 #include <radiosity/matrix/leaf_exchange.hpp>
 #include <radiosity/picture/reconstruct.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/comparison.hpp>
-#include <radiosity/result/mesh.hpp>
 #include <radiosity/result/out_of_memory.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/own_unit.hpp>
-#include <radiosity/scene/frame.hpp>
+#include <radiosity/run/run.hpp>
+#include <radiosity/run/stages.hpp>
 #include <radiosity/scene/light_unit.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/memory.hpp>
-#include <radiosity/support/parallel.hpp>
-#include <radiosity/visibility/exposure.hpp>
-#include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
-#include <radiosity/visibility/prepare.hpp>
-#include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
 
 namespace detail {
 
-[[nodiscard]] HALFLIGHT_INLINE Outcome solve_uniform_in_unit(const Scene& scene, const UniformOptions& options, const Control& control) {
-  Solution solution;
-  Audit& audit = solution.audit;
-  detail::Stopwatch watch{audit.stages};
-  const unsigned threads = thread_count(options.threads);
-  audit.threads = threads;
-  audit.seed = options.seed;
-  if (!(options.max_area > 0.0)) { return failed(Failure::Kind::invalid_options, {"max_area must be above 0"}); }
+// As far as the stages of a hierarchical run ask.
+HALFLIGHT_INLINE Options options_of(const UniformOptions& uniform) {
+  Options options;
+  options.residual = uniform.residual;
+  options.reconstruction = uniform.reconstruction;
+  options.compare = uniform.compare;
+  options.threads = uniform.threads;
+  options.memory = uniform.memory;
+  options.seed = uniform.seed;
+  return options;
+}
 
-  PrepareResult preparation = prepare(scene);
-  if (!preparation.prepared) { return failed(Failure::Kind::invalid_scene, std::move(preparation.faults)); }
-  const raycast::Scene& objects = preparation.prepared->objects;
-  std::vector<Surface>& boundary = preparation.prepared->surfaces;
-  const Plan& plan = preparation.prepared->plan;
-  if (plan.lossless) { return failed(Failure::Kind::invalid_scene, {"closed, and nothing in it absorbs light: there is no solution"}); }
-  solution.frame = preparation.prepared->frame;
-  audit.channels = plan.channels;
-  audit.left_out = plan.left_out;
-  Hierarchy& hierarchy = solution.hierarchy;
-  cut_at_walls(boundary, objects.diameter());
-  hierarchy = make_roots(boundary);
-  watch.lap("build");
+HALFLIGHT_INLINE std::optional<Failure> interrupted() { return Failure{Failure::Kind::cancelled, {"the run was interrupted"}}; }
 
-  const double total = root_area(hierarchy);
-  if (hierarchy.size() > options.max_leaves || 1.0 / options.max_area > options.max_leaves) {
-    return failed(Failure::Kind::invalid_options,
-                  {"more than " + std::to_string(options.max_leaves) + " leaves; a larger max_area needs fewer"});
+// Instead of refinement: cuts every input face evenly.
+HALFLIGHT_INLINE std::optional<Failure> build_evenly(Run& run, const UniformOptions& options) {
+  DiscreteScene& scene = run.scene;
+  if (!(options.max_area > 0.0)) { return Failure{Failure::Kind::invalid_options, {"max_area must be above 0"}}; }
+  if (std::optional<Failure> failure = run.prepare_scene()) { return failure; }
+  if (scene.plan.lossless) {
+    return Failure{Failure::Kind::invalid_scene, {"closed, and nothing in it absorbs light: there is no solution"}};
   }
-  split_evenly(boundary, hierarchy, options.max_area * total);
-  watch.lap("refine");
+  run.solution.audit.left_out = scene.plan.left_out;
+  cut_at_walls(scene.surfaces, scene.objects.diameter());
+  scene.hierarchy = make_roots(scene.surfaces);
+  run.watch.lap("build");
 
-  std::vector<std::uint32_t> materials;
-  std::vector<Color> reflectance;
-  std::vector<Color> emission;
-  for (const InputSurface& input : surfaces(scene)) {
-    const Material& material = scene.materials[input.material];
-    materials.push_back(input.material);
-    reflectance.push_back(material.reflectance);
-    emission.push_back(material.emission);
+  const double total = root_area(scene.hierarchy);
+  if (scene.hierarchy.size() > options.max_leaves || 1.0 / options.max_area > options.max_leaves) {
+    return Failure{Failure::Kind::invalid_options,
+                   {"more than " + std::to_string(options.max_leaves) + " leaves; a larger max_area needs fewer"}};
   }
-  Patches patches{boundary, hierarchy};
-  patches.extend(threads);
-  Exposure exposure;
-  extend(exposure, objects, boundary, hierarchy, patches, threads, options.seed);
-  watch.lap("expose");
+  split_evenly(scene.surfaces, scene.hierarchy, options.max_area * total);
+  run.watch.lap("refine");
+  scene.expose();
+  run.watch.lap("expose");
+  return std::nullopt;
+}
 
-  const ShownAreas shown;  // there are no clusters
-  const LinkEvaluator evaluator{objects, plan, hierarchy, patches, exposure, shown, options.seed};
-  const LeafExchange exchange{objects, plan, boundary, hierarchy, patches, exposure, evaluator};
-  const LeafMaterials leaves = leaf_materials(exchange, hierarchy, reflectance, emission);
+// How many leaves there may be, and how much memory they may take.
+HALFLIGHT_INLINE std::optional<Failure> check_size(Run& run, const UniformOptions& options, const LeafExchange& exchange) {
   const std::uint64_t n = exchange.size();
   if (n > options.max_leaves) {
-    return failed(Failure::Kind::invalid_options, {std::to_string(n) + " leaves; a larger max_area needs fewer"});
+    return Failure{Failure::Kind::invalid_options, {std::to_string(n) + " leaves; a larger max_area needs fewer"}};
   }
-  MemoryBudget budget;
-  budget.allowed = options.memory.value_or(budget.allowed);
-  budget.fixed = objects.bytes() + exchange.bytes() + (options.solver == UniformSolver::gauss_seidel ? n * n * sizeof(float) : 0);
-  if (!budget.allows({hierarchy.size()})) {
-    return failed(Failure::Kind::out_of_memory,
-                  {too_much_memory(budget.peak({hierarchy.size()}), budget.allowed, "a larger max_area needs less")});
+  MemoryBudget& budget = run.scene.budget;
+  budget.fixed = run.scene.objects.bytes() + exchange.bytes() + (options.solver == UniformSolver::gauss_seidel ? n * n * sizeof(float) : 0);
+  if (!budget.allows({run.scene.hierarchy.size()})) {
+    return Failure{Failure::Kind::out_of_memory,
+                   {too_much_memory(budget.peak({run.scene.hierarchy.size()}), budget.allowed, "a larger max_area needs less")}};
   }
+  return std::nullopt;
+}
+
+// Instead of links: all exchanges between leaves, kept in a matrix or made shot by shot.
+HALFLIGHT_INLINE std::optional<Failure> solve_leaves(Run& run, const UniformOptions& options, const LeafExchange& exchange,
+                                                     const LeafMaterials& leaves) {
+  const DiscreteScene& scene = run.scene;
+  Audit& audit = run.solution.audit;
+  const std::uint64_t n = exchange.size();
   DenseSolution solved;
   if (options.solver == UniformSolver::gauss_seidel) {
-    DenseMatrix matrix = make_matrix(exchange, threads, control);
-    watch.lap("link");
-    if (plan.closed) {
+    DenseMatrix matrix = make_matrix(exchange, scene.threads, scene.control);
+    run.watch.lap("link");
+    if (scene.plan.closed) {
       audit.closure_limit = explained_closure(matrix, exchange);
       audit.closure = close_rows(matrix, exchange, audit.closure_limit);
     }
-    solved = gauss_seidel(matrix, exchange, leaves, options.residual, 1000, control);
+    solved = gauss_seidel(matrix, exchange, leaves, options.residual, 1000, scene.control);
     solved.rays = matrix.rays;
     audit.links = n * n;
     audit.bytes = matrix.entry.capacity() * sizeof(float);
   } else {
-    solved = shoot(exchange, leaves, options.unshot, 100 * n, threads, control);
+    solved = shoot(exchange, leaves, options.unshot, 100 * n, scene.threads, scene.control);
     audit.links = solved.iterations * n;
   }
-  if (control.cancelled()) { return failed(Failure::Kind::cancelled, {"the run was interrupted"}); }
+  if (scene.control.cancelled()) { return interrupted(); }
   audit.iterations = static_cast<std::uint32_t>(solved.iterations);
   audit.residual = solved.residual;
   audit.converged = solved.converged;
   audit.rays = solved.rays.cast;
   audit.rays_avoided = solved.rays.avoided;
-  solution.radiosity.assign(hierarchy.size(), Color{0.0});
-  for (std::size_t i = 0; i < n; ++i) { solution.radiosity[exchange.node(i)] = solved.radiosity[i]; }
-  watch.lap("solve");
-  if (options.compare) {
-    solution.comparison.emplace();
-    if (options.solver == UniformSolver::gauss_seidel) {
-      solution.comparison->dense = solution.radiosity;
-    } else if (n <= *options.compare) {
-      solution.comparison->dense = dense_radiosity(exchange, leaves, plan.closed, hierarchy.size(), options.residual, threads, control);
-    }
-    if (control.cancelled()) { return failed(Failure::Kind::cancelled, {"the run was interrupted"}); }
-    watch.lap("compare");
-  }
+  run.solution.radiosity.assign(scene.hierarchy.size(), Color{0.0});
+  for (std::size_t i = 0; i < n; ++i) { run.solution.radiosity[exchange.node(i)] = solved.radiosity[i]; }
+  run.watch.lap("solve");
+  return std::nullopt;
+}
 
-  eliminate_t_vertices(boundary);
-  const auto picture = [&](Reconstruction kind) {
-    reconstruct(boundary, hierarchy, exposure, solution.radiosity, materials, kind);
-    Mesh mesh = make_mesh(boundary, hierarchy, exposure, solution.radiosity);
-    for (glm::dvec3& p : mesh.positions) { p = solution.frame.to_scene(p); }
-    return mesh;
-  };
-  solution.mesh = picture(options.reconstruction);
-  watch.lap("reconstruct");
-  if (solution.comparison) {
-    solution.comparison->other = picture(other(options.reconstruction));
-    watch.lap("compare");
+HALFLIGHT_INLINE std::optional<Failure> compare_leaves(Run& run, const UniformOptions& options, const LeafExchange& exchange,
+                                                       const LeafMaterials& leaves) {
+  if (!options.compare) { return std::nullopt; }
+  const DiscreteScene& scene = run.scene;
+  Comparison& comparison = run.solution.comparison.emplace();
+  if (options.solver == UniformSolver::gauss_seidel) {
+    comparison.dense = run.solution.radiosity;
+  } else if (exchange.size() <= *options.compare) {
+    comparison.dense =
+        dense_radiosity(exchange, leaves, scene.plan.closed, scene.hierarchy.size(), options.residual, scene.threads, scene.control);
   }
-  audit.nodes = hierarchy.size();
-  audit.leaves = n;
-  audit.bytes += hierarchy.capacity() * sizeof(Node) + exchange.bytes() + objects.bytes();
-  for (const Surface& surface : boundary) { audit.bytes += surface.brep.bytes(); }
-  solution.area = exposure.area;
-  detail::sum_times(audit);
-  return {std::move(solution), {}};
+  if (scene.control.cancelled()) { return interrupted(); }
+  run.watch.lap("compare");
+  return std::nullopt;
+}
+
+// The pictures, as after links, but T-vertices are eliminated for all of them.
+HALFLIGHT_INLINE void reconstruct_leaves(Run& run) {
+  eliminate_t_vertices(run.scene.surfaces);
+  run.solution.mesh = run.picture(run.solution.radiosity, run.options.reconstruction);
+  run.watch.lap("reconstruct");
+}
+
+HALFLIGHT_INLINE Outcome solve_uniform_in_unit(const Scene& scene, const UniformOptions& options, const Control& control) {
+  MemoryBudget budget;
+  budget.allowed = options.memory.value_or(budget.allowed);
+  Run run{scene, options_of(options), control, budget};
+  const auto ended = [](std::optional<Failure>& failure) { return Outcome{std::nullopt, std::move(*failure)}; };
+  std::optional<Failure> failure = build_evenly(run, options);
+  if (failure) { return ended(failure); }
+  const DiscreteScene& cut = run.scene;
+  const LeafExchange exchange{cut};
+  const LeafMaterials leaves = leaf_materials(exchange, cut);
+  failure = check_size(run, options, exchange);
+  if (!failure) { failure = solve_leaves(run, options, exchange, leaves); }
+  if (!failure) { failure = compare_leaves(run, options, exchange, leaves); }
+  if (failure) { return ended(failure); }
+  reconstruct_leaves(run);
+  (void)stage::compare_picture(run);
+  Audit& audit = run.solution.audit;
+  audit.nodes = cut.hierarchy.size();
+  audit.leaves = exchange.size();
+  audit.bytes += cut.hierarchy.capacity() * sizeof(Node) + exchange.bytes() + cut.bytes();
+  return run.finish();
 }
 
 }  // namespace detail

@@ -17,6 +17,7 @@
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/oracle/oracle.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/refine.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>
@@ -37,11 +38,12 @@ struct Refined {
 
 Refined refined(radiosity::Scene scene, double epsilon) {
   Refined r{std::move(scene), {{}, raycast::Scene{{}}, {}, {}}, {}, {}};
-  r.prepared = std::move(*radiosity::prepare(r.scene).prepared);
-  r.hierarchy = radiosity::make_roots(r.prepared.surfaces);
-  radiosity::Patches patches{r.prepared.surfaces, r.hierarchy};
-  r.result =
-      radiosity::refine(r.scene, r.prepared.objects, r.prepared.plan, r.prepared.surfaces, r.hierarchy, patches, epsilon, 1e-4, true, 2, 1);
+  radiosity::DiscreteScene discrete{r.scene, 2, 1};
+  discrete.take(std::move(*radiosity::prepare(r.scene).prepared));
+  discrete.hierarchy = radiosity::make_roots(discrete.surfaces);
+  r.result = radiosity::refine(discrete, {epsilon, 1e-4, 1.0});
+  r.hierarchy = std::move(discrete.hierarchy);
+  r.prepared = {discrete.frame, std::move(discrete.objects), std::move(discrete.surfaces), std::move(discrete.plan)};
   return r;
 }
 

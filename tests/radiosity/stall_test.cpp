@@ -12,6 +12,7 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/wall_cuts.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/refine.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
@@ -42,10 +43,13 @@ Work work_of(const radiosity::Scene& scene, double epsilon, double min_area) {
   radiosity::PrepareResult made = radiosity::prepare(scene);
   for (const std::string& fault : made.faults) { UNSCOPED_INFO(fault); }
   REQUIRE(made.prepared);
-  std::vector<radiosity::Surface>& surfaces = made.prepared->surfaces;
-  radiosity::cut_at_walls(surfaces, made.prepared->objects.diameter());
+  radiosity::DiscreteScene discrete{scene, 1, 1};
+  discrete.take(std::move(*made.prepared));
+  std::vector<radiosity::Surface>& surfaces = discrete.surfaces;
+  radiosity::Hierarchy& hierarchy = discrete.hierarchy;
+  radiosity::cut_at_walls(surfaces, discrete.objects.diameter());
   radiosity::cut_long_faces(surfaces, min_area);
-  radiosity::Hierarchy hierarchy = radiosity::make_roots(surfaces);
+  hierarchy = radiosity::make_roots(surfaces);
   const std::size_t roots = hierarchy.size();
   const auto area = [&] {
     double sum = 0.0;
@@ -54,9 +58,7 @@ Work work_of(const radiosity::Scene& scene, double epsilon, double min_area) {
   };
   const double area_before = area();
   if (roots >= radiosity::Options{}.cluster_from) { hierarchy = radiosity::make_clusters(surfaces, hierarchy); }
-  radiosity::Patches patches{surfaces, hierarchy};
-  const radiosity::RefineResult result = radiosity::refine(scene, made.prepared->objects, made.prepared->plan, surfaces, hierarchy, patches,
-                                                           epsilon, min_area, 0.25 * epsilon, 1, 1);
+  const radiosity::RefineResult result = radiosity::refine(discrete, {epsilon, min_area, 0.25 * epsilon});
   REQUIRE(result.too_many == 0);
   for (const radiosity::Surface& surface : surfaces) { CHECK(brep::validate(surface.brep).empty()); }
   return {roots, hierarchy.size(), result.links.size(), static_cast<std::size_t>(result.pairs_tested), area_before, area()};

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/refinement/bf_choice.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/refinement/bf_generation.hpp>
+#include <radiosity/refinement/bf_refine.hpp>
+#include <radiosity/refinement/link_error.hpp>
+#include <radiosity/refinement/refine.hpp>
+#include <radiosity/support/memory.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// The least error of a link or a leaf that is to be refined: those above it hold all of the sum but `keep`, within a factor of sqrt 2.
+HALFLIGHT_INLINE double refinement_threshold(const std::vector<float>& links, const std::vector<float>& leaves, double keep) {
+  constexpr int half_octaves = 512;
+  std::array<double, half_octaves> held{};
+  const auto bin = [](double error) {
+    return std::clamp(static_cast<int>(std::floor(2.0 * std::log2(error))) + half_octaves / 2, 0, half_octaves - 1);
+  };
+  const auto count = [&](float error) {
+    if (error > 0.0f) { held[static_cast<std::size_t>(bin(error))] += error; }
+  };
+  for (const float e : links) { count(e); }
+  for (const float e : leaves) { count(e); }
+  double sum = 0.0;
+  int b = 0;
+  while (b < half_octaves && (sum += held[static_cast<std::size_t>(b)]) <= keep) { ++b; }
+  return std::exp2((b - half_octaves / 2) / 2.0);
+}
+
+// The error of the link of this rank, largest first; 0 beyond the last.
+HALFLIGHT_INLINE double error_of_rank(const std::vector<LinkError>& errors, std::size_t rank) {
+  if (rank >= errors.size()) { return 0.0; }
+  std::vector<float> sums;
+  sums.reserve(errors.size());
+  for (const LinkError& e : errors) { sums.push_back(e.sum()); }
+  std::nth_element(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(rank), sums.end(), std::greater<>{});
+  return sums[rank];
+}
+
+// Can the node be split, or has it been?
+HALFLIGHT_INLINE bool can_split(const BfState& state, std::uint32_t i) {
+  const Node& node = state.scene.hierarchy[i];
+  return !node.leaf() || (node.area > state.min_area && !(i < state.stuck.size() && state.stuck[i]));
+}
+
+// The errors that splits may still mend. `stays` sums up those, above the threshold, of which nothing can be split; they are taken out.
+struct OpenErrors {
+  std::vector<float> of_links, of_leaves;
+  double stays = 0.0;
+};
+
+// Of each link the end that errs more, or the other where that can not be split any more.
+HALFLIGHT_INLINE void choose_links(const BfState& state, const std::vector<LinkError>& errors, double threshold, OpenErrors& open,
+                                   SplitChoice& choice) {
+  const Links& links = state.result.refined.links;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (!(open.of_links[i] >= threshold && open.of_links[i] > 0.0f)) { continue; }
+    const LinkError& e = errors[i];
+    const bool p_first = e.p >= e.q;
+    const std::uint32_t first = p_first ? links[i].p : links[i].q;
+    const std::uint32_t second = p_first ? links[i].q : links[i].p;
+    if (can_split(state, first)) {
+      choice.ends[i] = p_first ? SplitEnd::p : SplitEnd::q;
+      choice.asked[first] = true;
+    } else if (can_split(state, second) && (state.scene.hierarchy[second].is_cluster() || std::min(e.p, e.q) >= 0.25f * e.sum())) {
+      choice.ends[i] = p_first ? SplitEnd::q : SplitEnd::p;
+      choice.asked[second] = true;
+    } else {
+      open.stays += open.of_links[i];
+      open.of_links[i] = 0.0f;
+    }
+    choice.count += choice.ends[i] != SplitEnd::none ? 1 : 0;
+  }
+}
+
+// Leaves whose constant is too coarse, while the links above will do.
+HALFLIGHT_INLINE void choose_leaves(const BfState& state, double threshold, OpenErrors& open, SplitChoice& choice) {
+  for (std::uint32_t i = 0; i < state.scene.hierarchy.size(); ++i) {
+    if (!(open.of_leaves[i] >= threshold && open.of_leaves[i] > 0.0f)) { continue; }
+    if (can_split(state, i)) {
+      choice.asked[i] = true;
+      ++choice.count;
+    } else {
+      open.stays += open.of_leaves[i];
+      open.of_leaves[i] = 0.0f;
+    }
+  }
+}
+
+// The largest errors first; where none of them can be split any more, those after them. Nothing when what is left is allowed, or nothing
+// can be split. Errors below `least` stay; with a `squeeze` above 1 there are fewer splits, those with the largest errors.
+HALFLIGHT_INLINE std::optional<SplitChoice> choose_largest(const BfState& state, const BfErrors& errors, double allowed, double least,
+                                                           double squeeze) {
+  OpenErrors open;
+  for (const LinkError& e : errors.links.links) { open.of_links.push_back(e.sum()); }
+  open.of_leaves = errors.leaves;
+  SplitChoice choice;
+  choice.ends.assign(open.of_links.size(), SplitEnd::none);
+  choice.asked.assign(state.scene.hierarchy.size(), false);
+  for (double left = errors.sum; choice.count == 0; left -= open.stays) {
+    if (!(left > allowed)) { return std::nullopt; }
+    const double keep = left - std::min(0.8 * left, 1.1 * (left - allowed));
+    const double threshold = squeeze * std::max(least, refinement_threshold(open.of_links, open.of_leaves, keep));
+    open.stays = 0.0;
+    choose_links(state, errors.links.links, threshold, open, choice);
+    choose_leaves(state, threshold, open, choice);
+    if (choice.count == 0 && !(open.stays > 0.0)) { return std::nullopt; }
+  }
+  return choice;
+}
+
+// What there will be once the choice is carried out.
+HALFLIGHT_INLINE MemoryBudget::Counts counts_after(const BfState& state, const SplitChoice& choice) {
+  const Hierarchy& hierarchy = state.scene.hierarchy;
+  const Links& links = state.result.refined.links;
+  const auto parts = [&](std::uint32_t i) { return hierarchy[i].leaf() ? hierarchy[i].corners : hierarchy[i].child_count; };
+  const auto split_links =
+      static_cast<std::size_t>(std::count_if(choice.ends.begin(), choice.ends.end(), [](SplitEnd end) { return end != SplitEnd::none; }));
+  MemoryBudget::Counts counts{hierarchy.size(), links.size() - split_links, 0, state.result.refined.occluders.bytes()};
+  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) { counts.nodes += choice.asked[i] && hierarchy[i].leaf() ? parts(i) : 0; }
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    counts.pairs += choice.ends[i] == SplitEnd::none ? 0 : parts(choice.ends[i] == SplitEnd::p ? links[i].p : links[i].q);
+  }
+  counts.links += counts.pairs;
+  return counts;
+}
+
+HALFLIGHT_INLINE double allowed_error(const BfErrors& errors, const BfGoal& goal) {
+  return goal.deadline.limited() ? 0.0 : goal.target * goal.target * errors.links.norm;
+}
+
+HALFLIGHT_INLINE bool is_last(const BfState& state, const BfErrors& errors, const BfGoal& goal) {
+  const BfResult& result = state.result;
+  // Where nothing is lit yet, light may still be found.
+  const bool dark = !(errors.links.norm > 0.0) && errors.sum > 0.0 && result.generations < 4;
+  const bool good = !goal.deadline.limited() && result.estimate <= goal.target && !dark;
+  return good || result.refined.links.size() > link_limit;
+}
+
+HALFLIGHT_INLINE std::optional<SplitChoice> choose_splits(BfState& state, const BfErrors& errors, const BfGoal& goal) {
+  const std::size_t links = state.result.refined.links.size();
+  const MemoryBudget& budget = state.scene.budget;
+  double least = error_of_rank(errors.links.links, (link_limit - links) / 8);  // children of a cluster
+  if (goal.deadline.limited()) {
+    const std::size_t most = goal.deadline.links_left(state.result.evaluations) / 4;  // a link that is refined becomes four
+    if (50 * most < links) { return std::nullopt; }
+    least = std::max(least, error_of_rank(errors.links.links, most));
+  }
+  for (double squeeze = 1.0;; squeeze *= 2.0) {  // until memory suffices
+    std::optional<SplitChoice> choice = choose_largest(state, errors, allowed_error(errors, goal), least, squeeze);
+    if (!choice || (squeeze > 1.0 && 50 * choice->count < links)) { return std::nullopt; }
+    if (!budget.limited()) { return choice; }
+    const MemoryBudget::Counts counts = counts_after(state, *choice);
+    if (budget.allows(counts)) { return choice; }
+    if (state.result.too_large == 0) { state.result.too_large = budget.peak(counts); }
+  }
+}
+
+}  // namespace detail
+
+}  // namespace radiosity

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/refinement/discrete_scene.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <raycast/inline.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/clusters/clusters.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/memory.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/prepare.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE DiscreteScene::DiscreteScene(const Scene& scene, unsigned thread_limit, std::uint64_t random_seed,
+                                              const Control& controlled_by, const MemoryBudget& within)
+    : input{scene},
+      threads{thread_limit},
+      seed{random_seed},
+      control{controlled_by},
+      budget{within},
+      objects{std::vector<raycast::PlacedObject>{}},
+      patches{surfaces, hierarchy},
+      evaluator{objects, plan, hierarchy, patches, exposure, shown, seed} {}
+
+HALFLIGHT_INLINE void DiscreteScene::take(Prepared prepared) {
+  frame = prepared.frame;
+  objects = std::move(prepared.objects);
+  surfaces = std::move(prepared.surfaces);
+  plan = std::move(prepared.plan);
+  inputs = radiosity::surfaces(input);
+  for (const InputSurface& surface : inputs) {
+    const Material& material = input.materials[surface.material];
+    materials.push_back(surface.material);
+    reflectance.push_back(material.reflectance);
+    emission.push_back(material.emission);
+  }
+}
+
+HALFLIGHT_INLINE void DiscreteScene::expose() {
+  patches.extend(threads);
+  extend(exposure, objects, surfaces, hierarchy, patches, threads, seed);
+}
+
+HALFLIGHT_INLINE ShownAreas DiscreteScene::exposed_shown() const {
+  return ShownAreas{hierarchy, [&](std::size_t i) { return exposure.area[i]; }};
+}
+
+HALFLIGHT_INLINE std::uint64_t DiscreteScene::bytes() const {
+  std::uint64_t sum = objects.bytes();
+  for (const Surface& surface : surfaces) { sum += surface.brep.bytes(); }
+  return sum;
+}
+
+}  // namespace radiosity

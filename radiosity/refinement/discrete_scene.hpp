@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A scene as a run cuts it up: the prepared scene, the hierarchy over its surfaces, and for each node of the hierarchy its patch and what
+// of it is exposed. Refinement lets it grow; everything after refinement reads it.
+
+#include <cstdint>
+#include <vector>
+
+#include <raycast/scene.hpp>
+
+#include <radiosity/clusters/clusters.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/links/evaluate.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/memory.hpp>
+#include <radiosity/visibility/exposure.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/prepare.hpp>
+
+namespace radiosity {
+
+// Its parts refer to each other, so it is neither copied nor moved.
+struct DiscreteScene {
+  // The scene must outlive this. Nothing is prepared yet.
+  DiscreteScene(const Scene& scene, unsigned thread_limit, std::uint64_t random_seed, const Control& controlled_by = {},
+                const MemoryBudget& within = {});
+  DiscreteScene(const DiscreteScene&) = delete;
+  DiscreteScene& operator=(const DiscreteScene&) = delete;
+
+  // What prepare() made of the scene, and the materials of its input surfaces. The hierarchy is still empty.
+  void take(Prepared prepared);
+
+  // Makes the patches of all nodes that have none, and measures what of them is exposed.
+  void expose();
+
+  [[nodiscard]] bool clustered() const { return !hierarchy.empty() && hierarchy[0].is_cluster(); }
+  // What the clusters show by the exposed areas of now.
+  [[nodiscard]] ShownAreas exposed_shown() const;
+  // Held by the compiled objects and the BReps.
+  [[nodiscard]] std::uint64_t bytes() const;
+
+  const Scene& input;
+  unsigned threads;
+  std::uint64_t seed;
+  Control control;
+  MemoryBudget budget;
+
+  Frame frame;
+  raycast::Scene objects;         // in the frame
+  std::vector<Surface> surfaces;  // boundary of each object
+  Plan plan;
+  std::vector<InputSurface> inputs;
+  std::vector<std::uint32_t> materials;      // of each input surface,
+  std::vector<Color> reflectance, emission;  // and what these are
+
+  Hierarchy hierarchy;
+  Patches patches;
+  Exposure exposure;
+  ShownAreas shown;  // by the clusters
+  LinkEvaluator evaluator;
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/refinement/discrete_scene.cpp>
+#endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/audit/audit_effort.hpp>
+#include <radiosity/audit/surface_error.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
+#include <radiosity/run/run.hpp>
+#include <radiosity/run/stages.hpp>
+#include <radiosity/scene/options.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// Fills in the errors of the solution, whose mesh is still in the frame.
+HALFLIGHT_INLINE void measure_errors(Run& run) {
+  const Options& options = run.options;
+  const Control& control = run.scene.control;
+  const Solution& solution = run.solution;
+  Audit& audit = run.solution.audit;
+  SurfaceErrorMeter meter{run.scene.input,    run.scene.objects, *run.tracer,
+                          run.scene.exposure, solution.mesh,     run.direct ? &*run.direct : nullptr,
+                          options.seed};
+  const AuditGoal to_know = goal_to_know(audit, options.audit_points);
+  const std::uint64_t solution_rays = rays_worth(audit);
+  AuditGoal goal = to_know;
+  if (options.error) {
+    goal = {options.audit_points, solution_rays, *options.error, std::max<std::uint64_t>(25'000'000, 2 * solution_rays)};
+  }
+  if (options.error && control.picture_error) {
+    Mesh shown = solution.mesh;
+    to_scene(shown, solution.frame);
+    audit.picture_error = control.picture_error(shown, solution.frame, goal);
+    // The error over all surfaces decides nothing then: until the picture is good enough, a little of it will do.
+    const bool last = audit.picture_error && audit.picture_error->error.within(*options.error);
+    goal = last ? to_know : AuditGoal{options.audit_points / 4, solution_rays / 2};
+  }
+  const bool reconstructed = options.reconstruction != Reconstruction::none;
+  const auto measure = [&](std::uint64_t points, std::uint32_t paths, SurfaceError& to) {
+    return meter.measure(points, paths, run.scene.threads, control, to);
+  };
+  SurfaceError measured;
+  const bool complete = measure_to_goal<SurfaceError>(
+      measure, [&](const SurfaceError& error) -> const ErrorSums& { return reconstructed ? error.reconstructed : error.leaf; }, goal,
+      measured);
+  if (!complete) { return; }
+  audit.leaf_error = measured.leaf.estimate();
+  if (reconstructed) { audit.surface_error = measured.reconstructed.estimate(); }
+  audit.audit_points = measured.points();
+  audit.audit_rays = measured.rays;
+  if (!options.error || control.picture_error) { return; }
+  // What steers the next round must not depend on the target: as many rays as the solution took, at most.
+  SurfaceError steering;
+  constexpr std::uint64_t points = 256;
+  const auto paths = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(solution_rays / (points * 8), 4, 64));
+  if (!measure(points, paths, steering)) { return; }
+  const double split = std::max(0.0, steering.direct) + std::max(0.0, steering.other);
+  if (split > 0.0) { audit.direct_share = std::max(0.0, steering.direct) / split; }
+}
+
+// Has BF-refinement met its target, by its own estimate and, where there is one, by the audit?
+HALFLIGHT_INLINE void check_target(Run& run) {
+  Audit& audit = run.solution.audit;
+  const std::optional<ErrorEstimate>& error = run.options.reconstruction != Reconstruction::none ? audit.surface_error : audit.leaf_error;
+  const bool contradicted = error && error->above(run.options.target);
+  audit.target_missed = !(*audit.estimated_error <= run.options.target) || contradicted;
+  audit.converged = audit.converged && !audit.target_missed;
+}
+
+}  // namespace detail
+
+namespace stage {
+
+HALFLIGHT_INLINE std::optional<Failure> audit(detail::Run& run) {
+  const Options& options = run.options;
+  const Control& control = run.scene.control;
+  const Plan& plan = run.scene.plan;
+  Audit& audit = run.solution.audit;
+  if (!plan.lit || !plan.reflects) {
+    audit.leaf_error = ErrorEstimate{};  // B = E is exact
+    if (options.reconstruction != Reconstruction::none) { audit.surface_error = audit.leaf_error; }
+    if (control.picture_error) { audit.picture_error = PictureError{}; }
+  } else if (options.audit_points > 0 && plan.traceable && !control.cancelled()) {
+    detail::measure_errors(run);
+    run.watch.lap("audit");
+  }
+  if (run.bf_refined() && !options.time && !options.error) { detail::check_target(run); }
+  if (options.audit_points > 0 && run.needs_links() && plan.traceable && !audit.leaf_error && control.cancelled()) {
+    audit.interrupted = true;
+    audit.left_out.push_back({"the error estimate", "the run was interrupted", ""});
+  }
+  return std::nullopt;
+}
+
+}  // namespace stage
+
+}  // namespace radiosity

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/audit/warnings.hpp>
+#include <radiosity/clusters/clusters.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/long_faces.hpp>
+#include <radiosity/hierarchy/polygons.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/hierarchy/wall_cuts.hpp>
+#include <radiosity/refinement/cluster_choice.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
+#include <radiosity/run/run.hpp>
+#include <radiosity/run/stages.hpp>
+#include <radiosity/scene/options.hpp>
+
+namespace radiosity {
+
+namespace stage {
+
+HALFLIGHT_INLINE std::optional<Failure> build(detail::Run& run) {
+  const Options& options = run.options;
+  DiscreteScene& scene = run.scene;
+  Audit& audit = run.solution.audit;
+  audit.epsilon = options.epsilon;
+  audit.min_area = options.min_area;
+  audit.light_epsilon = options.light_epsilon.value_or(0.25 * options.epsilon);
+
+  if (std::optional<Failure> failure = run.prepare_scene()) { return failure; }
+  std::vector<Surface>& boundaries = scene.surfaces;
+  if (options.topology == Topology::separate) {
+    for (Surface& surface : boundaries) { surface = separate_polygons(surface); }
+  }
+  run.tracer.emplace(scene.input, scene.objects, boundaries);
+  audit.warnings = warnings(scene.input, scene.frame, boundaries);
+  if (const std::size_t left = cut_at_walls(boundaries, scene.objects.diameter())) { audit.warnings.push_back(warning_of_uncut(left)); }
+  cut_long_faces(boundaries, options.min_area);
+  scene.hierarchy = make_roots(boundaries);
+  run.clusters = choose_clusters(scene.hierarchy.size(), options);
+  if (run.clusters.build) { scene.hierarchy = make_clusters(boundaries, scene.hierarchy); }
+  audit.clusters = static_cast<std::uint64_t>(
+      std::count_if(scene.hierarchy.begin(), scene.hierarchy.end(), [](const Node& n) { return n.is_cluster(); }));
+  if (scene.plan.lossless) {
+    return Failure{Failure::Kind::invalid_scene,
+                   {"the scene is closed and nothing in it absorbs light in some channel in which it emits: "
+                    "the light would grow without end; give some surface a reflectance below 1"}};
+  }
+  run.watch.lap("build");
+  return std::nullopt;
+}
+
+}  // namespace stage
+
+}  // namespace radiosity

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include <cstdint>
+#include <optional>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/matrix/dense.hpp>
+#include <radiosity/matrix/leaf_exchange.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/result/comparison.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
+#include <radiosity/run/run.hpp>
+#include <radiosity/run/stages.hpp>
+
+namespace radiosity {
+
+namespace stage {
+
+HALFLIGHT_INLINE std::optional<Failure> compare_matrix(detail::Run& run) {
+  if (!run.options.compare) { return std::nullopt; }
+  const DiscreteScene& scene = run.scene;
+  Solution& solution = run.solution;
+  solution.comparison.emplace();
+  const std::uint64_t leaves = exposed_leaves(scene.hierarchy, scene.exposure);
+  const std::uint64_t matrix = 8 * leaves * leaves;
+  if (leaves <= *run.options.compare && scene.budget.allows({scene.hierarchy.size(), solution.links.size(), 0, matrix / 2})) {
+    const LeafExchange exchange{scene};
+    solution.comparison->dense = dense_radiosity(exchange, leaf_materials(exchange, scene), scene.plan.closed, scene.hierarchy.size(),
+                                                 run.options.residual, scene.threads, scene.control);
+  }
+  if (scene.control.cancelled()) { return detail::cancelled(); }
+  run.watch.lap("compare");
+  return std::nullopt;
+}
+
+HALFLIGHT_INLINE std::optional<Failure> compare_picture(detail::Run& run) {
+  if (!run.solution.comparison) { return std::nullopt; }
+  Mesh& mesh = run.solution.comparison->other;
+  mesh = run.picture(run.solution.radiosity, other(run.options.reconstruction));
+  detail::to_scene(mesh, run.scene.frame);
+  run.watch.lap("compare");
+  return std::nullopt;
+}
+
+}  // namespace stage
+
+}  // namespace radiosity

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/audit/warnings.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
+#include <radiosity/run/run.hpp>
+#include <radiosity/run/stages.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// Their fractions are known to 1 %.
+inline constexpr std::uint32_t stray_ray_count = 2500;
+
+}  // namespace detail
+
+namespace stage {
+
+HALFLIGHT_INLINE std::optional<Failure> expose(detail::Run& run) {
+  DiscreteScene& scene = run.scene;
+  Audit& audit = run.solution.audit;
+  scene.expose();
+  if (scene.exposure.all_buried) {
+    return Failure{Failure::Kind::invalid_scene,
+                   {"every surface is buried under another object: nothing can be seen. Two rooms made by 'inside' "
+                    "that do not overlap bury each other, for beyond its walls a room is solid"}};
+  }
+  for (std::string& sentence : warnings_of_buried(scene.input, scene.hierarchy, scene.exposure)) {
+    audit.warnings.push_back(std::move(sentence));
+  }
+  if (!scene.plan.closed && run.needs_links()) {
+    audit.stray = stray_rays(scene.objects, scene.surfaces, scene.hierarchy, scene.patches, scene.exposure, detail::stray_ray_count,
+                             scene.threads, scene.seed);
+  }
+  run.watch.lap("expose");
+  return std::nullopt;
+}
+
+}  // namespace stage
+
+}  // namespace radiosity

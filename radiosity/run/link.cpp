@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include <optional>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/links/evaluate.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
+#include <radiosity/run/run.hpp>
+#include <radiosity/run/stages.hpp>
+
+namespace radiosity {
+
+namespace stage {
+
+HALFLIGHT_INLINE std::optional<Failure> link(detail::Run& run) {
+  DiscreteScene& scene = run.scene;
+  if (run.f_refined()) {
+    if (run.clusters.build) { scene.shown = scene.exposed_shown(); }
+    run.evaluated =
+        evaluate(scene.evaluator, run.refined.occluders, run.solution.links, run.refined.lists, 0, nullptr, scene.threads, scene.control);
+    if (run.evaluated.cancelled) { return detail::cancelled(); }
+  }
+  run.watch.lap("link");
+  return std::nullopt;
+}
+
+}  // namespace stage
+
+}  // namespace radiosity

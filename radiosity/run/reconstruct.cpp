@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include <optional>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/picture/reconstruct.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
+#include <radiosity/run/run.hpp>
+#include <radiosity/run/stages.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/solver/solve.hpp>
+
+namespace radiosity {
+
+namespace stage {
+
+HALFLIGHT_INLINE std::optional<Failure> reconstruct(detail::Run& run) {
+  DiscreteScene& scene = run.scene;
+  const Options& options = run.options;
+  const bool constant = options.reconstruction >= Reconstruction::constant;
+  run.t_vertices = (!constant || !scene.plan.shortcuts) && eliminate_t_vertices(scene.surfaces) > 0;
+  if (options.error && !scene.control.picture_error && run.f_refined()) {  // one step from E
+    const ColorSolution once = solve_channels(scene.hierarchy, *run.transport, scene.exposure.area, scene.reflectance, scene.emission,
+                                              scene.plan.channels, Solver::jacobi, options.residual, 1);
+    run.direct = run.picture(once.radiosity, options.reconstruction);
+  }
+  run.solution.mesh = run.picture(run.solution.radiosity, options.reconstruction);
+  run.watch.lap("reconstruct");
+  return std::nullopt;
+}
+
+}  // namespace stage
+
+}  // namespace radiosity

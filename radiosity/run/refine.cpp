@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/geometry/directions.hpp>
+#include <radiosity/refinement/bf_refine.hpp>
+#include <radiosity/refinement/cluster_choice.hpp>
+#include <radiosity/refinement/link_error.hpp>
+#include <radiosity/refinement/refine.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
+#include <radiosity/run/run.hpp>
+#include <radiosity/run/stages.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/support/memory.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+HALFLIGHT_INLINE std::string too_large(const Run& run, std::uint64_t needed) {
+  return too_much_memory(needed, run.scene.budget.allowed,
+                         run.options.error ? "a larger error needs less"
+                         : run.scene.budget.a_posteriori
+                             ? "a larger target needs less"
+                             : "a larger epsilon or min_area needs less, and BF-refinement ends with the best that fits");
+}
+
+HALFLIGHT_INLINE void refine_by_solutions(Run& run) {
+  const Options& options = run.options;
+  Audit& audit = run.solution.audit;
+  BfResult bf = bf_refine(run.scene, {options.target, leaf_part(options.reconstruction), Deadline{options.time}});
+  run.refined = std::move(bf.refined);
+  run.evaluated = std::move(bf.evaluated);
+  run.unseen = bf.unseen;
+  audit.estimated_error = bf.estimate;
+  audit.estimated_leaf_error = bf.leaf_estimate;
+  audit.target = options.time ? 0.0 : options.target;
+  audit.generations = bf.generations;
+  audit.interrupted = bf.interrupted;
+  if (bf.too_large > 0 && bf.estimate > options.target) { audit.shortage = too_large(run, bf.too_large); }
+}
+
+}  // namespace detail
+
+namespace stage {
+
+HALFLIGHT_INLINE std::optional<Failure> refine(detail::Run& run) {
+  const Options& options = run.options;
+  const Audit& audit = run.solution.audit;
+  MemoryBudget& budget = run.scene.budget;
+  budget.a_posteriori = options.refinement == Refinement::a_posteriori;
+  budget.fixed = run.scene.bytes() + audit.clusters * 8 * direction_count * sizeof(double) + std::uint64_t{options.audit_points} * 150;
+  if (run.bf_refined()) {
+    detail::refine_by_solutions(run);
+  } else if (run.f_refined()) {
+    run.refined = radiosity::refine(run.scene, {options.epsilon, options.min_area, audit.light_epsilon});
+  } else if (!budget.allows({run.scene.hierarchy.size()})) {
+    run.refined.too_large = budget.peak({run.scene.hierarchy.size()});
+  }
+  if (run.refined.cancelled || run.evaluated.cancelled) { return detail::cancelled(); }
+  if (run.refined.too_many > 0) { return Failure{Failure::Kind::invalid_options, {too_many_links(run.refined.too_many, run.clusters)}}; }
+  if (run.refined.too_large > 0) { return Failure{Failure::Kind::out_of_memory, {detail::too_large(run, run.refined.too_large)}}; }
+  run.solution.links = std::move(run.refined.links);
+  run.watch.lap("refine");
+  return std::nullopt;
+}
+
+}  // namespace stage
+
+}  // namespace radiosity

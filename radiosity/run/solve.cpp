@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/audit/summary.hpp>
+#include <radiosity/exchange/doubt.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/refinement/link_error.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
+#include <radiosity/run/run.hpp>
+#include <radiosity/run/stages.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/solver/solve.hpp>
+#include <radiosity/solver/transport.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// The operator of the linear system, with the row sums of a closed scene put right as far as quadrature and sampling explain it.
+HALFLIGHT_INLINE void make_transport(Run& run) {
+  const DiscreteScene& scene = run.scene;
+  Solution& solution = run.solution;
+  Audit& audit = solution.audit;
+  Transport& transport = run.transport.emplace(scene.hierarchy, solution.links, scene.exposure, scene.threads);
+  const std::vector<double>& area = scene.exposure.area;
+  solution.row_sum = transport.row_sums();
+  audit.computed_row_sum = summarise_rows(scene.hierarchy, area, solution.row_sum);
+  if (scene.plan.closed && !solution.links.empty()) {
+    double exposed = 0.0;
+    for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }
+    audit.closure_limit = explained_closure(run.evaluated.doubt, area, exposed);
+    audit.closure = transport.close(audit.closure_limit);
+  }
+  solution.row_sum = transport.row_sums();
+  audit.row_sum = summarise_rows(scene.hierarchy, area, solution.row_sum);
+}
+
+HALFLIGHT_INLINE void solve_system(Run& run) {
+  const DiscreteScene& scene = run.scene;
+  Audit& audit = run.solution.audit;
+  const auto solve_by = [&](Solver solver, const Control& until) {
+    return solve_channels(scene.hierarchy, *run.transport, scene.exposure.area, scene.reflectance, scene.emission, scene.plan.channels,
+                          solver, run.options.residual, run.options.max_iterations, until);
+  };
+  ColorSolution solved = solve_by(run.options.solver, scene.control);
+  if (solved.cancelled) {  // all links are there: the solution by the fewest iterations is near
+    audit.interrupted = true;
+    solved = solve_by(Solver::conjugate_gradients, scene.control.unstoppable());
+  }
+  audit.residual = solved.residual;
+  audit.iterations = solved.iterations;
+  audit.converged = solved.converged && !audit.interrupted && audit.shortage.empty();
+  audit.histories = std::move(solved.histories);
+  run.solution.radiosity = std::move(solved.radiosity);
+}
+
+// BF-refinement has estimated the error; after F-refinement that is done now.
+HALFLIGHT_INLINE void estimate_error(Run& run) {
+  const DiscreteScene& scene = run.scene;
+  const Solution& solution = run.solution;
+  Audit& audit = run.solution.audit;
+  if (run.f_refined() && run.options.audit_points > 0) {
+    const ErrorEstimation errors = sampled_estimate(scene, solution.links, solution.radiosity, run.evaluated.doubt);
+    audit.estimated_error = errors.relative(leaf_part(run.options.reconstruction));
+    audit.estimated_leaf_error = errors.relative(1.0);
+  }
+  if (audit.estimated_error) {
+    audit.estimate_doubt = estimate_doubt(scene, *run.transport, solution.radiosity, run.unseen, audit.closure.has_value());
+  }
+}
+
+}  // namespace detail
+
+namespace stage {
+
+HALFLIGHT_INLINE std::optional<Failure> solve(detail::Run& run) {
+  const DiscreteScene& scene = run.scene;
+  Audit& audit = run.solution.audit;
+  detail::make_transport(run);
+  detail::solve_system(run);
+  detail::estimate_error(run);
+  balance_energy(audit, scene.input, scene.inputs, scene.hierarchy, *run.transport, scene.exposure.area, run.solution.radiosity);
+  summarise_surfaces(audit, scene.inputs, scene.frame, scene.hierarchy, scene.exposure.area, run.solution.radiosity);
+  run.watch.lap("solve");
+  return std::nullopt;
+}
+
+}  // namespace stage
+
+}  // namespace radiosity
