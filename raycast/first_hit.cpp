@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: MIT
+
+// The first hit of one ray and of sixteen: the search of kernels/first.inc in front of the law of scene.hpp.
+//
+// The search goes through the part of the ray that lies in a cube around the compiled scene. Polygons that are crossed for certain and
+// faces of solids that are entered for certain it leaves over, with bounds of the parameter; mostly one is left, whose place is then
+// computed in double precision, as the law does. Of everything else the law is asked.
+
 #include <algorithm>
 #include <bit>
 #include <cmath>

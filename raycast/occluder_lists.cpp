@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+
+// The lists of occluders of shaft.hpp, made from the whole scene or from the list of an ancestor.
+
 #include <algorithm>
 #include <array>
 #include <cmath>

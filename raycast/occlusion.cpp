@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: MIT
+
+// Occlusion of one segment and of sixteen: the fast searches of kernels.hpp in front of the law of scene.hpp.
+//
+// Segments may lie anywhere: one that leaves the compiled scene is clipped to where something is. Rooms come last: where both ends are in a
+// convex one, or on it, it does not block.
+
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+
+// The law of scene.hpp, and how its objects are compiled.
+
 #include <raycast/scene.hpp>
 
 #include <algorithm>

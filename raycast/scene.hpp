@@ -4,7 +4,7 @@
 // All objects of a scene, compiled for rays (compiled.hpp), and the law of occlusion in double precision.
 //
 // The ends of a visibility segment lie on surfaces, up to rounding, or on chord patches inside convex ones (paper 4.3). Instead of an
-// epsilon along the ray, spans decide (notes/raycaster.md R3):
+// epsilon along the ray, spans decide:
 //   - of an end's owner, the span that contains the end is dropped: a ray that leaves a solid is never stopped by its own skin, while a
 //     concave solid still shadows itself further on. A polygon that is an owner is left out, and so is a convex object that owns both ends;
 //   - of every other object, a span is dropped when the end only touches it: it is no deeper behind the crossed surface than a skin; or
@@ -14,7 +14,7 @@
 // it bounds how deep any point of the dropped part lies inside.
 //
 // Skins. `rounding` = 64 u M, M the largest coordinate of the scene: an interpolated point is off its surface by at most 8 u M, an
-// affine map adds 12 u M, a plane distance 12 u M, a crossing of sphere or cylinder 32 u M (notes/raycaster.md 3). To it comes what
+// affine map adds 12 u M, a plane distance 12 u M, a crossing of sphere or cylinder 32 u M (measured with binary128). To it comes what
 // the two surfaces are known to be non-planar by, and, between two objects, 1e-9 of the smaller one's diameter: so closely a lamp
 // must fit the ceiling to count as lying on it. The same skin decides in covered(), so what is coincident there is so here too.
 //

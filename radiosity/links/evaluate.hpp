@@ -51,6 +51,7 @@ struct LinkShape {
 // Segments, in rounds of 16, for each link between patches that is partly blocked. Where a light shines, the light oracle has split until
 // the shadow within a patch matters little; what 64 segments add to that is an eighth of it.
 inline constexpr std::uint32_t patch_rounds = 4;
+
 // Evaluates links one by one.
 class LinkEvaluator {
  public:

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+
+// Stage: the error of the solution, by path tracing (audit/).
+
 #include <algorithm>
 #include <cstdint>
 #include <optional>

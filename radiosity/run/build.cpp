@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+
+// Stage: from the scene to the roots of the hierarchy (paper 4.1, 4.2).
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+
+// Stages for studies: the same leaves with all pairs of them, and the other reconstruction.
+
 #include <cstdint>
 #include <optional>
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+
+// Stage: what of each patch is not buried, and what a scene that is not closed loses.
+
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+
+// Stage: form factors and visibility of the links of F-refinement (paper 4.3).
+
 #include <optional>
 
 #include <raycast/inline.hpp>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+
+// Stage: from one radiosity a leaf to colours at the half-edges (paper 4.5).
+
 #include <optional>
 
 #include <raycast/inline.hpp>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+
+// Stage: patches are split and links chosen (paper 4.3, 4.4).
+
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+
+// Stage: row sums are closed, the linear system is solved.
+
 #include <cstddef>
 #include <optional>
 #include <utility>

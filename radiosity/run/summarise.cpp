@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+
+// Stage: sizes, rays and what was left out.
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -25,7 +25,10 @@ namespace radiosity {
 
 namespace detail {
 
-HALFLIGHT_INLINE LinearSolution jacobi(const Channel& channel, double wanted, std::uint32_t max_iterations, const Control& control) {
+// Calls step(b, r), which improves the solution b with the help of its residual r, until one of the limits is met.
+template <class Step>
+[[nodiscard]] LinearSolution iterate(const Channel& channel, double wanted, std::uint32_t max_iterations, const Control& control,
+                                     const Step& step) {
   std::vector<double> b(channel.emission);
   std::vector<double> r;
   Progress progress{channel.norm(b), b};
@@ -36,24 +39,21 @@ HALFLIGHT_INLINE LinearSolution jacobi(const Channel& channel, double wanted, st
     if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations || control.cancelled()) {
       return finish(channel, std::move(progress), iteration, wanted);
     }
-    for (std::size_t i = 0; i < b.size(); ++i) { b[i] += r[i]; }
+    step(b, r);
   }
 }
 
+HALFLIGHT_INLINE LinearSolution jacobi(const Channel& channel, double wanted, std::uint32_t max_iterations, const Control& control) {
+  return iterate(channel, wanted, max_iterations, control, [](std::vector<double>& b, const std::vector<double>& r) {
+    for (std::size_t i = 0; i < b.size(); ++i) { b[i] += r[i]; }
+  });
+}
+
 HALFLIGHT_INLINE LinearSolution gauss_seidel(const Channel& channel, double wanted, std::uint32_t max_iterations, const Control& control) {
-  std::vector<double> b(channel.emission);
-  std::vector<double> r;
-  std::vector<double> arrived(b.size(), 0.0);
+  std::vector<double> arrived(channel.emission.size(), 0.0);
   TreeTransport trees{*channel.transport};
-  for (std::uint32_t t = 0; t < trees.trees(); ++t) { trees.send(t, b); }
-  Progress progress{channel.norm(b), b};
-  for (std::uint32_t iteration = 0;; ++iteration) {
-    channel.residual(b, r);
-    const double norm = channel.norm(r);
-    progress.offer(b, norm);
-    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations || control.cancelled()) {
-      return finish(channel, std::move(progress), iteration, wanted);
-    }
+  for (std::uint32_t t = 0; t < trees.trees(); ++t) { trees.send(t, channel.emission); }
+  return iterate(channel, wanted, max_iterations, control, [&](std::vector<double>& b, const std::vector<double>&) {
     for (std::uint32_t t = 0; t < trees.trees(); ++t) {
       trees.gather(t, arrived);
       for (const std::uint32_t i : trees.nodes(t)) {
@@ -61,7 +61,7 @@ HALFLIGHT_INLINE LinearSolution gauss_seidel(const Channel& channel, double want
       }
       trees.send(t, b);
     }
-  }
+  });
 }
 
 HALFLIGHT_INLINE LinearSolution southwell(const Channel& channel, double wanted, std::uint32_t max_iterations, const Control& control) {

@@ -5,7 +5,7 @@
 //
 // Intersection: the origin is moved to the point l of the line nearest to the centre; then r^2 - |l|^2 = (r - |l|)(r + |l|) has no
 // cancellation in terms of the distance. With D the distance of the origin from the centre, the crossings are known to 32 u D
-// away from the rim, and hit or miss is decided rightly when | |l| - r | > 8 u D (notes/raycaster.md 3, measured with binary128).
+// away from the rim, and hit or miss is decided rightly when | |l| - r | > 8 u D (measured with binary128).
 //
 // Approximation: a cube of n x n quadrilaterals per side blown up to the sphere, its grid lines at equal angles. Eight corners where
 // three quadrilaterals meet, no poles, no slivers.

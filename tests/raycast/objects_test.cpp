@@ -49,7 +49,7 @@ TEST_CASE("crossings lie on the surface, over scales and distances of 10^+-8") {
     const dvec3 centre = random.in_cube(size * std::pow(10.0, random.uniform(-2, 2)));
     const dvec3 target = centre + random.in_cube(0.8 * size), origin = target + far * random.direction();
     const Segment line{origin, random.uniform(0.5, 2.0) * (target - origin)};
-    // Positions have an error of u times the coordinates; the crossing 32 u D (notes/raycaster.md 3), and the oracle as much again.
+    // Positions have an error of u times the coordinates; the crossing 32 u D (sphere.hpp), and the oracle as much again.
     // Rays that graze within 1e-3 of the rim amplify it to about 340 u D.
     const double bound = 400 * u * (far + size + glm::length(centre));
     const auto sphere = Sphere::make(centre, size);
