@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "apps/report_facts.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/support/left_out.hpp>
+
+#include "apps/text.hpp"
+#include "apps/version.hpp"
+
+namespace apps {
+namespace {
+
+// Most that the process has held until the report, as far as it was measured.
+std::optional<std::uint64_t> peak_bytes(const Report& report) {
+  std::optional<std::uint64_t> peak;
+  for (const radiosity::StageTime& stage : report.audit.stages) { peak = std::max(peak, stage.peak_bytes); }
+  return report.picture_time ? std::max(peak, report.picture_time->peak_bytes) : peak;
+}
+
+void add_error(Facts& facts, const std::string& path, const radiosity::ErrorEstimate& error) {
+  facts.add(path + ".relative_l2", error.relative_l2, "%");
+  facts.add(path + ".standard_error", error.standard_error, "%");
+  facts.add(path + ".low", error.low, "%");
+  facts.add(path + ".high", error.high, "%");
+}
+
+void add_picture_error(Facts& facts, const radiosity::PictureError& picture) {
+  add_error(facts, "error.picture", picture.error);
+  facts.add("error.picture.audited", picture.audited);
+  const auto share = [&](const char* path, const radiosity::ShareBounds& of) {
+    facts.add(path, [of](JsonWriter& json) { json.open_array().number(of.least).number(of.most).close(); });
+  };
+  share("error.picture.over_2_levels", picture.over2);
+  share("error.picture.over_8_levels", picture.over8);
+  if (picture.worst) {
+    facts.add("error.picture.worst_tile.column", picture.worst->column);
+    facts.add("error.picture.worst_tile.row", picture.worst->row);
+    add_error(facts, "error.picture.worst_tile", picture.worst->error);
+  } else {
+    facts.add("error.picture.worst_tile", {});
+  }
+  facts.add("error.picture.points", picture.points);
+  facts.add("error.picture.rays", picture.rays);
+}
+
+void add_errors(Facts& facts, const radiosity::Audit& audit) {
+  if (!audit.leaf_error) { return facts.add("error", {}); }
+  if (audit.surface_error) { add_error(facts, "error", *audit.surface_error); }  // else nobody asked for a reconstruction
+  facts.add("error.points", audit.audit_points);
+  facts.add("error.rays", audit.audit_rays);
+  add_error(facts, "error.leaf", *audit.leaf_error);
+  if (audit.picture_error) { add_picture_error(facts, *audit.picture_error); }
+}
+
+// Stages of one name (a run that was repeated to meet its error target) are added up; of their peaks the last is the largest.
+void add_stages(Facts& facts, const Report& report) {
+  const radiosity::Audit& audit = report.audit;
+  struct Sum {
+    std::string key;
+    radiosity::StageTime stage;
+    std::size_t last;
+  };
+  std::vector<Sum> sums;
+  std::size_t number = 0;
+  const auto add = [&](const radiosity::StageTime& stage) {
+    std::string key = stage.name;
+    std::replace(key.begin(), key.end(), ' ', '_');
+    const auto same = std::find_if(sums.begin(), sums.end(), [&](const Sum& sum) { return sum.key == key; });
+    if (same == sums.end()) {
+      sums.push_back({std::move(key), stage, number++});
+      return;
+    }
+    same->stage.cpu_seconds += stage.cpu_seconds;
+    same->stage.wall_seconds += stage.wall_seconds;
+    same->stage.peak_bytes = stage.peak_bytes;
+    same->last = number++;
+  };
+  for (const radiosity::StageTime& stage : audit.stages) { add(stage); }
+  if (report.picture_time) { add(*report.picture_time); }
+  for (const Sum& sum : sums) { facts.add("cpu_seconds." + sum.key, sum.stage.cpu_seconds); }
+  facts.add("cpu_seconds.total", audit.cpu_seconds);
+  for (const Sum& sum : sums) { facts.add("wall_seconds." + sum.key, sum.stage.wall_seconds); }
+  facts.add("wall_seconds.total", audit.wall_seconds);
+  std::stable_sort(sums.begin(), sums.end(), [](const Sum& a, const Sum& b) { return a.last < b.last; });
+  for (const Sum& sum : sums) { facts.add("peak_bytes." + sum.key, sum.stage.peak_bytes, "B"); }
+  facts.add("peak_bytes.process", peak_bytes(report), "B");
+}
+
+void add_range(Facts& facts, const std::string& path, const radiosity::Audit::Range& range, const char* unit) {
+  facts.add(path + ".min", range.min, unit);
+  facts.add(path + ".mean", range.mean, unit);
+  facts.add(path + ".max", range.max, unit);
+}
+
+void add_settings(Facts& facts, const Report& report) {
+  const radiosity::Audit& audit = report.audit;
+  facts.add("exposure", report.exposure, "%.5g");
+  facts.add("exposure_automatic", report.automatic_exposure);
+  facts.add("settings.epsilon", audit.epsilon, "%.3g");
+  facts.add("settings.min_area", audit.min_area, "%.3g");
+  facts.add("settings.light_epsilon", audit.light_epsilon, "%.3g");
+  facts.add("settings.error_target", report.options.error);
+  facts.add("settings.solver", std::string(name(report.options.solver)));
+  facts.add("settings.reconstruction", std::string(name(report.options.reconstruction)));
+  facts.add("settings.channels", audit.channels);
+  facts.add("settings.threads", audit.threads, "1");
+  facts.add("settings.seed", audit.seed, "1");
+  if (!report.picture) { return facts.add("picture", {}); }
+  facts.add("picture.camera", report.picture->camera);
+  facts.add("picture.width", report.picture->width, "1");
+  facts.add("picture.height", report.picture->height, "1");
+  facts.add("picture.method", std::string(report.picture->method == PictureMethod::mesh ? "mesh" : "raycast"));
+}
+
+// A list of what `write` writes of each.
+template <class Item, class Write>
+void add_list(Facts& facts, const char* path, const std::vector<Item>& items, const Write& write) {
+  facts.add(path, [&items, write](JsonWriter& json) {
+    json.open_array();
+    for (const Item& item : items) { write(json, item); }
+    json.close();
+  });
+}
+
+void add_lists(Facts& facts, const Report& report) {
+  const radiosity::Audit& audit = report.audit;
+  const auto sentence = [](JsonWriter& json, const std::string& text) { json.string(text); };
+  add_list(facts, "warnings", audit.warnings, sentence);
+  if (audit.stray) {
+    facts.add("stray_rays.escaping", audit.stray->escaping, "%");
+    facts.add("stray_rays.to_backs", audit.stray->to_backs, "%");
+    facts.add("stray_rays.standard_error", audit.stray->standard_error, "%");
+  } else {
+    facts.add("stray_rays", {});
+  }
+  add_list(facts, "left_out", audit.left_out, [](JsonWriter& json, const radiosity::LeftOut& item) {
+    json.open_object().key("what").string(item.what).key("why").string(item.why).key("saved").string(item.saved);
+    json.key("seconds").number(item.seconds).close();
+  });
+  add_list(facts, "surfaces", audit.surfaces, [](JsonWriter& json, const radiosity::SurfaceMean& surface) {
+    json.open_object().key("name").string(surface.name).key("area").number(surface.area).key("radiosity").open_array();
+    for (int c = 0; c < 3; ++c) { json.number(surface.radiosity[c]); }
+    json.close().close();
+  });
+  add_list(facts, "files", report.files, sentence);
+}
+
+}  // namespace
+
+Facts facts_of(const Report& report) {
+  const radiosity::Audit& audit = report.audit;
+  Facts facts;
+  facts.add("program", std::string("halflight"));
+  facts.add("version", std::string(version));
+  facts.add("scene", report.scene);
+  add_errors(facts, audit);
+  add_stages(facts, report);
+  facts.add("polygons", audit.polygons);
+  facts.add("nodes", audit.nodes);
+  facts.add("leaves", audit.leaves);
+  facts.add("links", audit.links);
+  facts.add("clusters", audit.clusters);
+  facts.add("cluster_links", audit.cluster_links);
+  facts.add("rays", audit.rays);
+  facts.add("rays_avoided", audit.rays_avoided);
+  facts.add("pairs_clear", audit.pairs_clear);
+  facts.add("pairs_blocked", audit.pairs_hidden);
+  facts.add("bytes", audit.bytes, "B");
+  add_range(facts, "proportion", audit.proportion, "%.2f");
+  add_range(facts, "row_sum", audit.row_sum, "%.6f");
+  add_range(facts, "computed_row_sum", audit.computed_row_sum, "%.6f");
+  facts.add("closure", audit.closure, "%");
+  facts.add("estimated_error", audit.estimated_error, "%");
+  facts.add("estimated_leaf_error", audit.estimated_leaf_error, "%");
+  facts.add("estimate_doubt", audit.estimate_doubt);
+  facts.add("target_missed", audit.target_missed);
+  facts.add("energy_balance", audit.energy_balance, "%");
+  facts.add("escaped", audit.escaped, "%");
+  facts.add("residual", audit.residual, "%.2e");
+  facts.add("iterations", audit.iterations, "1");
+  add_list(facts, "residual_histories", audit.histories, [](JsonWriter& json, const std::vector<double>& history) {
+    json.open_array();
+    for (const double residual : history) { json.number(residual); }
+    json.close();
+  });
+  facts.add("converged", audit.converged);
+  facts.add("shortage", audit.shortage);
+  add_settings(facts, report);
+  add_lists(facts, report);
+  return facts;
+}
+
+}  // namespace apps
