@@ -166,6 +166,8 @@ Facts facts_of(const Report& report) {
   facts.add("nodes", audit.nodes);
   facts.add("leaves", audit.leaves);
   facts.add("links", audit.links);
+  facts.add("ray_links", audit.ray_links);
+  facts.add("stored_rays", audit.stored_rays);
   facts.add("clusters", audit.clusters);
   facts.add("cluster_links", audit.cluster_links);
   facts.add("rays", audit.rays);

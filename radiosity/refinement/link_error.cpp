@@ -137,8 +137,10 @@ HALFLIGHT_INLINE ErrorEstimation estimate_link_errors(std::optional<double> alik
   return result;
 }
 
-HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity,
-                                                  const DoubtSum& doubt) {
+HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, const std::array<std::span<const Link>, 2>& links,
+                                                  const std::vector<Color>& radiosity, const DoubtSum& doubt) {
+  const std::size_t all = links[0].size() + links[1].size();
+  const auto link_at = [&](std::size_t i) -> const Link& { return i < links[0].size() ? links[0][i] : links[1][i - links[0].size()]; };
   const Hierarchy& hierarchy = scene.hierarchy;
   const std::vector<double>& area = scene.exposure.area;
   const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(scene.emission[hierarchy[i].surface]); };
@@ -149,7 +151,7 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, co
     double each = 0.0;  // links that one stands for
   };
   Sample of_lights, others;
-  for (std::uint32_t i = 0; i < links.size(); ++i) { (emits(links[i].p) || emits(links[i].q) ? of_lights : others).from.push_back(i); }
+  for (std::uint32_t i = 0; i < all; ++i) { (emits(link_at(i).p) || emits(link_at(i).q) ? of_lights : others).from.push_back(i); }
   // The part of a linear variation over a node that is left over its leaves: the sum of the squares of their areas over that of its own.
   std::vector<double> over_leaves(hierarchy.size(), 0.0);
   for (std::size_t i = hierarchy.size(); i-- > 0;) {
@@ -164,7 +166,7 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, co
     sample.links.resize(count);
     sample.shapes.resize(count);
     parallel_for(count, scene.threads, [&](std::size_t i) {
-      Link& link = sample.links[i] = links[sample.from[i * sample.from.size() / count]];
+      Link& link = sample.links[i] = link_at(sample.from[i * sample.from.size() / count]);
       const float closed = link.exchange;
       (void)scene.evaluator(link, {}, &sample.shapes[i]);
       link.exchange = closed;
@@ -188,7 +190,7 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, co
   draw(others, 3072);
   // A leaf that is a whole input face has no siblings; and where the sample is all the links, their slopes tell more.
   const LeafErrors by_slopes = estimate_leaf_errors(scene, scaled, radiosity);
-  if (scaled.size() == links.size()) {
+  if (scaled.size() == all) {
     leaves = by_slopes;
   } else {
     leaves.sum = variation_by_siblings(hierarchy, area, radiosity);

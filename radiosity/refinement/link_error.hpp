@@ -22,8 +22,10 @@
 // in the same way. The estimate of the whole is sqrt(sum of all e^2) over the norm of the reflected radiosity: all other errors of
 // different links count as independent. Errors that are passed on by further reflections are not followed.
 
+#include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -64,10 +66,10 @@ struct ErrorEstimation {
 ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves, const DiscreteScene& scene,
                                      const Links& links, const std::vector<LinkShape>& shapes, const std::vector<Color>& radiosity);
 
-// For links that were not made by BF-refinement: from at most 1024 links of lights and 3072 others, spread evenly; their shapes are
-// found now.
-ErrorEstimation sampled_estimate(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity,
-                                 const DoubtSum& doubt);
+// For links that were not made by BF-refinement, in two tables: from at most 1024 links of lights and 3072 others, spread evenly; their
+// shapes are found now.
+ErrorEstimation sampled_estimate(const DiscreteScene& scene, const std::array<std::span<const Link>, 2>& links,
+                                 const std::vector<Color>& radiosity, const DoubtSum& doubt);
 
 // Why the estimate is no bound, or nothing. It does not know what a segment never found, nor how errors grow when light that is wrong is
 // reflected again and again; a closed scene keeps its row sums, and what errs there has no mean. `unseen`: share of its square that is

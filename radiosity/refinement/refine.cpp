@@ -31,11 +31,13 @@ namespace detail {
 
 // Where refinement begins: with the pair of the root cluster with itself, or all pairs of input faces. In `inner` the input faces whose own
 // parts may face each other.
-HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const PairOracle& oracle, std::vector<Pair>& pairs, RefineResult& result) {
+HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const PairOracle& oracle, Linked linked, std::vector<Pair>& pairs,
+                                  RefineResult& result) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const auto count = static_cast<std::uint32_t>(hierarchy.size());
+  const auto counts = [&](std::uint32_t i) { return linked == Linked::all || !is_black(scene.emission[hierarchy[i].surface]); };
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (!is_input_face(hierarchy, i) || oracle.buried(i)) { continue; }
+    if (!is_input_face(hierarchy, i) || oracle.buried(i) || !counts(i)) { continue; }
     const raycast::PlacedObject& object = *scene.surfaces[hierarchy[i].object].object;
     if ((object.inside() || !object.convex()) && !object.flat()) { result.inner.push_back(i); }
   }
@@ -44,9 +46,9 @@ HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const PairOracle& 
     return;
   }
   for (std::uint32_t p = 0; p < count; ++p) {
-    if (!is_input_face(hierarchy, p)) { continue; }
-    for (std::uint32_t q = p + 1; q < count; ++q) {
-      if (!is_input_face(hierarchy, q)) { continue; }
+    if (!is_input_face(hierarchy, p) || !counts(p)) { continue; }
+    for (std::uint32_t q = linked == Linked::all ? p + 1 : 0; q < count; ++q) {
+      if (!is_input_face(hierarchy, q) || q == p || (q < p && counts(q))) { continue; }
       if (!oracle.convex(hierarchy[p], hierarchy[q])) {
         pairs.push_back({p, q});
       } else if (scene.plan.shortcuts || hierarchy[p].deviation > 0.0 || hierarchy[q].deviation > 0.0) {
@@ -236,14 +238,14 @@ HALFLIGHT_INLINE void descend_inner(FRefinement& state, std::vector<Pair>& next)
 
 }  // namespace detail
 
-HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& fineness) {
+HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& fineness, Linked linked) {
   detail::FRefinement state{scene, fineness};
   RefineResult& result = state.result;
-  const std::uint64_t all_pairs = scene.clustered() ? 0 : scene.hierarchy.size() * scene.hierarchy.size() / 2;
+  const std::uint64_t all_pairs = scene.clustered() || linked == Linked::lamps ? 0 : scene.hierarchy.size() * scene.hierarchy.size() / 2;
   if (!state.few_enough(all_pairs) || !state.fits(scene.hierarchy.size(), 0, scene.clustered() ? 1 : all_pairs)) {
     return std::move(result);
   }
-  detail::first_pairs(scene, state.oracle, state.pairs, result);
+  detail::first_pairs(scene, state.oracle, linked, state.pairs, result);
   while (!state.pairs.empty()) {
     result.cancelled = scene.control.cancelled();
     if (result.cancelled || !state.few_enough(result.links.size() + state.pairs.size())) { break; }

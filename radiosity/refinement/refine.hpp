@@ -109,8 +109,11 @@ struct Fineness {
   double epsilon = 0.0, min_area = 0.0, light_epsilon = 0.0;
 };
 
+// Which pairs of input faces are linked: all, or those of which one shines. The latter need a hierarchy without clusters.
+enum class Linked { all, lamps };
+
 // Builds the links of the hierarchy, splitting leaves as needed.
-[[nodiscard]] RefineResult refine(DiscreteScene& scene, const Fineness& fineness);
+[[nodiscard]] RefineResult refine(DiscreteScene& scene, const Fineness& fineness, Linked linked = Linked::all);
 
 }  // namespace radiosity
 

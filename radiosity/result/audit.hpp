@@ -44,6 +44,7 @@ struct Audit {
   // size
   std::uint64_t polygons = 0;  // input faces: the roots of the hierarchy, whatever their number of corners and holes
   std::uint64_t nodes = 0, leaves = 0, links = 0, rays = 0;
+  std::uint64_t ray_links = 0, stored_rays = 0;     // among the links, made of rays; these
   std::uint64_t clusters = 0, cluster_links = 0;    // among the nodes; among the links, with one at an end
   std::uint64_t rays_avoided = 0;                   // at least; by the two proofs:
   std::uint64_t pairs_clear = 0, pairs_hidden = 0;  // links that nothing can block; pairs, with all below, that one object hides

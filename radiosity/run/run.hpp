@@ -10,6 +10,8 @@
 
 #include <radiosity/audit/path_tracer.hpp>
 #include <radiosity/links/evaluate.hpp>
+#include <radiosity/rays/ray_choice.hpp>
+#include <radiosity/rays/ray_links.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/refine.hpp>
@@ -49,7 +51,9 @@ struct Run {
   DiscreteScene scene;
   std::optional<PathTracer> tracer;  // of the boundaries before they were cut
   ClusterChoice clusters;
+  RayChoice rays;
   RefineResult refined;
+  RayLinks ray_links;  // their links go into the solution
   EvaluateResult evaluated;
   double unseen = 0.0;  // part of the estimated error
   std::optional<Transport> transport;

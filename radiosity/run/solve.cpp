@@ -2,6 +2,7 @@
 
 // Stage: row sums are closed, the linear system is solved.
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -12,6 +13,8 @@
 #include <radiosity/audit/summary.hpp>
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/rays/ray_links.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/link_error.hpp>
 #include <radiosity/result/audit.hpp>
@@ -27,20 +30,43 @@ namespace radiosity {
 
 namespace detail {
 
+// The links of stored rays: their row sums are in a closed scene what the links of the lamps leave of 1, else the share of the rays of each
+// leaf that went into links.
+HALFLIGHT_INLINE void add_ray_links(Run& run, double exposed) {
+  const DiscreteScene& scene = run.scene;
+  const std::vector<double>& area = scene.exposure.area;
+  Audit& audit = run.solution.audit;
+  std::vector<double> rows = run.transport->row_sums();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i] = scene.plan.closed ? std::max(0.0, 1.0 - rows[i]) : run.ray_links.share[i];
+  }
+  run.solution.ray_links = std::move(run.ray_links.links);
+  run.transport->add_sampled(run.solution.ray_links);
+  audit.computed_row_sum = summarise_rows(scene.hierarchy, area, run.transport->row_sums());
+  const double correction = run.transport->scale_sampled(rows);
+  if (!scene.plan.closed) { return; }
+  run.ray_links.doubt.add(run.evaluated.doubt);
+  audit.closure_limit = explained_closure(run.ray_links.doubt, area, exposed);
+  audit.closure = correction;
+}
+
 // The operator of the linear system, with the row sums of a closed scene put right as far as quadrature and sampling explain it.
 HALFLIGHT_INLINE void make_transport(Run& run) {
   const DiscreteScene& scene = run.scene;
   Solution& solution = run.solution;
-  Audit& audit = solution.audit;
+  Audit& audit = run.solution.audit;
   Transport& transport = run.transport.emplace(scene.hierarchy, solution.links, scene.exposure, scene.threads);
   const std::vector<double>& area = scene.exposure.area;
-  solution.row_sum = transport.row_sums();
-  audit.computed_row_sum = summarise_rows(scene.hierarchy, area, solution.row_sum);
-  if (scene.plan.closed && !solution.links.empty()) {
-    double exposed = 0.0;
-    for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }
-    audit.closure_limit = explained_closure(run.evaluated.doubt, area, exposed);
-    audit.closure = transport.close(audit.closure_limit);
+  double exposed = 0.0;
+  for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }
+  if (run.rays.cast) {
+    add_ray_links(run, exposed);
+  } else {
+    audit.computed_row_sum = summarise_rows(scene.hierarchy, area, transport.row_sums());
+    if (scene.plan.closed && !solution.links.empty()) {
+      audit.closure_limit = explained_closure(run.evaluated.doubt, area, exposed);
+      audit.closure = transport.close(audit.closure_limit);
+    }
   }
   solution.row_sum = transport.row_sums();
   audit.row_sum = summarise_rows(scene.hierarchy, area, solution.row_sum);
@@ -71,7 +97,8 @@ HALFLIGHT_INLINE void estimate_error(Run& run) {
   const Solution& solution = run.solution;
   Audit& audit = run.solution.audit;
   if (run.f_refined() && run.options.audit_points > 0) {
-    const ErrorEstimation errors = sampled_estimate(scene, solution.links, solution.radiosity, run.evaluated.doubt);
+    ErrorEstimation errors = sampled_estimate(scene, {solution.links, solution.ray_links}, solution.radiosity, run.evaluated.doubt);
+    if (run.rays.cast) { errors.of_links += run.ray_links.noise(scene, solution.ray_links, solution.radiosity); }
     audit.estimated_error = errors.relative(leaf_part(run.options.reconstruction));
     audit.estimated_leaf_error = errors.relative(1.0);
   }

@@ -27,6 +27,13 @@ inline constexpr const char* name(Solver solver) {
   constexpr const char* names[] = {"cg", "jacobi", "gauss-seidel", "southwell"};
   return names[static_cast<int>(solver)];
 }
+// How the light between surfaces that do not shine travels after F-refinement: over links that are chosen by form factor, or over links made of
+// stored rays (rays/ray_links.hpp). Lamps have links in either case.
+enum class Indirect { automatic, links, rays };
+inline constexpr const char* name(Indirect indirect) {
+  constexpr const char* names[] = {"auto", "links", "rays"};
+  return names[static_cast<int>(indirect)];
+}
 enum class Refinement { a_posteriori, a_priori };  // BF- and F-refinement (paper 4.4)
 // Paper fig. 5; simple ignores the normals (figs. 6-8); constant shows the solution itself, one colour a leaf; none: nobody asks for a
 // picture, the mesh is as with constant and errors are those of the leaves.
@@ -54,6 +61,9 @@ struct Options {
   // Accuracy target: target, or epsilon and min_area, fall round by round until the audited relative L2 error is at most this: that of the
   // picture when Control::picture_error is given, else that over all surfaces.
   std::optional<double> error;
+
+  // Automatic: rays from some 100 input faces on.
+  Indirect indirect = Indirect::automatic;
 
   // Input faces from which on clusters are built above them; below, all pairs of input faces are looked at.
   std::uint32_t cluster_from = 300;

@@ -24,15 +24,24 @@ namespace radiosity {
 
 HALFLIGHT_INLINE Transport::Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads)
     : hierarchy_{&hierarchy},
-      links_{&links},
       exposure_{&exposure},
-      threads_{threads},
-      schedule_{hierarchy.size(), links},
-      scale_(hierarchy.size(), 1.0) {
+      threads_{threads} {
+  parts_.emplace_back(hierarchy, links);
   while (above_ < hierarchy.size() && (hierarchy[above_].is_cluster() || is_input_face(hierarchy, above_))) { ++above_; }
   for (std::size_t i = 0; i < above_; ++i) { clusters_ += hierarchy[i].is_cluster() ? 1 : 0; }
   if (clusters_ == 0) { above_ = 0; }
-  for (const auto& round : schedule_.rounds()) { round_sizes_.push_back(round.size()); }
+}
+
+HALFLIGHT_INLINE Transport::Part::Part(const Hierarchy& hierarchy, Links& of)
+    : links{&of}, schedule{hierarchy.size(), of}, scale(hierarchy.size(), 1.0) {
+  for (const auto& round : schedule.rounds()) { round_sizes.push_back(round.size()); }
+}
+
+HALFLIGHT_INLINE void Transport::add_sampled(Links& links) { parts_.emplace_back(*hierarchy_, links); }
+
+HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& rows) {
+  scale_rows(parts_.back(), rows, 1e-6, 100);
+  return correction(parts_.back());
 }
 
 HALFLIGHT_INLINE void Transport::Moments::divide(double area) {  // a node that is buried carries nothing
@@ -42,18 +51,23 @@ HALFLIGHT_INLINE void Transport::Moments::divide(double area) {  // a node that 
 }
 
 HALFLIGHT_INLINE void Transport::apply(const std::vector<double>& x, std::vector<double>& y) {
+  y.assign(x.size(), 0.0);
+  for (const Part& part : parts_) { apply(part, x, y); }
+}
+
+HALFLIGHT_INLINE void Transport::apply(const Part& part, const std::vector<double>& x, std::vector<double>& y) {
   sent_.resize(x.size());
   arrived_.assign(x.size(), {});
   sent_bins_.assign(clusters_ * direction_count, 0.0);
   arrived_bins_.assign(clusters_ * direction_count, 0.0);
   for (std::size_t i = x.size(); i-- > 0;) {
-    if (!is_cluster(i)) { pull(i, x, sent_); }
+    if (!is_cluster(i)) { pull(i, x, part.scale, sent_); }
     if (i < above_) { gather_into_cluster(i); }
   }
-  parallel_rounds(round_sizes_, threads_, [&](std::size_t round, std::size_t b) {
-    const LinkSchedule::Block block = schedule_.rounds()[round][b];
+  parallel_rounds(part.round_sizes, threads_, [&](std::size_t round, std::size_t b) {
+    const LinkSchedule::Block block = part.schedule.rounds()[round][b];
     for (std::size_t k = block.begin; k < block.end; ++k) {
-      const Link& link = (*links_)[k];
+      const Link& link = (*part.links)[k];
       if (is_cluster(link.p) || is_cluster(link.q)) {
         const double from_p = sent_by(link.p, link.slope_p);
         const double from_q = sent_by(link.q, link.slope_q);
@@ -65,19 +79,23 @@ HALFLIGHT_INLINE void Transport::apply(const std::vector<double>& x, std::vector
       }
     }
   });
-  y.assign(x.size(), 0.0);
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (i < above_) { hand_out_from_cluster(i); }
-    if (!is_cluster(i)) { push(i, arrived_, y); }
+    if (!is_cluster(i)) { push(i, part.scale, arrived_, y); }
   }
 }
 
 HALFLIGHT_INLINE void Transport::pull(std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const {
+  pull(i, x, parts_.front().scale, sent);
+}
+
+HALFLIGHT_INLINE void Transport::pull(std::size_t i, const std::vector<double>& x, const std::vector<double>& scale,
+                                      std::vector<Moments>& sent) const {
   const Node& node = (*hierarchy_)[i];
   const std::vector<glm::dvec3>& centroid = exposure_->centroid;
   Moments own;
   if (node.leaf()) {
-    own.value = exposure_->area[i] > 0.0 ? x[i] * scale_[i] : 0.0;
+    own.value = exposure_->area[i] > 0.0 ? x[i] * scale[i] : 0.0;
   } else {
     for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
       own.value += exposure_->area[c] * sent[c].value;
@@ -96,11 +114,16 @@ HALFLIGHT_INLINE void Transport::carry(const Link& link, const Moments& from, Mo
 }
 
 HALFLIGHT_INLINE void Transport::push(std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const {
+  push(i, parts_.front().scale, arrived, y);
+}
+
+HALFLIGHT_INLINE void Transport::push(std::size_t i, const std::vector<double>& scale, std::vector<Moments>& arrived,
+                                      std::vector<double>& y) const {
   const Node& node = (*hierarchy_)[i];
   const std::vector<glm::dvec3>& centroid = exposure_->centroid;
   Moments& own = arrived[i];  // of a child, its parent has divided it
   if (node.parent == no_node || is_cluster(node.parent)) { own.divide(exposure_->area[i]); }
-  if (node.leaf()) { y[i] += own.value * exposure_->area[i] * scale_[i]; }
+  if (node.leaf()) { y[i] += own.value * exposure_->area[i] * scale[i]; }
   for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
     arrived[c].divide(exposure_->area[c]);
     arrived[c].value += own.value + glm::dot(own.slope, centroid[c] - centroid[i]);
@@ -109,8 +132,17 @@ HALFLIGHT_INLINE void Transport::push(std::size_t i, std::vector<Moments>& arriv
 }
 
 HALFLIGHT_INLINE std::vector<double> Transport::row_sums() {
-  std::vector<double> y;
-  apply(std::vector<double>(hierarchy_->size(), 1.0), y);
+  std::vector<double> rows(hierarchy_->size(), 0.0);
+  for (const Part& part : parts_) {
+    const std::vector<double> more = row_sums(part);
+    for (std::size_t i = 0; i < rows.size(); ++i) { rows[i] += more[i]; }
+  }
+  return rows;
+}
+
+HALFLIGHT_INLINE std::vector<double> Transport::row_sums(const Part& part) {
+  std::vector<double> y(hierarchy_->size(), 0.0);
+  apply(part, std::vector<double>(hierarchy_->size(), 1.0), y);
   for (std::size_t i = 0; i < y.size(); ++i) {
     const bool counts = (*hierarchy_)[i].leaf() && exposure_->area[i] > 0.0;
     y[i] = counts ? y[i] / exposure_->area[i] : 0.0;
@@ -118,28 +150,37 @@ HALFLIGHT_INLINE std::vector<double> Transport::row_sums() {
   return y;
 }
 
-HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tolerance) {
-  const std::vector<double>& area = exposure_->area;
-  for (int round = 0; round < 400; ++round) {
-    const std::vector<double> rows = row_sums();
+HALFLIGHT_INLINE void Transport::scale_rows(Part& part, const std::vector<double>& wanted, double tolerance, int most_rounds) {
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::vector<double> rows = row_sums(part);
     double worst = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (!(rows[i] > 0.0)) { continue; }
-      worst = std::max(worst, std::abs(rows[i] - 1.0));
-      scale_[i] /= std::sqrt(rows[i]);
+      if (!(rows[i] > 0.0) || !(wanted[i] > 0.0)) { continue; }
+      worst = std::max(worst, std::abs(rows[i] / wanted[i] - 1.0));
+      part.scale[i] /= std::sqrt(rows[i] / wanted[i]);
     }
     if (worst < tolerance) { break; }
   }
+}
+
+HALFLIGHT_INLINE double Transport::correction(const Part& part) const {
+  const std::vector<double>& area = exposure_->area;
   double square = 0.0;
   double total = 0.0;
-  for (std::size_t i = 0; i < scale_.size(); ++i) {
+  for (std::size_t i = 0; i < part.scale.size(); ++i) {
     if (!(*hierarchy_)[i].leaf()) { continue; }
-    square += area[i] * (scale_[i] - 1.0) * (scale_[i] - 1.0);
+    square += area[i] * (part.scale[i] - 1.0) * (part.scale[i] - 1.0);
     total += area[i];
   }
-  const double rms = total > 0.0 ? std::sqrt(square / total) : 0.0;
+  return total > 0.0 ? std::sqrt(square / total) : 0.0;
+}
+
+HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tolerance) {
+  Part& part = parts_.front();
+  scale_rows(part, std::vector<double>(hierarchy_->size(), 1.0), tolerance, 400);
+  const double rms = correction(part);
   if (rms <= limit) { return rms; }
-  std::fill(scale_.begin(), scale_.end(), 1.0);
+  std::fill(part.scale.begin(), part.scale.end(), 1.0);
   return std::nullopt;
 }
 

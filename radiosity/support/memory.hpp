@@ -45,12 +45,13 @@ struct MemoryBudget {
     std::uint64_t links = 0;
     std::uint64_t pairs = 0;      // open, of refinement
     std::uint64_t occluders = 0;  // bytes of their lists
+    std::uint64_t rays = 0;       // stored
   };
 
   // Bytes at the peak. Of each node: itself (104), its patch (1400), its faces, edges and vertices (350), what its exposure (70), the solution
   // (150) and the mesh (300) add. Of each link: itself and its list (28), and while the table grows or links are evaluated, as much again;
   // of BF-refinement also shape, error and, while they are put into order, a copy (130). Of each pair: itself, the decision, the rays; and a
-  // batch of occluder lists at full length. Held against what runs take in tests/memory/budget_test.cpp.
+  // batch of occluder lists at full length. Of each stored ray: itself (32), its part of a link (40), its place in their order (4) and at most one link (24). Held against what runs take in tests/memory/budget_test.cpp.
   [[nodiscard]] std::uint64_t peak(const Counts& counts) const;
   [[nodiscard]] bool allows(const Counts& counts) const { return peak(counts) <= allowed; }
   [[nodiscard]] bool limited() const { return allowed != std::numeric_limits<std::uint64_t>::max(); }

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/rays/ray_links.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/rays/stored_rays.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/scene/material.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// The largest radius of an ancestor, relative to the length of a ray that is counted for it and to the distance of what its leaves see.
+inline constexpr double most_pooled = 0.4;
+
+// One ray, counted for two nodes.
+struct RayPart {
+  std::uint32_t p = no_node, q = no_node;  // p < q
+  float exchange = 0.0f;
+  glm::vec3 at_p{0.0f}, at_q{0.0f};
+};
+
+// Finds the nodes for which rays are counted.
+class Pooling {
+ public:
+  Pooling(const DiscreteScene& scene, const StoredRays& rays) : hierarchy_{&scene.hierarchy}, nearness_(scene.hierarchy.size(), 0.0) {
+    const Hierarchy& hierarchy = *hierarchy_;
+    std::vector<double> area(hierarchy.size(), 0.0);  // of the leaves below that cast rays
+    for (std::size_t i = hierarchy.size(); i-- > 0;) {
+      if (rays.count(i) > 0) {
+        area[i] = scene.exposure.area[i];
+        nearness_[i] = area[i] * rays.nearness(i);
+      }
+      if (hierarchy[i].parent != no_node) {
+        area[hierarchy[i].parent] += area[i];
+        nearness_[hierarchy[i].parent] += nearness_[i];
+      }
+      if (area[i] > 0.0) { nearness_[i] /= area[i]; }
+    }
+  }
+
+  [[nodiscard]] std::uint32_t node(std::uint32_t leaf, double length) const {
+    const Hierarchy& hierarchy = *hierarchy_;
+    std::uint32_t i = leaf;
+    for (std::uint32_t up = hierarchy[i].parent; up != no_node && !hierarchy[up].is_cluster(); up = hierarchy[i].parent) {
+      if (hierarchy[up].radius > most_pooled * length || hierarchy[up].radius * nearness_[up] > most_pooled) { break; }
+      i = up;
+    }
+    return i;
+  }
+
+ private:
+  const Hierarchy* hierarchy_;
+  std::vector<double> nearness_;  // 1 / harmonic mean distance of what the leaves of each node see
+};
+
+// All rays between leaves of which neither shines.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<RayPart> parts_of(const DiscreteScene& scene, const StoredRays& rays, RayLinks& result) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const Pooling pooling{scene, rays};
+  std::vector<RayPart> parts;
+  parts.reserve(rays.size());
+  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
+    const std::size_t before = parts.size();
+    for (const StoredRay& ray : rays.of(i)) {
+      if (ray.to == no_node || ray.to == i || !(result.density[ray.to] > 0.0)) { continue; }
+      const auto length = static_cast<double>(ray.length);
+      std::uint32_t p = pooling.node(i, length);
+      std::uint32_t q = pooling.node(ray.to, length);
+      if (p == q) {  // a hollow patch that sees itself
+        p = i;
+        q = ray.to;
+      }
+      const auto exchange = static_cast<float>(1.0 / (result.density[i] + result.density[ray.to]));
+      parts.push_back(p < q ? RayPart{p, q, exchange, ray.start, ray.end} : RayPart{q, p, exchange, ray.end, ray.start});
+    }
+    if (rays.count(i) > 0) { result.share[i] = static_cast<double>(parts.size() - before) / static_cast<double>(rays.count(i)); }
+  }
+  return parts;
+}
+
+// The link of parts that are all of the same pair.
+[[nodiscard]] HALFLIGHT_INLINE Link pooled_link(const DiscreteScene& scene, const std::vector<RayPart>& parts,
+                                                std::span<const std::uint32_t> of) {
+  const std::uint32_t p = parts[of.front()].p;
+  const std::uint32_t q = parts[of.front()].q;
+  double sum = 0.0;
+  glm::dvec3 moment_p{0.0};
+  glm::dvec3 moment_q{0.0};
+  for (const std::uint32_t k : of) {
+    const auto exchange = static_cast<double>(parts[k].exchange);
+    sum += exchange;
+    moment_p += exchange * (glm::dvec3{parts[k].at_p} - scene.exposure.centroid[p]);
+    moment_q += exchange * (glm::dvec3{parts[k].at_q} - scene.exposure.centroid[q]);
+  }
+  Link link{p, q, static_cast<float>(sum), {}, {}};
+  if (!scene.hierarchy[p].leaf()) { link.slope_p = glm::vec3{scene.patches[p].inverse_inertia * (moment_p / sum)}; }
+  if (!scene.hierarchy[q].leaf()) { link.slope_q = glm::vec3{scene.patches[q].inverse_inertia * (moment_q / sum)}; }
+  return link;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, double mean) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  std::vector<double> share(hierarchy.size(), 0.0);
+  double sum = 0.0;
+  std::size_t leaves = 0;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (!hierarchy[i].leaf() || !(scene.exposure.area[i] > 0.0) || !is_black(scene.emission[hierarchy[i].surface])) { continue; }
+    share[i] = std::sqrt(scene.exposure.area[i]);
+    sum += share[i];
+    ++leaves;
+  }
+  std::vector<std::uint32_t> counts(hierarchy.size(), 0);
+  constexpr double least = 4.0;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (share[i] > 0.0) { counts[i] = static_cast<std::uint32_t>(std::max(least, mean * static_cast<double>(leaves) * share[i] / sum)); }
+  }
+  return counts;
+}
+
+HALFLIGHT_INLINE double rays_per_leaf(double epsilon) { return std::clamp(6.4 / std::sqrt(epsilon), 16.0, 4096.0); }
+
+HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const std::vector<double>& area = scene.exposure.area;
+  RayLinks result;
+  result.rays = rays.size();
+  result.share.assign(hierarchy.size(), 0.0);
+  result.density.assign(hierarchy.size(), 0.0);
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {  // first the numbers of rays
+    result.density[i] += static_cast<double>(rays.count(i));
+    if (hierarchy[i].parent != no_node) { result.density[hierarchy[i].parent] += result.density[i]; }
+    result.density[i] = area[i] > 0.0 ? result.density[i] / area[i] : 0.0;
+  }
+  const std::vector<detail::RayPart> parts = detail::parts_of(scene, rays, result);
+  // Parts by p, then by q.
+  std::vector<std::size_t> first(hierarchy.size() + 1, 0);
+  for (const detail::RayPart& part : parts) { ++first[part.p + 1]; }
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) { first[i + 1] += first[i]; }
+  std::vector<std::uint32_t> order(parts.size());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  for (std::uint32_t k = 0; k < parts.size(); ++k) { order[next[parts[k].p]++] = k; }
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    const std::span<std::uint32_t> of_p = std::span(order).subspan(first[i], first[i + 1] - first[i]);
+    std::sort(of_p.begin(), of_p.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return parts[a].q != parts[b].q ? parts[a].q < parts[b].q : a < b; });
+    for (std::size_t begin = 0, end = 0; begin < of_p.size(); begin = end) {
+      while (end < of_p.size() && parts[of_p[end]].q == parts[of_p[begin]].q) { ++end; }
+      const Link link = detail::pooled_link(scene, parts, of_p.subspan(begin, end - begin));
+      const double variance = static_cast<double>(link.exchange) / (result.density[link.p] + result.density[link.q]);
+      result.doubt.add(link.p, link.q, {0.0f, 0.0f, static_cast<float>(variance / area[link.p] + variance / area[link.q]), 0.0f, 0.0f});
+      result.links.push_back(link);
+    }
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE double RayLinks::noise(const DiscreteScene& scene, const Links& made, const std::vector<Color>& radiosity) const {
+  const std::vector<double>& area = scene.exposure.area;
+  struct Arrived {
+    double exchange = 0.0;
+    Color light{0.0};
+  };
+  std::vector<Arrived> arrived(scene.hierarchy.size());
+  const auto each_end = [&](const auto& visit) {
+    for (const Link& link : made) {
+      const auto exchange = static_cast<double>(link.exchange);
+      visit(link.p, link.q, exchange);
+      visit(link.q, link.p, exchange);
+    }
+  };
+  each_end([&](std::uint32_t to, std::uint32_t from, double exchange) {
+    arrived[to].exchange += exchange;
+    arrived[to].light += exchange * radiosity[from];
+  });
+  double square = 0.0;
+  each_end([&](std::uint32_t to, std::uint32_t from, double exchange) {
+    const double variance = exchange / (density[to] + density[from]);
+    const Color off = scene.reflectance[scene.hierarchy[to].surface] * (radiosity[from] - arrived[to].light / arrived[to].exchange);
+    square += variance / area[to] * glm::dot(off, off);
+  });
+  return square;
+}
+
+}  // namespace radiosity
