@@ -96,7 +96,7 @@ class Text {
     say("input polygons", "{polygons}");
     say("nodes, leaves", "{nodes}, {leaves}");
     say("proportions", "{proportion.min} to {proportion.max}, mean {proportion.mean} (regular polygon: 1)");
-    say("links", audit_.clusters > 0    ? "{links}, {cluster_links} of them with one of {clusters} clusters"
+    say("links", audit_.clusters > 0      ? "{links}, {cluster_links} of them with one of {clusters} clusters"
                  : audit_.stored_rays > 0 ? "{links}, {ray_links} of them made of {stored_rays} stored rays"
                                           : "{links}");
     say("rays", "{rays} cast, {rays_avoided} avoided: {pairs_clear} pairs proven clear, {pairs_blocked} proven blocked");

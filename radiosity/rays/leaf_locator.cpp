@@ -88,7 +88,9 @@ HALFLIGHT_INLINE double LeafLocator::depth(std::uint32_t node, const glm::dvec3&
 HALFLIGHT_INLINE std::uint32_t LeafLocator::input_face_at(const InputFaces& faces, const raycast::SurfacePoint& at) const {
   if (faces.nodes.size() < 2) { return faces.nodes.empty() ? no_node : faces.nodes.front(); }
   const Patches& patches = *patches_;
-  const auto turned_away = [&](std::uint32_t i) { return (*hierarchy_)[i].deviation > 0.0 && glm::dot(patches[i].normal, at.normal) <= 0.0; };
+  const auto turned_away = [&](std::uint32_t i) {
+    return (*hierarchy_)[i].deviation > 0.0 && glm::dot(patches[i].normal, at.normal) <= 0.0;
+  };
   std::uint32_t best = no_node;
   double best_score = -std::numeric_limits<double>::infinity();
   raycast::around(faces.tree, at.position, [&](std::uint32_t k) {

@@ -115,28 +115,51 @@ class Pooling {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, double mean) {
+HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, const std::vector<std::uint32_t>& spaced, double mean) {
   const Hierarchy& hierarchy = scene.hierarchy;
-  std::vector<double> share(hierarchy.size(), 0.0);
-  double sum = 0.0;
-  std::size_t leaves = 0;
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
-    if (!hierarchy[i].leaf() || !(scene.exposure.area[i] > 0.0) || !is_black(scene.emission[hierarchy[i].surface])) { continue; }
-    share[i] = std::sqrt(scene.exposure.area[i]);
-    sum += share[i];
-    ++leaves;
+  const std::vector<double>& area = scene.exposure.area;
+  double all = 0.0;
+  double roots = 0.0;
+  for (const std::uint32_t i : spaced) {
+    all += area[i];
+    roots += std::sqrt(area[i]);
   }
+  std::vector<double> wanted(hierarchy.size(), 0.0);
+  for (const std::uint32_t i : spaced) { wanted[i] = all > 0.0 ? mean * std::sqrt(area[i]) * roots / all : 0.0; }
   std::vector<std::uint32_t> counts(hierarchy.size(), 0);
-  constexpr double least = 4.0;
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
-    if (share[i] > 0.0) { counts[i] = static_cast<std::uint32_t>(std::max(least, mean * static_cast<double>(leaves) * share[i] / sum)); }
+  constexpr double least = 32.0;                        // fewer tell too little of what is near a leaf
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
+    const Node& node = hierarchy[i];
+    if (!(wanted[i] > 0.0)) { continue; }
+    if (node.leaf()) { counts[i] = static_cast<std::uint32_t>(std::max(least, std::round(wanted[i]))); }
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { wanted[c] = wanted[i] * area[c] / area[i]; }
   }
   return counts;
 }
 
-HALFLIGHT_INLINE double rays_per_leaf(double epsilon) { return std::clamp(6.4 / std::sqrt(epsilon), 16.0, 4096.0); }
+HALFLIGHT_INLINE double rays_per_node(double epsilon) { return std::clamp(12.8 / std::sqrt(epsilon), 16.0, 4096.0); }
 
-HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays) {
+// The variance of the share s of n rays is s (1 - s) / n; that of the row sum, which pools the rays of the spaced node in both directions, some
+// s / 2m, m the rays of that node. Each counts by the inverse of its variance.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<double> trust_in(const Hierarchy& hierarchy, const StoredRays& rays,
+                                                            const std::vector<double>& share, const std::vector<std::uint32_t>& spaced) {
+  std::vector<double> of_node(hierarchy.size(), 0.0);
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {
+    of_node[i] += static_cast<double>(rays.count(i));
+    if (hierarchy[i].parent != no_node) { of_node[hierarchy[i].parent] += of_node[i]; }
+  }
+  std::vector<double> pooled(hierarchy.size(), 0.0);
+  for (const std::uint32_t i : spaced) { pooled[i] = of_node[i]; }
+  std::vector<double> trust(hierarchy.size(), 0.0);
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
+    const Node& node = hierarchy[i];
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { pooled[c] = std::max(pooled[c], pooled[i]); }
+    if (of_node[i] > 0.0 && node.leaf()) { trust[i] = of_node[i] / (of_node[i] + 2.0 * (1.0 - share[i]) * pooled[i]); }
+  }
+  return trust;
+}
+
+HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays, const std::vector<std::uint32_t>& spaced) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const std::vector<double>& area = scene.exposure.area;
   RayLinks result;
@@ -149,6 +172,7 @@ HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const Store
     result.density[i] = area[i] > 0.0 ? result.density[i] / area[i] : 0.0;
   }
   const std::vector<detail::RayPart> parts = detail::parts_of(scene, rays, result);
+  result.trust = trust_in(hierarchy, rays, result.share, spaced);
   // Parts by p, then by q.
   std::vector<std::size_t> first(hierarchy.size() + 1, 0);
   for (const detail::RayPart& part : parts) { ++first[part.p + 1]; }

@@ -26,10 +26,11 @@ namespace radiosity {
 
 struct RayLinks {
   Links links;
-  std::uint64_t rays = 0;        // they were made of
-  std::vector<double> share;     // of the rays of each leaf that links stand for: its row sum over these links, without the noise
-  std::vector<double> density;   // of the rays that start on each node, by its area
-  DoubtSum doubt;                // of the row sums
+  std::uint64_t rays = 0;       // they were made of
+  std::vector<double> share;    // of the rays of each leaf: those that links stand for
+  std::vector<double> trust;    // how much this share tells of the leaf's row sum, beside what its links sum up to: 0 to 1
+  std::vector<double> density;  // of the rays that start on each node, by its area
+  DoubtSum doubt;               // of the row sums
 
   // What the noise of the rays adds to the squared L2 error of a solution. The mean of what arrives at a node is known, by its own rays;
   // which of the others it comes from is not.
@@ -37,14 +38,16 @@ struct RayLinks {
   [[nodiscard]] double noise(const DiscreteScene& scene, const Links& from, const std::vector<Color>& radiosity) const;
 };
 
-// How many rays each leaf casts: `mean` on average, and by the root of its area, which is best for the L2 error. None from a leaf that shines,
-// whose light has links of its own, or of which nothing is exposed.
-[[nodiscard]] std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, double mean);
+// How many rays each leaf casts, given the nodes over which light that comes from everywhere changes little (spacing.hpp): `mean` for each of
+// these if they were of one size, and by the root of its area, which is best for the L2 error; its leaves share them by their areas. None
+// for what is not exposed. Lamps, which are not among the nodes, cast none: their light has links of its own.
+[[nodiscard]] std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, const std::vector<std::uint32_t>& spaced, double mean);
 
-// So many rays a leaf that their noise falls with the other errors of F-refinement: measured on rooms of 17 to 10 000 input faces.
-[[nodiscard]] double rays_per_leaf(double epsilon);
+// So many rays a node that their noise falls with the other errors of F-refinement: measured on rooms of 17 to 10 000 input faces.
+[[nodiscard]] double rays_per_node(double epsilon);
 
-[[nodiscard]] RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays);
+// `spaced`: as for ray_counts.
+[[nodiscard]] RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays, const std::vector<std::uint32_t>& spaced);
 
 }  // namespace radiosity
 

@@ -55,6 +55,9 @@ HALFLIGHT_INLINE SpacingResult split_by_distance(DiscreteScene& scene, double to
     ++result.generations;
     if (scene.control.after_generation) { scene.control.after_generation(scene.surfaces); }
   }
+  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
+    if (hierarchy[i].leaf() && is_black(scene.emission[hierarchy[i].surface])) { result.spaced.push_back(i); }
+  }
   return result;
 }
 

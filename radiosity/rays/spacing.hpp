@@ -6,12 +6,14 @@
 // middle of a wall large ones.
 
 #include <cstdint>
+#include <vector>
 
 #include <radiosity/refinement/discrete_scene.hpp>
 
 namespace radiosity {
 
 struct SpacingResult {
+  std::vector<std::uint32_t> spaced;  // the leaves when it was done, but for lamps
   std::uint32_t generations = 0;
   std::uint64_t rays = 0;
   bool cancelled = false;

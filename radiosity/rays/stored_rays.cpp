@@ -102,9 +102,12 @@ HALFLIGHT_INLINE StoredRays cast_rays(const DiscreteScene& scene, const LeafLoca
   constexpr std::size_t batch = 1 << 12;  // leaves between two reports
   for (std::size_t first = 0; first < counts.size() && !scene.control.cancelled(); first += batch) {
     const std::size_t last = std::min(first + batch, counts.size());
-    parallel_for(last - first, scene.threads, [&](std::size_t k) {
-      if (counts[first + k] > 0) { detail::cast_from_leaf(scene, locator, first + k, rays.of(first + k)); }
-    }, 16);
+    parallel_for(
+        last - first, scene.threads,
+        [&](std::size_t k) {
+          if (counts[first + k] > 0) { detail::cast_from_leaf(scene, locator, first + k, rays.of(first + k)); }
+        },
+        16);
   }
   return rays;
 }

@@ -26,7 +26,7 @@ namespace detail {
 
 [[nodiscard]] HALFLIGHT_INLINE std::optional<Failure> link_by_rays(Run& run) {
   const DiscreteScene& scene = run.scene;
-  const std::vector<std::uint32_t> counts = ray_counts(scene, rays_per_leaf(run.options.epsilon));
+  const std::vector<std::uint32_t> counts = ray_counts(scene, run.spacing.spaced, rays_per_node(run.options.epsilon));
   const std::uint64_t rays = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   const MemoryBudget::Counts needed{scene.hierarchy.size(), run.solution.links.size(), 0, 0, rays};
   if (!scene.budget.allows(needed)) {
@@ -35,7 +35,7 @@ namespace detail {
   }
   const StoredRays stored = cast_rays(scene, LeafLocator{scene.hierarchy, scene.patches, scene.inputs.size()}, counts);
   if (scene.control.cancelled()) { return cancelled(); }
-  run.ray_links = make_ray_links(scene, stored);
+  run.ray_links = make_ray_links(scene, stored, run.spacing.spaced);
   return std::nullopt;
 }
 

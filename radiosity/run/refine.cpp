@@ -63,12 +63,12 @@ HALFLIGHT_INLINE std::optional<Failure> refine(detail::Run& run) {
   if (run.bf_refined()) {
     detail::refine_by_solutions(run);
   } else if (run.f_refined()) {
-    run.refined = radiosity::refine(run.scene, {options.epsilon, options.min_area, audit.light_epsilon},
-                                    run.rays.cast ? Linked::lamps : Linked::all);
-    if (run.rays.cast && !run.refined.cancelled && run.refined.too_many == 0 && run.refined.too_large == 0) {
-      const SpacingResult spaced = split_by_distance(run.scene, options.epsilon, options.min_area);
-      run.refined.cancelled = spaced.cancelled;
-      run.refined.too_large = spaced.too_large;
+    if (run.rays.cast) { run.spacing = split_by_distance(run.scene, options.epsilon, options.min_area); }
+    run.refined.cancelled = run.spacing.cancelled;
+    run.refined.too_large = run.spacing.too_large;
+    if (!run.refined.cancelled && run.refined.too_large == 0) {
+      run.refined = radiosity::refine(run.scene, {options.epsilon, options.min_area, audit.light_epsilon},
+                                      run.rays.cast ? Linked::lamps : Linked::all);
     }
   } else if (!budget.allows({run.scene.hierarchy.size()})) {
     run.refined.too_large = budget.peak({run.scene.hierarchy.size()});

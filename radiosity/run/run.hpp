@@ -12,6 +12,7 @@
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/rays/ray_choice.hpp>
 #include <radiosity/rays/ray_links.hpp>
+#include <radiosity/rays/spacing.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/refine.hpp>
@@ -53,6 +54,7 @@ struct Run {
   ClusterChoice clusters;
   RayChoice rays;
   RefineResult refined;
+  SpacingResult spacing;
   RayLinks ray_links;  // their links go into the solution
   EvaluateResult evaluated;
   double unseen = 0.0;  // part of the estimated error

@@ -30,19 +30,22 @@ namespace radiosity {
 
 namespace detail {
 
-// The links of stored rays: their row sums are in a closed scene what the links of the lamps leave of 1, else the share of the rays of each
-// leaf that went into links.
+// The links of stored rays: their row sums are in a closed scene what the links of the lamps leave of 1, else what the rays of each leaf tell
+// beside those of others.
 HALFLIGHT_INLINE void add_ray_links(Run& run, double exposed) {
   const DiscreteScene& scene = run.scene;
   const std::vector<double>& area = scene.exposure.area;
   Audit& audit = run.solution.audit;
-  std::vector<double> rows = run.transport->row_sums();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i] = scene.plan.closed ? std::max(0.0, 1.0 - rows[i]) : run.ray_links.share[i];
-  }
+  const RayLinks& made = run.ray_links;
+  const std::vector<double> of_lamps = run.transport->row_sums();
   run.solution.ray_links = std::move(run.ray_links.links);
   run.transport->add_sampled(run.solution.ray_links);
-  audit.computed_row_sum = summarise_rows(scene.hierarchy, area, run.transport->row_sums());
+  std::vector<double> rows = run.transport->row_sums();
+  audit.computed_row_sum = summarise_rows(scene.hierarchy, area, rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i] -= of_lamps[i];
+    rows[i] = scene.plan.closed ? std::max(0.0, 1.0 - of_lamps[i]) : rows[i] + made.trust[i] * (made.share[i] - rows[i]);
+  }
   const double correction = run.transport->scale_sampled(rows);
   if (!scene.plan.closed) { return; }
   run.ray_links.doubt.add(run.evaluated.doubt);

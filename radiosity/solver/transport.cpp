@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -23,9 +24,7 @@
 namespace radiosity {
 
 HALFLIGHT_INLINE Transport::Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads)
-    : hierarchy_{&hierarchy},
-      exposure_{&exposure},
-      threads_{threads} {
+    : hierarchy_{&hierarchy}, exposure_{&exposure}, threads_{threads} {
   parts_.emplace_back(hierarchy, links);
   while (above_ < hierarchy.size() && (hierarchy[above_].is_cluster() || is_input_face(hierarchy, above_))) { ++above_; }
   for (std::size_t i = 0; i < above_; ++i) { clusters_ += hierarchy[i].is_cluster() ? 1 : 0; }
@@ -40,7 +39,9 @@ HALFLIGHT_INLINE Transport::Part::Part(const Hierarchy& hierarchy, Links& of)
 HALFLIGHT_INLINE void Transport::add_sampled(Links& links) { parts_.emplace_back(*hierarchy_, links); }
 
 HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& rows) {
-  scale_rows(parts_.back(), rows, 1e-6, 100);
+  // Row sums that no scale brings about, of a patch that sees little else than one other, would drive scales towards 0 and infinity.
+  constexpr double most = 4.0;
+  scale_rows(parts_.back(), rows, most, 1e-6, 100);
   return correction(parts_.back());
 }
 
@@ -150,14 +151,14 @@ HALFLIGHT_INLINE std::vector<double> Transport::row_sums(const Part& part) {
   return y;
 }
 
-HALFLIGHT_INLINE void Transport::scale_rows(Part& part, const std::vector<double>& wanted, double tolerance, int most_rounds) {
+HALFLIGHT_INLINE void Transport::scale_rows(Part& part, const std::vector<double>& wanted, double most, double tolerance, int most_rounds) {
   for (int round = 0; round < most_rounds; ++round) {
     const std::vector<double> rows = row_sums(part);
     double worst = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (!(rows[i] > 0.0) || !(wanted[i] > 0.0)) { continue; }
       worst = std::max(worst, std::abs(rows[i] / wanted[i] - 1.0));
-      part.scale[i] /= std::sqrt(rows[i] / wanted[i]);
+      part.scale[i] = std::clamp(part.scale[i] / std::sqrt(rows[i] / wanted[i]), 1.0 / most, most);
     }
     if (worst < tolerance) { break; }
   }
@@ -177,7 +178,7 @@ HALFLIGHT_INLINE double Transport::correction(const Part& part) const {
 
 HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tolerance) {
   Part& part = parts_.front();
-  scale_rows(part, std::vector<double>(hierarchy_->size(), 1.0), tolerance, 400);
+  scale_rows(part, std::vector<double>(hierarchy_->size(), 1.0), std::numeric_limits<double>::infinity(), tolerance, 400);
   const double rms = correction(part);
   if (rms <= limit) { return rms; }
   std::fill(part.scale.begin(), part.scale.end(), 1.0);

@@ -104,8 +104,8 @@ class Transport {
   void pull(std::size_t i, const std::vector<double>& x, const std::vector<double>& scale, std::vector<Moments>& sent) const;
   void push(std::size_t i, const std::vector<double>& scale, std::vector<Moments>& arrived, std::vector<double>& y) const;
   [[nodiscard]] std::vector<double> row_sums(const Part& part);
-  // Symmetric scaling towards these row sums; leaves of which one of both is 0 keep their scale.
-  void scale_rows(Part& part, const std::vector<double>& wanted, double tolerance, int most_rounds);
+  // Symmetric scaling towards these row sums, by scales of 1 / most to most; leaves of which one of both is 0 keep their scale.
+  void scale_rows(Part& part, const std::vector<double>& wanted, double most, double tolerance, int most_rounds);
   // Of a part: area-weighted RMS of D - 1.
   [[nodiscard]] double correction(const Part& part) const;
 
