@@ -117,16 +117,15 @@ HALFLIGHT_INLINE ClusterExchange evaluate_cluster_link(const ClusterSampler& sam
   const glm::dvec3 apart = hierarchy[link.q].centre - hierarchy[link.p].centre;
   if (!(glm::length(apart) > 0.0)) { return {}; }  // a cluster and itself, of which no part sees another
   const glm::dvec3 d = glm::normalize(apart);
-  const Slope to_q{glm::vec3{d}};  // as the link will know it
-  const Slope to_p{glm::vec3{-d}};
-  const ClusterEnd p = sampler.end(link.p, to_q.vector());
-  const ClusterEnd q = sampler.end(link.q, to_p.vector());
+  const glm::dvec3 to_q = EndShape::stored_direction(d);
+  const glm::dvec3 to_p = EndShape::stored_direction(-d);
+  const ClusterEnd p = sampler.end(link.p, to_q);
+  const ClusterEnd q = sampler.end(link.q, to_p);
   const ClusterExchange result = sampler(p, q, rounds, random);
   link.exchange = static_cast<float>(result.exchange);
   if (!(link.exchange > 0.0f)) { return result; }
-  // The end of a cluster keeps where the other lies, over the area shown there: the weights of transport.hpp then sum to 1.
-  link.slope_p = hierarchy[link.p].is_cluster() ? Slope{glm::vec3{to_q.vector() / p.shown}} : Slope{};
-  link.slope_q = hierarchy[link.q].is_cluster() ? Slope{glm::vec3{to_p.vector() / q.shown}} : Slope{};
+  link.shape_p = hierarchy[link.p].is_cluster() ? EndShape::of_cluster(to_q, p.shown) : EndShape{};
+  link.shape_q = hierarchy[link.q].is_cluster() ? EndShape::of_cluster(to_p, q.shown) : EndShape{};
   return result;
 }
 

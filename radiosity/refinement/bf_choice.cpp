@@ -67,13 +67,13 @@ struct OpenErrors {
 // Of each link the end that errs more, or the other where that can not be split any more.
 HALFLIGHT_INLINE void choose_links(const BfState& state, const std::vector<LinkError>& errors, double threshold, OpenErrors& open,
                                    SplitChoice& choice) {
-  const Links& links = state.result.refined.links;
-  for (std::size_t i = 0; i < links.size(); ++i) {
+  for (std::size_t i = 0; i < state.links.size(); ++i) {
     if (!(open.of_links[i] >= threshold && open.of_links[i] > 0.0f)) { continue; }
     const LinkError& e = errors[i];
+    const Link& link = state.links[i].link;
     const bool p_first = e.p >= e.q;
-    const std::uint32_t first = p_first ? links[i].p : links[i].q;
-    const std::uint32_t second = p_first ? links[i].q : links[i].p;
+    const std::uint32_t first = p_first ? link.p : link.q;
+    const std::uint32_t second = p_first ? link.q : link.p;
     if (can_split(state, first)) {
       choice.ends[i] = p_first ? SplitEnd::p : SplitEnd::q;
       choice.asked[first] = true;
@@ -127,14 +127,14 @@ HALFLIGHT_INLINE std::optional<SplitChoice> choose_largest(const BfState& state,
 // What there will be once the choice is carried out.
 HALFLIGHT_INLINE MemoryBudget::Counts counts_after(const BfState& state, const SplitChoice& choice) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
-  const Links& links = state.result.refined.links;
+  const MeasuredLinks& links = state.links;
   const auto parts = [&](std::uint32_t i) { return hierarchy[i].leaf() ? hierarchy[i].corners : hierarchy[i].child_count; };
   const auto split_links =
       static_cast<std::size_t>(std::count_if(choice.ends.begin(), choice.ends.end(), [](SplitEnd end) { return end != SplitEnd::none; }));
   MemoryBudget::Counts counts{hierarchy.size(), links.size() - split_links, 0, state.result.refined.occluders.bytes()};
   for (std::uint32_t i = 0; i < hierarchy.size(); ++i) { counts.nodes += choice.asked[i] && hierarchy[i].leaf() ? parts(i) : 0; }
   for (std::size_t i = 0; i < links.size(); ++i) {
-    counts.pairs += choice.ends[i] == SplitEnd::none ? 0 : parts(choice.ends[i] == SplitEnd::p ? links[i].p : links[i].q);
+    counts.pairs += choice.ends[i] == SplitEnd::none ? 0 : parts(choice.ends[i] == SplitEnd::p ? links[i].link.p : links[i].link.q);
   }
   counts.links += counts.pairs;
   return counts;
@@ -149,11 +149,11 @@ HALFLIGHT_INLINE bool is_last(const BfState& state, const BfErrors& errors, cons
   // Where nothing is lit yet, light may still be found.
   const bool dark = !(errors.links.norm > 0.0) && errors.sum > 0.0 && result.generations < 4;
   const bool good = !goal.deadline.limited() && result.estimate <= goal.target && !dark;
-  return good || result.refined.links.size() > link_limit;
+  return good || state.links.size() > link_limit;
 }
 
 HALFLIGHT_INLINE std::optional<SplitChoice> choose_splits(BfState& state, const BfErrors& errors, const BfGoal& goal) {
-  const std::size_t links = state.result.refined.links.size();
+  const std::size_t links = state.links.size();
   const MemoryBudget& budget = state.scene.budget;
   double least = error_of_rank(errors.links.links, (link_limit - links) / 8);  // children of a cluster
   if (goal.deadline.limited()) {

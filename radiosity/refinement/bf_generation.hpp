@@ -29,8 +29,8 @@ struct BfState {
   PairOracle oracle;
   BfResult result;
   double min_area = 0.0;          // of a leaf that may still be split
-  std::vector<LinkShape> shapes;  // of the links that are evaluated
-  std::size_t evaluated = 0;      // links, the first ones
+  MeasuredLinks links;            // of now,
+  std::size_t measured = 0;       // the first so many of which have been measured
   DoubtSum removed;               // of links that carry nothing
   std::vector<bool> sees_itself;  // nodes whose children will see each other
   std::vector<bool> stuck;        // leaves that the BRep refused to split

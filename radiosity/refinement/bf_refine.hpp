@@ -28,6 +28,7 @@
 namespace radiosity {
 
 struct BfResult {
+  Links links;
   RefineResult refined;
   EvaluateResult evaluated;
   std::uint64_t evaluations = 0;  // of links

@@ -6,8 +6,8 @@
 //
 //     e_i^2 = A_i rho^2 (mean over i of (g_i . (x - c_i))^2)               mends: splitting i, while its links stay where they are
 //
-// which is an error of the constants; of a picture, that interpolates between leaves, a part of it. On curved objects the slopes of the
-// links, and so the gradient, hold the turn of the normals (bend.hpp).
+// which is an error of the constants; of a picture, that interpolates between leaves, a part of it. On curved objects the gradients of the
+// links, and so g, hold the turn of the normals (bend.hpp).
 
 #include <algorithm>
 #include <vector>
@@ -31,10 +31,10 @@ struct LeafErrors {
   [[nodiscard]] double alike() const { return apart > 0.0 ? std::clamp(sum / apart, 1e-4, 1e2) : 1.0; }
 };
 
-// Of links that have their slopes, at leaves too.
+// Of links that have their gradients, at leaves too.
 LeafErrors estimate_leaf_errors(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity);
 
-// What siblings tell where the slopes at leaves are not known: leaves of one parent differ as the light changes over the parent. Where it
+// What siblings tell where the gradients at leaves are not known: leaves of one parent differ as the light changes over the parent. Where it
 // changes linearly, four halves of it, squares or triangles, vary a third as much each as they do among each other.
 double variation_by_siblings(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<Color>& radiosity);
 

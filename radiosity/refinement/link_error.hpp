@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The relative L2 error of a solution, estimated from what its links cannot express (LinkShape) times the radiosity that they carry
+// The relative L2 error of a solution, estimated from what its links cannot express (LinkVariation) times the radiosity that they carry
 // (paper 4.4), and from what its leaves cannot. For p receiving from q, with the irradiance H = G B_q / A_p and the deviation
 // S = G s_q / A_p, s_q the standard deviation of B over q's leaves:
 //
@@ -62,10 +62,10 @@ struct ErrorEstimation {
 // The errors of links alone, and the norm. `alike_across` inner nodes: how much more squared errors are than those of independent links,
 // given where these are not all the links; `alike_at_leaves`: LeafErrors::alike().
 ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves, const DiscreteScene& scene,
-                                     const Links& links, const std::vector<LinkShape>& shapes, const std::vector<Color>& radiosity);
+                                     const MeasuredLinks& links, const std::vector<Color>& radiosity);
 
-// For links that were not made by BF-refinement: from at most 1024 links of lights and 3072 others, spread evenly; their shapes are
-// found now.
+// For links that were not made by BF-refinement: from at most 1024 links of lights and 3072 others, spread evenly; they are
+// measured now.
 ErrorEstimation sampled_estimate(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity,
                                  const DoubtSum& doubt);
 

@@ -31,7 +31,8 @@ namespace detail {
 
 // Where refinement begins: with the pair of the root cluster with itself, or all pairs of input faces. In `inner` the input faces whose own
 // parts may face each other.
-HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const PairOracle& oracle, std::vector<Pair>& pairs, RefineResult& result) {
+HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const PairOracle& oracle, std::vector<NodePair>& pairs,
+                                  RefineResult& result) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const auto count = static_cast<std::uint32_t>(hierarchy.size());
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -52,15 +53,14 @@ HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const PairOracle& 
       } else if (scene.plan.shortcuts || hierarchy[p].deviation > 0.0 || hierarchy[q].deviation > 0.0) {
         ++result.pairs_convex;
       } else {
-        result.links.push_back({p, q});
-        result.lists.push_back(OccluderLists::hidden);
+        result.linked.push_back({p, q, OccluderLists::hidden});
       }
     }
   }
 }
 
 // Which roots send light: those that emit, and those that reflect and are reached, over pairs that may be linked, from one that sends.
-HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, const std::vector<Pair>& pairs,
+HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, const std::vector<NodePair>& pairs,
                                                  const std::vector<Decision>& decisions) {
   const Hierarchy& roots = scene.hierarchy;
   std::vector<bool> sends(roots.size(), false), reflects(roots.size(), false);
@@ -109,7 +109,7 @@ struct FRefinement {
   LightOracle light;
   double min_area;  // in the squared unit of the frame
   double light_min_area = 0.0;
-  std::vector<Pair> pairs;  // open
+  std::vector<NodePair> pairs;  // open
   std::vector<bool> stuck;  // leaves that the BRep refused to split
   RefineResult result;
 };
@@ -158,7 +158,7 @@ HALFLIGHT_INLINE void drop_dark_pairs(FRefinement& state, std::vector<Decision>&
   const auto before = static_cast<std::uint32_t>(hierarchy.size());
   std::uint64_t nodes = before;
   for (std::uint32_t i = 0; i < before; ++i) { nodes += asked[i] && hierarchy[i].leaf() ? hierarchy[i].corners : 0; }
-  if (!state.fits(nodes, state.result.links.size(), state.pairs.size())) { return false; }
+  if (!state.fits(nodes, state.result.linked.size(), state.pairs.size())) { return false; }
   for (std::uint32_t i = 0; i < before; ++i) {
     if (asked[i] && hierarchy[i].leaf() && !subdivide(state.scene.surfaces, hierarchy, i)) { state.stuck[i] = true; }
   }
@@ -168,7 +168,7 @@ HALFLIGHT_INLINE void drop_dark_pairs(FRefinement& state, std::vector<Decision>&
 // How many pairs the next generation will have; nothing when these, or the links that are made now, are more than there may be.
 [[nodiscard]] HALFLIGHT_INLINE std::optional<std::uint64_t> count_opened(FRefinement& state, const std::vector<Decision>& decisions) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
-  std::uint64_t links = state.result.links.size(), opened = 0;
+  std::uint64_t links = state.result.linked.size(), opened = 0;
   for (std::size_t i = 0; i < state.pairs.size(); ++i) {
     links += decisions[i] == Decision::link ? 1 : 0;
     if (decisions[i] != Decision::split_p && decisions[i] != Decision::split_q) { continue; }
@@ -181,7 +181,7 @@ HALFLIGHT_INLINE void drop_dark_pairs(FRefinement& state, std::vector<Decision>&
 
 // The pairs of the children of `split` with the other node, or with each other.
 HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, std::uint32_t other, std::uint32_t list,
-                              std::vector<Pair>& pairs) {
+                              std::vector<NodePair>& pairs) {
   const std::uint32_t first = hierarchy[split].first_child;
   const std::uint32_t last = first + hierarchy[split].child_count;
   for (std::uint32_t a = first; a < last; ++a) {
@@ -195,7 +195,7 @@ HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, s
 }
 
 // Links the pairs for which that was decided, and replaces those that are split by the pairs of the children.
-HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Decision>& decisions, std::vector<Pair>& next) {
+HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Decision>& decisions, std::vector<NodePair>& next) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   for (std::size_t i = 0; i < state.pairs.size(); ++i) {
     const auto [p, q, list] = state.pairs[i];
@@ -209,14 +209,13 @@ HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Deci
     if (split_p || split_q) {
       split_p ? descend(hierarchy, p, q, list, next) : descend(hierarchy, q, p, list, next);
     } else {
-      state.result.links.push_back({p, q});
-      state.result.lists.push_back(list);
+      state.result.linked.push_back(state.pairs[i]);
     }
   }
 }
 
 // Parts of one hollow face see each other.
-HALFLIGHT_INLINE void descend_inner(FRefinement& state, std::vector<Pair>& next) {
+HALFLIGHT_INLINE void descend_inner(FRefinement& state, std::vector<NodePair>& next) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   std::vector<std::uint32_t> still_inner;
   for (const std::uint32_t p : state.result.inner) {
@@ -246,13 +245,13 @@ HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& finen
   detail::first_pairs(scene, state.oracle, state.pairs, result);
   while (!state.pairs.empty()) {
     result.cancelled = scene.control.cancelled();
-    if (result.cancelled || !state.few_enough(result.links.size() + state.pairs.size())) { break; }
+    if (result.cancelled || !state.few_enough(result.linked.size() + state.pairs.size())) { break; }
     std::vector<Decision> decisions = detail::ask_oracles(state);
     if (result.generations == 0 && !scene.plan.closed && !scene.clustered()) { detail::drop_dark_pairs(state, decisions); }
     if (!detail::split_leaves(state, decisions)) { break; }
     const std::optional<std::uint64_t> opened = detail::count_opened(state, decisions);
     if (!opened) { break; }
-    std::vector<detail::Pair> next;
+    std::vector<NodePair> next;
     next.reserve(*opened);
     detail::link_or_descend(state, decisions, next);
     detail::descend_inner(state, next);

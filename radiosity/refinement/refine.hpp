@@ -31,9 +31,8 @@
 namespace radiosity {
 
 struct RefineResult {
-  Links links;                       // without their exchange
-  std::vector<std::uint32_t> lists;  // of each link: the index of its list of occluders
-  OccluderLists occluders;
+  std::vector<NodePair> linked;  // pairs that are to be linked
+  OccluderLists occluders;       // of these pairs
   std::uint64_t pairs_tested = 0;   // questions to the oracle
   std::uint64_t pairs_dropped = 0;  // proven to face away from each other
   std::uint64_t pairs_hidden = 0;   // proven to be hidden from each other by one object, or one is buried
@@ -47,22 +46,17 @@ struct RefineResult {
   std::uint64_t too_large = 0;  // bytes that would be needed, at least, when that is more than the budget allows
 };
 
-// 100 million links are 2.4 GB, and 2.8 GB until they are evaluated; a scene that asks for more is refused rather than left to exhaust
+// 100 million links are 2.4 GB, and 3.6 GB while they are made of pairs; a scene that asks for more is refused rather than left to exhaust
 // the memory.
 inline constexpr std::size_t link_limit = 100'000'000;
 
 namespace detail {
 
-struct Pair {
-  std::uint32_t p, q;
-  std::uint32_t list = OccluderLists::none;  // of the pair, or of the pair of ancestors from which it comes
-};
-
 // Asks `oracle(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
 // the others keep their list and are shown to `look(pair, list, decision)`, in parallel. Without shortcuts what would be dropped is linked,
 // but for patches of one curved convex solid (plan.hpp).
 template <class Oracle, class Look>
-std::vector<Decision> decide(const DiscreteScene& scene, std::vector<Pair>& pairs, RefineResult& result, const Oracle& oracle,
+std::vector<Decision> decide(const DiscreteScene& scene, std::vector<NodePair>& pairs, RefineResult& result, const Oracle& oracle,
                              const Look& look) {
   std::vector<Decision> decisions(pairs.size(), Decision::drop);
   constexpr std::size_t batch = 1 << 14;  // lists of full length that live at a time
@@ -70,7 +64,7 @@ std::vector<Decision> decide(const DiscreteScene& scene, std::vector<Pair>& pair
   for (std::size_t first = 0; first < pairs.size(); first += batch) {
     const std::size_t count = std::min(batch, pairs.size() - first);
     parallel_for(count, scene.threads, [&](std::size_t k) {
-      const Pair& pair = pairs[first + k];
+      const NodePair& pair = pairs[first + k];
       Decision& decision = decisions[first + k];
       decision = oracle(pair.p, pair.q);
       lists[k] = {};

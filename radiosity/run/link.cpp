@@ -3,6 +3,7 @@
 // Stage: form factors and visibility of the links of F-refinement (paper 4.3).
 
 #include <optional>
+#include <utility>
 
 #include <raycast/inline.hpp>
 
@@ -21,8 +22,8 @@ HALFLIGHT_INLINE std::optional<Failure> link(detail::Run& run) {
   DiscreteScene& scene = run.scene;
   if (run.f_refined()) {
     if (run.clusters.build) { scene.shown = scene.exposed_shown(); }
-    run.evaluated =
-        evaluate(scene.evaluator, run.refined.occluders, run.solution.links, run.refined.lists, 0, nullptr, scene.threads, scene.control);
+    run.evaluated = make_links({scene.evaluator, run.refined.occluders, scene.threads, scene.control},
+                               std::exchange(run.refined.linked, {}), run.solution.links);
     if (run.evaluated.cancelled) { return detail::cancelled(); }
   }
   run.watch.lap("link");

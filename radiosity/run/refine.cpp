@@ -39,6 +39,7 @@ HALFLIGHT_INLINE void refine_by_solutions(Run& run) {
   Audit& audit = run.solution.audit;
   BfResult bf = bf_refine(run.scene, {options.target, leaf_part(options.reconstruction), Deadline{options.time}});
   run.refined = std::move(bf.refined);
+  run.solution.links = std::move(bf.links);
   run.evaluated = std::move(bf.evaluated);
   run.unseen = bf.unseen;
   audit.estimated_error = bf.estimate;
@@ -69,7 +70,6 @@ HALFLIGHT_INLINE std::optional<Failure> refine(detail::Run& run) {
   if (run.refined.cancelled || run.evaluated.cancelled) { return detail::cancelled(); }
   if (run.refined.too_many > 0) { return Failure{Failure::Kind::invalid_options, {too_many_links(run.refined.too_many, run.clusters)}}; }
   if (run.refined.too_large > 0) { return Failure{Failure::Kind::out_of_memory, {detail::too_large(run, run.refined.too_large)}}; }
-  run.solution.links = std::move(run.refined.links);
   run.watch.lap("refine");
   return std::nullopt;
 }

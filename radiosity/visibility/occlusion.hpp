@@ -66,6 +66,12 @@ class OccluderLists {
   std::vector<std::uint32_t> words_;  // of each list: twice its length, plus 1 when no room is in the way; then the shapes
 };
 
+// A pair of nodes between which light may pass: it is still open whether they are linked, or that is decided and their exchange unknown.
+struct NodePair {
+  std::uint32_t p = 0, q = 0;
+  std::uint32_t list = OccluderLists::none;  // of the pair, or of the pair of ancestors from which it comes
+};
+
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY
