@@ -21,7 +21,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/oracle/cluster_oracle.hpp>
-#include <radiosity/oracle/oracle.hpp>
+#include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>
@@ -125,7 +125,7 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_cluster_split(std::uint32_t re
   const Node& from = (*hierarchy_)[source];
   const glm::dvec3 d = from.centre - to.centre;
   const double r = glm::length(d);
-  // A lamp among other things is taken by itself, before its light is looked at.
+  // A cluster that holds one much brighter element is split first, so that the lamp gets its own link.
   const bool mixed = from.is_cluster() && of_cluster_[from.cluster].brightest > 2.0 * of_cluster_[from.cluster].mean;
   const double area = most_shown(from, *shown_, -d / r, 0.0);
   const auto at = [&](double distance) { return area / (std::numbers::pi * distance * distance + area); };

@@ -21,6 +21,7 @@
 #include <radiosity/clusters/cluster_exchange.hpp>
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/oracle/oracle.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 #include <radiosity/visibility/plan.hpp>
@@ -38,11 +39,18 @@ class LightOracle {
   // Total area of the input faces that are not buried.
   [[nodiscard]] double scene_area() const { return scene_area_; }
 
+  // Asked once it is known what can stand between the two. Splits the end whose light varies too much because of the other, down to
+  // min_area.
+  [[nodiscard]] Decision operator()(const Question& question) const {
+    const std::uint32_t split = wants_split(question.p, question.q, *question.between, *question.rays);
+    if (split == no_node || !(question.hierarchy[split].area > question.min_area)) { return Decision::link; }
+    return split == question.p ? Decision::split_p : Decision::split_q;
+  }
+
+ private:
   // The end of the pair that should be split because of the light of the other, or no_node. Adds its segments to `rays`.
   // `list` is that of the pair.
   [[nodiscard]] std::uint32_t wants_split(std::uint32_t p, std::uint32_t q, const raycast::OccluderList& list, RayCount& rays) const;
-
- private:
   [[nodiscard]] double emission(const Node& node) const {
     return node.is_cluster() ? of_cluster_[node.cluster].mean : emission_[node.surface];
   }
@@ -64,6 +72,7 @@ class LightOracle {
   std::vector<ClusterLight> of_cluster_;
   double scene_area_ = 0.0;
 };
+static_assert(Oracle<LightOracle>);
 
 }  // namespace radiosity
 

@@ -15,9 +15,11 @@
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/links/link_schedule.hpp>
+#include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/bf_refine.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
@@ -33,7 +35,7 @@ namespace radiosity {
 
 namespace detail {
 
-HALFLIGHT_INLINE BfState::BfState(DiscreteScene& of) : scene{of}, oracle{of.surfaces, of.hierarchy} {
+HALFLIGHT_INLINE BfState::BfState(DiscreteScene& of) : scene{of}, proofs{of.surfaces, of.hierarchy} {
   constexpr double first_epsilon = 0.25;
   result.refined = refine(scene, {first_epsilon, 1e-3, 0.0});
   for (const auto [p, q, list] : std::exchange(result.refined.linked, {})) { links.push_back({{p, q}, list, {}}); }
@@ -115,7 +117,7 @@ HALFLIGHT_INLINE void split_leaves(BfState& state, const SplitChoice& choice, Op
   state.stuck.resize(before, false);
   for (std::uint32_t i = 0; i < before; ++i) {
     if (!choice.asked[i] || !hierarchy[i].leaf()) { continue; }
-    if (!subdivide(state.scene.surfaces, hierarchy, i)) {
+    if (!subdivide(state.scene.surfaces, hierarchy, i, state.scene.meshing)) {
       state.stuck[i] = true;
       continue;
     }
@@ -134,16 +136,16 @@ HALFLIGHT_INLINE void split_links(BfState& state, const std::vector<LinkError>& 
   const Hierarchy& hierarchy = state.scene.hierarchy;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < state.links.size(); ++i) {
-    const SplitEnd end = choice.ends[i];
+    const Decision end = choice.ends[i];
     const auto& [link, list, variation] = state.links[i];
-    if (end == SplitEnd::none && !(link.exchange > 0.0f) && errors[i].sum() <= moot) {
+    if (end == Decision::link && !(link.exchange > 0.0f) && errors[i].sum() <= moot) {
       state.removed.add(link.p, link.q, variation.doubt);
       ++state.result.evaluated.blocked;
       continue;
     }
-    const std::uint32_t split = end == SplitEnd::p ? link.p : link.q;
-    const std::uint32_t other = end == SplitEnd::p ? link.q : link.p;
-    if (end == SplitEnd::none || hierarchy[split].leaf()) {
+    const std::uint32_t split = end == Decision::split_p ? link.p : link.q;
+    const std::uint32_t other = end == Decision::split_p ? link.q : link.p;
+    if (end == Decision::link || hierarchy[split].leaf()) {
       state.links[kept++] = state.links[i];
       continue;
     }
@@ -166,8 +168,9 @@ HALFLIGHT_INLINE void link_pairs(BfState& state, OpenPairs open) {
         [&](std::uint32_t p, std::uint32_t q) {
           const Node& a = hierarchy[p];
           const Node& b = hierarchy[q];
-          if (state.oracle.convex(a, b)) { return Decision::convex; }
-          return a.is_cluster() || b.is_cluster() ? Decision::link : f_oracle(a, b, 1.0, state.min_area);
+          if (state.proofs.convex(a, b)) { return Decision::convex; }
+          if (a.is_cluster() || b.is_cluster()) { return Decision::link; }
+          return face_away(a, b) ? Decision::drop : f_rule(a, b, 1.0, state.min_area);
         },
         [](std::size_t, const raycast::OccluderList&, Decision&) {});
     OpenPairs parts;  // of faces that come out of their clusters in too many to be linked

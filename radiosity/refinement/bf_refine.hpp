@@ -22,6 +22,8 @@
 #include <optional>
 
 #include <radiosity/links/evaluate.hpp>
+#include <radiosity/oracle/bf_oracle.hpp>
+#include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/refine.hpp>
 
@@ -60,6 +62,7 @@ struct BfGoal {
   double target = 0.0;
   double leaf_part = 1.0;
   Deadline deadline;
+  AnyOracle oracle = BfOracle{};  // about links with large errors
 };
 
 // Makes links, evaluated, and leaves that meet the goal. Stops before when there is nothing left to split, at 2^-24 of the scene's area,

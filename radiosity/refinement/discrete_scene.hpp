@@ -11,6 +11,7 @@
 
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/scene/frame.hpp>
@@ -50,6 +51,7 @@ struct DiscreteScene {
   std::uint64_t seed;
   Control control;
   MemoryBudget budget;
+  Meshing meshing = RegularMeshing{};
 
   Frame frame;
   raycast::Scene objects;         // in the frame

@@ -30,6 +30,7 @@
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/evaluate.hpp>
+#include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
@@ -38,12 +39,6 @@
 namespace radiosity {
 
 namespace detail {
-
-// What the split of each end of a link would mend, squared.
-struct LinkError {
-  float p = 0.0f, q = 0.0f;
-  [[nodiscard]] float sum() const { return p + q; }
-};
 
 // How much of the variation over a leaf is an error: all of it, or the part that a picture which interpolates still misses.
 [[nodiscard]] constexpr double leaf_part(Reconstruction kind) { return kind >= Reconstruction::constant ? 1.0 : 0.5; }

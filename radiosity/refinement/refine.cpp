@@ -12,11 +12,13 @@
 #include <raycast/shaft.hpp>
 #include <raycast/transform.hpp>
 
+#include <radiosity/clusters/clusters.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/oracle/light_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>
-#include <radiosity/oracle/pair_oracle.hpp>
+#include <radiosity/oracle/proof_oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
@@ -31,12 +33,12 @@ namespace detail {
 
 // Where refinement begins: with the pair of the root cluster with itself, or all pairs of input faces. In `inner` the input faces whose own
 // parts may face each other.
-HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const PairOracle& oracle, std::vector<NodePair>& pairs,
+HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const ProofOracle& proofs, std::vector<NodePair>& pairs,
                                   RefineResult& result) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const auto count = static_cast<std::uint32_t>(hierarchy.size());
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (!is_input_face(hierarchy, i) || oracle.buried(i)) { continue; }
+    if (!is_input_face(hierarchy, i) || proofs.buried(i)) { continue; }
     const raycast::PlacedObject& object = *scene.surfaces[hierarchy[i].object].object;
     if ((object.inside() || !object.convex()) && !object.flat()) { result.inner.push_back(i); }
   }
@@ -48,7 +50,7 @@ HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const PairOracle& 
     if (!is_input_face(hierarchy, p)) { continue; }
     for (std::uint32_t q = p + 1; q < count; ++q) {
       if (!is_input_face(hierarchy, q)) { continue; }
-      if (!oracle.convex(hierarchy[p], hierarchy[q])) {
+      if (!proofs.convex(hierarchy[p], hierarchy[q])) {
         pairs.push_back({p, q});
       } else if (scene.plan.shortcuts || hierarchy[p].deviation > 0.0 || hierarchy[q].deviation > 0.0) {
         ++result.pairs_convex;
@@ -85,8 +87,9 @@ struct FRefinement {
   FRefinement(DiscreteScene& of, const Fineness& to)
       : scene{of},
         fineness{to},
-        oracle{of.surfaces, of.hierarchy},
-        light{of.input, of.objects, of.plan, of.patches, of.hierarchy, oracle.shown(), to.light_epsilon, of.seed, oracle.buried()},
+        proofs{of.surfaces, of.hierarchy},
+        shown{of.hierarchy, [&](std::size_t i) { return of.hierarchy[i].area; }},
+        light{of.input, of.objects, of.plan, of.patches, of.hierarchy, shown, to.light_epsilon, of.seed, proofs.buried()},
         min_area{to.min_area * light.scene_area()} {
     const double finer = std::min(1.0, fineness.light_epsilon / (0.25 * fineness.epsilon));
     light_min_area = 0.25 * min_area * finer * finer;
@@ -105,7 +108,8 @@ struct FRefinement {
 
   DiscreteScene& scene;
   Fineness fineness;
-  PairOracle oracle;
+  ProofOracle proofs;
+  ShownAreas shown;  // by the clusters, by the whole area of their faces
   LightOracle light;
   double min_area;  // in the squared unit of the frame
   double light_min_area = 0.0;
@@ -114,6 +118,14 @@ struct FRefinement {
   RefineResult result;
 };
 
+// The answer of an oracle, but no leaf is split for a pair of which neither end is larger than min_area.
+[[nodiscard]] HALFLIGHT_INLINE Decision within_min_area(const Question& question, Decision answer) {
+  if (answer != Decision::split_p && answer != Decision::split_q) { return answer; }
+  const Node& split = answer == Decision::split_p ? question.node_p() : question.node_q();
+  const bool small = std::max(question.node_p().area, question.node_q().area) <= question.min_area;
+  return split.leaf() && small ? Decision::link : answer;
+}
+
 // What to do with each open pair.
 HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
   DiscreteScene& scene = state.scene;
@@ -121,14 +133,18 @@ HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
   std::vector<RayCount> rays(state.pairs.size());
   std::vector<Decision> decisions = decide(
       scene, state.pairs, state.result,
-      [&](std::uint32_t p, std::uint32_t q) { return state.oracle(p, q, state.fineness.epsilon, state.min_area); },
+      [&](std::uint32_t p, std::uint32_t q) {
+        const Question question{scene.hierarchy, p, q, state.shown, state.fineness.epsilon, state.min_area, &state.stuck};
+        const Decision proven = state.proofs(question);
+        return proven == Decision::link ? within_min_area(question, state.fineness.oracle(question)) : proven;
+      },
       [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
-        const auto [p, q, index] = state.pairs[i];
         if (decision != Decision::link || !(state.fineness.light_epsilon > 0.0)) { return; }
-        const std::uint32_t split = state.light.wants_split(p, q, list, rays[i]);
-        if (split != no_node && scene.hierarchy[split].area > state.light_min_area) {
-          decision = split == p ? Decision::split_p : Decision::split_q;
-        }
+        Question question{scene.hierarchy, state.pairs[i].p, state.pairs[i].q, state.shown, state.fineness.light_epsilon};
+        question.min_area = state.light_min_area;
+        question.between = &list;
+        question.rays = &rays[i];
+        decision = state.light(question);
       });
   for (const RayCount& r : rays) { state.result.rays += r; }
   return decisions;
@@ -160,7 +176,7 @@ HALFLIGHT_INLINE void drop_dark_pairs(FRefinement& state, std::vector<Decision>&
   for (std::uint32_t i = 0; i < before; ++i) { nodes += asked[i] && hierarchy[i].leaf() ? hierarchy[i].corners : 0; }
   if (!state.fits(nodes, state.result.linked.size(), state.pairs.size())) { return false; }
   for (std::uint32_t i = 0; i < before; ++i) {
-    if (asked[i] && hierarchy[i].leaf() && !subdivide(state.scene.surfaces, hierarchy, i)) { state.stuck[i] = true; }
+    if (asked[i] && hierarchy[i].leaf() && !subdivide(state.scene.surfaces, hierarchy, i, state.scene.meshing)) { state.stuck[i] = true; }
   }
   return true;
 }
@@ -242,7 +258,7 @@ HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& finen
   if (!state.few_enough(all_pairs) || !state.fits(scene.hierarchy.size(), 0, scene.clustered() ? 1 : all_pairs)) {
     return std::move(result);
   }
-  detail::first_pairs(scene, state.oracle, state.pairs, result);
+  detail::first_pairs(scene, state.proofs, state.pairs, result);
   while (!state.pairs.empty()) {
     result.cancelled = scene.control.cancelled();
     if (result.cancelled || !state.few_enough(result.linked.size() + state.pairs.size())) { break; }

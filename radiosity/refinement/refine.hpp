@@ -22,6 +22,7 @@
 #include <raycast/shaft.hpp>
 
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/support/parallel.hpp>
@@ -52,11 +53,11 @@ inline constexpr std::size_t link_limit = 100'000'000;
 
 namespace detail {
 
-// Asks `oracle(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
+// Asks `ask(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
 // the others keep their list and are shown to `look(pair, list, decision)`, in parallel. Without shortcuts what would be dropped is linked,
 // but for patches of one curved convex solid (plan.hpp).
-template <class Oracle, class Look>
-std::vector<Decision> decide(const DiscreteScene& scene, std::vector<NodePair>& pairs, RefineResult& result, const Oracle& oracle,
+template <class Ask, class Look>
+std::vector<Decision> decide(const DiscreteScene& scene, std::vector<NodePair>& pairs, RefineResult& result, const Ask& ask,
                              const Look& look) {
   std::vector<Decision> decisions(pairs.size(), Decision::drop);
   constexpr std::size_t batch = 1 << 14;  // lists of full length that live at a time
@@ -66,7 +67,7 @@ std::vector<Decision> decide(const DiscreteScene& scene, std::vector<NodePair>& 
     parallel_for(count, scene.threads, [&](std::size_t k) {
       const NodePair& pair = pairs[first + k];
       Decision& decision = decisions[first + k];
-      decision = oracle(pair.p, pair.q);
+      decision = ask(pair.p, pair.q);
       lists[k] = {};
       if (decision == Decision::drop || decision == Decision::convex) { return; }
       lists[k] = result.occluders.of(pair.p, pair.q, pair.list, scene.objects, scene.plan, scene.patches);
@@ -101,6 +102,7 @@ std::vector<Decision> decide(const DiscreteScene& scene, std::vector<NodePair>& 
 // `light_epsilon` is 0.
 struct Fineness {
   double epsilon = 0.0, min_area = 0.0, light_epsilon = 0.0;
+  AnyOracle oracle = FOracle{};  // about the form factor
 };
 
 // Builds the links of the hierarchy, splitting leaves as needed.

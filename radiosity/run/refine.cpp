@@ -37,7 +37,9 @@ HALFLIGHT_INLINE std::string too_large(const Run& run, std::uint64_t needed) {
 HALFLIGHT_INLINE void refine_by_solutions(Run& run) {
   const Options& options = run.options;
   Audit& audit = run.solution.audit;
-  BfResult bf = bf_refine(run.scene, {options.target, leaf_part(options.reconstruction), Deadline{options.time}});
+  BfGoal goal{options.target, leaf_part(options.reconstruction), Deadline{options.time}};
+  if (options.oracle) { goal.oracle = options.oracle; }
+  BfResult bf = bf_refine(run.scene, goal);
   run.refined = std::move(bf.refined);
   run.solution.links = std::move(bf.links);
   run.evaluated = std::move(bf.evaluated);
@@ -63,7 +65,9 @@ HALFLIGHT_INLINE std::optional<Failure> refine(detail::Run& run) {
   if (run.bf_refined()) {
     detail::refine_by_solutions(run);
   } else if (run.f_refined()) {
-    run.refined = radiosity::refine(run.scene, {options.epsilon, options.min_area, audit.light_epsilon});
+    Fineness fineness{options.epsilon, options.min_area, audit.light_epsilon};
+    if (options.oracle) { fineness.oracle = options.oracle; }
+    run.refined = radiosity::refine(run.scene, fineness);
   } else if (!budget.allows({run.scene.hierarchy.size()})) {
     run.refined.too_large = budget.peak({run.scene.hierarchy.size()});
   }

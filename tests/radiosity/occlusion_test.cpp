@@ -16,7 +16,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/surface.hpp>
-#include <radiosity/oracle/oracle.hpp>
+#include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/refine.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -73,7 +73,7 @@ TEST_CASE("segments of a pair are occluded as its list says, from whichever ance
         }
       };
       const std::uint32_t p = leaf(), q = leaf();
-      if (radiosity::f_oracle(nodes[p], nodes[q], 1.0, 0.0) == Decision::drop) { continue; }
+      if (radiosity::face_away(nodes[p], nodes[q])) { continue; }
       OccluderLists lists;
       std::uint32_t index = OccluderLists::none;
       raycast::OccluderList list;

@@ -15,6 +15,7 @@
 #include <raycast/objects/sphere.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/picture/reconstruct.hpp>
 #include <radiosity/scene/material.hpp>
