@@ -16,7 +16,7 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/clusters/clusters.hpp>
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/patch.hpp>
@@ -28,7 +28,7 @@
 namespace radiosity {
 
 HALFLIGHT_INLINE ClusterEnd ClusterSampler::end(std::uint32_t node, const glm::dvec3& direction) const {
-  const Node& n = (*hierarchy_)[node];
+  const Node& n = scene_.hierarchy[node];
   if (!n.is_cluster()) { return {node, {}, area(node)}; }
   const Aim towards = aim(direction);
   return {node, towards, shown_->of(n, towards)};
@@ -60,7 +60,7 @@ HALFLIGHT_INLINE ClusterExchange ClusterSampler::operator()(const ClusterEnd& p,
       weights[i] = std::min(leaves * arrives / r2 * x.per_shown * y.per_shown, most_weight) / (std::numbers::pi * r2);
       segments.set(i, {x.position, d}, x.object, y.object);
     }
-    const std::uint32_t occluded = scene_->occluded16(segments, hint);
+    const std::uint32_t occluded = scene_.objects.occluded16(segments, hint);
     for (std::uint32_t i = 0; i < 16; ++i) {
       if (!(weights[i] > 0.0)) { continue; }
       ++result.rays;
@@ -84,7 +84,7 @@ HALFLIGHT_INLINE ClusterExchange ClusterSampler::operator()(const ClusterEnd& p,
 }
 
 HALFLIGHT_INLINE ClusterSampler::Point ClusterSampler::draw(const ClusterEnd& end, double u, Random& random) const {
-  const Hierarchy& nodes = *hierarchy_;
+  const Hierarchy& nodes = scene_.hierarchy;
   std::uint32_t i = end.node;
   double per_shown = 1.0;
   double rest = u * end.shown;
@@ -105,7 +105,7 @@ HALFLIGHT_INLINE ClusterSampler::Point ClusterSampler::draw(const ClusterEnd& en
     if (chosen == no_node) { return {}; }  // rounding alone
     i = chosen;
   }
-  const Patch& patch = (*patches_)[i];
+  const Patch& patch = scene_.patches[i];
   const PatchEnd ground{&patch, nodes[i].object, exposure_ != nullptr ? exposure_->points(i) : nullptr};
   const auto cell = static_cast<std::uint32_t>(random.bits() & 15u);
   return {draw_exposed(ground, cell, random), patch.normal, i == end.node ? 1.0 : 1.0 / per_shown, nodes[i].object};

@@ -53,8 +53,8 @@ struct RegularMeshing {
 };
 static_assert(MeshingStrategy<RegularMeshing>);
 
-// One cut, where a split object places it: two children. Where the cut ends inside an edge, a neighbour of the children's level gets a corner
-// more; its patch stays as it was.
+// One cut, where a split object places it: two children. Where the cut ends inside an edge, a neighbour of the children's level gets one
+// more corner; its patch stays as it was.
 template <brep::SplitObjectFor<SurfaceBRep> Split>
 class CutBy {
  public:

@@ -12,14 +12,13 @@
 #include <glm/vec3.hpp>
 
 #include <raycast/inline.hpp>
-#include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 
 #include <radiosity/clusters/cluster_exchange.hpp>
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/exchange/exchange.hpp>
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/patch.hpp>
@@ -28,7 +27,6 @@
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -45,27 +43,20 @@ namespace radiosity {
 // Pairs of points, in rounds of 16, for each link of a cluster: a mean over many faces that hide each other, so never few.
 inline constexpr std::uint32_t cluster_rounds = 4;
 
-HALFLIGHT_INLINE LinkEvaluator::LinkEvaluator(const raycast::Scene& scene, const Plan& plan, const Hierarchy& hierarchy,
-                                              const Patches& patches, const Exposure& exposure, const ShownAreas& shown, std::uint64_t seed)
-    : scene_{&scene},
-      plan_{&plan},
-      hierarchy_{&hierarchy},
-      patches_{&patches},
-      exposure_{&exposure},
-      sampler_{scene, hierarchy, patches, &exposure, shown},
-      seed_{seed} {}
+HALFLIGHT_INLINE LinkEvaluator::LinkEvaluator(const SceneView& scene, const Exposure& exposure, const ShownAreas& shown, std::uint64_t seed)
+    : scene_{scene}, exposure_{&exposure}, sampler_{scene, &exposure, shown}, seed_{seed} {}
 
 HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation,
                                                     Doubt* doubt) const {
-  const Patch& p = (*patches_)[link.p];
-  const Patch& q = (*patches_)[link.q];
+  const Patch& p = scene_.patches[link.p];
+  const Patch& q = scene_.patches[link.q];
   const double area_p = exposure_->area[link.p];
   const double area_q = exposure_->area[link.q];
   link.exchange = 0.0f;
   if (!(area_p > 0.0) || !(area_q > 0.0)) { return {}; }
   if (!between_patches(link)) {
     const Random random{seed_, (std::uint64_t{link.p} << 32) | link.q};
-    const ClusterExchange seen = evaluate_cluster_link(sampler_, *hierarchy_, link, cluster_rounds, random);
+    const ClusterExchange seen = evaluate_cluster_link(sampler_, scene_.hierarchy, link, cluster_rounds, random);
     const LinkVariation of_link = variation_of_cluster_link(link, seen, variation != nullptr ? *variation : LinkVariation{});
     if (variation != nullptr) { *variation = of_link; }
     if (doubt != nullptr) { doubt->square = static_cast<float>(doubt_of_cluster_link(link, of_link)); }
@@ -76,16 +67,16 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
     // The patches face away from each other; where they are curved, parts of their surfaces may not.
     const double light = variation != nullptr && (p.bent || q.bent) ? variations(p, q).light : 0.0;
     if (!(light > 0.0)) { return {}; }
-    const VisibilityEstimate seen = visibility(*scene_, *plan_, list, end(link.p), end(link.q), 1, Random{seed_, key_of(link)});
+    const VisibilityEstimate seen = visibility(scene_, list, end(link.p), end(link.q), 1, Random{seed_, key_of(link)});
     variation->sampling = static_cast<float>(seen.fraction > 0.0 ? light : missed(light, *variation, seen.rays.cast));
     return seen.rays;
   }
-  const Node& node_p = (*hierarchy_)[link.p];
-  const Node& node_q = (*hierarchy_)[link.q];
+  const Node& node_p = scene_.hierarchy[link.p];
+  const Node& node_q = scene_.hierarchy[link.q];
   const std::uint64_t key = key_of(link);
   const PatchEnd end_p = end(link.p);
   const PatchEnd end_q = end(link.q);
-  const VisibilityEstimate seen = visibility(*scene_, *plan_, list, end_p, end_q, patch_rounds, Random{seed_, key});
+  const VisibilityEstimate seen = visibility(scene_, list, end_p, end_q, patch_rounds, Random{seed_, key});
   // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
   const double share = exposed_share(end_p, area_p, q) * exposed_share(end_q, area_q, p);
   link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
@@ -113,8 +104,8 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
 HALFLIGHT_INLINE Doubt LinkEvaluator::doubt_of(const Link& link, double sent, const VisibilityEstimate& seen,
                                                const Variations& varies) const {
   const auto square = [](double x) { return x * x; };
-  const Node& p = (*hierarchy_)[link.p];
-  const Node& q = (*hierarchy_)[link.q];
+  const Node& p = scene_.hierarchy[link.p];
+  const Node& q = scene_.hierarchy[link.q];
   const double area_p = exposure_->area[link.p];
   const double area_q = exposure_->area[link.q];
   const double arrives = sent * seen.fraction;
@@ -135,8 +126,8 @@ HALFLIGHT_INLINE Doubt LinkEvaluator::doubt_of(const Link& link, double sent, co
 HALFLIGHT_INLINE LinkVariation LinkEvaluator::variation_of_cluster_link(const Link& link, const ClusterExchange& seen,
                                                                         const LinkVariation& before) const {
   const auto square = [](double x) { return x * x; };
-  const Node& p = (*hierarchy_)[link.p];
-  const Node& q = (*hierarchy_)[link.q];
+  const Node& p = scene_.hierarchy[link.p];
+  const Node& q = scene_.hierarchy[link.q];
   const glm::dvec3 d = q.centre - p.centre;
   const double r = glm::length(d);
   if (!(r > 0.0)) { return {}; }
@@ -148,7 +139,8 @@ HALFLIGHT_INLINE LinkVariation LinkEvaluator::variation_of_cluster_link(const Li
   const auto end = [&](const Node& node) {
     const double near = square(2.0 * node.radius / r) / 12.0;
     const double rest = node.is_cluster() ? 8.0 / 3.0 * near + 0.02 : near;
-    return LinkVariation::End{0.0f, static_cast<float>(std::sqrt(rest)), static_cast<float>(std::sqrt(hidden * std::min(1.0, 20.0 * near)))};
+    const double shadow = hidden * std::min(1.0, 20.0 * near);
+    return LinkVariation::End{0.0f, static_cast<float>(std::sqrt(rest)), static_cast<float>(std::sqrt(shadow))};
   };
   const double error = seen.exchange * seen.spread / std::sqrt(std::max(16.0, static_cast<double>(seen.rays)));
   return {end(p), end(q), 0.0f, static_cast<float>(error), 0.0f, {}};

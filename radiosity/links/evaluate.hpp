@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Puts the numbers into the links: form factor by contour, times the fraction that arrives (paper 4.3: this is done once
-// the oracle has agreed, for it is the expensive part).
+// Evaluates links: the form factor by contour, times the fraction of the light that arrives (paper 4.3: done once the oracle has agreed,
+// because it is the expensive part).
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 
 #include <radiosity/clusters/cluster_exchange.hpp>
@@ -22,7 +21,7 @@
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -67,19 +66,18 @@ inline constexpr std::uint32_t patch_rounds = 4;
 class LinkEvaluator {
  public:
   // The references must outlive the evaluator. `shown`: by exposed areas.
-  LinkEvaluator(const raycast::Scene& scene, const Plan& plan, const Hierarchy& hierarchy, const Patches& patches, const Exposure& exposure,
-                const ShownAreas& shown, std::uint64_t seed);
+  LinkEvaluator(const SceneView& scene, const Exposure& exposure, const ShownAreas& shown, std::uint64_t seed);
 
   // Sets the exchange, 0 when nothing arrives, and the shapes where they have an effect, or anyhow when the variation is asked for.
   // Returns its segments. Depends on the ends of the link and the seed alone; `list` saves time.
   RayCount operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation = nullptr, Doubt* doubt = nullptr) const;
 
   [[nodiscard]] bool between_patches(const Link& link) const {
-    return !(*hierarchy_)[link.p].is_cluster() && !(*hierarchy_)[link.q].is_cluster();
+    return !scene_.hierarchy[link.p].is_cluster() && !scene_.hierarchy[link.q].is_cluster();
   }
   // Casts the segments of a link between patches with exposed ends as if nothing were known of what can block them.
   [[nodiscard]] RayCount segments(const Link& link) const {
-    return visibility(*scene_, *plan_, {}, end(link.p), end(link.q), patch_rounds, Random{seed_, key_of(link)}).rays;
+    return visibility(scene_, {}, end(link.p), end(link.q), patch_rounds, Random{seed_, key_of(link)}).rays;
   }
 
  private:
@@ -105,12 +103,9 @@ class LinkEvaluator {
   [[nodiscard]] LinkVariation variation_of_cluster_link(const Link& link, const ClusterExchange& seen, const LinkVariation& before) const;
   // Every face and every link errs for itself: by its place, by what it sees, by the lattice of directions and by sampling.
   [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkVariation& variation) const;
-  [[nodiscard]] PatchEnd end(std::uint32_t i) const { return {&(*patches_)[i], (*hierarchy_)[i].object, exposure_->points(i)}; }
+  [[nodiscard]] PatchEnd end(std::uint32_t i) const { return {&scene_.patches[i], scene_.hierarchy[i].object, exposure_->points(i)}; }
 
-  const raycast::Scene* scene_;
-  const Plan* plan_;
-  const Hierarchy* hierarchy_;
-  const Patches* patches_;
+  SceneView scene_;
   const Exposure* exposure_;
   ClusterSampler sampler_;
   std::uint64_t seed_;

@@ -61,7 +61,7 @@ HALFLIGHT_INLINE LeafExchange::LeafExchange(const DiscreteScene& scene) : scene_
         continue;
       }
       const raycast::OccluderList list =
-          occluders_.of(root_nodes[p], root_nodes[q], OccluderLists::none, scene.objects, scene.plan, scene.patches);
+          occluders_.of(root_nodes[p], root_nodes[q], OccluderLists::none, scene.view());
       if (list.blocked() || face_away(roots[p], roots[q])) { continue; }
       index = lists_[q * count_ + p] = occluders_.keep(list, OccluderLists::none);
     }
@@ -73,7 +73,7 @@ HALFLIGHT_INLINE float LeafExchange::operator()(std::size_t i, std::size_t j, Ra
   if (i == j || index == nothing) { return 0.0f; }
   Link link{leaves_[std::min(i, j)], leaves_[std::max(i, j)]};
   if (face_away(scene_->hierarchy[link.p], scene_->hierarchy[link.q])) { return 0.0f; }
-  const raycast::OccluderList list = occluders_.of(link.p, link.q, index, scene_->objects, scene_->plan, scene_->patches);
+  const raycast::OccluderList list = occluders_.of(link.p, link.q, index, scene_->view());
   if (list.blocked()) { return 0.0f; }
   rays += scene_->evaluator(link, list, nullptr, doubt);
   return link.exchange;

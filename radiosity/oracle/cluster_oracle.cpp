@@ -12,7 +12,7 @@
 #include <raycast/inline.hpp>
 
 #include <radiosity/clusters/clusters.hpp>
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/oracle/oracle.hpp>
 

@@ -10,12 +10,11 @@
 // the patch's share of the relative L2 error, dimensionless. F varies as the disk estimate does between the corners and the point nearest
 // to the light, with the normals tilted by the deviation of the patch from a curved object (linear between extremes: RMS = difference /
 // sqrt 12); V is all or nothing at a point: RMS = sqrt(V (1 - V)). Of a cluster F is what the light shows to the places in it, from the
-// nearest to the farthest; how its faces are turned is no matter, for each takes its own cosine.
+// nearest to the farthest; how its faces are turned does not matter, because each applies its own cosine.
 
 #include <cstdint>
 #include <vector>
 
-#include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 
 #include <radiosity/clusters/cluster_exchange.hpp>
@@ -24,7 +23,7 @@
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -33,8 +32,8 @@ class LightOracle {
  public:
   // The references must outlive the oracle; the hierarchy holds clusters and input faces when it is made, and may grow. `buried`, by node:
   // input faces that are not part of the scene's area (buried.hpp); none when it is empty.
-  LightOracle(const Scene& scene, const raycast::Scene& objects, const Plan& plan, const Patches& patches, const Hierarchy& hierarchy,
-              const ShownAreas& shown, double epsilon, std::uint64_t seed, const std::vector<bool>& buried = {});
+  LightOracle(const Scene& input, const SceneView& scene, const ShownAreas& shown, double epsilon, std::uint64_t seed,
+              const std::vector<bool>& buried = {});
 
   // Total area of the input faces that are not buried.
   [[nodiscard]] double scene_area() const { return scene_area_; }
@@ -57,10 +56,7 @@ class LightOracle {
 
   [[nodiscard]] std::uint32_t wants_cluster_split(std::uint32_t receiver, std::uint32_t source, double weight, RayCount& rays) const;
 
-  const raycast::Scene* objects_;
-  const Plan* plan_;
-  const Patches* patches_;
-  const Hierarchy* hierarchy_;
+  SceneView scene_;
   const ShownAreas* shown_;
   ClusterSampler sampler_;
   double epsilon_;

@@ -13,8 +13,8 @@
 //
 //   - The same question has the same answer, from whichever thread it comes: many are asked at once, and results do not depend on threads.
 //   - It answers link, split_p or split_q; drop only where no light passes. Two nodes that are proven not to see each other are not asked.
-//   - It ends by itself as patches get smaller. All the same two leaves of which neither is larger than min_area are linked, whatever it
-//     answers, and limits on links and memory hold.
+//   - It agrees to a link once patches are small enough. In any case two leaves of which neither is larger than min_area are linked, and
+//     the limits on links and memory hold.
 
 #include <concepts>
 #include <cstdint>
@@ -41,27 +41,27 @@ enum class Decision : unsigned char {
 
 inline constexpr Decision first_seeing = Decision::link;  // those before it end the matter
 
-// What the split of each end of a link would mend of its error, squared, in W^2/m^2 (link_error.hpp).
+// By how much splitting each end of a link would reduce its squared error (link_error.hpp).
 struct LinkError {
   float p = 0.0f, q = 0.0f;
   [[nodiscard]] float sum() const { return p + q; }
 };
 
-// What an oracle is asked, and what is known at that time. Lengths and areas are those of the frame, in which the scene has a size of about
-// 1. Either node may be a cluster, which has no normal and whose area is that of all faces below it.
+// What an oracle is asked. Lengths and areas are those of the frame (frame.hpp), in which the size of the scene lies in [1, 2). Either node
+// may be a cluster, which has no normal and whose area is that of all faces below it.
 struct Question {
   const Hierarchy& hierarchy;
   std::uint32_t p = no_node, q = no_node;  // equal: a leaf over which the light varies, is it split while its links stay? BF alone
-  const ShownAreas& shown;                 // what the clusters show in each direction
+  const ShownAreas& shown;                 // projected areas of the clusters
   double epsilon = 0.0;                    // largest form factor of a link; of LightOracle, share of the error
   double min_area = 0.0;                   // of a leaf that may be split
-  const std::vector<bool>* stuck = nullptr;  // leaves that cannot be split any more, if there are any
+  const std::vector<bool>* stuck = nullptr;  // leaves that the BRep refused to split, if there are any
 
-  // F-refinement, and nothing of it is known before the list of what can stand between the nodes is made: then a light is looked at.
+  // Of LightOracle alone: what can stand between the nodes,
   const raycast::OccluderList* between = nullptr;
-  RayCount* rays = nullptr;  // where segments that are cast are counted
+  RayCount* rays = nullptr;  // and where segments that are cast are counted
 
-  // BF-refinement: the link is there and carries light, and its error is one of those to be mended.
+  // Of BF-refinement alone: the link carries light, and its error is one of the largest.
   const LinkError* error = nullptr;
 
   [[nodiscard]] const Node& node_p() const { return hierarchy[p]; }

@@ -18,7 +18,7 @@
 #include <radiosity/refinement/bf_generation.hpp>
 #include <radiosity/refinement/bf_refine.hpp>
 #include <radiosity/refinement/link_error.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/support/memory.hpp>
 
 namespace radiosity {

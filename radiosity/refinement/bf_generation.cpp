@@ -25,7 +25,7 @@
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/leaf_error.hpp>
 #include <radiosity/refinement/link_error.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/solver/solve.hpp>
 #include <radiosity/solver/transport.hpp>
@@ -83,8 +83,7 @@ HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
   for (const MeasuredLink& l : state.links) { links.push_back(l.link); }
   Transport transport{scene.hierarchy, links, scene.exposure, scene.threads};
   if (scene.plan.closed) { (void)transport.close(10.0, 1e-3); }
-  const ColorSolution light = solve_channels(scene.hierarchy, transport, scene.exposure.area, scene.reflectance, scene.emission,
-                                             scene.plan.channels, Solver::conjugate_gradients, 1e-3, 40);
+  const ColorSolution light = solve_channels(transport, scene.exposure.area, surface_light(scene), {Solver::conjugate_gradients, 1e-3, 40});
   LeafErrors leaves = estimate_leaf_errors(scene, links, light.radiosity);
   BfErrors errors;
   errors.links = estimate_link_errors(std::nullopt, leaves.alike(), scene, state.links, light.radiosity);
@@ -110,7 +109,7 @@ struct OpenPairs {
   }
 };
 
-// Splits the leaves that were asked for. Parts of one that is hollow see each other.
+// Splits the leaves that were asked for. The children of a concave curved face see each other.
 HALFLIGHT_INLINE void split_leaves(BfState& state, const SplitChoice& choice, OpenPairs& open) {
   Hierarchy& hierarchy = state.scene.hierarchy;
   const auto before = static_cast<std::uint32_t>(hierarchy.size());
@@ -130,15 +129,16 @@ HALFLIGHT_INLINE void split_leaves(BfState& state, const SplitChoice& choice, Op
   }
 }
 
-// Takes away the links that were chosen, for pairs of their children, and those that carry nothing and miss no more than `moot`, squared.
-HALFLIGHT_INLINE void split_links(BfState& state, const std::vector<LinkError>& errors, const SplitChoice& choice, double moot,
+// Takes away the links that were chosen, for pairs of their children, and those that carry nothing and whose squared error is at most
+// `negligible`.
+HALFLIGHT_INLINE void split_links(BfState& state, const std::vector<LinkError>& errors, const SplitChoice& choice, double negligible,
                                   OpenPairs& open) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < state.links.size(); ++i) {
     const Decision end = choice.ends[i];
     const auto& [link, list, variation] = state.links[i];
-    if (end == Decision::link && !(link.exchange > 0.0f) && errors[i].sum() <= moot) {
+    if (end == Decision::link && !(link.exchange > 0.0f) && errors[i].sum() <= negligible) {
       state.removed.add(link.p, link.q, variation.doubt);
       ++state.result.evaluated.blocked;
       continue;

@@ -118,7 +118,8 @@ HALFLIGHT_INLINE ErrorEstimation estimate_link_errors(std::optional<double> alik
     const Color to_q = received(g2, link.q);
     const NodeLight& from_p = light[link.p];
     const NodeLight& from_q = light[link.q];
-    const double cross = std::min(1.0, square(variation.cross));  // a link that lit each place from one other alone would pass on s_q itself
+    // At most 1: a link that lit each place from one other alone would pass on s_q itself.
+    const double cross = std::min(1.0, square(variation.cross));
     double mend_p = over(to_p, link.q, link.p, variation.p);
     double mend_q = over(to_q, link.p, link.q, variation.q);
     mend_p += p.is_cluster() ? mixture(to_q, link.p, variation.p) * alike[link.q]

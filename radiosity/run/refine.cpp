@@ -9,11 +9,11 @@
 
 #include <raycast/inline.hpp>
 
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/refinement/bf_refine.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/link_error.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>

@@ -80,9 +80,10 @@ struct Options {
 
   std::uint32_t audit_points = 2000;  // at least, at which the error is measured (audit_effort.hpp); 0: no error estimate
   unsigned threads = 0;               // 0: as many as the machine has; results do not depend on it
-  // Bytes that the run may take on top of what the process holds when it begins, predicted from the numbers of nodes, links and pairs before
-  // they are made (memory.hpp). A run that would need more ends with the best solution that it has, which says so by audit.shortage, or,
-  // when none is complete, without (Failure::Kind::out_of_memory): BF-refinement and error targets have one, F-refinement has not.
+  // Bytes that the run may take on top of what the process holds when it begins, predicted from the numbers of nodes, links and pairs
+  // before they are made (memory.hpp). A run that would need more ends with the best solution that it has, which says so by
+  // audit.shortage, or, when none is complete, without (Failure::Kind::out_of_memory): BF-refinement and error targets have one,
+  // F-refinement has not.
   std::optional<std::uint64_t> memory;
   std::uint64_t seed = 1;
 };

@@ -13,7 +13,7 @@
 
 #include <raycast/inline.hpp>
 
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/link_schedule.hpp>

@@ -20,7 +20,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/link_schedule.hpp>

@@ -17,7 +17,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
-#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 
 namespace radiosity {
 
@@ -54,8 +54,7 @@ class OccluderLists {
   [[nodiscard]] raycast::OccluderList operator[](std::uint32_t index) const;
 
   // The list of a pair of nodes; `ancestors` is the index of a pair of their ancestors. Of clusters nothing is known.
-  [[nodiscard]] raycast::OccluderList of(std::uint32_t p, std::uint32_t q, std::uint32_t ancestors, const raycast::Scene& scene,
-                                         const Plan& plan, const Patches& patches) const;
+  [[nodiscard]] raycast::OccluderList of(std::uint32_t p, std::uint32_t q, std::uint32_t ancestors, const SceneView& scene) const;
 
   // Keeps a list that `of` gave for these ancestors. Requires that not everything is blocked.
   [[nodiscard]] std::uint32_t keep(const raycast::OccluderList& list, std::uint32_t ancestors);

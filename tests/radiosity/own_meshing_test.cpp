@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-// A user's meshing strategy: ours given as one makes the same bits; one that halves faces keeps every BRep valid, and the laws of light hold.
+// A user's meshing strategy: ours given as one makes the same bits; one that halves faces keeps every BRep valid, and the laws of light
+// hold.
 
 #include <algorithm>
 #include <cmath>

@@ -60,6 +60,7 @@ template <class Ask, class Look>
 std::vector<Decision> decide(const DiscreteScene& scene, std::vector<NodePair>& pairs, RefineResult& result, const Ask& ask,
                              const Look& look) {
   std::vector<Decision> decisions(pairs.size(), Decision::drop);
+  const SceneView view = scene.view();
   constexpr std::size_t batch = 1 << 14;  // lists of full length that live at a time
   std::vector<raycast::OccluderList> lists(std::min(batch, pairs.size()));
   for (std::size_t first = 0; first < pairs.size(); first += batch) {
@@ -70,7 +71,7 @@ std::vector<Decision> decide(const DiscreteScene& scene, std::vector<NodePair>& 
       decision = ask(pair.p, pair.q);
       lists[k] = {};
       if (decision == Decision::drop || decision == Decision::convex) { return; }
-      lists[k] = result.occluders.of(pair.p, pair.q, pair.list, scene.objects, scene.plan, scene.patches);
+      lists[k] = result.occluders.of(pair.p, pair.q, pair.list, view);
       if (lists[k].blocked()) {
         decision = Decision::hide;
       } else {
@@ -111,5 +112,5 @@ struct Fineness {
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY
-#include <radiosity/refinement/refine.cpp>
+#include <radiosity/refinement/f_refine.cpp>
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -89,7 +89,7 @@ struct FRefinement {
         fineness{to},
         proofs{of.surfaces, of.hierarchy},
         shown{of.hierarchy, [&](std::size_t i) { return of.hierarchy[i].area; }},
-        light{of.input, of.objects, of.plan, of.patches, of.hierarchy, shown, to.light_epsilon, of.seed, proofs.buried()},
+        light{of.input, of.view(), shown, to.light_epsilon, of.seed, proofs.buried()},
         min_area{to.min_area * light.scene_area()} {
     const double finer = std::min(1.0, fineness.light_epsilon / (0.25 * fineness.epsilon));
     light_min_area = 0.25 * min_area * finer * finer;
@@ -230,7 +230,7 @@ HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Deci
   }
 }
 
-// Parts of one hollow face see each other.
+// The children of a concave curved face see each other.
 HALFLIGHT_INLINE void descend_inner(FRefinement& state, std::vector<NodePair>& next) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   std::vector<std::uint32_t> still_inner;
