@@ -46,7 +46,7 @@ struct Halve {
   }
 };
 
-radiosity::Options coarse() {
+radiosity::Options meshing_options() {
   radiosity::Options options;
   options.epsilon = 0.05;
   options.min_area = 2e-3;
@@ -55,7 +55,7 @@ radiosity::Options coarse() {
 }
 
 // Squared norm of the reflected radiosity.
-double reflected(const radiosity::Scene& scene, const radiosity::Solution& solution) {
+double reflected_square(const radiosity::Scene& scene, const radiosity::Solution& solution) {
   const auto inputs = radiosity::surfaces(scene);
   double sum = 0.0;
   for (std::size_t i = 0; i < solution.hierarchy.size(); ++i) {
@@ -69,7 +69,7 @@ double reflected(const radiosity::Scene& scene, const radiosity::Solution& solut
 }  // namespace
 
 TEST_CASE("regular refinement as a user's meshing strategy gives the same bits") {
-  radiosity::Options options = coarse();
+  radiosity::Options options = meshing_options();
   options.audit_points = 0;
   for (const radiosity::Scene& scene : {scenes::room_with_box(), scenes::furnace_with_things(0.5)}) {
     options.meshing = nullptr;
@@ -86,7 +86,7 @@ TEST_CASE("regular refinement as a user's meshing strategy gives the same bits")
 
 TEST_CASE("faces halved by a split object: two children a node, valid BReps, no area lost, and the same light within the errors") {
   const radiosity::Scene scene = scenes::room_with_box();
-  radiosity::Options options = coarse();
+  radiosity::Options options = meshing_options();
   const radiosity::Solution ours = scenes::solved(scene, options);
   options.meshing = radiosity::CutBy{Halve{}};
   int generations = 0;
@@ -112,13 +112,13 @@ TEST_CASE("faces halved by a split object: two children a node, valid BReps, no 
   REQUIRE(halved.audit.leaf_error);
   const double errors = ours.audit.leaf_error->high + halved.audit.leaf_error->high;
   CAPTURE(ours.audit.leaf_error->high, halved.audit.leaf_error->high);
-  CHECK(std::sqrt(square) <= errors * std::sqrt(reflected(scene, ours)));
+  CHECK(std::sqrt(square) <= errors * std::sqrt(reflected_square(scene, ours)));
 }
 
 TEST_CASE("halved faces of curved objects in a furnace: valid BReps, and B = E / (1 - rho)") {
   const double rho = 0.5;
   const radiosity::Scene scene = scenes::furnace_with_things(rho);
-  radiosity::Options options = coarse();
+  radiosity::Options options = meshing_options();
   options.audit_points = 0;
   options.meshing = radiosity::CutBy{Halve{}};
   int generations = 0;

@@ -36,7 +36,7 @@ void check_same(const Solution& one, const Solution& other) {
   }
 }
 
-Options coarse() {
+Options oracle_options() {
   Options options;
   options.epsilon = 0.05;
   options.min_area = 2e-3;
@@ -60,7 +60,7 @@ Decision by_the_paper(const Question& question) {
 
 TEST_CASE("a user's oracle that repeats the rule of F-refinement gives the same bits, from any number of threads") {
   for (const radiosity::Scene& scene : {scenes::room_with_box(), scenes::furnace_with_things(0.5)}) {
-    Options options = coarse();
+    Options options = oracle_options();
     const Solution ours = scenes::solved(scene, options);
     std::atomic<std::size_t> asked{0};
     options.oracle = [&](const Question& question) {
@@ -103,7 +103,7 @@ TEST_CASE("a user's oracle that repeats the rule of BF-refinement gives the same
 
 TEST_CASE("an oracle that always asks for a split ends at min_area; one that always links leaves the input faces as they are") {
   const radiosity::Scene scene = scenes::two_plates(0.5);
-  Options options = coarse();
+  Options options = oracle_options();
   options.light_epsilon = 1e9;
   options.oracle = [](const Question& question) {
     return question.node_p().area >= question.node_q().area ? Decision::split_p : Decision::split_q;
