@@ -98,7 +98,7 @@ std::string plan(const radiosity::Prepared& prepared) {
   out += "left out when rendered, as far as known without solving:\n";
   for (const radiosity::LeftOut& item : plan.left_out) { out += "  " + item.what + ": " + item.why + "\n"; }
   const radiosity::ClusterChoice clusters = radiosity::choose_clusters(faces, {});
-  if (!clusters.build) { out += "  clusters above the input faces: " + clusters.why + "\n"; }
+  if (!clusters.build) { out += "  clusters above the input faces: " + clusters.reason + "\n"; }
   return out + (plan.left_out.empty() && clusters.build ? "  nothing\n" : "");
 }
 

@@ -108,8 +108,8 @@ class Pooling {
     moment_q += exchange * (glm::dvec3{parts[k].at_q} - scene.exposure.centroid[q]);
   }
   Link link{p, q, static_cast<float>(sum), {}, {}};
-  if (!scene.hierarchy[p].leaf()) { link.slope_p = glm::vec3{scene.patches[p].inverse_inertia * (moment_p / sum)}; }
-  if (!scene.hierarchy[q].leaf()) { link.slope_q = glm::vec3{scene.patches[q].inverse_inertia * (moment_q / sum)}; }
+  if (!scene.hierarchy[p].leaf()) { link.shape_p = EndShape::of_patch(glm::vec3{scene.patches[p].inverse_inertia * (moment_p / sum)}); }
+  if (!scene.hierarchy[q].leaf()) { link.shape_q = EndShape::of_patch(glm::vec3{scene.patches[q].inverse_inertia * (moment_q / sum)}); }
   return link;
 }
 

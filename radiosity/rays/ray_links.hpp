@@ -11,7 +11,7 @@
 // A long ray is not the business of one leaf alone: at each end it is counted for the largest ancestor that is small beside the length of the
 // ray, and beside the distance of what the ancestor's leaves see (Ward, Rubinstein and Clear 1988), so that nothing near makes the light
 // change within it. The link of two such ancestors pools the rays of all their leaves, and the places where they start give its
-// slopes. Rays are few for each leaf and many for each link.
+// gradients. Rays are few for each leaf and many for each link.
 
 #include <cstdint>
 #include <vector>

@@ -50,7 +50,7 @@ HALFLIGHT_INLINE SpacingResult split_by_distance(DiscreteScene& scene, double to
       result.too_large = scene.budget.peak({nodes});
       return result;
     }
-    for (const std::uint32_t i : split) { static_cast<void>(subdivide(scene.surfaces, hierarchy, i)); }
+    for (const std::uint32_t i : split) { static_cast<void>(subdivide(scene.surfaces, hierarchy, i, scene.meshing)); }
     first_new = end;
     ++result.generations;
     if (scene.control.after_generation) { scene.control.after_generation(scene.surfaces); }

@@ -52,7 +52,7 @@ HALFLIGHT_INLINE std::vector<NodeLight> light_of_nodes(const Hierarchy& hierarch
 }
 
 HALFLIGHT_INLINE ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves,
-                                                      const DiscreteScene& scene, const Links& links, const std::vector<LinkShape>& shapes,
+                                                      const DiscreteScene& scene, const MeasuredLinks& links,
                                                       const std::vector<Color>& radiosity) {
   ErrorEstimation result;
   const Hierarchy& hierarchy = scene.hierarchy;
@@ -78,54 +78,56 @@ HALFLIGHT_INLINE ErrorEstimation estimate_link_errors(std::optional<double> alik
     const Color r = rho(hierarchy[i]);
     return area[i] > 0.0 ? g2 / area[i] * r * r : Color{0.0};
   };
-  const auto varies = [&](const LinkShape::End& shape) { return square(shape.rest) + square(shape.shadow); };
+  const auto varies = [&](const LinkVariation::End& end) { return square(end.rest) + square(end.shadow); };
   // What node i receives from clusters by the wrong mixture of their faces: links of one node err alike.
   std::vector<double> alike(light.size(), 0.0);
-  const auto mixture = [&](const Color& to, std::uint32_t from, const LinkShape::End& shape) {
-    return std::sqrt(glm::dot(to, light[from].variance) * varies(shape));
+  const auto mixture = [&](const Color& to, std::uint32_t from, const LinkVariation::End& end) {
+    return std::sqrt(glm::dot(to, light[from].variance) * varies(end));
   };
   const auto bright = [&](std::uint32_t from) {  // mean of B^2 where it counts
     return light[from].mean * light[from].mean + (hierarchy[from].is_cluster() ? light[from].variance : Color{0.0});
   };
   std::vector<double> across(light.size(), 0.0);  // rests of the links of each node
-  const auto over_node = [&](const Color& to, std::uint32_t from, const LinkShape::End& shape) {
-    return static_cast<double>(shape.rest) * std::sqrt(glm::dot(to, bright(from)));
+  const auto over_node = [&](const Color& to, std::uint32_t from, const LinkVariation::End& end) {
+    return static_cast<double>(end.rest) * std::sqrt(glm::dot(to, bright(from)));
   };
   const double cancel = std::min(1.0, alike_at_leaves);
   // What a link from `from` adds to the squared error over node i.
-  const auto over = [&](const Color& to, std::uint32_t from, std::uint32_t i, const LinkShape::End& shape) {
-    const double own = over_node(to, from, shape);
+  const auto over = [&](const Color& to, std::uint32_t from, std::uint32_t i, const LinkVariation::End& end) {
+    const double own = over_node(to, from, end);
     const bool apart = hierarchy[i].leaf() || hierarchy[i].is_cluster();
     const double all = apart ? own * own : alike_across ? *alike_across * own * own : own * across[i];
-    return cancel * all + square(shape.shadow) * glm::dot(to, bright(from));
+    return cancel * all + square(end.shadow) * glm::dot(to, bright(from));
   };
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const auto& [p, q] = std::pair{links[i].p, links[i].q};
-    const double g2 = square(links[i].exchange);
-    if (hierarchy[q].is_cluster()) { alike[p] += mixture(received(g2, p), q, shapes[i].q); }
-    if (hierarchy[p].is_cluster()) { alike[q] += mixture(received(g2, q), p, shapes[i].p); }
+  for (const auto& [link, list, variation] : links) {
+    const std::uint32_t p = link.p, q = link.q;
+    const double g2 = square(link.exchange);
+    if (hierarchy[q].is_cluster()) { alike[p] += mixture(received(g2, p), q, variation.q); }
+    if (hierarchy[p].is_cluster()) { alike[q] += mixture(received(g2, q), p, variation.p); }
     if (alike_across) { continue; }
-    across[p] += over_node(received(g2, p), q, shapes[i].p);
-    across[q] += over_node(received(g2, q), p, shapes[i].q);
+    across[p] += over_node(received(g2, p), q, variation.p);
+    across[q] += over_node(received(g2, q), p, variation.q);
   }
   result.links.resize(links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
-    const Link& link = links[i];
+    const auto& [link, list, variation] = links[i];
     const Node& p = hierarchy[link.p];
     const Node& q = hierarchy[link.q];
-    const LinkShape& shape = shapes[i];
     const double g2 = square(link.exchange);
     const Color to_p = received(g2, link.p);
     const Color to_q = received(g2, link.q);
     const NodeLight& from_p = light[link.p];
     const NodeLight& from_q = light[link.q];
-    const double cross = std::min(1.0, square(shape.cross));  // a link that lit each place from one other alone would pass on s_q itself
-    double mend_p = over(to_p, link.q, link.p, shape.p);
-    double mend_q = over(to_q, link.p, link.q, shape.q);
-    mend_p += p.is_cluster() ? mixture(to_q, link.p, shape.p) * alike[link.q] : glm::dot(to_q, from_p.variance) * (varies(shape.p) + cross);
-    mend_q += q.is_cluster() ? mixture(to_p, link.q, shape.q) * alike[link.p] : glm::dot(to_p, from_q.variance) * (varies(shape.q) + cross);
-    if (shape.sampling > 0.0f) {
-      const double noise = square(shape.sampling);
+    // At most 1: a link that lit each place from one other alone would pass on s_q itself.
+    const double cross = std::min(1.0, square(variation.cross));
+    double mend_p = over(to_p, link.q, link.p, variation.p);
+    double mend_q = over(to_q, link.p, link.q, variation.q);
+    mend_p += p.is_cluster() ? mixture(to_q, link.p, variation.p) * alike[link.q]
+                             : glm::dot(to_q, from_p.variance) * (varies(variation.p) + cross);
+    mend_q += q.is_cluster() ? mixture(to_p, link.q, variation.q) * alike[link.p]
+                             : glm::dot(to_p, from_q.variance) * (varies(variation.q) + cross);
+    if (variation.sampling > 0.0f) {
+      const double noise = square(variation.sampling);
       const bool split_p = p.is_cluster() == q.is_cluster() ? p.radius >= q.radius : p.is_cluster();
       (q.is_cluster() || !split_p ? mend_q : mend_p) += glm::dot(received(noise, link.p), bright(link.q));
       (p.is_cluster() || split_p ? mend_p : mend_q) += glm::dot(received(noise, link.q), bright(link.p));
@@ -146,8 +148,7 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, co
   const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(scene.emission[hierarchy[i].surface]); };
   struct Sample {
     std::vector<std::uint32_t> from;
-    Links links;
-    std::vector<LinkShape> shapes;
+    MeasuredLinks links;
     double each = 0.0;  // links that one stands for
   };
   Sample of_lights, others;
@@ -164,11 +165,10 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, co
   const auto draw = [&](Sample& sample, std::size_t most) {
     const std::size_t count = std::min(sample.from.size(), most);
     sample.links.resize(count);
-    sample.shapes.resize(count);
     parallel_for(count, scene.threads, [&](std::size_t i) {
-      Link& link = sample.links[i] = link_at(sample.from[i * sample.from.size() / count]);
+      Link& link = sample.links[i].link = link_at(sample.from[i * sample.from.size() / count]);
       const float closed = link.exchange;
-      (void)scene.evaluator(link, {}, &sample.shapes[i]);
+      (void)scene.evaluator(link, {}, &sample.links[i].variation);
       link.exchange = closed;
     });
     sample.each = count > 0 ? static_cast<double>(sample.from.size()) / static_cast<double>(count) : 0.0;
@@ -178,29 +178,27 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, co
       const double square = sample.each * over_leaves[i] / area[i] * glm::dot(light, light);
       leaves.apart += square;
     };
-    for (std::size_t i = 0; i < count; ++i) {
-      const Link& link = sample.links[i];
+    for (const auto& [link, list, variation] : sample.links) {
       scaled.push_back(link);
       scaled.back().exchange *= static_cast<float>(sample.each);
-      arrives(link.p, link.q, static_cast<double>(link.exchange), sample.shapes[i].p.linear);
-      arrives(link.q, link.p, static_cast<double>(link.exchange), sample.shapes[i].q.linear);
+      arrives(link.p, link.q, static_cast<double>(link.exchange), variation.p.linear);
+      arrives(link.q, link.p, static_cast<double>(link.exchange), variation.q.linear);
     }
   };
   draw(of_lights, 1024);
   draw(others, 3072);
-  // A leaf that is a whole input face has no siblings; and where the sample is all the links, their slopes tell more.
-  const LeafErrors by_slopes = estimate_leaf_errors(scene, scaled, radiosity);
+  // A leaf that is a whole input face has no siblings; and where the sample is all the links, their gradients tell more.
+  const LeafErrors by_gradients = estimate_leaf_errors(scene, scaled, radiosity);
   if (scaled.size() == all) {
-    leaves = by_slopes;
+    leaves = by_gradients;
   } else {
     leaves.sum = variation_by_siblings(hierarchy, area, radiosity);
-    for (std::size_t i = 0; i < hierarchy.size(); ++i) { leaves.sum += is_input_face(hierarchy, i) ? by_slopes.squares[i] : 0.0f; }
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) { leaves.sum += is_input_face(hierarchy, i) ? by_gradients.squares[i] : 0.0f; }
   }
   ErrorEstimation result;
   result.of_leaves = leaves.sum;
   for (const Sample* sample : {&of_lights, &others}) {
-    const ErrorEstimation errors =
-        estimate_link_errors(std::sqrt(doubt.alike(area)), leaves.alike(), scene, sample->links, sample->shapes, radiosity);
+    const ErrorEstimation errors = estimate_link_errors(std::sqrt(doubt.alike(area)), leaves.alike(), scene, sample->links, radiosity);
     result.of_links += sample->each * errors.of_links;
     result.norm = errors.norm;
   }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <raycast/inline.hpp>
@@ -47,8 +48,8 @@ HALFLIGHT_INLINE std::optional<Failure> link(detail::Run& run) {
   DiscreteScene& scene = run.scene;
   if (run.f_refined()) {
     if (run.clusters.build) { scene.shown = scene.exposed_shown(); }
-    run.evaluated =
-        evaluate(scene.evaluator, run.refined.occluders, run.solution.links, run.refined.lists, 0, nullptr, scene.threads, scene.control);
+    run.evaluated = make_links({scene.evaluator, run.refined.occluders, scene.threads, scene.control},
+                               std::exchange(run.refined.linked, {}), run.solution.links);
     if (run.evaluated.cancelled) { return detail::cancelled(); }
     if (run.rays.cast) {
       if (std::optional<Failure> failure = detail::link_by_rays(run)) { return failure; }

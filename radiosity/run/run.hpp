@@ -15,7 +15,7 @@
 #include <radiosity/rays/spacing.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>

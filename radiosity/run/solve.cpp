@@ -79,8 +79,8 @@ HALFLIGHT_INLINE void solve_system(Run& run) {
   const DiscreteScene& scene = run.scene;
   Audit& audit = run.solution.audit;
   const auto solve_by = [&](Solver solver, const Control& until) {
-    return solve_channels(scene.hierarchy, *run.transport, scene.exposure.area, scene.reflectance, scene.emission, scene.plan.channels,
-                          solver, run.options.residual, run.options.max_iterations, until);
+    return solve_channels(*run.transport, scene.exposure.area, surface_light(scene),
+                          {solver, run.options.residual, run.options.max_iterations}, until);
   };
   ColorSolution solved = solve_by(run.options.solver, scene.control);
   if (solved.cancelled) {  // all links are there: the solution by the fewest iterations is near
@@ -120,8 +120,8 @@ HALFLIGHT_INLINE std::optional<Failure> solve(detail::Run& run) {
   detail::make_transport(run);
   detail::solve_system(run);
   detail::estimate_error(run);
-  balance_energy(audit, scene.input, scene.inputs, scene.hierarchy, *run.transport, scene.exposure.area, run.solution.radiosity);
-  summarise_surfaces(audit, scene.inputs, scene.frame, scene.hierarchy, scene.exposure.area, run.solution.radiosity);
+  balance_energy(audit, scene, *run.transport, run.solution.radiosity);
+  summarise_surfaces(audit, scene, run.solution.radiosity);
   run.watch.lap("solve");
   return std::nullopt;
 }

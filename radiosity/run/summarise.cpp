@@ -48,14 +48,14 @@ HALFLIGHT_INLINE std::optional<Failure> summarise(detail::Run& run) {
   audit.pairs_clear = run.evaluated.proven_clear;
   audit.pairs_hidden = run.refined.pairs_hidden;
   audit.bytes = hierarchy.capacity() * sizeof(Node) + (links.capacity() + run.solution.ray_links.capacity()) * sizeof(Link) + scene.bytes();
-  report_left_out(audit, scene.plan, run.refined, run.evaluated, scene.exposure, options, link_cost(scene.evaluator, links));
+  report_left_out(audit, scene, run.refined, run.evaluated, options, link_cost(scene.evaluator, links));
   if (!run.t_vertices && options.reconstruction < Reconstruction::constant && options.topology == Topology::shared) {
     audit.left_out.push_back({"T-vertex elimination", "no leaf has a finer neighbour", ""});
   }
   if (run.needs_links() && !run.rays.cast) {
-    audit.left_out.push_back({"stored rays for the light between surfaces that do not shine", run.rays.why, ""});
+    audit.left_out.push_back({"stored rays for the light between surfaces that do not shine", run.rays.reason, ""});
   }
-  if (run.needs_links() && !run.clusters.build) { audit.left_out.push_back({"clusters above the input faces", run.clusters.why, ""}); }
+  if (run.needs_links() && !run.clusters.build) { audit.left_out.push_back({"clusters above the input faces", run.clusters.reason, ""}); }
   if (scene.plan.closed && !links.empty() && !audit.closure) {
     audit.left_out.push_back({"closing the scene", "its row sums need a larger correction than quadrature and sampling explain", ""});
   }

@@ -14,7 +14,7 @@
 
 #include <raycast/inline.hpp>
 
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/link_schedule.hpp>
@@ -70,13 +70,13 @@ HALFLIGHT_INLINE void Transport::apply(const Part& part, const std::vector<doubl
     for (std::size_t k = block.begin; k < block.end; ++k) {
       const Link& link = (*part.links)[k];
       if (is_cluster(link.p) || is_cluster(link.q)) {
-        const double from_p = sent_by(link.p, link.slope_p);
-        const double from_q = sent_by(link.q, link.slope_q);
-        arrive_at(link.q, link.slope_q, static_cast<double>(link.exchange) * from_p);
-        arrive_at(link.p, link.slope_p, static_cast<double>(link.exchange) * from_q);
+        const double from_p = sent_by(link.p, link.shape_p);
+        const double from_q = sent_by(link.q, link.shape_q);
+        arrive_at(link.q, link.shape_q, static_cast<double>(link.exchange) * from_p);
+        arrive_at(link.p, link.shape_p, static_cast<double>(link.exchange) * from_q);
       } else {
-        carry(link, sent_[link.p], arrived_[link.q], link.slope_p.vector(), link.slope_q.vector());
-        carry(link, sent_[link.q], arrived_[link.p], link.slope_q.vector(), link.slope_p.vector());
+        carry(link, sent_[link.p], arrived_[link.q], link.shape_p.gradient(), link.shape_q.gradient());
+        carry(link, sent_[link.q], arrived_[link.p], link.shape_q.gradient(), link.shape_p.gradient());
       }
     }
   });
@@ -107,11 +107,11 @@ HALFLIGHT_INLINE void Transport::pull(std::size_t i, const std::vector<double>& 
   sent[i] = own;
 }
 
-HALFLIGHT_INLINE void Transport::carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& slope_from,
-                                       const glm::dvec3& slope_to) {
+HALFLIGHT_INLINE void Transport::carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& gradient_from,
+                                       const glm::dvec3& gradient_to) {
   const double exchange = static_cast<double>(link.exchange);
-  to.value += exchange * (from.value + glm::dot(slope_from, from.slope));
-  to.slope += exchange * from.value * slope_to;
+  to.value += exchange * (from.value + glm::dot(gradient_from, from.slope));
+  to.slope += exchange * from.value * gradient_to;
 }
 
 HALFLIGHT_INLINE void Transport::push(std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const {
@@ -209,19 +209,19 @@ HALFLIGHT_INLINE void Transport::hand_out_from_cluster(std::size_t i) {
   }
 }
 
-HALFLIGHT_INLINE double Transport::sent_by(std::uint32_t i, const Slope& towards) {
+HALFLIGHT_INLINE double Transport::sent_by(std::uint32_t i, const EndShape& shape) {
   if (!is_cluster(i)) { return sent_[i].value; }
-  const Aim at = aim(towards.vector());
+  const Aim at = aim(shape.direction_over_shown());
   const double* const from = bins(sent_bins_, i);
   return at.weight[0] * from[at.direction[0]] + at.weight[1] * from[at.direction[1]] + at.weight[2] * from[at.direction[2]];
 }
 
-HALFLIGHT_INLINE void Transport::arrive_at(std::uint32_t i, const Slope& towards, double power) {
+HALFLIGHT_INLINE void Transport::arrive_at(std::uint32_t i, const EndShape& shape, double power) {
   if (!is_cluster(i)) {
     arrived_[i].value += power;
     return;
   }
-  const Aim at = aim(towards.vector());
+  const Aim at = aim(shape.direction_over_shown());
   double* const to = bins(arrived_bins_, i);
   for (std::size_t j = 0; j < 3; ++j) { to[at.direction[j]] += at.weight[j] * power; }
 }

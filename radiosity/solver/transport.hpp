@@ -4,7 +4,7 @@
 // The transport of light as one symmetric operator M on leaf radiosities: (M B)_i is the power that arrives at leaf i
 // per W/m2 sent, so the irradiance of leaf i is (M B)_i / A_i. One application pulls radiosity up to the nodes as area
 // averages and first moments, carries it over every link both ways, and pushes what arrived down to the leaves
-// (Hanrahan 1991; here with the slopes of links.hpp).
+// (Hanrahan 1991; here with the gradients of links.hpp).
 //
 // A cluster (clusters.hpp) has no radiosity of its own but sends what its faces show in each direction of a lattice, and hands
 // what arrives from there to its faces by what they show of themselves to it: P has one row for each direction of each cluster, and
@@ -24,7 +24,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/link_schedule.hpp>
@@ -59,7 +59,8 @@ class Transport {
   // What node i sends, from the radiosity of a leaf or from what its children send.
   void pull(std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const;
   // What one end of a link sends, added to what arrives at the other, times its area.
-  static void carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& slope_from, const glm::dvec3& slope_to);
+  static void carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& gradient_from,
+                    const glm::dvec3& gradient_to);
   // Adds what arrived at node i, by links and from its parent, to its children or, for a leaf, to y. Parents first.
   void push(std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const;
 
@@ -87,9 +88,9 @@ class Transport {
   void gather_into_cluster(std::size_t i);
   // What arrived at the cluster of i from all directions, added to what arrives at i. Parents first.
   void hand_out_from_cluster(std::size_t i);
-  // Mean radiosity that an end of a cluster link sends along it. `towards` of a cluster: cluster_exchange.hpp.
-  [[nodiscard]] double sent_by(std::uint32_t i, const Slope& towards);
-  void arrive_at(std::uint32_t i, const Slope& towards, double power);
+  // Mean radiosity that an end of a cluster link sends along it, and power that arrives at one.
+  [[nodiscard]] double sent_by(std::uint32_t i, const EndShape& shape);
+  void arrive_at(std::uint32_t i, const EndShape& shape, double power);
 
   struct Part {
     Part(const Hierarchy& hierarchy, Links& links);
