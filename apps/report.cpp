@@ -107,8 +107,11 @@ class Text {
   void checks() {
     out_ += "checks\n";
     say("row sums", "{row_sum.min} to {row_sum.max}, mean {row_sum.mean}");
-    if (audit_.closure) {
+    if (audit_.closure || audit_.stored_rays > 0) {
       say("  as computed", "{computed_row_sum.min} to {computed_row_sum.max}, mean {computed_row_sum.mean}");
+    }
+    if (audit_.stored_rays > 0) { say("  noise of rays", "{ray_correction} RMS, taken out of the row sums"); }
+    if (audit_.closure) {
       say("  correction", "{closure} RMS (quadrature and sampling explain ",
           percent(audit_.closure_limit) + "): the scene is proven closed, so each row must sum to 1");
     }

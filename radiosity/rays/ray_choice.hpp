@@ -36,6 +36,7 @@ inline constexpr std::uint64_t rays_from = 100;
     ++faces;
     lamps += is_black(emission[roots[i].surface]) ? 0 : 1;
   }
+  if (2 * lamps > faces) { return {false, "most input faces shine"}; }
   constexpr std::uint64_t most_pairs = 4'000'000;
   if (lamps * faces > most_pairs) { return {false, "the lamps have " + std::to_string(lamps) + " faces, too many to link each with all"}; }
   if (options.indirect == Indirect::automatic && faces < rays_from) {

@@ -75,9 +75,11 @@ class Pooling {
   std::vector<RayPart> parts;
   parts.reserve(rays.size());
   for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
-    const std::size_t before = parts.size();
+    std::size_t carried = 0;
     for (const StoredRay& ray : rays.of(i)) {
-      if (ray.to == no_node || ray.to == i || !(result.density[ray.to] > 0.0)) { continue; }
+      if (ray.to == no_node || !(result.density[ray.to] > 0.0)) { continue; }
+      ++carried;
+      if (ray.to == i) { continue; }  // a hollow leaf sees itself: what it sees of others stands for that as well
       const auto length = static_cast<double>(ray.length);
       std::uint32_t p = pooling.node(i, length);
       std::uint32_t q = pooling.node(ray.to, length);
@@ -88,7 +90,7 @@ class Pooling {
       const auto exchange = static_cast<float>(1.0 / (result.density[i] + result.density[ray.to]));
       parts.push_back(p < q ? RayPart{p, q, exchange, ray.start, ray.end} : RayPart{q, p, exchange, ray.end, ray.start});
     }
-    if (rays.count(i) > 0) { result.share[i] = static_cast<double>(parts.size() - before) / static_cast<double>(rays.count(i)); }
+    if (rays.count(i) > 0) { result.share[i] = static_cast<double>(carried) / static_cast<double>(rays.count(i)); }
   }
   return parts;
 }

@@ -31,26 +31,21 @@ namespace radiosity {
 namespace detail {
 
 // The links of stored rays: their row sums are in a closed scene what the links of the lamps leave of 1, else what the rays of each leaf tell
-// beside those of others.
-HALFLIGHT_INLINE void add_ray_links(Run& run, double exposed) {
-  const DiscreteScene& scene = run.scene;
-  const std::vector<double>& area = scene.exposure.area;
-  Audit& audit = run.solution.audit;
+// beside those of others. Returns the row sums before that.
+HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run) {
+  const bool closed = run.scene.plan.closed;
   const RayLinks& made = run.ray_links;
   const std::vector<double> of_lamps = run.transport->row_sums();
   run.solution.ray_links = std::move(run.ray_links.links);
   run.transport->add_sampled(run.solution.ray_links);
-  std::vector<double> rows = run.transport->row_sums();
-  audit.computed_row_sum = summarise_rows(scene.hierarchy, area, rows);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i] -= of_lamps[i];
-    rows[i] = scene.plan.closed ? std::max(0.0, 1.0 - of_lamps[i]) : rows[i] + made.trust[i] * (made.share[i] - rows[i]);
+  const std::vector<double> computed = run.transport->row_sums();
+  std::vector<double> wanted(computed.size(), 0.0);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const double of_rays = computed[i] - of_lamps[i];
+    wanted[i] = closed ? std::max(0.0, 1.0 - of_lamps[i]) : of_rays + made.trust[i] * (made.share[i] - of_rays);
   }
-  const double correction = run.transport->scale_sampled(rows);
-  if (!scene.plan.closed) { return; }
-  run.ray_links.doubt.add(run.evaluated.doubt);
-  audit.closure_limit = explained_closure(run.ray_links.doubt, area, exposed);
-  audit.closure = correction;
+  run.solution.audit.ray_correction = run.transport->scale_sampled(wanted);
+  return computed;
 }
 
 // The operator of the linear system, with the row sums of a closed scene put right as far as quadrature and sampling explain it.
@@ -60,16 +55,14 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
   Audit& audit = run.solution.audit;
   Transport& transport = run.transport.emplace(scene.hierarchy, solution.links, scene.exposure, scene.threads);
   const std::vector<double>& area = scene.exposure.area;
-  double exposed = 0.0;
-  for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }
-  if (run.rays.cast) {
-    add_ray_links(run, exposed);
-  } else {
-    audit.computed_row_sum = summarise_rows(scene.hierarchy, area, transport.row_sums());
-    if (scene.plan.closed && !solution.links.empty()) {
-      audit.closure_limit = explained_closure(run.evaluated.doubt, area, exposed);
-      audit.closure = transport.close(audit.closure_limit);
-    }
+  audit.computed_row_sum = summarise_rows(scene.hierarchy, area, run.rays.cast ? add_ray_links(run) : transport.row_sums());
+  if (scene.plan.closed && solution.links.size() + solution.ray_links.size() > 0) {
+    double exposed = 0.0;
+    for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }
+    DoubtSum doubt = run.evaluated.doubt;
+    doubt.add(run.ray_links.doubt);
+    audit.closure_limit = explained_closure(doubt, area, exposed);
+    audit.closure = transport.close(audit.closure_limit);
   }
   solution.row_sum = transport.row_sums();
   audit.row_sum = summarise_rows(scene.hierarchy, area, solution.row_sum);

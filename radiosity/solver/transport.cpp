@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -37,13 +36,6 @@ HALFLIGHT_INLINE Transport::Part::Part(const Hierarchy& hierarchy, Links& of)
 }
 
 HALFLIGHT_INLINE void Transport::add_sampled(Links& links) { parts_.emplace_back(*hierarchy_, links); }
-
-HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& rows) {
-  // Row sums that no scale brings about, of a patch that sees little else than one other, would drive scales towards 0 and infinity.
-  constexpr double most = 4.0;
-  scale_rows(parts_.back(), rows, most, 1e-6, 100);
-  return correction(parts_.back());
-}
 
 HALFLIGHT_INLINE void Transport::Moments::divide(double area) {  // a node that is buried carries nothing
   const double factor = area > 0.0 ? 1.0 / area : 0.0;
@@ -151,37 +143,52 @@ HALFLIGHT_INLINE std::vector<double> Transport::row_sums(const Part& part) {
   return y;
 }
 
-HALFLIGHT_INLINE void Transport::scale_rows(Part& part, const std::vector<double>& wanted, double most, double tolerance, int most_rounds) {
-  for (int round = 0; round < most_rounds; ++round) {
-    const std::vector<double> rows = row_sums(part);
-    double worst = 0.0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (!(rows[i] > 0.0) || !(wanted[i] > 0.0)) { continue; }
-      worst = std::max(worst, std::abs(rows[i] / wanted[i] - 1.0));
-      part.scale[i] = std::clamp(part.scale[i] / std::sqrt(rows[i] / wanted[i]), 1.0 / most, most);
-    }
-    if (worst < tolerance) { break; }
-  }
-}
-
-HALFLIGHT_INLINE double Transport::correction(const Part& part) const {
+HALFLIGHT_INLINE double Transport::root_mean_square(const std::vector<double>& scale) const {
   const std::vector<double>& area = exposure_->area;
   double square = 0.0;
   double total = 0.0;
-  for (std::size_t i = 0; i < part.scale.size(); ++i) {
+  for (std::size_t i = 0; i < scale.size(); ++i) {
     if (!(*hierarchy_)[i].leaf()) { continue; }
-    square += area[i] * (part.scale[i] - 1.0) * (part.scale[i] - 1.0);
+    square += area[i] * (scale[i] - 1.0) * (scale[i] - 1.0);
     total += area[i];
   }
   return total > 0.0 ? std::sqrt(square / total) : 0.0;
 }
 
+HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& wanted) {
+  Part& part = parts_.back();
+  // Row sums that no scale brings about, of a patch that sees little else than one other, would drive scales towards 0 and infinity.
+  constexpr double most = 4.0;
+  for (int round = 0; round < 100; ++round) {
+    const std::vector<double> rows = row_sums(part);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!(rows[i] > 0.0) || !(wanted[i] > 0.0)) { continue; }
+      worst = std::max(worst, std::abs(rows[i] / wanted[i] - 1.0));
+      part.scale[i] = std::clamp(part.scale[i] * std::sqrt(wanted[i] / rows[i]), 1.0 / most, most);
+    }
+    if (worst < 1e-6) { break; }
+  }
+  return root_mean_square(part.scale);
+}
+
 HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tolerance) {
-  Part& part = parts_.front();
-  scale_rows(part, std::vector<double>(hierarchy_->size(), 1.0), std::numeric_limits<double>::infinity(), tolerance, 400);
-  const double rms = correction(part);
+  const std::vector<Part> before = parts_;
+  std::vector<double> scale(hierarchy_->size(), 1.0);
+  for (int round = 0; round < 400; ++round) {
+    const std::vector<double> rows = row_sums();
+    double worst = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!(rows[i] > 0.0)) { continue; }
+      worst = std::max(worst, std::abs(rows[i] - 1.0));
+      scale[i] /= std::sqrt(rows[i]);
+      for (Part& part : parts_) { part.scale[i] /= std::sqrt(rows[i]); }
+    }
+    if (worst < tolerance) { break; }
+  }
+  const double rms = root_mean_square(scale);
   if (rms <= limit) { return rms; }
-  std::fill(part.scale.begin(), part.scale.end(), 1.0);
+  parts_ = before;
   return std::nullopt;
 }
 

@@ -59,8 +59,7 @@ class Transport {
   // What node i sends, from the radiosity of a leaf or from what its children send.
   void pull(std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const;
   // What one end of a link sends, added to what arrives at the other, times its area.
-  static void carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& gradient_from,
-                    const glm::dvec3& gradient_to);
+  static void carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& gradient_from, const glm::dvec3& gradient_to);
   // Adds what arrived at node i, by links and from its parent, to its children or, for a leaf, to y. Parents first.
   void push(std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const;
 
@@ -105,10 +104,8 @@ class Transport {
   void pull(std::size_t i, const std::vector<double>& x, const std::vector<double>& scale, std::vector<Moments>& sent) const;
   void push(std::size_t i, const std::vector<double>& scale, std::vector<Moments>& arrived, std::vector<double>& y) const;
   [[nodiscard]] std::vector<double> row_sums(const Part& part);
-  // Symmetric scaling towards these row sums, by scales of 1 / most to most; leaves of which one of both is 0 keep their scale.
-  void scale_rows(Part& part, const std::vector<double>& wanted, double most, double tolerance, int most_rounds);
-  // Of a part: area-weighted RMS of D - 1.
-  [[nodiscard]] double correction(const Part& part) const;
+  // The area-weighted RMS of D - 1.
+  [[nodiscard]] double root_mean_square(const std::vector<double>& scale) const;
 
   const Hierarchy* hierarchy_;
   const Exposure* exposure_;
