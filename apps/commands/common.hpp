@@ -3,6 +3,7 @@
 
 // What the commands share: reading a scene, checking where outputs go, and words to the user.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "apps/scene_file.hpp"
 
 namespace apps {
+
+inline constexpr std::size_t longest_list = 200;  // lines; of the others the number is said
 
 // The name of an input in a sentence.
 [[nodiscard]] std::string shown(const std::string& input);

@@ -77,8 +77,7 @@ std::vector<Channel> total_exchange_of(const Factors& f, const radiosity::Scene&
   return channels;
 }
 
-constexpr std::size_t widest = 10;    // columns that a terminal shows
-constexpr std::size_t longest = 200;  // lines of a list
+constexpr std::size_t widest = 10;  // columns that a terminal shows
 
 // A line a surface: its name, one number, the sum of its row with its error, and where it fits the row itself.
 std::string matrix_text(const Factors& f, const std::string& corner, const char* column, const std::function<double(std::size_t)>& number,
@@ -90,7 +89,7 @@ std::string matrix_text(const Factors& f, const std::string& corner, const char*
   std::string text = left(corner, width) + right(column, 12) + right("row sum", 12) + right("+-", 9);
   for (std::size_t j = 0; fits && j < n; ++j) { text += right(f.surfaces[j].name, 12); }
   text += "\n";
-  for (std::size_t i = 0; i < std::min(n, longest); ++i) {
+  for (std::size_t i = 0; i < std::min(n, longest_list); ++i) {
     text += left(f.surfaces[i].name, width) + right(formatted("%.6g", number(i)), 12) + right(formatted("%.7f", row_sum(i).value), 12) +
             right(formatted("%.0e", row_sum(i).error), 9);
     for (std::size_t j = 0; fits && j < n; ++j) {
@@ -117,7 +116,7 @@ std::string summary(const Factors& f, const FactorsOptions& options, const Secon
                      matrix_text(
                          f, "from \\ to", "area", [&](std::size_t i) { return f.surfaces[i].area.value; },
                          [&](std::size_t i) { return f.surfaces[i].row_sum; }, f.factor);
-  if (n > longest) { text += "... and " + std::to_string(n - longest) + " more\n"; }
+  if (n > longest_list) { text += "... and " + std::to_string(n - longest_list) + " more\n"; }
   if (n > widest) { text += "The matrix has " + std::to_string(n) + " rows: --csv and --json write it.\n"; }
   std::array<std::size_t, 3> counts{};
   for (const radiosity::FactorMethod m : f.method) { ++counts[static_cast<std::size_t>(m)]; }

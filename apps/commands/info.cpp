@@ -33,13 +33,13 @@ struct InfoOptions {
 
 std::string color(const radiosity::Color& c) { return radiosity::is_grey(c) ? formatted("%.6g", c.x) : triple(c); }
 
-constexpr std::size_t most = 200;  // lines of a list
-
-std::string and_more(std::size_t count) { return count > most ? "  ... and " + std::to_string(count - most) + " more\n" : std::string(); }
+std::string and_more(std::size_t count) {
+  return count > longest_list ? "  ... and " + std::to_string(count - longest_list) + " more\n" : std::string();
+}
 
 std::string materials(const radiosity::Scene& scene) {
   std::string out = "materials: " + std::to_string(scene.materials.size()) + "\n";
-  for (std::size_t i = 0; i < scene.materials.size() && i < most; ++i) {
+  for (std::size_t i = 0; i < scene.materials.size() && i < longest_list; ++i) {
     const radiosity::Material& m = scene.materials[i];
     out += "  " + left(m.name, 18) + "reflectance " + color(m.reflectance);
     out += (radiosity::is_black(m.emission) ? "" : "   emission " + color(m.emission) + " W/m2") + "\n";
@@ -64,7 +64,7 @@ std::size_t surfaces(const radiosity::Prepared& prepared) {
 std::string objects(const SceneFile& file, const radiosity::Prepared& prepared) {
   const radiosity::Scene& scene = file.scene;
   std::string out = "objects: " + std::to_string(scene.objects.size()) + " with " + std::to_string(surfaces(prepared)) + " surfaces\n";
-  for (std::size_t i = 0; i < scene.objects.size() && i < most; ++i) {
+  for (std::size_t i = 0; i < scene.objects.size() && i < longest_list; ++i) {
     const radiosity::SceneObject& o = scene.objects[i];
     const auto first = o.material.front();
     const bool one = std::all_of(o.material.begin(), o.material.end(), [&](auto m) { return m == first; });
@@ -78,7 +78,7 @@ std::string objects(const SceneFile& file, const radiosity::Prepared& prepared) 
 std::string cameras(const SceneFile& file) {
   std::string out =
       "cameras: " + std::to_string(file.cameras.size()) + (file.cameras.empty() ? " (render uses an automatic view)\n" : "\n");
-  for (std::size_t i = 0; i < file.cameras.size() && i < most; ++i) {
+  for (std::size_t i = 0; i < file.cameras.size() && i < longest_list; ++i) {
     const Camera& camera = file.cameras[i];
     out += "  " + left(camera.name, 18) + "eye " + triple(camera.eye) + "   look " + triple(camera.forward) + "   fov " +
            formatted("%.6g", camera.field_of_view) + "\n";

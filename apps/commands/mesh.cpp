@@ -137,9 +137,8 @@ std::string row(const std::string& name, const Measure& m, std::size_t width, bo
 }
 
 std::string to_text(const SceneFile& file, const SceneMesh& mesh, const MeshOptions& options) {
-  constexpr std::size_t most = 200;  // lines of the list
   std::size_t width = 6;
-  const std::size_t shown = std::min(most, mesh.measures.size());
+  const std::size_t shown = std::min(longest_list, mesh.measures.size());
   for (std::size_t i = 0; i < shown; ++i) { width = std::max(width, file.scene.objects[i].name.size()); }
   std::string text = options.scene + "\n  object" + std::string(width - 6, ' ') +
                      "  vertices     edges     faces    v-e+f  shells  borders  genus           area         volume\n";

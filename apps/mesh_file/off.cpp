@@ -116,9 +116,9 @@ class OffReader {
   std::vector<std::uint32_t> corners_;
 };
 
-void read(std::string_view bytes, Output& out) { OffReader(bytes, out).run(); }
+void read_off(std::string_view bytes, Output& out) { OffReader(bytes, out).run(); }
 
-std::string write(const brep::Builder& builder, std::span<const MeshGroup>) {
+std::string write_off(const brep::Builder& builder, std::span<const MeshGroup>) {
   std::string out = "OFF\n" + std::to_string(builder.vertex_count()) + " " + std::to_string(builder.face_count()) + " 0\n";
   for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) { put_position(out, builder.position(v)); }
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
@@ -130,13 +130,13 @@ std::string write(const brep::Builder& builder, std::span<const MeshGroup>) {
 }
 
 // "OFF" with the letters that say what else its vertices have.
-bool begins(std::span<const std::string_view, 3> words, bool first) {
+bool begins_off(std::span<const std::string_view, 3> words, bool first) {
   return first && words[0].size() <= 8 && words[0].ends_with("OFF") && words[0].find_first_not_of("STCN4nOF") == std::string_view::npos;
 }
 
 }  // namespace
 
 extern const MeshFormat off_format;
-constinit const MeshFormat off_format{".off", "an OFF file", "a polygon mesh (OFF)", true, begins, read, write};
+constinit const MeshFormat off_format{".off", "an OFF file", "a polygon mesh (OFF)", true, begins_off, read_off, write_off};
 
 }  // namespace apps::mesh_file

@@ -295,9 +295,9 @@ class PlyReader {
   std::vector<std::uint32_t> corners_;
 };
 
-void read(std::string_view bytes, Output& out) { PlyReader(bytes, out).run(); }
+void read_ply(std::string_view bytes, Output& out) { PlyReader(bytes, out).run(); }
 
-std::string write(const brep::Builder& builder, std::span<const MeshGroup>) {
+std::string write_ply(const brep::Builder& builder, std::span<const MeshGroup>) {
   std::size_t most = 0;
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) { most = std::max(most, builder.corners(f).size()); }
   const bool wide = most > 255;  // more corners than a byte counts
@@ -315,11 +315,11 @@ std::string write(const brep::Builder& builder, std::span<const MeshGroup>) {
   return out;
 }
 
-bool begins(std::span<const std::string_view, 3> words, bool first) { return first && words[0] == "ply"; }
+bool begins_ply(std::span<const std::string_view, 3> words, bool first) { return first && words[0] == "ply"; }
 
 }  // namespace
 
 extern const MeshFormat ply_format;
-constinit const MeshFormat ply_format{".ply", "a PLY file", "a polygon mesh (PLY)", false, begins, read, write};
+constinit const MeshFormat ply_format{".ply", "a PLY file", "a polygon mesh (PLY)", false, begins_ply, read_ply, write_ply};
 
 }  // namespace apps::mesh_file

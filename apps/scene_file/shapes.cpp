@@ -27,7 +27,7 @@
 namespace apps::scene_file {
 namespace {
 
-std::string who(const ObjectSyntax& syntax) { return std::string(syntax.kind->word) + " " + quoted(syntax.name.text) + ": "; }
+std::string who(const ObjectSyntax& syntax) { return std::string(syntax.kind->word) + " " + in_quotes(syntax.name.text) + ": "; }
 
 // Takes the object out of what a factory of raycast/ returned, or reports its sentence.
 template <class Made>

@@ -23,7 +23,7 @@ namespace {
 std::string opening(const std::string& key) { return "{\n  \"halflight_reference\": 1,\n  \"key\": \"" + key + "\",\n"; }
 
 // Everything before the values.
-std::string head(const std::string& key, const std::string& checksum, std::uint64_t paths, std::size_t points) {
+std::string text_before_values(const std::string& key, const std::string& checksum, std::uint64_t paths, std::size_t points) {
   return opening(key) + "  \"checksum\": \"" + checksum + "\",\n  \"paths\": " + std::to_string(paths) +
          ",\n  \"points\": " + std::to_string(points) +
          ",\n  \"columns\": \"radiosity and standard error of each channel\",\n  \"values\": [";
@@ -104,7 +104,7 @@ std::string to_cache(const TrueRadiosity& truth, const std::string& key) {
     for (int c = 0; c < 3; ++c) { values += apps::shortest(p.radiosity[c]) + ","; }
     for (int c = 0; c < 3; ++c) { values += apps::shortest(p.standard_error[c]) + (c < 2 ? "," : ""); }
   }
-  return head(key, checksum_of(truth.paths, values), truth.paths, truth.points.size()) + values + std::string(tail);
+  return text_before_values(key, checksum_of(truth.paths, values), truth.paths, truth.points.size()) + values + std::string(tail);
 }
 
 bool from_cache(std::string_view file, const std::string& key, std::uint64_t least, TrueRadiosity& truth) {
@@ -112,7 +112,7 @@ bool from_cache(std::string_view file, const std::string& key, std::uint64_t lea
   const std::size_t bracket = file.find('[');
   if (!paths || *paths < least || bracket == std::string_view::npos || !file.ends_with(tail)) { return false; }
   const std::string_view values = file.substr(bracket + 1, file.size() - tail.size() - bracket - 1);
-  const std::string expected = head(key, checksum_of(*paths, values), *paths, truth.points.size());
+  const std::string expected = text_before_values(key, checksum_of(*paths, values), *paths, truth.points.size());
   if (file.substr(0, bracket + 1) != expected) { return false; }
 
   std::vector<double> numbers;
