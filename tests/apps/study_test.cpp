@@ -33,7 +33,7 @@ radiosity::Scene scene_of(const std::string& text) {
 }
 
 // The reference points of two plates with made-up values.
-TrueRadiosity made_up() {
+TrueRadiosity made_up_values() {
   std::string fault;
   study::ReferenceOptions options;
   options.cells = 8;
@@ -58,7 +58,7 @@ std::vector<Color> values(const TrueRadiosity& truth) {
 }  // namespace
 
 TEST_CASE("a kept reference is read back bit for bit") {
-  const TrueRadiosity truth = made_up();
+  const TrueRadiosity truth = made_up_values();
   const std::string file = study::to_cache(truth, "0123456789abcdef");
   CHECK_NOTHROW(json::parse(file));
   TrueRadiosity read = truth;
@@ -73,7 +73,7 @@ TEST_CASE("a kept reference is read back bit for bit") {
 }
 
 TEST_CASE("a kept reference that is damaged, of another scene or too coarse is not believed") {
-  const TrueRadiosity truth = made_up();
+  const TrueRadiosity truth = made_up_values();
   const std::string key = "0123456789abcdef";
   const std::string file = study::to_cache(truth, key);
   TrueRadiosity read = truth;
@@ -97,7 +97,7 @@ TEST_CASE("a kept reference that is damaged, of another scene or too coarse is n
 }
 
 TEST_CASE("norms of a known offset") {
-  const TrueRadiosity truth = made_up();
+  const TrueRadiosity truth = made_up_values();
   const std::vector<Color> exact = values(truth);
   std::vector<Color> brighter = exact;
   for (Color& c : brighter) { c *= 1.01; }
@@ -205,7 +205,7 @@ TEST_CASE("a study never destroys a file that it has not written for this scene"
   std::mt19937 random(seed);
   const auto number = [&](unsigned below) { return static_cast<unsigned>(random() % below); };
   // What lies where a reference would be kept: bytes of any kind, something that begins like a reference, one of another scene.
-  const std::string other = study::to_cache(made_up(), "0123456789abcdef");
+  const std::string other = study::to_cache(made_up_values(), "0123456789abcdef");
   const auto foreign = [&] {
     if (number(3) == 0) { return other; }
     std::string bytes = other.substr(0, number(4) == 0 ? number(80) : 0);
