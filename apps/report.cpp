@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/report.hpp"
 
-#include <algorithm>
 #include <string_view>
-#include <utility>
 
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>

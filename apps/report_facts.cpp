@@ -2,16 +2,13 @@
 #include "apps/report_facts.hpp"
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
-#include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/support/left_out.hpp>
 
-#include "apps/text.hpp"
 #include "apps/version.hpp"
 
 namespace apps {

@@ -5,10 +5,8 @@
 // code: 0 without faults, 3 with faults or when the file cannot be understood, 1 when it cannot be read or written.
 #include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <map>
 #include <memory>
-#include <string_view>
 
 #include <brep/brep.hpp>
 #include <brep/builder.hpp>

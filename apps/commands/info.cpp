@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // halflight info SCENE: what is in a scene, without solving it.
 #include <algorithm>
-#include <cstdio>
 #include <memory>
-#include <string_view>
 
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>

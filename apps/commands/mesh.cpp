@@ -6,7 +6,6 @@
 // black back. The numbers are those of the written mesh, so `halflight check OUT` finds the same ones. Vertices and faces of
 // different objects are never merged. Nothing is solved, and coordinates are those of the scene, unrounded.
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>

@@ -5,8 +5,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <type_traits>
 
 #include <brep/builder_input.hpp>
 

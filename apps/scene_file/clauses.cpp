@@ -13,7 +13,6 @@
 #include <radiosity/scene/material.hpp>
 
 #include "apps/scene_file/parser.hpp"
-#include "apps/scene_file/words.hpp"
 
 namespace apps::scene_file {
 namespace {

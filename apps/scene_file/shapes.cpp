@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The kinds of objects: the table of the grammar, and what makes the shape of each.
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>

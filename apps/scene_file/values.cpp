@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include "apps/scene_file/parser.hpp"
-#include "apps/scene_file/words.hpp"
 
 namespace apps::scene_file {
 namespace {

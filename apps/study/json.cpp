@@ -5,11 +5,9 @@
 #include <utility>
 
 #include <radiosity/support/left_out.hpp>
-#include <radiosity/visibility/plan.hpp>
 
 #include "apps/study/outcome.hpp"
 #include "apps/study/pareto.hpp"
-#include "apps/study/tables.hpp"
 
 namespace study {
 namespace {

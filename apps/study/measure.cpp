@@ -24,7 +24,6 @@
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/left_out.hpp>
-#include <radiosity/visibility/plan.hpp>
 
 #include "apps/view.hpp"
 
