@@ -2,6 +2,7 @@
 #include "apps/facts.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "apps/text.hpp"
 
@@ -19,16 +20,15 @@ std::vector<std::string_view> keys_of(std::string_view path) {
 }
 
 void write(JsonWriter& json, const Facts::Value& value) {
-  struct Visitor {
-    JsonWriter& json;
-    void operator()(std::monostate) const { json.null(); }
-    void operator()(double x) const { json.number(x); }
-    void operator()(std::uint64_t n) const { json.count(n); }
-    void operator()(bool b) const { json.boolean(b); }
-    void operator()(const std::string& s) const { json.string(s); }
-    void operator()(const Facts::Writer& writer) const { writer(json); }
-  };
-  std::visit(Visitor{json}, value);
+  std::visit(
+      [&](const auto& held) {
+        if constexpr (std::is_same_v<decltype(held), const std::monostate&>) {
+          json.null();
+        } else {
+          json.value(held);
+        }
+      },
+      value);
 }
 
 std::string value_text(const Facts::Value& value, const std::string& unit) {

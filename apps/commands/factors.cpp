@@ -168,53 +168,35 @@ std::string json(const Factors& f, const std::vector<Channel>& channels, const F
   JsonWriter out;
   const std::size_t n = f.surfaces.size();
   out.open_object();
-  out.key("scene").string(options.scene);
-  out.key("error_wanted").number(options.error);
-  out.key("error_reached").number(worst(f.factor));
-  out.key("converged").boolean(f.converged);
-  out.key("points").count(f.points);
-  out.key("rays").count(f.rays);
-  out.key("wall_seconds").number(seconds.wall);
-  out.key("cpu_seconds").number(seconds.cpu);
-  out.key("surfaces").open_array();
-  for (const Factors::Surface& s : f.surfaces) {
-    out.open_object();
-    out.key("name").string(s.name);
-    out.key("area").number(s.area.value);
-    out.key("area_error").number(s.area.error);
-    out.key("row_sum").number(s.row_sum.value);
-    out.key("row_sum_error").number(s.row_sum.error);
-    out.close();
-  }
-  out.close();
-  const auto matrix = [&](const char* key, const auto& write) {
+  out.fields("scene", options.scene, "error_wanted", options.error, "error_reached", worst(f.factor), "converged", f.converged, "points",
+             f.points, "rays", f.rays, "wall_seconds", seconds.wall, "cpu_seconds", seconds.cpu);
+  out.key("surfaces").list(f.surfaces, [&](const Factors::Surface& s) {
+    out.object("name", s.name, "area", s.area.value, "area_error", s.area.error, "row_sum", s.row_sum.value, "row_sum_error",
+               s.row_sum.error);
+  });
+  // A list a row of what `entry` finds for it and a column.
+  const auto matrix = [&](const char* key, const auto& entry) {
     out.key(key).open_array();
     for (std::size_t i = 0; i < n; ++i) {
       out.open_array();
-      for (std::size_t j = 0; j < n; ++j) { write(i, j); }
+      for (std::size_t j = 0; j < n; ++j) { out.value(entry(i * n + j)); }
       out.close();
     }
     out.close();
   };
-  matrix("factors", [&](std::size_t i, std::size_t j) { out.number(f(i, j).value); });
-  matrix("errors", [&](std::size_t i, std::size_t j) { out.number(f(i, j).error); });
-  matrix("methods", [&](std::size_t i, std::size_t j) { out.string(name(f.method[i * n + j])); });
+  const auto estimates = [&](const std::vector<Estimate>& factor) {
+    matrix("factors", [&](std::size_t k) { return factor[k].value; });
+    matrix("errors", [&](std::size_t k) { return factor[k].error; });
+  };
+  estimates(f.factor);
+  matrix("methods", [&](std::size_t k) { return name(f.method[k]); });
   if (!channels.empty()) {
-    out.key("total_exchange").open_array();
-    for (const Channel& channel : channels) {
-      out.open_object();
-      out.key("channel").string(channel.name);
-      out.key("emissivities").open_array();
-      for (const double e : channel.emissivity) { out.number(e); }
+    out.key("total_exchange").list(channels, [&](const Channel& channel) {
+      out.open_object().fields("channel", channel.name, "emissivities", channel.emissivity);
+      out.key("row_sums").list(channel.exchange.row_sum, [&](const Estimate& sum) { out.number(sum.value); });
+      estimates(channel.exchange.factor);
       out.close();
-      out.key("row_sums").open_array();
-      for (const radiosity::Estimate& sum : channel.exchange.row_sum) { out.number(sum.value); }
-      out.close();
-      matrix("factors", [&](std::size_t i, std::size_t j) { out.number(channel.exchange.factor[i * n + j].value); });
-      matrix("errors", [&](std::size_t i, std::size_t j) { out.number(channel.exchange.factor[i * n + j].error); });
-      out.close();
-    }
-    out.close();
+    });
   }
   out.close();
   return out.text();

@@ -150,40 +150,25 @@ std::string to_text(const SceneFile& file, const SceneMesh& mesh, const MeshOpti
 }
 
 void write(JsonWriter& json, const Measure& m) {
-  json.key("vertices").count(m.vertices);
-  json.key("edges").count(m.edges);
-  json.key("faces").count(m.faces);
-  json.key("shells").count(m.shells);
-  json.key("borders").count(m.borders);
-  json.key("genus").number(static_cast<double>(m.genus));
-  json.key("area").number(m.area);
-  json.key("volume");
-  m.volume ? json.number(*m.volume) : json.null();
+  json.fields("vertices", m.vertices, "edges", m.edges, "faces", m.faces, "shells", m.shells, "borders", m.borders, "genus", m.genus,
+              "area", m.area, "volume", m.volume);
 }
 
 std::string to_json(const SceneFile& file, const SceneMesh& mesh, const MeshOptions& options) {
   JsonWriter json;
-  json.open_object();
-  json.key("program").string("halflight");
-  json.key("version").string(version);
-  json.key("scene").string(options.scene);
-  json.key("objects").open_array();
-  for (std::size_t i = 0; i < mesh.measures.size(); ++i) {
-    json.open_object();
-    json.key("name").string(file.scene.objects[i].name);
-    json.key("kind").string(file.origins[i].kind);
-    json.key("inside").boolean(file.scene.objects[i].placement.inside);
-    write(json, mesh.measures[i]);
+  json.open_object().fields("program", "halflight", "version", version, "scene", options.scene);
+  json.key("objects").list(mesh.measures, [&](const Measure& measure) {
+    const auto i = static_cast<std::size_t>(&measure - mesh.measures.data());
+    const radiosity::SceneObject& object = file.scene.objects[i];
+    json.open_object().fields("name", object.name, "kind", file.origins[i].kind, "inside", object.placement.inside);
+    write(json, measure);
     json.close();
-  }
-  json.close();
+  });
   json.key("total").open_object();
   write(json, mesh.total);
   json.close();
-  json.key("files").open_array();
-  if (!options.output.empty()) { json.string(options.output); }
-  json.close();
-  json.close();
+  const std::vector<std::string> files(options.output.empty() ? 0 : 1, options.output);
+  json.fields("files", files).close();
   return json.text();
 }
 
