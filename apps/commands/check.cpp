@@ -228,17 +228,8 @@ std::optional<Mesh> load(const std::string& path, ExitCode& code) {
   return std::move(result.mesh);
 }
 
-// An output that cannot be written is refused before any work.
-ExitCode check(const CheckOptions& options) {
-  if (!options.output.empty() && !mesh_format(options.output)) {
-    complain("--output " + options.output + ": expected a name that ends with " + mesh_endings());
-    return ExitCode::usage;
-  }
-  return check_outputs({options.output}, {options.mesh});
-}
-
 ExitCode run(const CheckOptions& options) {
-  ExitCode code = check(options);
+  ExitCode code = check_mesh_output(options.output, {}, options.mesh);
   if (code != ExitCode::ok) { return code; }
   const auto mesh = load(options.mesh, code);
   if (!mesh) { return code; }

@@ -31,6 +31,9 @@ inline constexpr std::size_t longest_list = 200;  // lines; of the others the nu
 // (output_paths.hpp). Empty names are passed over.
 [[nodiscard]] ExitCode check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
+// The same for a mesh; its name must have the ending of a format. Empty: none is asked for.
+[[nodiscard]] ExitCode check_mesh_output(const std::string& output, std::vector<std::string> others, const std::string& input);
+
 // Replaces the file; on failure says why.
 [[nodiscard]] bool save(const std::string& path, const std::string& bytes);
 

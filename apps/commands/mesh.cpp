@@ -172,17 +172,8 @@ std::string to_json(const SceneFile& file, const SceneMesh& mesh, const MeshOpti
   return json.text();
 }
 
-// Outputs that cannot become files are refused before any work.
-ExitCode check(const MeshOptions& options) {
-  if (!options.output.empty() && !mesh_format(options.output)) {
-    complain("--output " + options.output + ": expected a name that ends with " + mesh_endings());
-    return ExitCode::usage;
-  }
-  return check_outputs({options.output, options.json.value_or("")}, {options.scene});
-}
-
 ExitCode run(const MeshOptions& options) {
-  ExitCode code = check(options);
+  ExitCode code = check_mesh_output(options.output, {options.json.value_or("")}, options.scene);
   if (code != ExitCode::ok) { return code; }
   const auto file = load_scene(options.scene, code);
   if (!file) { return code; }

@@ -71,9 +71,8 @@ class OffReader {
     for (std::int64_t* const count : {&vertices_, &faces_}) {
       const auto number = word < lines_.words().size() ? to_integer(lines_.words()[word]) : std::nullopt;
       if (!number || *number < 0) {
-        const std::string found = word < lines_.words().size() ? shown(lines_.words()[word]) : "the end of the line";
         out_.error(lines_.place(word),
-                   std::string("expected the number of ") + (count == &vertices_ ? "vertices" : "faces") + ", found " + found);
+                   std::string("expected the number of ") + (count == &vertices_ ? "vertices" : "faces") + ", " + found(lines_, word));
         return false;
       }
       *count = *number;
@@ -97,14 +96,9 @@ class OffReader {
     }
     corners_.clear();
     for (std::size_t i = 1; i <= static_cast<std::size_t>(*size); ++i) {
-      const auto index = to_integer(words[i]);
-      if (!index || *index < 0 || *index >= vertices_) {
-        out_.error(lines_.place(i), (vertices_ == 0 ? std::string("there are no vertices, ")
-                                                    : "expected a vertex, a number from 0 to " + std::to_string(vertices_ - 1) + ", ") +
-                                        "found " + shown(words[i]));
-        return;
-      }
-      corners_.push_back(static_cast<std::uint32_t>(*index));
+      const auto index = read_vertex(lines_, i, static_cast<std::uint64_t>(vertices_), out_);
+      if (!index) { return; }
+      corners_.push_back(*index);
     }
     out_.mesh.builder.face(corners_, 0);
     out_.mesh.face_line.push_back(lines_.line());
