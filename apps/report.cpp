@@ -154,7 +154,7 @@ class Text {
       if (!radiosity::is_grey(c)) { color += " " + formatted("%.5g", c.y) + " " + formatted("%.5g", c.z); }
       row(surface.name, formatted("%13.5g   ", surface.area) + color);
     }
-    if (audit_.surfaces.size() > most) { out_ += "  ... and " + std::to_string(audit_.surfaces.size() - most) + " more; --json has all\n"; }
+    out_ += and_more(audit_.surfaces.size(), most, "; --json has all");
   }
 
   const Report& report_;

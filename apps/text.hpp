@@ -34,6 +34,11 @@ template <class Vector>
   return formatted("%.6g", v.x) + " " + formatted("%.6g", v.y) + " " + formatted("%.6g", v.z);
 }
 
+// The last line of a list of `count` of which `shown` are printed: empty when that is all.
+[[nodiscard]] inline std::string and_more(std::size_t count, std::size_t shown, const std::string& remark = {}) {
+  return shown < count ? "  ... and " + std::to_string(count - shown) + " more" + remark + "\n" : std::string();
+}
+
 // Filled with blanks behind, or before, to `width` characters; at least `gap` of them.
 [[nodiscard]] inline std::string left(std::string text, std::size_t width, std::size_t gap = 2) {
   text.resize(std::max(text.size() + gap, width), ' ');

@@ -138,8 +138,7 @@ std::string component_table(const brep::Statistics& s, bool all) {
             right(c.two_sided ? std::to_string(c.borders) : "-", 10) + right(c.genus ? std::to_string(*c.genus) : "-", 8) + "   " + remark +
             "\n";
   }
-  if (shown < list.size()) { text += "  ... and " + std::to_string(list.size() - shown) + " smaller ones (--all lists them)\n"; }
-  return text;
+  return text + and_more(list.size(), shown, " that are smaller (--all lists them)");
 }
 
 std::string summary(const brep::Statistics& s, bool all) {
@@ -180,7 +179,7 @@ std::string by_kind(const std::vector<Item>& items, const Mesh& mesh, const Chec
     text += "\n" + heading(kind, list.size());
     const std::size_t shown = options.all ? list.size() : std::min(list.size(), first_few);
     for (std::size_t i = 0; i < shown; ++i) { text += "  " + where(list[i]->elements, mesh, options.mesh) + list[i]->sentence + "\n"; }
-    if (shown < list.size()) { text += "  ... and " + std::to_string(list.size() - shown) + " more (--all lists them)\n"; }
+    text += and_more(list.size(), shown, " (--all lists them)");
   }
   return text;
 }

@@ -116,7 +116,7 @@ std::string summary(const Factors& f, const FactorsOptions& options, const Secon
                      matrix_text(
                          f, "from \\ to", "area", [&](std::size_t i) { return f.surfaces[i].area.value; },
                          [&](std::size_t i) { return f.surfaces[i].row_sum; }, f.factor);
-  if (n > longest_list) { text += "... and " + std::to_string(n - longest_list) + " more\n"; }
+  text += and_more(n, longest_list);
   if (n > widest) { text += "The matrix has " + std::to_string(n) + " rows: --csv and --json write it.\n"; }
   std::array<std::size_t, 3> counts{};
   for (const radiosity::FactorMethod m : f.method) { ++counts[static_cast<std::size_t>(m)]; }

@@ -31,10 +31,6 @@ struct InfoOptions {
 
 std::string color(const radiosity::Color& c) { return radiosity::is_grey(c) ? formatted("%.6g", c.x) : triple(c); }
 
-std::string and_more(std::size_t count) {
-  return count > longest_list ? "  ... and " + std::to_string(count - longest_list) + " more\n" : std::string();
-}
-
 std::string materials(const radiosity::Scene& scene) {
   std::string out = "materials: " + std::to_string(scene.materials.size()) + "\n";
   for (std::size_t i = 0; i < scene.materials.size() && i < longest_list; ++i) {
@@ -42,7 +38,7 @@ std::string materials(const radiosity::Scene& scene) {
     out += "  " + left(m.name, 18) + "reflectance " + color(m.reflectance);
     out += (radiosity::is_black(m.emission) ? "" : "   emission " + color(m.emission) + " W/m2") + "\n";
   }
-  return out + and_more(scene.materials.size());
+  return out + and_more(scene.materials.size(), longest_list);
 }
 
 // Sheets of which something is left.
@@ -70,7 +66,7 @@ std::string objects(const SceneFile& file, const radiosity::Prepared& prepared) 
     out += one ? scene.materials[first].name : "materials by sheet";
     out += std::string(o.placement.inside ? ", seen from inside" : o.shape->solid() ? "" : ", one-sided") + "\n";
   }
-  return out + and_more(scene.objects.size());
+  return out + and_more(scene.objects.size(), longest_list);
 }
 
 std::string cameras(const SceneFile& file) {
@@ -81,7 +77,7 @@ std::string cameras(const SceneFile& file) {
     out += "  " + left(camera.name, 18) + "eye " + triple(camera.eye) + "   look " + triple(camera.forward) + "   fov " +
            formatted("%.6g", camera.field_of_view) + "\n";
   }
-  return out + and_more(file.cameras.size());
+  return out + and_more(file.cameras.size(), longest_list);
 }
 
 // The plan of a run, before any light.

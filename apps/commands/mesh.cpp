@@ -144,7 +144,7 @@ std::string to_text(const SceneFile& file, const SceneMesh& mesh, const MeshOpti
   for (std::size_t i = 0; i < shown; ++i) {
     text += row(file.scene.objects[i].name, mesh.measures[i], width, file.scene.objects[i].placement.inside);
   }
-  if (shown < mesh.measures.size()) { text += "  ... and " + std::to_string(mesh.measures.size() - shown) + " more; --json has all\n"; }
+  text += and_more(mesh.measures.size(), shown, "; --json has all");
   text += row("total", mesh.total, width, false);
   return text + (options.output.empty() ? "" : "written: " + options.output + "\n");
 }

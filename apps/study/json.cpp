@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "apps/json.hpp"
 
-#include <algorithm>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include <radiosity/support/left_out.hpp>
 
 #include "apps/study/outcome.hpp"
-#include "apps/study/pareto.hpp"
 #include "apps/study/tables.hpp"
 
 namespace study {
@@ -61,16 +61,9 @@ void write(JsonWriter& json, const Run& run, const Reference& reference, bool pa
 }
 
 void write(JsonWriter& json, const SceneStudy& scene) {
-  std::vector<CostPoint> points;
-  for (const Method& method : scene.methods) {
-    for (const Run& run : method.runs) { points.push_back(point_of(run, scene.reference, Cost::cpu_time)); }
-  }
-  const std::vector<std::size_t> front = pareto_front(points);
-  std::size_t number = 0;
+  const std::set<const Run*> front = on_front(scene);
   const auto slope = [&](const Method& method, Cost cost) {
-    std::vector<CostPoint> own;
-    for (const Run& run : method.runs) { own.push_back(point_of(run, scene.reference, cost)); }
-    const auto law = fit_power_law(own);
+    const auto law = fit_power_law(points_of(method, scene.reference, cost));
     return law ? std::optional(law->exponent) : std::nullopt;
   };
   const auto reference = [&](JsonWriter& inner) {
@@ -84,9 +77,7 @@ void write(JsonWriter& json, const SceneStudy& scene) {
       inner.object("cpu_time", slope(method, Cost::cpu_time), "memory", slope(method, Cost::memory), "links", slope(method, Cost::links));
     };
     json.open_object().fields("name", method.name, "summary", method.summary, "slopes", slopes);
-    json.key("runs").list(method.runs, [&](const Run& run) {
-      write(json, run, scene.reference, std::find(front.begin(), front.end(), number++) != front.end());
-    });
+    json.key("runs").list(method.runs, [&](const Run& run) { write(json, run, scene.reference, front.contains(&run)); });
     json.close();
   });
   json.key("left_out").list(scene.left_out, [&](const radiosity::LeftOut& item) {
