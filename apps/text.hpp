@@ -19,6 +19,19 @@ namespace apps {
   return text.data();
 }
 
+// With so many decimals; without zeros at its end, as coordinates of a drawing are written: "1.5", "2", "0".
+[[nodiscard]] inline std::string fixed(double x, int decimals) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, x);
+  return text.data();
+}
+[[nodiscard]] inline std::string trimmed(double x, int decimals) {
+  std::string text = fixed(x, decimals);
+  if (decimals > 0) { text.erase(text.find_last_not_of('0') + 1); }
+  if (text.back() == '.') { text.pop_back(); }
+  return text == "-0" ? "0" : text;
+}
+
 // With the fewest digits that read back as the same number.
 [[nodiscard]] inline std::string shortest(double x) {
   std::array<char, 40> digits{};
