@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/report.hpp"
 
-#include <algorithm>
 #include <string_view>
-#include <utility>
 
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
@@ -161,7 +159,7 @@ class Text {
       if (!radiosity::is_grey(c)) { color += " " + formatted("%.5g", c.y) + " " + formatted("%.5g", c.z); }
       row(surface.name, formatted("%13.5g   ", surface.area) + color);
     }
-    if (audit_.surfaces.size() > most) { out_ += "  ... and " + std::to_string(audit_.surfaces.size() - most) + " more; --json has all\n"; }
+    out_ += and_more(audit_.surfaces.size(), most, "; --json has all");
   }
 
   const Report& report_;

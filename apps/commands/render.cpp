@@ -7,7 +7,6 @@
 #include <charconv>
 #include <limits>
 #include <memory>
-#include <utility>
 
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/radiosity.hpp>

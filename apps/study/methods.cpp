@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apps/study/methods.hpp"
 
-#include <charconv>
 #include <limits>
 #include <utility>
 
@@ -12,6 +11,8 @@
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
 
+#include "apps/text.hpp"
+
 namespace study {
 namespace {
 
@@ -21,11 +22,7 @@ using radiosity::Outcome;
 using radiosity::Scene;
 using radiosity::Solution;
 
-std::string text(const char* name, double value) {
-  char digits[32] = "";
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  return std::string(name) + " " + std::string(digits, end);
-}
+std::string text(const char* name, double value) { return std::string(name) + " " + apps::shortest(value); }
 
 Options common(const MethodOptions& study) {
   Options options;
