@@ -86,7 +86,7 @@ HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
   const ColorSolution light = solve_channels(transport, scene.exposure.area, surface_light(scene), {Solver::conjugate_gradients, 1e-3, 40});
   LeafErrors leaves = estimate_leaf_errors(scene, links, light.radiosity);
   BfErrors errors;
-  errors.links = estimate_link_errors(std::nullopt, leaves.alike(), scene, state.links, light.radiosity);
+  errors.links = estimate_link_errors({std::nullopt, leaves.alike()}, scene, state.links, light.radiosity);
   errors.links.of_leaves = leaves.sum;
   errors.leaves = std::move(leaves.squares);
   for (float& e : errors.leaves) { e *= static_cast<float>(leaf_part * leaf_part); }

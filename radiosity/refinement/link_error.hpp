@@ -55,10 +55,15 @@ struct ErrorEstimation {
   [[nodiscard]] double relative(double part) const { return norm > 0.0 ? std::sqrt(sum(part) / norm) : 0.0; }
 };
 
-// The errors of links alone, and the norm. `alike_across` inner nodes: how much more squared errors are than those of independent links,
-// given where these are not all the links; `alike_at_leaves`: LeafErrors::alike().
-ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves, const DiscreteScene& scene,
-                                     const MeasuredLinks& links, const std::vector<Color>& radiosity);
+// How errors of different links add up.
+struct AlikeErrors {
+  std::optional<double> across;  // inner nodes: squared errors over those of independent links; given where these are not all the links
+  double at_leaves = 1.0;        // LeafErrors::alike()
+};
+
+// The errors of links alone, and the norm.
+ErrorEstimation estimate_link_errors(const AlikeErrors& alike, const DiscreteScene& scene, const MeasuredLinks& links,
+                                     const std::vector<Color>& radiosity);
 
 // For links that were not made by BF-refinement, in two tables: from at most 1024 links of lights and 3072 others, spread evenly; they are
 // measured now.
