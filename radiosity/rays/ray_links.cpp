@@ -31,7 +31,7 @@ inline constexpr double most_pooled = 0.4;
 struct RayPart {
   std::uint32_t p = no_node, q = no_node;  // p < q
   float exchange = 0.0f;
-  glm::vec3 at_p{0.0f}, at_q{0.0f};
+  glm::vec3 at_p{0.0f}, at_q{0.0f};  // from their centroids
 };
 
 // Finds the nodes for which rays are counted.
@@ -88,7 +88,10 @@ class Pooling {
         q = ray.to;
       }
       const auto exchange = static_cast<float>(1.0 / (result.density[i] + result.density[ray.to]));
-      parts.push_back(p < q ? RayPart{p, q, exchange, ray.start, ray.end} : RayPart{q, p, exchange, ray.end, ray.start});
+      if (!(exchange > 0.0f)) { continue; }  // too little for a float
+      const glm::vec3 at_p{glm::dvec3{ray.start} + hierarchy[i].centre - scene.exposure.centroid[p]};
+      const glm::vec3 at_q{glm::dvec3{ray.end} + hierarchy[ray.to].centre - scene.exposure.centroid[q]};
+      parts.push_back(p < q ? RayPart{p, q, exchange, at_p, at_q} : RayPart{q, p, exchange, at_q, at_p});
     }
     if (rays.count(i) > 0) { result.share[i] = static_cast<double>(carried) / static_cast<double>(rays.count(i)); }
   }
@@ -106,8 +109,8 @@ class Pooling {
   for (const std::uint32_t k : of) {
     const auto exchange = static_cast<double>(parts[k].exchange);
     sum += exchange;
-    moment_p += exchange * (glm::dvec3{parts[k].at_p} - scene.exposure.centroid[p]);
-    moment_q += exchange * (glm::dvec3{parts[k].at_q} - scene.exposure.centroid[q]);
+    moment_p += exchange * glm::dvec3{parts[k].at_p};
+    moment_q += exchange * glm::dvec3{parts[k].at_q};
   }
   Link link{p, q, static_cast<float>(sum), {}, {}};
   if (!scene.hierarchy[p].leaf()) { link.shape_p = EndShape::of_patch(glm::vec3{scene.patches[p].inverse_inertia * (moment_p / sum)}); }

@@ -28,12 +28,10 @@ HALFLIGHT_INLINE SpacingResult split_by_distance(DiscreteScene& scene, double to
       return hierarchy[i].radius * nearness * std::sqrt(hierarchy[i].area / all) > tolerance;
     };
     scene.patches.extend(scene.threads);
-    const double nearest = 1e3 / scene.objects.diameter();  // what is nearer than this does not show in 16 rays
     std::vector<std::uint32_t> counts(end, 0);
     for (std::size_t i = first_new; i < end; ++i) {
       const Node& node = hierarchy[i];
-      const bool asked = node.leaf() && is_black(scene.emission[node.surface]) && node.area > min_area * all && wants(i, nearest);
-      counts[i] = asked ? 16 : 0;
+      counts[i] = node.leaf() && is_black(scene.emission[node.surface]) && node.area > min_area * all ? 16 : 0;
     }
     const StoredRays rays = cast_rays(scene, LeafLocator{hierarchy, scene.patches, scene.inputs.size()}, counts);
     result.rays += rays.size();

@@ -76,7 +76,7 @@ HALFLIGHT_INLINE void cast_from_leaf(const DiscreteScene& scene, const LeafLocat
     for (unsigned k = 0; k < count; ++k) {
       const std::array<double, 4> u = sequence(static_cast<std::uint32_t>(first) + k);
       const raycast::SurfacePoint start = origins.start(u);
-      rays[first + k].start = start.position;
+      rays[first + k].start = start.position - origins.node.centre;
       segments.set(k, {start.position, reach * cosine_direction(start.normal, u[2], u[3])}, origins.node.object, raycast::no_object);
     }
     const raycast::Hits16 hits = scene.objects.closest16(segments);
@@ -89,7 +89,7 @@ HALFLIGHT_INLINE void cast_from_leaf(const DiscreteScene& scene, const LeafLocat
       if (!met.flat()) { end = met.project(hit.sheet, end.position); }
       StoredRay& ray = rays[first + k];
       ray.to = locator(scene.surfaces[hit.object].first_surface + hit.sheet, end);
-      ray.end = end.position;
+      if (ray.to != no_node) { ray.end = end.position - scene.hierarchy[ray.to].centre; }
       ray.length = static_cast<float>(hit.t * reach);
     }
   }
@@ -99,7 +99,7 @@ HALFLIGHT_INLINE void cast_from_leaf(const DiscreteScene& scene, const LeafLocat
 
 HALFLIGHT_INLINE StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts) {
   StoredRays rays{counts};
-  constexpr std::size_t batch = 1 << 12;  // leaves between two reports
+  constexpr std::size_t batch = 1 << 12;  // leaves between two looks at the cancel flag
   for (std::size_t first = 0; first < counts.size() && !scene.control.cancelled(); first += batch) {
     const std::size_t last = std::min(first + batch, counts.size());
     parallel_for(

@@ -23,7 +23,7 @@ namespace radiosity {
 struct StoredRay {
   std::uint32_t to = no_node;  // a leaf; no_node: the ray met nothing, a back, or something without a leaf
   float length = 0.0f;
-  glm::vec3 start{0.0f}, end{0.0f};
+  glm::vec3 start{0.0f}, end{0.0f};  // from the centres of the nodes on which they lie: a leaf may be too small for floats of the frame
 };
 
 // In the order of the nodes, so many of each.
@@ -44,6 +44,9 @@ class StoredRays {
   std::vector<std::size_t> first_{0};
   std::vector<StoredRay> rays_;
 };
+
+// 400 million rays are 40 GB when links are made of them; a run that asks for more is refused rather than left to exhaust the memory.
+inline constexpr std::uint64_t ray_limit = 400'000'000;
 
 // Casts counts[i] rays from leaf i, from what is exposed of it where that is known. Ends early, with rays missing, when the scene's control
 // says so.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,11 @@ namespace detail {
   const DiscreteScene& scene = run.scene;
   const std::vector<std::uint32_t> counts = ray_counts(scene, run.spacing.spaced, rays_per_node(run.options.epsilon));
   const std::uint64_t rays = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+  if (rays > ray_limit) {
+    return Failure{Failure::Kind::invalid_options,
+                   {"the run would need " + std::to_string(rays / 1'000'000) + " million rays; the limit is " +
+                    std::to_string(ray_limit / 1'000'000) + " million; a larger epsilon needs fewer"}};
+  }
   const MemoryBudget::Counts needed{scene.hierarchy.size(), run.solution.links.size(), 0, 0, rays};
   if (!scene.budget.allows(needed)) {
     return Failure{Failure::Kind::out_of_memory,
