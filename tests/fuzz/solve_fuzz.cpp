@@ -196,6 +196,7 @@ radiosity::Options options_of(Choices& choices) {
     options.refinement = radiosity::Refinement::a_posteriori;
     options.target = 0.1 + 0.1 * choices.below(4);
   }
+  options.indirect = static_cast<radiosity::Indirect>(choices.below(3));  // rays are refused where links are gone through one by one
   options.max_iterations = 200;
   options.memory = 100'000'000;
   return options;

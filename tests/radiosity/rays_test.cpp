@@ -262,6 +262,49 @@ TEST_CASE("the noise of rays is what they tell: solutions by other rays differ b
   CHECK(measured > 0.1 * told);
 }
 
+TEST_CASE("where nothing is reflected, or nothing shines, there is nothing for rays to carry: B = E") {
+  Options options;
+  options.indirect = Indirect::rays;
+  options.audit_points = 0;
+  for (const double emission : {0.0, 5.0}) {
+    for (const double reflectance : {0.0, 0.7}) {
+      if (emission > 0.0 && reflectance > 0.0) { continue; }
+      for (radiosity::Scene scene : {scenes::two_plates(0.5), scenes::many(150, scenes::Things::boxes)}) {
+        for (radiosity::Material& m : scene.materials) { m = {m.name, radiosity::Color{reflectance}, radiosity::Color{0.0}}; }
+        scene.materials.front().emission = radiosity::Color{emission};
+        const radiosity::Solution solution = scenes::solved(scene, options);
+        CHECK(solution.audit.stored_rays == 0);
+        for (const auto& surface : solution.audit.surfaces) { CHECK((surface.radiosity.x == 0.0 || surface.radiosity.x == emission)); }
+      }
+    }
+  }
+}
+
+TEST_CASE("rays of small things are as good beside something far away") {
+  // A box on a plate under a lamp, and a plate that none of them sees. The frame is 10 or 100 000 times as large as they are: floats of the
+  // frame would tell places on them to .6 % of their size. Form factors to what is that far away are below 1e-10; some rays of a million
+  // may pass an edge on its other side.
+  const auto means = [](double distance) {
+    radiosity::Scene scene;
+    scene.materials = {{"white", radiosity::Color{0.7}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{5.0}}};
+    scene.objects = {scenes::square("floor", {0.0, 0.0, 0.0}, 1.0, true), scenes::object("box", scenes::box({-0.3, -0.3, 0.0}, {0.3, 0.3, 0.6})),
+                     scenes::square("lamp", {0.8, 0.0, 1.5}, 0.3, false, 1), scenes::square("far", {0.0, 0.0, -distance}, 1.0, false)};
+    Options options;
+    options.epsilon = 0.05;
+    options.audit_points = 0;
+    options.indirect = Indirect::rays;
+    const radiosity::Solution solution = scenes::solved(scene, options);
+    std::vector<double> result{static_cast<double>(solution.audit.leaves)};
+    for (const auto& surface : solution.audit.surfaces) { result.push_back(surface.radiosity.x); }
+    return result;
+  };
+  const std::vector<double> near = means(10.0);
+  const std::vector<double> far = means(1e5);
+  REQUIRE(near.size() == far.size());
+  CHECK(near[0] == far[0]);
+  for (std::size_t i = 1; i < near.size(); ++i) { CHECK(std::abs(near[i] - far[i]) <= 1e-4 * near[i]); }
+}
+
 TEST_CASE("which runs cast rays") {
   const radiosity::Scene few = scenes::room_with_box();
   const radiosity::Scene many = scenes::many(150, scenes::Things::boxes);
