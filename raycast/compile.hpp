@@ -53,7 +53,7 @@ class Compiler {
   Compiler(Compiled& out, const Box& bounds, double skin);
   void add(std::uint32_t index, const PlacedObject& object, std::span<const glm::dvec3> outline, const glm::dvec3& normal);
   // Arranges everything. Up to `loop_limit` shapes are a loop for occlusion; the first hit is always looked for in the tree.
-  void finish(std::size_t loop_limit);  // tree.hpp
+  void finish(std::size_t loop_limit);  // wide_tree.hpp
 
  private:
   struct Face {

@@ -93,6 +93,8 @@ struct FloatBox {
 };
 
 struct Compiled {
+  static constexpr std::size_t fan_out = 8;
+
   glm::dvec3 centre{0.0};
   double scale = 1.0;
   float margin = 0x1p-19f;
@@ -113,6 +115,7 @@ struct Compiled {
   std::uint32_t shape_count = 0;
 
   [[nodiscard]] bool few() const { return nodes.empty() || !leaves.empty(); }
+  [[nodiscard]] static bool is_leaf(std::uint32_t child) { return raycast::is_leaf(child); }
   [[nodiscard]] glm::dvec3 local(const glm::dvec3& p) const { return (p - centre) * scale; }
   [[nodiscard]] std::uint32_t object_of(std::uint32_t shape) const;
   [[nodiscard]] std::size_t bytes() const;

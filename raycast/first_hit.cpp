@@ -24,7 +24,7 @@
 #include <raycast/scene.hpp>
 #include <raycast/spans.hpp>
 #include <raycast/transform.hpp>
-#include <raycast/walk.hpp>
+#include <raycast/line_query.hpp>
 
 namespace raycast {
 

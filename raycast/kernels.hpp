@@ -10,6 +10,7 @@
 #include "bundle.hpp"
 #include "compiled.hpp"
 #include "lanes.hpp"
+#include "walk.hpp"
 
 #include <bit>
 
@@ -78,8 +79,6 @@ struct Entries {
   }
 };
 
-inline constexpr unsigned stack_size = 640;  // 7 entries a level, and no tree is deeper than 80 (tree.hpp)
-
 // Which lanes are undecided about which object.
 struct Pending {
   static constexpr unsigned capacity = 24;
@@ -97,6 +96,7 @@ struct Pending {
 #undef HALFLIGHT_LANES
 #undef HALFLIGHT_TARGET
 #undef HALFLIGHT_OP
+#undef HALFLIGHT_LAMBDA
 
 #ifdef HALFLIGHT_X86
 #define HALFLIGHT_ISA avx2
@@ -107,6 +107,7 @@ struct Pending {
 #undef HALFLIGHT_LANES
 #undef HALFLIGHT_TARGET
 #undef HALFLIGHT_OP
+#undef HALFLIGHT_LAMBDA
 
 #define HALFLIGHT_ISA avx512
 #define HALFLIGHT_LANES 16
@@ -116,6 +117,7 @@ struct Pending {
 #undef HALFLIGHT_LANES
 #undef HALFLIGHT_TARGET
 #undef HALFLIGHT_OP
+#undef HALFLIGHT_LAMBDA
 #endif
 
 // The call in the namespace of the instruction set: its functions have the same names in each.

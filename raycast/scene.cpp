@@ -27,8 +27,8 @@
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
 #include <raycast/transform.hpp>
-#include <raycast/tree.hpp>
-#include <raycast/walk.hpp>
+#include <raycast/wide_tree.hpp>
+#include <raycast/line_query.hpp>
 
 namespace raycast {
 

@@ -28,7 +28,7 @@
 #include <raycast/planar.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
-#include <raycast/traverse.hpp>
+#include <raycast/line_query.hpp>
 
 namespace raycast {
 
@@ -94,7 +94,7 @@ HALFLIGHT_INLINE void Mesh::spans_between(const Segment& line, double t0, double
   if (bvh_.empty()) {
     for (std::uint32_t f = 0; f < planes_.size(); ++f) visit(f);
   } else {
-    static_cast<void>(any(bvh_, SlabTest(near), t0 - shift, t1 - shift, visit));
+    static_cast<void>(any_along(bvh_, SlabTest(near), t0 - shift, t1 - shift, visit));
   }
   const auto earlier = [](const Crossing& a, const Crossing& b) { return a.t < b.t || (a.t == b.t && a.sheet < b.sheet); };
   if (!solid())

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Builds the tree of compiled.hpp: a binary hierarchy by the surface area heuristic over binned centres (Wald 2007), which is then merged
-// into nodes of up to eight children by the cheapest of all mergers. A leaf holds up to eight shapes of one kind, which are tested side
-// by side: one costs as much as eight.
+// The tree of compiled.hpp: the binary one of bvh_builder.hpp, collapsed into nodes of up to eight children by the cheapest of all ways to
+// do it (after Wald, Benthin, Boulos 2008, with the optimal collapse by dynamic programming of Ylitie, Karras, Laine 2017). A leaf holds up
+// to eight shapes of one kind, which are tested side by side: one costs as much as eight.
 
 #include <algorithm>
 #include <array>
@@ -13,17 +13,67 @@
 #include <utility>
 #include <vector>
 
+#include <raycast/bvh_builder.hpp>
 #include <raycast/compile.hpp>
 #include <raycast/compiled.hpp>
 #include <raycast/kernels.hpp>
 
 namespace raycast {
 
+namespace detail {
+
+// Boxes in vectors of four numbers: the tree of a mesh is built while its user waits.
+struct WidePolicy {
+  using Real = float;
+  using V = portable::F;
+  struct Bounds {
+    V lo = V{} + 1e30f, hi = V{} - 1e30f;
+    void extend(const Bounds& b) { lo = portable::min(lo, b.lo), hi = portable::max(hi, b.hi); }
+    [[nodiscard]] float half_area() const {
+      const V s = hi - lo;
+      return s[0] < 0.0f ? 0.0f : s[0] * s[1] + s[1] * s[2] + s[2] * s[0];
+    }
+  };
+  class Grid {
+   public:
+    template <class References>
+    explicit Grid(const References& references) {
+      Bounds centres;  // doubled
+      for (const auto& reference : references) {
+        const V c = reference.box.lo + reference.box.hi;
+        centres.extend({c, c});
+      }
+      lo_ = centres.lo;
+      const V width = centres.hi - centres.lo;
+      for (int k = 0; k < 3; ++k) scale_[k] = width[k] > 0.0f ? 0.999f * static_cast<float>(bin_count) / width[k] : 0.0f;
+    }
+    [[nodiscard]] bool wide(int axis) const { return scale_[axis] > 0.0f; }
+    [[nodiscard]] V position(const Bounds& box) const { return (box.lo + box.hi - lo_) * scale_; }
+    [[nodiscard]] float position(const Bounds& box, int axis) const { return (box.lo[axis] + box.hi[axis] - lo_[axis]) * scale_[axis]; }
+
+   private:
+    V lo_{}, scale_{};
+  };
+  static constexpr std::uint32_t few = 8;
+
+  const std::vector<Item>& items;
+
+  [[nodiscard]] static float cost(std::uint32_t count) { return static_cast<float>((count + 7) / 8); }
+  template <class Iterator>
+  [[nodiscard]] Iterator divide(Iterator begin, Iterator end) const {  // by kind
+    const Kind kind = items[begin->item].kind;
+    return std::partition(begin, end, [&](const auto& reference) { return items[reference.item].kind == kind; });
+  }
+  [[nodiscard]] static bool leaf(float, std::uint32_t, float) { return false; }
+};
+
+}  // namespace detail
+
 // Emit(kind, items) -> index of the first among its kind, called once for every leaf, in the order of the tree.
 template <class Emit>
-class TreeBuilder {
+class WideTreeBuilder {
  public:
-  TreeBuilder(std::vector<Item>& items, Emit emit) : items_(items), emit_(std::move(emit)) {}
+  WideTreeBuilder(std::vector<Item>& items, Emit emit) : items_(items), emit_(std::move(emit)) {}
 
   // The leaves alone, each with its items, for scenes that need no tree.
   void leaves(std::vector<std::uint32_t>& out) {
@@ -37,135 +87,27 @@ class TreeBuilder {
   }
 
   void build(std::vector<Node>& out) {
-    references_.resize(items_.size());
+    BvhBuilder<detail::WidePolicy> builder({items_});
+    builder.references.resize(items_.size());
     for (std::uint32_t i = 0; i < items_.size(); ++i) {
       const FloatBox& b = items_[i].box;
-      references_[i] = {Box4{V{b.lo[0], b.lo[1], b.lo[2], 0.0f}, V{b.hi[0], b.hi[1], b.hi[2], 0.0f}}, i};
+      builder.references[i] = {{V{b.lo[0], b.lo[1], b.lo[2], 0.0f}, V{b.hi[0], b.hi[1], b.hi[2], 0.0f}}, i};
     }
-    binary_.reserve(items_.size());
-    binary_.push_back({bounds(0, references_.size()), 0, static_cast<std::uint32_t>(items_.size()), 0});
-    std::vector<std::uint32_t> todo{0};
-    while (!todo.empty()) {
-      const std::uint32_t at = todo.back();
-      todo.pop_back();
-      if (!split(at)) continue;
-      todo.push_back(binary_[at].first);
-      todo.push_back(binary_[at].first + 1);
-    }
+    builder.build();
+    binary_ = std::move(builder.nodes);
     std::vector<Item> sorted;
     sorted.reserve(items_.size());
-    for (const Reference& r : references_) sorted.push_back(items_[r.item]);
+    for (const auto& reference : builder.references) sorted.push_back(items_[reference.item]);
     items_.swap(sorted);
     collapse(out);
   }
 
  private:
-  using V = portable::F;
-  struct Box4 {
-    V lo = V{} + 1e30f, hi = V{} - 1e30f;
-    void extend(const Box4& b) { lo = portable::min(lo, b.lo), hi = portable::max(hi, b.hi); }
-    [[nodiscard]] float half_area() const {
-      const V s = hi - lo;
-      return s[0] < 0.0f ? 0.0f : s[0] * s[1] + s[1] * s[2] + s[2] * s[0];
-    }
-  };
-  struct Reference {
-    Box4 box;
-    std::uint32_t item;
-  };
-  struct Binary {
-    Box4 box;
-    std::uint32_t first, count;  // count 0: children first and first + 1
-    std::uint32_t depth;
-  };
+  using V = detail::WidePolicy::V;
+  using Binary = BinaryNode<detail::WidePolicy::Bounds>;
   struct Range {
     std::uint32_t first, count;
   };
-  static constexpr std::uint32_t bin_count = 16, largest_leaf = 8, deepest = 48;
-
-  [[nodiscard]] Box4 bounds(std::size_t first, std::size_t count) const {
-    Box4 box;
-    for (std::size_t i = first; i < first + count; ++i) box.extend(references_[i].box);
-    return box;
-  }
-  [[nodiscard]] Kind kind(std::size_t i) const { return items_[references_[i].item].kind; }
-
-  bool split(std::uint32_t at) {
-    const Binary node = binary_[at];
-    const auto begin = references_.begin() + node.first, end = begin + node.count;
-    if (node.count <= largest_leaf) {
-      const Kind first_kind = kind(node.first);
-      const auto middle = std::partition(begin, end, [&](const Reference& r) { return items_[r.item].kind == first_kind; });
-      if (middle == end) return false;
-      children(at, static_cast<std::uint32_t>(middle - begin));
-      return true;
-    }
-    Box4 centres;  // of doubled centres
-    for (auto i = begin; i != end; ++i) {
-      const V c = i->box.lo + i->box.hi;
-      centres.extend({c, c});
-    }
-    std::uint32_t best_axis = 3, best_bin = 0;
-    float best = 1e30f;
-    const V width = centres.hi - centres.lo;
-    V scale{};
-    for (int k = 0; k < 3; ++k) scale[k] = width[k] > 0.0f ? 0.999f * static_cast<float>(bin_count) / width[k] : 0.0f;
-    if (node.depth < deepest) {
-      struct Bin {
-        Box4 box;
-        std::uint32_t count = 0;
-      };
-      std::array<std::array<Bin, bin_count>, 3> bins;
-      for (auto i = begin; i != end; ++i) {
-        const V at_bin = (i->box.lo + i->box.hi - centres.lo) * scale;
-        for (std::uint32_t k = 0; k < 3; ++k) {
-          Bin& bin = bins[k][bin_of(at_bin[static_cast<int>(k)])];
-          bin.box.extend(i->box);
-          ++bin.count;
-        }
-      }
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        if (!(scale[static_cast<int>(k)] > 0.0f)) continue;
-        std::array<float, bin_count> above{};
-        Bin sum;
-        for (std::uint32_t b = bin_count; b-- > 1;) {
-          sum.box.extend(bins[k][b].box);
-          sum.count += bins[k][b].count;
-          above[b] = sum.box.half_area() * cost(sum.count);
-        }
-        sum = Bin{};
-        for (std::uint32_t b = 1; b < bin_count; ++b) {
-          sum.box.extend(bins[k][b - 1].box);
-          sum.count += bins[k][b - 1].count;
-          const float all = sum.box.half_area() * cost(sum.count) + above[b];
-          if (sum.count && sum.count < node.count && all < best) best = all, best_axis = k, best_bin = b;
-        }
-      }
-    }
-    auto middle = begin + node.count / 2;  // equal centres, or too deep: halves
-    if (best_axis < 3) {
-      const auto k = static_cast<int>(best_axis);
-      const float lo = centres.lo[k], factor = scale[k];
-      middle = std::partition(begin, end, [&](const Reference& r) { return bin_of((r.box.lo[k] + r.box.hi[k] - lo) * factor) < best_bin; });
-    }
-    children(at, static_cast<std::uint32_t>(middle - begin));
-    return true;
-  }
-  static std::uint32_t bin_of(float x) {
-    return std::min(static_cast<std::uint32_t>(std::max(static_cast<std::int32_t>(x), 0)), bin_count - 1);
-  }
-  static float cost(std::uint32_t n) { return static_cast<float>((n + 7) / 8); }
-
-  void children(std::uint32_t at, std::uint32_t left_count) {
-    const Binary node = binary_[at];
-    Binary left{bounds(node.first, left_count), node.first, left_count, node.depth + 1};
-    Binary right{bounds(node.first + left_count, node.count - left_count), node.first + left_count, node.count - left_count,
-                 node.depth + 1};
-    binary_[at].first = static_cast<std::uint32_t>(binary_.size());
-    binary_[at].count = 0;
-    binary_.push_back(left);
-    binary_.push_back(right);
-  }
 
   // least[i][k]: the least expected cost of the subtree of binary node i when it becomes k + 1 children, or fewer, of one wide node; it
   // k = 0 is a node of its own. left[i][k]: how many of them come from its left child; 0: k are as good.
@@ -260,7 +202,6 @@ class TreeBuilder {
 
   std::vector<Item>& items_;
   Emit emit_;
-  std::vector<Reference> references_;
   std::vector<Binary> binary_;
 };
 
@@ -269,7 +210,7 @@ inline void Compiler::finish(std::size_t loop_limit) {
   out_.bodies.reserve(bodies_.size());
   for (std::uint32_t& body : out_.room_bodies)
     if (body != no_shape) out_.bodies.push_back(bodies_[std::exchange(body, static_cast<std::uint32_t>(out_.bodies.size()))]);
-  TreeBuilder tree(items_, [this](Kind kind, std::span<const Item> items) { return emit(kind, items); });
+  WideTreeBuilder tree(items_, [this](Kind kind, std::span<const Item> items) { return emit(kind, items); });
   if (items_.size() <= loop_limit) tree.leaves(out_.leaves);
   if (!items_.empty()) tree.build(out_.nodes);
 }
