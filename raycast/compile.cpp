@@ -20,6 +20,7 @@
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
@@ -46,9 +47,9 @@ HALFLIGHT_INLINE void Compiler::cylinder(const glm::dvec3& base, const AxisFrame
 }
 
 HALFLIGHT_INLINE void Compiler::superquadric(const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring) {
-  if (std::min(p, q) < 0.2 || std::max(p, q) > 16.0 || ring > 64.0) return;  // powers are not known well enough
+  if (std::min(p, q) < smallest_power || std::max(p, q) > largest_power || ring > largest_ring) return;  // powers are not known well enough
   form(p >= 1.0 && q >= 1.0 && ring == 0.0 ? FormKind::convex : FormKind::concave, centre, unit, p, q, ring,
-       0x1p-15 * (1.0 + 0.5 / p + 0.5 / q));
+       eps_power * (1.0 + 0.5 / p + 0.5 / q));
 }
 
 HALFLIGHT_INLINE void Compiler::body(std::span<const Plane> planes) {
@@ -76,11 +77,11 @@ HALFLIGHT_INLINE void Compiler::face(std::uint32_t number, std::span<const glm::
     const double length = glm::length(area);
     const double extent =
         std::max({glm::dot(world_[1] - world_[0], world_[1] - world_[0]), glm::dot(world_[2] - world_[0], world_[2] - world_[0])});
-    pieces(number, length > 1e-6 * extent ? area / length : glm::dvec3{0.0}, true);
+    pieces(number, length > tol_sliver * extent ? area / length : glm::dvec3{0.0}, true);
   } else {
     const Plane plane = plane_of(world_);
     const double extent = brep::extent(world_);
-    const bool exact = plane.slack == 0.0 && glm::length(brep::vector_area(world_)) > 1e-6 * extent * extent;
+    const bool exact = plane.slack == 0.0 && glm::length(brep::vector_area(world_)) > tol_sliver * extent * extent;
     pieces(number, exact ? plane.normal : glm::dvec3{0.0}, brep::is_convex(world_));
   }
 }
@@ -91,7 +92,7 @@ HALFLIGHT_INLINE Compiler::Compiler(Compiled& out, const Box& bounds, double ski
   int exponent = 0;
   std::frexp(0.5 * std::max({size.x, size.y, size.z}), &exponent);
   out_.scale = std::ldexp(1.0, -exponent);
-  out_.margin = static_cast<float>(0x1p-19 + 4 * skin * out_.scale);
+  out_.margin = static_cast<float>(eps_height + 4 * skin * out_.scale);
 }
 
 HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& object, std::span<const glm::dvec3> outline,
@@ -104,7 +105,7 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
   const double s = (square[0][0] + square[1][1] + square[2][2]) / 3;
   similar_ = true;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) similar_ = similar_ && std::abs(square[i][j] - (i == j ? s : 0.0)) <= 1e-9 * s;
+    for (int j = 0; j < 3; ++j) similar_ = similar_ && std::abs(square[i][j] - (i == j ? s : 0.0)) <= tol_similar * s;
   stretch_ = std::sqrt(s);
   out_.bounds.push_back(rounded(scaled(object.bounds())));
   out_.roles.push_back(!outline.empty() ? Role::polygon : object.solid() ? Role::solid : Role::surface);
@@ -115,13 +116,13 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
     world_.clear();
     for (const glm::dvec3& p : outline) world_.push_back(out_.local(p));
     const double extent = brep::extent(world_);
-    const bool exact = object.slack() == 0.0 && glm::length(brep::vector_area(world_)) > 1e-6 * extent * extent;
+    const bool exact = object.slack() == 0.0 && glm::length(brep::vector_area(world_)) > tol_sliver * extent * extent;
     pieces(0, exact ? normal : glm::dvec3{0.0}, object.convex());
   } else {
     object.object().compile(*this);
   }
   if (object.inside()) {
-    out_.bounds.back() = {{-1e30f, -1e30f, -1e30f}, {1e30f, 1e30f, 1e30f}};
+    out_.bounds.back() = {{-no_bound, -no_bound, -no_bound}, {no_bound, no_bound, no_bound}};
     out_.rooms.push_back(index);
     out_.room_bodies.push_back(room_body_);
   } else if (items_.size() == before) {
@@ -136,8 +137,8 @@ HALFLIGHT_INLINE FloatBox Compiler::rounded(const Box& b) const {  // grown by t
   const double grow = out_.margin;
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    result.lo[i] = std::nextafter(static_cast<float>(b.lo[k] - grow), -1e30f);
-    result.hi[i] = std::nextafter(static_cast<float>(b.hi[k] + grow), 1e30f);
+    result.lo[i] = std::nextafter(static_cast<float>(b.lo[k] - grow), -no_bound);
+    result.hi[i] = std::nextafter(static_cast<float>(b.hi[k] + grow), no_bound);
   }
   return result;
 }
@@ -149,14 +150,14 @@ HALFLIGHT_INLINE void Compiler::form(FormKind kind, const glm::dvec3& centre, co
   const glm::dmat3 inverse = glm::inverse(place.linear), linear = unit * inverse / out_.scale;
   const glm::dvec3 shift = unit * (inverse * (out_.centre - place.translation) - centre);
   const auto norm = [](const glm::dmat3& m) { return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])); };
-  if (!(norm(unit * inverse) * norm(glm::inverse(unit * inverse)) < 1e4)) return;
+  if (!(norm(unit * inverse) * norm(glm::inverse(unit * inverse)) < largest_condition)) return;
   Form f{{}, {}, static_cast<float>(p), static_cast<float>(q), static_cast<float>(ring), static_cast<float>(eps), kind, index_};
   for (int k = 0; k < 3; ++k) {
     const glm::dvec3 row{linear[0][k], linear[1][k], linear[2][k]};
     for (int i = 0; i < 3; ++i) f.map[k][i] = static_cast<float>(row[i]);
     f.map[k][3] = static_cast<float>(shift[k]);
     f.slop[k] = 2.0f * out_.margin * static_cast<float>(glm::length(row));
-    if (!(f.slop[k] < 0.02f)) return;
+    if (!(f.slop[k] < largest_slop)) return;
   }
   add_object_box(Kind::form, static_cast<std::uint32_t>(forms_.size()));
   forms_.push_back(f);

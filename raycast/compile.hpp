@@ -18,6 +18,7 @@
 #include <raycast/circle.hpp>
 #include <raycast/compiled.hpp>
 #include <raycast/planar.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
@@ -37,7 +38,7 @@ class Compiler {
   // |x, y| <= 1, z = 0 where x, y, z are unit (p - centre).
   void disk(const glm::dvec3& centre, const glm::dmat3& unit) { form(FormKind::disk, centre, unit, 0.0, 0.0, 0.0, 0.0); }
   // 0 <= z <= 1, |x, y| <= p + q z, neither beyond 1.
-  void cone(const glm::dvec3& base, const glm::dmat3& unit, double p, double q) { form(FormKind::cone, base, unit, p, q, 0.0, 0x1p-20); }
+  void cone(const glm::dvec3& base, const glm::dmat3& unit, double p, double q) { form(FormKind::cone, base, unit, p, q, 0.0, eps_cone); }
   // ((|x|^p + |y|^p)^(1/p) - ring)^q + |z|^q <= 1.
   void superquadric(const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring);
   // A convex solid behind all these planes; at most 32 of them.

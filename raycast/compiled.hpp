@@ -6,10 +6,8 @@
 // Coordinates are moved to the middle of the scene and scaled by a power of two, so that the scene lies in [-1,1]^3; nothing below
 // depends on the size or the place of the scene. Segments may leave it a little (to |x| <= 1.5; what is longer is clipped, bundle.hpp).
 //
-// The error bound. A coordinate is rounded by 2^-24, a direction by 2^-23; a height above a plane of unit normal adds 2^-24 (sqrt(3) 2.6)
-// for the plane's own rounding and at most 4 roundings of terms below 2.6 sqrt(3): less than 20 * 2^-24. The same holds for a distance from
-// a centre or an axis. `margin` = 2^-19 = 32 * 2^-24 plus the skins of scene.hpp: what lies farther than this from the limit of a decision
-// is decided as the double-precision reference decides it; what lies nearer is not decided here but there.
+// The error bound: `margin` = eps_height (tolerances.hpp) plus the skins of scene.hpp. What lies farther than this from the limit of a
+// decision is decided as the double-precision reference decides it; what lies nearer is not decided here but there.
 //
 // Boxes of nodes are grown by the margin and rounded outwards; so a node is never missed for a shape that could be met.
 
@@ -20,6 +18,8 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
+
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -82,7 +82,7 @@ struct alignas(64) Node {
 enum class Role : std::uint8_t { polygon, surface, solid };
 
 struct FloatBox {
-  std::array<float, 3> lo{1e30f, 1e30f, 1e30f}, hi{-1e30f, -1e30f, -1e30f};
+  std::array<float, 3> lo{no_bound, no_bound, no_bound}, hi{-no_bound, -no_bound, -no_bound};
   void extend(const FloatBox& b) {
     for (std::size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], b.lo[k]), hi[k] = std::max(hi[k], b.hi[k]);
   }
@@ -97,7 +97,7 @@ struct Compiled {
 
   glm::dvec3 centre{0.0};
   double scale = 1.0;
-  float margin = 0x1p-19f;
+  float margin = static_cast<float>(eps_height);
   std::vector<Node> nodes;  // the first is the root; none without shapes
   std::vector<FaceBlock<3>> triangles;
   std::vector<FaceBlock<4>> quads;

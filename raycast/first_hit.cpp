@@ -23,6 +23,7 @@
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 #include <raycast/line_query.hpp>
 
@@ -32,8 +33,8 @@ HALFLIGHT_INLINE bool Scene::Search::clip(const Compiled& scene) {
   const glm::dvec3 o = scene.local(ray.origin), d = ray.direction * scene.scale;
   t0 = 0.0, t1 = infinity;
   for (int k = 0; k < 3; ++k) {
-    const double lo = (-1.25 - o[k]) / d[k], hi = (1.25 - o[k]) / d[k];
-    if (d[k] == 0.0 && !(std::abs(o[k]) <= 1.25)) return false;
+    const double lo = (-lane_cube - o[k]) / d[k], hi = (lane_cube - o[k]) / d[k];
+    if (d[k] == 0.0 && !(std::abs(o[k]) <= lane_cube)) return false;
     if (d[k] == 0.0) continue;
     t0 = std::max(t0, std::min(lo, hi));
     t1 = std::min(t1, std::max(lo, hi));
@@ -49,7 +50,7 @@ struct Scene::Asker {
   float operator()(unsigned lane, std::uint32_t object) const {
     Search& s = searches[lane];
     scene.approach(Line(s.ray), s.source, object, s.nearest);
-    return static_cast<float>(std::min((s.nearest.limit - s.t0) / (s.t1 - s.t0), 1.0)) * 1.00001f + 1e-6f;
+    return static_cast<float>(std::min((s.nearest.limit - s.t0) / (s.t1 - s.t0), 1.0)) * limit_up + eps_limit;
   }
   [[nodiscard]] bool near(unsigned lane, std::uint32_t object) const {
     const Search& s = searches[lane];
@@ -100,7 +101,7 @@ HALFLIGHT_INLINE void Scene::approach_bounded(Search& search) const {
   const glm::dvec3 from = o + search.t0 * d, along = (search.t1 - search.t0) * d;
   const Segment inner{from / compiled_.scale + compiled_.centre, along / compiled_.scale};
   Rays16 rays;
-  if (!(Box{o, o}.magnitude() < 1e6) || !HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, inner, search.source.owner, no_object, rays))) {
+  if (!(Box{o, o}.magnitude() < farthest_cut) || !HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, inner, search.source.owner, no_object, rays))) {
     const Line line(ray);
     objects_along(compiled_, ray, 0.0, search.nearest.limit, [&](std::uint32_t i) {
       approach(line, search.source, i, search.nearest);
@@ -127,7 +128,7 @@ HALFLIGHT_INLINE Hits16 Scene::closest16(const Segments16& rays) const {
     if (!has_line(s.ray)) continue;
     for (const std::uint32_t room : compiled_.rooms) approach(Line(s.ray), s.source, room, s.nearest);
     const glm::dvec3 o = compiled_.local(s.ray.origin), d = s.ray.direction * compiled_.scale;
-    if (!(Box{o, o}.magnitude() < 1e6)) {
+    if (!(Box{o, o}.magnitude() < farthest_cut)) {
       approach_bounded(s);
     } else if (s.clip(compiled_)) {
       inner.set(i, {(o + s.t0 * d) * per_scale + compiled_.centre, (s.t1 - s.t0) * d * per_scale}, s.source.owner, no_object);

@@ -23,6 +23,7 @@
 #include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
@@ -64,8 +65,8 @@ HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const P
     }
   }
   const double bulge = std::max(a.bulge, b.bulge);
-  if (!(reach + bulge * compiled_.scale < 1.5)) return list;  // not in the compiled scene
-  c.bulge = bulge > 0.0 ? static_cast<float>(bulge * compiled_.scale) * 1.0001f + 0x1p-24f : 0.0f;
+  if (!(reach + bulge * compiled_.scale < lane_reach)) return list;  // not in the compiled scene
+  c.bulge = bulge > 0.0 ? static_cast<float>(bulge * compiled_.scale) * length_up + unit_roundoff_single : 0.0f;
   c.source = a.owner, c.target = b.owner;
   HALFLIGHT_DISPATCH(isa_, spread_corners(pf, qf, c));
   const bool faces_alone =

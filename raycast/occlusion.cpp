@@ -21,21 +21,22 @@
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
 
 namespace detail {
 
-// A segment that leaves the compiled scene, cut to what lies within 1.25 of its middle: in lane `lane` of `rays`. False: nothing does.
-// Requires ends within 1e6, so that the cut is known to 1e-10.
+// A segment that leaves the compiled scene, cut to what lies within `lane_cube` of its middle: in lane `lane` of `rays`. False: nothing does.
+// Requires ends within `farthest_cut`.
 HALFLIGHT_INLINE bool clip(const Compiled& scene, const Segment& segment, unsigned lane, Rays16& rays) {
   const glm::dvec3 o = scene.local(segment.origin), d = segment.direction * scene.scale;
   double t0 = 0.0, t1 = 1.0;
   for (int k = 0; k < 3; ++k) {
-    const double a = (-1.25 - o[k]) / d[k], b = (1.25 - o[k]) / d[k];
+    const double a = (-lane_cube - o[k]) / d[k], b = (lane_cube - o[k]) / d[k];
     if (d[k] == 0.0) {
-      if (std::abs(o[k]) > 1.25) return false;
+      if (std::abs(o[k]) > lane_cube) return false;
       continue;
     }
     t0 = std::max(t0, std::min(a, b));
@@ -115,7 +116,7 @@ HALFLIGHT_INLINE std::uint32_t Scene::occluded16(const Segments16& segments, con
       const auto lane = static_cast<unsigned>(std::countr_zero(rest));
       const Segment s = segments.at(lane);
       const Box ends{compiled_.local(s.origin), compiled_.local(s.at(1.0))};
-      if (!(std::max(Box{ends.lo, ends.lo}.magnitude(), Box{ends.hi, ends.hi}.magnitude()) < 1e6)) {
+      if (!(std::max(Box{ends.lo, ends.lo}.magnitude(), Box{ends.hi, ends.hi}.magnitude()) < farthest_cut)) {
         for (std::uint32_t i = 0; i < objects_.size(); ++i)
           if (exact(i, 1u << lane)) {
             blocked |= 1u << lane;

@@ -17,6 +17,7 @@
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -42,7 +43,7 @@ HALFLIGHT_INLINE Plane plane_of(std::span<const glm::dvec3> corners) {
     highest = std::max(highest, height);
     magnitude = std::max(magnitude, Box{p, p}.magnitude());
   }
-  if (highest - lowest > 16 * unit_roundoff * magnitude) {
+  if (highest - lowest > eps_plane * magnitude) {
     plane.point += mean * plane.normal;
     plane.slack = std::max(highest - mean, mean - lowest);
   }
@@ -53,7 +54,7 @@ namespace detail {
 
 HALFLIGHT_INLINE int side_of(const Flat& a, const Flat& b, const Flat& c) {
   const double l = (b[0] - a[0]) * (c[1] - a[1]), r = (b[1] - a[1]) * (c[0] - a[0]);
-  const double error = 4 * unit_roundoff * (std::abs(l) + std::abs(r));
+  const double error = eps_orientation * (std::abs(l) + std::abs(r));
   return l - r > error ? 1 : l - r < -error ? -1 : 0;
 }
 
@@ -81,9 +82,9 @@ HALFLIGHT_INLINE std::optional<std::string> polygon_fault(std::span<const glm::d
     if (corners[i] == corners[(i + 1) % n])
       return "has two equal corners in succession (numbers " + name(i) + " and " + name((i + 1) % n) + ")";
   const glm::dvec3 area = brep::vector_area(corners);
-  if (!(glm::length(area) > 1e-12 * extent * extent)) return "has no area: its corners lie on a line, or it crosses itself";
+  if (!(glm::length(area) > tol_area * extent * extent)) return "has no area: its corners lie on a line, or it crosses itself";
   const Plane plane = plane_of(corners);
-  if (plane.slack > 1e-6 * extent + 16 * unit_roundoff * box.magnitude()) {
+  if (plane.slack > tol_planar * extent + eps_plane * box.magnitude()) {
     std::size_t worst = 0;
     const auto height = [&](std::size_t i) { return std::abs(glm::dot(corners[i] - plane.point, plane.normal)); };
     for (std::size_t i = 1; i < n; ++i)

@@ -26,6 +26,7 @@
 #include <raycast/planar.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 #include <raycast/wide_tree.hpp>
 #include <raycast/line_query.hpp>
@@ -48,14 +49,14 @@ HALFLIGHT_INLINE Scene::Scene(std::vector<PlacedObject> objects, Isa isa) : obje
       record.corner_count = static_cast<std::uint32_t>(outline.size());
       corners_.insert(corners_.end(), outline.begin(), outline.end());
     }
-    record.touch = 1e-9 * object.bounds().diameter();
+    record.touch = tol_contact * object.bounds().diameter();
     record.slack = object.slack();
     slack_ = std::max(slack_, record.slack);
     touch = std::max(touch, record.touch);
     records_.push_back(record);
     bounds_.extend(object.bounds());
   }
-  rounding_ = 64 * unit_roundoff * bounds_.magnitude();
+  rounding_ = eps_surface * bounds_.magnitude();
   Compiler compiler(compiled_, bounds_, rounding_ + 2 * slack_ + touch);
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
     const Record& r = records_[i];
@@ -171,8 +172,8 @@ HALFLIGHT_INLINE void Scene::approach(const Line& line, const End& a, std::uint3
   }
 }
 
-// Takes the hit if it is nearer, or as near as rounding can tell and covering. Ties are looked for within 1000 skins along the ray: beyond
-// that the ray grazes at less than a thousandth of a right angle, and the nearer parameter decides.
+// Takes the hit if it is nearer, or as near as rounding can tell and covering. Ties are looked for within `tie_reach`: beyond, the
+// nearer parameter decides.
 HALFLIGHT_INLINE void Scene::offer(const Segment& ray, const Hit& hit, Nearest& nearest) const {
   const double length = glm::length(ray.direction);
   Hit& best = nearest.hit;
@@ -180,13 +181,13 @@ HALFLIGHT_INLINE void Scene::offer(const Segment& ray, const Hit& hit, Nearest& 
   if (best.object != no_object) {
     const End other = end_at(best.object);
     const double tolerance = skin(other, hit.object), gap = std::abs(hit.t - best.t);
-    if (gap * length <= 1000 * tolerance && gap * std::abs(along(hit.object, ray, {hit.t, hit.sheet})) <= tolerance)
+    if (gap * length <= tie_reach * tolerance && gap * std::abs(along(hit.object, ray, {hit.t, hit.sheet})) <= tolerance)
       take = hit.front != best.front ? hit.front : hit.object > best.object;
   }
   if (!take) return;
   best = hit;
   const Record& r = records_[hit.object];
-  nearest.limit = hit.t + 1000 * (rounding_ + r.slack + slack_ + r.touch) / length;
+  nearest.limit = hit.t + tie_reach * (rounding_ + r.slack + slack_ + r.touch) / length;
 }
 
 HALFLIGHT_INLINE bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const {
@@ -199,8 +200,8 @@ HALFLIGHT_INLINE bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, s
     const Record& r = records_[i];
     const double near = skin(end, i);
     if (!object.inside() && !object.bounds().contains(p, near)) return false;
-    // A coincident surface of object i, its normal at a cosine to n: parallel within 2.5 degrees counts as the same direction.
-    const auto coincides = [&](double cosine) { return cosine > 0.999 && i > owner; };
+    // A coincident surface of object i, its normal at a cosine to n.
+    const auto coincides = [&](double cosine) { return cosine > tol_same_way && i > owner; };
     if (r.corner_count) return std::abs(glm::dot(r.normal, p - r.point)) <= near && coincides(glm::dot(r.normal, n)) && passes(line, r);
     Spans spans;
     object.spans(out_of_p, spans);

@@ -21,6 +21,7 @@
 #include <raycast/box.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -30,7 +31,7 @@ HALFLIGHT_INLINE std::optional<std::string> check(const Placement& placement) {
     return "the placement is not finite (or beyond 1e60)";
   double product = 1.0;
   for (int k = 0; k < 3; ++k) product *= glm::length(m[k]);
-  if (!(product > 1e-180) || !(std::abs(glm::determinant(m)) > 1e-12 * product))
+  if (!(product > smallest_volume) || !(std::abs(glm::determinant(m)) > tol_singular * product))
     return "the placement flattens the object: its determinant is zero";
   return std::nullopt;
 }
@@ -103,8 +104,8 @@ HALFLIGHT_INLINE Box PlacedObject::world_box(const Box& box) const {
       reach += std::abs(placement_.linear[column][row]) * half[column];
       sum += std::abs(placement_.linear[column][row]) * box.magnitude();
     }
-    result.lo[row] -= reach + 8 * unit_roundoff * sum;
-    result.hi[row] += reach + 8 * unit_roundoff * sum;
+    result.lo[row] -= reach + eps_map * sum;
+    result.hi[row] += reach + eps_map * sum;
   }
   return result;
 }

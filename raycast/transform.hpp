@@ -20,8 +20,6 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-#include <brep/builder_input.hpp>
-
 #include <raycast/box.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>

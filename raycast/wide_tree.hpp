@@ -17,6 +17,7 @@
 #include <raycast/compile.hpp>
 #include <raycast/compiled.hpp>
 #include <raycast/kernels.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -27,7 +28,7 @@ struct WidePolicy {
   using Real = float;
   using V = portable::F;
   struct Bounds {
-    V lo = V{} + 1e30f, hi = V{} - 1e30f;
+    V lo = V{} + no_bound, hi = V{} - no_bound;
     void extend(const Bounds& b) { lo = portable::min(lo, b.lo), hi = portable::max(hi, b.hi); }
     [[nodiscard]] float half_area() const {
       const V s = hi - lo;
@@ -128,7 +129,7 @@ class WideTreeBuilder {
       }
       const Merger &l = mergers[node.first], &r = mergers[node.first + 1];
       for (std::uint32_t k = 1; k < 8; ++k) {
-        m.least[k] = 1e30f;
+        m.least[k] = no_bound;
         for (std::uint32_t j = 0; j < k; ++j)
           if (const float sum = l.least[j] + r.least[k - 1 - j]; sum < m.least[k])
             m.least[k] = sum, m.left[k] = static_cast<std::uint8_t>(j + 1);
@@ -181,8 +182,8 @@ class WideTreeBuilder {
       Node node;
       for (std::size_t i = 0; i < 8; ++i) {
         for (int k = 0; k < 3; ++k) {
-          node.bound[k][i] = i < count ? binary_[child[i]].box.lo[k] : 1e30f;
-          node.bound[k + 3][i] = i < count ? binary_[child[i]].box.hi[k] : -1e30f;
+          node.bound[k][i] = i < count ? binary_[child[i]].box.lo[k] : no_bound;
+          node.bound[k + 3][i] = i < count ? binary_[child[i]].box.hi[k] : -no_bound;
         }
         node.child[i] = leaf_of(Kind::other, 1, 0);
         if (i >= count) continue;

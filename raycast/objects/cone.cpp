@@ -22,6 +22,7 @@
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -40,7 +41,7 @@ HALFLIGHT_INLINE Box Cone::bounds() const {
   Box box;
   frame_.extend(box, base_, radius_);
   frame_.extend(box, base_ + height_ * frame_.w, top_radius_);
-  return box.grown(4 * unit_roundoff * box.magnitude());
+  return box.grown(eps_bounds * box.magnitude());
 }
 
 HALFLIGHT_INLINE void Cone::spans(const Segment& line, Spans& out) const {
@@ -74,7 +75,7 @@ HALFLIGHT_INLINE SurfacePoint Cone::project(std::uint32_t sheet, const glm::dvec
   const double foot = (slope_ * (x - radius_) + z) / (1.0 + slope_ * slope_);
   const glm::dvec3 radial = frame_.radial(f);
   const double r = radius_ + slope_ * foot;
-  if (r <= 16 * unit_roundoff * std::max(radius_, top_radius_)) return {base_ - (radius_ / slope_) * w, slope_ < 0.0 ? w : -w};
+  if (r <= eps_parallel * std::max(radius_, top_radius_)) return {base_ - (radius_ / slope_) * w, slope_ < 0.0 ? w : -w};
   return {base_ + foot * w + r * radial, glm::normalize(radial - slope_ * w)};
 }
 
@@ -118,7 +119,7 @@ HALFLIGHT_INLINE Cone::Cone(const glm::dvec3& base, const glm::dvec3& axis, doub
 
 HALFLIGHT_INLINE bool Cone::side(const glm::dvec3& f, const glm::dvec3& d, double rho, double mu, double length, Span& span) {
   const double fl = glm::length(f), dl = glm::length(d);
-  if (dl <= 16 * unit_roundoff * length) {  // parallel to the axis, see cylinder.hpp
+  if (dl <= eps_parallel * length) {  // parallel to the axis, see cylinder.hpp
     if (mu == 0.0) return fl < rho;
     (mu > 0.0 ? span.in.t : span.out.t) = (fl - rho) / mu;
     return true;

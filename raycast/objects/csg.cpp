@@ -28,6 +28,7 @@
 #include <raycast/objects/mesh.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
@@ -84,7 +85,7 @@ HALFLIGHT_INLINE std::string Csg::evaluate() {
   const bool curved = !std::all_of(leaves.begin(), leaves.end(), [](const CsgTree::Leaf& leaf) { return leaf.solid.flat(); });
   region_ = curved ? csg_region(*tree_) : CsgRegion{tree_->bounds(), {}};
   if (region_.whole.empty()) return "nothing is left of the solid";
-  tolerance_ = 0.01 * region_.whole.diameter();
+  tolerance_ = tol_chord * region_.whole.diameter();
   CsgBoundaryResult result = csg_boundary(*tree_, region_, tolerance_);
   // What is thinner than the chords are inexact may get lost between them, or be nothing else.
   for (int finer = 0; finer < 2 && curved && result.boundary && !holds_solid(result.boundary->brep); ++finer) {
@@ -104,7 +105,7 @@ HALFLIGHT_INLINE std::string Csg::evaluate() {
   if (std::string film = find_film(result.boundary->near); !film.empty()) return film;
   // Off the sheets by more than a placement rounds: known to the grid only.
   const Box box = mesh_->bounds();
-  slack_ = result.boundary->off > 32 * unit_roundoff * box.magnitude() ? result.boundary->off : mesh_->slack();
+  slack_ = result.boundary->off > eps_vertex * box.magnitude() ? result.boundary->off : mesh_->slack();
   return {};
 }
 

@@ -40,6 +40,7 @@
 #include <raycast/objects/csg_plan.hpp>
 #include <raycast/objects/csg_region.hpp>
 #include <raycast/objects/csg_tree.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
@@ -61,7 +62,7 @@ HALFLIGHT_INLINE std::optional<glm::dmat3> rotation_of(const glm::dmat3& m) {
   const glm::dmat3 square = glm::transpose(m) * m;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      if (!(std::abs(square[i][j] - (i == j ? square[0][0] : 0.0)) <= 1e-12 * square[0][0])) return std::nullopt;
+      if (!(std::abs(square[i][j] - (i == j ? square[0][0] : 0.0)) <= tol_rotation * square[0][0])) return std::nullopt;
   return m / std::copysign(std::sqrt(square[0][0]), glm::determinant(m));
 }
 
@@ -120,7 +121,7 @@ class CsgEvaluation {
   static bool same(const glm::dmat3& a, const glm::dmat3& b) {
     double difference = 0.0;
     for (int i = 0; i < 3; ++i) difference = std::max(difference, glm::length(a[i] - b[i]));
-    return difference < 1e-9;
+    return difference < tol_frame;
   }
 
   // Parts on the node's own grid are leaves and inner nodes of the same frame; inner nodes of another frame are evaluated in theirs,
@@ -189,7 +190,7 @@ class CsgEvaluation {
       return refusal_.empty();
     };
     brep::Builder builder;
-    const double tolerance = plan_.tolerances[index], coarse = 0.002 * leaf.solid.bounds().diameter();
+    const double tolerance = plan_.tolerances[index], coarse = tol_coarse_chord * leaf.solid.bounds().diameter();
     leaf.solid.approximate(std::max(tolerance, coarse), builder);
     if (!leaf.solid.flat()) {
       // The number of faces is inverse to the tolerance.

@@ -9,8 +9,6 @@
 #include <optional>
 #include <string>
 
-#include <brep/builder_input.hpp>
-
 #include <raycast/objects/csg_leaf.hpp>
 #include <raycast/objects/csg_region.hpp>
 #include <raycast/objects/csg_tree.hpp>

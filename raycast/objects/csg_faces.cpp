@@ -26,6 +26,7 @@
 #include <raycast/inline.hpp>
 #include <raycast/objects/csg_leaf.hpp>
 #include <raycast/objects/csg_tree.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -36,7 +37,7 @@ HALFLIGHT_INLINE void take_away_slivers(CsgBRep& brep) {
   for (const brep::FaceId f : brep::faces(brep)) {
     const auto corners = brep::positions(brep, f);
     const double size = brep::extent(corners);
-    if (!(brep::area(corners) > 1e-9 * size * size) && !brep::is_convex(corners)) thin.push_back(f);
+    if (!(brep::area(corners) > tol_thin_face * size * size) && !brep::is_convex(corners)) thin.push_back(f);
   }
   for (const brep::FaceId f : thin) {
     if (!brep.alive(f)) continue;

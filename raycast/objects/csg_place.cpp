@@ -21,6 +21,7 @@
 #include <raycast/object.hpp>
 #include <raycast/objects/csg_leaf.hpp>
 #include <raycast/objects/csg_tree.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -33,7 +34,7 @@ HALFLIGHT_INLINE glm::dvec3 towards(const glm::dvec3& p, const std::vector<Surfa
     glm::dvec3 n = plane.normal;
     for (int i = 0; i < count; ++i) n -= glm::dot(n, axis[i]) * axis[i];
     const double length = glm::length(n);
-    if (!(length > 1e-3)) continue;  // nearly parallel to what is there: its position along them is not known
+    if (!(length > tol_plane_angle)) continue;  // nearly parallel to what is there: its position along them is not known
     axis[count] = n / length;
     way += (glm::dot(plane.normal, plane.position - p - way) / length) * axis[count];
     if (++count == 3) break;

@@ -14,6 +14,7 @@
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/csg_region.hpp>
 #include <raycast/objects/csg_tree.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
@@ -40,7 +41,7 @@ HALFLIGHT_INLINE CsgPlanner::CsgPlanner(const CsgTree& tree, const CsgRegion& re
     cut = true;
     shares[i] = share_of(regions, i, surroundings);
     if (shares[i] != CsgTree::Share::within) continue;
-    plan_.tolerances[i] = std::max(tolerance_, 0.01 * size);
+    plan_.tolerances[i] = std::max(tolerance_, tol_chord * size);
     if (size > largest * size_ && plan_.refusal.empty())
       plan_.refusal = "'" + std::string(tree.sheet_name(leaves[i].first_sheet)) + "' is " + thousands(size / size_) +
                       " times as large as what is left of the solid, too large to know its surface there: cut it down to what is needed";
@@ -57,7 +58,7 @@ HALFLIGHT_INLINE CsgTree::Share CsgPlanner::share_of(const CsgRegions& regions, 
   bool inside = false, outside = false;
   for (int i = 0; i < cells * cells * cells; ++i) {
     const glm::dvec3 lo = box.lo + glm::dvec3(i % cells, i / cells % cells, i / cells / cells) * step;
-    const CsgRegions::Where where = regions.where(leaf, Box{lo, lo + step}.grown(1e-9 * size_));
+    const CsgRegions::Where where = regions.where(leaf, Box{lo, lo + step}.grown(tol_cell * size_));
     if (where == CsgRegions::Where::unknown) return CsgTree::Share::within;
     (where == CsgRegions::Where::inside ? inside : outside) = true;
   }

@@ -18,6 +18,7 @@
 #include <raycast/objects/csg_tree.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
@@ -35,7 +36,7 @@ HALFLIGHT_INLINE CsgRegions::CsgRegions(const CsgTree& tree) : tree_(tree) {
 
 HALFLIGHT_INLINE CsgRegion CsgRegions::run() const {
   CsgRegion result{tree_.bounds(), {}};
-  const double touching = 0x1p-24 * tree_.bounds().diameter();
+  const double touching = tol_touching * tree_.bounds().diameter();
   for (int round = 0; round < 80 && !result.whole.empty(); ++round) {
     const double before = result.whole.diameter();
     result = inside(result.whole);
@@ -52,7 +53,7 @@ HALFLIGHT_INLINE CsgRegions::Where CsgRegions::where(std::uint32_t leaf, const B
     if (cell.lo[k] > bounds.hi[k] || cell.hi[k] < bounds.lo[k]) return Where::outside;
   if (shrink_[leaf] == 0.0) return Where::unknown;
   const glm::dvec3 middle = cell.centre();
-  const double radius = 0.5 * cell.diameter() / shrink_[leaf] * (1.0 + 1e-9) + 0x1p-40 * cell.magnitude();
+  const double radius = 0.5 * cell.diameter() / shrink_[leaf] * (1.0 + tol_cell) + tol_cell_place * cell.magnitude();
   bool near = false, convex = solid.convex();
   for (std::uint32_t s = 0; s < solid.sheet_count(); ++s) {
     const SurfacePoint on = solid.project(s, middle);

@@ -19,6 +19,7 @@
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
@@ -29,7 +30,7 @@ HALFLIGHT_INLINE Made<CsgTree> CsgTree::make(const CsgNode& root) {
   const std::shared_ptr<CsgTree> tree(new CsgTree);
   if (std::string refusal = tree->take(root, {}, none, true, false, 0); !refusal.empty()) return refusal;
   tree->bounds_ = tree->bounds_of(0);
-  for (const Leaf& leaf : tree->leaves_) tree->film_ = std::max(tree->film_, 0x1p-26 * leaf.solid.bounds().diameter());
+  for (const Leaf& leaf : tree->leaves_) tree->film_ = std::max(tree->film_, tol_film * leaf.solid.bounds().diameter());
   return std::shared_ptr<const CsgTree>(tree);
 }
 
@@ -172,8 +173,7 @@ HALFLIGHT_INLINE bool CsgTree::coincide(const Segment& line, const Event* first,
     const auto depth = [&](const Event& e) {
       return dt * std::abs(glm::dot(leaves_[e.leaf].solid.project(e.at.sheet, line.at(e.at.t)).normal, line.direction));
     };
-    // Seen at less than a millionth of a right angle nothing counts as one.
-    if (!(dt * glm::length(line.direction) <= 1e6 * film_) || depth(*first) > film_ || depth(*last) > film_) return false;
+    if (!(dt * glm::length(line.direction) <= film_reach * film_) || depth(*first) > film_ || depth(*last) > film_) return false;
   }
   return std::none_of(first, last, [&](const Event& e) { return e.leaf == last->leaf; });
 }

@@ -22,6 +22,7 @@
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -38,7 +39,7 @@ HALFLIGHT_INLINE Box Cylinder::bounds() const {
   Box box;
   frame_.extend(box, base_, radius_);
   frame_.extend(box, base_ + height_ * frame_.w, radius_);
-  return box.grown(4 * unit_roundoff * box.magnitude());
+  return box.grown(eps_bounds * box.magnitude());
 }
 
 HALFLIGHT_INLINE void Cylinder::spans(const Segment& line, Spans& out) const {
@@ -47,7 +48,7 @@ HALFLIGHT_INLINE void Cylinder::spans(const Segment& line, Spans& out) const {
   const glm::dvec3 f = line.at(shift) - base_;
   const double fz = glm::dot(f, frame_.w), dz = glm::dot(d, frame_.w);
   const glm::dvec3 fp = f - fz * frame_.w, dp = d - dz * frame_.w;
-  const double a = glm::dot(dp, dp), parallel = 16 * unit_roundoff;
+  const double a = glm::dot(dp, dp), parallel = eps_parallel;
   Span span{{-infinity, 0}, {infinity, 0}};
   if (a <= parallel * parallel * glm::dot(d, d)) {
     if (!(glm::dot(fp, fp) < radius_ * radius_)) return;

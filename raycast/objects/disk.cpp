@@ -20,6 +20,7 @@
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -34,7 +35,7 @@ HALFLIGHT_INLINE Made<Disk> Disk::make(const glm::dvec3& centre, const glm::dvec
 HALFLIGHT_INLINE Box Disk::bounds() const {
   Box box;
   frame_.extend(box, centre_, radius_);
-  return box.grown(4 * unit_roundoff * box.magnitude());
+  return box.grown(eps_bounds * box.magnitude());
 }
 
 HALFLIGHT_INLINE void Disk::spans(const Segment& line, Spans& out) const {

@@ -28,6 +28,7 @@
 #include <raycast/planar.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/line_query.hpp>
 
 namespace raycast {
@@ -45,7 +46,7 @@ HALFLIGHT_INLINE Made<Mesh> Mesh::make(const std::vector<glm::dvec3>& positions,
 HALFLIGHT_INLINE void Mesh::spans_of_segment(const Segment& segment, Spans& out) const {
   if (solid()) return spans(segment, out);
   const double distance = box_.magnitude() + glm::length(segment.origin) + box_.diameter();
-  const double margin = 1e-6 + 64 * unit_roundoff * distance / glm::length(segment.direction);  // far beyond the rounding of crossings
+  const double margin = tol_beyond_ends + eps_surface * distance / glm::length(segment.direction);
   spans_between(segment, -margin, 1.0 + margin, out);
 }
 
@@ -113,8 +114,8 @@ HALFLIGHT_INLINE std::vector<Plane> Mesh::distinct_planes() const {
   std::vector<Plane> distinct;
   for (const Plane& plane : planes_) {
     const auto same = [&](const Plane& other) {
-      return glm::dot(plane.normal, other.normal) > 1.0 - 2e-15 &&
-             std::abs(glm::dot(plane.normal, plane.point - other.point)) < 1e-9 * box_.diameter();
+      return glm::dot(plane.normal, other.normal) > 1.0 - tol_same_normal &&
+             std::abs(glm::dot(plane.normal, plane.point - other.point)) < tol_same_plane * box_.diameter();
     };
     if (std::none_of(distinct.begin(), distinct.end(), same)) distinct.push_back(plane);
     if (distinct.size() > 32) break;
@@ -237,8 +238,8 @@ HALFLIGHT_INLINE void Mesh::prepare() {
   triangles_ = true;
   for (std::size_t f = 0; f < planes_.size(); ++f) triangles_ = triangles_ && first_corner_[f + 1] == 3 * (f + 1);
   if (planes_.size() > 8) {
-    // Grown by what the line test rounds: projections of vertices seen from the middle are exact to 8 u of the distances.
-    const double margin = 16 * unit_roundoff * (box_.magnitude() + box_.diameter()) + slack_;
+    // Grown by what the line test rounds.
+    const double margin = eps_projection * (box_.magnitude() + box_.diameter()) + slack_;
     std::vector<Box> boxes(planes_.size());
     for (std::uint32_t f = 0; f < planes_.size(); ++f) {
       for (const std::uint32_t v : corners(f)) boxes[f].extend(positions_[v]);
@@ -246,11 +247,11 @@ HALFLIGHT_INLINE void Mesh::prepare() {
     }
     bvh_ = Bvh(boxes);
   }
-  // Convex: every vertex behind every plane, to 1e-12 of the size. Not worth the time for meshes of many faces, which rarely are.
+  // Convex: every vertex behind every plane, to tol_convex of the size. Not worth the time for meshes of many faces, which rarely are.
   convex_ = solid() && planes_.size() <= 1000;
   for (std::size_t f = 0; f < planes_.size() && convex_; ++f)
     for (const glm::dvec3& p : positions_)
-      if (glm::dot(p - planes_[f].point, planes_[f].normal) > 1e-12 * box_.diameter() + slack_) convex_ = false;
+      if (glm::dot(p - planes_[f].point, planes_[f].normal) > tol_convex * box_.diameter() + slack_) convex_ = false;
   few_planes_ = convex_ && slack_ == 0.0 && planes_.size() <= 32 && distinct_planes().size() == planes_.size();
 }
 

@@ -26,6 +26,7 @@
 #include <raycast/roots.hpp>
 #include <raycast/spans.hpp>
 #include <raycast/superellipse.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -34,7 +35,7 @@ HALFLIGHT_INLINE Made<Superquadric> Superquadric::make(const glm::dvec3& centre,
   if (!usable(centre) || !usable(radii)) return "a superquadric's centre and radii must be finite (and below 1e60)";
   const double largest = std::max({radii.x, radii.y, radii.z});
   for (int k = 0; k < 3; ++k)
-    if (!usable_length(radii[k], Box{centre, centre}.magnitude()) || !(radii[k] >= 1e-6 * largest))
+    if (!usable_length(radii[k], Box{centre, centre}.magnitude()) || !(radii[k] >= thinnest_superquadric * largest))
       return "a superquadric's radii must be positive, finite, not vanishing beside its centre's coordinates and within 1e6 of each "
              "other";
   if (!(profile >= 0.001 && profile <= 10.0) || !(around >= 0.001 && around <= 10.0))
@@ -47,7 +48,7 @@ HALFLIGHT_INLINE Made<Superquadric> Superquadric::make(const glm::dvec3& centre,
 HALFLIGHT_INLINE Box Superquadric::bounds() const {
   const glm::dvec3 half = radii_ * limit_;
   const Box box{centre_ - half, centre_ + half};
-  return box.grown(4 * unit_roundoff * box.magnitude());
+  return box.grown(eps_bounds * box.magnitude());
 }
 
 HALFLIGHT_INLINE void Superquadric::spans(const Segment& line, Spans& out) const {
@@ -95,8 +96,8 @@ HALFLIGHT_INLINE SurfacePoint Superquadric::project(std::uint32_t, const glm::dv
     return true;
   };
   take_if_nearer(settle(f));
-  if (!around_.convex() || !profile_.convex()) take_if_nearer(settle(glm::max(f, 1e-30 * radii_)));  // out of the middle of a blade
-  const double small = 1e-8 * std::max({radii_.x, radii_.y, radii_.z});
+  if (!around_.convex() || !profile_.convex()) take_if_nearer(settle(glm::max(f, off_blade * radii_)));  // out of the middle of a blade
+  const double small = tol_project * std::max({radii_.x, radii_.y, radii_.z});
   for (int round = 0; round < 32; ++round) {
     // Along the tangent plane towards the foot of p, and back onto the surface; part of the way while that leads away.
     const glm::dvec3 n = normal(x);
@@ -140,7 +141,7 @@ HALFLIGHT_INLINE Sample Superquadric::norm(const glm::dvec3& f, const glm::dvec3
 }
 
 HALFLIGHT_INLINE void Superquadric::cut_convex(const glm::dvec3& f, const glm::dvec3& e, double lo, double hi, Cut& cuts) const {
-  const double step = 2 * unit_roundoff * std::max(std::abs(lo), std::abs(hi));
+  const double step = eps_root * std::max(std::abs(lo), std::abs(hi));
   const auto zero = [&](double from, double to) -> std::optional<double> {
     double s = from;
     for (int i = 0; i < 200; ++i) {
@@ -172,7 +173,7 @@ HALFLIGHT_INLINE void Superquadric::cut_pieces(const glm::dvec3& f, const glm::d
   };
   InlineVector<Change, 16> changes;
   bool outside[2] = {true, false};  // of the outer, within the inner surface; at lo
-  const double negligible = 16 * unit_roundoff * (1.0 + ring_) * (1.0 + 1.0 / around_.p() + 1.0 / profile_.p());
+  const double negligible = eps_norm * (1.0 + ring_) * (1.0 + 1.0 / around_.p() + 1.0 / profile_.p());
   for (std::size_t i = 0; i + 1 < count; ++i) {
     if (!(ends[i] < ends[i + 1])) continue;
     const double middle = 0.5 * (ends[i] + ends[i + 1]);
@@ -242,7 +243,7 @@ HALFLIGHT_INLINE glm::dvec3 Superquadric::settle(glm::dvec3 x) const {
   for (int i = 0; i < 16; ++i) {
     const auto [value, gradient] = level(x);
     const double squared = glm::dot(gradient, gradient);
-    if (std::abs(value) <= 4 * unit_roundoff || !(squared > 0.0)) break;
+    if (std::abs(value) <= eps_gauge || !(squared > 0.0)) break;
     x = glm::max(x - (value / squared) * gradient, glm::dvec3(0.0));
   }
   return onto(x);

@@ -23,6 +23,7 @@
 #include <raycast/ray.hpp>
 #include <raycast/roots.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -33,14 +34,14 @@ HALFLIGHT_INLINE Made<Torus> Torus::make(const glm::dvec3& centre, const glm::dv
   if (!usable_length(major, magnitude) || !usable_length(minor, magnitude))
     return "a torus's radii must be positive, finite and not vanishing beside its centre's coordinates";
   if (!(minor < major)) return "a torus's minor radius must be below the major one: otherwise the surface passes through itself";
-  if (!(minor >= 1e-4 * major)) return "a torus's minor radius must be at least 1e-4 of the major one";
+  if (!(minor >= thinnest_torus * major)) return "a torus's minor radius must be at least 1e-4 of the major one";
   return std::shared_ptr<const Torus>(new Torus(centre, axis, major, minor));
 }
 
 HALFLIGHT_INLINE Box Torus::bounds() const {
   Box box;
   frame_.extend(box, centre_, major_);
-  return box.grown(minor_ + 4 * unit_roundoff * (box.magnitude() + minor_));
+  return box.grown(minor_ + eps_bounds * (box.magnitude() + minor_));
 }
 
 HALFLIGHT_INLINE void Torus::spans(const Segment& line, Spans& out) const {
@@ -112,11 +113,11 @@ HALFLIGHT_INLINE Sample Torus::Tube::operator()(double s) const {
 }
 
 HALFLIGHT_INLINE bool Torus::Tube::clip(double& lo, double& hi) const {
-  const double grown = 1.0 + 16 * unit_roundoff, ball = (1.0 + r_) * grown, l = glm::length(f_);
-  if (!(l < ball)) return false;
-  hi = std::sqrt((ball - l) * (ball + l));
+  const double grown = 1.0 + eps_tube, sphere = (1.0 + r_) * grown, l = glm::length(f_);
+  if (!(l < sphere)) return false;
+  hi = std::sqrt((sphere - l) * (sphere + l));
   lo = -hi;
-  const double slab = r_ * grown + 16 * unit_roundoff;
+  const double slab = r_ * grown + eps_tube;
   if (e_.z == 0.0) return std::abs(f_.z) <= slab;
   const double middle = -f_.z / e_.z, half = slab / std::abs(e_.z);
   lo = std::max(lo, middle - half);
@@ -143,7 +144,7 @@ HALFLIGHT_INLINE std::size_t Torus::Tube::extrema(double lo, double hi, std::arr
   for (std::size_t i = 0; i < found; ++i) {
     for (int newton = 0; newton < 2; ++newton) {
       const double s = roots[i], slope = 3 * s * s + p, step = ((s * s + p) * s + q) / slope;
-      if (std::abs(step) <= 1e-3 * std::abs(s)) roots[i] = s - step;
+      if (std::abs(step) <= tol_newton * std::abs(s)) roots[i] = s - step;
     }
     if (roots[i] > ends[count - 1] && roots[i] < hi) ends[count++] = roots[i];
   }

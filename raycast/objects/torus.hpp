@@ -4,7 +4,7 @@
 // The ring torus: a tube of the minor radius r around a circle of the major radius R > r; one sheet. A concave solid that lights and
 // shadows itself.
 //
-// Intersection: in units of R, from the point of the line nearest to the centre, clipped to the ball and the slab that hold the torus.
+// Intersection: in units of R, from the point of the line nearest to the centre, clipped to the sphere and the slab that hold the torus.
 // There the implicit quartic has no cubic term,
 //      (s^2 + k)^2 - 4 (a s^2 + 2 b s + c) = 0,      k = |f|^2 + 1 - r^2,  a s^2 + 2 b s + c = squared distance from the axis,
 // so its extrema are the roots of s^3 + (k - 2 a) s - 2 b. Between two of them lies one crossing or none, which the sign of the
@@ -19,8 +19,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-
-#include <brep/builder_input.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/circle.hpp>
