@@ -59,7 +59,7 @@ class BvhBuilder {
   void build() {
     if (references.empty()) return;
     const auto count = static_cast<std::uint32_t>(references.size());
-    nodes.reserve(2 * references.size() / Policy::few);
+    nodes.reserve(references.size());
     nodes.push_back(node(0, count));
     std::vector<std::pair<std::uint32_t, std::uint32_t>> todo{{0, 0}};  // node, depth
     while (!todo.empty()) {
@@ -137,8 +137,7 @@ class BvhBuilder {
       const Cut cut = depth < heuristic_depth ? best_cut({begin, end}, grid) : Cut{};
       if (policy_.leaf(whole.box.half_area(), whole.count, cut.cost)) return false;
       middle = begin + whole.count / 2;  // equal centres, or too deep
-      if (cut.axis >= 0)
-        middle = std::partition(begin, end, [&](const Reference& r) { return bin_of(grid.position(r.box, cut.axis)) < cut.bin; });
+      if (cut.axis >= 0) middle = std::partition(begin, end, [&](const Reference& r) { return bin_of(grid.position(r.box, cut.axis)) < cut.bin; });
     }
     const auto left_count = static_cast<std::uint32_t>(middle - begin);
     Node left = node(whole.first, left_count), right = node(whole.first + left_count, whole.count - left_count);
