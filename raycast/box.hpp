@@ -34,8 +34,9 @@ struct Box {
   // The largest absolute coordinate: what rounding errors of positions are relative to.
   [[nodiscard]] double magnitude() const {
     double m = 0.0;
-    if (!empty())
-      for (int k = 0; k < 3; ++k) m = std::max({m, std::abs(lo[k]), std::abs(hi[k])});
+    if (!empty()) {
+      for (int k = 0; k < 3; ++k) { m = std::max({m, std::abs(lo[k]), std::abs(hi[k])}); }
+    }
     return m;
   }
   [[nodiscard]] bool contains(const glm::dvec3& p, double margin = 0.0) const {
@@ -59,7 +60,7 @@ class SlabTest {
   explicit SlabTest(const Segment& line)
       : origin_(line.origin), inverse_(1.0 / line.direction.x, 1.0 / line.direction.y, 1.0 / line.direction.z) {
     // From the reciprocal, not from the direction: -0.0 must choose the side that its -inf belongs to.
-    for (int k = 0; k < 3; ++k) backward_[k] = std::signbit(inverse_[k]);
+    for (int k = 0; k < 3; ++k) { backward_[k] = std::signbit(inverse_[k]); }
   }
 
   // Does the line meet the box within [t0, t1]? `entry` becomes the (rounded) parameter where it does, at least t0.

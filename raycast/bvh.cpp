@@ -24,11 +24,13 @@ struct BvhPolicy {
    public:
     template <class References>
     explicit Grid(const References& references) {
-      for (const auto& reference : references) centres_.extend(reference.box.centre());
-      for (int k = 0; k < 3; ++k) width_[k] = wide(k) ? centres_.hi[k] - centres_.lo[k] : infinity;
+      for (const auto& reference : references) { centres_.extend(reference.box.centre()); }
+      for (int k = 0; k < 3; ++k) { width_[k] = wide(k) ? centres_.hi[k] - centres_.lo[k] : infinity; }
     }
     [[nodiscard]] bool wide(int axis) const { return centres_.lo[axis] < centres_.hi[axis]; }
-    [[nodiscard]] glm::dvec3 position(const Box& box) const { return (box.centre() - centres_.lo) / width_ * static_cast<double>(bin_count); }
+    [[nodiscard]] glm::dvec3 position(const Box& box) const {
+      return (box.centre() - centres_.lo) / width_ * static_cast<double>(bin_count);
+    }
     [[nodiscard]] double position(const Box& box, int axis) const { return position(box)[axis]; }
 
    private:
@@ -54,11 +56,11 @@ struct BvhPolicy {
 HALFLIGHT_INLINE Bvh::Bvh(std::span<const Box> boxes, double item_cost) {
   BvhBuilder<detail::BvhPolicy> builder({item_cost});
   builder.references.reserve(boxes.size());
-  for (std::uint32_t i = 0; i < boxes.size(); ++i) builder.references.push_back({boxes[i], i});
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) { builder.references.push_back({boxes[i], i}); }
   builder.build();
   nodes_ = std::move(builder.nodes);
   items_.reserve(boxes.size());
-  for (const auto& reference : builder.references) items_.push_back(reference.item);
+  for (const auto& reference : builder.references) { items_.push_back(reference.item); }
 }
 
 }  // namespace raycast

@@ -57,7 +57,7 @@ class BvhBuilder {
   std::vector<Node> nodes;            // the first is the root; empty without references
 
   void build() {
-    if (references.empty()) return;
+    if (references.empty()) { return; }
     const auto count = static_cast<std::uint32_t>(references.size());
     nodes.reserve(references.size());
     nodes.push_back(node(0, count));
@@ -65,7 +65,7 @@ class BvhBuilder {
     while (!todo.empty()) {
       const auto [at, depth] = todo.back();
       todo.pop_back();
-      if (!split(at, depth)) continue;
+      if (!split(at, depth)) { continue; }
       todo.push_back({nodes[at].first, depth + 1});
       todo.push_back({nodes[at].first + 1, depth + 1});
     }
@@ -84,7 +84,7 @@ class BvhBuilder {
 
   [[nodiscard]] Node node(std::uint32_t first, std::uint32_t count) const {
     Bounds box;
-    for (std::uint32_t i = first; i < first + count; ++i) box.extend(references[i].box);
+    for (std::uint32_t i = first; i < first + count; ++i) { box.extend(references[i].box); }
     return {box, first, count};
   }
   static std::size_t bin_of(Real position) {
@@ -104,7 +104,7 @@ class BvhBuilder {
     }
     Cut best;
     for (int axis = 0; axis < 3; ++axis) {
-      if (!grid.wide(axis)) continue;
+      if (!grid.wide(axis)) { continue; }
       const std::array<Bin, bin_count>& row = bins[static_cast<std::size_t>(axis)];
       std::array<Real, bin_count> above{};  // cost of bins k, k+1, ...
       Bin sum;
@@ -118,7 +118,7 @@ class BvhBuilder {
         sum.box.extend(row[k - 1].box);
         sum.count += row[k - 1].count;
         const Real cost = sum.box.half_area() * policy_.cost(sum.count) + above[k];
-        if (sum.count && sum.count < part.size() && cost < best.cost) best = {cost, axis, k};
+        if (sum.count && sum.count < part.size() && cost < best.cost) { best = {cost, axis, k}; }
       }
     }
     return best;
@@ -131,17 +131,19 @@ class BvhBuilder {
     auto middle = end;
     if (whole.count <= Policy::few) {
       middle = policy_.divide(begin, end);
-      if (middle == end) return false;
+      if (middle == end) { return false; }
     } else {
       const typename Policy::Grid grid{std::span<const Reference>(begin, end)};
       const Cut cut = depth < heuristic_depth ? best_cut({begin, end}, grid) : Cut{};
-      if (policy_.leaf(whole.box.half_area(), whole.count, cut.cost)) return false;
+      if (policy_.leaf(whole.box.half_area(), whole.count, cut.cost)) { return false; }
       middle = begin + whole.count / 2;  // equal centres, or too deep
-      if (cut.axis >= 0) middle = std::partition(begin, end, [&](const Reference& r) { return bin_of(grid.position(r.box, cut.axis)) < cut.bin; });
+      if (cut.axis >= 0) {
+        middle = std::partition(begin, end, [&](const Reference& r) { return bin_of(grid.position(r.box, cut.axis)) < cut.bin; });
+      }
     }
     const auto left_count = static_cast<std::uint32_t>(middle - begin);
     Node left = node(whole.first, left_count), right = node(whole.first + left_count, whole.count - left_count);
-    if (left.box.half_area() < right.box.half_area()) std::swap(left, right);
+    if (left.box.half_area() < right.box.half_area()) { std::swap(left, right); }
     nodes[at].first = static_cast<std::uint32_t>(nodes.size());
     nodes[at].count = 0;
     nodes.push_back(left);

@@ -86,10 +86,11 @@ class Compiler {
     for (std::size_t i = 0; i < 8; ++i) {
       block.object[i] = no_object_id;
       block.row[0][3][i] = 1.0f;
-      if (i >= items.size()) continue;
+      if (i >= items.size()) { continue; }
       const Face& face = faces_[items[i].data];
-      for (std::size_t r = 0; r <= Edges; ++r)
-        for (std::size_t c = 0; c < 4; ++c) block.row[r][c][i] = face.row[r][c];
+      for (std::size_t r = 0; r <= Edges; ++r) {
+        for (std::size_t c = 0; c < 4; ++c) { block.row[r][c][i] = face.row[r][c]; }
+      }
       block.object[i] = items[i].object;
       block.face[i] = face.number;
     }

@@ -24,7 +24,8 @@
 namespace raycast {
 
 // The kinds of shapes. faces: convex polygons of three or four corners; body: a convex solid behind planes; guard: the bounds of an object
-// that is kept as faces; form: a shape with a formula in coordinates of its own; other: bounds of an object that is asked through its spans.
+// that is kept as faces; form: a shape with a formula in coordinates of its own; other: bounds of an object that is asked through its
+// spans.
 enum class Kind : std::uint32_t { triangle, quad, sphere, body, cylinder, guard, other, form };
 
 // A shape's name: its kind and its index among its kind.
@@ -84,7 +85,7 @@ enum class Role : std::uint8_t { polygon, surface, solid };
 struct FloatBox {
   std::array<float, 3> lo{no_bound, no_bound, no_bound}, hi{-no_bound, -no_bound, -no_bound};
   void extend(const FloatBox& b) {
-    for (std::size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], b.lo[k]), hi[k] = std::max(hi[k], b.hi[k]);
+    for (std::size_t k = 0; k < 3; ++k) { lo[k] = std::min(lo[k], b.lo[k]), hi[k] = std::max(hi[k], b.hi[k]); }
   }
   [[nodiscard]] float half_area() const {
     const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];

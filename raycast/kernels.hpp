@@ -8,17 +8,17 @@
 // lane_count lanes, 4, 8 or 16; a bundle takes `chunks` = 16 / lane_count of them. The vector B is for the other use, one segment against
 // eight boxes or shapes at once, in `box_chunks` steps.
 //
-// Layout (compiled.hpp). A Node holds the bounds of eight children in six rows of eight floats, and their eight numbers, in four cache lines.
-// A number is the index of a node or, with bit 31, a leaf: a kind, a count and the first of up to eight shapes of this kind. Triangles,
-// quads and spheres lie in blocks of eight, again row by row: a face is its plane and one plane through each edge, so that to test it
-// is to compute heights. Places without a shape hold what no segment meets. All other kinds lie one after the other.
+// Layout (compiled.hpp). A Node holds the bounds of eight children in six rows of eight floats, and their eight numbers, in four cache
+// lines. A number is the index of a node or, with bit 31, a leaf: a kind, a count and the first of up to eight shapes of this kind.
+// Triangles, quads and spheres lie in blocks of eight, again row by row: a face is its plane and one plane through each edge, so that to
+// test it is to compute heights. Places without a shape hold what no segment meets. All other kinds lie one after the other.
 //
 // Two ways. A node or a block can be tested lane by lane, eight children at once (segment.inc), or child by child, all lanes at once
 // (shapes.inc, slabs() of hull.inc). search.inc compares the numbers of tests, which depend on how many lanes are still alive; a bundle
 // whose segments run beside each other drops children by its convex hull first.
 //
-// Conservative. Single precision cannot decide what is near a limit: a segment that passes an edge within rounding. So each limit is moved by
-// `margin` both ways, and every test has three answers: blocked for certain (Bits::hit), free for certain, undecided (Bits::maybe).
+// Conservative. Single precision cannot decide what is near a limit: a segment that passes an edge within rounding. So each limit is moved
+// by `margin` both ways, and every test has three answers: blocked for certain (Bits::hit), free for certain, undecided (Bits::maybe).
 // Boxes are grown by the margin, and hulls by their rounding, so nothing is lost on the way to a shape.
 //
 // What is asked in double precision, of Scene, object by object:
@@ -95,14 +95,16 @@ struct Entries {
   void add(const Entry& e) {
     if (e.sure) {  // what certainly comes later does not matter
       unsigned kept = 0;
-      for (unsigned i = 0; i < count; ++i)
-        if (entry[i].from <= e.to) entry[kept++] = entry[i];
+      for (unsigned i = 0; i < count; ++i) {
+        if (entry[i].from <= e.to) { entry[kept++] = entry[i]; }
+      }
       count = kept;
     }
-    if (count == capacity)
+    if (count == capacity) {
       complete = false;
-    else
+    } else {
       entry[count++] = e;
+    }
   }
 };
 

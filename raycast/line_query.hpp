@@ -20,21 +20,24 @@ namespace raycast {
 // Calls visit(item) -> bool for the items whose leaf the line meets within [t0, t1], in no particular order, until one returns true.
 template <class Visit>
 [[nodiscard]] bool any_along(const Bvh& bvh, const SlabTest& slabs, double t0, double t1, Visit&& visit) {
-  if (bvh.empty()) return false;
+  if (bvh.empty()) { return false; }
   struct Open {
     std::uint32_t child;
   };
   const Bvh::Node* const nodes = bvh.nodes().data();
   double entry = 0.0;
   const auto leaf = [&](const Open& at) {
-    for (const std::uint32_t item : bvh.items(nodes[at.child]))
-      if (visit(item)) return true;
+    for (const std::uint32_t item : bvh.items(nodes[at.child])) {
+      if (visit(item)) { return true; }
+    }
     return false;
   };
   const auto inner = [&](const Open& at, auto& put_off) {
     const std::uint32_t first = nodes[at.child].first;
-    if (slabs(nodes[first + 1].box, t0, t1, entry)) put_off.push({first + 1});
-    if (slabs(nodes[first].box, t0, t1, entry)) put_off.push({first});  // the larger one is looked at next
+    if (slabs(nodes[first + 1].box, t0, t1, entry)) { put_off.push({first + 1}); }
+    if (slabs(nodes[first].box, t0, t1, entry)) {
+      put_off.push({first});  // the larger one is looked at next
+    }
     return false;
   };
   return slabs(nodes[0].box, t0, t1, entry) && portable::walk(bvh, Open{0}, everything, leaf, inner);
@@ -45,7 +48,7 @@ template <class Visit>
 // visited once for its guard.
 template <class Visit>
 bool objects_along(const Compiled& scene, const Segment& line, double t0, const double& limit, Visit&& visit) {
-  if (scene.nodes.empty()) return false;
+  if (scene.nodes.empty()) { return false; }
   struct Open {
     std::uint32_t child;
     double at;
@@ -57,7 +60,7 @@ bool objects_along(const Compiled& scene, const Segment& line, double t0, const 
     for (std::uint32_t j = 0; j < leaf_count(at.child); ++j) {
       const std::uint32_t object = scene.object_of(shape_id(kind, leaf_first(at.child) + j));
       const bool by_guard = (kind == Kind::triangle || kind == Kind::quad) && scene.roles[object] != Role::polygon;
-      if (!by_guard && visit(object)) return true;
+      if (!by_guard && visit(object)) { return true; }
     }
     return false;
   };
@@ -67,7 +70,7 @@ bool objects_along(const Compiled& scene, const Segment& line, double t0, const 
     for (std::size_t i = 0; i < 8; ++i) {
       const Box box{{node.bound[0][i], node.bound[1][i], node.bound[2][i]}, {node.bound[3][i], node.bound[4][i], node.bound[5][i]}};
       Open child{node.child[i], 0.0};
-      if (!box.empty() && slabs(box, t0, limit, child.at)) put_off.push_sorted(bottom, child);
+      if (!box.empty() && slabs(box, t0, limit, child.at)) { put_off.push_sorted(bottom, child); }
     }
     return false;
   };

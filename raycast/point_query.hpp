@@ -17,17 +17,19 @@
 
 namespace raycast {
 
-// Calls visit(item) -> bool for the items of every leaf whose box, and those of all nodes above it, are wanted(box), until one returns true.
+// Calls visit(item) -> bool for the items of every leaf whose box, and those of all nodes above it, are wanted(box), until one returns
+// true.
 template <class Wanted, class Visit>
 bool any_within(const Bvh& bvh, Wanted&& wanted, Visit&& visit) {
-  if (bvh.empty()) return false;
+  if (bvh.empty()) { return false; }
   struct Open {
     std::uint32_t child;
   };
   const Bvh::Node* const nodes = bvh.nodes().data();
   const auto leaf = [&](const Open& at) {
-    for (const std::uint32_t item : bvh.items(nodes[at.child]))
-      if (visit(item)) return true;
+    for (const std::uint32_t item : bvh.items(nodes[at.child])) {
+      if (visit(item)) { return true; }
+    }
     return false;
   };
   const auto inner = [&](const Open& at, auto& put_off) {
@@ -35,7 +37,8 @@ bool any_within(const Bvh& bvh, Wanted&& wanted, Visit&& visit) {
     put_off.push({nodes[at.child].first});
     return false;
   };
-  return portable::walk(bvh, Open{0}, [&](const Open& at) { return wanted(nodes[at.child].box); }, leaf, inner);
+  return portable::walk(
+      bvh, Open{0}, [&](const Open& at) { return wanted(nodes[at.child].box); }, leaf, inner);
 }
 
 // Calls visit(item) for the items of every leaf whose box contains p, faces included: for all items whose own box contains p, and
@@ -60,7 +63,7 @@ void around(const Bvh& bvh, const glm::dvec3& p, Visit&& visit) {
 // of its box. Of items equally far, the one that is met first.
 template <class Squared>
 [[nodiscard]] std::optional<std::uint32_t> nearest(const Bvh& bvh, const glm::dvec3& p, Squared&& squared) {
-  if (bvh.empty()) return std::nullopt;
+  if (bvh.empty()) { return std::nullopt; }
   struct Open {
     std::uint32_t child;
     double squared;
@@ -72,7 +75,7 @@ template <class Squared>
   const auto leaf = [&](const Open& at) {
     for (const std::uint32_t item : bvh.items(nodes[at.child])) {
       const double distance = squared(item);
-      if (best && !(distance < best_squared)) continue;
+      if (best && !(distance < best_squared)) { continue; }
       best = item;
       best_squared = distance;
     }
@@ -82,7 +85,7 @@ template <class Squared>
     const std::uint32_t first = nodes[at.child].first;
     Open other{first + 1, squared_distance(nodes[first + 1].box, p)};
     at = {first, squared_distance(nodes[first].box, p)};
-    if (other.squared < at.squared) std::swap(at, other);
+    if (other.squared < at.squared) { std::swap(at, other); }
     put_off.push(other);
     put_off.push(at);
     return false;

@@ -141,15 +141,16 @@ class Scene {
   // Is the point in the convex polyhedral room number r, or on its wall as well as rounding can tell? False for other rooms.
   [[nodiscard]] bool in_room(std::size_t r, const glm::dvec3& p, double bulge = 0.0) const {
     const std::uint32_t first = first_wall_[r], end = first_wall_[r + 1];
-    for (std::uint32_t k = first; k < end; ++k)
-      if (!(glm::dot(walls_[k].normal, p - walls_[k].point) >= bulge - 0.5 * rounding_)) return false;
+    for (std::uint32_t k = first; k < end; ++k) {
+      if (!(glm::dot(walls_[k].normal, p - walls_[k].point) >= bulge - 0.5 * rounding_)) { return false; }
+    }
     return first < end;
   }
   [[nodiscard]] std::uint32_t blocked_by_rooms(const Segments16& segments, const Rays16& rays, std::uint32_t near,
                                                std::uint32_t lanes) const;
 
   [[nodiscard]] End end_at(std::uint32_t owner) const {
-    if (owner == no_object) return {owner, 0.0, rounding_};
+    if (owner == no_object) { return {owner, 0.0, rounding_}; }
     return {owner, records_[owner].touch, rounding_ + records_[owner].slack};
   }
   [[nodiscard]] double skin(const End& end, std::uint32_t i) const {

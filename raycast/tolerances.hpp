@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Every tolerance of the room, with its derivation. eps_... are bounds of rounding errors: derived, and no smaller number would do.
-// tol_... are chosen: what is smaller counts as nothing, and every other choice within some powers of ten would do as well. All are relative
-// unless a unit is named; beside each stands what it is relative to.
+// Every tolerance of the room, with its derivation. eps_... are bounds of rounding errors, derived from the operations that are named.
+// tol_... are chosen: what is smaller counts as nothing, and every other choice within some powers of ten would do as well. All are
+// relative unless a unit is named; beside each stands what it is relative to.
 
 #include <limits>
 
@@ -15,7 +15,8 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double unit_roundoff = 0.5 * std::numeric_limits<double>::epsilon();  // u = 2^-53: fl(a op b) = (a op b)(1 + d), |d| <= u
 
 // The relative error of n roundings in succession: gamma(n) = n u / (1 - n u) in Higham 2002 (3.1) and in Pharr et al., 6.8.1. The
-// denominator is left out: each n below is a power of two above the number of roundings that it stands for, and so a product by it is exact.
+// denominator is left out: each n below is a power of two above the number of roundings that it stands for, and so a product by it is
+// exact.
 [[nodiscard]] constexpr double gamma(int n) { return n * unit_roundoff; }
 
 // Of a slab parameter: a difference, a reciprocal and a product, gamma(3) for either end of an interval (Ize 2013).
@@ -32,18 +33,20 @@ inline constexpr double eps_map = gamma(8);
 // Of the direction across an axis, to the length of the whole: a line that is nearer to the axis's direction has none, it is parallel. Also
 // of a point that near the axis.
 inline constexpr double eps_parallel = gamma(16);
-// Of a point on a surface, to the largest coordinate of the scene. An interpolated point is off its surface by at most 8 u, an affine map adds
-// 12 u, a plane distance 12 u, a crossing of sphere or cylinder 32 u (measured with binary128). The skin of scene.hpp begins with it.
+// Of a point on a surface, to the largest coordinate of the scene. An interpolated point is off its surface by at most 8 u, an affine map
+// adds 12 u, a plane distance 12 u, a crossing of sphere or cylinder 32 u (measured with binary128). The skin of scene.hpp begins with it.
 inline constexpr double eps_surface = gamma(64);
 // Of a corner projected along a ray (planar.hpp), to the distances within its mesh: 8 u, in either of two coordinates.
 inline constexpr double eps_projection = gamma(16);
-// Of a vertex that lies where three planes meet, to the largest coordinate: two vertices within it are as near as rounding can tell.
+// Of a vertex of a CSG solid that is put back from the grid to where three planes meet, to the largest coordinate: one that is farther off
+// its faces is known to the grid alone.
 inline constexpr double eps_vertex = gamma(32);
 // Of a zero between a and b, to the larger |end|: bracketed_root() stops there, and sign_changes() divides no further than twice that.
 inline constexpr double eps_root = gamma(2), eps_interval = gamma(4);
-// Of a distance from the tube's ring, in major radii, and of its square: where the line is clipped, it must not be clipped too short.
+// By which the sphere and the slab around a torus are grown, to their sizes, so that no line is clipped too short.
 inline constexpr double eps_tube = gamma(16);
-// Of the gauge of a superellipse at 1 (superellipse.hpp), of a radius beside the ring's, and of their sum along a line.
+// Of superquadrics, in units of the radii: where Newton's steps onto the surface end, to 1; of a distance from the ring, to the ring's
+// radius; of the norm along a line, to (1 + ring) (1 + 1/p + 1/q), because the powers 1/p and 1/q magnify.
 inline constexpr double eps_gauge = gamma(4), eps_ring = gamma(8), eps_norm = gamma(16);
 
 // --- Double precision: ranges. ---
@@ -117,8 +120,8 @@ inline constexpr float unit_roundoff_single = 0x1p-24f;
 inline constexpr float lane_reach = 1.5f;
 inline constexpr double lane_cube = 1.25, farthest_cut = 1e6;
 // Of a height above a plane of unit normal. A coordinate is rounded by 2^-24, a direction by 2^-23; the plane's own rounding adds
-// 2^-24 (sqrt(3) 2.6), and at most 4 roundings of terms below 2.6 sqrt(3) follow: less than 20 * 2^-24. The same holds for a distance from a
-// centre or an axis. `margin` of a scene adds its skins.
+// 2^-24 (sqrt(3) 2.6), and at most 4 roundings of terms below 2.6 sqrt(3) follow: less than 20 * 2^-24. The same holds for a distance from
+// a centre or an axis. `margin` of a scene adds its skins.
 inline constexpr double eps_height = 0x1p-19;
 // Of half the size of a box: a difference and its ends. Of a linear form in two coordinates of at most 2, with a slope: three roundings of
 // terms up to 2 (1 + slope), by which it is to be multiplied.
@@ -128,8 +131,8 @@ inline constexpr float eps_section = 2 * static_cast<float>(eps_height);
 // Lengths, roots and limits are rounded up by these factors, so that they are bounds; a limit near 0 by the last, in the ray's parameter.
 inline constexpr float length_up = 1.0001f, limit_up = 1.00001f, eps_limit = 1e-6f;
 // With heights `from` and `to` of a segment's ends, each known to `margin`, the crossing is known to crossing_error margin length /
-// (|from| + |to|) once |from| + |to| > crossing_apart margin. For the quotient |from| / (|from| + |to|) is off by 8/7 margin / (|from| + |to|) at most,
-// and its own rounding and that of the direction are below this.
+// (|from| + |to|) once |from| + |to| > crossing_apart margin. For the quotient |from| / (|from| + |to|) is off by 8/7 margin / (|from| +
+// |to|) at most, and its own rounding and that of the direction are below this.
 inline constexpr float crossing_error = 3.0f, crossing_apart = 16.0f;
 // Of the function of a cone, and of the gauge of a superquadric with powers p, q: eps_power (1 + 1/2p + 1/2q) (forms.inc).
 inline constexpr double eps_cone = 0x1p-20, eps_power = 0x1p-15;

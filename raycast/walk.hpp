@@ -45,7 +45,7 @@ class PutOff {
   // Sorts the entry in among those above `bottom`: the one of least `at` comes next.
   void push_sorted(std::size_t bottom, const Open& open) {
     std::size_t place = size_++;
-    for (; place > bottom && entries_[place - 1].at < open.at; --place) entries_[place] = entries_[place - 1];
+    for (; place > bottom && entries_[place - 1].at < open.at; --place) { entries_[place] = entries_[place - 1]; }
     entries_[place] = open;
   }
 

@@ -46,7 +46,7 @@ struct WidePolicy {
       }
       lo_ = centres.lo;
       const V width = centres.hi - centres.lo;
-      for (int k = 0; k < 3; ++k) scale_[k] = width[k] > 0.0f ? 0.999f * static_cast<float>(bin_count) / width[k] : 0.0f;
+      for (int k = 0; k < 3; ++k) { scale_[k] = width[k] > 0.0f ? 0.999f * static_cast<float>(bin_count) / width[k] : 0.0f; }
     }
     [[nodiscard]] bool wide(int axis) const { return scale_[axis] > 0.0f; }
     [[nodiscard]] V position(const Bounds& box) const { return (box.lo + box.hi - lo_) * scale_; }
@@ -81,7 +81,7 @@ class WideTreeBuilder {
     std::stable_sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.kind < b.kind; });
     for (std::size_t i = 0; i < items_.size();) {
       std::size_t end = i + 1;
-      while (end < items_.size() && end < i + 8 && items_[end].kind == items_[i].kind) ++end;
+      while (end < items_.size() && end < i + 8 && items_[end].kind == items_[i].kind) { ++end; }
       out.push_back(leaf({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(end - i)}));
       i = end;
     }
@@ -98,7 +98,7 @@ class WideTreeBuilder {
     binary_ = std::move(builder.nodes);
     std::vector<Item> sorted;
     sorted.reserve(items_.size());
-    for (const auto& reference : builder.references) sorted.push_back(items_[reference.item]);
+    for (const auto& reference : builder.references) { sorted.push_back(items_[reference.item]); }
     items_.swap(sorted);
     collapse(out);
   }
@@ -130,21 +130,24 @@ class WideTreeBuilder {
       const Merger &l = mergers[node.first], &r = mergers[node.first + 1];
       for (std::uint32_t k = 1; k < 8; ++k) {
         m.least[k] = no_bound;
-        for (std::uint32_t j = 0; j < k; ++j)
-          if (const float sum = l.least[j] + r.least[k - 1 - j]; sum < m.least[k])
+        for (std::uint32_t j = 0; j < k; ++j) {
+          if (const float sum = l.least[j] + r.least[k - 1 - j]; sum < m.least[k]) {
             m.least[k] = sum, m.left[k] = static_cast<std::uint8_t>(j + 1);
+          }
+        }
       }
       m.left7 = m.left[7];
       m.least[0] = node.box.half_area() + m.least[7];
-      for (std::uint32_t k = 1; k < 8; ++k)
-        if (m.least[k - 1] < m.least[k]) m.least[k] = m.least[k - 1], m.left[k] = 0;
+      for (std::uint32_t k = 1; k < 8; ++k) {
+        if (m.least[k - 1] < m.least[k]) { m.least[k] = m.least[k - 1], m.left[k] = 0; }
+      }
     }
   }
   static constexpr float leaf_cost = 1.5f;  // of a block of shapes, in tests of eight boxes
 
   void gather(const std::vector<Merger>& mergers, std::uint32_t at, std::uint32_t k, std::array<std::uint32_t, 8>& child,
               std::size_t& count) const {
-    while (k > 0 && mergers[at].left[k] == 0) --k;
+    while (k > 0 && mergers[at].left[k] == 0) { --k; }
     if (k == 0 || binary_[at].count > 0) {
       child[count++] = at;
       return;
@@ -165,7 +168,7 @@ class WideTreeBuilder {
       const Open open = todo.back();
       todo.pop_back();
       const auto index = static_cast<std::uint32_t>(out.size());
-      if (open.parent != no_shape) out[open.parent].child[open.slot] = index;
+      if (open.parent != no_shape) { out[open.parent].child[open.slot] = index; }
       std::array<std::uint32_t, 8> child{open.binary};
       std::size_t count = 0;
       if (binary_[open.binary].count > 0) {
@@ -176,9 +179,11 @@ class WideTreeBuilder {
         gather(mergers, binary_[open.binary].first + 1, 7 - left, child, count);
       }
       // Largest first: any-hit searches look there first.
-      for (std::size_t i = 1; i < count; ++i)
-        for (std::size_t j = i; j > 0 && binary_[child[j - 1]].box.half_area() < binary_[child[j]].box.half_area(); --j)
+      for (std::size_t i = 1; i < count; ++i) {
+        for (std::size_t j = i; j > 0 && binary_[child[j - 1]].box.half_area() < binary_[child[j]].box.half_area(); --j) {
           std::swap(child[j - 1], child[j]);
+        }
+      }
       Node node;
       for (std::size_t i = 0; i < 8; ++i) {
         for (int k = 0; k < 3; ++k) {
@@ -186,12 +191,13 @@ class WideTreeBuilder {
           node.bound[k + 3][i] = i < count ? binary_[child[i]].box.hi[k] : -no_bound;
         }
         node.child[i] = leaf_of(Kind::other, 1, 0);
-        if (i >= count) continue;
+        if (i >= count) { continue; }
         const Binary& b = binary_[child[i]];
-        if (b.count > 0)
+        if (b.count > 0) {
           node.child[i] = leaf({b.first, b.count});
-        else
+        } else {
           todo.push_back({child[i], index, static_cast<std::uint32_t>(i)});
+        }
       }
       out.push_back(node);
     }
@@ -209,11 +215,12 @@ class WideTreeBuilder {
 inline void Compiler::finish(std::size_t loop_limit) {
   out_.shape_count = static_cast<std::uint32_t>(items_.size());
   out_.bodies.reserve(bodies_.size());
-  for (std::uint32_t& body : out_.room_bodies)
-    if (body != no_shape) out_.bodies.push_back(bodies_[std::exchange(body, static_cast<std::uint32_t>(out_.bodies.size()))]);
+  for (std::uint32_t& body : out_.room_bodies) {
+    if (body != no_shape) { out_.bodies.push_back(bodies_[std::exchange(body, static_cast<std::uint32_t>(out_.bodies.size()))]); }
+  }
   WideTreeBuilder tree(items_, [this](Kind kind, std::span<const Item> items) { return emit(kind, items); });
-  if (items_.size() <= loop_limit) tree.leaves(out_.leaves);
-  if (!items_.empty()) tree.build(out_.nodes);
+  if (items_.size() <= loop_limit) { tree.leaves(out_.leaves); }
+  if (!items_.empty()) { tree.build(out_.nodes); }
 }
 
 }  // namespace raycast

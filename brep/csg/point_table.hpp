@@ -35,7 +35,7 @@ class PointTable {
   // The number of a point, which is added to the points of the operation if it is new.
   std::uint32_t of(const Point& p) {
     std::uint32_t& slot = find(p);
-    if (slot != invalid_index) return slot;
+    if (slot != invalid_index) { return slot; }
     const auto number = slot = static_cast<std::uint32_t>(work_.points.size());
     work_.points.push_back(p);
     name_.push_back(number);
@@ -53,23 +53,23 @@ class PointTable {
  private:
   static std::uint64_t hash(const glm::dvec3& p) {
     std::uint64_t h = 0;
-    for (int i = 0; i < 3; ++i) h = (h ^ (h >> 29) ^ std::bit_cast<std::uint64_t>(p[i] + 0.0)) * 0x9e3779b97f4a7c15u;
+    for (int i = 0; i < 3; ++i) { h = (h ^ (h >> 29) ^ std::bit_cast<std::uint64_t>(p[i] + 0.0)) * 0x9e3779b97f4a7c15u; }
     return h ^ (h >> 32);
   }
   std::uint32_t& find(const Point& p) {
     std::size_t i = hash(p.position) & (slots_.size() - 1);
-    while (slots_[i] != invalid_index && !work_.predicates.equal(work_.points[slots_[i]], p)) i = (i + 1) & (slots_.size() - 1);
+    while (slots_[i] != invalid_index && !work_.predicates.equal(work_.points[slots_[i]], p)) { i = (i + 1) & (slots_.size() - 1); }
     return slots_[i];
   }
   void entered(std::uint32_t number) {
     points_.push_back(number);
-    if (2 * points_.size() < slots_.size()) return;
+    if (2 * points_.size() < slots_.size()) { return; }
     std::vector<std::uint32_t> old(2 * slots_.size(), invalid_index);
     old.swap(slots_);
     for (std::uint32_t p : old) {
-      if (p == invalid_index) continue;
+      if (p == invalid_index) { continue; }
       std::size_t i = hash(work_.points[p].position) & (slots_.size() - 1);
-      while (slots_[i] != invalid_index) i = (i + 1) & (slots_.size() - 1);
+      while (slots_[i] != invalid_index) { i = (i + 1) & (slots_.size() - 1); }
       slots_[i] = p;
     }
   }

@@ -29,7 +29,7 @@ class SplitEdges {
     std::sort(nodes.begin(), nodes.end(), [](const EdgeNode& a, const EdgeNode& b) { return a.edge < b.edge; });
     for (std::size_t i = 0; i < nodes.size();) {
       std::size_t end = i;
-      while (end < nodes.size() && nodes[end].edge == nodes[i].edge) ++end;
+      while (end < nodes.size() && nodes[end].edge == nodes[i].edge) { ++end; }
       split(nodes[i].edge, {nodes.begin() + static_cast<std::ptrdiff_t>(i), nodes.begin() + static_cast<std::ptrdiff_t>(end)});
       i = end;
     }
@@ -42,7 +42,7 @@ class SplitEdges {
     const bool split = found != parts_.end() && found->edge == edge;
     visit(edge);
     visit(split ? found->twin : work_.halves[edge].twin);
-    for (std::uint32_t i = 0; split && i < found->count; ++i) visit(found->rest + i), visit(found->rest_of_twin + i);
+    for (std::uint32_t i = 0; split && i < found->count; ++i) { visit(found->rest + i), visit(found->rest_of_twin + i); }
   }
   [[nodiscard]] const std::vector<EdgeParts>& parts() const { return parts_; }
 
@@ -52,7 +52,7 @@ class SplitEdges {
     const Point from = work_.from(h), to = work_.to(h);
     int axis = 0;
     for (int i = 1; i < 3; ++i) {
-      if (std::abs(to.position[i] - from.position[i]) > std::abs(to.position[axis] - from.position[axis])) axis = i;
+      if (std::abs(to.position[i] - from.position[i]) > std::abs(to.position[axis] - from.position[axis])) { axis = i; }
     }
     const bool forward = work_.predicates.compare(from, to, axis) < 0;
     std::sort(nodes.begin(), nodes.end(), [&](const EdgeNode& a, const EdgeNode& b) {
@@ -63,7 +63,7 @@ class SplitEdges {
                 nodes.end());
     std::erase_if(nodes, [&](const EdgeNode& n) { return n.point == work_.halves[h].point || n.point == work_.halves[t].point; });
     const auto count = static_cast<std::uint32_t>(nodes.size());
-    if (count == 0) return;
+    if (count == 0) { return; }
     const auto rest = static_cast<std::uint32_t>(work_.halves.size()), rest_of_twin = rest + count;
     work_.halves.resize(rest + 2 * count);
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -49,8 +49,8 @@ class Torus final : public Object {
 
   [[nodiscard]] SurfacePoint project(std::uint32_t, const glm::dvec3& p) const override;
 
-  // n columns about the axis and m rows about the tube, multiples of 4 between 8 and 512, whose quadrilaterals are trapezoids. The chord error
-  // of a cell is at most (dn^2 (R + r) + 2 dn dm r + dm^2 r) / 8 for angles dn, dm (Filip, Magedson, Markot 1986).
+  // n columns about the axis and m rows about the tube, multiples of 4 between 8 and 512, whose quadrilaterals are trapezoids. The chord
+  // error of a cell is at most (dn^2 (R + r) + 2 dn dm r + dm^2 r) / 8 for angles dn, dm (Filip, Magedson, Markot 1986).
   void approximate(double tolerance, brep::Builder& out) const override;
 
  private:
