@@ -47,16 +47,6 @@ namespace raycast {
 
 namespace detail {
 
-HALFLIGHT_INLINE void append(const CsgBRep& brep, brep::Builder& out) {
-  std::vector<std::uint32_t> number(brep.vertex_end(), 0), corners;
-  for (const brep::VertexId v : brep::vertices(brep)) { number[v.index] = out.vertex(brep.data(v).position); }
-  for (const brep::FaceId f : brep::faces(brep)) {
-    corners.clear();
-    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) { corners.push_back(number[brep.vertex(h).index]); }
-    out.face(corners, brep.data(f).sheet);
-  }
-}
-
 // The rotation in a placement that keeps angles and does not mirror: what its first column and the plane of the first two say.
 HALFLIGHT_INLINE std::optional<glm::dmat3> rotation_of(const glm::dmat3& m) {
   const glm::dmat3 square = glm::transpose(m) * m;

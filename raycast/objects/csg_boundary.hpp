@@ -27,12 +27,6 @@ struct CsgBoundaryResult {
   bool too_many_faces = false;  // why it was refused
 };
 
-namespace detail {
-
-void append(const CsgBRep& brep, brep::Builder& out);
-
-}  // namespace detail
-
 // The boundary of the tree with chords within `tolerance` of curved sheets, and finer where small parts meet (csg_plan.hpp); no faces when
 // nothing is left. `region`: csg_region(tree). Refused, with a sentence: what
 // make_solid of brep/csg refuses in a leaf (it crosses itself once it is snapped to the grid), faces too thin for the grid.

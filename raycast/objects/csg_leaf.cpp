@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include <brep/brep.hpp>
+#include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>
 #include <brep/handles.hpp>
@@ -25,6 +26,16 @@
 namespace raycast {
 
 namespace detail {
+
+HALFLIGHT_INLINE void append(const CsgBRep& brep, brep::Builder& out) {
+  std::vector<std::uint32_t> number(brep.vertex_end(), 0), corners;
+  for (const brep::VertexId v : brep::vertices(brep)) { number[v.index] = out.vertex(brep.data(v).position); }
+  for (const brep::FaceId f : brep::faces(brep)) {
+    corners.clear();
+    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) { corners.push_back(number[brep.vertex(h).index]); }
+    out.face(corners, brep.data(f).sheet);
+  }
+}
 
 HALFLIGHT_INLINE double chord_error(const PlacedObject& solid, const CsgBRep& brep, brep::FaceId f) {
   const auto corners = brep::positions(brep, f);
