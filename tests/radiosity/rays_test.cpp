@@ -283,6 +283,23 @@ TEST_CASE("which runs cast rays") {
   CHECK(radiosity::solve(many, options).failure.kind == radiosity::Failure::Kind::invalid_options);
 }
 
+TEST_CASE("without light, or without reflection, no ray is cast") {
+  Options options;
+  options.epsilon = 0.1;
+  options.audit_points = 0;
+  options.indirect = Indirect::rays;
+  for (const bool lit : {false, true}) {
+    radiosity::Scene scene = scenes::many(150, scenes::Things::boxes);
+    for (radiosity::Material& material : scene.materials) { (lit ? material.reflectance : material.emission) = radiosity::Color{0.0}; }
+    for (const bool shortcuts : {true, false}) {
+      options.shortcuts = shortcuts;
+      const radiosity::Solution solution = scenes::solved(scene, options);
+      for (const radiosity::Color& b : solution.radiosity) { CHECK((b.x == 0.0 || b.x == 5.0)); }
+      if (shortcuts) { CHECK(solution.audit.stored_rays == 0); }
+    }
+  }
+}
+
 TEST_CASE("stored rays obey the memory limit and the cancel flag") {
   const radiosity::Scene scene = scenes::many(150, scenes::Things::boxes);
   Options options;
