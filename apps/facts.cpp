@@ -2,6 +2,7 @@
 #include "apps/facts.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "apps/text.hpp"
 
@@ -19,19 +20,18 @@ std::vector<std::string_view> keys_of(std::string_view path) {
 }
 
 void write(JsonWriter& json, const Facts::Value& value) {
-  struct Visitor {
-    JsonWriter& json;
-    void operator()(std::monostate) const { json.null(); }
-    void operator()(double x) const { json.number(x); }
-    void operator()(std::uint64_t n) const { json.count(n); }
-    void operator()(bool b) const { json.boolean(b); }
-    void operator()(const std::string& s) const { json.string(s); }
-    void operator()(const Facts::Writer& writer) const { writer(json); }
-  };
-  std::visit(Visitor{json}, value);
+  std::visit(
+      [&](const auto& held) {
+        if constexpr (std::is_same_v<decltype(held), const std::monostate&>) {
+          json.null();
+        } else {
+          json.value(held);
+        }
+      },
+      value);
 }
 
-std::string shown(const Facts::Value& value, const std::string& unit) {
+std::string value_text(const Facts::Value& value, const std::string& unit) {
   if (const auto* words = std::get_if<std::string>(&value)) { return *words; }
   if (const auto* x = std::get_if<double>(&value)) {
     return unit == "%" ? percent(*x) : formatted(unit.empty() ? "%.6g" : unit.c_str(), *x);
@@ -92,7 +92,7 @@ std::optional<std::string> Facts::text(std::string_view sentence) const {
     const std::string_view path = sentence.substr(brace + 1, end - brace - 1);
     const auto row = std::find_if(rows_.begin(), rows_.end(), [&](const Row& r) { return r.path == path; });
     if (row == rows_.end() || std::holds_alternative<std::monostate>(row->value)) { return std::nullopt; }
-    result += shown(row->value, row->unit);
+    result += value_text(row->value, row->unit);
     sentence.remove_prefix(end + 1);
   }
 }

@@ -2,7 +2,6 @@
 #include "apps/interrupt.hpp"
 
 #include <csignal>
-#include <ctime>
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -5,8 +5,8 @@
 //
 //     JsonWriter json;
 //     json.open_object();
-//     json.key("rays").number(12);
-//     json.key("surfaces").open_array(); ... json.close();
+//     json.fields("rays", rays, "area", area);
+//     json.key("surfaces").list(surfaces, [&](const Surface& s) { json.object("name", s.name, "area", s.area); });
 //     json.close();
 //     const std::string text = json.text();
 //
@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "apps/utf8.hpp"
@@ -56,6 +57,45 @@ class JsonWriter {
     separate();
     quote(value);
     return *this;
+  }
+
+  // By its type: a truth value, a count, a number, text, what an optional holds or null, a list of any of these, or what a function writes.
+  template <class Value>
+  JsonWriter& value(const Value& value) {
+    if constexpr (std::is_same_v<Value, bool>) {
+      boolean(value);
+    } else if constexpr (std::is_integral_v<Value>) {
+      characters(value);
+    } else if constexpr (std::is_floating_point_v<Value>) {
+      number(value);
+    } else if constexpr (std::is_convertible_v<const Value&, std::string_view>) {
+      string(value);
+    } else if constexpr (std::is_invocable_v<const Value&, JsonWriter&>) {
+      value(*this);
+    } else if constexpr (requires { value.has_value(); }) {
+      value.has_value() ? this->value(*value) : null();
+    } else {
+      list(value, [this](const auto& item) { this->value(item); });
+    }
+    return *this;
+  }
+  // What `write` writes of each.
+  template <class List, class Write>
+  JsonWriter& list(const List& items, const Write& write) {
+    open_array();
+    for (const auto& item : items) { write(item); }
+    return close();
+  }
+  // fields("name", name, "area", area): keys, each with its value. object() puts them in braces.
+  JsonWriter& fields() { return *this; }
+  template <class Value, class... Rest>
+  JsonWriter& fields(std::string_view name, const Value& its_value, const Rest&... rest) {
+    key(name).value(its_value);
+    return fields(rest...);
+  }
+  template <class... Pairs>
+  JsonWriter& object(const Pairs&... pairs) {
+    return open_object().fields(pairs...).close();
   }
 
   [[nodiscard]] const std::string& text() const { return text_; }

@@ -27,9 +27,9 @@ struct Glance {
   bool even = true;                 // their colours differ by at most four of 255 levels
 };
 
-class Drawing {
+class Sampler {
  public:
-  Drawing(const radiosity::Lookup& lookup, const View& view, double exposure, unsigned samples)
+  Sampler(const radiosity::Lookup& lookup, const View& view, double exposure, unsigned samples)
       : lookup_{lookup}, view_{view}, exposure_{exposure} {
     for (unsigned s = 0; s < samples * samples; ++s) {
       const unsigned x = s % samples, y = s / samples;
@@ -97,7 +97,7 @@ std::optional<Picture> draw(const radiosity::Lookup& lookup, const View& view, d
   const std::size_t width = view.size.width, height = view.size.height, count = width * height;
   picture.rgb.resize(3 * count);
   picture.radiosity.resize(count);
-  const Drawing drawing(lookup, view, exposure, samples);
+  const Sampler sampler(lookup, view, exposure, samples);
   std::vector<std::uint32_t> surfaces(count);  // of which the first bit: a close look is needed anyway
   const auto paint = [&](std::size_t pixel, const Glance& glance) {
     std::copy(glance.rgb.begin(), glance.rgb.end(), picture.rgb.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
@@ -107,7 +107,7 @@ std::optional<Picture> draw(const radiosity::Lookup& lookup, const View& view, d
   const auto glance_at = [&](std::size_t first) {
     std::array<Glance, group> glances;
     const std::size_t pixels = std::min(group, count - first);
-    drawing.look(first, pixels, false, glances.data());
+    sampler.look(first, pixels, false, glances.data());
     for (std::size_t i = 0; i < pixels; ++i) {
       paint(first + i, glances[i]);
       surfaces[first + i] = glances[i].surface | (glances[i].even ? 0u : 0x80000000u);
@@ -125,9 +125,9 @@ std::optional<Picture> draw(const radiosity::Lookup& lookup, const View& view, d
     return false;
   };
   const auto look_at = [&](std::size_t pixel) {
-    if (drawing.glance_is_all() || !needs_more(pixel)) { return; }
+    if (sampler.glance_is_all() || !needs_more(pixel)) { return; }
     Glance glance;
-    drawing.look(pixel, 1, true, &glance);
+    sampler.look(pixel, 1, true, &glance);
     paint(pixel, glance);
   };
   // About a quarter of a million rays between two looks at the cancel flag.

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/report.hpp"
 
-#include <algorithm>
 #include <string_view>
-#include <utility>
 
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
@@ -96,7 +94,9 @@ class Text {
     say("input polygons", "{polygons}");
     say("nodes, leaves", "{nodes}, {leaves}");
     say("proportions", "{proportion.min} to {proportion.max}, mean {proportion.mean} (regular polygon: 1)");
-    say("links", audit_.clusters > 0 ? "{links}, {cluster_links} of them with one of {clusters} clusters" : "{links}");
+    say("links", audit_.clusters > 0      ? "{links}, {cluster_links} of them with one of {clusters} clusters"
+                 : audit_.stored_rays > 0 ? "{links}, {ray_links} of them made of {stored_rays} stored rays"
+                                          : "{links}");
     say("rays", "{rays} cast, {rays_avoided} avoided: {pairs_clear} pairs proven clear, {pairs_blocked} proven blocked");
     row("memory",
         facts_.text("{peak_bytes.process} at the peak of the process, ").value_or("") + *facts_.text("{bytes} held by the result"));
@@ -105,8 +105,11 @@ class Text {
   void checks() {
     out_ += "checks\n";
     say("row sums", "{row_sum.min} to {row_sum.max}, mean {row_sum.mean}");
-    if (audit_.closure) {
+    if (audit_.closure || audit_.stored_rays > 0) {
       say("  as computed", "{computed_row_sum.min} to {computed_row_sum.max}, mean {computed_row_sum.mean}");
+    }
+    if (audit_.stored_rays > 0) { say("  noise of rays", "{ray_correction} RMS, taken out of the row sums"); }
+    if (audit_.closure) {
       say("  correction", "{closure} RMS (quadrature and sampling explain ",
           percent(audit_.closure_limit) + "): the scene is proven closed, so each row must sum to 1");
     }
@@ -156,7 +159,7 @@ class Text {
       if (!radiosity::is_grey(c)) { color += " " + formatted("%.5g", c.y) + " " + formatted("%.5g", c.z); }
       row(surface.name, formatted("%13.5g   ", surface.area) + color);
     }
-    if (audit_.surfaces.size() > most) { out_ += "  ... and " + std::to_string(audit_.surfaces.size() - most) + " more; --json has all\n"; }
+    out_ += and_more(audit_.surfaces.size(), most, "; --json has all");
   }
 
   const Report& report_;

@@ -2,16 +2,14 @@
 #include "apps/report_facts.hpp"
 
 #include <algorithm>
-#include <string_view>
+#include <array>
 #include <utility>
 
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
-#include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/support/left_out.hpp>
 
-#include "apps/text.hpp"
 #include "apps/version.hpp"
 
 namespace apps {
@@ -35,7 +33,7 @@ void add_picture_error(Facts& facts, const radiosity::PictureError& picture) {
   add_error(facts, "error.picture", picture.error);
   facts.add("error.picture.audited", picture.audited);
   const auto share = [&](const char* path, const radiosity::ShareBounds& of) {
-    facts.add(path, [of](JsonWriter& json) { json.open_array().number(of.least).number(of.most).close(); });
+    facts.add(path, [of](JsonWriter& json) { json.value(std::array{of.least, of.most}); });
   };
   share("error.picture.over_2_levels", picture.over2);
   share("error.picture.over_8_levels", picture.over8);
@@ -122,16 +120,12 @@ void add_settings(Facts& facts, const Report& report) {
 // A list of what `write` writes of each.
 template <class Item, class Write>
 void add_list(Facts& facts, const char* path, const std::vector<Item>& items, const Write& write) {
-  facts.add(path, [&items, write](JsonWriter& json) {
-    json.open_array();
-    for (const Item& item : items) { write(json, item); }
-    json.close();
-  });
+  facts.add(path, [&items, write](JsonWriter& json) { json.list(items, [&](const Item& item) { write(json, item); }); });
 }
 
 void add_lists(Facts& facts, const Report& report) {
   const radiosity::Audit& audit = report.audit;
-  const auto sentence = [](JsonWriter& json, const std::string& text) { json.string(text); };
+  const auto sentence = [](JsonWriter& json, const std::string& text) { json.value(text); };
   add_list(facts, "warnings", audit.warnings, sentence);
   if (audit.stray) {
     facts.add("stray_rays.escaping", audit.stray->escaping, "%");
@@ -141,13 +135,11 @@ void add_lists(Facts& facts, const Report& report) {
     facts.add("stray_rays", {});
   }
   add_list(facts, "left_out", audit.left_out, [](JsonWriter& json, const radiosity::LeftOut& item) {
-    json.open_object().key("what").string(item.what).key("why").string(item.why).key("saved").string(item.saved);
-    json.key("seconds").number(item.seconds).close();
+    json.object("what", item.what, "why", item.why, "saved", item.saved, "seconds", item.seconds);
   });
   add_list(facts, "surfaces", audit.surfaces, [](JsonWriter& json, const radiosity::SurfaceMean& surface) {
-    json.open_object().key("name").string(surface.name).key("area").number(surface.area).key("radiosity").open_array();
-    for (int c = 0; c < 3; ++c) { json.number(surface.radiosity[c]); }
-    json.close().close();
+    const radiosity::Color& c = surface.radiosity;
+    json.object("name", surface.name, "area", surface.area, "radiosity", std::array{c.x, c.y, c.z});
   });
   add_list(facts, "files", report.files, sentence);
 }
@@ -166,6 +158,8 @@ Facts facts_of(const Report& report) {
   facts.add("nodes", audit.nodes);
   facts.add("leaves", audit.leaves);
   facts.add("links", audit.links);
+  facts.add("ray_links", audit.ray_links);
+  facts.add("stored_rays", audit.stored_rays);
   facts.add("clusters", audit.clusters);
   facts.add("cluster_links", audit.cluster_links);
   facts.add("rays", audit.rays);
@@ -176,6 +170,7 @@ Facts facts_of(const Report& report) {
   add_range(facts, "proportion", audit.proportion, "%.2f");
   add_range(facts, "row_sum", audit.row_sum, "%.6f");
   add_range(facts, "computed_row_sum", audit.computed_row_sum, "%.6f");
+  facts.add("ray_correction", audit.ray_correction, "%");
   facts.add("closure", audit.closure, "%");
   facts.add("estimated_error", audit.estimated_error, "%");
   facts.add("estimated_leaf_error", audit.estimated_leaf_error, "%");
@@ -185,11 +180,7 @@ Facts facts_of(const Report& report) {
   facts.add("escaped", audit.escaped, "%");
   facts.add("residual", audit.residual, "%.2e");
   facts.add("iterations", audit.iterations, "1");
-  add_list(facts, "residual_histories", audit.histories, [](JsonWriter& json, const std::vector<double>& history) {
-    json.open_array();
-    for (const double residual : history) { json.number(residual); }
-    json.close();
-  });
+  add_list(facts, "residual_histories", audit.histories, [](JsonWriter& json, const std::vector<double>& history) { json.value(history); });
   facts.add("converged", audit.converged);
   facts.add("shortage", audit.shortage);
   add_settings(facts, report);

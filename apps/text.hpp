@@ -19,6 +19,19 @@ namespace apps {
   return text.data();
 }
 
+// With so many decimals; without zeros at its end, as coordinates of a drawing are written: "1.5", "2", "0".
+[[nodiscard]] inline std::string fixed(double x, int decimals) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, x);
+  return text.data();
+}
+[[nodiscard]] inline std::string trimmed(double x, int decimals) {
+  std::string text = fixed(x, decimals);
+  if (decimals > 0) { text.erase(text.find_last_not_of('0') + 1); }
+  if (text.back() == '.') { text.pop_back(); }
+  return text == "-0" ? "0" : text;
+}
+
 // With the fewest digits that read back as the same number.
 [[nodiscard]] inline std::string shortest(double x) {
   std::array<char, 40> digits{};
@@ -32,6 +45,11 @@ namespace apps {
 template <class Vector>
 [[nodiscard]] std::string triple(const Vector& v) {
   return formatted("%.6g", v.x) + " " + formatted("%.6g", v.y) + " " + formatted("%.6g", v.z);
+}
+
+// The last line of a list of `count` of which `shown` are printed: empty when that is all.
+[[nodiscard]] inline std::string and_more(std::size_t count, std::size_t shown, const std::string& remark = {}) {
+  return shown < count ? "  ... and " + std::to_string(count - shown) + " more" + remark + "\n" : std::string();
 }
 
 // Filled with blanks behind, or before, to `width` characters; at least `gap` of them.

@@ -13,12 +13,12 @@
 
 namespace radiosity {
 
-// Solves the scene. With an error target the run starts coarse and refines until the audit witnesses the target: the upper end of its 95 %
-// interval is at most that. Times are those of all rounds together. A run whose error stays above says so by audit.converged; when it
-// gives up stands in accuracy_target.hpp.
+// Solves the scene. With an error target the run starts coarse and refines until the audit confirms the target: the upper end of its 95 %
+// interval is at most that. Times are those of all rounds together. A run whose error stays above says so by audit.converged;
+// accuracy_target.hpp says when it gives up.
 //
-// Memory that runs out is an outcome, too (Failure::Kind::out_of_memory, or the best solution so far with audit.shortage), and a thread that
-// cannot be started is done without. A program that is compiled without exceptions is ended by the platform where memory runs out, as
+// Memory that runs out is an outcome, too (Failure::Kind::out_of_memory, or the best solution so far with audit.shortage), and a run does
+// without a thread that cannot be started. A program that is compiled without exceptions is ended by the platform where memory runs out, as
 // anywhere; Options::memory ends a run before that.
 [[nodiscard]] Outcome solve(const Scene& scene, const Options& options = {}, const Control& control = {});
 

@@ -134,7 +134,7 @@ class Parser {
     return true;
   }
   void expect(char c) {
-    if (!accept(c)) { fail("'" + std::string(1, c) + "'"); }
+    if (!accept(c)) { fail(std::string{'\'', c, '\''}); }
   }
   bool accept_word(std::string_view word) {
     if (text_.substr(at_, word.size()) != word) { return false; }

@@ -5,10 +5,8 @@
 // code: 0 without faults, 3 with faults or when the file cannot be understood, 1 when it cannot be read or written.
 #include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <map>
 #include <memory>
-#include <string_view>
 
 #include <brep/brep.hpp>
 #include <brep/builder.hpp>
@@ -32,7 +30,7 @@ struct CheckOptions {
   bool all = false;  // lists at full length
 };
 
-constexpr std::size_t most = 10;  // lines of a list, unless --all
+constexpr std::size_t first_few = 10;  // lines of a list, unless --all
 
 // What a kind of fault is, and what to do about it. In the order of brep::DefectKind, to which they belong.
 struct Lesson {
@@ -126,7 +124,7 @@ std::string component_table(const brep::Statistics& s, bool all) {
   std::string text = "components: " + std::to_string(list.size()) + "\n";
   if (list.empty()) { return text; }
   text += "  with face    vertices     edges     faces   v-e+f   borders   genus   volume\n";
-  const std::size_t shown = all ? list.size() : std::min(list.size(), most);
+  const std::size_t shown = all ? list.size() : std::min(list.size(), first_few);
   for (std::size_t i = 0; i < shown; ++i) {
     const brep::Component& c = list[i];
     std::string remark = c.volume ? formatted("%.6g", *c.volume) + (*c.volume < 0.0 ? " (inside out: the faces look inwards)" : "") : "-";
@@ -140,8 +138,7 @@ std::string component_table(const brep::Statistics& s, bool all) {
             right(c.two_sided ? std::to_string(c.borders) : "-", 10) + right(c.genus ? std::to_string(*c.genus) : "-", 8) + "   " + remark +
             "\n";
   }
-  if (shown < list.size()) { text += "  ... and " + std::to_string(list.size() - shown) + " smaller ones (--all lists them)\n"; }
-  return text;
+  return text + and_more(list.size(), shown, " that are smaller (--all lists them)");
 }
 
 std::string summary(const brep::Statistics& s, bool all) {
@@ -172,7 +169,7 @@ std::string where(const std::vector<brep::Element>& elements, const Mesh& mesh, 
   return {};
 }
 
-// The items of each kind under its heading, at most `most` of each.
+// The items of each kind under its heading, at most `first_few` of each.
 template <class Item, class Heading>
 std::string by_kind(const std::vector<Item>& items, const Mesh& mesh, const CheckOptions& options, Heading heading) {
   std::map<decltype(Item::kind), std::vector<const Item*>> kinds;
@@ -180,9 +177,9 @@ std::string by_kind(const std::vector<Item>& items, const Mesh& mesh, const Chec
   std::string text;
   for (const auto& [kind, list] : kinds) {
     text += "\n" + heading(kind, list.size());
-    const std::size_t shown = options.all ? list.size() : std::min(list.size(), most);
+    const std::size_t shown = options.all ? list.size() : std::min(list.size(), first_few);
     for (std::size_t i = 0; i < shown; ++i) { text += "  " + where(list[i]->elements, mesh, options.mesh) + list[i]->sentence + "\n"; }
-    if (shown < list.size()) { text += "  ... and " + std::to_string(list.size() - shown) + " more (--all lists them)\n"; }
+    text += and_more(list.size(), shown, " (--all lists them)");
   }
   return text;
 }
@@ -230,17 +227,8 @@ std::optional<Mesh> load(const std::string& path, ExitCode& code) {
   return std::move(result.mesh);
 }
 
-// An output that cannot be written is refused before any work.
-ExitCode check(const CheckOptions& options) {
-  if (!options.output.empty() && !mesh_format(options.output)) {
-    complain("--output " + options.output + ": expected a name that ends with " + mesh_endings());
-    return ExitCode::usage;
-  }
-  return check_outputs({options.output}, {options.mesh});
-}
-
 ExitCode run(const CheckOptions& options) {
-  ExitCode code = check(options);
+  ExitCode code = check_mesh_output(options.output, {}, options.mesh);
   if (code != ExitCode::ok) { return code; }
   const auto mesh = load(options.mesh, code);
   if (!mesh) { return code; }
@@ -282,7 +270,7 @@ Command check_command() {
       {text("mesh", "MESH", options->mesh, "the mesh: " + mesh_endings()).must(),
        flag("--repair", options->repair, "flip faces, close holes, part fans, drop duplicates and what is unused; the file stays as it is"),
        text("-o,--output", "FILE", options->output, "where to write the repaired mesh: " + mesh_endings()).needing("--repair"),
-       flag("--all", options->all, "list every fault, not only the first " + std::to_string(most) + " of each kind")},
+       flag("--all", options->all, "list every fault, not only the first " + std::to_string(first_few) + " of each kind")},
       [options] { return run(*options); }};
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/files.hpp"
+#include "apps/mesh_file.hpp"
 #include "apps/output_paths.hpp"
 
 namespace apps {
@@ -53,6 +54,15 @@ ExitCode check_outputs(const std::vector<std::string>& outputs, const std::vecto
   if (!fault) { return ExitCode::ok; }
   complain(fault->sentence);
   return fault->usage ? ExitCode::usage : ExitCode::failure;
+}
+
+ExitCode check_mesh_output(const std::string& output, std::vector<std::string> others, const std::string& input) {
+  if (!output.empty() && !mesh_format(output)) {
+    complain("--output " + output + ": expected a name that ends with " + mesh_endings());
+    return ExitCode::usage;
+  }
+  others.insert(others.begin(), output);
+  return check_outputs(others, {input});
 }
 
 bool save(const std::string& path, const std::string& bytes) {

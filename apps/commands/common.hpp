@@ -3,6 +3,7 @@
 
 // What the commands share: reading a scene, checking where outputs go, and words to the user.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "apps/scene_file.hpp"
 
 namespace apps {
+
+inline constexpr std::size_t longest_list = 200;  // lines; of the others the number is said
 
 // The name of an input in a sentence.
 [[nodiscard]] std::string shown(const std::string& input);
@@ -27,6 +30,9 @@ namespace apps {
 // Refuses, before any work, outputs that cannot be written, that are an input, or that are the same file as another output
 // (output_paths.hpp). Empty names are passed over.
 [[nodiscard]] ExitCode check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
+// The same for a mesh; its name must have the ending of a format. Empty: none is asked for.
+[[nodiscard]] ExitCode check_mesh_output(const std::string& output, std::vector<std::string> others, const std::string& input);
 
 // Replaces the file; on failure says why.
 [[nodiscard]] bool save(const std::string& path, const std::string& bytes);

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <string_view>
-#include <utility>
 
 #include <brep/euler_script.hpp>
 #include <brep/euler_script_parse.hpp>

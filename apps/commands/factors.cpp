@@ -77,8 +77,7 @@ std::vector<Channel> total_exchange_of(const Factors& f, const radiosity::Scene&
   return channels;
 }
 
-constexpr std::size_t widest = 10;    // columns that a terminal shows
-constexpr std::size_t longest = 200;  // lines of a list
+constexpr std::size_t widest = 10;  // columns that a terminal shows
 
 // A line a surface: its name, one number, the sum of its row with its error, and where it fits the row itself.
 std::string matrix_text(const Factors& f, const std::string& corner, const char* column, const std::function<double(std::size_t)>& number,
@@ -90,7 +89,7 @@ std::string matrix_text(const Factors& f, const std::string& corner, const char*
   std::string text = left(corner, width) + right(column, 12) + right("row sum", 12) + right("+-", 9);
   for (std::size_t j = 0; fits && j < n; ++j) { text += right(f.surfaces[j].name, 12); }
   text += "\n";
-  for (std::size_t i = 0; i < std::min(n, longest); ++i) {
+  for (std::size_t i = 0; i < std::min(n, longest_list); ++i) {
     text += left(f.surfaces[i].name, width) + right(formatted("%.6g", number(i)), 12) + right(formatted("%.7f", row_sum(i).value), 12) +
             right(formatted("%.0e", row_sum(i).error), 9);
     for (std::size_t j = 0; fits && j < n; ++j) {
@@ -117,7 +116,7 @@ std::string summary(const Factors& f, const FactorsOptions& options, const Secon
                      matrix_text(
                          f, "from \\ to", "area", [&](std::size_t i) { return f.surfaces[i].area.value; },
                          [&](std::size_t i) { return f.surfaces[i].row_sum; }, f.factor);
-  if (n > longest) { text += "... and " + std::to_string(n - longest) + " more\n"; }
+  text += and_more(n, longest_list);
   if (n > widest) { text += "The matrix has " + std::to_string(n) + " rows: --csv and --json write it.\n"; }
   std::array<std::size_t, 3> counts{};
   for (const radiosity::FactorMethod m : f.method) { ++counts[static_cast<std::size_t>(m)]; }
@@ -169,53 +168,35 @@ std::string json(const Factors& f, const std::vector<Channel>& channels, const F
   JsonWriter out;
   const std::size_t n = f.surfaces.size();
   out.open_object();
-  out.key("scene").string(options.scene);
-  out.key("error_wanted").number(options.error);
-  out.key("error_reached").number(worst(f.factor));
-  out.key("converged").boolean(f.converged);
-  out.key("points").count(f.points);
-  out.key("rays").count(f.rays);
-  out.key("wall_seconds").number(seconds.wall);
-  out.key("cpu_seconds").number(seconds.cpu);
-  out.key("surfaces").open_array();
-  for (const Factors::Surface& s : f.surfaces) {
-    out.open_object();
-    out.key("name").string(s.name);
-    out.key("area").number(s.area.value);
-    out.key("area_error").number(s.area.error);
-    out.key("row_sum").number(s.row_sum.value);
-    out.key("row_sum_error").number(s.row_sum.error);
-    out.close();
-  }
-  out.close();
-  const auto matrix = [&](const char* key, const auto& write) {
+  out.fields("scene", options.scene, "error_wanted", options.error, "error_reached", worst(f.factor), "converged", f.converged, "points",
+             f.points, "rays", f.rays, "wall_seconds", seconds.wall, "cpu_seconds", seconds.cpu);
+  out.key("surfaces").list(f.surfaces, [&](const Factors::Surface& s) {
+    out.object("name", s.name, "area", s.area.value, "area_error", s.area.error, "row_sum", s.row_sum.value, "row_sum_error",
+               s.row_sum.error);
+  });
+  // A list a row of what `entry` finds for it and a column.
+  const auto matrix = [&](const char* key, const auto& entry) {
     out.key(key).open_array();
     for (std::size_t i = 0; i < n; ++i) {
       out.open_array();
-      for (std::size_t j = 0; j < n; ++j) { write(i, j); }
+      for (std::size_t j = 0; j < n; ++j) { out.value(entry(i * n + j)); }
       out.close();
     }
     out.close();
   };
-  matrix("factors", [&](std::size_t i, std::size_t j) { out.number(f(i, j).value); });
-  matrix("errors", [&](std::size_t i, std::size_t j) { out.number(f(i, j).error); });
-  matrix("methods", [&](std::size_t i, std::size_t j) { out.string(name(f.method[i * n + j])); });
+  const auto estimates = [&](const std::vector<Estimate>& factor) {
+    matrix("factors", [&](std::size_t k) { return factor[k].value; });
+    matrix("errors", [&](std::size_t k) { return factor[k].error; });
+  };
+  estimates(f.factor);
+  matrix("methods", [&](std::size_t k) { return name(f.method[k]); });
   if (!channels.empty()) {
-    out.key("total_exchange").open_array();
-    for (const Channel& channel : channels) {
-      out.open_object();
-      out.key("channel").string(channel.name);
-      out.key("emissivities").open_array();
-      for (const double e : channel.emissivity) { out.number(e); }
+    out.key("total_exchange").list(channels, [&](const Channel& channel) {
+      out.open_object().fields("channel", channel.name, "emissivities", channel.emissivity);
+      out.key("row_sums").list(channel.exchange.row_sum, [&](const Estimate& sum) { out.number(sum.value); });
+      estimates(channel.exchange.factor);
       out.close();
-      out.key("row_sums").open_array();
-      for (const radiosity::Estimate& sum : channel.exchange.row_sum) { out.number(sum.value); }
-      out.close();
-      matrix("factors", [&](std::size_t i, std::size_t j) { out.number(channel.exchange.factor[i * n + j].value); });
-      matrix("errors", [&](std::size_t i, std::size_t j) { out.number(channel.exchange.factor[i * n + j].error); });
-      out.close();
-    }
-    out.close();
+    });
   }
   out.close();
   return out.text();

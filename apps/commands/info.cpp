@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // halflight info SCENE: what is in a scene, without solving it.
 #include <algorithm>
-#include <cstdio>
 #include <memory>
-#include <string_view>
 
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
@@ -33,18 +31,14 @@ struct InfoOptions {
 
 std::string color(const radiosity::Color& c) { return radiosity::is_grey(c) ? formatted("%.6g", c.x) : triple(c); }
 
-constexpr std::size_t most = 200;  // lines of a list
-
-std::string and_more(std::size_t count) { return count > most ? "  ... and " + std::to_string(count - most) + " more\n" : std::string(); }
-
 std::string materials(const radiosity::Scene& scene) {
   std::string out = "materials: " + std::to_string(scene.materials.size()) + "\n";
-  for (std::size_t i = 0; i < scene.materials.size() && i < most; ++i) {
+  for (std::size_t i = 0; i < scene.materials.size() && i < longest_list; ++i) {
     const radiosity::Material& m = scene.materials[i];
     out += "  " + left(m.name, 18) + "reflectance " + color(m.reflectance);
     out += (radiosity::is_black(m.emission) ? "" : "   emission " + color(m.emission) + " W/m2") + "\n";
   }
-  return out + and_more(scene.materials.size());
+  return out + and_more(scene.materials.size(), longest_list);
 }
 
 // Sheets of which something is left.
@@ -64,7 +58,7 @@ std::size_t surfaces(const radiosity::Prepared& prepared) {
 std::string objects(const SceneFile& file, const radiosity::Prepared& prepared) {
   const radiosity::Scene& scene = file.scene;
   std::string out = "objects: " + std::to_string(scene.objects.size()) + " with " + std::to_string(surfaces(prepared)) + " surfaces\n";
-  for (std::size_t i = 0; i < scene.objects.size() && i < most; ++i) {
+  for (std::size_t i = 0; i < scene.objects.size() && i < longest_list; ++i) {
     const radiosity::SceneObject& o = scene.objects[i];
     const auto first = o.material.front();
     const bool one = std::all_of(o.material.begin(), o.material.end(), [&](auto m) { return m == first; });
@@ -72,18 +66,18 @@ std::string objects(const SceneFile& file, const radiosity::Prepared& prepared) 
     out += one ? scene.materials[first].name : "materials by sheet";
     out += std::string(o.placement.inside ? ", seen from inside" : o.shape->solid() ? "" : ", one-sided") + "\n";
   }
-  return out + and_more(scene.objects.size());
+  return out + and_more(scene.objects.size(), longest_list);
 }
 
 std::string cameras(const SceneFile& file) {
   std::string out =
       "cameras: " + std::to_string(file.cameras.size()) + (file.cameras.empty() ? " (render uses an automatic view)\n" : "\n");
-  for (std::size_t i = 0; i < file.cameras.size() && i < most; ++i) {
+  for (std::size_t i = 0; i < file.cameras.size() && i < longest_list; ++i) {
     const Camera& camera = file.cameras[i];
     out += "  " + left(camera.name, 18) + "eye " + triple(camera.eye) + "   look " + triple(camera.forward) + "   fov " +
            formatted("%.6g", camera.field_of_view) + "\n";
   }
-  return out + and_more(file.cameras.size());
+  return out + and_more(file.cameras.size(), longest_list);
 }
 
 // The plan of a run, before any light.
@@ -98,7 +92,7 @@ std::string plan(const radiosity::Prepared& prepared) {
   out += "left out when rendered, as far as known without solving:\n";
   for (const radiosity::LeftOut& item : plan.left_out) { out += "  " + item.what + ": " + item.why + "\n"; }
   const radiosity::ClusterChoice clusters = radiosity::choose_clusters(faces, {});
-  if (!clusters.build) { out += "  clusters above the input faces: " + clusters.why + "\n"; }
+  if (!clusters.build) { out += "  clusters above the input faces: " + clusters.reason + "\n"; }
   return out + (plan.left_out.empty() && clusters.build ? "  nothing\n" : "");
 }
 

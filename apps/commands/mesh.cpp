@@ -6,7 +6,6 @@
 // black back. The numbers are those of the written mesh, so `halflight check OUT` finds the same ones. Vertices and faces of
 // different objects are never merged. Nothing is solved, and coordinates are those of the scene, unrounded.
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -137,69 +136,44 @@ std::string row(const std::string& name, const Measure& m, std::size_t width, bo
 }
 
 std::string to_text(const SceneFile& file, const SceneMesh& mesh, const MeshOptions& options) {
-  constexpr std::size_t most = 200;  // lines of the list
   std::size_t width = 6;
-  const std::size_t shown = std::min(most, mesh.measures.size());
+  const std::size_t shown = std::min(longest_list, mesh.measures.size());
   for (std::size_t i = 0; i < shown; ++i) { width = std::max(width, file.scene.objects[i].name.size()); }
   std::string text = options.scene + "\n  object" + std::string(width - 6, ' ') +
                      "  vertices     edges     faces    v-e+f  shells  borders  genus           area         volume\n";
   for (std::size_t i = 0; i < shown; ++i) {
     text += row(file.scene.objects[i].name, mesh.measures[i], width, file.scene.objects[i].placement.inside);
   }
-  if (shown < mesh.measures.size()) { text += "  ... and " + std::to_string(mesh.measures.size() - shown) + " more; --json has all\n"; }
+  text += and_more(mesh.measures.size(), shown, "; --json has all");
   text += row("total", mesh.total, width, false);
   return text + (options.output.empty() ? "" : "written: " + options.output + "\n");
 }
 
 void write(JsonWriter& json, const Measure& m) {
-  json.key("vertices").count(m.vertices);
-  json.key("edges").count(m.edges);
-  json.key("faces").count(m.faces);
-  json.key("shells").count(m.shells);
-  json.key("borders").count(m.borders);
-  json.key("genus").number(static_cast<double>(m.genus));
-  json.key("area").number(m.area);
-  json.key("volume");
-  m.volume ? json.number(*m.volume) : json.null();
+  json.fields("vertices", m.vertices, "edges", m.edges, "faces", m.faces, "shells", m.shells, "borders", m.borders, "genus", m.genus,
+              "area", m.area, "volume", m.volume);
 }
 
 std::string to_json(const SceneFile& file, const SceneMesh& mesh, const MeshOptions& options) {
   JsonWriter json;
-  json.open_object();
-  json.key("program").string("halflight");
-  json.key("version").string(version);
-  json.key("scene").string(options.scene);
-  json.key("objects").open_array();
-  for (std::size_t i = 0; i < mesh.measures.size(); ++i) {
-    json.open_object();
-    json.key("name").string(file.scene.objects[i].name);
-    json.key("kind").string(file.origins[i].kind);
-    json.key("inside").boolean(file.scene.objects[i].placement.inside);
-    write(json, mesh.measures[i]);
+  json.open_object().fields("program", "halflight", "version", version, "scene", options.scene);
+  json.key("objects").list(mesh.measures, [&](const Measure& measure) {
+    const auto i = static_cast<std::size_t>(&measure - mesh.measures.data());
+    const radiosity::SceneObject& object = file.scene.objects[i];
+    json.open_object().fields("name", object.name, "kind", file.origins[i].kind, "inside", object.placement.inside);
+    write(json, measure);
     json.close();
-  }
-  json.close();
+  });
   json.key("total").open_object();
   write(json, mesh.total);
   json.close();
-  json.key("files").open_array();
-  if (!options.output.empty()) { json.string(options.output); }
-  json.close();
-  json.close();
+  const std::vector<std::string> files(options.output.empty() ? 0 : 1, options.output);
+  json.fields("files", files).close();
   return json.text();
 }
 
-// Outputs that cannot become files are refused before any work.
-ExitCode check(const MeshOptions& options) {
-  if (!options.output.empty() && !mesh_format(options.output)) {
-    complain("--output " + options.output + ": expected a name that ends with " + mesh_endings());
-    return ExitCode::usage;
-  }
-  return check_outputs({options.output, options.json.value_or("")}, {options.scene});
-}
-
 ExitCode run(const MeshOptions& options) {
-  ExitCode code = check(options);
+  ExitCode code = check_mesh_output(options.output, {options.json.value_or("")}, options.scene);
   if (code != ExitCode::ok) { return code; }
   const auto file = load_scene(options.scene, code);
   if (!file) { return code; }

@@ -7,7 +7,6 @@
 #include <charconv>
 #include <limits>
 #include <memory>
-#include <utility>
 
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/radiosity.hpp>
@@ -190,7 +189,7 @@ std::vector<Argument> arguments(RenderOptions& options) {
     return argument;
   };
   const std::vector<std::string> ends{"--error", "--target", "--time"};  // of the refinement: one at most
-  using radiosity::Reconstruction, radiosity::Solver;
+  using radiosity::Indirect, radiosity::Reconstruction, radiosity::Solver;
   return {
       scene_argument(options.scene),
       texts("-o,--output", "FILE", options.outputs,
@@ -223,6 +222,9 @@ std::vector<Argument> arguments(RenderOptions& options) {
       whole_number("--threads", solver.threads, 1, most_threads, "threads (default: all); results do not depend on it"),
       whole_number("--seed", solver.seed, 0, std::numeric_limits<std::uint64_t>::max(), "seed of all random choices"),
       whole_number("--audit", solver.audit_points, 0, 100'000'000, "points at which the error is measured; 0: none"),
+      one_of<Indirect, Indirect>("--indirect", solver.indirect,
+                                 {{"auto", Indirect::automatic}, {"links", Indirect::links}, {"rays", Indirect::rays}},
+                                 "auto, links or rays: how light between surfaces that do not shine travels"),
       one_of<Solver, Solver>("--solver", solver.solver,
                              {{"cg", Solver::conjugate_gradients},
                               {"gauss-seidel", Solver::gauss_seidel},

@@ -52,23 +52,12 @@ std::string to_text(const Case& which, const Findings& findings) {
 }
 
 void write(JsonWriter& json, const Case& which, const Findings& findings) {
-  json.open_object();
-  json.key("case").string(which.name).key("what").string(which.what).key("why").string(which.why).key("holds").boolean(findings.hold());
-  json.key("solved").count(findings.solved());
-  for (const auto& [key, sentences] : {std::pair{"refusals", &findings.refusals()}, std::pair{"warnings", &findings.warnings()}}) {
-    json.key(key).open_array();
-    for (const std::string& sentence : *sentences) { json.string(sentence); }
-    json.close();
-  }
-  json.key("figures").open_array();
-  for (const Figure& f : findings.figures()) {
+  json.open_object().fields("case", which.name, "what", which.what, "why", which.why, "holds", findings.hold(), "solved", findings.solved(),
+                            "refusals", findings.refusals(), "warnings", findings.warnings());
+  json.key("figures").list(findings.figures(), [&](const Figure& f) {
     constexpr const char* kinds[] = {"at most", "at least", "exactly"};
-    json.open_object();
-    json.key("what").string(f.what).key("measured").number(f.measured).key("kind").string(kinds[static_cast<int>(f.kind)]);
-    json.key("bound").number(f.bound).key("holds").boolean(f.holds());
-    json.close();
-  }
-  json.close();
+    json.object("what", f.what, "measured", f.measured, "kind", kinds[static_cast<int>(f.kind)], "bound", f.bound, "holds", f.holds());
+  });
   json.close();
 }
 

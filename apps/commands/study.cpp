@@ -101,6 +101,7 @@ bool study_scene(const std::string& path, const StudyOptions& options, const rad
   const study::Reference about = study::describe(*truth);
   progress.say(result.scene + ": reference " + about.kind + (about.cached ? " (kept from before), " : ", ") + std::to_string(about.points) +
                " points in " + std::to_string(about.cells) + " cells, noise " + percent(about.noise));
+  for (const std::string& taken : truth->taken) { progress.say(taken + " is left as it is: it is no reference of this scene"); }
 
   study::MeasureOptions measuring;
   measuring.cpu_seconds_per_run = options.seconds;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/euler/html.hpp"
 
+#include <array>
+
 #include <brep/euler_script_run.hpp>
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
@@ -36,38 +38,20 @@ std::string anchor_rows(const std::vector<std::uint32_t>& anchors) {
 void write(JsonWriter& json, const Story& story, std::size_t i, const Layout& layout) {
   const Frame& frame = story.frames[i];
   const bool refused = frame.outcome.kind == brep::Outcome::Kind::refused;
-  json.open_object();
-  json.key("statement").string(frame.statement);
-  json.key("headline").string(headline(frame));
-  json.key("caption").string(frame.caption);
-  json.key("refused").boolean(refused);
-  json.key("expected").boolean(frame.outcome.as_written);
-  json.key("sentence").string(frame.outcome.sentence);
-  json.key("faults").open_array();
-  for (const brep::Fault& fault : frame.outcome.faults) { json.string(fault.sentence); }
-  json.close();
-  json.key("checks").open_array();
-  for (const Check& check : frame.checks) {
-    json.open_object();
-    json.key("text").string(check.text).key("met").boolean(check.met).key("sentence").string(check.sentence);
-    json.close();
-  }
-  json.close();
-  json.key("damaged").boolean(frame.damaged);
-  json.key("counts").open_array();
-  for (const long n : {frame.drawn.v, frame.drawn.e, frame.drawn.f, frame.shells, frame.handles}) { json.number(static_cast<double>(n)); }
-  json.close();
-  json.key("equation").string(equation(frame));
-  json.key("lit").open_array();
+  std::vector<std::string> faults;
+  for (const brep::Fault& fault : frame.outcome.faults) { faults.push_back(fault.sentence); }
+  std::vector<std::string> lit;
   for (const brep::Element e : frame.arguments) {
-    if (e.letter != 0) { json.string(to_string(e)); }
+    if (e.letter != 0) { lit.push_back(to_string(e)); }
   }
-  json.close();
-  json.key("halfedges").string(halfedge_rows(frame.records));
-  json.key("vertices").string(anchor_rows(frame.records.vertices));
-  json.key("faces").string(anchor_rows(frame.records.faces));
-  json.key("panels").count(layout.panels.size());
-  json.key("picture").string(drawing(story, i, layout, 790.0));
+  const std::array<long, 5> numbers{frame.drawn.v, frame.drawn.e, frame.drawn.f, frame.shells, frame.handles};
+  json.open_object().fields("statement", frame.statement, "headline", headline(frame), "caption", frame.caption, "refused", refused,
+                            "expected", frame.outcome.as_written, "sentence", frame.outcome.sentence, "faults", faults);
+  json.key("checks").list(frame.checks,
+                          [&](const Check& check) { json.object("text", check.text, "met", check.met, "sentence", check.sentence); });
+  json.fields("damaged", frame.damaged, "counts", numbers, "equation", equation(frame), "lit", lit, "halfedges",
+              halfedge_rows(frame.records), "vertices", anchor_rows(frame.records.vertices), "faces", anchor_rows(frame.records.faces),
+              "panels", layout.panels.size(), "picture", drawing(story, i, layout, 790.0));
   json.close();
 }
 
@@ -76,10 +60,7 @@ void write(JsonWriter& json, const Story& story, std::size_t i, const Layout& la
 std::string page(const Story& story) {
   const std::vector<Layout> layouts = lay_out(story, 0.026);
   JsonWriter json;
-  json.open_object();
-  json.key("title").string(story.title);
-  json.key("introduction").string(story.introduction);
-  json.key("frames").open_array();
+  json.open_object().fields("title", story.title, "introduction", story.introduction).key("frames").open_array();
   for (std::size_t i = 0; i < story.frames.size(); ++i) { write(json, story, i, layouts[i]); }
   json.close().close();
   std::string data;  // no '<' in the data can end the script element

@@ -15,18 +15,14 @@
 #include <brep/validate_explain.hpp>
 
 #include "apps/markup.hpp"
+#include "apps/text.hpp"
 
 namespace apps::euler {
 namespace {
 
 using Point = glm::dvec2;
 
-std::string number(double x) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1f", x);
-  const std::string digits = text.data();
-  return digits == "-0.0" ? "0" : digits.ends_with(".0") ? digits.substr(0, digits.size() - 2) : digits;
-}
+std::string number(double x) { return trimmed(x, 1); }
 
 // A pale colour of its own for each face: the golden angle keeps neighbours in number apart.
 std::string tint(std::uint32_t face) {

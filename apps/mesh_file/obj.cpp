@@ -128,9 +128,9 @@ class ObjReader {
   std::map<std::string_view, std::size_t> unread_;
 };
 
-void read(std::string_view bytes, Output& out) { ObjReader(bytes, out).run(); }
+void read_obj(std::string_view bytes, Output& out) { ObjReader(bytes, out).run(); }
 
-std::string write(const brep::Builder& builder, std::span<const MeshGroup> groups) {
+std::string write_obj(const brep::Builder& builder, std::span<const MeshGroup> groups) {
   std::string out;
   for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) {
     out += "v ";
@@ -146,7 +146,7 @@ std::string write(const brep::Builder& builder, std::span<const MeshGroup> group
   return out;
 }
 
-bool begins(std::span<const std::string_view, 3> words, bool) {
+bool begins_obj(std::span<const std::string_view, 3> words, bool) {
   constexpr std::array<std::string_view, 5> names = {"mtllib", "usemtl", "o", "g", "s"};
   constexpr std::array<std::string_view, 4> numbers = {"v", "vn", "vt", "f"};
   if (words[1].empty() || words[1] == "=") { return false; }  // "s = ..." is a line of a script
@@ -156,6 +156,6 @@ bool begins(std::span<const std::string_view, 3> words, bool) {
 }  // namespace
 
 extern const MeshFormat obj_format;
-constinit const MeshFormat obj_format{".obj", "an OBJ file", "a polygon mesh (Wavefront OBJ)", true, begins, read, write};
+constinit const MeshFormat obj_format{".obj", "an OBJ file", "a polygon mesh (Wavefront OBJ)", true, begins_obj, read_obj, write_obj};
 
 }  // namespace apps::mesh_file

@@ -71,9 +71,8 @@ class OffReader {
     for (std::int64_t* const count : {&vertices_, &faces_}) {
       const auto number = word < lines_.words().size() ? to_integer(lines_.words()[word]) : std::nullopt;
       if (!number || *number < 0) {
-        const std::string found = word < lines_.words().size() ? shown(lines_.words()[word]) : "the end of the line";
         out_.error(lines_.place(word),
-                   std::string("expected the number of ") + (count == &vertices_ ? "vertices" : "faces") + ", found " + found);
+                   std::string("expected the number of ") + (count == &vertices_ ? "vertices" : "faces") + ", " + found(lines_, word));
         return false;
       }
       *count = *number;
@@ -97,14 +96,9 @@ class OffReader {
     }
     corners_.clear();
     for (std::size_t i = 1; i <= static_cast<std::size_t>(*size); ++i) {
-      const auto index = to_integer(words[i]);
-      if (!index || *index < 0 || *index >= vertices_) {
-        out_.error(lines_.place(i), (vertices_ == 0 ? std::string("there are no vertices, ")
-                                                    : "expected a vertex, a number from 0 to " + std::to_string(vertices_ - 1) + ", ") +
-                                        "found " + shown(words[i]));
-        return;
-      }
-      corners_.push_back(static_cast<std::uint32_t>(*index));
+      const auto index = read_vertex(lines_, i, static_cast<std::uint64_t>(vertices_), out_);
+      if (!index) { return; }
+      corners_.push_back(*index);
     }
     out_.mesh.builder.face(corners_, 0);
     out_.mesh.face_line.push_back(lines_.line());
@@ -116,9 +110,9 @@ class OffReader {
   std::vector<std::uint32_t> corners_;
 };
 
-void read(std::string_view bytes, Output& out) { OffReader(bytes, out).run(); }
+void read_off(std::string_view bytes, Output& out) { OffReader(bytes, out).run(); }
 
-std::string write(const brep::Builder& builder, std::span<const MeshGroup>) {
+std::string write_off(const brep::Builder& builder, std::span<const MeshGroup>) {
   std::string out = "OFF\n" + std::to_string(builder.vertex_count()) + " " + std::to_string(builder.face_count()) + " 0\n";
   for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) { put_position(out, builder.position(v)); }
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
@@ -130,13 +124,13 @@ std::string write(const brep::Builder& builder, std::span<const MeshGroup>) {
 }
 
 // "OFF" with the letters that say what else its vertices have.
-bool begins(std::span<const std::string_view, 3> words, bool first) {
+bool begins_off(std::span<const std::string_view, 3> words, bool first) {
   return first && words[0].size() <= 8 && words[0].ends_with("OFF") && words[0].find_first_not_of("STCN4nOF") == std::string_view::npos;
 }
 
 }  // namespace
 
 extern const MeshFormat off_format;
-constinit const MeshFormat off_format{".off", "an OFF file", "a polygon mesh (OFF)", true, begins, read, write};
+constinit const MeshFormat off_format{".off", "an OFF file", "a polygon mesh (OFF)", true, begins_off, read_off, write_off};
 
 }  // namespace apps::mesh_file

@@ -5,8 +5,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <type_traits>
 
 #include <brep/builder_input.hpp>
 
@@ -74,9 +72,7 @@ class PlyReader {
     out_.error(lines_.place(word), sentence);
     return false;
   }
-  [[nodiscard]] std::string found(std::size_t word) const {
-    return word < lines_.words().size() ? "found " + shown(lines_.words()[word]) : "found the end of the line";
-  }
+  [[nodiscard]] std::string found(std::size_t word) const { return mesh_file::found(lines_, word); }
   [[nodiscard]] std::string_view word(std::size_t i) const { return i < lines_.words().size() ? lines_.words()[i] : std::string_view(); }
 
   bool header() {
@@ -183,9 +179,6 @@ class PlyReader {
       position_[static_cast<int>(role) - static_cast<int>(Property::Role::x)] = value;
     }
   }
-  [[nodiscard]] std::string vertex_range() const {
-    return vertices_ == 0 ? std::string("; there are no vertices") : ", a number from 0 to " + std::to_string(vertices_ - 1);
-  }
   static std::string which(const Element& element, std::uint64_t i) {
     return element.name + " " + std::to_string(i + 1) + " of " + std::to_string(element.count);
   }
@@ -204,11 +197,9 @@ class PlyReader {
       for (; values > 0; --values, ++at) {
         if (at >= lines_.words().size()) { return fail(at, "the line of " + which(element, i) + " has too few values"); }
         if (property.role == Property::Role::corners) {
-          const auto index = to_integer(word(at));
-          if (!index || *index < 0 || static_cast<std::uint64_t>(*index) >= vertices_) {
-            return fail(at, "expected a vertex" + vertex_range() + ", " + found(at));
-          }
-          corners_.push_back(static_cast<std::uint32_t>(*index));
+          const auto index = read_vertex(lines_, at, vertices_, out_);
+          if (!index) { return false; }
+          corners_.push_back(*index);
         } else if (property.role != Property::Role::other) {
           const auto value = to_number(word(at));
           if (!value) { return fail(at, "expected a coordinate, a finite number, " + found(at)); }
@@ -247,8 +238,8 @@ class PlyReader {
         for (; values > 0; --values) {
           const double index = value(property.type);
           if (index < 0 || index >= static_cast<double>(vertices_)) {
-            out_.error(place, which(element, i) + " has the corner " + std::to_string(static_cast<std::int64_t>(index)) +
-                                  "; expected a vertex" + vertex_range());
+            out_.error(place, which(element, i) + " has the corner " + std::to_string(static_cast<std::int64_t>(index)) + "; " +
+                                  expected_vertex(vertices_));
             return false;
           }
           corners_.push_back(static_cast<std::uint32_t>(index));
@@ -295,9 +286,9 @@ class PlyReader {
   std::vector<std::uint32_t> corners_;
 };
 
-void read(std::string_view bytes, Output& out) { PlyReader(bytes, out).run(); }
+void read_ply(std::string_view bytes, Output& out) { PlyReader(bytes, out).run(); }
 
-std::string write(const brep::Builder& builder, std::span<const MeshGroup>) {
+std::string write_ply(const brep::Builder& builder, std::span<const MeshGroup>) {
   std::size_t most = 0;
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) { most = std::max(most, builder.corners(f).size()); }
   const bool wide = most > 255;  // more corners than a byte counts
@@ -315,11 +306,11 @@ std::string write(const brep::Builder& builder, std::span<const MeshGroup>) {
   return out;
 }
 
-bool begins(std::span<const std::string_view, 3> words, bool first) { return first && words[0] == "ply"; }
+bool begins_ply(std::span<const std::string_view, 3> words, bool first) { return first && words[0] == "ply"; }
 
 }  // namespace
 
 extern const MeshFormat ply_format;
-constinit const MeshFormat ply_format{".ply", "a PLY file", "a polygon mesh (PLY)", false, begins, read, write};
+constinit const MeshFormat ply_format{".ply", "a PLY file", "a polygon mesh (PLY)", false, begins_ply, read_ply, write_ply};
 
 }  // namespace apps::mesh_file

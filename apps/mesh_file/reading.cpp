@@ -123,4 +123,19 @@ std::optional<glm::dvec3> read_position(const Lines& lines, std::size_t first, O
   return position;
 }
 
+std::string found(const Lines& lines, std::size_t word) {
+  return word < lines.words().size() ? "found " + shown(lines.words()[word]) : "found the end of the line";
+}
+
+std::string expected_vertex(std::uint64_t count) {
+  return count == 0 ? std::string("there are no vertices") : "expected a vertex, a number from 0 to " + std::to_string(count - 1);
+}
+
+std::optional<std::uint32_t> read_vertex(const Lines& lines, std::size_t word, std::uint64_t count, Output& out) {
+  const auto index = to_integer(lines.words()[word]);
+  if (index && *index >= 0 && static_cast<std::uint64_t>(*index) < count) { return static_cast<std::uint32_t>(*index); }
+  out.error(lines.place(word), expected_vertex(count) + ", " + found(lines, word));
+  return std::nullopt;
+}
+
 }  // namespace apps::mesh_file

@@ -72,6 +72,13 @@ class Lines {
 // The first three words from `first` on are a position; errors say what is wrong. Nothing when there is an error.
 [[nodiscard]] std::optional<glm::dvec3> read_position(const Lines& lines, std::size_t first, Output& out);
 
+// The word as a message names it: "found 'x'", or "found the end of the line".
+[[nodiscard]] std::string found(const Lines& lines, std::size_t word);
+
+// The word as a vertex, one of `count` that are counted from 0; an error says what is wrong. Nothing when there is one.
+[[nodiscard]] std::optional<std::uint32_t> read_vertex(const Lines& lines, std::size_t word, std::uint64_t count, Output& out);
+[[nodiscard]] std::string expected_vertex(std::uint64_t count);  // "expected a vertex, a number from 0 to 7", or that there are none
+
 // "1 0.5 2" and the end of the line, so that it reads back exactly.
 void put_position(std::string& out, const glm::dvec3& p);
 

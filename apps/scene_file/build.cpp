@@ -83,7 +83,7 @@ void Builder::materials() {
     const auto index = static_cast<std::uint32_t>(file_.scene.materials.size());
     const auto [earlier, is_new] = material_index_.emplace(material.name.text, index);
     if (!is_new) {
-      errors_.add(material.name.place, "the material " + quoted(material.name.text) + " is given twice; the first one stands at " +
+      errors_.add(material.name.place, "the material " + in_quotes(material.name.text) + " is given twice; the first one stands at " +
                                            to_string(syntax_.materials[earlier->second].name.place));
     }
     if (material_names_.size() < 1000) { material_names_.push_back(material.name.text); }
@@ -95,7 +95,7 @@ void Builder::cameras() {
   std::unordered_map<std::string_view, Place> names;
   for (const CameraSyntax& syntax : syntax_.cameras) {
     Camera camera = syntax.camera;
-    const std::string who = "camera " + quoted(camera.name) + ": ";
+    const std::string who = "camera " + in_quotes(camera.name) + ": ";
     const auto [earlier, is_new] = names.emplace(syntax.camera.name, syntax.place);
     if (!is_new) { errors_.add(syntax.place, who + "its name is taken; the first one stands at " + to_string(earlier->second)); }
     if (!syntax.sound) { continue; }
@@ -119,7 +119,7 @@ void Builder::unique_names(const std::vector<Item>& items) {
     const Name& name = std::visit([](const auto& it) -> const Name& { return it.name; }, item);
     const auto [earlier, is_new] = names.emplace(name.text, name.place);
     if (!is_new) {
-      errors_.add(name.place, "the name " + quoted(name.text) + " is taken; the first one stands at " + to_string(earlier->second));
+      errors_.add(name.place, "the name " + in_quotes(name.text) + " is taken; the first one stands at " + to_string(earlier->second));
     }
   }
 }
@@ -131,7 +131,7 @@ void Builder::make(const std::vector<Item>& items) {
     Made made = make(*object);
     if (made.shape == nullptr) { continue; }
     if (object->inside && !made.shape->solid()) {
-      errors_.add(*object->inside, "'inside' needs a closed solid; " + quoted(object->name.text) + " has no inside");
+      errors_.add(*object->inside, "'inside' needs a closed solid; " + in_quotes(object->name.text) + " has no inside");
     }
     made_.emplace(object, std::move(made));
   }
@@ -170,7 +170,9 @@ void Builder::operand_materials(const ObjectSyntax& object, const Name* around, 
 std::optional<std::uint32_t> Builder::material_index(const Name& name) {
   const auto found = material_index_.find(name.text);
   if (found != material_index_.end()) { return found->second; }
-  if (syntax_.complete) { errors_.add(name.place, "there is no material " + quoted(name.text) + suggestion(name.text, material_names_)); }
+  if (syntax_.complete) {
+    errors_.add(name.place, "there is no material " + in_quotes(name.text) + suggestion(name.text, material_names_));
+  }
   return std::nullopt;
 }
 
@@ -192,7 +194,7 @@ std::uint32_t Builder::sheet_index(const Name& sheet, const raycast::Object& sha
   std::vector<std::string_view> known;
   for (std::uint32_t i = 0; i < std::min(count, 100U); ++i) { known.push_back(shape.sheet_name(i)); }
   errors_.add(sheet.place,
-              "there is no sheet " + quoted(text) + "; expected " + (count == 1 ? "none: the object has one sheet" : list_of(known)));
+              "there is no sheet " + in_quotes(text) + "; expected " + (count == 1 ? "none: the object has one sheet" : list_of(known)));
   return count;
 }
 
@@ -201,7 +203,7 @@ std::vector<std::uint32_t> Builder::sheet_materials(const ObjectSyntax& object, 
   const Name* const given_material = object.material ? &*object.material : around;
   const std::uint32_t whole = given_material != nullptr ? material_index(*given_material).value_or(0) : none;
   if (object.sheets.empty()) {
-    if (whole == none) { errors_.add(object.name.place, quoted(object.name.text) + " has no material, and nothing around it has one"); }
+    if (whole == none) { errors_.add(object.name.place, in_quotes(object.name.text) + " has no material, and nothing around it has one"); }
     return {whole};
   }
   std::vector<std::uint32_t> result(shape.sheet_count(), whole);
@@ -211,14 +213,14 @@ std::vector<std::uint32_t> Builder::sheet_materials(const ObjectSyntax& object, 
     const std::uint32_t material = material_index(sheet.material).value_or(0);
     const std::uint32_t index = sheet_index(sheet.sheet, shape, names);
     if (index == result.size()) { continue; }
-    if (given[index]) { errors_.add(sheet.sheet.place, "the sheet " + quoted(sheet.sheet.text) + " is given twice"); }
+    if (given[index]) { errors_.add(sheet.sheet.place, "the sheet " + in_quotes(sheet.sheet.text) + " is given twice"); }
     given[index] = true;
     result[index] = material;
   }
   const auto bare = std::find(result.begin(), result.end(), none);
   if (bare != result.end()) {
     const auto index = static_cast<std::uint32_t>(bare - result.begin());
-    errors_.add(object.name.place, quoted(object.name.text) + " has no material for its sheet " + quoted(shape.sheet_name(index)));
+    errors_.add(object.name.place, in_quotes(object.name.text) + " has no material for its sheet " + in_quotes(shape.sheet_name(index)));
   }
   return result;
 }
@@ -266,11 +268,11 @@ void Builder::place(const ObjectSyntax& object, const std::string& prefix, const
   placement.inside = object.inside.has_value();
   std::string name = prefix + object.name.text;
   if (const auto sentence = raycast::check(placement)) {
-    errors_.add(at, quoted(name) + ": " + std::string(*sentence));
+    errors_.add(at, in_quotes(name) + ": " + std::string(*sentence));
     return;
   }
   if (!(placed_bounds(*made.shape, placement).magnitude() <= max_number)) {
-    errors_.add(at, quoted(name) + " reaches beyond 1e30 after its placement");
+    errors_.add(at, in_quotes(name) + " reaches beyond 1e30 after its placement");
     return;
   }
   file_.scene.objects.push_back({std::move(name), made.shape, placement, made.material});

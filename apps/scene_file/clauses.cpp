@@ -13,7 +13,6 @@
 #include <radiosity/scene/material.hpp>
 
 #include "apps/scene_file/parser.hpp"
-#include "apps/scene_file/words.hpp"
 
 namespace apps::scene_file {
 namespace {
@@ -52,7 +51,7 @@ void Parser::color_clause(const Token& keyword, radiosity::Color& out, double mo
     const Token found = token_;
     double value = 0.0;
     if (number(keyword.text, value, std::numeric_limits<double>::max()) && (value < 0.0 || value > most)) {
-      error(found.place, std::string(keyword.text) + " " + quoted(found.text) + " " + std::string(law));
+      error(found.place, std::string(keyword.text) + " " + in_quotes(found.text) + " " + std::string(law));
     }
     out[count++] = value;
   }
@@ -129,7 +128,7 @@ void Parser::scale_clause(const Token& keyword, raycast::Placement& out) {
     if (!number(keyword.text, by[count])) {
       by[count] = 1.0;
     } else if (std::abs(by[count]) < 1.0 / max_number) {
-      error(found.place, "'scale' by " + quoted(found.text) + " leaves nothing of the object");
+      error(found.place, "'scale' by " + in_quotes(found.text) + " leaves nothing of the object");
       by[count] = 1.0;
     }
     ++count;

@@ -25,18 +25,18 @@ class Operands {
     if (!root) {
       result.placement = syntax.placement;
       if (syntax.inside) {
-        errors_.add(*syntax.inside, "'inside' cannot stand at an operand: " + quoted(syntax.name.text) +
+        errors_.add(*syntax.inside, "'inside' cannot stand at an operand: " + in_quotes(syntax.name.text) +
                                         " takes part as a solid; turn the outermost union, intersection or difference");
       }
       if (const auto sentence = raycast::check(result.placement)) {
-        errors_.add(syntax.name.place, quoted(syntax.name.text) + ": " + *sentence);
+        errors_.add(syntax.name.place, in_quotes(syntax.name.text) + ": " + *sentence);
       }
     }
     if (!is_csg(*syntax.kind)) {
       result.solid = syntax.kind->make(syntax, errors_);
       out_.leaves.push_back(result.solid);
       if (result.solid && !result.solid->solid()) {
-        errors_.add(syntax.name.place, quoted(syntax.name.text) + " has no inside; operands are closed solids");
+        errors_.add(syntax.name.place, in_quotes(syntax.name.text) + " has no inside; operands are closed solids");
       }
       return result;
     }
@@ -48,7 +48,7 @@ class Operands {
       const auto [earlier, is_new] = names.emplace(operand.name.text, operand.name.place);
       if (!is_new) {
         errors_.add(operand.name.place,
-                    "the name " + quoted(operand.name.text) + " is taken; the first one stands at " + to_string(earlier->second));
+                    "the name " + in_quotes(operand.name.text) + " is taken; the first one stands at " + to_string(earlier->second));
       }
       result.parts.push_back(node(operand, root ? std::string() : result.name + ".", false));
     }
@@ -68,7 +68,7 @@ CsgShape make_csg(const ObjectSyntax& syntax, Errors& errors) {
   const raycast::CsgNode tree = Operands(result, errors).node(syntax, {}, true);
   if (errors.count() > before) { return result; }
   auto made = raycast::Csg::make(tree);
-  if (!made) { errors.add(syntax.name.place, std::string(syntax.kind->word) + " " + quoted(syntax.name.text) + ": " + made.refusal); }
+  if (!made) { errors.add(syntax.name.place, std::string(syntax.kind->word) + " " + in_quotes(syntax.name.text) + ": " + made.refusal); }
   result.whole = std::move(made.object);
   return result;
 }

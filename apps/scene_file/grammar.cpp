@@ -6,10 +6,10 @@
 namespace apps::scene_file {
 namespace {
 
-using Row = std::vector<std::string_view>;
+using WordList = std::vector<std::string_view>;
 
-Row words_of(const ObjectKind& kind) {
-  Row words;
+WordList words_of(const ObjectKind& kind) {
+  WordList words;
   if (!is_csg(kind)) {
     for (const Clause& clause : kind.clauses) { words.push_back(clause.word); }
     words.insert(words.end(), {"material", "sheet", "move", "rotate", "scale"});
@@ -37,8 +37,8 @@ const ObjectKind* kind_of(std::string_view word) {
 }
 
 Words statements() {
-  static const Row words = [] {
-    Row result = {"material", "camera"};
+  static const WordList words = [] {
+    WordList result = {"material", "camera"};
     for (const ObjectKind& kind : object_kinds()) { result.push_back(kind.word); }
     result.insert(result.end(), {"define", "use"});
     return result;
@@ -47,8 +47,8 @@ Words statements() {
 }
 
 Words clause_words(const ObjectKind& kind) {
-  static const std::vector<Row> rows = [] {
-    std::vector<Row> result;
+  static const std::vector<WordList> rows = [] {
+    std::vector<WordList> result;
     for (const ObjectKind& each : object_kinds()) { result.push_back(words_of(each)); }
     return result;
   }();

@@ -13,11 +13,11 @@ Groups::Groups(const SceneSyntax& syntax, Errors& errors) : syntax_(&syntax), en
     const Name& name = syntax.groups[i].name;
     const auto [earlier, is_new] = index_.emplace(name.text, i);
     if (!is_new) {
-      errors.add(name.place, "the group " + quoted(name.text) + " is defined twice; the first one stands at " +
+      errors.add(name.place, "the group " + in_quotes(name.text) + " is defined twice; the first one stands at " +
                                  to_string(syntax.groups[earlier->second].name.place));
     }
     if (syntax.groups[i].items.empty()) {
-      errors.add(name.place, "the group " + quoted(name.text) + " is empty; expected objects between '{' and '}'");
+      errors.add(name.place, "the group " + in_quotes(name.text) + " is empty; expected objects between '{' and '}'");
     }
   }
   for (std::size_t i = 0; i < entries_.size(); ++i) {
@@ -59,7 +59,7 @@ bool Groups::expand(ObjectSyntax& syntax, std::size_t depth, Expansion& expansio
       return false;
     }
     if (std::find(expansion.open.begin(), expansion.open.end(), group) != expansion.open.end()) {
-      errors.add(syntax.group->place, "cyclic use: " + quoted(syntax.group->text) + " takes part in itself");
+      errors.add(syntax.group->place, "cyclic use: " + in_quotes(syntax.group->text) + " takes part in itself");
       return false;
     }
     expansion.open.push_back(group);
@@ -90,7 +90,7 @@ void Groups::report_unknown(const Name& group, Errors& errors) const {
   for (const GroupSyntax& other : syntax_->groups) {
     if (known.size() < 1000) { known.push_back(other.name.text); }
   }
-  errors.add(group.place, "there is no group " + quoted(group.text) + suggestion(group.text, known));
+  errors.add(group.place, "there is no group " + in_quotes(group.text) + suggestion(group.text, known));
 }
 
 // Depth-first with its own stack; a group is done after all that it uses.
@@ -105,10 +105,10 @@ void Groups::visit(std::size_t root, Errors& errors) {
     std::string names;
     const auto begin = std::find_if(path.begin(), path.end(), [&](const Step& s) { return s.group == target; });
     for (auto step = begin; step != path.end() && step - begin < 5; ++step) {
-      names += quoted(syntax_->groups[step->group].name.text) + " uses ";
+      names += in_quotes(syntax_->groups[step->group].name.text) + " uses ";
     }
     names += path.end() - begin > 5 ? "... uses " : "";
-    errors.add(use.group.place, "cyclic use: " + names + quoted(use.group.text));
+    errors.add(use.group.place, "cyclic use: " + names + in_quotes(use.group.text));
   };
   while (!path.empty()) {
     Step& step = path.back();

@@ -76,7 +76,7 @@ Token Lexer::next() {
   return {begins_number(c) ? Token::Kind::number : Token::Kind::word, text_.substr(begin, at_ - begin), place};
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 40;
   if (text.size() <= longest) { return "'" + std::string(text) + "'"; }
   std::size_t end = longest;
@@ -91,7 +91,7 @@ std::string describe(const Token& token) {
     case Token::Kind::end_of_file:
       return "the end of the file";
     default:
-      return quoted(token.text);
+      return in_quotes(token.text);
   }
 }
 

@@ -44,7 +44,7 @@ class Lexer {
 };
 
 // The text in quotes for a message; at most 40 characters of it.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 // What a token is, for "found ...": 'reflectence', the number 3, the end of the line.
 [[nodiscard]] std::string describe(const Token& token);

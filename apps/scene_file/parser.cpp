@@ -84,16 +84,17 @@ void Parser::clauses(std::string_view statement, Words known, Clause&& clause) {
       std::optional<Place>& earlier = given[static_cast<std::size_t>(std::find(known.begin(), known.end(), keyword.text) - known.begin())];
       line_begins = is_operand(keyword.text);  // an operand reads the end of its line, too
       if (earlier && !line_begins && !is_repeatable(keyword.text)) {
-        error(keyword.place, quoted(keyword.text) + " is given twice; the first one stands at " + to_string(*earlier));
+        error(keyword.place, in_quotes(keyword.text) + " is given twice; the first one stands at " + to_string(*earlier));
       }
       earlier = keyword.place;
       next();
       clause(keyword);
     } else if (!block && at(Token::Kind::word) && contains(known, token_.text)) {
-      error(token_.place, "operands stand in a block; expected '{' before " + quoted(token_.text));
+      error(token_.place, "operands stand in a block; expected '{' before " + in_quotes(token_.text));
       skip_statement();
     } else if (block && first_of_line && at(Token::Kind::word) && contains(statements(), token_.text)) {
-      return error(token_.place, "expected '}' before " + quoted(token_.text) + ", to close the block that begins at " + to_string(*block));
+      return error(token_.place,
+                   "expected '}' before " + in_quotes(token_.text) + ", to close the block that begins at " + to_string(*block));
     } else {
       if (!errors_.just_reported(token_.place)) {
         error(token_.place, (at(Token::Kind::word) ? "unknown word " : "found ") + describe(token_) + " in this " + std::string(statement) +
@@ -132,8 +133,8 @@ void Parser::camera(SceneSyntax& out) {
     if (keyword.text == "look") { look = keyword.place; }
     camera_clause(keyword, syntax);
   });
-  if (!eye) { error(syntax.place, "camera " + quoted(camera_name.text) + " has no 'eye'"); }
-  if (!target && !look) { error(syntax.place, "camera " + quoted(camera_name.text) + " needs 'target' or 'look'"); }
+  if (!eye) { error(syntax.place, "camera " + in_quotes(camera_name.text) + " has no 'eye'"); }
+  if (!target && !look) { error(syntax.place, "camera " + in_quotes(camera_name.text) + " needs 'target' or 'look'"); }
   if (target && look) { error(*look, "a camera has 'target' or 'look', not both"); }
   if (target) { syntax.camera.forward -= syntax.camera.eye; }
   syntax.sound = errors_.count() == before;
@@ -189,7 +190,7 @@ void Parser::operand_use(ObjectSyntax& out) {
 void Parser::require_clauses(const ObjectSyntax& object, bool operand) {
   const ObjectKind& kind = *object.kind;
   const auto require = [&](bool given, const std::string& what) {
-    if (!given) { error(object.name.place, std::string(kind.word) + " " + quoted(object.name.text) + " has no " + what); }
+    if (!given) { error(object.name.place, std::string(kind.word) + " " + in_quotes(object.name.text) + " has no " + what); }
   };
   if (is_csg(kind)) { return require(!object.operands.empty(), "operands; expected solids between '{' and '}'"); }
   for (const Clause& clause : kind.clauses) {
@@ -207,7 +208,7 @@ std::optional<UseSyntax> Parser::use() {
   UseSyntax syntax;
   bool named = name("group", syntax.group);
   if (named && !at_word("as")) {
-    error(token_.place, "expected 'as' and a name for this use of " + quoted(syntax.group.text) + ", found " + describe(token_));
+    error(token_.place, "expected 'as' and a name for this use of " + in_quotes(syntax.group.text) + ", found " + describe(token_));
     named = false;
   }
   if (named) { next(); }
@@ -252,7 +253,7 @@ void Parser::group(SceneSyntax& out) {
         syntax.items.emplace_back(std::move(*read));
       }
     } else if (found.kind == Token::Kind::word && contains(statements(), found.text)) {
-      error(found.place, quoted(found.text) +
+      error(found.place, in_quotes(found.text) +
                              " cannot stand inside a group; expected '}' to close the group "
                              "that begins at " +
                              to_string(opened));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The kinds of objects: the table of the grammar, and what makes the shape of each.
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -27,7 +26,7 @@
 namespace apps::scene_file {
 namespace {
 
-std::string who(const ObjectSyntax& syntax) { return std::string(syntax.kind->word) + " " + quoted(syntax.name.text) + ": "; }
+std::string who(const ObjectSyntax& syntax) { return std::string(syntax.kind->word) + " " + in_quotes(syntax.name.text) + ": "; }
 
 // Takes the object out of what a factory of raycast/ returned, or reports its sentence.
 template <class Made>

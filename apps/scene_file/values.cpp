@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include "apps/scene_file/parser.hpp"
-#include "apps/scene_file/words.hpp"
 
 namespace apps::scene_file {
 namespace {
@@ -84,13 +83,13 @@ bool Parser::number(std::string_view clause, double& out, double most) {
   }
   next();
   const std::string fault = number_fault(found.text, most, out);
-  if (!fault.empty()) { error(found.place, quoted(found.text) + " " + fault); }
+  if (!fault.empty()) { error(found.place, in_quotes(found.text) + " " + fault); }
   return fault.empty();
 }
 
 bool Parser::no_more_numbers(std::string_view clause, std::string_view takes) {
   if (!at(Token::Kind::number)) { return true; }
-  error(token_.place, "'" + std::string(clause) + "' takes " + std::string(takes) + ", found one more: " + quoted(token_.text));
+  error(token_.place, "'" + std::string(clause) + "' takes " + std::string(takes) + ", found one more: " + in_quotes(token_.text));
   while (at(Token::Kind::number)) { next(); }
   return false;
 }
@@ -122,7 +121,7 @@ bool Parser::whole_number(std::string_view what, std::uint32_t most, std::uint32
   if (!number(what, value)) { return false; }
   if (value < 0.0 || value > most || value != std::floor(value)) {
     error(found.place,
-          "expected a whole number from 0 to " + std::to_string(most) + " for '" + std::string(what) + "', found " + quoted(found.text));
+          "expected a whole number from 0 to " + std::to_string(most) + " for '" + std::string(what) + "', found " + in_quotes(found.text));
     return false;
   }
   out = static_cast<std::uint32_t>(value);
@@ -139,7 +138,7 @@ bool Parser::name(std::string_view of_what, Name& out) {
   next();
   out = {std::string(found.text), found.place};
   if (is_name(found.text)) { return true; }
-  error(found.place, quoted(found.text) + " is not a name; names have letters, digits, '_' and '-', at most 200");
+  error(found.place, in_quotes(found.text) + " is not a name; names have letters, digits, '_' and '-', at most 200");
   return false;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Things that touch, coincide, overlap, or nearly do.
 #include <raycast/objects/cylinder.hpp>
-#include <raycast/objects/mesh.hpp>
 #include <raycast/objects/sphere.hpp>
 
 #include <radiosity/result/audit.hpp>

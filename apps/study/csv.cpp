@@ -10,15 +10,15 @@
 namespace study {
 namespace {
 
-constexpr std::string_view head =
+constexpr std::string_view csv_head =
     "scene,reference,noise,point_noise,method,setting,reconstruction,cpu_seconds,seconds_saved,peak_bytes,bytes,links,leaves,rays,"
     "cells_l1,cells_l2,cells_worst,points_l1,points_l2,points_worst,below_noise,"
     "part_discretisation,part_links,part_solver,part_reconstruction,picture_l2,picture_low,picture_high,refused\n";
 
-constexpr auto columns = static_cast<std::size_t>(1 + std::count(head.begin(), head.end(), ','));
+constexpr auto csv_columns = static_cast<std::size_t>(1 + std::count(csv_head.begin(), csv_head.end(), ','));
 
 // Empty: not measured.
-std::string number(double x) { return std::isfinite(x) ? apps::shortest(x) : std::string(); }
+std::string text_of(double x) { return std::isfinite(x) ? apps::shortest(x) : std::string(); }
 
 class Line {
  public:
@@ -41,7 +41,7 @@ void add_errors(Line& line, const Errors& errors, const Reference& reference) {
   std::string limited;
   const auto add = [&](double measured, double noise, const char* column) {
     const KnownError error = known_error(measured, noise);
-    line.field(number(error.value));
+    line.field(text_of(error.value));
     if (error.limited) { limited += (limited.empty() ? "" : " ") + std::string(column); }
   };
   add(errors.cells.l1, reference.noise, "cells_l1");
@@ -58,29 +58,29 @@ std::string run_line(const SceneStudy& scene, const Method& method, const Run& r
   Line line;
   line.field(scene.scene);
   line.field(scene.reference.kind);
-  line.field(number(scene.reference.noise));
-  line.field(number(scene.reference.point_noise));
+  line.field(text_of(scene.reference.noise));
+  line.field(text_of(scene.reference.point_noise));
   line.field(method.name);
   line.field(run.setting);
   line.field(names[static_cast<std::size_t>(stage)]);
   if (!run.refused.empty()) {
-    line.empty(columns - 1 - line.fields());  // the reason stands in the last column
+    line.empty(csv_columns - 1 - line.fields());  // the reason stands in the last column
     line.field(run.refused);
     return line.end();
   }
-  line.field(number(run.cpu_seconds));
-  line.field(number(run.seconds_saved));
+  line.field(text_of(run.cpu_seconds));
+  line.field(text_of(run.seconds_saved));
   for (const std::uint64_t n : {run.peak_bytes, run.bytes, run.links, run.leaves, run.rays}) { line.field(std::to_string(n)); }
   add_errors(line, errors(run, stage), scene.reference);
   if (run.parts) {
     for (const double part : {run.parts->discretisation, run.parts->links, run.parts->solver, run.parts->reconstruction}) {
-      line.field(number(part));
+      line.field(text_of(part));
     }
   } else {
     line.empty(4);
   }
   if (run.picture_error && stage == Stage::weighted) {
-    for (const double x : {run.picture_error->relative_l2, run.picture_error->low, run.picture_error->high}) { line.field(number(x)); }
+    for (const double x : {run.picture_error->relative_l2, run.picture_error->low, run.picture_error->high}) { line.field(text_of(x)); }
   } else {
     line.empty(3);
   }
@@ -101,7 +101,7 @@ std::string csv_field(std::string_view text) {
 }
 
 std::string to_csv(const Study& study) {
-  std::string text(head);
+  std::string text(csv_head);
   for (const SceneStudy& scene : study.scenes) {
     for (const Method& method : scene.methods) {
       for (const Run& run : method.runs) {

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <limits>
 #include <thread>
@@ -24,11 +23,10 @@
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/left_out.hpp>
-#include <radiosity/visibility/plan.hpp>
-
-#include "apps/view.hpp"
 
 #include "apps/memory.hpp"
+#include "apps/text.hpp"
+#include "apps/view.hpp"
 
 namespace study {
 namespace {
@@ -37,11 +35,7 @@ using radiosity::Color;
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-std::string seconds_text(double seconds) {
-  char text[32] = "";
-  std::snprintf(text, sizeof text, "%.3g", seconds);
-  return text;
-}
+std::string seconds_text(double seconds) { return apps::formatted("%.3g", seconds); }
 
 // Stops a run that takes too long, or when the study itself is to stop.
 class RunLimit {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apps/study/methods.hpp"
 
-#include <charconv>
 #include <limits>
 #include <utility>
 
@@ -12,6 +11,8 @@
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
 
+#include "apps/text.hpp"
+
 namespace study {
 namespace {
 
@@ -21,11 +22,7 @@ using radiosity::Outcome;
 using radiosity::Scene;
 using radiosity::Solution;
 
-std::string text(const char* name, double value) {
-  char digits[32] = "";
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  return std::string(name) + " " + std::string(digits, end);
-}
+std::string text(const char* name, double value) { return std::string(name) + " " + apps::shortest(value); }
 
 Options common(const MethodOptions& study) {
   Options options;
@@ -138,13 +135,21 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
   const std::vector<double> targets{0.16, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025};
   const std::string with_clusters = "the same with clusters above the input faces, also where they do not pay";
   std::vector<MethodPlan> all;
+  Options rays = common(study);
+  rays.indirect = radiosity::Indirect::rays;
+  all.push_back(hierarchical("F, stored rays",
+                             "lamps are linked as in hierarchical F; light between other surfaces goes by links that are made of stored rays, "
+                             "also where these do not pay",
+                             "epsilon", epsilons, rays, set_epsilon));
   Options faces = common(study);
+  faces.indirect = radiosity::Indirect::links;
   faces.cluster_from = std::numeric_limits<std::uint32_t>::max();
   all.push_back(hierarchical("hierarchical F",
                              "a pair is linked where its form factor is small (paper 4.4), and split on where the light of a lamp varies "
                              "(our light oracle, not in the paper); faces are split by Euler operators",
                              "epsilon", epsilons, faces, set_epsilon));
   Options clusters = common(study);
+  clusters.indirect = radiosity::Indirect::links;
   clusters.cluster_from = 2;
   all.push_back(hierarchical("F, clusters", with_clusters, "epsilon", epsilons, clusters, set_epsilon));
   all.push_back(hierarchical("hierarchical BF", "solve, then refine the links that carry the most error (paper 4.4)", "target", targets,
@@ -157,6 +162,7 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
   all.push_back(accuracy_target("BF, accuracy target, clusters", with_clusters, clusters));
   Options separate = common(study);
   separate.topology = radiosity::Topology::separate;
+  separate.indirect = radiosity::Indirect::links;
   separate.cluster_from = std::numeric_limits<std::uint32_t>::max();
   all.push_back(
       hierarchical("F, separate polygons",

@@ -6,18 +6,17 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <string>
+
+#include "apps/text.hpp"
 
 namespace study {
 
 // With a true minus sign.
 [[nodiscard]] inline std::string fixed(double x, int decimals) {
   if (!std::isfinite(x)) { return "–"; }
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, std::abs(x));
-  const bool zero = std::string(text.data()).find_first_of("123456789") == std::string::npos;
-  return (x < 0.0 && !zero ? "−" : "") + std::string(text.data());
+  const std::string text = apps::fixed(std::abs(x), decimals);
+  return (x < 0.0 && text.find_first_of("123456789") != text.npos ? "−" : "") + text;
 }
 
 [[nodiscard]] inline std::string signed_number(double x) { return (std::isfinite(x) && x >= 0.0 ? "+" : "") + fixed(x, 2); }
@@ -28,12 +27,9 @@ namespace study {
   const double size = std::abs(x);
   if (size >= 0.001 && size < 999500.0) {
     const int digits = static_cast<int>(std::floor(std::log10(size * (1.0 + 1e-9))));
-    const int decimals = digits >= 2 ? 0 : 2 - digits;
-    return fixed(x, decimals);
+    return fixed(x, digits >= 2 ? 0 : 2 - digits);
   }
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", x);
-  return text.data();
+  return apps::formatted("%.3g", x);
 }
 
 // At the ticks of an axis: as few characters as say the value.
@@ -41,25 +37,16 @@ namespace study {
   static constexpr std::array<const char*, 5> prefixes = {"", " k", " M", " G", " T"};
   std::size_t i = 0;
   while (x >= 1000.0 * (1.0 - 1e-9) && i + 1 < prefixes.size()) { x /= 1000.0, ++i; }
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", x);
-  return text.data() + std::string(prefixes[i]);
+  return apps::formatted("%.4g", x) + prefixes[i];
 }
 
 // 0.0123 -> "1.23 %".
 [[nodiscard]] inline std::string percent(double fraction) {
   if (!std::isfinite(fraction)) { return "–"; }
   if (std::abs(fraction) >= 9.995) { return fixed(100.0 * fraction, 0) + " %"; }
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", 100.0 * fraction);
-  std::string number = text.data();
-  if (number.find('e') != std::string::npos && std::abs(fraction) > 1e-9 && std::abs(fraction) < 1.0) {
-    std::snprintf(text.data(), text.size(), "%.*f", 2 - static_cast<int>(std::floor(std::log10(std::abs(100.0 * fraction)))),
-                  100.0 * fraction);
-    number = text.data();
-    while (number.back() == '0') { number.pop_back(); }
-  }
-  return number + " %";
+  const std::string number = apps::formatted("%.3g", 100.0 * fraction);
+  if (number.find('e') == number.npos || std::abs(fraction) <= 1e-9 || std::abs(fraction) >= 1.0) { return number + " %"; }
+  return apps::trimmed(100.0 * fraction, 2 - static_cast<int>(std::floor(std::log10(std::abs(100.0 * fraction))))) + " %";
 }
 
 // 12 300 000 -> "12.3 MB": thousands, as of disks.

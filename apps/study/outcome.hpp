@@ -8,10 +8,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "apps/study/numbers.hpp"
+#include "apps/study/pareto.hpp"
 #include "apps/study/results.hpp"
 #include "apps/study/slope.hpp"
 
@@ -59,6 +61,28 @@ enum class Cost { cpu_time, memory, links };
 [[nodiscard]] inline CostPoint point_of(const Run& run, const Reference& reference, Cost cost) {
   const KnownError error = main_error(run, reference);
   return {cost_of(run, cost), error.value, error.limited};
+}
+
+// One a run.
+[[nodiscard]] inline std::vector<CostPoint> points_of(const Method& method, const Reference& reference, Cost cost) {
+  std::vector<CostPoint> points;
+  for (const Run& run : method.runs) { points.push_back(point_of(run, reference, cost)); }
+  return points;
+}
+
+// The runs of all methods that no other run beats in error and CPU time.
+[[nodiscard]] inline std::set<const Run*> on_front(const SceneStudy& scene) {
+  std::vector<CostPoint> points;
+  std::vector<const Run*> runs;
+  for (const Method& method : scene.methods) {
+    for (const Run& run : method.runs) {
+      points.push_back(point_of(run, scene.reference, Cost::cpu_time));
+      runs.push_back(&run);
+    }
+  }
+  std::set<const Run*> front;
+  for (const std::size_t i : pareto_front(points)) { front.insert(runs[i]); }
+  return front;
 }
 
 // The cheapest run of a method whose error is at most `target`.

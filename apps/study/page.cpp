@@ -2,10 +2,8 @@
 #include "apps/study/page.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include <radiosity/support/left_out.hpp>
-#include <radiosity/visibility/plan.hpp>
 
 #include "apps/markup.hpp"
 #include "apps/png.hpp"

@@ -23,8 +23,6 @@
 #include <radiosity/visibility/prepare.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
-#include "apps/files.hpp"
-#include "apps/scene_file.hpp"
 #include "apps/study/checksum.hpp"
 
 namespace study {
@@ -225,19 +223,13 @@ std::optional<TrueRadiosity> make_reference(const radiosity::Scene& scene, std::
   std::optional<TrueRadiosity> truth = points_of(scene, *preparation.prepared, options, fault);
   if (!truth || truth->analytic) { return truth; }
   const std::string key = reference_key(text, *truth, options);
-  for (const std::string& path : caches) {
-    std::string unreadable;
-    const std::optional<std::string> file = apps::read_text(path, unreadable);
-    if (file && from_cache(*file, key, options.paths, *truth)) { return truth; }
-  }
+  if (read_cache(caches, key, options.paths, *truth)) { return truth; }
   trace(scene, *preparation.prepared, options, control, *truth);
   if (control.cancelled()) {
     fault = "interrupted before the reference was done";
     return std::nullopt;
   }
-  for (const std::string& path : caches) {
-    if (!apps::write_file(path, to_cache(*truth, key))) { break; }
-  }
+  write_cache(caches, key, *truth);
   return truth;
 }
 

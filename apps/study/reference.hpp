@@ -5,8 +5,8 @@
 // points of the true surface that are not buried. In a closed scene where every surface emits 1 - rho times the same, B is
 // that number everywhere (the furnace; any shapes, any occluders); else each point is path-traced (radiosity/audit/path_tracer.hpp) and brings its standard errors.
 //
-// Path-traced values are kept in a file, with a checksum of all they depend on and one of themselves: a file that is damaged, or
-// made for another scene, is made anew and never trusted.
+// Path-traced values are kept in a file, with a checksum of all they depend on and one of themselves: a file that is damaged is
+// made anew and never trusted; one for another scene, or none of ours, is left as it is.
 
 #include <cstdint>
 #include <optional>
@@ -49,6 +49,7 @@ struct TrueRadiosity {
   std::vector<ReferenceCell> cells;
   std::vector<ReferencePoint> points;
   std::vector<radiosity::LeftOut> left_out;  // by the plan of the scene
+  std::vector<std::string> taken;            // where it could not be kept, because another file is there
 };
 
 struct ReferenceOptions {
@@ -70,8 +71,12 @@ struct ReferenceOptions {
 [[nodiscard]] std::string to_cache(const TrueRadiosity& truth, const std::string& key);
 [[nodiscard]] bool from_cache(std::string_view file, const std::string& key, std::uint64_t least, TrueRadiosity& truth);
 
-// The reference of the scene whose file has this `text`: analytic, from the first of the `caches` that is good, or path-traced and
-// then written to the first that can be written. Nothing and a sentence in `fault` where there is no reference, or on cancel.
+// The same with files: the values of the first of the `caches` that is good, and written to the first that can be written. Where all hold
+// files of others, which are left as they are, the last with the key in its name is used ("room.KEY.reference.json").
+[[nodiscard]] bool read_cache(const std::vector<std::string>& caches, const std::string& key, std::uint64_t least, TrueRadiosity& truth);
+void write_cache(const std::vector<std::string>& caches, const std::string& key, TrueRadiosity& truth);
+
+// The reference of the scene whose file has this `text`: analytic, from the `caches`, or path-traced and then written to them. Nothing and a sentence in `fault` where there is no reference, or on cancel.
 [[nodiscard]] std::optional<TrueRadiosity> make_reference(const radiosity::Scene& scene, std::string_view text,
                                                           const std::vector<std::string>& caches, const ReferenceOptions& options,
                                                           const radiosity::Control& control, std::string& fault);

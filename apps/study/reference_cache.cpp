@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The file that keeps a reference: JSON in one fixed layout, so that a reader compares its head with the expected text and reads numbers.
+//
+// A study keeps it where nobody has asked for a file: beside the scene. So a file that is there already is replaced only when it begins with
+// this scene's key: then it is an older or a damaged copy of the same values.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
+#include <utility>
 
+#include "apps/files.hpp"
+#include "apps/scene_file.hpp"
 #include "apps/study/checksum.hpp"
 #include "apps/study/reference.hpp"
 #include "apps/text.hpp"
@@ -10,10 +19,13 @@
 namespace study {
 namespace {
 
+// What a file for this key begins with.
+std::string opening(const std::string& key) { return "{\n  \"halflight_reference\": 1,\n  \"key\": \"" + key + "\",\n"; }
+
 // Everything before the values.
-std::string head(const std::string& key, const std::string& checksum, std::uint64_t paths, std::size_t points) {
-  return "{\n  \"halflight_reference\": 1,\n  \"key\": \"" + key + "\",\n  \"checksum\": \"" + checksum +
-         "\",\n  \"paths\": " + std::to_string(paths) + ",\n  \"points\": " + std::to_string(points) +
+std::string text_before_values(const std::string& key, const std::string& checksum, std::uint64_t paths, std::size_t points) {
+  return opening(key) + "  \"checksum\": \"" + checksum + "\",\n  \"paths\": " + std::to_string(paths) +
+         ",\n  \"points\": " + std::to_string(points) +
          ",\n  \"columns\": \"radiosity and standard error of each channel\",\n  \"values\": [";
 }
 constexpr std::string_view tail = "]\n}\n";
@@ -34,7 +46,56 @@ std::optional<std::uint64_t> count_after(std::string_view file, std::string_view
   return std::from_chars(begin, file.data() + file.size(), value).ec == std::errc() ? std::optional(value) : std::nullopt;
 }
 
+namespace fs = std::filesystem;
+
+// A file of another name: "room.reference.json" becomes "room.KEY.reference.json".
+std::string with_key(const std::string& path, const std::string& key) {
+  const fs::path whole(path);
+  const std::string name = whole.filename().string();
+  const std::size_t dot = std::min(name.find('.'), name.size());
+  return (whole.parent_path() / (name.substr(0, dot) + "." + key + name.substr(dot))).string();
+}
+
+enum class Place { free, ours, taken };
+
+// Whether a reference may be written there; what lies there already, if it can be read. A file of which nothing but its place is known is
+// another's, and so is a file for another scene.
+Place look_at(const std::string& path, const std::string& key, std::string& text) {
+  std::error_code ignored;
+  const fs::file_type type = fs::status(path, ignored).type();
+  if (type == fs::file_type::not_found) { return Place::free; }
+  std::string unreadable;
+  std::optional<std::string> file = type == fs::file_type::regular ? apps::read_text(path, unreadable) : std::nullopt;
+  if (!file || !file->starts_with(opening(key))) { return Place::taken; }
+  text = std::move(*file);
+  return Place::ours;
+}
+
+std::vector<std::string> places(std::vector<std::string> caches, const std::string& key) {
+  if (!caches.empty()) { caches.push_back(with_key(caches.back(), key)); }
+  return caches;
+}
+
 }  // namespace
+
+bool read_cache(const std::vector<std::string>& caches, const std::string& key, std::uint64_t least, TrueRadiosity& truth) {
+  for (const std::string& path : places(caches, key)) {
+    std::string text;
+    if (look_at(path, key, text) == Place::ours && from_cache(text, key, least, truth)) { return true; }
+  }
+  return false;
+}
+
+void write_cache(const std::vector<std::string>& caches, const std::string& key, TrueRadiosity& truth) {
+  for (const std::string& path : places(caches, key)) {
+    std::string text;
+    if (look_at(path, key, text) == Place::taken) {
+      truth.taken.push_back(path);
+    } else if (!apps::write_file(path, to_cache(truth, key))) {
+      return;
+    }
+  }
+}
 
 std::string to_cache(const TrueRadiosity& truth, const std::string& key) {
   std::string values;
@@ -43,7 +104,7 @@ std::string to_cache(const TrueRadiosity& truth, const std::string& key) {
     for (int c = 0; c < 3; ++c) { values += apps::shortest(p.radiosity[c]) + ","; }
     for (int c = 0; c < 3; ++c) { values += apps::shortest(p.standard_error[c]) + (c < 2 ? "," : ""); }
   }
-  return head(key, checksum_of(truth.paths, values), truth.paths, truth.points.size()) + values + std::string(tail);
+  return text_before_values(key, checksum_of(truth.paths, values), truth.paths, truth.points.size()) + values + std::string(tail);
 }
 
 bool from_cache(std::string_view file, const std::string& key, std::uint64_t least, TrueRadiosity& truth) {
@@ -51,7 +112,7 @@ bool from_cache(std::string_view file, const std::string& key, std::uint64_t lea
   const std::size_t bracket = file.find('[');
   if (!paths || *paths < least || bracket == std::string_view::npos || !file.ends_with(tail)) { return false; }
   const std::string_view values = file.substr(bracket + 1, file.size() - tail.size() - bracket - 1);
-  const std::string expected = head(key, checksum_of(*paths, values), *paths, truth.points.size());
+  const std::string expected = text_before_values(key, checksum_of(*paths, values), *paths, truth.points.size());
   if (file.substr(0, bracket + 1) != expected) { return false; }
 
   std::vector<double> numbers;

@@ -6,19 +6,12 @@
 
 #include "apps/markup.hpp"
 #include "apps/study/base64.hpp"
+#include "apps/text.hpp"
 
 namespace study {
 namespace {
 
-// With at most two decimals, without trailing zeros.
-std::string number(double x) {
-  char text[40] = "";
-  std::snprintf(text, sizeof text, "%.2f", x);
-  std::string result = text;
-  while (result.back() == '0') { result.pop_back(); }
-  if (result.back() == '.') { result.pop_back(); }
-  return result == "-0" ? "0" : result;
-}
+std::string number(double x) { return apps::trimmed(x, 2); }
 
 std::string hex(Tone tone) {
   char text[16] = "";

@@ -2,10 +2,10 @@
 #include "apps/study/table.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "apps/study/outcome.hpp"
-#include "apps/study/pareto.hpp"
 
 namespace study {
 namespace {
@@ -13,17 +13,9 @@ namespace {
 // Calls use(method, run, first of its method?, on the Pareto front of CPU time?).
 template <class Use>
 void each_run(const SceneStudy& scene, const Use& use) {
-  std::vector<CostPoint> points;
+  const std::set<const Run*> front = on_front(scene);
   for (const Method& method : scene.methods) {
-    for (const Run& run : method.runs) { points.push_back(point_of(run, scene.reference, Cost::cpu_time)); }
-  }
-  const std::vector<std::size_t> front = pareto_front(points);
-  std::size_t number = 0;
-  for (const Method& method : scene.methods) {
-    for (const Run& run : method.runs) {
-      use(method, run, &run == &method.runs[0], std::find(front.begin(), front.end(), number) != front.end());
-      ++number;
-    }
+    for (const Run& run : method.runs) { use(method, run, &run == &method.runs[0], front.contains(&run)); }
   }
 }
 
@@ -60,9 +52,7 @@ Table summary_table(const SceneStudy& scene) {
     row.cells.push_back(best != nullptr ? to_text(main_error(*best, scene.reference)) : "–");
     row.cells.push_back(best != nullptr ? to_text(known_error(best->leaves_error.cells.worst, scene.reference.noise)) : "–");
     row.cells.push_back(best != nullptr ? seconds(best->cpu_seconds) : "–");
-    std::vector<CostPoint> points;
-    for (const Run& run : method.runs) { points.push_back(point_of(run, scene.reference, Cost::cpu_time)); }
-    const auto law = fit_power_law(points);
+    const auto law = fit_power_law(points_of(method, scene.reference, Cost::cpu_time));
     row.cells.push_back(law ? signed_number(law->exponent) : "–");
     table.rows.push_back(std::move(row));
   }

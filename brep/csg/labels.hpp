@@ -7,13 +7,15 @@
 // A label spreads over every edge that is not common to both operands. For a part without a common edge one of its points is tested
 // (point_in_solid.hpp): a vertex that does not touch the other operand, or the middle of an edge.
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include <brep/csg/contacts.hpp>
-#include <brep/csg/point_in_solid.hpp>
+#include <brep/csg/point_table.hpp>
 #include <brep/csg/radial.hpp>
+#include <brep/csg/solid.hpp>
 #include <brep/csg/work.hpp>
+#include <brep/handles.hpp>
 
 namespace brep::csg::detail {
 
@@ -24,77 +26,17 @@ class Labels {
   std::vector<Side> sides;              // of each face
   std::uint32_t fault = invalid_index;  // a face with two labels, or none, if there is one
 
-  void run(const Radial& radial) {
-    known_.assign(work_.faces.size(), 0);
-    sides.assign(work_.faces.size(), Side::outside);
-    waiting_.reserve(work_.faces.size());
-    common_.assign(work_.halves.size(), 0);
-    for (const Spine& s : radial.spines) {
-      common_[s.half] = 1;
-      give(work_.halves[s.half].face, s.side);
-    }
-    spread();
-    Box boxes[2];
-    for (const WorkFace& f : work_.faces) { boxes[f.of_b].add(f.box); }
-    for (std::uint32_t f = 0; f < work_.faces.size() && fault == invalid_index; ++f) {
-      if (known_[f]) { continue; }
-      give(f, boxes[!work_.faces[f].of_b].meets(boxes[work_.faces[f].of_b]) ? ask(f) : far(!work_.faces[f].of_b));
-      spread();
-    }
-  }
+  void run(const Radial& radial);
 
  private:
-  void give(std::uint32_t f, Side side) {
-    if (known_[f]) {
-      if (sides[f] != side) { fault = f; }
-      return;
-    }
-    known_[f] = 1;
-    sides[f] = side;
-    waiting_.push_back(f);
-  }
-  void spread() {
-    for (; next_ < waiting_.size(); ++next_) {
-      const std::uint32_t f = waiting_[next_];
-      const WorkFace& face = work_.faces[f];
-      for (std::uint32_t i = 0; i < face.count; ++i) {
-        const std::uint32_t h = work_.half(face, i);
-        if (!common_[h]) { give(work_.halves[work_.halves[h].twin].face, sides[f]); }
-      }
-    }
-  }
+  void give(std::uint32_t f, Side side);
+  void spread();
 
   // A point at infinity.
   [[nodiscard]] Side far(bool of_b) const { return of_b && b_reversed_ ? Side::inside : Side::outside; }
 
   // The faces that hang together with f and have no label.
-  [[nodiscard]] Side ask(std::uint32_t f) {
-    const bool other = !work_.faces[f].of_b;
-    const PointInSolid inside(work_, other);
-    std::vector<std::uint32_t> part{f};
-    known_[f] = 1;
-    for (std::size_t k = 0; k < part.size(); ++k) {
-      const WorkFace& face = work_.faces[part[k]];
-      for (std::uint32_t i = 0; i < face.count; ++i) {
-        const std::uint32_t h = work_.half(face, i), next = work_.halves[work_.halves[h].twin].face;
-        if (!common_[h] && !known_[next]) { known_[next] = 1, part.push_back(next); }
-      }
-    }
-    for (std::uint32_t x : part) { known_[x] = 0; }
-    int answer = 0;
-    for (int attempt = 0; attempt < 2 && answer == 0; ++attempt) {
-      for (std::size_t k = 0; k < part.size() && answer == 0; ++k) {
-        const WorkFace& face = work_.faces[part[k]];
-        for (std::uint32_t i = 0; i < face.count && answer == 0; ++i) {
-          const std::uint32_t h = work_.half(face, i), v = work_.halves[h].point;
-          if (attempt == 0 && !contacts_.contains(v)) { answer = inside(inside.vertex(v)); }
-          if (attempt == 1) { answer = inside(inside.middle(v, work_.target(h))); }
-        }
-      }
-    }
-    if (answer == 0) { fault = f; }
-    return (answer > 0) != (other && b_reversed_) ? Side::inside : Side::outside;
-  }
+  [[nodiscard]] Side ask(std::uint32_t f);
 
   const Work& work_;
   const PointTable& contacts_;
@@ -105,3 +47,7 @@ class Labels {
 };
 
 }  // namespace brep::csg::detail
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <brep/csg/labels.cpp>
+#endif

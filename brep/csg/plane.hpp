@@ -49,22 +49,7 @@ struct OrientedPlane {
 namespace detail {
 
 inline Int128 size(Int128 x) { return x < 0 ? -x : x; }
-inline Int128 gcd(Int128 x, Int128 y) {
-  x = size(x), y = size(y);
-  while (y != 0) {
-    if (x <= INT64_MAX && y <= INT64_MAX) {
-      std::uint64_t u = static_cast<std::uint64_t>(x), w = static_cast<std::uint64_t>(y);
-      while (w != 0) {
-        const std::uint64_t rest = u % w;
-        u = w, w = rest;
-      }
-      return static_cast<Int128>(u);
-    }
-    const Int128 rest = x % y;
-    x = y, y = rest;
-  }
-  return x;
-}
+Int128 gcd(Int128 x, Int128 y);
 
 }  // namespace detail
 
@@ -74,42 +59,15 @@ class PlaneTable {
   [[nodiscard]] std::size_t size() const { return planes_.size(); }
 
   // The plane with this normal, not zero, and offset, looking where the normal points.
-  OrientedPlane insert(std::array<std::int64_t, 3> n, Int128 d) {
-    const Int128 divisor = detail::gcd(detail::gcd(n[0], n[1]), detail::gcd(n[2], d));
-    const bool flip = n[0] != 0 ? n[0] < 0 : n[1] != 0 ? n[1] < 0 : n[2] < 0;
-    Plane plane;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::int64_t reduced = static_cast<std::int64_t>(n[i] / divisor);
-      plane.n[i] = flip ? -reduced : reduced;
-      plane.normal[i] = static_cast<double>(plane.n[i]);
-    }
-    plane.d = flip ? -(d / divisor) : d / divisor;
-    plane.offset = static_cast<double>(plane.d);
-    plane.bound = (std::abs(plane.normal[0]) + std::abs(plane.normal[1]) + std::abs(plane.normal[2])) * 0x1p-24;
-    if (2 * planes_.size() >= slots_.size()) { grow(); }
-    std::uint32_t& slot = find(plane);
-    if (slot == invalid_index) {
-      slot = static_cast<std::uint32_t>(planes_.size());
-      planes_.push_back(plane);
-    }
-    return {2 * slot + (flip ? 1u : 0u)};
-  }
+  OrientedPlane insert(std::array<std::int64_t, 3> n, Int128 d);
 
  private:
-  static std::uint64_t hash(const Plane& p) {
-    std::uint64_t h = static_cast<std::uint64_t>(p.d) * 0x9e3779b97f4a7c15u;
-    for (std::int64_t x : p.n) { h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(x)) * 0xbf58476d1ce4e5b9u; }
-    return h ^ (h >> 32);
-  }
+  static std::uint64_t hash(const Plane& p);
   // The slot of the plane, or the free one where it belongs.
-  std::uint32_t& find(const Plane& plane) {
-    std::size_t i = hash(plane) & (slots_.size() - 1);
-    while (slots_[i] != invalid_index && !(planes_[slots_[i]] == plane)) { i = (i + 1) & (slots_.size() - 1); }
-    return slots_[i];
-  }
+  std::uint32_t& find(const Plane& plane);
   void grow() {
     slots_.assign(slots_.empty() ? 64 : 2 * slots_.size(), invalid_index);
-    for (std::uint32_t p = 0; p < planes_.size(); ++p) { find(planes_[p]) = p; }
+    for (std::uint32_t p = 0; p < planes_.size(); ++p) find(planes_[p]) = p;
   }
 
   std::vector<Plane> planes_;
@@ -117,3 +75,7 @@ class PlaneTable {
 };
 
 }  // namespace brep::csg
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <brep/csg/plane.cpp>
+#endif

@@ -8,10 +8,13 @@
 // not lie on the boundary. An edge on the planes p and q seen along x is the line a_q p - a_p q = b y + c z + d = 0: |b|, |c| < 2^107,
 // |d| < 2^134. The point is a vertex, or the middle of two: |w| < 2^325, |x| < 2^352; so everything fits into 10 words.
 
-#include <cmath>
 #include <cstdint>
-#include <vector>
 
+#include <glm/vec3.hpp>
+
+#include <brep/csg/boundary.hpp>
+#include <brep/csg/plane.hpp>
+#include <brep/csg/predicates.hpp>
 #include <brep/csg/work.hpp>
 
 namespace brep::csg::detail {
@@ -26,80 +29,30 @@ class PointInSolid {
   PointInSolid(const Work& work, bool of_b) : work_(work), of_b_(of_b) {}
 
   [[nodiscard]] Sample vertex(std::uint32_t p) const { return {work_.points[p].position, widened(work_.points[p])}; }
-  [[nodiscard]] Sample middle(std::uint32_t p, std::uint32_t q) const {
-    const Homogeneous<10> a = widened(work_.points[p]), b = widened(work_.points[q]);
-    Sample result{0.5 * work_.points[p].position + 0.5 * work_.points[q].position, {}};
-    for (std::size_t i = 0; i < 3; ++i) { result.exact.x[i] = a.x[i] * b.w + b.x[i] * a.w; }
-    result.exact.w = a.w * b.w + a.w * b.w;
-    return result;
-  }
+  [[nodiscard]] Sample middle(std::uint32_t p, std::uint32_t q) const;
 
   // +1 inside, -1 outside, 0: the point lies on the boundary or looks so from infinity.     Time: the faces of the operand.
-  [[nodiscard]] int operator()(const Sample& v) const {
-    bool inside = false;
-    for (const WorkFace& face : work_.faces) {
-      if (face.of_b != of_b_) { continue; }
-      const Box& box = face.box;
-      if (v.position.x > box.hi[0] + near || v.position.y > box.hi[1] + near || v.position.z > box.hi[2] + near) { continue; }
-      if (v.position.y < box.lo[1] - near || v.position.z < box.lo[2] - near || !passes(face, v)) { continue; }
-      const int s = side(v, work_.plane(face));
-      if (s == 0) { return 0; }
-      if ((s > 0) == (work_.plane(face).n[0] < 0)) { inside = !inside; }
-    }
-    return inside ? 1 : -1;
-  }
+  [[nodiscard]] int operator()(const Sample& v) const;
 
  private:
   static constexpr double near = 0x1p-20;
 
-  [[nodiscard]] Homogeneous<10> widened(const Point& p) const {
-    const Homogeneous<4> h = work_.predicates.exact(p);
-    Homogeneous<10> result;
-    for (std::size_t i = 0; i < 3; ++i) { result.x[i] = Wide<10>(h.x[i]); }
-    result.w = Wide<10>(h.w);
-    return result;
-  }
+  [[nodiscard]] Homogeneous<10> widened(const Point& p) const;
 
   // Does the line of the ray, without its direction, run through the face?
-  [[nodiscard]] bool passes(const WorkFace& face, const Sample& v) const {
-    bool odd = false;
-    for (std::uint32_t i = 0; i < face.count; ++i) {
-      const std::uint32_t h = work_.half(face, i);
-      const Point &a = work_.from(h), &b = work_.to(h);
-      if (below(a, v) == below(b, v)) { continue; }
-      if (a.position.y < v.position.y - near && b.position.y < v.position.y - near) { continue; }
-      if ((a.position.y > v.position.y + near && b.position.y > v.position.y + near) ||
-          left(work_.plane(face), work_.predicates.plane(work_.halves[h].across), v)) {
-        odd = !odd;
-      }
-    }
-    return odd;
-  }
+  [[nodiscard]] bool passes(const WorkFace& face, const Sample& v) const;
   // Not above the height of the ray?
-  [[nodiscard]] bool below(const Point& a, const Sample& v) const {
-    if (a.position.z < v.position.z - near) { return true; }
-    if (a.position.z > v.position.z + near) { return false; }
-    const Homogeneous<10> e = widened(a);
-    return (e.x[2] * v.exact.w - v.exact.x[2] * e.w).sign() <= 0;
-  }
+  [[nodiscard]] bool below(const Point& a, const Sample& v) const;
   // Does the line of two planes pass the ray at a larger y?
-  [[nodiscard]] static bool left(const Plane& p, const Plane& q, const Sample& v) {
-    const Int128 b = -cross(p, q, 2), c = cross(p, q, 1);
-    const Wide<10> d = Wide<10>(q.n[0]) * Wide<10>(p.d) - Wide<10>(p.n[0]) * Wide<10>(q.d);
-    int s = (Wide<10>(b) * v.exact.x[1] + Wide<10>(c) * v.exact.x[2] + d * v.exact.w).sign();
-    if (s == 0) { s = c != 0 ? detail::sign(c) : detail::sign(b); }
-    return s * detail::sign(b) < 0;
-  }
-  [[nodiscard]] static int side(const Sample& v, const Plane& p) {
-    const double value = p.normal[0] * v.position.x + p.normal[1] * v.position.y + p.normal[2] * v.position.z + p.offset;
-    if (std::abs(value) > 4.0 * p.bound) { return detail::sign(value); }
-    Wide<10> sum = v.exact.w * Wide<10>(p.d);
-    for (std::size_t i = 0; i < 3; ++i) { sum = sum + v.exact.x[i] * Wide<10>(p.n[i]); }
-    return sum.sign();
-  }
+  [[nodiscard]] static bool left(const Plane& p, const Plane& q, const Sample& v);
+  [[nodiscard]] static int side(const Sample& v, const Plane& p);
 
   const Work& work_;
   bool of_b_;
 };
 
 }  // namespace brep::csg::detail
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <brep/csg/point_in_solid.cpp>
+#endif

@@ -7,11 +7,11 @@
 // that was touched keeps its half-edges in a list; the others have them side by side. Faces are connected: a face that falls into pieces
 // becomes several.
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include <brep/csg/boundary.hpp>
+#include <brep/csg/plane.hpp>
 #include <brep/csg/predicates.hpp>
 
 namespace brep::csg::detail {
@@ -40,32 +40,7 @@ struct Work {
   explicit Work(const PlaneTable& planes) : predicates(planes) {}
 
   // Appends a boundary, turned inside out if `reversed`; its attributes are numbered from `attributes` on.
-  void add(const Boundary& b, bool of_b, bool reversed, std::uint32_t attributes) {
-    const auto p0 = static_cast<std::uint32_t>(points.size()), h0 = static_cast<std::uint32_t>(halves.size());
-    const auto f0 = static_cast<std::uint32_t>(faces.size());
-    points.insert(points.end(), b.points.begin(), b.points.end());
-    halves.resize(h0 + b.halves.size());
-    WorkHalf* const added = halves.data() + h0;
-    for (std::uint32_t h = 0; h < b.halves.size(); ++h) {
-      const Half& given = b.halves[h];
-      WorkHalf& half = added[h];
-      half.twin = h0 + given.twin, half.face = f0 + given.face, half.across = given.across;
-      if (reversed) {
-        half.point = p0 + b.halves[given.next].point;
-        half.prev = h0 + given.next;
-        added[given.next].next = h0 + h;
-      } else {
-        half.point = p0 + given.point;
-        half.next = h0 + given.next;
-        added[given.next].prev = h0 + h;
-      }
-    }
-    for (const Face& f : b.faces) {
-      faces.push_back({reversed ? f.plane.flipped() : f.plane, h0 + f.first, f.count, attributes + f.attribute, of_b, false, f.box});
-    }
-    if (!of_b) { faces_a = static_cast<std::uint32_t>(faces.size()); }
-    halves_given = static_cast<std::uint32_t>(halves.size());
-  }
+  void add(const Boundary& b, bool of_b, bool reversed, std::uint32_t attributes);
 
   [[nodiscard]] std::uint32_t half(const WorkFace& f, std::uint32_t i) const { return f.listed ? lists[f.first + i] : f.first + i; }
   [[nodiscard]] std::uint32_t target(std::uint32_t h) const { return halves[halves[h].next].point; }
@@ -80,3 +55,7 @@ struct Work {
 };
 
 }  // namespace brep::csg::detail
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <brep/csg/work.cpp>
+#endif

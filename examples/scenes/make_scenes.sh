@@ -7,6 +7,7 @@
 #   sh make_scenes.sh corridor [LENGTH [REFLECTANCE]]     of a corridor 2 m wide, lit at one end          16 0.8
 #   sh make_scenes.sh nested_rooms [DOOR [ROOMS]]         width of the doors, rooms inside the hall       0.6 1
 #   sh make_scenes.sh boxes [NUMBER [SEED]]               of boxes that stand about at random             25 1
+#   sh make_scenes.sh office [QUADS]                      about so many: desks and chairs, four lamps     990
 #   sh make_scenes.sh sphere [RADIUS]                     of a sphere under a square lamp                 0.5
 #   sh make_scenes.sh cylinder [RADIUS]                   of a cylinder 1 m high, under the same lamp     0.5
 #
@@ -130,6 +131,49 @@ boxes() {
   }'
 }
 
+# A desk and a chair are 11 boxes, 66 quads; room and lamps are 10.
+office() {
+  awk -v quads="${1:-990}" '
+  function random() { state = (state * 16807) % 2147483647; return state / 2147483647 }
+  function part(x0, y0, z0, x1, y1, z1) {
+    printf "box part%d  from %g %g %g  to %g %g %g  material %s  rotate 0 0 1 %.1f  move %.3f %.3f 0\n", ++parts, x0, y0, z0, x1, y1, z1, \
+      material, angle, x, y
+  }
+  BEGIN {
+    state = 7919
+    sets = int((quads - 10) / 66 + 0.5)
+    if (sets < 1) sets = 1
+    n = 1
+    while (n * n < sets) ++n
+    size = 2.4 * n
+    print "# Many faces: an office of " sets " desks with chairs, " 66 * sets + 10 " quads, under four lamps."
+    print ""
+    print "material wall   reflectance 0.7"
+    print "material desk   reflectance 0.5 0.4 0.3"
+    print "material chair  reflectance 0.2 0.3 0.5"
+    print "material lamp   reflectance 0  emission 20"
+    print ""
+    printf "camera door  eye 0.3 0.3 2.3  target %g %g 0.5  fov 75\n\n", 0.6 * size, 0.6 * size
+    printf "box room  from 0 0 0  to %g %g 3  inside  material wall\n", size, size
+    for (i = 1; i <= 4; ++i) {
+      x0 = size * (i % 2 ? 0.25 : 0.75) - 0.08 * size; x1 = x0 + 0.16 * size
+      y0 = size * (i > 2 ? 0.25 : 0.75) - 0.08 * size; y1 = y0 + 0.16 * size
+      printf "polygon light%d material lamp {\n    vertex %g %g 3\n    vertex %g %g 3\n    vertex %g %g 3\n    vertex %g %g 3\n}\n", \
+        i, x0, y0, x0, y1, x1, y1, x1, y0
+    }
+    for (i = 0; i < sets; ++i) {
+      x = 2.4 * (i % n + 0.5); y = 2.4 * (int(i / n) + 0.5); angle = 360 * random()
+      material = "desk"
+      part(-0.7, -0.1, 0.72, 0.7, 0.6, 0.76)
+      for (k = 0; k < 4; ++k) part(k % 2 ? 0.6 : -0.66, k > 1 ? 0.5 : -0.06, 0, k % 2 ? 0.66 : -0.6, k > 1 ? 0.56 : 0, 0.72)
+      material = "chair"
+      part(-0.22, -0.7, 0.44, 0.22, -0.26, 0.48)
+      for (k = 0; k < 4; ++k) part(k % 2 ? 0.17 : -0.21, k > 1 ? -0.31 : -0.69, 0, k % 2 ? 0.21 : -0.17, k > 1 ? -0.27 : -0.65, 0.44)
+      part(-0.22, -0.74, 0.48, 0.22, -0.7, 0.95)
+    }
+  }'
+}
+
 # What the scenes of one curved object have in common: its name, its radius, its line.
 curved() {
   awk -v shape="$1" -v radius="$2" -v line="$3" 'BEGIN {
@@ -153,9 +197,9 @@ sphere() { curved sphere "${1:-0.5}" "sphere ball  center 0 0 0"; }
 cylinder() { curved cylinder "${1:-0.5}" "cylinder post  base 0 0 -0.5  axis 0 0 1"; }
 
 case "${1:-}" in
-  perpendicular_plates | penumbra | corridor | nested_rooms | boxes | sphere | cylinder) "$@" ;;
+  perpendicular_plates | penumbra | corridor | nested_rooms | boxes | office | sphere | cylinder) "$@" ;;
   *)
-    sed -n '3,15s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,16s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

@@ -37,7 +37,8 @@ namespace detail {
 // What the solution holds, but for its BReps, which end with the run.
 HALFLIGHT_INLINE std::uint64_t bytes_of(const Solution& solution) {
   const Mesh& mesh = solution.mesh;
-  return solution.hierarchy.capacity() * (sizeof(Node) + sizeof(Color) + 2 * sizeof(double)) + solution.links.capacity() * sizeof(Link) +
+  return solution.hierarchy.capacity() * (sizeof(Node) + sizeof(Color) + 2 * sizeof(double)) +
+         (solution.links.capacity() + solution.ray_links.capacity()) * sizeof(Link) +
          mesh.positions.capacity() * sizeof(glm::dvec3) + mesh.corners.capacity() * sizeof(MeshCorner) +
          mesh.faces.capacity() * sizeof(MeshFace);
 }

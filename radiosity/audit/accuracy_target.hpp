@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The rounds that meet an error target: ever finer solutions, until the audit witnesses that one is fine enough.
+// The rounds that meet an error target: ever finer solutions, until the audit confirms that one is fine enough.
 //
 // What the rounds are does not depend on the target, only where they end: so a tighter target ends at the same solution as a looser one,
 // or at a finer one. A run gives up when the next round would need more than link_budget links, when the thresholds have reached their

@@ -60,8 +60,8 @@ template <class Measured>
       break;
     }
     const std::uint64_t rays = goal.wanted && seen->ratio <= target ? std::max(goal.rays, goal.rays_to_show) : goal.rays;
-    // The noise of the paths falls with the square of their number, so more paths at fewer points pay until it is half of the variance. From
-    // few points its share is mostly seen too small.
+    // The noise of the paths falls with the square of their number, so more paths at fewer points pay until it is half of the variance.
+    // From few points its share is mostly seen too small.
     if (seen->noise_share > 0.2 && affordable(4.0, rays)) {
       paths *= 4;
       continue;

@@ -61,7 +61,7 @@ class PathTracer {
     Color all{0.0};     // B
     Color direct{0.0};  // the part of it that is emitted, or was reflected once
   };
-  // One estimate of B at the point x of a surface with unit normal n (into the air). `random` gives numbers by uniform(): independent
+  // One estimate of B at the point x of a surface with unit normal n, away from the solid. `random` gives numbers by uniform(): independent
   // ones, or those of a path of an even sequence (sobol.hpp).
   template <class Numbers>
   [[nodiscard]] Light radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Numbers& random,

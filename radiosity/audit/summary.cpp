@@ -22,7 +22,7 @@
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/links/saving.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>
@@ -36,8 +36,9 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE void balance_energy(Audit& audit, const Scene& scene, const std::vector<InputSurface>& inputs, const Hierarchy& hierarchy,
-                                     Transport& transport, const std::vector<double>& area, const std::vector<Color>& radiosity) {
+HALFLIGHT_INLINE void balance_energy(Audit& audit, const DiscreteScene& scene, Transport& transport, const std::vector<Color>& radiosity) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const std::vector<double>& area = scene.exposure.area;
   const std::vector<double> rows = transport.row_sums();
   double emitted = 0.0;
   double absorbed = 0.0;
@@ -49,9 +50,8 @@ HALFLIGHT_INLINE void balance_energy(Audit& audit, const Scene& scene, const std
     transport.apply(channel, arrived);
     for (std::size_t i = 0; i < hierarchy.size(); ++i) {
       if (!hierarchy[i].leaf() || !(area[i] > 0.0)) { continue; }
-      const Material& material = scene.materials[inputs[hierarchy[i].surface].material];
-      emitted += area[i] * material.emission[c];
-      absorbed += (1.0 - material.reflectance[c]) * arrived[i];
+      emitted += area[i] * scene.emission[hierarchy[i].surface][c];
+      absorbed += (1.0 - scene.reflectance[hierarchy[i].surface][c]) * arrived[i];
       escaped += area[i] * radiosity[i][c] * (1.0 - rows[i]);
     }
   }
@@ -91,8 +91,10 @@ HALFLIGHT_INLINE Audit::Range summarise_proportions(const Hierarchy& hierarchy, 
   return range;
 }
 
-HALFLIGHT_INLINE void summarise_surfaces(Audit& audit, const std::vector<InputSurface>& inputs, const Frame& frame,
-                                         const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<Color>& radiosity) {
+HALFLIGHT_INLINE void summarise_surfaces(Audit& audit, const DiscreteScene& scene, const std::vector<Color>& radiosity) {
+  const std::vector<InputSurface>& inputs = scene.inputs;
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const std::vector<double>& area = scene.exposure.area;
   for (const InputSurface& input : inputs) { audit.surfaces.push_back({input.name, 0.0, Color{0.0}}); }
   std::vector<bool> exists(inputs.size(), false);
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
@@ -109,12 +111,14 @@ HALFLIGHT_INLINE void summarise_surfaces(Audit& audit, const std::vector<InputSu
   audit.surfaces.resize(kept, SurfaceMean{});
   for (SurfaceMean& mean : audit.surfaces) {
     if (mean.area > 0.0) { mean.radiosity /= mean.area; }
-    mean.area = frame.to_scene_area(mean.area);
+    mean.area = scene.frame.to_scene_area(mean.area);
   }
 }
 
-HALFLIGHT_INLINE void report_left_out(Audit& audit, const Plan& plan, const RefineResult& refined, const EvaluateResult& evaluated,
-                                      const Exposure& exposure, const Options& options, const LinkCost& cost) {
+HALFLIGHT_INLINE void report_left_out(Audit& audit, const DiscreteScene& scene, const RefineResult& refined,
+                                      const EvaluateResult& evaluated, const Options& options, const LinkCost& cost) {
+  const Plan& plan = scene.plan;
+  const Exposure& exposure = scene.exposure;
   audit.left_out = plan.left_out;
   const auto add = [&](std::string what, std::string why, std::string saved, double seconds = 0.0) {
     audit.left_out.push_back({std::move(what), std::move(why), std::move(saved), seconds});

@@ -8,7 +8,8 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/links/saving.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>
@@ -22,8 +23,7 @@
 namespace radiosity {
 
 // Emitted = absorbed + escaped, summed over the channels (in closed scenes nothing escapes).
-void balance_energy(Audit& audit, const Scene& scene, const std::vector<InputSurface>& inputs, const Hierarchy& hierarchy,
-                    Transport& transport, const std::vector<double>& area, const std::vector<Color>& radiosity);
+void balance_energy(Audit& audit, const DiscreteScene& scene, Transport& transport, const std::vector<Color>& radiosity);
 
 Audit::Range summarise_rows(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<double>& rows);
 
@@ -31,11 +31,10 @@ Audit::Range summarise_rows(const Hierarchy& hierarchy, const std::vector<double
 Audit::Range summarise_proportions(const Hierarchy& hierarchy, const Patches& patches);
 
 // A sheet of which nothing is left (a window that was cut out ends outside the wall) is no surface; one that is buried has area 0.
-void summarise_surfaces(Audit& audit, const std::vector<InputSurface>& inputs, const Frame& frame, const Hierarchy& hierarchy,
-                        const std::vector<double>& area, const std::vector<Color>& radiosity);
+void summarise_surfaces(Audit& audit, const DiscreteScene& scene, const std::vector<Color>& radiosity);
 
 // What the run left out, beyond what the plan had proven before it. `cost`: of what was not left out.
-void report_left_out(Audit& audit, const Plan& plan, const RefineResult& refined, const EvaluateResult& evaluated, const Exposure& exposure,
+void report_left_out(Audit& audit, const DiscreteScene& scene, const RefineResult& refined, const EvaluateResult& evaluated,
                      const Options& options, const LinkCost& cost);
 
 }  // namespace radiosity

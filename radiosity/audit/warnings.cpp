@@ -103,9 +103,11 @@ HALFLIGHT_INLINE std::vector<std::string> warnings_of_buried(const Scene& scene,
   return sentences;
 }
 
-HALFLIGHT_INLINE StrayRays stray_rays(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const Hierarchy& hierarchy,
-                                      const Patches& patches, const Exposure& exposure, std::uint32_t rays, unsigned threads,
-                                      std::uint64_t seed) {
+HALFLIGHT_INLINE StrayRays stray_rays(const DiscreteScene& scene, std::uint32_t rays) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const Patches& patches = scene.patches;
+  const Exposure& exposure = scene.exposure;
+  const raycast::Scene& objects = scene.objects;
   std::vector<std::uint32_t> leaves;
   std::vector<double> until;  // cumulative area
   double total = 0.0;
@@ -117,8 +119,8 @@ HALFLIGHT_INLINE StrayRays stray_rays(const raycast::Scene& objects, const std::
   if (leaves.empty()) { return {}; }
   enum class End : char { front, back, nowhere };
   std::vector<End> ends(rays, End::front);
-  parallel_for(rays, threads, [&](std::size_t k) {
-    Random random{seed, k, 0x7374726179ull};
+  parallel_for(rays, scene.threads, [&](std::size_t k) {
+    Random random{scene.seed, k, 0x7374726179ull};
     const double at = (static_cast<double>(k) + random.uniform()) / rays * total;
     const auto found = static_cast<std::size_t>(std::upper_bound(until.begin(), until.end(), at) - until.begin());
     const std::uint32_t i = leaves[std::min(found, leaves.size() - 1)];
@@ -131,7 +133,7 @@ HALFLIGHT_INLINE StrayRays stray_rays(const raycast::Scene& objects, const std::
       p = sample(patches[i], u, random.uniform());
     }
     const Node& node = hierarchy[i];
-    const raycast::SurfacePoint from = objects.object(node.object).project(node.surface - surfaces[node.object].first_surface, p);
+    const raycast::SurfacePoint from = objects.object(node.object).project(node.surface - scene.surfaces[node.object].first_surface, p);
     const double u = random.uniform();
     const auto hit = objects.closest({from.position, cosine_direction(from.normal, u, random.uniform()) * objects.diameter()}, node.object);
     ends[k] = !hit ? End::nowhere : hit->front ? End::front : End::back;

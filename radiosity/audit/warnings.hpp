@@ -13,11 +13,11 @@
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/visibility/exposure.hpp>
-#include <radiosity/visibility/occlusion.hpp>
 
 namespace radiosity {
 
@@ -28,9 +28,7 @@ namespace radiosity {
 [[nodiscard]] std::vector<std::string> warnings_of_buried(const Scene& scene, const Hierarchy& hierarchy, const Exposure& exposure);
 
 // One ray from each of `rays` points spread over the exposed area.
-[[nodiscard]] StrayRays stray_rays(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const Hierarchy& hierarchy,
-                                   const Patches& patches, const Exposure& exposure, std::uint32_t rays, unsigned threads,
-                                   std::uint64_t seed);
+[[nodiscard]] StrayRays stray_rays(const DiscreteScene& scene, std::uint32_t rays);
 
 }  // namespace radiosity
 

@@ -16,7 +16,7 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/clusters/clusters.hpp>
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/patch.hpp>
@@ -28,7 +28,7 @@
 namespace radiosity {
 
 HALFLIGHT_INLINE ClusterEnd ClusterSampler::end(std::uint32_t node, const glm::dvec3& direction) const {
-  const Node& n = (*hierarchy_)[node];
+  const Node& n = scene_.hierarchy[node];
   if (!n.is_cluster()) { return {node, {}, area(node)}; }
   const Aim towards = aim(direction);
   return {node, towards, shown_->of(n, towards)};
@@ -60,7 +60,7 @@ HALFLIGHT_INLINE ClusterExchange ClusterSampler::operator()(const ClusterEnd& p,
       weights[i] = std::min(leaves * arrives / r2 * x.per_shown * y.per_shown, most_weight) / (std::numbers::pi * r2);
       segments.set(i, {x.position, d}, x.object, y.object);
     }
-    const std::uint32_t occluded = scene_->occluded16(segments, hint);
+    const std::uint32_t occluded = scene_.objects.occluded16(segments, hint);
     for (std::uint32_t i = 0; i < 16; ++i) {
       if (!(weights[i] > 0.0)) { continue; }
       ++result.rays;
@@ -84,7 +84,7 @@ HALFLIGHT_INLINE ClusterExchange ClusterSampler::operator()(const ClusterEnd& p,
 }
 
 HALFLIGHT_INLINE ClusterSampler::Point ClusterSampler::draw(const ClusterEnd& end, double u, Random& random) const {
-  const Hierarchy& nodes = *hierarchy_;
+  const Hierarchy& nodes = scene_.hierarchy;
   std::uint32_t i = end.node;
   double per_shown = 1.0;
   double rest = u * end.shown;
@@ -105,7 +105,7 @@ HALFLIGHT_INLINE ClusterSampler::Point ClusterSampler::draw(const ClusterEnd& en
     if (chosen == no_node) { return {}; }  // rounding alone
     i = chosen;
   }
-  const Patch& patch = (*patches_)[i];
+  const Patch& patch = scene_.patches[i];
   const PatchEnd ground{&patch, nodes[i].object, exposure_ != nullptr ? exposure_->points(i) : nullptr};
   const auto cell = static_cast<std::uint32_t>(random.bits() & 15u);
   return {draw_exposed(ground, cell, random), patch.normal, i == end.node ? 1.0 : 1.0 / per_shown, nodes[i].object};
@@ -117,16 +117,15 @@ HALFLIGHT_INLINE ClusterExchange evaluate_cluster_link(const ClusterSampler& sam
   const glm::dvec3 apart = hierarchy[link.q].centre - hierarchy[link.p].centre;
   if (!(glm::length(apart) > 0.0)) { return {}; }  // a cluster and itself, of which no part sees another
   const glm::dvec3 d = glm::normalize(apart);
-  const Slope to_q{glm::vec3{d}};  // as the link will know it
-  const Slope to_p{glm::vec3{-d}};
-  const ClusterEnd p = sampler.end(link.p, to_q.vector());
-  const ClusterEnd q = sampler.end(link.q, to_p.vector());
+  const glm::dvec3 to_q = EndShape::stored_direction(d);
+  const glm::dvec3 to_p = EndShape::stored_direction(-d);
+  const ClusterEnd p = sampler.end(link.p, to_q);
+  const ClusterEnd q = sampler.end(link.q, to_p);
   const ClusterExchange result = sampler(p, q, rounds, random);
   link.exchange = static_cast<float>(result.exchange);
   if (!(link.exchange > 0.0f)) { return result; }
-  // The end of a cluster keeps where the other lies, over the area shown there: the weights of transport.hpp then sum to 1.
-  link.slope_p = hierarchy[link.p].is_cluster() ? Slope{glm::vec3{to_q.vector() / p.shown}} : Slope{};
-  link.slope_q = hierarchy[link.q].is_cluster() ? Slope{glm::vec3{to_p.vector() / q.shown}} : Slope{};
+  link.shape_p = hierarchy[link.p].is_cluster() ? EndShape::of_cluster(to_q, p.shown) : EndShape{};
+  link.shape_q = hierarchy[link.q].is_cluster() ? EndShape::of_cluster(to_p, q.shown) : EndShape{};
   return result;
 }
 

@@ -7,22 +7,20 @@
 // another of the same cluster is met by the rays like everything else.
 //
 // Between a face f of p and a face g of q the link then stands for G w_f w_g, with w_f the share of f in what p shows towards q
-// (directions.hpp), A_f shown_f / sum: the same weights distribute what arrives and collect what is sent (transport.hpp).
+// (direction_lattice.hpp), A_f shown_f / sum: the same weights distribute what arrives and collect what is sent (transport.hpp).
 
 #include <cstddef>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
 
-#include <raycast/scene.hpp>
-
 #include <radiosity/clusters/clusters.hpp>
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/exposure.hpp>
-#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 
 namespace radiosity {
 
@@ -43,9 +41,8 @@ struct ClusterExchange {
 class ClusterSampler {
  public:
   // The references must outlive the sampler; the hierarchy may grow. Without `exposure` everything counts as exposed.
-  ClusterSampler(const raycast::Scene& scene, const Hierarchy& hierarchy, const Patches& patches, const Exposure* exposure,
-                 const ShownAreas& shown)
-      : scene_{&scene}, hierarchy_{&hierarchy}, patches_{&patches}, exposure_{exposure}, shown_{&shown} {}
+  ClusterSampler(const SceneView& scene, const Exposure* exposure, const ShownAreas& shown)
+      : scene_{scene}, exposure_{exposure}, shown_{&shown} {}
 
   // The end `node` of a link whose other end lies in `direction`, of any length but 0.
   [[nodiscard]] ClusterEnd end(std::uint32_t node, const glm::dvec3& direction) const;
@@ -63,14 +60,12 @@ class ClusterSampler {
   // A face that is nearly edge on from the centre is drawn rarely and would count for very much: cut off.
   static constexpr double most_weight = 4.0;
 
-  [[nodiscard]] double area(std::size_t i) const { return exposure_ != nullptr ? exposure_->area[i] : (*hierarchy_)[i].area; }
+  [[nodiscard]] double area(std::size_t i) const { return exposure_ != nullptr ? exposure_->area[i] : scene_.hierarchy[i].area; }
 
   // `u`, uniform in [0, 1), chooses the face.
   [[nodiscard]] Point draw(const ClusterEnd& end, double u, Random& random) const;
 
-  const raycast::Scene* scene_;
-  const Hierarchy* hierarchy_;
-  const Patches* patches_;
+  SceneView scene_;
   const Exposure* exposure_;
   const ShownAreas* shown_;
 };

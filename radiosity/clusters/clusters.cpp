@@ -19,7 +19,7 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/clusters/face_clusters.hpp>
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 

@@ -7,7 +7,8 @@
 //
 //   inside an object   clusters of faces over the dual graph of its BRep (face_clusters.hpp)
 //   above the objects  the groups of a bounding volume hierarchy over their bounds
-//   rooms              what surrounds everything is next to everything: its faces, or their clusters, lie right under the root
+//   rooms              a room encloses every other object, so no cluster can hold it together with some of them: its faces, or their
+//                      clusters, become children of the root
 //
 // Binary trees are flattened: a cluster has up to eight children, and few clusters have less than four. Each child of a cluster is a
 // cluster or an input face. Clusters do not mix the faces of an object with those of others, but for the groups above objects.
@@ -19,7 +20,7 @@
 #include <raycast/box.hpp>
 
 #include <radiosity/clusters/face_clusters.hpp>
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How far row sums can be expected to be off because links are what they are: what quadrature and sampling explain of a correction that
-// makes a scene exactly closed (Transport::close). What goes beyond has another cause, and a scene is not closed by force.
+// The error of row sums that is expected from quadrature and sampling in the links. A closed scene is corrected so that its row sums are 1
+// (Transport::close), but only where this error explains the correction: a larger one has another cause.
 //
 // The row sum of a leaf is the sum of what the links above it bring, and each link is off
 //   - on a patch with children, by what its linear kernel leaves of the light's change across the patch (rest), and of the shadow's: RMS
@@ -44,7 +44,8 @@ class DoubtSum {
 };
 
 // The largest RMS correction by which a scene is closed: what its links explain with a margin of one half, and the error
-// of a form factor (exchange.hpp). Measured, corrections are .24 to 1.16 times what is expected (the rooms of `halflight stress`, 1200 to 154 000 links).
+// of a form factor (exchange.hpp). Measured, corrections are .24 to 1.16 times what is expected (the rooms of `halflight stress`, 1200 to
+// 154 000 links).
 [[nodiscard]] inline double explained_closure(const DoubtSum& doubt, const std::vector<double>& area, double total) {
   return 1.5 * doubt.rms(area, total) + 2e-5;
 }

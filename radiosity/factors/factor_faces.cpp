@@ -103,17 +103,18 @@ HALFLIGHT_INLINE bool hides(const Blocker& blocker, std::span<const glm::dvec3> 
 
 }  // namespace detail
 
-HALFLIGHT_INLINE Estimate exchange(std::span<const glm::dvec3> p, const glm::dvec3& n, std::span<const glm::dvec3> q, const glm::dvec3& m,
-                                   std::span<const Blocker> blockers, double slack, const IntegralLimits& limits, std::uint64_t& asked) {
+HALFLIGHT_INLINE Estimate exchange(const ConvexFace& p, const ConvexFace& q, std::span<const Blocker> blockers, double slack,
+                                   const IntegralLimits& limits, std::uint64_t& asked) {
+  const HalfSpace above_p{p.contour[0], p.normal}, above_q{q.contour[0], q.normal};
   Piece upper_p;
   Piece upper_q;
   Piece lower;
-  detail::part(p, {q[0], m}, upper_p, lower);
-  detail::part(q, {p[0], n}, upper_q, lower);
+  detail::part(p.contour, above_q, upper_p, lower);
+  detail::part(q.contour, above_p, upper_q, lower);
   const auto flat = [&](const Piece& piece, const HalfSpace& plane) {
     return std::all_of(piece.begin(), piece.end(), [&](const glm::dvec3& x) { return plane.height(x) <= slack; });
   };
-  if (upper_p.empty() || upper_q.empty() || flat(upper_p, {q[0], m}) || flat(upper_q, {p[0], n})) { return {}; }
+  if (upper_p.empty() || upper_q.empty() || flat(upper_p, above_q) || flat(upper_q, above_p)) { return {}; }
   const double area_p = glm::length(vector_area(upper_p));
   const double area_q = glm::length(vector_area(upper_q));
   if (!(area_p > slack * slack) || !(area_q > slack * slack)) { return {}; }
@@ -126,12 +127,12 @@ HALFLIGHT_INLINE Estimate exchange(std::span<const glm::dvec3> p, const glm::dve
   const bool over_p = area_p <= area_q;
   const Piece& domain = over_p ? upper_p : upper_q;
   const Piece& seen = over_p ? upper_q : upper_p;
-  const glm::dvec3& normal = over_p ? n : m;
+  const glm::dvec3& normal = over_p ? p.normal : q.normal;
   const auto hidden = [&](std::span<const glm::dvec3> part) {
     return std::any_of(between.begin(), between.end(), [&](const Blocker& b) { return detail::hides(b, part, seen, slack); });
   };
   if (hidden(domain)) { return {}; }
-  ShadowedTarget target{seen, over_p ? m : n, between, slack};
+  ShadowedTarget target{seen, over_p ? q.normal : p.normal, between, slack};
   const auto f = [&](const glm::dvec3& x) { return target.form_factor(x, normal); };
   const auto clear = [&](const glm::dvec3& x) { return point_to_polygon(x, normal, seen); };
   const auto certain = [&](std::span<const glm::dvec3> part) {

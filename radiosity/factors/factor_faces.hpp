@@ -49,10 +49,15 @@ namespace detail {
 
 }  // namespace detail
 
+struct ConvexFace {
+  std::span<const glm::dvec3> contour;
+  glm::dvec3 normal{0.0};  // unit length
+};
+
 // The exchange of two convex faces behind blockers, in the squared unit of the coordinates. Those of the blockers that the shaft does not
 // meet are left out; `asked` counts the points, and stays where it was when nothing stands in between.
-[[nodiscard]] Estimate exchange(std::span<const glm::dvec3> p, const glm::dvec3& n, std::span<const glm::dvec3> q, const glm::dvec3& m,
-                                std::span<const Blocker> blockers, double slack, const IntegralLimits& limits, std::uint64_t& asked);
+[[nodiscard]] Estimate exchange(const ConvexFace& p, const ConvexFace& q, std::span<const Blocker> blockers, double slack,
+                                const IntegralLimits& limits, std::uint64_t& asked);
 
 }  // namespace radiosity
 

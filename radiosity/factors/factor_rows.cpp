@@ -81,7 +81,7 @@ HALFLIGHT_INLINE std::vector<FlatFace> flat_faces(const std::vector<Surface>& su
 
 namespace detail {
 
-// What lies on a face or takes its air away, by one other object.
+// What covers a face, or lies in front of it without a gap, by one other object.
 class Burial {
  public:
   Burial(const raycast::Scene& scene, const std::vector<FlatFace>& faces, double slack) : scene_{&scene}, slack_{slack} {
@@ -107,7 +107,7 @@ class Burial {
     for (const FlatFace* other : faces_of_[by]) { cover(face, *other, pieces); }
     if (!object.solid()) { return true; }
     if (!object.convex()) { return !pierced(face, by); }
-    std::vector<HalfSpace> planes;  // of the body, inwards; for a room the air
+    std::vector<HalfSpace> planes;  // of the body, inwards; of a room, of the space in it
     for (const FlatFace* other : faces_of_[by]) {
       const glm::dvec3 inwards = object.inside() ? other->normal : -other->normal;
       planes.push_back({other->contour[0] + (object.inside() ? -slack_ : slack_) * inwards, inwards});

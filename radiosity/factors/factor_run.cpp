@@ -87,7 +87,7 @@ HALFLIGHT_INLINE void FactorRun::by_faces() {
         for (const Facet& p : a.facets) {
           for (const Facet& q : b.facets) {
             if (i == j && &p == &q) { continue; }
-            const Estimate part = radiosity::exchange(p.contour, p.normal, q.contour, q.normal, blockers, slack, limits, asked[k]);
+            const Estimate part = radiosity::exchange({p.contour, p.normal}, {q.contour, q.normal}, blockers, slack, limits, asked[k]);
             ++limits.seed;
             sum.value += part.value;
             square += part.error * part.error;

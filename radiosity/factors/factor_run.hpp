@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which of the three ways to a form factor a pair of surfaces takes, and that way gone: all pairs by faces, then by meshes, then what is left by
-// rays. A pair is given to the next way when a proof is missing that this one is right; no way guesses.
+// Computes the form factors of all pairs of surfaces, each pair by one of three methods: by faces where that is proven to be exact, else by
+// meshes where nothing can stand between, else by rays.
 
 #include <algorithm>
 #include <cstddef>
@@ -49,9 +49,9 @@ struct FactorRun {
   // The exchanges of all pairs of rows that faces can tell.
   void by_faces();
 
-  // Is all of a curved object, or of an exact row, in the air, and does it see other things as if it were alone with them?
+  // Is all of a curved object, or of an exact row, exposed, and does it see each other object as if there were no third?
   [[nodiscard]] bool stands_free(const FactorRow& row) const;
-  // Are the corners of the box in the air of the convex room, away from its walls?
+  // Are the corners of the box inside the convex room, away from its walls?
   [[nodiscard]] bool clear_of_walls(const raycast::PlacedObject& room, const raycast::Box& box) const;
   // Can nothing stand between two rows that stand free?
   [[nodiscard]] bool nothing_between(std::uint32_t a, std::uint32_t b) const;

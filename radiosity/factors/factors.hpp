@@ -10,10 +10,9 @@
 //
 // Every factor has an error: 95 of 100 factors lie within twice that of the true value. By faces in the open and by meshes it is an
 // estimate from above; behind blockers and by rays it also holds what no point and no ray has met (rule of three), so it is 0 only where
-// nothing can arrive. One exchange A_i F_ij = A_j F_ji is
-// kept for each pair; what the rays of both ends say is weighted by its variance. So reciprocity is exact, and how far the row sums of a
-// closed scene are from 1 is an independent check. Areas are the exposed ones: what is buried under another object has no part in it. A sheet
-// of which a union, intersection or difference leaves nothing is no surface.
+// nothing can arrive. One exchange A_i F_ij = A_j F_ji is kept for each pair; what the rays of both ends say is weighted by its variance.
+// So reciprocity is exact, and how far the row sums of a closed scene are from 1 is an independent check. Areas are the exposed ones: what
+// is buried under another object has no part in it. A sheet of which a union, intersection or difference leaves nothing is no surface.
 
 #include <cstddef>
 #include <cstdint>

@@ -21,7 +21,7 @@
 namespace radiosity {
 
 struct ChordTriangle {
-  std::array<glm::dvec3, 3> position{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};  // counter-clockwise seen from the air
+  std::array<glm::dvec3, 3> position{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};  // counter-clockwise seen from outside
   std::array<glm::dvec3, 3> normal{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};    // of the surface, at the corners
 };
 

@@ -119,8 +119,8 @@ class ConvexSolids {
     if (!solids_.empty()) { tree_ = raycast::Bvh{boxes}; }
   }
 
-  // Does one of them hold the hull of these points and all that is nearer to it than `bulge`, deeper than any skin (raycast/scene.hpp)? At
-  // most `most_asked` solids around it are asked.
+  // Does one of them hold the hull of these points and all that is nearer to it than `bulge`, deeper than the tolerance of occlusion
+  // (raycast/scene.hpp)? At most `most_asked` solids around it are asked.
   [[nodiscard]] bool hold(const Polygon& points, double bulge, std::uint32_t owner) const {
     if (solids_.empty()) { return false; }
     raycast::Box box;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Input faces of which nothing can be seen, found before any pair of faces is looked at: of a thousand boxes at one place 999 are covered by
-// the last, of nested boxes all but the outermost are in the dark. Refinement would split them all against each other, as near as they
+// Input faces of which nothing can be seen, found before any pair of faces is looked at: of a thousand boxes at one place 999 are covered
+// by the last, of nested boxes all but the outermost are in the dark. Refinement would split them all against each other, as near as they
 // are, and only then find that nothing of them is exposed (exposure.hpp).
 //
 // Proven, in the sense of raycast::Scene::covered: a face is buried when a later object is the same surface at the same place, or when a
-// convex solid holds its corners, and all that finer patches can bulge, deeper than any skin. Faces for which neither is found are treated
-// as visible: of curved solids those with gaps to the next that are narrower than the bulge of its chord patches.
+// convex solid holds its corners, and all that finer patches can bulge, deeper than the tolerance of occlusion. Faces for which neither
+// is found are treated as visible: of curved solids those with gaps to the next that are narrower than the bulge of its chord patches.
 
 #include <array>
 #include <cstddef>

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A link carries light between two nodes at one level of the hierarchy. It is stored once for an unordered pair and used
-// both ways, so reciprocity holds to the last bit and the operator of the linear system is symmetric.
+// A link carries light between two nodes at one level of the hierarchy. It is stored once for an unordered pair and used both ways: each
+// end sends to the other and receives from it. So reciprocity holds to the last bit and the operator of the linear system is symmetric.
 //
-// Between a point x of p and a point y of q the link stands for the kernel
+// Between a point x of the patch p and a point y of the patch q the link stands for the kernel
 //
-//     K(x, y) = G / (A_p A_q) * (1 + slope_p . (x - c_p) + slope_q . (y - c_q))
+//     K(x, y) = G / (A_p A_q) * (1 + g_p . (x - c_p) + g_q . (y - c_q))
 //
 // with G = A_p F_pq = A_q F_qp (visibility included) and c the area centroids. The constant term is the paper's link. The
-// slopes make the light fall off across a large patch as it should: without them a leaf in the corner of a room inherits
+// gradients g make the light fall off across a large patch as it should: without them a leaf in the corner of a room inherits
 // from each level above the mean over a patch that reaches far out of the corner, and its row sum errs by tens of
-// per cent however deep the hierarchy is. The slope of an end that is a leaf has no effect. A link that has a cluster at an end has no
-// slopes: the end that is a cluster keeps the direction to the other instead (cluster_exchange.hpp).
+// per cent however deep the hierarchy is. The gradient at a leaf has no effect.
+//
+// Where an end is a cluster the kernel is not linear: the faces of the cluster count by the area that they show towards the other end
+// (cluster_exchange.hpp). Such a link keeps the direction to the other end, at each end that is a cluster, and no gradients.
 
 #include <array>
 #include <bit>
@@ -23,16 +25,28 @@
 
 namespace radiosity {
 
-// Three numbers in 6 bytes: the upper halves of floats, rounded to nearest. Relative error below 2^-8, the range of float; a slope is
-// itself only the linear part of a kernel.
-class Slope {
+// How the light of a link is spread over one of its ends. Three numbers in 6 bytes: the upper halves of floats (bfloat16), rounded to
+// nearest. Relative error below 2^-8, the range of float; the gradient is itself only the linear part of a kernel.
+class EndShape {
  public:
-  Slope() = default;
-  Slope(const glm::vec3& v) : half_{round(v.x), round(v.y), round(v.z)} {}  // implicit: a slope is a vector
+  EndShape() = default;  // evenly
+  // Over a patch: `g`, in its plane, is the relative change of the kernel per length.
+  [[nodiscard]] static EndShape of_patch(const glm::vec3& g) { return EndShape{g}; }
+  // Over a cluster: the other end lies in this direction (of length 1), towards which the cluster shows so much area.
+  [[nodiscard]] static EndShape of_cluster(const glm::dvec3& direction, double shown) { return EndShape{glm::vec3{direction / shown}}; }
 
-  [[nodiscard]] glm::dvec3 vector() const { return {widen(half_[0]), widen(half_[1]), widen(half_[2])}; }
+  // 0 where either end is a cluster.
+  [[nodiscard]] glm::dvec3 gradient() const { return vector(); }
+  // The direction to the other end, over the area that the cluster shows towards it.
+  [[nodiscard]] glm::dvec3 direction_over_shown() const { return vector(); }
+
+  // The direction as a link can store it. The area shown must be that in this direction, or the shares of the faces do not sum to 1.
+  [[nodiscard]] static glm::dvec3 stored_direction(const glm::dvec3& direction) { return EndShape{glm::vec3{direction}}.vector(); }
 
  private:
+  explicit EndShape(const glm::vec3& v) : half_{round(v.x), round(v.y), round(v.z)} {}
+
+  [[nodiscard]] glm::dvec3 vector() const { return {widen(half_[0]), widen(half_[1]), widen(half_[2])}; }
   [[nodiscard]] static std::uint16_t round(float x) {
     return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(x) + 0x8000u) >> 16);
   }
@@ -43,14 +57,17 @@ class Slope {
 };
 
 struct Link {
-  std::uint32_t p = 0;
+  std::uint32_t p = 0;  // the nodes at its ends
   std::uint32_t q = 0;
   float exchange = 0.0f;  // G, in the squared unit of the frame
-  Slope slope_p{};        // in the plane of p, relative change per length
-  Slope slope_q{};
+  EndShape shape_p{};
+  EndShape shape_q{};
 };
-static_assert(sizeof(Link) == 24);
+static_assert(sizeof(Link) == 24);  // the solver reads all links in each iteration
 
 using Links = std::vector<Link>;
+
+// The link of a record that holds one (LinkSchedule::arrange).
+[[nodiscard]] inline const Link& link_of(const Link& link) { return link; }
 
 }  // namespace radiosity

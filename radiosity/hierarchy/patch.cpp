@@ -22,11 +22,12 @@ namespace radiosity {
 
 namespace detail {
 
-// Gauss-Legendre product rule on the quadrilateral a b c d (bilinear map; c == d gives a triangle). Exact for
+// Gauss-Legendre product rule on a quadrilateral (bilinear map; equal corners 2 and 3 give a triangle). Exact for
 // polynomials of degree 2n-1 on parallelograms. The weights use the area element along `normal`.
 template <std::size_t N>
-void append_gauss(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d, const glm::dvec3& normal,
-                  const std::array<double, N>& x, const std::array<double, N>& w, std::vector<QuadraturePoint>& out) {
+void append_gauss(const std::array<glm::dvec3, 4>& corner, const glm::dvec3& normal, const std::array<double, N>& x,
+                  const std::array<double, N>& w, std::vector<QuadraturePoint>& out) {
+  const auto& [a, b, c, d] = corner;
   if (out.empty()) { out.reserve(N * N); }  // most patches are one piece, and a run has many patches
   for (std::size_t i = 0; i < N; ++i) {
     for (std::size_t j = 0; j < N; ++j) {
@@ -92,10 +93,10 @@ namespace detail {
 // Quadrilaterals around corner 0; a triangle is left over when the number of corners is odd.
 HALFLIGHT_INLINE void append_rules(Patch& patch, const Polygon& q) {
   for (std::size_t i = 1; i + 1 < q.size(); i += 2) {
-    const glm::dvec3& last = i + 2 < q.size() ? q[i + 2] : q[i + 1];
-    append_gauss(q[0], q[i], q[i + 1], last, patch.normal, gauss2_x, gauss2_w, patch.rule2);
-    append_gauss(q[0], q[i], q[i + 1], last, patch.normal, gauss3_x, gauss3_w, patch.rule3);
-    append_gauss(q[0], q[i], q[i + 1], last, patch.normal, gauss4_x, gauss4_w, patch.rule4);
+    const std::array<glm::dvec3, 4> piece{q[0], q[i], q[i + 1], i + 2 < q.size() ? q[i + 2] : q[i + 1]};
+    append_gauss(piece, patch.normal, gauss2_x, gauss2_w, patch.rule2);
+    append_gauss(piece, patch.normal, gauss3_x, gauss3_w, patch.rule3);
+    append_gauss(piece, patch.normal, gauss4_x, gauss4_w, patch.rule4);
   }
 }
 

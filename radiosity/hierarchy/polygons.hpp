@@ -24,6 +24,7 @@
 #include <brep/handles.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/options.hpp>
 

@@ -72,27 +72,12 @@ HALFLIGHT_INLINE SurfaceResult make_surface(const raycast::PlacedObject& object,
   return {std::move(surface), {}};
 }
 
-// Moves a vertex to the sheets of the faces around it: onto the surface, or onto the curve where two sheets meet.
-HALFLIGHT_INLINE void place_on_object(const raycast::PlacedObject& object, SurfaceBRep& brep, brep::VertexId v) {
-  if (object.flat()) { return; }
-  glm::dvec3& position = brep.data(v).position;
-  for (int round = 0; round < 8; ++round) {
-    const glm::dvec3 before = position;
-    for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) {
-      const std::uint32_t sheet = brep.data(brep.face(h)).sheet;
-      if (sheet != brep::no_sheet) { position = object.project(sheet, position).position; }
-    }
-    if (position == before) { return; }
-  }
-}
-
 HALFLIGHT_INLINE Polygon corner_polygon(const SurfaceBRep& brep, brep::FaceId f) {
   Polygon polygon;
   for (const brep::HalfedgeId h : brep::corners(brep, f)) { polygon.push_back(brep.data(brep.vertex(h)).position); }
   return polygon;
 }
 
-// Makes the leaf node of a face and enters it in the face.
 HALFLIGHT_INLINE Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, std::uint32_t parent, std::uint32_t index) {
   const Polygon polygon = corner_polygon(surface.brep, f);
   Node node;
@@ -185,40 +170,6 @@ HALFLIGHT_INLINE Hierarchy make_roots(std::vector<Surface>& surfaces) {
     }
   }
   return hierarchy;
-}
-
-// Does splitting make the patches of a curved object smaller? Flat patches fall to a quarter each time. Where a surface folds within the
-// rounding of its coordinates (the tip of a needle) new vertices come to lie on old ones, and one child is as large as its parent for ever:
-// it is given up when four splits together did not make it as small as one should.
-[[nodiscard]] HALFLIGHT_INLINE bool shrinks(const Hierarchy& hierarchy, std::uint32_t index) {
-  std::uint32_t ancestor = index;
-  for (int k = 0; k < 4; ++k) {
-    if (is_input_face(hierarchy, ancestor)) { return true; }
-    ancestor = hierarchy[ancestor].parent;
-  }
-  return hierarchy[index].area < 0.25 * hierarchy[ancestor].area;
-}
-
-HALFLIGHT_INLINE bool subdivide(std::vector<Surface>& surfaces, Hierarchy& hierarchy, std::uint32_t index) {
-  const std::uint32_t object = hierarchy[index].object;
-  Surface& surface = surfaces[object];
-  if (!surface.object->flat() && !shrinks(hierarchy, index)) { return false; }
-  const auto place = [&](SurfaceBRep& brep, brep::VertexId v) {
-    if (surface.topology == Topology::shared) { place_on_object(*surface.object, brep, v); }
-  };
-  const bool ring = surface.topology == Topology::shared && hierarchy[index].corners > brep::most_regular_corners;
-  const auto faces =
-      ring ? brep::cut_ring(surface.brep, hierarchy[index].face, place) : brep::refine(surface.brep, hierarchy[index].face, place);
-  if (!faces) { return false; }
-  const auto first = static_cast<std::uint32_t>(hierarchy.size());
-  for (const brep::FaceId f : *faces) {
-    hierarchy.push_back(make_leaf(surface, object, f, index, static_cast<std::uint32_t>(hierarchy.size())));
-  }
-  hierarchy[index].first_child = first;
-  hierarchy[index].child_count = static_cast<std::uint32_t>(faces->size());
-  hierarchy[index].face = brep::FaceId{};
-  if (ring) { hierarchy[index].corners = 0; }
-  return true;
 }
 
 // The contour of a polygon in convex parts that share corners, bit by bit, with a bridge to each hole. Diagonals that span the parts, each

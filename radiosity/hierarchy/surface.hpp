@@ -76,10 +76,8 @@ struct SurfaceResult {
 // One root for each input face of each surface (paper 4.2); below that of a face in convex parts are the leaves of the parts.
 [[nodiscard]] Hierarchy make_roots(std::vector<Surface>& surfaces);
 
-// Splits a leaf: its face is refined by Euler operators and the new faces become its children. A face of many corners is first cut into a
-// ring and what it surrounds: its children are parts of it. False when the BRep refuses (the level tag is full), or when it does
-// not get smaller; then nothing has changed.
-[[nodiscard]] bool subdivide(std::vector<Surface>& surfaces, Hierarchy& hierarchy, std::uint32_t index);
+// Makes the leaf of a face, a node with this index and parent, and enters it in the face.
+[[nodiscard]] Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, std::uint32_t parent, std::uint32_t index);
 
 // The corners of any node: those of its face when it is a leaf, the contour of its parts when it has some, else corner 0 of its first
 // children.

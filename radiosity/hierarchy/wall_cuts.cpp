@@ -83,7 +83,7 @@ HALFLIGHT_INLINE bool boxes_meet(const raycast::Box& a, const raycast::Box& b, d
   return true;
 }
 
-// Adds the interval on which `wall` stands on or goes through the plane of `face`, if it rises into the air before it.
+// Adds the interval on which `wall` stands on or goes through the plane of `face`, if it rises above the bright side of the face.
 HALFLIGHT_INLINE void add_wall(const WallFace& face, const WallFace& wall, double tolerance, std::vector<WallLine>& lines) {
   const glm::dvec3 across = glm::cross(face.normal, wall.normal);
   if (!(glm::length(across) > 1e-6)) { return; }

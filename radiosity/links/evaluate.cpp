@@ -12,14 +12,13 @@
 #include <glm/vec3.hpp>
 
 #include <raycast/inline.hpp>
-#include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 
 #include <radiosity/clusters/cluster_exchange.hpp>
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/exchange/exchange.hpp>
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/patch.hpp>
@@ -28,7 +27,6 @@
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -45,65 +43,59 @@ namespace radiosity {
 // Pairs of points, in rounds of 16, for each link of a cluster: a mean over many faces that hide each other, so never few.
 inline constexpr std::uint32_t cluster_rounds = 4;
 
-HALFLIGHT_INLINE LinkEvaluator::LinkEvaluator(const raycast::Scene& scene, const Plan& plan, const Hierarchy& hierarchy,
-                                              const Patches& patches, const Exposure& exposure, const ShownAreas& shown, std::uint64_t seed)
-    : scene_{&scene},
-      plan_{&plan},
-      hierarchy_{&hierarchy},
-      patches_{&patches},
-      exposure_{&exposure},
-      sampler_{scene, hierarchy, patches, &exposure, shown},
-      seed_{seed} {}
+HALFLIGHT_INLINE LinkEvaluator::LinkEvaluator(const SceneView& scene, const Exposure& exposure, const ShownAreas& shown, std::uint64_t seed)
+    : scene_{scene}, exposure_{&exposure}, sampler_{scene, &exposure, shown}, seed_{seed} {}
 
-HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::OccluderList& list, LinkShape* shape, Doubt* doubt) const {
-  const Patch& p = (*patches_)[link.p];
-  const Patch& q = (*patches_)[link.q];
+HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation,
+                                                    Doubt* doubt) const {
+  const Patch& p = scene_.patches[link.p];
+  const Patch& q = scene_.patches[link.q];
   const double area_p = exposure_->area[link.p];
   const double area_q = exposure_->area[link.q];
   link.exchange = 0.0f;
   if (!(area_p > 0.0) || !(area_q > 0.0)) { return {}; }
   if (!between_patches(link)) {
     const Random random{seed_, (std::uint64_t{link.p} << 32) | link.q};
-    const ClusterExchange seen = evaluate_cluster_link(sampler_, *hierarchy_, link, cluster_rounds, random);
-    const LinkShape of_link = shape_of_cluster_link(link, seen, shape != nullptr ? *shape : LinkShape{});
-    if (shape != nullptr) { *shape = of_link; }
+    const ClusterExchange seen = evaluate_cluster_link(sampler_, scene_.hierarchy, link, cluster_rounds, random);
+    const LinkVariation of_link = variation_of_cluster_link(link, seen, variation != nullptr ? *variation : LinkVariation{});
+    if (variation != nullptr) { *variation = of_link; }
     if (doubt != nullptr) { doubt->square = static_cast<float>(doubt_of_cluster_link(link, of_link)); }
     return {seen.rays, 0};
   }
   const double unoccluded = exchange(p, q);
   if (!(unoccluded > 0.0)) {
     // The patches face away from each other; where they are curved, parts of their surfaces may not.
-    const double light = shape != nullptr && (p.bent || q.bent) ? variations(p, q).light : 0.0;
+    const double light = variation != nullptr && (p.bent || q.bent) ? variations(p, q).light : 0.0;
     if (!(light > 0.0)) { return {}; }
-    const VisibilityEstimate seen = visibility(*scene_, *plan_, list, end(link.p), end(link.q), 1, Random{seed_, key_of(link)});
-    shape->sampling = static_cast<float>(seen.fraction > 0.0 ? light : missed(light, *shape, seen.rays.cast));
+    const VisibilityEstimate seen = visibility(scene_, list, end(link.p), end(link.q), 1, Random{seed_, key_of(link)});
+    variation->sampling = static_cast<float>(seen.fraction > 0.0 ? light : missed(light, *variation, seen.rays.cast));
     return seen.rays;
   }
-  const Node& node_p = (*hierarchy_)[link.p];
-  const Node& node_q = (*hierarchy_)[link.q];
+  const Node& node_p = scene_.hierarchy[link.p];
+  const Node& node_q = scene_.hierarchy[link.q];
   const std::uint64_t key = key_of(link);
   const PatchEnd end_p = end(link.p);
   const PatchEnd end_q = end(link.q);
-  const VisibilityEstimate seen = visibility(*scene_, *plan_, list, end_p, end_q, patch_rounds, Random{seed_, key});
+  const VisibilityEstimate seen = visibility(scene_, list, end_p, end_q, patch_rounds, Random{seed_, key});
   // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
   const double share = exposed_share(end_p, area_p, q) * exposed_share(end_q, area_q, p);
   link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
   Variations light_varies;
-  if (shape != nullptr || !node_p.leaf() || !node_q.leaf()) {
+  if (variation != nullptr || !node_p.leaf() || !node_q.leaf()) {
     light_varies = variations(p, q);
-    link.slope_p = glm::vec3{light_varies.p.slope};
-    link.slope_q = glm::vec3{light_varies.q.slope};
-    if (shape != nullptr && seen.fraction > 0.0) {
-      *shape = {shape_of(light_varies.p, seen.spread_p / seen.fraction),
-                shape_of(light_varies.q, seen.spread_q / seen.fraction),
-                static_cast<float>(light_varies.cross),
-                static_cast<float>(partly_seen(unoccluded * share, seen)),
-                0.0f,
-                {}};
+    link.shape_p = EndShape::of_patch(glm::vec3{light_varies.p.slope});
+    link.shape_q = EndShape::of_patch(glm::vec3{light_varies.q.slope});
+    if (variation != nullptr && seen.fraction > 0.0) {
+      *variation = {variation_at(light_varies.p, seen.spread_p / seen.fraction),
+                    variation_at(light_varies.q, seen.spread_q / seen.fraction),
+                    static_cast<float>(light_varies.cross),
+                    static_cast<float>(partly_seen(unoccluded * share, seen)),
+                    0.0f,
+                    {}};
     }
   }
-  if (shape != nullptr && !(seen.fraction > 0.0)) {
-    shape->sampling = static_cast<float>(missed(unoccluded * share, *shape, seen.rays.cast));
+  if (variation != nullptr && !(seen.fraction > 0.0)) {
+    variation->sampling = static_cast<float>(missed(unoccluded * share, *variation, seen.rays.cast));
   }
   if (doubt != nullptr) { *doubt = doubt_of(link, unoccluded * share, seen, light_varies); }
   return seen.rays;
@@ -112,8 +104,8 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
 HALFLIGHT_INLINE Doubt LinkEvaluator::doubt_of(const Link& link, double sent, const VisibilityEstimate& seen,
                                                const Variations& varies) const {
   const auto square = [](double x) { return x * x; };
-  const Node& p = (*hierarchy_)[link.p];
-  const Node& q = (*hierarchy_)[link.q];
+  const Node& p = scene_.hierarchy[link.p];
+  const Node& q = scene_.hierarchy[link.q];
   const double area_p = exposure_->area[link.p];
   const double area_q = exposure_->area[link.q];
   const double arrives = sent * seen.fraction;
@@ -131,11 +123,11 @@ HALFLIGHT_INLINE Doubt LinkEvaluator::doubt_of(const Link& link, double sent, co
           static_cast<float>(2.0 * arrives * depth), static_cast<float>(depth)};
 }
 
-HALFLIGHT_INLINE LinkShape LinkEvaluator::shape_of_cluster_link(const Link& link, const ClusterExchange& seen,
-                                                                const LinkShape& before) const {
+HALFLIGHT_INLINE LinkVariation LinkEvaluator::variation_of_cluster_link(const Link& link, const ClusterExchange& seen,
+                                                                        const LinkVariation& before) const {
   const auto square = [](double x) { return x * x; };
-  const Node& p = (*hierarchy_)[link.p];
-  const Node& q = (*hierarchy_)[link.q];
+  const Node& p = scene_.hierarchy[link.p];
+  const Node& q = scene_.hierarchy[link.q];
   const glm::dvec3 d = q.centre - p.centre;
   const double r = glm::length(d);
   if (!(r > 0.0)) { return {}; }
@@ -147,91 +139,116 @@ HALFLIGHT_INLINE LinkShape LinkEvaluator::shape_of_cluster_link(const Link& link
   const auto end = [&](const Node& node) {
     const double near = square(2.0 * node.radius / r) / 12.0;
     const double rest = node.is_cluster() ? 8.0 / 3.0 * near + 0.02 : near;
-    return LinkShape::End{0.0f, static_cast<float>(std::sqrt(rest)), static_cast<float>(std::sqrt(hidden * std::min(1.0, 20.0 * near)))};
+    const double shadow = hidden * std::min(1.0, 20.0 * near);
+    return LinkVariation::End{0.0f, static_cast<float>(std::sqrt(rest)), static_cast<float>(std::sqrt(shadow))};
   };
   const double error = seen.exchange * seen.spread / std::sqrt(std::max(16.0, static_cast<double>(seen.rays)));
   return {end(p), end(q), 0.0f, static_cast<float>(error), 0.0f, {}};
 }
 
-HALFLIGHT_INLINE double LinkEvaluator::doubt_of_cluster_link(const Link& link, const LinkShape& shape) const {
+HALFLIGHT_INLINE double LinkEvaluator::doubt_of_cluster_link(const Link& link, const LinkVariation& variation) const {
   const double exchange = static_cast<double>(link.exchange);
-  const double sampling = static_cast<double>(shape.sampling);
-  const auto end = [&](std::uint32_t i, const LinkShape::End& e) {
+  const double sampling = static_cast<double>(variation.sampling);
+  const auto end = [&](std::uint32_t i, const LinkVariation::End& e) {
     const double across = static_cast<double>(e.rest * e.rest + e.shadow * e.shadow);
     return (exchange * exchange * across + sampling * sampling) / exposure_->area[i];
   };
-  return exchange > 0.0 ? end(link.p, shape.p) + end(link.q, shape.q) : 0.0;
+  return exchange > 0.0 ? end(link.p, variation.p) + end(link.q, variation.q) : 0.0;
 }
 
 HALFLIGHT_INLINE void refit_cluster_link(const Hierarchy& hierarchy, Link& link, const ShownAreas& before, const ShownAreas& now) {
   const glm::dvec3 d = glm::normalize(hierarchy[link.q].centre - hierarchy[link.p].centre);
-  const auto end = [&](std::uint32_t i, const glm::dvec3& to, Slope& slope) {
+  const auto end = [&](std::uint32_t i, const glm::dvec3& to, EndShape& shape) {
     if (!hierarchy[i].is_cluster()) { return; }
-    const glm::dvec3 towards = Slope{glm::vec3{to}}.vector();
+    const glm::dvec3 towards = EndShape::stored_direction(to);
     const double shown_before = before.of(hierarchy[i], aim(towards));
     const double shown_now = now.of(hierarchy[i], aim(towards));
     if (shown_before == shown_now) { return; }
     const bool shows = shown_before > 0.0 && shown_now > 0.0;
     link.exchange = shows ? static_cast<float>(link.exchange * (shown_now / shown_before)) : 0.0f;
-    slope = shows ? Slope{glm::vec3{towards / shown_now}} : Slope{};
+    shape = shows ? EndShape::of_cluster(towards, shown_now) : EndShape{};
   };
-  end(link.p, d, link.slope_p);
-  end(link.q, -d, link.slope_q);
+  end(link.p, d, link.shape_p);
+  end(link.q, -d, link.shape_q);
 }
 
-HALFLIGHT_INLINE EvaluateResult evaluate(const LinkEvaluator& evaluator, const OccluderLists& occluders, Links& links,
-                                         std::vector<std::uint32_t>& lists, std::size_t first, std::vector<LinkShape>* shapes,
-                                         unsigned threads, const Control& control) {
-  EvaluateResult result;
-  const std::size_t count = links.size() - first;
-  const auto stays = [&](std::size_t i) {
-    return links[i].exchange > 0.0f || (shapes != nullptr && (*shapes)[i].sampling > 0.0f && lists[i] != OccluderLists::hidden);
-  };
-  if (shapes != nullptr) { shapes->resize(links.size()); }
-  std::vector<RayCount> rays(count);
-  std::vector<Doubt> doubts;
+// Evaluates `count` links, batch by batch: evaluate(i, doubt) in parallel, then keep(i, doubt) in their order, which says whether a link
+// stays. After each batch, done(how many) is called.
+template <class Evaluate, class Keep, class Done>
+void evaluate_in_order(const Evaluation& by, std::size_t count, EvaluateResult& result, const Evaluate& evaluate, const Keep& keep,
+                       const Done& done) {
   constexpr std::size_t batch = 1 << 16;  // between two looks at the cancel flag
-  for (std::size_t done = 0; done < count; done += batch) {
-    if (control.cancelled()) {
-      result.cancelled = true;
-      return result;
-    }
-    doubts.assign(std::min(batch, count - done), {});
-    parallel_for(doubts.size(), threads, [&](std::size_t offset) {
-      if (control.cancelled()) { return; }
-      const std::size_t i = first + done + offset;
-      rays[done + offset] = evaluator(links[i], occluders[lists[i]], shapes != nullptr ? &(*shapes)[i] : nullptr, &doubts[offset]);
+  std::vector<RayCount> rays;
+  std::vector<Doubt> doubts;
+  for (std::size_t first = 0; first < count; first += batch) {
+    result.cancelled = by.control.cancelled();
+    if (result.cancelled) { return; }
+    const std::size_t size = std::min(batch, count - first);
+    rays.assign(size, {});
+    doubts.assign(size, {});
+    parallel_for(size, by.threads, [&](std::size_t k) {
+      if (!by.control.cancelled()) { rays[k] = evaluate(first + k, doubts[k]); }
     });
-    for (std::size_t offset = 0; offset < doubts.size(); ++offset) {
-      const std::size_t i = first + done + offset;
-      if (shapes != nullptr && stays(i)) {
-        (*shapes)[i].doubt = doubts[offset];
-      } else if (lists[i] != OccluderLists::hidden) {  // of a pair that was proven to exchange nothing there is none
-        result.doubt.add(links[i].p, links[i].q, doubts[offset]);
+    result.cancelled = by.control.cancelled();
+    if (result.cancelled) { return; }
+    for (std::size_t k = 0; k < size; ++k) {
+      result.rays += rays[k];
+      if (keep(first + k, doubts[k])) {
+        result.proven_clear += rays[k].avoided > 0 ? 1 : 0;
+      } else {
+        ++result.blocked;
       }
     }
-    if (shapes == nullptr) { control.report("link", static_cast<double>(std::min(done + batch, count)) / static_cast<double>(count)); }
+    done(first + size);
   }
+}
 
-  if (control.cancelled()) {
-    result.cancelled = true;
-    return result;
-  }
-  std::size_t kept = first;
-  for (std::size_t i = first; i < links.size(); ++i) {
-    result.rays += rays[i - first];
-    if (stays(i)) {
-      result.proven_clear += rays[i - first].avoided > 0 ? 1 : 0;
-      if (shapes != nullptr) { (*shapes)[kept] = (*shapes)[i]; }
-      lists[kept] = lists[i];
-      links[kept++] = links[i];
-    } else {
-      ++result.blocked;
-    }
-  }
+HALFLIGHT_INLINE EvaluateResult make_links(const Evaluation& by, const std::vector<NodePair>& pairs, Links& links) {
+  EvaluateResult result;
+  links.clear();
+  links.resize(pairs.size());  // each at its place until all of a batch are known
+  std::size_t kept = 0;
+  evaluate_in_order(
+      by, pairs.size(), result,
+      [&](std::size_t i, Doubt& doubt) {
+        links[i].p = pairs[i].p;
+        links[i].q = pairs[i].q;
+        return by.evaluator(links[i], by.occluders[pairs[i].list], nullptr, &doubt);
+      },
+      [&](std::size_t i, const Doubt& doubt) {
+        // Of a pair that was proven to exchange nothing there is no doubt.
+        if (pairs[i].list != OccluderLists::hidden) { result.doubt.add(pairs[i].p, pairs[i].q, doubt); }
+        if (!(links[i].exchange > 0.0f)) { return false; }
+        links[kept++] = links[i];
+        return true;
+      },
+      [&](std::size_t done) { by.control.report("link", static_cast<double>(done) / static_cast<double>(pairs.size())); });
   links.resize(kept);
-  lists.resize(kept);
-  if (shapes != nullptr) { shapes->resize(kept); }
+  return result;
+}
+
+HALFLIGHT_INLINE EvaluateResult measure_links(const Evaluation& by, MeasuredLinks& links, std::size_t first) {
+  EvaluateResult result;
+  std::size_t kept = first;
+  evaluate_in_order(
+      by, links.size() - first, result,
+      [&](std::size_t i, Doubt& doubt) {
+        MeasuredLink& measured = links[first + i];
+        return by.evaluator(measured.link, by.occluders[measured.list], &measured.variation, &doubt);
+      },
+      [&](std::size_t i, const Doubt& doubt) {
+        MeasuredLink& measured = links[first + i];
+        const bool hidden = measured.list == OccluderLists::hidden;
+        if (measured.link.exchange > 0.0f || (measured.variation.sampling > 0.0f && !hidden)) {
+          measured.variation.doubt = doubt;
+          links[kept++] = measured;
+          return true;
+        }
+        if (!hidden) { result.doubt.add(measured.link.p, measured.link.q, doubt); }
+        return false;
+      },
+      [](std::size_t) {});
+  links.resize(kept);
   return result;
 }
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Puts the numbers into the links: form factor by contour, times the fraction that arrives (paper 4.3: this is done once
-// the oracle has agreed, for it is the expensive part).
+// Evaluates links: the form factor by contour, times the fraction of the light that arrives (paper 4.3: done once the oracle has agreed,
+// because it is the expensive part).
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 
 #include <radiosity/clusters/cluster_exchange.hpp>
@@ -22,7 +21,7 @@
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -30,13 +29,13 @@ namespace radiosity {
 struct EvaluateResult {
   RayCount rays;
   std::uint64_t proven_clear = 0;  // links for which no segment was cast
-  std::uint64_t blocked = 0;       // links removed because nothing arrives
-  DoubtSum doubt;                  // of the links removed, and, unless shapes hold theirs, of all
+  std::uint64_t blocked = 0;       // links left out because nothing arrives
+  DoubtSum doubt;                  // of the links left out, and, unless measured links hold theirs, of all
   bool cancelled = false;
 };
 
 // How far the light of a link is from what the link can express, at each end: RMS values relative to the mean.
-struct LinkShape {
+struct LinkVariation {
   struct End {
     float linear = 0.0f, rest = 0.0f;  // of the unoccluded light (exchange.hpp)
     float shadow = 0.0f;               // of the visible fraction
@@ -48,6 +47,17 @@ struct LinkShape {
   Doubt doubt;
 };
 
+// A link with all that is known of its error.
+struct MeasuredLink {
+  Link link;
+  std::uint32_t list = OccluderLists::none;  // of its ends or of their ancestors
+  LinkVariation variation;
+};
+
+using MeasuredLinks = std::vector<MeasuredLink>;
+
+[[nodiscard]] inline const Link& link_of(const MeasuredLink& measured) { return measured.link; }
+
 // Segments, in rounds of 16, for each link between patches that is partly blocked. Where a light shines, the light oracle has split until
 // the shadow within a patch matters little; what 64 segments add to that is an eighth of it.
 inline constexpr std::uint32_t patch_rounds = 4;
@@ -56,19 +66,18 @@ inline constexpr std::uint32_t patch_rounds = 4;
 class LinkEvaluator {
  public:
   // The references must outlive the evaluator. `shown`: by exposed areas.
-  LinkEvaluator(const raycast::Scene& scene, const Plan& plan, const Hierarchy& hierarchy, const Patches& patches, const Exposure& exposure,
-                const ShownAreas& shown, std::uint64_t seed);
+  LinkEvaluator(const SceneView& scene, const Exposure& exposure, const ShownAreas& shown, std::uint64_t seed);
 
-  // Sets the exchange, 0 when nothing arrives, and the slopes where they have an effect, or anyhow when the shape is asked for. Returns
-  // its segments. Depends on the ends of the link and the seed alone; `list` saves time.
-  RayCount operator()(Link& link, const raycast::OccluderList& list, LinkShape* shape = nullptr, Doubt* doubt = nullptr) const;
+  // Sets the exchange, 0 when nothing arrives, and the shapes where they have an effect, or anyhow when the variation is asked for.
+  // Returns its segments. Depends on the ends of the link and the seed alone; `list` saves time.
+  RayCount operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation = nullptr, Doubt* doubt = nullptr) const;
 
   [[nodiscard]] bool between_patches(const Link& link) const {
-    return !(*hierarchy_)[link.p].is_cluster() && !(*hierarchy_)[link.q].is_cluster();
+    return !scene_.hierarchy[link.p].is_cluster() && !scene_.hierarchy[link.q].is_cluster();
   }
   // Casts the segments of a link between patches with exposed ends as if nothing were known of what can block them.
   [[nodiscard]] RayCount segments(const Link& link) const {
-    return visibility(*scene_, *plan_, {}, end(link.p), end(link.q), patch_rounds, Random{seed_, key_of(link)}).rays;
+    return visibility(scene_, {}, end(link.p), end(link.q), patch_rounds, Random{seed_, key_of(link)}).rays;
   }
 
  private:
@@ -76,7 +85,7 @@ class LinkEvaluator {
   [[nodiscard]] Doubt doubt_of(const Link& link, double sent, const VisibilityEstimate& seen, const Variations& varies) const;
   // What a link may exchange of which none of these segments arrived, and none of those before (Laplace's mean); `sent`: if nothing
   // stood between.
-  [[nodiscard]] static double missed(double sent, const LinkShape& before, std::uint64_t segments) {
+  [[nodiscard]] static double missed(double sent, const LinkVariation& before, std::uint64_t segments) {
     return sent / (static_cast<double>(before.blocked) + static_cast<double>(segments) + 2.0);
   }
   // Standard error of the exchange where some segments arrived and some did not.
@@ -84,22 +93,19 @@ class LinkEvaluator {
     return seen.fraction < 1.0 ? sent * std::sqrt(visibility_variance(seen.fraction, static_cast<double>(seen.rays.cast))) : 0.0;
   }
   [[nodiscard]] static std::uint64_t key_of(const Link& link) { return (std::uint64_t{link.p} << 32) | link.q; }
-  [[nodiscard]] static LinkShape::End shape_of(const Variation& v, double shadow) {
+  [[nodiscard]] static LinkVariation::End variation_at(const Variation& v, double shadow) {
     return {static_cast<float>(v.linear), static_cast<float>(std::hypot(v.rest, v.limited)), static_cast<float>(shadow)};
   }
   // Everything at an end is lit as if it stood at the centre, and what is seen of the other end varies: most of all where the end is large
   // from there, for the things in between then hide it from some and not from others. Light that reaches a cluster at all reaches few of
   // its faces: over random normals the mean of the squares of cosines above 0 is 8 / 3 of the square of their mean. The lattice of
   // directions adds a seventh. Measured on links of random boxes, polygons and a mesh, errors are .5 to 1.3 times these.
-  [[nodiscard]] LinkShape shape_of_cluster_link(const Link& link, const ClusterExchange& seen, const LinkShape& before) const;
+  [[nodiscard]] LinkVariation variation_of_cluster_link(const Link& link, const ClusterExchange& seen, const LinkVariation& before) const;
   // Every face and every link errs for itself: by its place, by what it sees, by the lattice of directions and by sampling.
-  [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkShape& shape) const;
-  [[nodiscard]] PatchEnd end(std::uint32_t i) const { return {&(*patches_)[i], (*hierarchy_)[i].object, exposure_->points(i)}; }
+  [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkVariation& variation) const;
+  [[nodiscard]] PatchEnd end(std::uint32_t i) const { return {&scene_.patches[i], scene_.hierarchy[i].object, exposure_->points(i)}; }
 
-  const raycast::Scene* scene_;
-  const Plan* plan_;
-  const Hierarchy* hierarchy_;
-  const Patches* patches_;
+  SceneView scene_;
   const Exposure* exposure_;
   ClusterSampler sampler_;
   std::uint64_t seed_;
@@ -108,11 +114,20 @@ class LinkEvaluator {
 // Fits a cluster link to what its ends show now instead of `before`: exposed areas are known better where faces were split.
 void refit_cluster_link(const Hierarchy& hierarchy, Link& link, const ShownAreas& before, const ShownAreas& now);
 
-// Evaluates the links from `first` on and removes those that carry nothing. `lists`: the index of each link in `occluders`. With
-// `shapes`, one a link, those too; links that may carry something all the same (LinkShape::sampling) then stay.
-[[nodiscard]] EvaluateResult evaluate(const LinkEvaluator& evaluator, const OccluderLists& occluders, Links& links,
-                                      std::vector<std::uint32_t>& lists, std::size_t first, std::vector<LinkShape>* shapes,
-                                      unsigned threads, const Control& control = {});
+// What the evaluation of many links needs. The references must outlive it.
+struct Evaluation {
+  const LinkEvaluator& evaluator;
+  const OccluderLists& occluders;  // of the pairs or links
+  unsigned threads;
+  const Control& control;
+};
+
+// Makes the links of these pairs, in their order, but for those that carry nothing.
+[[nodiscard]] EvaluateResult make_links(const Evaluation& by, const std::vector<NodePair>& pairs, Links& links);
+
+// Measures the links from `first` on and removes those that carry nothing, unless they may carry something all the same
+// (LinkVariation::sampling).
+[[nodiscard]] EvaluateResult measure_links(const Evaluation& by, MeasuredLinks& links, std::size_t first);
 
 }  // namespace radiosity
 

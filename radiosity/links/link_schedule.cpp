@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include <raycast/inline.hpp>
@@ -38,34 +37,6 @@ HALFLIGHT_INLINE LinkSchedule::LinkSchedule(std::size_t nodes, Links& links) {
     busy[round] |= both;
     rounds_[round].push_back({first[b], first[b + 1]});
   }
-}
-
-HALFLIGHT_INLINE std::vector<std::uint8_t> LinkSchedule::tiles_of(std::size_t nodes, const Links& links) {
-  std::vector<std::uint32_t> ends(nodes, 0);
-  for (const Link& link : links) {
-    ++ends[link.p];
-    ++ends[link.q];
-  }
-  std::vector<std::uint8_t> tile(nodes);
-  std::size_t before = 0;
-  for (std::size_t i = 0; i < nodes; ++i) {
-    tile[i] = static_cast<std::uint8_t>(std::min(tiles - 1, before * tiles / (2 * links.size())));
-    before += ends[i];
-  }
-  return tile;
-}
-
-HALFLIGHT_INLINE std::size_t LinkSchedule::block_of(const std::vector<std::uint8_t>& tile, const Link& link) {
-  const std::size_t a = tile[link.p];
-  const std::size_t b = tile[link.q];
-  return std::max(a, b) * tiles + std::min(a, b);
-}
-
-HALFLIGHT_INLINE std::vector<std::size_t> LinkSchedule::first_of_blocks(const std::vector<std::uint8_t>& tile, const Links& links) {
-  std::vector<std::size_t> first(tiles * tiles + 1, 0);
-  for (const Link& link : links) { ++first[block_of(tile, link) + 1]; }
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  return first;
 }
 
 }  // namespace radiosity

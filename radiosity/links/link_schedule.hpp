@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -27,20 +28,19 @@ class LinkSchedule {
   // Arranges the links, unless they are arranged.
   LinkSchedule(std::size_t nodes, Links& links);
 
-  // Moves the links of a block together, in their order, and what belongs to each link with it.
-  template <class... Others>
-  static void arrange(std::size_t nodes, Links& links, std::vector<Others>&... others) {
+  // Moves the links of a block together, in their order. A record is a Link, or link_of(record) tells that of a larger one.
+  template <class Record>
+  static void arrange(std::size_t nodes, std::vector<Record>& links) {
     if (links.size() < few) { return; }
     const std::vector<std::uint8_t> tile = tiles_of(nodes, links);
-    const auto before = [&](const Link& a, const Link& b) { return block_of(tile, a) < block_of(tile, b); };
-    if (std::is_sorted(links.begin(), links.end(), before)) { return; }
+    const auto block = [&](const Record& record) { return block_of(tile, link_of(record)); };
+    if (std::is_sorted(links.begin(), links.end(), [&](const Record& a, const Record& b) { return block(a) < block(b); })) { return; }
     std::vector<std::size_t> next = first_of_blocks(tile, links);
     std::vector<std::uint32_t> from(links.size());  // of each place: which of the links comes there
-    for (std::uint32_t i = 0; i < links.size(); ++i) { from[next[block_of(tile, links[i])]++] = i; }
-    (gather(from, others), ...);
+    for (std::uint32_t i = 0; i < links.size(); ++i) { from[next[block(links[i])]++] = i; }
     for (std::uint32_t start = 0; start < links.size(); ++start) {  // in place, cycle by cycle
       if (from[start] == start) { continue; }
-      const Link first = links[start];
+      const Record first = links[start];
       std::uint32_t k = start;
       while (from[k] != start) {
         links[k] = links[from[k]];
@@ -57,15 +57,32 @@ class LinkSchedule {
   static constexpr std::size_t tiles = 16, few = 1 << 14;
 
   // Bounds between tiles lie where the running count of link ends passes a multiple of the mean.
-  static std::vector<std::uint8_t> tiles_of(std::size_t nodes, const Links& links);
-  static std::size_t block_of(const std::vector<std::uint8_t>& tile, const Link& link);
-  static std::vector<std::size_t> first_of_blocks(const std::vector<std::uint8_t>& tile, const Links& links);
-  template <class T>
-  static void gather(const std::vector<std::uint32_t>& from, std::vector<T>& values) {
-    std::vector<T> gathered;
-    gathered.reserve(values.size());
-    for (const std::uint32_t i : from) { gathered.push_back(values[i]); }
-    values = std::move(gathered);
+  template <class Record>
+  static std::vector<std::uint8_t> tiles_of(std::size_t nodes, const std::vector<Record>& links) {
+    std::vector<std::uint32_t> ends(nodes, 0);
+    for (const Record& record : links) {
+      ++ends[link_of(record).p];
+      ++ends[link_of(record).q];
+    }
+    std::vector<std::uint8_t> tile(nodes);
+    std::size_t before = 0;
+    for (std::size_t i = 0; i < nodes; ++i) {
+      tile[i] = static_cast<std::uint8_t>(std::min(tiles - 1, before * tiles / (2 * links.size())));
+      before += ends[i];
+    }
+    return tile;
+  }
+  static std::size_t block_of(const std::vector<std::uint8_t>& tile, const Link& link) {
+    const std::size_t a = tile[link.p], b = tile[link.q];
+    return std::max(a, b) * tiles + std::min(a, b);
+  }
+  // Where the links of each block begin, once they are arranged.
+  template <class Record>
+  static std::vector<std::size_t> first_of_blocks(const std::vector<std::uint8_t>& tile, const std::vector<Record>& links) {
+    std::vector<std::size_t> first(tiles * tiles + 1, 0);
+    for (const Record& record : links) { ++first[block_of(tile, link_of(record)) + 1]; }
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    return first;
   }
 
   std::vector<std::vector<Block>> rounds_;

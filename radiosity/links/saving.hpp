@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a link would have cost that was left out: some links of the run are done once more as if nothing were known of them,
-// and timed. Results never depend on it.
+// Estimates the time that a run saved by leaving links out: a sample of the links that it made is evaluated once more, as if nothing were
+// known of them, and timed. Results never depend on it.
 
 #include <algorithm>
 #include <cstddef>

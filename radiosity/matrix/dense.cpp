@@ -147,14 +147,14 @@ HALFLIGHT_INLINE DenseSolution shoot(const LeafExchange& exchange, const LeafMat
   return solution;
 }
 
-HALFLIGHT_INLINE std::vector<Color> dense_radiosity(const LeafExchange& exchange, const LeafMaterials& materials, bool closed,
-                                                    std::size_t nodes, double residual, unsigned threads, const Control& control) {
-  DenseMatrix matrix = make_matrix(exchange, threads, control);
+HALFLIGHT_INLINE std::vector<Color> dense_radiosity(const DiscreteScene& scene, const LeafExchange& exchange,
+                                                    const LeafMaterials& materials, double residual) {
+  DenseMatrix matrix = make_matrix(exchange, scene.threads, scene.control);
   if (matrix.cancelled) { return {}; }
-  if (closed) { (void)close_rows(matrix, exchange, explained_closure(matrix, exchange)); }
-  const DenseSolution solved = gauss_seidel(matrix, exchange, materials, residual, 1000, control);
+  if (scene.plan.closed) { (void)close_rows(matrix, exchange, explained_closure(matrix, exchange)); }
+  const DenseSolution solved = gauss_seidel(matrix, exchange, materials, residual, 1000, scene.control);
   if (solved.cancelled) { return {}; }
-  std::vector<Color> result(nodes, Color{0.0});
+  std::vector<Color> result(scene.hierarchy.size(), Color{0.0});
   for (std::size_t i = 0; i < exchange.size(); ++i) { result[exchange.node(i)] = solved.radiosity[i]; }
   return result;
 }

@@ -16,6 +16,7 @@
 
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/matrix/leaf_exchange.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/visibility/visibility.hpp>
@@ -60,8 +61,8 @@ struct DenseSolution {
                                   unsigned threads, const Control& control = {});
 
 // The radiosity of the leaves by Gauss-Seidel on the full matrix; empty when cancelled. One entry a node.
-[[nodiscard]] std::vector<Color> dense_radiosity(const LeafExchange& exchange, const LeafMaterials& materials, bool closed,
-                                                 std::size_t nodes, double residual, unsigned threads, const Control& control);
+[[nodiscard]] std::vector<Color> dense_radiosity(const DiscreteScene& scene, const LeafExchange& exchange, const LeafMaterials& materials,
+                                                 double residual);
 
 }  // namespace radiosity
 

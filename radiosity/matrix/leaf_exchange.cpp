@@ -14,7 +14,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/surface.hpp>
-#include <radiosity/oracle/oracle.hpp>
+#include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/visibility/exposure.hpp>
@@ -61,8 +61,8 @@ HALFLIGHT_INLINE LeafExchange::LeafExchange(const DiscreteScene& scene) : scene_
         continue;
       }
       const raycast::OccluderList list =
-          occluders_.of(root_nodes[p], root_nodes[q], OccluderLists::none, scene.objects, scene.plan, scene.patches);
-      if (list.blocked() || f_oracle(roots[p], roots[q], 1.0, 0.0) == Decision::drop) { continue; }
+          occluders_.of(root_nodes[p], root_nodes[q], OccluderLists::none, scene.view());
+      if (list.blocked() || face_away(roots[p], roots[q])) { continue; }
       index = lists_[q * count_ + p] = occluders_.keep(list, OccluderLists::none);
     }
   }
@@ -72,8 +72,8 @@ HALFLIGHT_INLINE float LeafExchange::operator()(std::size_t i, std::size_t j, Ra
   const std::uint32_t index = lists_[roots_[i] * count_ + roots_[j]];
   if (i == j || index == nothing) { return 0.0f; }
   Link link{leaves_[std::min(i, j)], leaves_[std::max(i, j)]};
-  if (f_oracle(scene_->hierarchy[link.p], scene_->hierarchy[link.q], 1.0, 0.0) == Decision::drop) { return 0.0f; }
-  const raycast::OccluderList list = occluders_.of(link.p, link.q, index, scene_->objects, scene_->plan, scene_->patches);
+  if (face_away(scene_->hierarchy[link.p], scene_->hierarchy[link.q])) { return 0.0f; }
+  const raycast::OccluderList list = occluders_.of(link.p, link.q, index, scene_->view());
   if (list.blocked()) { return 0.0f; }
   rays += scene_->evaluator(link, list, nullptr, doubt);
   return link.exchange;

@@ -12,7 +12,7 @@
 #include <raycast/inline.hpp>
 
 #include <radiosity/clusters/clusters.hpp>
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/oracle/oracle.hpp>
 
@@ -33,10 +33,10 @@ HALFLIGHT_INLINE double most_shown(const Node& node, const ShownAreas& shown, co
   return std::min(most, std::numbers::pi * node.radius * node.radius);
 }
 
-HALFLIGHT_INLINE Decision cluster_oracle(const Hierarchy& hierarchy, std::uint32_t p, std::uint32_t q, const ShownAreas& shown,
-                                         double epsilon, double min_area) {
-  const Node& a = hierarchy[p];
-  const Node& b = hierarchy[q];
+HALFLIGHT_INLINE Decision ClusterOracle::operator()(const Question& question) const {
+  const Node& a = question.node_p();
+  const Node& b = question.node_q();
+  const double min_area = question.min_area;
   // A patch that may not be split any more leaves it to the cluster.
   const auto splits = [&](const Node& node) { return node.is_cluster() || !node.leaf() || node.area > min_area; };
   const Decision larger = splits(a) && (a.radius >= b.radius || !splits(b)) ? Decision::split_p : Decision::split_q;
@@ -47,8 +47,8 @@ HALFLIGHT_INLINE Decision cluster_oracle(const Hierarchy& hierarchy, std::uint32
   if (std::max(a.area, b.area) <= min_area) { return Decision::link; }
   const glm::dvec3 d = to_b / r;
   const double spread = extent / r;
-  const double seen = std::max(most_shown(a, shown, d, spread), most_shown(b, shown, -d, spread));
-  return seen <= epsilon * std::numbers::pi * (r * r + seen) ? Decision::link : larger;
+  const double seen = std::max(most_shown(a, question.shown, d, spread), most_shown(b, question.shown, -d, spread));
+  return seen <= question.epsilon * std::numbers::pi * (r * r + seen) ? Decision::link : larger;
 }
 
 }  // namespace radiosity

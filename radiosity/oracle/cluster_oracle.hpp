@@ -7,8 +7,6 @@
 //
 // As epsilon and min_area go to 0 every pair is opened down to its faces, and the links are those of a scene without clusters.
 
-#include <cstdint>
-
 #include <glm/vec3.hpp>
 
 #include <radiosity/clusters/clusters.hpp>
@@ -20,9 +18,11 @@ namespace radiosity {
 // What the node shows to places in the direction d (unit length), from above.
 [[nodiscard]] double most_shown(const Node& node, const ShownAreas& shown, const glm::dvec3& d, double spread);
 
-// The two nodes are different; `min_area` in the unit of the node areas.
-[[nodiscard]] Decision cluster_oracle(const Hierarchy& hierarchy, std::uint32_t p, std::uint32_t q, const ShownAreas& shown, double epsilon,
-                                      double min_area);
+// Of two different nodes, one of them a cluster.
+struct ClusterOracle {
+  [[nodiscard]] Decision operator()(const Question& question) const;
+};
+static_assert(Oracle<ClusterOracle>);
 
 }  // namespace radiosity
 

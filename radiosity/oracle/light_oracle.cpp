@@ -12,7 +12,6 @@
 #include <glm/vec3.hpp>
 
 #include <raycast/inline.hpp>
-#include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 
 #include <radiosity/clusters/cluster_exchange.hpp>
@@ -21,29 +20,22 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/oracle/cluster_oracle.hpp>
-#include <radiosity/oracle/oracle.hpp>
+#include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
 
-HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& scene, const raycast::Scene& objects, const Plan& plan, const Patches& patches,
-                                          const Hierarchy& hierarchy, const ShownAreas& shown, double epsilon, std::uint64_t seed,
-                                          const std::vector<bool>& buried)
-    : objects_{&objects},
-      plan_{&plan},
-      patches_{&patches},
-      hierarchy_{&hierarchy},
-      shown_{&shown},
-      sampler_{objects, hierarchy, patches, nullptr, shown},
-      epsilon_{epsilon},
-      seed_{seed} {
-  for (const InputSurface& input : radiosity::surfaces(scene)) {
-    const Color& emission = scene.materials[input.material].emission;
+HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& scene, const ShownAreas& shown, double epsilon,
+                                          std::uint64_t seed, const std::vector<bool>& buried)
+    : scene_{scene}, shown_{&shown}, sampler_{scene, nullptr, shown}, epsilon_{epsilon}, seed_{seed} {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  for (const InputSurface& surface : radiosity::surfaces(input)) {
+    const Color& emission = input.materials[surface.material].emission;
     emission_.push_back(std::max({emission.x, emission.y, emission.z}));
   }
   double power = 0.0;
@@ -71,7 +63,7 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& scene, const raycast::Sce
 
 HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::uint32_t q, const raycast::OccluderList& list,
                                                         RayCount& rays) const {
-  const Hierarchy& nodes = *hierarchy_;
+  const Hierarchy& nodes = scene_.hierarchy;
   const bool q_shines = emission(nodes[q]) >= emission(nodes[p]);
   const std::uint32_t receiver = q_shines ? p : q;
   const Node& to = nodes[receiver];
@@ -82,7 +74,7 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
   if (!(weight > epsilon_)) { return no_node; }
   if (to.is_cluster() || from.is_cluster()) { return wants_cluster_split(receiver, q_shines ? q : p, weight, rays); }
 
-  const Patch& patch = (*patches_)[receiver];
+  const Patch& patch = scene_.patches[receiver];
   double low = 1.0;
   double high = 0.0;
   const double tilt = std::asin(to.deviation);
@@ -99,7 +91,7 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
   if (weight * (high - low) > std::sqrt(12.0) * epsilon_) { return receiver; }
   if (!(weight * high * 0.5 > epsilon_)) { return no_node; }  // sqrt(V (1 - V)) is at most one half
 
-  const Patch& light = (*patches_)[q_shines ? q : p];
+  const Patch& light = scene_.patches[q_shines ? q : p];
   // The smallest shadow that matters covers this part of the patch. Segments enough to meet it three times are cast, unless they are too
   // many or their first have told.
   const double mean = weight * 0.5 * (low + high);
@@ -108,7 +100,7 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
   double arrives = 0.0;
   for (double round = 0.0; round < rounds; round += 1.0) {
     const VisibilityEstimate seen =
-        visibility(*objects_, *plan_, list, {&patch, to.object}, {&light, from.object}, 1,
+        visibility(scene_, list, {&patch, to.object}, {&light, from.object}, 1,
                    Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull + static_cast<std::uint64_t>(round)});
     rays += seen.rays;
     arrives += seen.fraction;
@@ -121,11 +113,11 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
 
 HALFLIGHT_INLINE std::uint32_t LightOracle::wants_cluster_split(std::uint32_t receiver, std::uint32_t source, double weight,
                                                                 RayCount& rays) const {
-  const Node& to = (*hierarchy_)[receiver];
-  const Node& from = (*hierarchy_)[source];
+  const Node& to = scene_.hierarchy[receiver];
+  const Node& from = scene_.hierarchy[source];
   const glm::dvec3 d = from.centre - to.centre;
   const double r = glm::length(d);
-  // A lamp among other things is taken by itself, before its light is looked at.
+  // A cluster that holds one much brighter element is split first, so that the lamp gets its own link.
   const bool mixed = from.is_cluster() && of_cluster_[from.cluster].brightest > 2.0 * of_cluster_[from.cluster].mean;
   const double area = most_shown(from, *shown_, -d / r, 0.0);
   const auto at = [&](double distance) { return area / (std::numbers::pi * distance * distance + area); };

@@ -10,20 +10,20 @@
 // the patch's share of the relative L2 error, dimensionless. F varies as the disk estimate does between the corners and the point nearest
 // to the light, with the normals tilted by the deviation of the patch from a curved object (linear between extremes: RMS = difference /
 // sqrt 12); V is all or nothing at a point: RMS = sqrt(V (1 - V)). Of a cluster F is what the light shows to the places in it, from the
-// nearest to the farthest; how its faces are turned is no matter, for each takes its own cosine.
+// nearest to the farthest; how its faces are turned does not matter, because each applies its own cosine.
 
 #include <cstdint>
 #include <vector>
 
-#include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 
 #include <radiosity/clusters/cluster_exchange.hpp>
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/oracle/oracle.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -32,27 +32,31 @@ class LightOracle {
  public:
   // The references must outlive the oracle; the hierarchy holds clusters and input faces when it is made, and may grow. `buried`, by node:
   // input faces that are not part of the scene's area (buried.hpp); none when it is empty.
-  LightOracle(const Scene& scene, const raycast::Scene& objects, const Plan& plan, const Patches& patches, const Hierarchy& hierarchy,
-              const ShownAreas& shown, double epsilon, std::uint64_t seed, const std::vector<bool>& buried = {});
+  LightOracle(const Scene& input, const SceneView& scene, const ShownAreas& shown, double epsilon, std::uint64_t seed,
+              const std::vector<bool>& buried = {});
 
   // Total area of the input faces that are not buried.
   [[nodiscard]] double scene_area() const { return scene_area_; }
 
+  // Asked once it is known what can stand between the two. Splits the end whose light varies too much because of the other, down to
+  // min_area.
+  [[nodiscard]] Decision operator()(const Question& question) const {
+    const std::uint32_t split = wants_split(question.p, question.q, *question.between, *question.rays);
+    if (split == no_node || !(question.hierarchy[split].area > question.min_area)) { return Decision::link; }
+    return split == question.p ? Decision::split_p : Decision::split_q;
+  }
+
+ private:
   // The end of the pair that should be split because of the light of the other, or no_node. Adds its segments to `rays`.
   // `list` is that of the pair.
   [[nodiscard]] std::uint32_t wants_split(std::uint32_t p, std::uint32_t q, const raycast::OccluderList& list, RayCount& rays) const;
-
- private:
   [[nodiscard]] double emission(const Node& node) const {
     return node.is_cluster() ? of_cluster_[node.cluster].mean : emission_[node.surface];
   }
 
   [[nodiscard]] std::uint32_t wants_cluster_split(std::uint32_t receiver, std::uint32_t source, double weight, RayCount& rays) const;
 
-  const raycast::Scene* objects_;
-  const Plan* plan_;
-  const Patches* patches_;
-  const Hierarchy* hierarchy_;
+  SceneView scene_;
   const ShownAreas* shown_;
   ClusterSampler sampler_;
   double epsilon_;
@@ -64,6 +68,7 @@ class LightOracle {
   std::vector<ClusterLight> of_cluster_;
   double scene_area_ = 0.0;
 };
+static_assert(Oracle<LightOracle>);
 
 }  // namespace radiosity
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -13,6 +15,7 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/refine.hpp>
 #include <brep/t_vertices.hpp>
 
 #include <raycast/inline.hpp>
@@ -21,6 +24,7 @@
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/visibility/exposure.hpp>
@@ -60,51 +64,108 @@ HALFLIGHT_INLINE void set_normals(const raycast::PlacedObject& object, SurfaceBR
   }
 }
 
+// Colours the half-edges of a face whose leaf is `own`.
+HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32_t own, const LeafLight& light, Reconstruction kind) {
+  const bool constant = kind == Reconstruction::constant || kind == Reconstruction::none;
+  const auto material = [&](std::uint32_t node) { return light.materials[light.hierarchy[node].surface]; };
+  if (constant && light.exposure.area[own] > 0.0) {
+    for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) { brep.data(e).radiosity = light.radiosity[own]; }
+    return;
+  }
+  Color face_sum{0.0};  // over the corners that have a colour
+  int coloured = 0;
+  std::vector<brep::HalfedgeId> bare;
+  for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) {
+    Color sum{0.0};
+    double weights = 0.0;
+    for (const brep::HalfedgeId l : brep::halfedges_from(brep, brep.vertex(e))) {
+      const std::uint32_t node = brep.data(brep.face(l)).node;
+      if (node == no_node || !(light.exposure.area[node] > 0.0) || material(node) != material(own)) { continue; }
+      double weight = corner_angle(brep, l);
+      if (kind != Reconstruction::simple) { weight *= std::max(0.0, glm::dot(brep.data(e).normal, brep.data(l).normal)); }
+      sum += weight * light.radiosity[node];
+      weights += weight;
+    }
+    if (!(weights > 0.0)) {
+      bare.push_back(e);
+      continue;
+    }
+    brep.data(e).radiosity = sum / weights;
+    face_sum += sum / weights;
+    ++coloured;
+  }
+  const Color mean = coloured > 0 ? face_sum / static_cast<double>(coloured) : light.radiosity[own];
+  for (const brep::HalfedgeId e : bare) { brep.data(e).radiosity = mean; }
+  if (constant) {
+    for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) { brep.data(e).radiosity = mean; }
+  }
+}
+
+// Does a face of the same sheet with exposed area share a vertex with this one?
+[[nodiscard]] HALFLIGHT_INLINE bool touches_exposed(const SurfaceBRep& brep, brep::FaceId f, const Exposure& exposure) {
+  const std::uint32_t sheet = brep.data(f).sheet;
+  for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
+    for (const brep::HalfedgeId l : brep::halfedges_from(brep, brep.vertex(h))) {
+      const SurfaceFace& face = brep.data(brep.face(l));
+      if (face.sheet == sheet && exposure.area[face.node] > 0.0) { return true; }
+    }
+  }
+  return false;
+}
+
+// Adds a face whose half-edges have their colours. `position`: which of the mesh each vertex has, by its index.
+HALFLIGHT_INLINE void add_face(const Surface& surface, brep::FaceId f, const std::vector<std::uint32_t>& position, const LeafLight& light,
+                               Mesh& mesh) {
+  const SurfaceBRep& brep = surface.brep;
+  const std::uint32_t node = brep.data(f).node;
+  const bool buried = !(light.exposure.area[node] > 0.0);
+  if (buried && !touches_exposed(brep, f, light.exposure)) { return; }
+  // Four corners at most; T-vertex elimination leaves no others, the rest would be cut as a fan. Separate polygons keep their
+  // T-vertices, and a leaf is shaded from its own corners.
+  std::vector<brep::HalfedgeId> loop;
+  if (surface.topology == Topology::separate) {
+    for (const brep::HalfedgeId h : brep::corners(brep, f)) { loop.push_back(h); }
+  } else {
+    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) { loop.push_back(h); }
+  }
+  const auto add = [&](std::initializer_list<std::size_t> corners) {
+    const auto first = static_cast<std::uint32_t>(mesh.corners.size());
+    Color mean{0.0};
+    for (const std::size_t k : corners) {
+      mesh.corners.push_back({position[brep.vertex(loop[k]).index], brep.data(loop[k]).radiosity});
+      mean += brep.data(loop[k]).radiosity / static_cast<double>(corners.size());
+    }
+    mesh.faces.push_back({first, static_cast<std::uint32_t>(corners.size()), light.hierarchy[node].surface, node,
+                          buried ? mean : light.radiosity[node]});
+  };
+  if (loop.size() == 4) {
+    add({0, 1, 2, 3});
+  } else {
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k) { add({0, k, k + 1}); }
+  }
+}
+
 }  // namespace detail
 
-HALFLIGHT_INLINE void reconstruct(std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const Exposure& exposure,
-                                  const std::vector<Color>& radiosity, const std::vector<std::uint32_t>& materials, Reconstruction kind) {
-  const bool constant = kind == Reconstruction::constant || kind == Reconstruction::none;
+HALFLIGHT_INLINE Mesh reconstruct(std::vector<Surface>& surfaces, const LeafLight& light, Reconstruction kind) {
+  Mesh mesh;
   for (Surface& surface : surfaces) {
     SurfaceBRep& brep = surface.brep;
     detail::set_normals(*surface.object, brep);
-    const auto material = [&](std::uint32_t node) { return materials[hierarchy[node].surface]; };
+    std::vector<std::uint32_t> position;  // of each vertex, by its index
+    for (const brep::VertexId v : brep::vertices(brep)) {
+      if (v.index >= position.size()) { position.resize(v.index + 1, 0); }
+      position[v.index] = static_cast<std::uint32_t>(mesh.positions.size());
+      mesh.positions.push_back(brep.data(v).position);
+    }
     for (const brep::FaceId f : brep::faces(brep)) {
-      const std::uint32_t own = brep.data(f).node;
-      if (own == no_node) { continue; }
-      if (constant && exposure.area[own] > 0.0) {
-        for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) { brep.data(e).radiosity = radiosity[own]; }
-        continue;
-      }
-      Color face_sum{0.0};  // over the corners that have a colour
-      int coloured = 0;
-      std::vector<brep::HalfedgeId> bare;
-      for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) {
-        Color sum{0.0};
-        double weights = 0.0;
-        for (const brep::HalfedgeId l : brep::halfedges_from(brep, brep.vertex(e))) {
-          const std::uint32_t node = brep.data(brep.face(l)).node;
-          if (node == no_node || !(exposure.area[node] > 0.0) || material(node) != material(own)) { continue; }
-          double weight = detail::corner_angle(brep, l);
-          if (kind != Reconstruction::simple) { weight *= std::max(0.0, glm::dot(brep.data(e).normal, brep.data(l).normal)); }
-          sum += weight * radiosity[node];
-          weights += weight;
-        }
-        if (!(weights > 0.0)) {
-          bare.push_back(e);
-          continue;
-        }
-        brep.data(e).radiosity = sum / weights;
-        face_sum += sum / weights;
-        ++coloured;
-      }
-      const Color mean = coloured > 0 ? face_sum / static_cast<double>(coloured) : radiosity[own];
-      for (const brep::HalfedgeId e : bare) { brep.data(e).radiosity = mean; }
-      if (constant) {
-        for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) { brep.data(e).radiosity = mean; }
-      }
+      const std::uint32_t leaf = brep.data(f).node;
+      if (leaf == no_node) { continue; }
+      detail::colour_face(brep, f, leaf, light, kind);
+      detail::add_face(surface, f, position, light, mesh);
     }
   }
+  return mesh;
 }
 
 }  // namespace radiosity

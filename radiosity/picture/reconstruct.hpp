@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// From one radiosity a leaf to a colour at every half-edge, for Gouraud shading (paper 4.5). T-vertices are eliminated
+// From one radiosity a leaf to a mesh with a colour at every corner, for Gouraud shading (paper 4.5). T-vertices are eliminated
 // first, so that neighbouring triangles share their corners. The colour at the origin of half-edge e is
 //
 //      B_e = sum_l w_l B_face(l) / sum_l w_l        over all half-edges l that leave the same vertex,
@@ -20,6 +20,7 @@
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/visibility/exposure.hpp>
@@ -29,10 +30,18 @@ namespace radiosity {
 // Connects every T-vertex of the leaves to a corner of its face, but for separate polygons. Returns the number of new faces.
 std::uint64_t eliminate_t_vertices(std::vector<Surface>& surfaces);
 
-// Fills the half-edge normals and colours of all surfaces. `radiosity` and `exposure` have one entry a node,
-// `materials` one a surface.
-void reconstruct(std::vector<Surface>& surfaces, const Hierarchy& hierarchy, const Exposure& exposure, const std::vector<Color>& radiosity,
-                 const std::vector<std::uint32_t>& materials, Reconstruction kind);
+// The light of the leaves. The references must outlive it.
+struct LeafLight {
+  const Hierarchy& hierarchy;
+  const Exposure& exposure;
+  const std::vector<Color>& radiosity;          // of each node, W/m2
+  const std::vector<std::uint32_t>& materials;  // of each input surface
+};
+
+// Fills the half-edge normals and colours of all surfaces and reads the mesh from them: one face a leaf, positions in the frame. Buried
+// leaves are left out of the mesh, but for those that touch an exposed one: a curved object stands in front of its chords, and what shows
+// between the two must not be a hole.
+Mesh reconstruct(std::vector<Surface>& surfaces, const LeafLight& light, Reconstruction kind);
 
 }  // namespace radiosity
 

@@ -14,10 +14,11 @@
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/bf_generation.hpp>
 #include <radiosity/refinement/bf_refine.hpp>
 #include <radiosity/refinement/link_error.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/support/memory.hpp>
 
 namespace radiosity {
@@ -52,47 +53,44 @@ HALFLIGHT_INLINE double error_of_rank(const std::vector<LinkError>& errors, std:
   return sums[rank];
 }
 
-// Can the node be split, or has it been?
-HALFLIGHT_INLINE bool can_split(const BfState& state, std::uint32_t i) {
-  const Node& node = state.scene.hierarchy[i];
-  return !node.leaf() || (node.area > state.min_area && !(i < state.stuck.size() && state.stuck[i]));
-}
-
 // The errors that splits may still mend. `stays` sums up those, above the threshold, of which nothing can be split; they are taken out.
 struct OpenErrors {
   std::vector<float> of_links, of_leaves;
   double stays = 0.0;
 };
 
-// Of each link the end that errs more, or the other where that can not be split any more.
-HALFLIGHT_INLINE void choose_links(const BfState& state, const std::vector<LinkError>& errors, double threshold, OpenErrors& open,
-                                   SplitChoice& choice) {
-  const Links& links = state.result.refined.links;
-  for (std::size_t i = 0; i < links.size(); ++i) {
+// What the oracle is asked about a link between these nodes, or about a leaf alone. BF-refinement has no epsilon: errors decide.
+HALFLIGHT_INLINE Question question_of(const BfState& state, std::uint32_t p, std::uint32_t q, const LinkError& error) {
+  Question question{state.scene.hierarchy, p, q, state.scene.shown, 1.0, state.min_area, &state.stuck};
+  question.error = &error;
+  return question;
+}
+
+// Asks about each link whose error is at least the threshold.
+HALFLIGHT_INLINE void choose_links(const BfState& state, const AnyOracle& oracle, const std::vector<LinkError>& errors, double threshold,
+                                   OpenErrors& open, SplitChoice& choice) {
+  for (std::size_t i = 0; i < state.links.size(); ++i) {
     if (!(open.of_links[i] >= threshold && open.of_links[i] > 0.0f)) { continue; }
-    const LinkError& e = errors[i];
-    const bool p_first = e.p >= e.q;
-    const std::uint32_t first = p_first ? links[i].p : links[i].q;
-    const std::uint32_t second = p_first ? links[i].q : links[i].p;
-    if (can_split(state, first)) {
-      choice.ends[i] = p_first ? SplitEnd::p : SplitEnd::q;
-      choice.asked[first] = true;
-    } else if (can_split(state, second) && (state.scene.hierarchy[second].is_cluster() || std::min(e.p, e.q) >= 0.25f * e.sum())) {
-      choice.ends[i] = p_first ? SplitEnd::q : SplitEnd::p;
-      choice.asked[second] = true;
+    const Link& link = state.links[i].link;
+    const Decision decision = oracle(question_of(state, link.p, link.q, errors[i]));
+    if (decision == Decision::split_p || decision == Decision::split_q) {
+      choice.ends[i] = decision;
+      choice.asked[decision == Decision::split_p ? link.p : link.q] = true;
+      ++choice.count;
     } else {
       open.stays += open.of_links[i];
       open.of_links[i] = 0.0f;
     }
-    choice.count += choice.ends[i] != SplitEnd::none ? 1 : 0;
   }
 }
 
-// Leaves whose constant is too coarse, while the links above will do.
-HALFLIGHT_INLINE void choose_leaves(const BfState& state, double threshold, OpenErrors& open, SplitChoice& choice) {
+// Asks about leaves whose constant is too coarse, while the links above will do.
+HALFLIGHT_INLINE void choose_leaves(const BfState& state, const AnyOracle& oracle, double threshold, OpenErrors& open,
+                                    SplitChoice& choice) {
   for (std::uint32_t i = 0; i < state.scene.hierarchy.size(); ++i) {
     if (!(open.of_leaves[i] >= threshold && open.of_leaves[i] > 0.0f)) { continue; }
-    if (can_split(state, i)) {
+    const Decision decision = oracle(question_of(state, i, i, {open.of_leaves[i], 0.0f}));
+    if (decision == Decision::split_p || decision == Decision::split_q) {
       choice.asked[i] = true;
       ++choice.count;
     } else {
@@ -104,21 +102,21 @@ HALFLIGHT_INLINE void choose_leaves(const BfState& state, double threshold, Open
 
 // The largest errors first; where none of them can be split any more, those after them. Nothing when what is left is allowed, or nothing
 // can be split. Errors below `least` stay; with a `squeeze` above 1 there are fewer splits, those with the largest errors.
-HALFLIGHT_INLINE std::optional<SplitChoice> choose_largest(const BfState& state, const BfErrors& errors, double allowed, double least,
-                                                           double squeeze) {
+HALFLIGHT_INLINE std::optional<SplitChoice> choose_largest(const BfState& state, const AnyOracle& oracle, const BfErrors& errors,
+                                                           double allowed, double least, double squeeze) {
   OpenErrors open;
   for (const LinkError& e : errors.links.links) { open.of_links.push_back(e.sum()); }
   open.of_leaves = errors.leaves;
   SplitChoice choice;
-  choice.ends.assign(open.of_links.size(), SplitEnd::none);
+  choice.ends.assign(open.of_links.size(), Decision::link);
   choice.asked.assign(state.scene.hierarchy.size(), false);
   for (double left = errors.sum; choice.count == 0; left -= open.stays) {
     if (!(left > allowed)) { return std::nullopt; }
     const double keep = left - std::min(0.8 * left, 1.1 * (left - allowed));
     const double threshold = squeeze * std::max(least, refinement_threshold(open.of_links, open.of_leaves, keep));
     open.stays = 0.0;
-    choose_links(state, errors.links.links, threshold, open, choice);
-    choose_leaves(state, threshold, open, choice);
+    choose_links(state, oracle, errors.links.links, threshold, open, choice);
+    choose_leaves(state, oracle, threshold, open, choice);
     if (choice.count == 0 && !(open.stays > 0.0)) { return std::nullopt; }
   }
   return choice;
@@ -127,14 +125,14 @@ HALFLIGHT_INLINE std::optional<SplitChoice> choose_largest(const BfState& state,
 // What there will be once the choice is carried out.
 HALFLIGHT_INLINE MemoryBudget::Counts counts_after(const BfState& state, const SplitChoice& choice) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
-  const Links& links = state.result.refined.links;
+  const MeasuredLinks& links = state.links;
   const auto parts = [&](std::uint32_t i) { return hierarchy[i].leaf() ? hierarchy[i].corners : hierarchy[i].child_count; };
   const auto split_links =
-      static_cast<std::size_t>(std::count_if(choice.ends.begin(), choice.ends.end(), [](SplitEnd end) { return end != SplitEnd::none; }));
+      static_cast<std::size_t>(std::count_if(choice.ends.begin(), choice.ends.end(), [](Decision end) { return end != Decision::link; }));
   MemoryBudget::Counts counts{hierarchy.size(), links.size() - split_links, 0, state.result.refined.occluders.bytes()};
   for (std::uint32_t i = 0; i < hierarchy.size(); ++i) { counts.nodes += choice.asked[i] && hierarchy[i].leaf() ? parts(i) : 0; }
   for (std::size_t i = 0; i < links.size(); ++i) {
-    counts.pairs += choice.ends[i] == SplitEnd::none ? 0 : parts(choice.ends[i] == SplitEnd::p ? links[i].p : links[i].q);
+    counts.pairs += choice.ends[i] == Decision::link ? 0 : parts(choice.ends[i] == Decision::split_p ? links[i].link.p : links[i].link.q);
   }
   counts.links += counts.pairs;
   return counts;
@@ -149,11 +147,11 @@ HALFLIGHT_INLINE bool is_last(const BfState& state, const BfErrors& errors, cons
   // Where nothing is lit yet, light may still be found.
   const bool dark = !(errors.links.norm > 0.0) && errors.sum > 0.0 && result.generations < 4;
   const bool good = !goal.deadline.limited() && result.estimate <= goal.target && !dark;
-  return good || result.refined.links.size() > link_limit;
+  return good || state.links.size() > link_limit;
 }
 
 HALFLIGHT_INLINE std::optional<SplitChoice> choose_splits(BfState& state, const BfErrors& errors, const BfGoal& goal) {
-  const std::size_t links = state.result.refined.links.size();
+  const std::size_t links = state.links.size();
   const MemoryBudget& budget = state.scene.budget;
   double least = error_of_rank(errors.links.links, (link_limit - links) / 8);  // children of a cluster
   if (goal.deadline.limited()) {
@@ -162,7 +160,7 @@ HALFLIGHT_INLINE std::optional<SplitChoice> choose_splits(BfState& state, const 
     least = std::max(least, error_of_rank(errors.links.links, most));
   }
   for (double squeeze = 1.0;; squeeze *= 2.0) {  // until memory suffices
-    std::optional<SplitChoice> choice = choose_largest(state, errors, allowed_error(errors, goal), least, squeeze);
+    std::optional<SplitChoice> choice = choose_largest(state, goal.oracle, errors, allowed_error(errors, goal), least, squeeze);
     if (!choice || (squeeze > 1.0 && 50 * choice->count < links)) { return std::nullopt; }
     if (!budget.limited()) { return choice; }
     const MemoryBudget::Counts counts = counts_after(state, *choice);

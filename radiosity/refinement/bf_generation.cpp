@@ -15,15 +15,17 @@
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/links/link_schedule.hpp>
+#include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/bf_refine.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/leaf_error.hpp>
 #include <radiosity/refinement/link_error.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/solver/solve.hpp>
 #include <radiosity/solver/transport.hpp>
@@ -33,9 +35,10 @@ namespace radiosity {
 
 namespace detail {
 
-HALFLIGHT_INLINE BfState::BfState(DiscreteScene& of) : scene{of}, oracle{of.surfaces, of.hierarchy} {
+HALFLIGHT_INLINE BfState::BfState(DiscreteScene& of) : scene{of}, proofs{of.surfaces, of.hierarchy} {
   constexpr double first_epsilon = 0.25;
   result.refined = refine(scene, {first_epsilon, 1e-3, 0.0});
+  for (const auto [p, q, list] : std::exchange(result.refined.linked, {})) { links.push_back({{p, q}, list, {}}); }
   double scene_area = 0.0;
   for (const Node& node : scene.hierarchy) { scene_area += node.parent == no_node ? node.area : 0.0; }
   min_area = 0x1p-24 * scene_area;
@@ -46,42 +49,44 @@ HALFLIGHT_INLINE BfState::BfState(DiscreteScene& of) : scene{of}, oracle{of.surf
 HALFLIGHT_INLINE bool evaluate_generation(BfState& state) {
   DiscreteScene& scene = state.scene;
   BfResult& result = state.result;
-  Links& links = result.refined.links;
   scene.expose();
   if (scene.clustered()) {
     ShownAreas now = scene.exposed_shown();
-    for (std::size_t i = 0; i < state.evaluated; ++i) {
-      if (!scene.evaluator.between_patches(links[i])) { refit_cluster_link(scene.hierarchy, links[i], scene.shown, now); }
+    for (std::size_t i = 0; i < state.measured; ++i) {
+      Link& link = state.links[i].link;
+      if (!scene.evaluator.between_patches(link)) { refit_cluster_link(scene.hierarchy, link, scene.shown, now); }
     }
     scene.shown = std::move(now);
   }
-  result.evaluations += links.size() - state.evaluated;
+  result.evaluations += state.links.size() - state.measured;
   // Once there is a solution, a generation is brought to its end: half evaluated it would be none.
+  const Control control = result.generations == 0 ? scene.control : scene.control.unstoppable();
   const EvaluateResult round =
-      evaluate(scene.evaluator, result.refined.occluders, links, result.refined.lists, state.evaluated, &state.shapes, scene.threads,
-               result.generations == 0 ? scene.control : scene.control.unstoppable());
+      measure_links({scene.evaluator, result.refined.occluders, scene.threads, control}, state.links, state.measured);
+  state.measured = state.links.size();
   result.evaluated.rays += round.rays;
   result.evaluated.proven_clear += round.proven_clear;
   result.evaluated.blocked += round.blocked;
   state.removed.add(round.doubt);
   result.evaluated.doubt = state.removed;
-  for (std::size_t i = 0; i < links.size(); ++i) { result.evaluated.doubt.add(links[i].p, links[i].q, state.shapes[i].doubt); }
+  for (const MeasuredLink& l : state.links) { result.evaluated.doubt.add(l.link.p, l.link.q, l.variation.doubt); }
   result.evaluated.cancelled = round.cancelled;
-  if (!round.cancelled) { LinkSchedule::arrange(scene.hierarchy.size(), links, result.refined.lists, state.shapes); }
+  if (!round.cancelled) { LinkSchedule::arrange(scene.hierarchy.size(), state.links); }
   return !round.cancelled;
 }
 
 HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
   const DiscreteScene& scene = state.scene;
   BfResult& result = state.result;
-  Links& links = result.refined.links;
+  Links links;  // packed, for the operator
+  links.reserve(state.links.size());
+  for (const MeasuredLink& l : state.links) { links.push_back(l.link); }
   Transport transport{scene.hierarchy, links, scene.exposure, scene.threads};
   if (scene.plan.closed) { (void)transport.close(10.0, 1e-3); }
-  const ColorSolution light = solve_channels(scene.hierarchy, transport, scene.exposure.area, scene.reflectance, scene.emission,
-                                             scene.plan.channels, Solver::conjugate_gradients, 1e-3, 40);
+  const ColorSolution light = solve_channels(transport, scene.exposure.area, surface_light(scene), {Solver::conjugate_gradients, 1e-3, 40});
   LeafErrors leaves = estimate_leaf_errors(scene, links, light.radiosity);
   BfErrors errors;
-  errors.links = estimate_link_errors(std::nullopt, leaves.alike(), scene, links, state.shapes, light.radiosity);
+  errors.links = estimate_link_errors({std::nullopt, leaves.alike()}, scene, state.links, light.radiosity);
   errors.links.of_leaves = leaves.sum;
   errors.leaves = std::move(leaves.squares);
   for (float& e : errors.leaves) { e *= static_cast<float>(leaf_part * leaf_part); }
@@ -95,23 +100,23 @@ HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
 
 // Pairs that come out of what is split, and have not been looked at.
 struct OpenPairs {
-  std::vector<Pair> pairs;
-  std::vector<float> blocked;  // of each pair, as in LinkShape
+  std::vector<NodePair> pairs;
+  std::vector<float> blocked;  // of each pair, as in LinkVariation
 
-  void add(const Pair& pair, float segments) {
+  void add(const NodePair& pair, float segments) {
     pairs.push_back(pair);
     blocked.push_back(segments);
   }
 };
 
-// Splits the leaves that were asked for. Parts of one that is hollow see each other.
+// Splits the leaves that were asked for. The children of a concave curved face see each other.
 HALFLIGHT_INLINE void split_leaves(BfState& state, const SplitChoice& choice, OpenPairs& open) {
   Hierarchy& hierarchy = state.scene.hierarchy;
   const auto before = static_cast<std::uint32_t>(hierarchy.size());
   state.stuck.resize(before, false);
   for (std::uint32_t i = 0; i < before; ++i) {
     if (!choice.asked[i] || !hierarchy[i].leaf()) { continue; }
-    if (!subdivide(state.scene.surfaces, hierarchy, i)) {
+    if (!subdivide(state.scene.surfaces, hierarchy, i, state.scene.meshing)) {
       state.stuck[i] = true;
       continue;
     }
@@ -124,52 +129,48 @@ HALFLIGHT_INLINE void split_leaves(BfState& state, const SplitChoice& choice, Op
   }
 }
 
-// Takes away the links that were chosen, for pairs of their children, and those that carry nothing and miss no more than `moot`, squared.
-HALFLIGHT_INLINE void split_links(BfState& state, const std::vector<LinkError>& errors, const SplitChoice& choice, double moot,
+// Takes away the links that were chosen, for pairs of their children, and those that carry nothing and whose squared error is at most
+// `negligible`.
+HALFLIGHT_INLINE void split_links(BfState& state, const std::vector<LinkError>& errors, const SplitChoice& choice, double negligible,
                                   OpenPairs& open) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
-  Links& links = state.result.refined.links;
-  std::vector<std::uint32_t>& lists = state.result.refined.lists;
-  std::vector<LinkShape>& shapes = state.shapes;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const SplitEnd end = choice.ends[i];
-    if (end == SplitEnd::none && !(links[i].exchange > 0.0f) && errors[i].sum() <= moot) {
-      state.removed.add(links[i].p, links[i].q, shapes[i].doubt);
+  for (std::size_t i = 0; i < state.links.size(); ++i) {
+    const Decision end = choice.ends[i];
+    const auto& [link, list, variation] = state.links[i];
+    if (end == Decision::link && !(link.exchange > 0.0f) && errors[i].sum() <= negligible) {
+      state.removed.add(link.p, link.q, variation.doubt);
       ++state.result.evaluated.blocked;
       continue;
     }
-    const std::uint32_t split = end == SplitEnd::p ? links[i].p : links[i].q;
-    const std::uint32_t other = end == SplitEnd::p ? links[i].q : links[i].p;
-    if (end == SplitEnd::none || hierarchy[split].leaf()) {
-      shapes[kept] = shapes[i];
-      lists[kept] = lists[i];
-      links[kept++] = links[i];
+    const std::uint32_t split = end == Decision::split_p ? link.p : link.q;
+    const std::uint32_t other = end == Decision::split_p ? link.q : link.p;
+    if (end == Decision::link || hierarchy[split].leaf()) {
+      state.links[kept++] = state.links[i];
       continue;
     }
-    const float segments = links[i].exchange > 0.0f ? 0.0f : shapes[i].blocked + segments_per_round;
+    const float segments = link.exchange > 0.0f ? 0.0f : variation.blocked + segments_per_round;
     for (std::uint32_t k = 0; k < hierarchy[split].child_count; ++k) {
-      open.add({hierarchy[split].first_child + k, other, lists[i]}, segments * static_cast<float>(hierarchy[split].child_count));
+      open.add({hierarchy[split].first_child + k, other, list}, segments * static_cast<float>(hierarchy[split].child_count));
     }
   }
-  links.resize(kept);
-  lists.resize(kept);
-  shapes.resize(kept);
-  state.evaluated = kept;
+  state.links.resize(kept);
+  state.measured = kept;
 }
 
-// Links the pairs that may see each other; they are evaluated in the next generation.
+// Links the pairs that may see each other; they are measured in the next generation.
 HALFLIGHT_INLINE void link_pairs(BfState& state, OpenPairs open) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
-  RefineResult& refined = state.result.refined;
+  state.links.reserve(state.links.size() + open.pairs.size());
   while (!open.pairs.empty()) {
     const std::vector<Decision> decisions = decide(
-        state.scene, open.pairs, refined,
+        state.scene, open.pairs, state.result.refined,
         [&](std::uint32_t p, std::uint32_t q) {
           const Node& a = hierarchy[p];
           const Node& b = hierarchy[q];
-          if (state.oracle.convex(a, b)) { return Decision::convex; }
-          return a.is_cluster() || b.is_cluster() ? Decision::link : f_oracle(a, b, 1.0, state.min_area);
+          if (state.proofs.convex(a, b)) { return Decision::convex; }
+          if (a.is_cluster() || b.is_cluster()) { return Decision::link; }
+          return face_away(a, b) ? Decision::drop : f_rule(a, b, 1.0, state.min_area);
         },
         [](std::size_t, const raycast::OccluderList&, Decision&) {});
     OpenPairs parts;  // of faces that come out of their clusters in too many to be linked
@@ -178,9 +179,8 @@ HALFLIGHT_INLINE void link_pairs(BfState& state, OpenPairs open) {
       const auto [p, q, list] = open.pairs[i];
       const std::uint32_t split = decisions[i] == Decision::split_p ? p : q;
       if (decisions[i] == Decision::link || !hierarchy[split].in_parts()) {
-        refined.links.push_back({p, q});
-        refined.lists.push_back(list);
-        state.shapes.emplace_back().blocked = open.blocked[i];
+        state.links.push_back({{p, q}, list, {}});
+        state.links.back().variation.blocked = open.blocked[i];
         continue;
       }
       for (std::uint32_t k = 0; k < hierarchy[split].child_count; ++k) {
@@ -202,17 +202,12 @@ HALFLIGHT_INLINE void split(BfState& state, const BfErrors& errors, const SplitC
 }
 
 HALFLIGHT_INLINE BfResult finish(BfState& state) {
-  Links& links = state.result.refined.links;
-  std::vector<std::uint32_t>& lists = state.result.refined.lists;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    if (!(links[i].exchange > 0.0f)) { continue; }
-    lists[kept] = lists[i];
-    links[kept++] = links[i];
+  Links& links = state.result.links;
+  links.reserve(state.links.size());
+  for (const MeasuredLink& l : state.links) {
+    if (l.link.exchange > 0.0f) { links.push_back(l.link); }
   }
-  state.result.evaluated.blocked += links.size() - kept;
-  links.resize(kept);
-  lists.resize(kept);
+  state.result.evaluated.blocked += state.links.size() - links.size();
   return std::move(state.result);
 }
 

@@ -10,7 +10,8 @@
 
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/links/evaluate.hpp>
-#include <radiosity/oracle/pair_oracle.hpp>
+#include <radiosity/oracle/oracle.hpp>
+#include <radiosity/oracle/proof_oracle.hpp>
 #include <radiosity/refinement/bf_refine.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/leaf_error.hpp>
@@ -26,11 +27,11 @@ struct BfState {
   explicit BfState(DiscreteScene& of);
 
   DiscreteScene& scene;
-  PairOracle oracle;
+  ProofOracle proofs;
   BfResult result;
   double min_area = 0.0;          // of a leaf that may still be split
-  std::vector<LinkShape> shapes;  // of the links that are evaluated
-  std::size_t evaluated = 0;      // links, the first ones
+  MeasuredLinks links;            // of now,
+  std::size_t measured = 0;       // the first so many of which have been measured
   DoubtSum removed;               // of links that carry nothing
   std::vector<bool> sees_itself;  // nodes whose children will see each other
   std::vector<bool> stuck;        // leaves that the BRep refused to split
@@ -44,10 +45,8 @@ struct BfErrors {
 };
 
 // What a generation splits (bf_choice.hpp).
-enum class SplitEnd : std::uint8_t { none, p, q };
-
 struct SplitChoice {
-  std::vector<SplitEnd> ends;  // of each link, which is to be split
+  std::vector<Decision> ends;  // of each link: it stays, or which end is split
   std::vector<bool> asked;     // nodes that are to have children
   std::size_t count = 0;       // links and leaves that are split
 };

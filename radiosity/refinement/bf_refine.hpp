@@ -11,10 +11,10 @@
 // pairs that lie apart, so that one direction stands for the other end; all below such a pair lies apart as well. From there on
 // clusters are opened and patches split alike, by what their links carry.
 //
-// A link through which no segment came is kept, without light, until its children are asked or it would not matter: a door between
-// two rooms is small, and what one coarse link loses nobody would find again. The children know how many segments were blocked before.
+// A link whose segments were all blocked is kept, with zero light, until it has been split or can no longer matter: a coarse link that
+// misses a doorway would otherwise be dropped for good. Its children know how many segments were blocked before.
 //
-// Invariants: those of refine.hpp. Deterministic: links are evaluated in parallel, everything else goes in the order of the links.
+// Invariants: those of f_refine.hpp. Deterministic: links are evaluated in parallel, everything else goes in the order of the links.
 
 #include <chrono>
 #include <cstddef>
@@ -22,12 +22,15 @@
 #include <optional>
 
 #include <radiosity/links/evaluate.hpp>
+#include <radiosity/oracle/bf_oracle.hpp>
+#include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 
 namespace radiosity {
 
 struct BfResult {
+  Links links;
   RefineResult refined;
   EvaluateResult evaluated;
   std::uint64_t evaluations = 0;  // of links
@@ -59,9 +62,10 @@ struct BfGoal {
   double target = 0.0;
   double leaf_part = 1.0;
   Deadline deadline;
+  AnyOracle oracle = BfOracle{};  // about links with large errors
 };
 
-// Makes links, evaluated, and leaves that meet the goal. Stops before when there is nothing left to split, at 2^-24 of the scene's area,
+// Makes evaluated links, and leaves, that meet the goal. Stops before when there is nothing left to split, at 2^-24 of the scene's area,
 // or when there would be more links than `link_limit` or more memory would be needed than the budget allows.
 // Exposure, and what the clusters show of it, grow with the hierarchy.
 [[nodiscard]] BfResult bf_refine(DiscreteScene& scene, const BfGoal& goal);

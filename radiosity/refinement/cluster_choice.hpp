@@ -8,14 +8,14 @@
 #include <string>
 
 #include <radiosity/hierarchy/links.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/scene/options.hpp>
 
 namespace radiosity {
 
 struct ClusterChoice {
   bool build = false;
-  std::string why;  // not
+  std::string reason;  // why no clusters are built; empty when they are
 };
 
 [[nodiscard]] inline ClusterChoice choose_clusters(std::size_t input_faces, const Options& options) {
@@ -35,7 +35,7 @@ struct ClusterChoice {
                          std::to_string(links * sizeof(Link) / 1'000'000'000) + " GB; the limit is " +
                          std::to_string(link_limit / 1'000'000) + " million";
   sentence +=
-      clusters.build ? "; a larger epsilon or min_area, or an error target, needs fewer" : "; no clusters were built: " + clusters.why;
+      clusters.build ? "; a larger epsilon or min_area, or an error target, needs fewer" : "; no clusters were built: " + clusters.reason;
   return sentence;
 }
 

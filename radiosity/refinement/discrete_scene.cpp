@@ -30,7 +30,7 @@ HALFLIGHT_INLINE DiscreteScene::DiscreteScene(const Scene& scene, unsigned threa
       budget{within},
       objects{std::vector<raycast::PlacedObject>{}},
       patches{surfaces, hierarchy},
-      evaluator{objects, plan, hierarchy, patches, exposure, shown, seed} {}
+      evaluator{view(), exposure, shown, seed} {}
 
 HALFLIGHT_INLINE void DiscreteScene::take(Prepared prepared) {
   frame = prepared.frame;
@@ -48,7 +48,7 @@ HALFLIGHT_INLINE void DiscreteScene::take(Prepared prepared) {
 
 HALFLIGHT_INLINE void DiscreteScene::expose() {
   patches.extend(threads);
-  extend(exposure, objects, surfaces, hierarchy, patches, threads, seed);
+  extend(exposure, view(), threads, seed);
 }
 
 HALFLIGHT_INLINE ShownAreas DiscreteScene::exposed_shown() const {

@@ -11,17 +11,20 @@
 
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/solver/solve.hpp>
 #include <radiosity/support/memory.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 #include <radiosity/visibility/plan.hpp>
 #include <radiosity/visibility/prepare.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 
 namespace radiosity {
 
@@ -39,6 +42,7 @@ struct DiscreteScene {
   // Makes the patches of all nodes that have none, and measures what of them is exposed.
   void expose();
 
+  [[nodiscard]] SceneView view() const { return {objects, plan, surfaces, hierarchy, patches}; }
   [[nodiscard]] bool clustered() const { return !hierarchy.empty() && hierarchy[0].is_cluster(); }
   // What the clusters show by the exposed areas of now.
   [[nodiscard]] ShownAreas exposed_shown() const;
@@ -50,6 +54,7 @@ struct DiscreteScene {
   std::uint64_t seed;
   Control control;
   MemoryBudget budget;
+  Meshing meshing = RegularMeshing{};
 
   Frame frame;
   raycast::Scene objects;         // in the frame
@@ -65,6 +70,10 @@ struct DiscreteScene {
   ShownAreas shown;  // by the clusters
   LinkEvaluator evaluator;
 };
+
+[[nodiscard]] inline SurfaceLight surface_light(const DiscreteScene& scene) {
+  return {scene.reflectance, scene.emission, scene.plan.channels};
+}
 
 }  // namespace radiosity
 

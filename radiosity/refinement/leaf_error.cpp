@@ -42,17 +42,17 @@ HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const DiscreteScene& scene, con
     Color squares{0.0};                                                                // of the links for themselves
   };
   std::vector<Gradient> gradient(hierarchy.size());
-  const auto arrives = [&](std::uint32_t i, double exchange, const Color& sent, const glm::dvec3& slope) {
+  const auto arrives = [&](std::uint32_t i, double exchange, const Color& sent, const glm::dvec3& relative) {
     const Color light = exchange / area[i] * sent;
-    for (std::size_t c = 0; c < 3; ++c) { gradient[i].sum[c] += light[static_cast<int>(c)] * slope; }
-    gradient[i].squares += light * light * glm::dot(slope, slope);
+    for (std::size_t c = 0; c < 3; ++c) { gradient[i].sum[c] += light[static_cast<int>(c)] * relative; }
+    gradient[i].squares += light * light * glm::dot(relative, relative);
   };
   for (const Link& link : links) {
     const double exchange = static_cast<double>(link.exchange);
     if (hierarchy[link.p].is_cluster() || hierarchy[link.q].is_cluster()) { continue; }
     if (!(exchange > 0.0) || !(area[link.p] > 0.0) || !(area[link.q] > 0.0)) { continue; }
-    arrives(link.p, exchange, radiosity[link.q], link.slope_p.vector());
-    arrives(link.q, exchange, radiosity[link.p], link.slope_q.vector());
+    arrives(link.p, exchange, radiosity[link.q], link.shape_p.gradient());
+    arrives(link.q, exchange, radiosity[link.p], link.shape_q.gradient());
   }
   errors.squares.assign(hierarchy.size(), 0.0f);
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {

@@ -4,10 +4,10 @@
 // The error of leaves by what varies over them. A link passes the linear part of its light on to the leaves below it, but a leaf i has one
 // constant. With g_i the gradient of the irradiance that all links at i and above it bring there, added as vectors,
 //
-//     e_i^2 = A_i rho^2 (mean over i of (g_i . (x - c_i))^2)               mends: splitting i, while its links stay where they are
+//     e_i^2 = A_i rho^2 (mean over i of (g_i . (x - c_i))^2)               reduced by splitting i, while its links stay where they are
 //
-// which is an error of the constants; of a picture, that interpolates between leaves, a part of it. On curved objects the slopes of the
-// links, and so the gradient, hold the turn of the normals (bend.hpp).
+// which is an error of the constants; of a picture, that interpolates between leaves, a part of it. On curved objects the gradients of the
+// links, and so g, hold the turn of the normals (bend.hpp).
 
 #include <algorithm>
 #include <vector>
@@ -27,15 +27,15 @@ struct LeafErrors {
   double sum = 0.0;
   double apart = 0.0;  // what the sum would be if links were independent
 
-  // Links at one place vary alike, or against each other (in a furnace nothing is left), and so does what they cannot express.
+  // The gradients of links at one place add up or cancel (in a scene of uniform radiosity they cancel), and so do their other errors.
   [[nodiscard]] double alike() const { return apart > 0.0 ? std::clamp(sum / apart, 1e-4, 1e2) : 1.0; }
 };
 
-// Of links that have their slopes, at leaves too.
+// Of links that have their gradients, at leaves too.
 LeafErrors estimate_leaf_errors(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity);
 
-// What siblings tell where the slopes at leaves are not known: leaves of one parent differ as the light changes over the parent. Where it
-// changes linearly, four halves of it, squares or triangles, vary a third as much each as they do among each other.
+// The variation over leaves where the gradients at leaves are not known, from the differences between the leaves of one parent. Where light
+// changes linearly over a parent of four leaves, squares or triangles, the variance within each is a third of that between them.
 double variation_by_siblings(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<Color>& radiosity);
 
 }  // namespace detail

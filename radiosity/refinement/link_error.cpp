@@ -2,12 +2,12 @@
 #include <radiosity/refinement/link_error.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <initializer_list>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -51,105 +51,159 @@ HALFLIGHT_INLINE std::vector<NodeLight> light_of_nodes(const Hierarchy& hierarch
   return light;
 }
 
-HALFLIGHT_INLINE ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves,
-                                                      const DiscreteScene& scene, const Links& links, const std::vector<LinkShape>& shapes,
-                                                      const std::vector<Color>& radiosity) {
-  ErrorEstimation result;
-  const Hierarchy& hierarchy = scene.hierarchy;
-  const std::vector<double>& area = scene.exposure.area;
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
-    if (!hierarchy[i].leaf()) { continue; }
-    const Color reflected = radiosity[i] - scene.emission[hierarchy[i].surface];
-    result.norm += area[i] * glm::dot(reflected, reflected);
+// The terms of a link's squared error (link_error.hpp).
+class LinkErrorTerms {
+ public:
+  LinkErrorTerms(const AlikeErrors& alike, const DiscreteScene& scene, const std::vector<Color>& radiosity)
+      : alike_{alike},
+        scene_{scene},
+        area_{scene.exposure.area},
+        light_{light_of_nodes(scene.hierarchy, area_, radiosity)},
+        mixtures_(light_.size(), 0.0),
+        rests_(light_.size(), 0.0) {
+    const Hierarchy& hierarchy = scene.hierarchy;
+    for (std::size_t i = hierarchy.size(); i-- > 0;) {
+      const Node& node = hierarchy[i];
+      if (!node.is_cluster()) { continue; }
+      if (of_clusters_.size() <= node.cluster) { of_clusters_.resize(node.cluster + 1, Color{0.0}); }
+      Color sum{0.0};
+      for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { sum += area_[c] * rho(hierarchy[c]); }
+      of_clusters_[node.cluster] = area_[i] > 0.0 ? sum / area_[i] : sum;
+    }
   }
-  const std::vector<NodeLight> light = light_of_nodes(hierarchy, area, radiosity);
-  std::vector<Color> of_clusters;  // mean reflectance
-  const auto rho = [&](const Node& node) { return node.is_cluster() ? of_clusters[node.cluster] : scene.reflectance[node.surface]; };
-  for (std::size_t i = hierarchy.size(); i-- > 0;) {
-    const Node& node = hierarchy[i];
-    if (!node.is_cluster()) { continue; }
-    if (of_clusters.size() <= node.cluster) { of_clusters.resize(node.cluster + 1, Color{0.0}); }
-    Color sum{0.0};
-    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { sum += area[c] * rho(hierarchy[c]); }
-    of_clusters[node.cluster] = area[i] > 0.0 ? sum / area[i] : sum;
+
+  // First for all links,
+  void add_to_nodes(const Link& link, const LinkVariation& variation) {
+    const std::uint32_t p = link.p, q = link.q;
+    const double g2 = square(link.exchange);
+    if (scene_.hierarchy[q].is_cluster()) { mixtures_[p] += mixture(received(g2, p), q, variation.q); }
+    if (scene_.hierarchy[p].is_cluster()) { mixtures_[q] += mixture(received(g2, q), p, variation.p); }
+    if (alike_.across) { return; }
+    rests_[p] += rest(received(g2, p), q, variation.p);
+    rests_[q] += rest(received(g2, q), p, variation.q);
   }
-  const auto square = [](double x) { return x * x; };
-  const auto received = [&](double g2, std::uint32_t i) {  // squared, from a radiosity of 1
-    const Color r = rho(hierarchy[i]);
-    return area[i] > 0.0 ? g2 / area[i] * r * r : Color{0.0};
+
+  struct Terms {
+    double p = 0.0, q = 0.0;  // reduced by splitting that end
   };
-  const auto varies = [&](const LinkShape::End& shape) { return square(shape.rest) + square(shape.shadow); };
-  // What node i receives from clusters by the wrong mixture of their faces: links of one node err alike.
-  std::vector<double> alike(light.size(), 0.0);
-  const auto mixture = [&](const Color& to, std::uint32_t from, const LinkShape::End& shape) {
-    return std::sqrt(glm::dot(to, light[from].variance) * varies(shape));
-  };
-  const auto bright = [&](std::uint32_t from) {  // mean of B^2 where it counts
-    return light[from].mean * light[from].mean + (hierarchy[from].is_cluster() ? light[from].variance : Color{0.0});
-  };
-  std::vector<double> across(light.size(), 0.0);  // rests of the links of each node
-  const auto over_node = [&](const Color& to, std::uint32_t from, const LinkShape::End& shape) {
-    return static_cast<double>(shape.rest) * std::sqrt(glm::dot(to, bright(from)));
-  };
-  const double cancel = std::min(1.0, alike_at_leaves);
-  // What a link from `from` adds to the squared error over node i.
-  const auto over = [&](const Color& to, std::uint32_t from, std::uint32_t i, const LinkShape::End& shape) {
-    const double own = over_node(to, from, shape);
-    const bool apart = hierarchy[i].leaf() || hierarchy[i].is_cluster();
-    const double all = apart ? own * own : alike_across ? *alike_across * own * own : own * across[i];
-    return cancel * all + square(shape.shadow) * glm::dot(to, bright(from));
-  };
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const auto& [p, q] = std::pair{links[i].p, links[i].q};
-    const double g2 = square(links[i].exchange);
-    if (hierarchy[q].is_cluster()) { alike[p] += mixture(received(g2, p), q, shapes[i].q); }
-    if (hierarchy[p].is_cluster()) { alike[q] += mixture(received(g2, q), p, shapes[i].p); }
-    if (alike_across) { continue; }
-    across[p] += over_node(received(g2, p), q, shapes[i].p);
-    across[q] += over_node(received(g2, q), p, shapes[i].q);
-  }
-  result.links.resize(links.size());
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const Link& link = links[i];
-    const Node& p = hierarchy[link.p];
-    const Node& q = hierarchy[link.q];
-    const LinkShape& shape = shapes[i];
+  // then of one.
+  [[nodiscard]] Terms of(const Link& link, const LinkVariation& variation) const {
+    const Node& p = scene_.hierarchy[link.p];
+    const Node& q = scene_.hierarchy[link.q];
     const double g2 = square(link.exchange);
     const Color to_p = received(g2, link.p);
     const Color to_q = received(g2, link.q);
-    const NodeLight& from_p = light[link.p];
-    const NodeLight& from_q = light[link.q];
-    const double cross = std::min(1.0, square(shape.cross));  // a link that lit each place from one other alone would pass on s_q itself
-    double mend_p = over(to_p, link.q, link.p, shape.p);
-    double mend_q = over(to_q, link.p, link.q, shape.q);
-    mend_p += p.is_cluster() ? mixture(to_q, link.p, shape.p) * alike[link.q] : glm::dot(to_q, from_p.variance) * (varies(shape.p) + cross);
-    mend_q += q.is_cluster() ? mixture(to_p, link.q, shape.q) * alike[link.p] : glm::dot(to_p, from_q.variance) * (varies(shape.q) + cross);
-    if (shape.sampling > 0.0f) {
-      const double noise = square(shape.sampling);
+    // At most 1: a link that lit each place from one other alone would pass on s_q itself.
+    const double cross = std::min(1.0, square(variation.cross));
+    Terms terms{over(to_p, link.q, link.p, variation.p), over(to_q, link.p, link.q, variation.q)};
+    terms.p += p.is_cluster() ? mixture(to_q, link.p, variation.p) * mixtures_[link.q]
+                              : glm::dot(to_q, light_[link.p].variance) * (varies(variation.p) + cross);
+    terms.q += q.is_cluster() ? mixture(to_p, link.q, variation.q) * mixtures_[link.p]
+                              : glm::dot(to_p, light_[link.q].variance) * (varies(variation.q) + cross);
+    if (variation.sampling > 0.0f) {
+      const double noise = square(variation.sampling);
       const bool split_p = p.is_cluster() == q.is_cluster() ? p.radius >= q.radius : p.is_cluster();
-      (q.is_cluster() || !split_p ? mend_q : mend_p) += glm::dot(received(noise, link.p), bright(link.q));
-      (p.is_cluster() || split_p ? mend_p : mend_q) += glm::dot(received(noise, link.q), bright(link.p));
+      (q.is_cluster() || !split_p ? terms.q : terms.p) += glm::dot(received(noise, link.p), bright(link.q));
+      (p.is_cluster() || split_p ? terms.p : terms.q) += glm::dot(received(noise, link.q), bright(link.p));
     }
-    result.links[i] = {static_cast<float>(mend_p), static_cast<float>(mend_q)};
-    result.of_links += mend_p + mend_q;
-    if (!(link.exchange > 0.0f)) { result.unseen += mend_p + mend_q; }
+    return terms;
+  }
+
+ private:
+  [[nodiscard]] static double square(double x) { return x * x; }
+  [[nodiscard]] static double varies(const LinkVariation::End& end) { return square(end.rest) + square(end.shadow); }
+  [[nodiscard]] const Color& rho(const Node& node) const {
+    return node.is_cluster() ? of_clusters_[node.cluster] : scene_.reflectance[node.surface];
+  }
+  // What node i reflects of a radiosity of 1, squared; g2: the exchange, squared.
+  [[nodiscard]] Color received(double g2, std::uint32_t i) const {
+    const Color r = rho(scene_.hierarchy[i]);
+    return area_[i] > 0.0 ? g2 / area_[i] * r * r : Color{0.0};
+  }
+  // Mean of B^2: a cluster shows other faces to each direction.
+  [[nodiscard]] Color bright(std::uint32_t from) const {
+    return light_[from].mean * light_[from].mean + (scene_.hierarchy[from].is_cluster() ? light_[from].variance : Color{0.0});
+  }
+  // Error by the wrong mixture of the faces of a cluster.
+  [[nodiscard]] double mixture(const Color& to, std::uint32_t from, const LinkVariation::End& end) const {
+    return std::sqrt(glm::dot(to, light_[from].variance) * varies(end));
+  }
+  [[nodiscard]] double rest(const Color& to, std::uint32_t from, const LinkVariation::End& end) const {
+    return static_cast<double>(end.rest) * std::sqrt(glm::dot(to, bright(from)));
+  }
+  // What a link from `from` adds to the squared error over node i.
+  [[nodiscard]] double over(const Color& to, std::uint32_t from, std::uint32_t i, const LinkVariation::End& end) const {
+    const double own = rest(to, from, end);
+    const bool apart = scene_.hierarchy[i].leaf() || scene_.hierarchy[i].is_cluster();
+    const double all = apart ? own * own : alike_.across ? *alike_.across * own * own : own * rests_[i];
+    return std::min(1.0, alike_.at_leaves) * all + square(end.shadow) * glm::dot(to, bright(from));
+  }
+
+  const AlikeErrors& alike_;
+  const DiscreteScene& scene_;
+  const std::vector<double>& area_;
+  std::vector<NodeLight> light_;
+  std::vector<Color> of_clusters_;  // mean reflectance
+  // Of each node, the sums over its links, which err alike there: by wrong mixtures of clusters' faces, and the rests.
+  std::vector<double> mixtures_, rests_;
+};
+
+HALFLIGHT_INLINE ErrorEstimation estimate_link_errors(const AlikeErrors& alike, const DiscreteScene& scene, const MeasuredLinks& links,
+                                                      const std::vector<Color>& radiosity) {
+  ErrorEstimation result;
+  const Hierarchy& hierarchy = scene.hierarchy;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (!hierarchy[i].leaf()) { continue; }
+    const Color reflected = radiosity[i] - scene.emission[hierarchy[i].surface];
+    result.norm += scene.exposure.area[i] * glm::dot(reflected, reflected);
+  }
+  LinkErrorTerms errors{alike, scene, radiosity};
+  for (const MeasuredLink& l : links) { errors.add_to_nodes(l.link, l.variation); }
+  result.links.reserve(links.size());
+  for (const MeasuredLink& l : links) {
+    const LinkErrorTerms::Terms terms = errors.of(l.link, l.variation);
+    result.links.push_back({static_cast<float>(terms.p), static_cast<float>(terms.q)});
+    result.of_links += terms.p + terms.q;
+    if (!(l.link.exchange > 0.0f)) { result.unseen += terms.p + terms.q; }
   }
   return result;
 }
 
-HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity,
-                                                  const DoubtSum& doubt) {
+// A sample of links, spread evenly over them, that are measured.
+struct LinkSample {
+  std::vector<std::uint32_t> from;  // indices of the links
+  MeasuredLinks links;
+  double each = 0.0;  // links that one stands for
+};
+
+// Links in two tables, as if in one.
+struct LinkTables {
+  std::array<std::span<const Link>, 2> tables;
+
+  [[nodiscard]] std::size_t size() const { return tables[0].size() + tables[1].size(); }
+  [[nodiscard]] const Link& operator[](std::size_t i) const {
+    return i < tables[0].size() ? tables[0][i] : tables[1][i - tables[0].size()];
+  }
+};
+
+// Measures `most` of the links at most. The exchange stays as it is.
+HALFLIGHT_INLINE void measure_sample(const DiscreteScene& scene, const LinkTables& links, std::size_t most, LinkSample& sample) {
+  const std::size_t count = std::min(sample.from.size(), most);
+  sample.links.resize(count);
+  parallel_for(count, scene.threads, [&](std::size_t i) {
+    Link& link = sample.links[i].link = links[sample.from[i * sample.from.size() / count]];
+    const float closed = link.exchange;
+    (void)scene.evaluator(link, {}, &sample.links[i].variation);
+    link.exchange = closed;
+  });
+  sample.each = count > 0 ? static_cast<double>(sample.from.size()) / static_cast<double>(count) : 0.0;
+}
+
+// The errors of leaves, from samples of the links.
+HALFLIGHT_INLINE LeafErrors sampled_leaf_errors(const DiscreteScene& scene, std::initializer_list<const LinkSample*> samples,
+                                                std::size_t all_links, const std::vector<Color>& radiosity) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const std::vector<double>& area = scene.exposure.area;
-  const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(scene.emission[hierarchy[i].surface]); };
-  struct Sample {
-    std::vector<std::uint32_t> from;
-    Links links;
-    std::vector<LinkShape> shapes;
-    double each = 0.0;  // links that one stands for
-  };
-  Sample of_lights, others;
-  for (std::uint32_t i = 0; i < links.size(); ++i) { (emits(links[i].p) || emits(links[i].q) ? of_lights : others).from.push_back(i); }
   // The part of a linear variation over a node that is left over its leaves: the sum of the squares of their areas over that of its own.
   std::vector<double> over_leaves(hierarchy.size(), 0.0);
   for (std::size_t i = hierarchy.size(); i-- > 0;) {
@@ -159,46 +213,42 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, co
   }
   LeafErrors leaves;
   Links scaled;  // as if they were all
-  const auto draw = [&](Sample& sample, std::size_t most) {
-    const std::size_t count = std::min(sample.from.size(), most);
-    sample.links.resize(count);
-    sample.shapes.resize(count);
-    parallel_for(count, scene.threads, [&](std::size_t i) {
-      Link& link = sample.links[i] = links[sample.from[i * sample.from.size() / count]];
-      const float closed = link.exchange;
-      (void)scene.evaluator(link, {}, &sample.shapes[i]);
-      link.exchange = closed;
-    });
-    sample.each = count > 0 ? static_cast<double>(sample.from.size()) / static_cast<double>(count) : 0.0;
+  for (const LinkSample* sample : samples) {
     const auto arrives = [&](std::uint32_t i, std::uint32_t sender, double exchange, float linear) {
       if (hierarchy[i].is_cluster() || !(area[i] > 0.0)) { return; }
       const Color light = exchange / area[i] * double{linear} * scene.reflectance[hierarchy[i].surface] * radiosity[sender];
-      const double square = sample.each * over_leaves[i] / area[i] * glm::dot(light, light);
-      leaves.apart += square;
+      leaves.apart += sample->each * over_leaves[i] / area[i] * glm::dot(light, light);
     };
-    for (std::size_t i = 0; i < count; ++i) {
-      const Link& link = sample.links[i];
+    for (const auto& [link, list, variation] : sample->links) {
       scaled.push_back(link);
-      scaled.back().exchange *= static_cast<float>(sample.each);
-      arrives(link.p, link.q, static_cast<double>(link.exchange), sample.shapes[i].p.linear);
-      arrives(link.q, link.p, static_cast<double>(link.exchange), sample.shapes[i].q.linear);
+      scaled.back().exchange *= static_cast<float>(sample->each);
+      arrives(link.p, link.q, static_cast<double>(link.exchange), variation.p.linear);
+      arrives(link.q, link.p, static_cast<double>(link.exchange), variation.q.linear);
     }
-  };
-  draw(of_lights, 1024);
-  draw(others, 3072);
-  // A leaf that is a whole input face has no siblings; and where the sample is all the links, their slopes tell more.
-  const LeafErrors by_slopes = estimate_leaf_errors(scene, scaled, radiosity);
-  if (scaled.size() == links.size()) {
-    leaves = by_slopes;
-  } else {
-    leaves.sum = variation_by_siblings(hierarchy, area, radiosity);
-    for (std::size_t i = 0; i < hierarchy.size(); ++i) { leaves.sum += is_input_face(hierarchy, i) ? by_slopes.squares[i] : 0.0f; }
   }
+  // A leaf that is a whole input face has no siblings; and where the sample is all the links, their gradients tell more.
+  LeafErrors by_gradients = estimate_leaf_errors(scene, scaled, radiosity);
+  if (scaled.size() == all_links) { return by_gradients; }
+  leaves.sum = variation_by_siblings(hierarchy, area, radiosity);
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) { leaves.sum += is_input_face(hierarchy, i) ? by_gradients.squares[i] : 0.0f; }
+  return leaves;
+}
+
+HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, const std::array<std::span<const Link>, 2>& tables,
+                                                  const std::vector<Color>& radiosity, const DoubtSum& doubt) {
+  const LinkTables links{tables};
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(scene.emission[hierarchy[i].surface]); };
+  LinkSample of_lights, others;
+  for (std::uint32_t i = 0; i < links.size(); ++i) { (emits(links[i].p) || emits(links[i].q) ? of_lights : others).from.push_back(i); }
+  measure_sample(scene, links, 1024, of_lights);
+  measure_sample(scene, links, 3072, others);
+  const LeafErrors leaves = sampled_leaf_errors(scene, {&of_lights, &others}, links.size(), radiosity);
   ErrorEstimation result;
   result.of_leaves = leaves.sum;
-  for (const Sample* sample : {&of_lights, &others}) {
-    const ErrorEstimation errors =
-        estimate_link_errors(std::sqrt(doubt.alike(area)), leaves.alike(), scene, sample->links, sample->shapes, radiosity);
+  const AlikeErrors alike{std::sqrt(doubt.alike(scene.exposure.area)), leaves.alike()};
+  for (const LinkSample* sample : {&of_lights, &others}) {
+    const ErrorEstimation errors = estimate_link_errors(alike, scene, sample->links, radiosity);
     result.of_links += sample->each * errors.of_links;
     result.norm = errors.norm;
   }

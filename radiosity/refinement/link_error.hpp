@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The relative L2 error of a solution, estimated from what its links cannot express (LinkShape) times the radiosity that they carry
+// The relative L2 error of a solution, estimated from what its links cannot express (LinkVariation) times the radiosity that they carry
 // (paper 4.4), and from what its leaves cannot. For p receiving from q, with the irradiance H = G B_q / A_p and the deviation
 // S = G s_q / A_p, s_q the standard deviation of B over q's leaves:
 //
-//     e_p^2 = A_p rho^2 H^2 (rest_p^2 + shadow_p^2)                        mends: splitting p
-//           + A_p rho^2 S^2 (rest_q^2 + shadow_q^2 + cross^2)              mends: splitting q
-//           + A_p rho^2 (sampling B_q / A_p)^2                             mends: splitting the larger
+//     e_p^2 = A_p rho^2 H^2 (rest_p^2 + shadow_p^2)                        reduced by splitting p
+//           + A_p rho^2 S^2 (rest_q^2 + shadow_q^2 + cross^2)              reduced by splitting q
+//           + A_p rho^2 (sampling B_q / A_p)^2                             reduced by splitting the larger
 //
-// summed over the channels, and the same for q receiving from p. What varies over a
-// leaf comes on top (leaf_error.hpp).
+// summed over the channels, and the same for q receiving from p. What varies over a leaf is added to that (leaf_error.hpp).
 //
 // Links that lie at one node err alike, as in a corner of a room: their rest adds up as it is. Where only a sample of the links is looked
 // at, the row sums tell how much that makes (DoubtSum::alike), for light that is the same everywhere; of light that is not, the truth lies
@@ -18,18 +17,21 @@
 // as they do in a furnace, rests cancel by the same factor.
 //
 // A cluster shows other faces to each direction: there the mean of B^2 stands for the square of what it sends, the noise of sampling is
-// mended by splitting the source, and the S of different links of one node add up as they are, for each mixes bright faces with dark ones
+// reduced by splitting the source, and the S of different links of one node add up as they are, for each mixes bright faces with dark ones
 // in the same way. The estimate of the whole is sqrt(sum of all e^2) over the norm of the reflected radiosity: all other errors of
 // different links count as independent. Errors that are passed on by further reflections are not followed.
 
+#include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/evaluate.hpp>
+#include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
@@ -38,12 +40,6 @@
 namespace radiosity {
 
 namespace detail {
-
-// What the split of each end of a link would mend, squared.
-struct LinkError {
-  float p = 0.0f, q = 0.0f;
-  [[nodiscard]] float sum() const { return p + q; }
-};
 
 // How much of the variation over a leaf is an error: all of it, or the part that a picture which interpolates still misses.
 [[nodiscard]] constexpr double leaf_part(Reconstruction kind) { return kind >= Reconstruction::constant ? 1.0 : 0.5; }
@@ -59,15 +55,20 @@ struct ErrorEstimation {
   [[nodiscard]] double relative(double part) const { return norm > 0.0 ? std::sqrt(sum(part) / norm) : 0.0; }
 };
 
-// The errors of links alone, and the norm. `alike_across` inner nodes: how much more squared errors are than those of independent links,
-// given where these are not all the links; `alike_at_leaves`: LeafErrors::alike().
-ErrorEstimation estimate_link_errors(std::optional<double> alike_across, double alike_at_leaves, const DiscreteScene& scene,
-                                     const Links& links, const std::vector<LinkShape>& shapes, const std::vector<Color>& radiosity);
+// How errors of different links add up.
+struct AlikeErrors {
+  std::optional<double> across;  // inner nodes: squared errors over those of independent links; given where these are not all the links
+  double at_leaves = 1.0;        // LeafErrors::alike()
+};
 
-// For links that were not made by BF-refinement: from at most 1024 links of lights and 3072 others, spread evenly; their shapes are
-// found now.
-ErrorEstimation sampled_estimate(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity,
-                                 const DoubtSum& doubt);
+// The errors of links alone, and the norm.
+ErrorEstimation estimate_link_errors(const AlikeErrors& alike, const DiscreteScene& scene, const MeasuredLinks& links,
+                                     const std::vector<Color>& radiosity);
+
+// For links that were not made by BF-refinement, in two tables: from at most 1024 links of lights and 3072 others, spread evenly; they are
+// measured now.
+ErrorEstimation sampled_estimate(const DiscreteScene& scene, const std::array<std::span<const Link>, 2>& links,
+                                 const std::vector<Color>& radiosity, const DoubtSum& doubt);
 
 // Why the estimate is no bound, or nothing. It does not know what a segment never found, nor how errors grow when light that is wrong is
 // reflected again and again; a closed scene keeps its row sums, and what errs there has no mean. `unseen`: share of its square that is

@@ -44,6 +44,7 @@ struct Audit {
   // size
   std::uint64_t polygons = 0;  // input faces: the roots of the hierarchy, whatever their number of corners and holes
   std::uint64_t nodes = 0, leaves = 0, links = 0, rays = 0;
+  std::uint64_t ray_links = 0, stored_rays = 0;     // among the links, made of rays; these
   std::uint64_t clusters = 0, cluster_links = 0;    // among the nodes; among the links, with one at an end
   std::uint64_t rays_avoided = 0;                   // at least; by the two proofs:
   std::uint64_t pairs_clear = 0, pairs_hidden = 0;  // links that nothing can block; pairs, with all below, that one object hides
@@ -57,6 +58,7 @@ struct Audit {
   Range row_sum;                  // of the form factors of a leaf, area-weighted mean; of the system that was solved
   Range computed_row_sum;         // the same before a closed scene was corrected
   std::optional<double> closure;  // RMS correction that made all row sums of a closed scene 1
+  double ray_correction = 0.0;    // RMS correction that took the noise of stored rays out of the row sums
   double closure_limit = 0.0;     // what quadrature and sampling explain of one (doubt.hpp); beyond, it is refused
   double energy_balance = 0.0;    // |emitted - absorbed - escaped| / emitted
   double escaped = 0.0;           // fraction of the emitted power that leaves an open scene

@@ -26,6 +26,7 @@ struct Solution {
   Frame frame;
   Hierarchy hierarchy;
   Links links;
+  Links ray_links;               // made of stored rays, when light between surfaces that do not shine goes by these
   std::vector<double> area;      // exposed, one a node
   std::vector<double> row_sum;   // of the system that was solved, one a node; 0 at inner nodes
   std::vector<Color> radiosity;  // W/m2, one a node

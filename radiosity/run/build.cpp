@@ -48,7 +48,9 @@ HALFLIGHT_INLINE std::optional<Failure> build(detail::Run& run) {
   if (const std::size_t left = cut_at_walls(boundaries, scene.objects.diameter())) { audit.warnings.push_back(warning_of_uncut(left)); }
   cut_long_faces(boundaries, options.min_area);
   scene.hierarchy = make_roots(boundaries);
-  run.clusters = choose_clusters(scene.hierarchy.size(), options);
+  if (run.needs_links()) { run.rays = choose_rays(scene.hierarchy, scene.emission, options); }
+  run.clusters = run.rays.cast ? ClusterChoice{false, "between surfaces that do not shine light goes by stored rays"}
+                               : choose_clusters(scene.hierarchy.size(), options);
   if (run.clusters.build) { scene.hierarchy = make_clusters(boundaries, scene.hierarchy); }
   audit.clusters = static_cast<std::uint64_t>(
       std::count_if(scene.hierarchy.begin(), scene.hierarchy.end(), [](const Node& n) { return n.is_cluster(); }));

@@ -29,8 +29,7 @@ HALFLIGHT_INLINE std::optional<Failure> compare_matrix(detail::Run& run) {
   const std::uint64_t matrix = 8 * leaves * leaves;
   if (leaves <= *run.options.compare && scene.budget.allows({scene.hierarchy.size(), solution.links.size(), 0, matrix / 2})) {
     const LeafExchange exchange{scene};
-    solution.comparison->dense = dense_radiosity(exchange, leaf_materials(exchange, scene), scene.plan.closed, scene.hierarchy.size(),
-                                                 run.options.residual, scene.threads, scene.control);
+    solution.comparison->dense = dense_radiosity(scene, exchange, leaf_materials(exchange, scene), run.options.residual);
   }
   if (scene.control.cancelled()) { return detail::cancelled(); }
   run.watch.lap("compare");

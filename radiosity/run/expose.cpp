@@ -40,10 +40,7 @@ HALFLIGHT_INLINE std::optional<Failure> expose(detail::Run& run) {
   for (std::string& sentence : warnings_of_buried(scene.input, scene.hierarchy, scene.exposure)) {
     audit.warnings.push_back(std::move(sentence));
   }
-  if (!scene.plan.closed && run.needs_links()) {
-    audit.stray = stray_rays(scene.objects, scene.surfaces, scene.hierarchy, scene.patches, scene.exposure, detail::stray_ray_count,
-                             scene.threads, scene.seed);
-  }
+  if (!scene.plan.closed && run.needs_links()) { audit.stray = stray_rays(scene, detail::stray_ray_count); }
   run.watch.lap("expose");
   return std::nullopt;
 }

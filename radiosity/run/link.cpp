@@ -1,19 +1,46 @@
 // SPDX-License-Identifier: MIT
 
-// Stage: form factors and visibility of the links of F-refinement (paper 4.3).
+// Stage: form factors and visibility of the links of F-refinement (paper 4.3), and links of stored rays.
 
+#include <cstdint>
+#include <numeric>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <raycast/inline.hpp>
 
 #include <radiosity/links/evaluate.hpp>
+#include <radiosity/rays/leaf_locator.hpp>
+#include <radiosity/rays/ray_links.hpp>
+#include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/run.hpp>
 #include <radiosity/run/stages.hpp>
+#include <radiosity/support/memory.hpp>
 
 namespace radiosity {
+
+namespace detail {
+
+[[nodiscard]] HALFLIGHT_INLINE std::optional<Failure> link_by_rays(Run& run) {
+  const DiscreteScene& scene = run.scene;
+  const std::vector<std::uint32_t> counts = ray_counts(scene, run.spacing.spaced, rays_per_node(run.options.epsilon));
+  const std::uint64_t rays = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+  const MemoryBudget::Counts needed{scene.hierarchy.size(), run.solution.links.size(), 0, 0, rays};
+  if (!scene.budget.allows(needed)) {
+    return Failure{Failure::Kind::out_of_memory,
+                   {too_much_memory(scene.budget.peak(needed), scene.budget.allowed, "a larger epsilon needs less")}};
+  }
+  const StoredRays stored = cast_rays(scene, LeafLocator{scene.hierarchy, scene.patches, scene.inputs.size()}, counts);
+  if (scene.control.cancelled()) { return cancelled(); }
+  run.ray_links = make_ray_links(scene, stored, run.spacing.spaced);
+  return std::nullopt;
+}
+
+}  // namespace detail
 
 namespace stage {
 
@@ -21,9 +48,12 @@ HALFLIGHT_INLINE std::optional<Failure> link(detail::Run& run) {
   DiscreteScene& scene = run.scene;
   if (run.f_refined()) {
     if (run.clusters.build) { scene.shown = scene.exposed_shown(); }
-    run.evaluated =
-        evaluate(scene.evaluator, run.refined.occluders, run.solution.links, run.refined.lists, 0, nullptr, scene.threads, scene.control);
+    run.evaluated = make_links({scene.evaluator, run.refined.occluders, scene.threads, scene.control},
+                               std::exchange(run.refined.linked, {}), run.solution.links);
     if (run.evaluated.cancelled) { return detail::cancelled(); }
+    if (run.rays.cast) {
+      if (std::optional<Failure> failure = detail::link_by_rays(run)) { return failure; }
+    }
   }
   run.watch.lap("link");
   return std::nullopt;

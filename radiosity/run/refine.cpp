@@ -9,11 +9,12 @@
 
 #include <raycast/inline.hpp>
 
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
+#include <radiosity/rays/spacing.hpp>
 #include <radiosity/refinement/bf_refine.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/refinement/link_error.hpp>
-#include <radiosity/refinement/refine.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
@@ -37,8 +38,11 @@ HALFLIGHT_INLINE std::string too_large(const Run& run, std::uint64_t needed) {
 HALFLIGHT_INLINE void refine_by_solutions(Run& run) {
   const Options& options = run.options;
   Audit& audit = run.solution.audit;
-  BfResult bf = bf_refine(run.scene, {options.target, leaf_part(options.reconstruction), Deadline{options.time}});
+  BfGoal goal{options.target, leaf_part(options.reconstruction), Deadline{options.time}};
+  if (options.oracle) { goal.oracle = options.oracle; }
+  BfResult bf = bf_refine(run.scene, goal);
   run.refined = std::move(bf.refined);
+  run.solution.links = std::move(bf.links);
   run.evaluated = std::move(bf.evaluated);
   run.unseen = bf.unseen;
   audit.estimated_error = bf.estimate;
@@ -62,14 +66,20 @@ HALFLIGHT_INLINE std::optional<Failure> refine(detail::Run& run) {
   if (run.bf_refined()) {
     detail::refine_by_solutions(run);
   } else if (run.f_refined()) {
-    run.refined = radiosity::refine(run.scene, {options.epsilon, options.min_area, audit.light_epsilon});
+    if (run.rays.cast) { run.spacing = split_by_distance(run.scene, options.epsilon, options.min_area); }
+    run.refined.cancelled = run.spacing.cancelled;
+    run.refined.too_large = run.spacing.too_large;
+    if (!run.refined.cancelled && run.refined.too_large == 0) {
+      Fineness fineness{options.epsilon, options.min_area, audit.light_epsilon};
+      if (options.oracle) { fineness.oracle = options.oracle; }
+      run.refined = radiosity::refine(run.scene, fineness, run.rays.cast ? Linked::lamps : Linked::all);
+    }
   } else if (!budget.allows({run.scene.hierarchy.size()})) {
     run.refined.too_large = budget.peak({run.scene.hierarchy.size()});
   }
   if (run.refined.cancelled || run.evaluated.cancelled) { return detail::cancelled(); }
   if (run.refined.too_many > 0) { return Failure{Failure::Kind::invalid_options, {too_many_links(run.refined.too_many, run.clusters)}}; }
   if (run.refined.too_large > 0) { return Failure{Failure::Kind::out_of_memory, {detail::too_large(run, run.refined.too_large)}}; }
-  run.solution.links = std::move(run.refined.links);
   run.watch.lap("refine");
   return std::nullopt;
 }

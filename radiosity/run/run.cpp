@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/matrix/dense.hpp>
-#include <radiosity/picture/make_mesh.hpp>
 #include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/run.hpp>
 
@@ -27,6 +26,7 @@ namespace detail {
 
 HALFLIGHT_INLINE Run::Run(const Scene& input, const Options& with, const Control& control, const MemoryBudget& within)
     : options{with}, scene{input, thread_count(with.threads), with.seed, control, within} {
+  if (options.meshing) { scene.meshing = options.meshing; }
   solution.audit.threads = scene.threads;
   solution.audit.seed = options.seed;
 }
@@ -41,8 +41,7 @@ HALFLIGHT_INLINE std::optional<Failure> Run::prepare_scene() {
 }
 
 HALFLIGHT_INLINE Mesh Run::picture(const std::vector<Color>& radiosity, Reconstruction kind) {
-  reconstruct(scene.surfaces, scene.hierarchy, scene.exposure, radiosity, scene.materials, kind);
-  return make_mesh(scene.surfaces, scene.hierarchy, scene.exposure, radiosity);
+  return reconstruct(scene.surfaces, {scene.hierarchy, scene.exposure, radiosity, scene.materials}, kind);
 }
 
 HALFLIGHT_INLINE Outcome Run::finish() {

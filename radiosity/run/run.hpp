@@ -10,9 +10,12 @@
 
 #include <radiosity/audit/path_tracer.hpp>
 #include <radiosity/links/evaluate.hpp>
+#include <radiosity/rays/ray_choice.hpp>
+#include <radiosity/rays/ray_links.hpp>
+#include <radiosity/rays/spacing.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
@@ -49,7 +52,10 @@ struct Run {
   DiscreteScene scene;
   std::optional<PathTracer> tracer;  // of the boundaries before they were cut
   ClusterChoice clusters;
+  RayChoice rays;
   RefineResult refined;
+  SpacingResult spacing;
+  RayLinks ray_links;  // their links go into the solution
   EvaluateResult evaluated;
   double unseen = 0.0;  // part of the estimated error
   std::optional<Transport> transport;

@@ -2,6 +2,7 @@
 
 // Stage: row sums are closed, the linear system is solved.
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -12,6 +13,8 @@
 #include <radiosity/audit/summary.hpp>
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/rays/ray_links.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/link_error.hpp>
 #include <radiosity/result/audit.hpp>
@@ -27,19 +30,38 @@ namespace radiosity {
 
 namespace detail {
 
+// The links of stored rays: their row sums are in a closed scene what the links of the lamps leave of 1, else what the rays of each leaf tell
+// beside those of others. Returns the row sums before that.
+HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run) {
+  const bool closed = run.scene.plan.closed;
+  const RayLinks& made = run.ray_links;
+  const std::vector<double> of_lamps = run.transport->row_sums();
+  run.solution.ray_links = std::move(run.ray_links.links);
+  run.transport->add_sampled(run.solution.ray_links);
+  const std::vector<double> computed = run.transport->row_sums();
+  std::vector<double> wanted(computed.size(), 0.0);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const double of_rays = computed[i] - of_lamps[i];
+    wanted[i] = closed ? std::max(0.0, 1.0 - of_lamps[i]) : of_rays + made.trust[i] * (made.share[i] - of_rays);
+  }
+  run.solution.audit.ray_correction = run.transport->scale_sampled(wanted);
+  return computed;
+}
+
 // The operator of the linear system, with the row sums of a closed scene put right as far as quadrature and sampling explain it.
 HALFLIGHT_INLINE void make_transport(Run& run) {
   const DiscreteScene& scene = run.scene;
   Solution& solution = run.solution;
-  Audit& audit = solution.audit;
+  Audit& audit = run.solution.audit;
   Transport& transport = run.transport.emplace(scene.hierarchy, solution.links, scene.exposure, scene.threads);
   const std::vector<double>& area = scene.exposure.area;
-  solution.row_sum = transport.row_sums();
-  audit.computed_row_sum = summarise_rows(scene.hierarchy, area, solution.row_sum);
-  if (scene.plan.closed && !solution.links.empty()) {
+  audit.computed_row_sum = summarise_rows(scene.hierarchy, area, run.rays.cast ? add_ray_links(run) : transport.row_sums());
+  if (scene.plan.closed && solution.links.size() + solution.ray_links.size() > 0) {
     double exposed = 0.0;
     for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }
-    audit.closure_limit = explained_closure(run.evaluated.doubt, area, exposed);
+    DoubtSum doubt = run.evaluated.doubt;
+    doubt.add(run.ray_links.doubt);
+    audit.closure_limit = explained_closure(doubt, area, exposed);
     audit.closure = transport.close(audit.closure_limit);
   }
   solution.row_sum = transport.row_sums();
@@ -50,8 +72,8 @@ HALFLIGHT_INLINE void solve_system(Run& run) {
   const DiscreteScene& scene = run.scene;
   Audit& audit = run.solution.audit;
   const auto solve_by = [&](Solver solver, const Control& until) {
-    return solve_channels(scene.hierarchy, *run.transport, scene.exposure.area, scene.reflectance, scene.emission, scene.plan.channels,
-                          solver, run.options.residual, run.options.max_iterations, until);
+    return solve_channels(*run.transport, scene.exposure.area, surface_light(scene),
+                          {solver, run.options.residual, run.options.max_iterations}, until);
   };
   ColorSolution solved = solve_by(run.options.solver, scene.control);
   if (solved.cancelled) {  // all links are there: the solution by the fewest iterations is near
@@ -71,7 +93,8 @@ HALFLIGHT_INLINE void estimate_error(Run& run) {
   const Solution& solution = run.solution;
   Audit& audit = run.solution.audit;
   if (run.f_refined() && run.options.audit_points > 0) {
-    const ErrorEstimation errors = sampled_estimate(scene, solution.links, solution.radiosity, run.evaluated.doubt);
+    ErrorEstimation errors = sampled_estimate(scene, {solution.links, solution.ray_links}, solution.radiosity, run.evaluated.doubt);
+    if (run.rays.cast) { errors.of_links += run.ray_links.noise(scene, solution.ray_links, solution.radiosity); }
     audit.estimated_error = errors.relative(leaf_part(run.options.reconstruction));
     audit.estimated_leaf_error = errors.relative(1.0);
   }
@@ -90,8 +113,8 @@ HALFLIGHT_INLINE std::optional<Failure> solve(detail::Run& run) {
   detail::make_transport(run);
   detail::solve_system(run);
   detail::estimate_error(run);
-  balance_energy(audit, scene.input, scene.inputs, scene.hierarchy, *run.transport, scene.exposure.area, run.solution.radiosity);
-  summarise_surfaces(audit, scene.inputs, scene.frame, scene.hierarchy, scene.exposure.area, run.solution.radiosity);
+  balance_energy(audit, scene, *run.transport, run.solution.radiosity);
+  summarise_surfaces(audit, scene, run.solution.radiosity);
   run.watch.lap("solve");
   return std::nullopt;
 }

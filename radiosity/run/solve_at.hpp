@@ -13,9 +13,9 @@ namespace radiosity {
 
 namespace detail {
 
-// solve_at within the memory that there is. When BF-refinement has run out of it, the run is made again, in the memory that is free then, up
-// to the last generation that had a solution, or to one before it: what the first run held is in no state to go on from. Generations
-// grow, so that takes no longer than the run that was lost.
+// One run within the memory that there is. When BF-refinement has run out of memory, its state is lost: the run is made again, in the
+// memory that is free then, up to the last generation that had a solution, or to one before it. Generations grow, so that takes no longer
+// than the run that was lost.
 [[nodiscard]] Outcome solve_within_memory(const Scene& scene, const Options& options, const Control& control, std::uint64_t held = 0);
 
 }  // namespace detail

@@ -15,7 +15,7 @@ namespace stage {
 
 // One BRep an object, cut where walls meet and where faces are long; the input faces, or clusters of them, are the hierarchy.
 [[nodiscard]] std::optional<Failure> build(detail::Run& run);
-// Splits patches and chooses the links between them (refine.hpp, bf_refine.hpp). BF-refinement evaluates its links as it goes.
+// Splits patches and chooses the links between them (f_refine.hpp, bf_refine.hpp). BF-refinement evaluates its links as it goes.
 [[nodiscard]] std::optional<Failure> refine(detail::Run& run);
 // Measures what of each patch is not buried under other objects.
 [[nodiscard]] std::optional<Failure> expose(detail::Run& run);

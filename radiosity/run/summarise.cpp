@@ -35,7 +35,9 @@ HALFLIGHT_INLINE std::optional<Failure> summarise(detail::Run& run) {
   for (std::size_t i = 0; i < hierarchy.size(); ++i) { audit.polygons += is_input_face(hierarchy, i) ? 1 : 0; }
   audit.nodes = hierarchy.size();
   audit.leaves = static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.leaf(); }));
-  audit.links = links.size();
+  audit.links = links.size() + run.solution.ray_links.size();
+  audit.ray_links = run.solution.ray_links.size();
+  audit.stored_rays = run.ray_links.rays;
   audit.cluster_links = static_cast<std::uint64_t>(
       std::count_if(links.begin(), links.end(), [&](const Link& l) { return hierarchy[l.p].is_cluster() || hierarchy[l.q].is_cluster(); }));
   audit.proportion = summarise_proportions(hierarchy, scene.patches);
@@ -45,12 +47,15 @@ HALFLIGHT_INLINE std::optional<Failure> summarise(detail::Run& run) {
   audit.rays_avoided = rays.avoided + run.refined.pairs_hidden * segments_per_round;
   audit.pairs_clear = run.evaluated.proven_clear;
   audit.pairs_hidden = run.refined.pairs_hidden;
-  audit.bytes = hierarchy.capacity() * sizeof(Node) + links.capacity() * sizeof(Link) + scene.bytes();
-  report_left_out(audit, scene.plan, run.refined, run.evaluated, scene.exposure, options, link_cost(scene.evaluator, links));
+  audit.bytes = hierarchy.capacity() * sizeof(Node) + (links.capacity() + run.solution.ray_links.capacity()) * sizeof(Link) + scene.bytes();
+  report_left_out(audit, scene, run.refined, run.evaluated, options, link_cost(scene.evaluator, links));
   if (!run.t_vertices && options.reconstruction < Reconstruction::constant && options.topology == Topology::shared) {
     audit.left_out.push_back({"T-vertex elimination", "no leaf has a finer neighbour", ""});
   }
-  if (run.needs_links() && !run.clusters.build) { audit.left_out.push_back({"clusters above the input faces", run.clusters.why, ""}); }
+  if (run.needs_links() && !run.rays.cast) {
+    audit.left_out.push_back({"stored rays for the light between surfaces that do not shine", run.rays.reason, ""});
+  }
+  if (run.needs_links() && !run.clusters.build) { audit.left_out.push_back({"clusters above the input faces", run.clusters.reason, ""}); }
   if (scene.plan.closed && !links.empty() && !audit.closure) {
     audit.left_out.push_back({"closing the scene", "its row sums need a larger correction than quadrature and sampling explain", ""});
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/hierarchy/patch.hpp>
-#include <radiosity/picture/make_mesh.hpp>
 #include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/uniform.hpp>
 
@@ -133,8 +132,7 @@ HALFLIGHT_INLINE std::optional<Failure> compare_leaves(Run& run, const UniformOp
   if (options.solver == UniformSolver::gauss_seidel) {
     comparison.dense = run.solution.radiosity;
   } else if (exchange.size() <= *options.compare) {
-    comparison.dense =
-        dense_radiosity(exchange, leaves, scene.plan.closed, scene.hierarchy.size(), options.residual, scene.threads, scene.control);
+    comparison.dense = dense_radiosity(scene, exchange, leaves, options.residual);
   }
   if (scene.control.cancelled()) { return interrupted(); }
   run.watch.lap("compare");

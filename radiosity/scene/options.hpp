@@ -18,6 +18,10 @@ struct Mesh;
 struct Frame;
 struct AuditGoal;
 struct PictureError;
+struct Question;
+struct LeafFace;
+struct ChildFaces;
+enum class Decision : unsigned char;
 
 // How the faces of an object hang together: neighbours share their vertices, or each is a polygon of its own, the root of a classical
 // quad-tree (polygons.hpp).
@@ -26,6 +30,13 @@ enum class Solver { conjugate_gradients, jacobi, gauss_seidel, southwell };
 inline constexpr const char* name(Solver solver) {
   constexpr const char* names[] = {"cg", "jacobi", "gauss-seidel", "southwell"};
   return names[static_cast<int>(solver)];
+}
+// How the light between surfaces that do not shine travels after F-refinement: over links that are chosen by form factor, or over links made of
+// stored rays (rays/ray_links.hpp). Lamps have links in either case.
+enum class Indirect { automatic, links, rays };
+inline constexpr const char* name(Indirect indirect) {
+  constexpr const char* names[] = {"auto", "links", "rays"};
+  return names[static_cast<int>(indirect)];
 }
 enum class Refinement { a_posteriori, a_priori };  // BF- and F-refinement (paper 4.4)
 // Paper fig. 5; simple ignores the normals (figs. 6-8); constant shows the solution itself, one colour a leaf; none: nobody asks for a
@@ -47,13 +58,23 @@ struct Options {
   double epsilon = 0.005;
   // or when both patches are no larger than min_area, relative to the total area of the scene.
   double min_area = 6e-5;
-  // Where a light shines a patch is split, too, while the light varies across it by more than this share of the relative L2 error; down to
-  // a quarter of min_area, for shadows have sharper edges than all other light, or below by the square of what this is finer than a quarter
-  // of epsilon. Default: a quarter of epsilon.
+  // Where a light shines a patch is split, too, while the light varies across it by more than this share of the relative L2 error; down
+  // to a quarter of min_area, for shadows have sharper edges than all other light, or below by the square of what this is finer than a
+  // quarter of epsilon. Default: a quarter of epsilon.
   std::optional<double> light_epsilon;
   // Accuracy target: target, or epsilon and min_area, fall round by round until the audited relative L2 error is at most this: that of the
   // picture when Control::picture_error is given, else that over all surfaces.
   std::optional<double> error;
+
+  // Automatic: rays from some 100 input faces on.
+  Indirect indirect = Indirect::automatic;
+
+  // Refinement asks this oracle (oracle.hpp: what it is asked, and what it must promise) in place of its own. Of F-refinement that is the
+  // one of epsilon; the light oracle is asked after it. Of BF-refinement it is the one that chooses which end of a link with a large error
+  // is split; the first, coarse links are made as ever.
+  std::function<Decision(const Question&)> oracle;
+  // This splits the faces of leaves, in place of regular refinement (meshing.hpp).
+  std::function<ChildFaces(const LeafFace&)> meshing;
 
   // Input faces from which on clusters are built above them; below, all pairs of input faces are looked at.
   std::uint32_t cluster_from = 300;
@@ -69,9 +90,10 @@ struct Options {
 
   std::uint32_t audit_points = 2000;  // at least, at which the error is measured (audit_effort.hpp); 0: no error estimate
   unsigned threads = 0;               // 0: as many as the machine has; results do not depend on it
-  // Bytes that the run may take on top of what the process holds when it begins, predicted from the numbers of nodes, links and pairs before
-  // they are made (memory.hpp). A run that would need more ends with the best solution that it has, which says so by audit.shortage, or,
-  // when none is complete, without (Failure::Kind::out_of_memory): BF-refinement and error targets have one, F-refinement has not.
+  // Bytes that the run may take on top of what the process holds when it begins, predicted from the numbers of nodes, links and pairs
+  // before they are made (memory.hpp). A run that would need more ends with the best solution that it has, which says so by
+  // audit.shortage, or, when none is complete, without (Failure::Kind::out_of_memory): BF-refinement and error targets have one,
+  // F-refinement has not.
   std::optional<std::uint64_t> memory;
   std::uint64_t seed = 1;
 };

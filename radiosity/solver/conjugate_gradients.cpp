@@ -47,9 +47,9 @@ HALFLIGHT_INLINE Rooms rooms_of(const Channel& channel) {
   }
   // The link of a cluster reaches everything in it.
   std::vector<bool> joined(n, false);
-  for (const Link& link : channel.transport->links()) {
+  channel.transport->each_link([&](const Link& link) {
     for (const std::uint32_t i : {link.p, link.q}) { joined[i] = joined[i] || hierarchy[i].is_cluster(); }
-  }
+  });
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t parent = hierarchy[i].parent;
     if (parent == no_node || !joined[parent]) { continue; }
@@ -59,14 +59,14 @@ HALFLIGHT_INLINE Rooms rooms_of(const Channel& channel) {
     const std::uint32_t b = first(i);
     up[std::max(a, b)] = std::min(a, b);
   }
-  for (const Link& link : channel.transport->links()) {
+  channel.transport->each_link([&](const Link& link) {
     const std::uint32_t p = root[link.p];
     const std::uint32_t q = root[link.q];
-    if (!reflects[p] || !reflects[q]) { continue; }
+    if (!reflects[p] || !reflects[q]) { return; }
     const std::uint32_t a = first(p);
     const std::uint32_t b = first(q);
     up[std::max(a, b)] = std::min(a, b);
-  }
+  });
   Rooms rooms;
   rooms.of.assign(n, no_node);
   for (std::uint32_t i = 0; i < n; ++i) {

@@ -124,9 +124,9 @@ HALFLIGHT_INLINE LinearSolution southwell(const Channel& channel, double wanted,
 
 }  // namespace detail
 
-HALFLIGHT_INLINE LinearSolution solve_channel(const Hierarchy& hierarchy, Transport& transport, const std::vector<double>& area,
-                                              const std::vector<double>& reflectance, const std::vector<double>& emission, Solver solver,
-                                              double residual, std::uint32_t max_iterations, const Control& control) {
+HALFLIGHT_INLINE LinearSolution solve_channel(Transport& transport, const std::vector<double>& area, const std::vector<double>& reflectance,
+                                              const std::vector<double>& emission, const SolveBy& by, const Control& control) {
+  const Hierarchy& hierarchy = transport.hierarchy();
   const double strongest = emission.empty() ? 0.0 : *std::max_element(emission.begin(), emission.end());
   const int unit = strongest > 0.0 ? std::ilogb(strongest) : 0;
   detail::Channel channel{&hierarchy, &transport, &area, {}, {}};
@@ -138,35 +138,34 @@ HALFLIGHT_INLINE LinearSolution solve_channel(const Hierarchy& hierarchy, Transp
     channel.emission[i] = std::ldexp(emission[hierarchy[i].surface], -unit);
   }
   const auto solve = [&] {
-    switch (solver) {
+    switch (by.solver) {
       case Solver::jacobi:
-        return detail::jacobi(channel, residual, max_iterations, control);
+        return detail::jacobi(channel, by.residual, by.max_iterations, control);
       case Solver::gauss_seidel:
-        return detail::gauss_seidel(channel, residual, max_iterations, control);
+        return detail::gauss_seidel(channel, by.residual, by.max_iterations, control);
       case Solver::southwell:
-        return detail::southwell(channel, residual, max_iterations, control);
+        return detail::southwell(channel, by.residual, by.max_iterations, control);
       case Solver::conjugate_gradients:
         break;
     }
-    return detail::conjugate_gradients(channel, residual, max_iterations);
+    return detail::conjugate_gradients(channel, by.residual, by.max_iterations);
   };
   LinearSolution solution = solve();
   for (double& b : solution.radiosity) { b = std::ldexp(b, unit); }
   return solution;
 }
 
-HALFLIGHT_INLINE ColorSolution solve_channels(const Hierarchy& hierarchy, Transport& transport, const std::vector<double>& area,
-                                              const std::vector<Color>& reflectance, const std::vector<Color>& emission, unsigned channels,
-                                              Solver solver, double residual, std::uint32_t max_iterations, const Control& control) {
+HALFLIGHT_INLINE ColorSolution solve_channels(Transport& transport, const std::vector<double>& area, const SurfaceLight& surfaces,
+                                              const SolveBy& by, const Control& control) {
   ColorSolution solution;
-  solution.radiosity.assign(hierarchy.size(), Color{0.0});
-  for (int c = 0; c < static_cast<int>(channels); ++c) {
+  solution.radiosity.assign(transport.hierarchy().size(), Color{0.0});
+  for (int c = 0; c < static_cast<int>(surfaces.channels); ++c) {
     std::vector<double> rho;
     std::vector<double> e;
-    for (const Color& r : reflectance) { rho.push_back(r[c]); }
-    for (const Color& b : emission) { e.push_back(b[c]); }
-    LinearSolution solved = solve_channel(hierarchy, transport, area, rho, e, solver, residual, max_iterations, control);
-    if (!solved.converged && solver != Solver::conjugate_gradients && control.cancelled()) {
+    for (const Color& r : surfaces.reflectance) { rho.push_back(r[c]); }
+    for (const Color& b : surfaces.emission) { e.push_back(b[c]); }
+    LinearSolution solved = solve_channel(transport, area, rho, e, by, control);
+    if (!solved.converged && by.solver != Solver::conjugate_gradients && control.cancelled()) {
       solution.cancelled = true;
       return solution;
     }
@@ -174,8 +173,8 @@ HALFLIGHT_INLINE ColorSolution solve_channels(const Hierarchy& hierarchy, Transp
     solution.iterations = std::max(solution.iterations, solved.iterations);
     solution.converged = solution.converged && solved.converged;
     solution.histories.push_back(std::move(solved.history));
-    for (std::size_t i = 0; i < hierarchy.size(); ++i) {
-      for (int to = c; to < (channels == 1 ? 3 : c + 1); ++to) { solution.radiosity[i][to] = solved.radiosity[i]; }
+    for (std::size_t i = 0; i < transport.hierarchy().size(); ++i) {
+      for (int to = c; to < (surfaces.channels == 1 ? 3 : c + 1); ++to) { solution.radiosity[i][to] = solved.radiosity[i]; }
     }
   }
   return solution;

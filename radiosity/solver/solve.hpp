@@ -42,12 +42,18 @@ LinearSolution southwell(const Channel& channel, double wanted, std::uint32_t ma
 
 }  // namespace detail
 
-// `reflectance` and `emission`: one number for each input surface. Solved in a unit of light of its own, a power of two: the squares of a
-// channel that is faint beside the others would vanish. `control` interrupts all solvers but conjugate gradients, which need few
-// iterations: what is left is the best iterate, not converged.
-[[nodiscard]] LinearSolution solve_channel(const Hierarchy& hierarchy, Transport& transport, const std::vector<double>& area,
-                                           const std::vector<double>& reflectance, const std::vector<double>& emission, Solver solver,
-                                           double residual, std::uint32_t max_iterations, const Control& control = {});
+// How a system is solved, and how far.
+struct SolveBy {
+  Solver solver = Solver::conjugate_gradients;
+  double residual = 1e-8;  // wanted, relative to that of B = 0
+  std::uint32_t max_iterations = 1000;
+};
+
+// `area`: exposed, of each node. `reflectance` and `emission`: one number for each input surface. Solved in a unit of light of its own, a
+// power of two: the squares of a channel that is faint beside the others would vanish. `control` interrupts all solvers but conjugate
+// gradients, which need few iterations: what is left is the best iterate, not converged.
+[[nodiscard]] LinearSolution solve_channel(Transport& transport, const std::vector<double>& area, const std::vector<double>& reflectance,
+                                           const std::vector<double>& emission, const SolveBy& by, const Control& control = {});
 
 // All channels of a scene.
 struct ColorSolution {
@@ -59,10 +65,15 @@ struct ColorSolution {
   std::vector<std::vector<double>> histories;  // one a channel
 };
 
-// `reflectance` and `emission`: one for each input surface. With one channel the scene is grey and the others are copies.
-[[nodiscard]] ColorSolution solve_channels(const Hierarchy& hierarchy, Transport& transport, const std::vector<double>& area,
-                                           const std::vector<Color>& reflectance, const std::vector<Color>& emission, unsigned channels,
-                                           Solver solver, double residual, std::uint32_t max_iterations, const Control& control = {});
+// What the input surfaces do with light. With one channel the scene is grey and the others are copies.
+struct SurfaceLight {
+  const std::vector<Color>& reflectance;
+  const std::vector<Color>& emission;
+  unsigned channels = 3;
+};
+
+[[nodiscard]] ColorSolution solve_channels(Transport& transport, const std::vector<double>& area, const SurfaceLight& surfaces,
+                                           const SolveBy& by, const Control& control = {});
 
 }  // namespace radiosity
 

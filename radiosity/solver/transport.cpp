@@ -13,7 +13,7 @@
 
 #include <raycast/inline.hpp>
 
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/link_schedule.hpp>
@@ -23,17 +23,19 @@
 namespace radiosity {
 
 HALFLIGHT_INLINE Transport::Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads)
-    : hierarchy_{&hierarchy},
-      links_{&links},
-      exposure_{&exposure},
-      threads_{threads},
-      schedule_{hierarchy.size(), links},
-      scale_(hierarchy.size(), 1.0) {
+    : hierarchy_{&hierarchy}, exposure_{&exposure}, threads_{threads} {
+  parts_.emplace_back(hierarchy, links);
   while (above_ < hierarchy.size() && (hierarchy[above_].is_cluster() || is_input_face(hierarchy, above_))) { ++above_; }
   for (std::size_t i = 0; i < above_; ++i) { clusters_ += hierarchy[i].is_cluster() ? 1 : 0; }
   if (clusters_ == 0) { above_ = 0; }
-  for (const auto& round : schedule_.rounds()) { round_sizes_.push_back(round.size()); }
 }
+
+HALFLIGHT_INLINE Transport::Part::Part(const Hierarchy& hierarchy, Links& of)
+    : links{&of}, schedule{hierarchy.size(), of}, scale(hierarchy.size(), 1.0) {
+  for (const auto& round : schedule.rounds()) { round_sizes.push_back(round.size()); }
+}
+
+HALFLIGHT_INLINE void Transport::add_sampled(Links& links) { parts_.emplace_back(*hierarchy_, links); }
 
 HALFLIGHT_INLINE void Transport::Moments::divide(double area) {  // a node that is buried carries nothing
   const double factor = area > 0.0 ? 1.0 / area : 0.0;
@@ -42,42 +44,51 @@ HALFLIGHT_INLINE void Transport::Moments::divide(double area) {  // a node that 
 }
 
 HALFLIGHT_INLINE void Transport::apply(const std::vector<double>& x, std::vector<double>& y) {
+  y.assign(x.size(), 0.0);
+  for (const Part& part : parts_) { apply(part, x, y); }
+}
+
+HALFLIGHT_INLINE void Transport::apply(const Part& part, const std::vector<double>& x, std::vector<double>& y) {
   sent_.resize(x.size());
   arrived_.assign(x.size(), {});
   sent_bins_.assign(clusters_ * direction_count, 0.0);
   arrived_bins_.assign(clusters_ * direction_count, 0.0);
   for (std::size_t i = x.size(); i-- > 0;) {
-    if (!is_cluster(i)) { pull(i, x, sent_); }
+    if (!is_cluster(i)) { pull(i, x, part.scale, sent_); }
     if (i < above_) { gather_into_cluster(i); }
   }
-  parallel_rounds(round_sizes_, threads_, [&](std::size_t round, std::size_t b) {
-    const LinkSchedule::Block block = schedule_.rounds()[round][b];
+  parallel_rounds(part.round_sizes, threads_, [&](std::size_t round, std::size_t b) {
+    const LinkSchedule::Block block = part.schedule.rounds()[round][b];
     for (std::size_t k = block.begin; k < block.end; ++k) {
-      const Link& link = (*links_)[k];
+      const Link& link = (*part.links)[k];
       if (is_cluster(link.p) || is_cluster(link.q)) {
-        const double from_p = sent_by(link.p, link.slope_p);
-        const double from_q = sent_by(link.q, link.slope_q);
-        arrive_at(link.q, link.slope_q, static_cast<double>(link.exchange) * from_p);
-        arrive_at(link.p, link.slope_p, static_cast<double>(link.exchange) * from_q);
+        const double from_p = sent_by(link.p, link.shape_p);
+        const double from_q = sent_by(link.q, link.shape_q);
+        arrive_at(link.q, link.shape_q, static_cast<double>(link.exchange) * from_p);
+        arrive_at(link.p, link.shape_p, static_cast<double>(link.exchange) * from_q);
       } else {
-        carry(link, sent_[link.p], arrived_[link.q], link.slope_p.vector(), link.slope_q.vector());
-        carry(link, sent_[link.q], arrived_[link.p], link.slope_q.vector(), link.slope_p.vector());
+        carry(link, sent_[link.p], arrived_[link.q], link.shape_p.gradient(), link.shape_q.gradient());
+        carry(link, sent_[link.q], arrived_[link.p], link.shape_q.gradient(), link.shape_p.gradient());
       }
     }
   });
-  y.assign(x.size(), 0.0);
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (i < above_) { hand_out_from_cluster(i); }
-    if (!is_cluster(i)) { push(i, arrived_, y); }
+    if (!is_cluster(i)) { push(i, part.scale, arrived_, y); }
   }
 }
 
 HALFLIGHT_INLINE void Transport::pull(std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const {
+  pull(i, x, parts_.front().scale, sent);
+}
+
+HALFLIGHT_INLINE void Transport::pull(std::size_t i, const std::vector<double>& x, const std::vector<double>& scale,
+                                      std::vector<Moments>& sent) const {
   const Node& node = (*hierarchy_)[i];
   const std::vector<glm::dvec3>& centroid = exposure_->centroid;
   Moments own;
   if (node.leaf()) {
-    own.value = exposure_->area[i] > 0.0 ? x[i] * scale_[i] : 0.0;
+    own.value = exposure_->area[i] > 0.0 ? x[i] * scale[i] : 0.0;
   } else {
     for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
       own.value += exposure_->area[c] * sent[c].value;
@@ -88,19 +99,24 @@ HALFLIGHT_INLINE void Transport::pull(std::size_t i, const std::vector<double>& 
   sent[i] = own;
 }
 
-HALFLIGHT_INLINE void Transport::carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& slope_from,
-                                       const glm::dvec3& slope_to) {
+HALFLIGHT_INLINE void Transport::carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& gradient_from,
+                                       const glm::dvec3& gradient_to) {
   const double exchange = static_cast<double>(link.exchange);
-  to.value += exchange * (from.value + glm::dot(slope_from, from.slope));
-  to.slope += exchange * from.value * slope_to;
+  to.value += exchange * (from.value + glm::dot(gradient_from, from.slope));
+  to.slope += exchange * from.value * gradient_to;
 }
 
 HALFLIGHT_INLINE void Transport::push(std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const {
+  push(i, parts_.front().scale, arrived, y);
+}
+
+HALFLIGHT_INLINE void Transport::push(std::size_t i, const std::vector<double>& scale, std::vector<Moments>& arrived,
+                                      std::vector<double>& y) const {
   const Node& node = (*hierarchy_)[i];
   const std::vector<glm::dvec3>& centroid = exposure_->centroid;
   Moments& own = arrived[i];  // of a child, its parent has divided it
   if (node.parent == no_node || is_cluster(node.parent)) { own.divide(exposure_->area[i]); }
-  if (node.leaf()) { y[i] += own.value * exposure_->area[i] * scale_[i]; }
+  if (node.leaf()) { y[i] += own.value * exposure_->area[i] * scale[i]; }
   for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
     arrived[c].divide(exposure_->area[c]);
     arrived[c].value += own.value + glm::dot(own.slope, centroid[c] - centroid[i]);
@@ -109,8 +125,17 @@ HALFLIGHT_INLINE void Transport::push(std::size_t i, std::vector<Moments>& arriv
 }
 
 HALFLIGHT_INLINE std::vector<double> Transport::row_sums() {
-  std::vector<double> y;
-  apply(std::vector<double>(hierarchy_->size(), 1.0), y);
+  std::vector<double> rows(hierarchy_->size(), 0.0);
+  for (const Part& part : parts_) {
+    const std::vector<double> more = row_sums(part);
+    for (std::size_t i = 0; i < rows.size(); ++i) { rows[i] += more[i]; }
+  }
+  return rows;
+}
+
+HALFLIGHT_INLINE std::vector<double> Transport::row_sums(const Part& part) {
+  std::vector<double> y(hierarchy_->size(), 0.0);
+  apply(part, std::vector<double>(hierarchy_->size(), 1.0), y);
   for (std::size_t i = 0; i < y.size(); ++i) {
     const bool counts = (*hierarchy_)[i].leaf() && exposure_->area[i] > 0.0;
     y[i] = counts ? y[i] / exposure_->area[i] : 0.0;
@@ -118,28 +143,52 @@ HALFLIGHT_INLINE std::vector<double> Transport::row_sums() {
   return y;
 }
 
-HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tolerance) {
+HALFLIGHT_INLINE double Transport::root_mean_square(const std::vector<double>& scale) const {
   const std::vector<double>& area = exposure_->area;
+  double square = 0.0;
+  double total = 0.0;
+  for (std::size_t i = 0; i < scale.size(); ++i) {
+    if (!(*hierarchy_)[i].leaf()) { continue; }
+    square += area[i] * (scale[i] - 1.0) * (scale[i] - 1.0);
+    total += area[i];
+  }
+  return total > 0.0 ? std::sqrt(square / total) : 0.0;
+}
+
+HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& wanted) {
+  Part& part = parts_.back();
+  // Row sums that no scale brings about, of a patch that sees little else than one other, would drive scales towards 0 and infinity.
+  constexpr double most = 4.0;
+  for (int round = 0; round < 100; ++round) {
+    const std::vector<double> rows = row_sums(part);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!(rows[i] > 0.0) || !(wanted[i] > 0.0)) { continue; }
+      worst = std::max(worst, std::abs(rows[i] / wanted[i] - 1.0));
+      part.scale[i] = std::clamp(part.scale[i] * std::sqrt(wanted[i] / rows[i]), 1.0 / most, most);
+    }
+    if (worst < 1e-6) { break; }
+  }
+  return root_mean_square(part.scale);
+}
+
+HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tolerance) {
+  const std::vector<Part> before = parts_;
+  std::vector<double> scale(hierarchy_->size(), 1.0);
   for (int round = 0; round < 400; ++round) {
     const std::vector<double> rows = row_sums();
     double worst = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (!(rows[i] > 0.0)) { continue; }
       worst = std::max(worst, std::abs(rows[i] - 1.0));
-      scale_[i] /= std::sqrt(rows[i]);
+      scale[i] /= std::sqrt(rows[i]);
+      for (Part& part : parts_) { part.scale[i] /= std::sqrt(rows[i]); }
     }
     if (worst < tolerance) { break; }
   }
-  double square = 0.0;
-  double total = 0.0;
-  for (std::size_t i = 0; i < scale_.size(); ++i) {
-    if (!(*hierarchy_)[i].leaf()) { continue; }
-    square += area[i] * (scale_[i] - 1.0) * (scale_[i] - 1.0);
-    total += area[i];
-  }
-  const double rms = total > 0.0 ? std::sqrt(square / total) : 0.0;
+  const double rms = root_mean_square(scale);
   if (rms <= limit) { return rms; }
-  std::fill(scale_.begin(), scale_.end(), 1.0);
+  parts_ = before;
   return std::nullopt;
 }
 
@@ -167,19 +216,19 @@ HALFLIGHT_INLINE void Transport::hand_out_from_cluster(std::size_t i) {
   }
 }
 
-HALFLIGHT_INLINE double Transport::sent_by(std::uint32_t i, const Slope& towards) {
+HALFLIGHT_INLINE double Transport::sent_by(std::uint32_t i, const EndShape& shape) {
   if (!is_cluster(i)) { return sent_[i].value; }
-  const Aim at = aim(towards.vector());
+  const Aim at = aim(shape.direction_over_shown());
   const double* const from = bins(sent_bins_, i);
   return at.weight[0] * from[at.direction[0]] + at.weight[1] * from[at.direction[1]] + at.weight[2] * from[at.direction[2]];
 }
 
-HALFLIGHT_INLINE void Transport::arrive_at(std::uint32_t i, const Slope& towards, double power) {
+HALFLIGHT_INLINE void Transport::arrive_at(std::uint32_t i, const EndShape& shape, double power) {
   if (!is_cluster(i)) {
     arrived_[i].value += power;
     return;
   }
-  const Aim at = aim(towards.vector());
+  const Aim at = aim(shape.direction_over_shown());
   double* const to = bins(arrived_bins_, i);
   for (std::size_t j = 0; j < 3; ++j) { to[at.direction[j]] += at.weight[j] * power; }
 }

@@ -4,15 +4,19 @@
 // The transport of light as one symmetric operator M on leaf radiosities: (M B)_i is the power that arrives at leaf i
 // per W/m2 sent, so the irradiance of leaf i is (M B)_i / A_i. One application pulls radiosity up to the nodes as area
 // averages and first moments, carries it over every link both ways, and pushes what arrived down to the leaves
-// (Hanrahan 1991; here with the slopes of links.hpp).
+// (Hanrahan 1991; here with the gradients of links.hpp).
 //
 // A cluster (clusters.hpp) has no radiosity of its own but sends what its faces show in each direction of a lattice, and hands
 // what arrives from there to its faces by what they show of themselves to it: P has one row for each direction of each cluster, and
 // the link of a cluster picks the three rows around the direction of its other end.
 //
-// In matrix form M = D P' G P D with P the pull, G the symmetric links, P' the transpose of P, and a diagonal D that is
+// Links that were sampled by rays (rays/ray_links.hpp) are a second part, M = M_links + M_rays: what their noise does to the row sums is
+// taken out of them alone.
+//
+// In matrix form each part is D P' G P D with P the pull, G the symmetric links, P' the transpose of P, and a diagonal D that is
 // 1 unless the scene is closed: there D makes every row sum exactly what a closed scene demands.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,7 +24,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/link_schedule.hpp>
@@ -32,6 +36,12 @@ class Transport {
  public:
   // The references must outlive the operator. Arranges the links (link_schedule.hpp).
   Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads = 1);
+
+  // Adds links that were sampled, between patches, once. They must outlive the operator, which arranges them.
+  void add_sampled(Links& links);
+  // Makes their row sums those of `rows`, one a node, read at the leaves: within 1e-6, or as near as 100 rounds of symmetric scaling come.
+  // Returns the area-weighted RMS of D - 1.
+  double scale_sampled(const std::vector<double>& rows);
 
   // Light on its way, of a node: what it sends (mean of B over its area, and of B (x - c)), or what arrives at it (irradiance at the
   // centroid c, and its gradient).
@@ -49,12 +59,16 @@ class Transport {
   // What node i sends, from the radiosity of a leaf or from what its children send.
   void pull(std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const;
   // What one end of a link sends, added to what arrives at the other, times its area.
-  static void carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& slope_from, const glm::dvec3& slope_to);
+  static void carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& gradient_from, const glm::dvec3& gradient_to);
   // Adds what arrived at node i, by links and from its parent, to its children or, for a leaf, to y. Parents first.
   void push(std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const;
 
   [[nodiscard]] const Hierarchy& hierarchy() const { return *hierarchy_; }
-  [[nodiscard]] const Links& links() const { return *links_; }
+  [[nodiscard]] const Links& links() const { return *parts_.front().links; }  // that were not sampled
+  template <class Visit>
+  void each_link(const Visit& visit) const {
+    for (const Part& part : parts_) { std::for_each(part.links->begin(), part.links->end(), visit); }
+  }
 
   // What each leaf sees of the scene: the sum of its form factors. 1 in a closed scene. Inner nodes hold 0.
   [[nodiscard]] std::vector<double> row_sums();
@@ -73,19 +87,32 @@ class Transport {
   void gather_into_cluster(std::size_t i);
   // What arrived at the cluster of i from all directions, added to what arrives at i. Parents first.
   void hand_out_from_cluster(std::size_t i);
-  // Mean radiosity that an end of a cluster link sends along it. `towards` of a cluster: cluster_exchange.hpp.
-  [[nodiscard]] double sent_by(std::uint32_t i, const Slope& towards);
-  void arrive_at(std::uint32_t i, const Slope& towards, double power);
+  // Mean radiosity that an end of a cluster link sends along it, and power that arrives at one.
+  [[nodiscard]] double sent_by(std::uint32_t i, const EndShape& shape);
+  void arrive_at(std::uint32_t i, const EndShape& shape, double power);
+
+  struct Part {
+    Part(const Hierarchy& hierarchy, Links& links);
+
+    const Links* links;
+    LinkSchedule schedule;
+    std::vector<std::size_t> round_sizes;
+    std::vector<double> scale;  // D, at the leaves
+  };
+  // Adds to y what arrives over the links of a part.
+  void apply(const Part& part, const std::vector<double>& x, std::vector<double>& y);
+  void pull(std::size_t i, const std::vector<double>& x, const std::vector<double>& scale, std::vector<Moments>& sent) const;
+  void push(std::size_t i, const std::vector<double>& scale, std::vector<Moments>& arrived, std::vector<double>& y) const;
+  [[nodiscard]] std::vector<double> row_sums(const Part& part);
+  // The area-weighted RMS of D - 1.
+  [[nodiscard]] double root_mean_square(const std::vector<double>& scale) const;
 
   const Hierarchy* hierarchy_;
-  const Links* links_;
   const Exposure* exposure_;
   unsigned threads_;
-  LinkSchedule schedule_;
-  std::vector<std::size_t> round_sizes_;
+  std::vector<Part> parts_;
   std::size_t above_ = 0;  // clusters and input faces, when there are clusters
   std::size_t clusters_ = 0;
-  std::vector<double> scale_;                     // D, at the leaves
   std::vector<Moments> sent_, arrived_;           // scratch of apply(), kept because it is asked for many times
   std::vector<double> sent_bins_, arrived_bins_;  // of the clusters, direction by direction
 };

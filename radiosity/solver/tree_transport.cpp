@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include <raycast/inline.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
@@ -35,8 +37,9 @@ HALFLIGHT_INLINE TreeTransport::TreeTransport(const Transport& transport) : tran
 HALFLIGHT_INLINE void TreeTransport::gather(std::uint32_t tree, std::vector<double>& y) {
   for (const std::uint32_t l : links_[tree]) {
     const Link& link = transport_->links()[l];
-    if (tree_[link.p] == tree) { Transport::carry(link, sent_[link.q], arrived_[link.p], link.slope_q.vector(), link.slope_p.vector()); }
-    if (tree_[link.q] == tree) { Transport::carry(link, sent_[link.p], arrived_[link.q], link.slope_p.vector(), link.slope_q.vector()); }
+    const glm::dvec3 at_p = link.shape_p.gradient(), at_q = link.shape_q.gradient();
+    if (tree_[link.p] == tree) { Transport::carry(link, sent_[link.q], arrived_[link.p], at_q, at_p); }
+    if (tree_[link.q] == tree) { Transport::carry(link, sent_[link.p], arrived_[link.q], at_p, at_q); }
   }
   collect(tree, y);
 }

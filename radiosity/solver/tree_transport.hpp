@@ -36,15 +36,15 @@ class TreeTransport {
   // Brings what this tree sends to the nodes at the other ends of its links, and tells reached(tree, power) of each.
   template <class Reached>
   void shoot(std::uint32_t tree, const Reached& reached) {
-    const auto carry = [&](const Link& link, std::uint32_t from, std::uint32_t to, const Slope& slope_from, const Slope& slope_to) {
+    const auto carry = [&](const Link& link, std::uint32_t from, std::uint32_t to, const EndShape& at_from, const EndShape& at_to) {
       const double before = arrived_[to].value;
-      Transport::carry(link, sent_[from], arrived_[to], slope_from.vector(), slope_to.vector());
+      Transport::carry(link, sent_[from], arrived_[to], at_from.gradient(), at_to.gradient());
       reached(tree_[to], arrived_[to].value - before);
     };
     for (const std::uint32_t l : links_[tree]) {
       const Link& link = transport_->links()[l];
-      if (tree_[link.p] == tree) { carry(link, link.p, link.q, link.slope_p, link.slope_q); }
-      if (tree_[link.q] == tree) { carry(link, link.q, link.p, link.slope_q, link.slope_p); }
+      if (tree_[link.p] == tree) { carry(link, link.p, link.q, link.shape_p, link.shape_q); }
+      if (tree_[link.q] == tree) { carry(link, link.q, link.p, link.shape_q, link.shape_p); }
     }
   }
   // Writes into y what has been shot at the leaves of the tree since the last call.

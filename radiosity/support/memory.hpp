@@ -34,7 +34,7 @@ namespace radiosity {
 struct MemoryBudget {
   std::uint64_t allowed = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t fixed = 0;    // of the run, whatever it refines: objects, first BReps, tables of clusters, points of the audit
-  bool a_posteriori = false;  // BF-refinement keeps the shape of each link (evaluate.hpp)
+  bool a_posteriori = false;  // BF-refinement keeps the error of each link (MeasuredLink, evaluate.hpp)
   // BF-refinement ends with the solution of this generation: memory ran out in the next one.
   std::uint32_t last_generation = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t* solved = nullptr;  // where it writes how many generations have a solution
@@ -45,12 +45,14 @@ struct MemoryBudget {
     std::uint64_t links = 0;
     std::uint64_t pairs = 0;      // open, of refinement
     std::uint64_t occluders = 0;  // bytes of their lists
+    std::uint64_t rays = 0;       // stored
   };
 
-  // Bytes at the peak. Of each node: itself (104), its patch (1400), its faces, edges and vertices (350), what its exposure (70), the solution
-  // (150) and the mesh (300) add. Of each link: itself and its list (28), and while the table grows or links are evaluated, as much again;
-  // of BF-refinement also shape, error and, while they are put into order, a copy (130). Of each pair: itself, the decision, the rays; and a
-  // batch of occluder lists at full length. Held against what runs take in tests/memory/budget_test.cpp.
+  // Bytes at the peak. Of each node: itself (104), its patch (1400), its faces, edges and vertices (350), what its exposure (70), the
+  // solution (150) and the mesh (300) add. Of each link: itself (24), and the pair from which it is made (12), whose table may be half
+  // empty (24); of BF-refinement its record (84), which is copied as the table grows, and its error: 178 in all. Of each pair: itself, the
+  // decision, the rays; and a batch of occluder lists at full length. Of each stored ray: itself (32), its part of a link (40), its place in
+  // their order (4) and at most one link (24). Held against what runs take in tests/memory/budget_test.cpp.
   [[nodiscard]] std::uint64_t peak(const Counts& counts) const;
   [[nodiscard]] bool allows(const Counts& counts) const { return peak(counts) <= allowed; }
   [[nodiscard]] bool limited() const { return allowed != std::numeric_limits<std::uint64_t>::max(); }

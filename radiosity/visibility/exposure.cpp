@@ -27,6 +27,7 @@
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -41,7 +42,7 @@ class Neighbourhood {
       if (scene.object(i).inside()) { rooms_.push_back(i); }
     }
     tree_ = raycast::Bvh{boxes_};
-    margin_ = 1e-6 * scene.diameter();  // far beyond any skin of raycast/scene.hpp
+    margin_ = 1e-6 * scene.diameter();  // far beyond the tolerance of occlusion (raycast/scene.hpp)
   }
 
   // Can anything lie on or over this patch of the object? Not when the bounds of all other objects stay clear of it.
@@ -76,86 +77,117 @@ class Neighbourhood {
   double margin_ = 0.0;
 };
 
-HALFLIGHT_INLINE void extend(Exposure& exposure, const raycast::Scene& scene, const std::vector<Surface>& surfaces,
-                             const Hierarchy& hierarchy, const Patches& patches, unsigned threads, std::uint64_t seed) {
-  const std::size_t first_new = exposure.area.size();
-  const std::size_t new_nodes = hierarchy.size() - first_new;
-  const Neighbourhood neighbourhood{scene};
-  std::vector<double>& area = exposure.whole;
-  std::vector<double>& exposed = exposure.area;
-  std::vector<glm::dvec3>& centroid = exposure.centroid;
-  area.resize(hierarchy.size(), 0.0);
-  exposed.resize(hierarchy.size(), 0.0);
-  centroid.resize(hierarchy.size(), glm::dvec3{0.0});
-  exposure.drawn_of.resize(hierarchy.size(), no_node);
-  const auto sheet = [&](std::size_t i) { return hierarchy[i].surface - surfaces[hierarchy[i].object].first_surface; };
-  const auto key = [&](std::size_t i) { return Random{seed, i, 0x6578706f73656421ull}.bits(); };
-  std::vector<char> mixed(new_nodes, 0);  // some of the 16 points are buried, some are not
-  parallel_for(new_nodes, threads, [&](std::size_t k) {
-    const std::size_t i = first_new + k;
-    const Node& node = hierarchy[i];
-    if (!node.leaf()) { return; }
-    const SurfaceBRep& brep = surfaces[node.object].brep;
+// One call of extend().
+class ExposureMeasurement {
+ public:
+  ExposureMeasurement(Exposure& exposure, const SceneView& scene, unsigned threads, std::uint64_t seed)
+      : to_{exposure}, scene_{scene}, threads_{threads}, seed_{seed}, neighbourhood_{scene.objects} {}
+
+  // Measures the leaves from this node on.
+  void measure_leaves(std::size_t first_new) {
+    const Hierarchy& hierarchy = scene_.hierarchy;
+    const std::size_t new_nodes = hierarchy.size() - first_new;
+    std::vector<char> mixed(new_nodes, 0);
+    parallel_for(new_nodes, threads_, [&](std::size_t k) {
+      if (hierarchy[first_new + k].leaf()) { mixed[k] = measure_leaf(first_new + k) ? 1 : 0; }
+    });
+    std::vector<std::uint32_t> nodes;
+    for (std::size_t k = 0; k < new_nodes; ++k) {
+      if (mixed[k] != 0) { nodes.push_back(static_cast<std::uint32_t>(first_new + k)); }
+    }
+    draw(nodes);
+    for (const std::uint32_t i : nodes) { to_.area[i] = to_.whole[i] * (to_.drawn[to_.drawn_of[i]].count() / 256.0); }
+  }
+
+  // Areas and centroids of the inner nodes, from those of their children.
+  void sum_up() {
+    const Hierarchy& hierarchy = scene_.hierarchy;
+    to_.buried_leaves = 0;
+    for (std::size_t i = hierarchy.size(); i-- > 0;) {
+      const Node& node = hierarchy[i];
+      if (node.leaf()) {
+        to_.buried_leaves += to_.area[i] == 0.0 ? 1 : 0;
+        continue;
+      }
+      to_.whole[i] = to_.area[i] = 0.0;
+      to_.centroid[i] = glm::dvec3{0.0};
+      for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
+        to_.whole[i] += to_.whole[c];
+        to_.area[i] += to_.area[c];
+        to_.centroid[i] += to_.area[c] * to_.centroid[c];
+      }
+      to_.centroid[i] = to_.area[i] > 0.0 ? to_.centroid[i] / to_.area[i] : node.centre;
+    }
+    to_.all_buried = std::none_of(to_.area.begin(), to_.area.end(), [](double a) { return a > 0.0; });
+  }
+
+  // Draws the exposed points of partly buried patches that have none.
+  void draw_partly_buried() {
+    std::vector<std::uint32_t> nodes;
+    for (std::uint32_t i = 0; i < scene_.hierarchy.size(); ++i) {
+      to_.partly_buried[i] = to_.area[i] > 0.0 && to_.area[i] < to_.whole[i];
+      if (to_.partly_buried[i] && to_.drawn_of[i] == no_node && !scene_.hierarchy[i].is_cluster()) { nodes.push_back(i); }
+    }
+    draw(nodes);
+  }
+
+ private:
+  // Are some of 16 stratified points buried, and some not? The area is that of the leaf then, until more points have been drawn.
+  [[nodiscard]] bool measure_leaf(std::size_t i) {
+    const Node& node = scene_.hierarchy[i];
+    const Surface& surface = scene_.surfaces[node.object];
+    const Patch& patch = scene_.patches[i];
     // A separate polygon is all that its quad-tree knows of the surface.
-    const bool curved = node.deviation > 0.0 && surfaces[node.object].topology == Topology::shared;
-    area[i] =
-        curved ? curved_area(scene.object(node.object), sheet(i), patches[i].contour) : glm::length(brep::vector_area(brep, node.face));
-    const Patch& patch = patches[i];
-    centroid[i] = patch.centroid;
-    exposed[i] = area[i];
-    if (!neighbourhood.may_be_buried(node.object, patch)) { return; }
+    const bool curved = node.deviation > 0.0 && surface.topology == Topology::shared;
+    to_.whole[i] = curved ? curved_area(scene_.objects.object(node.object), sheet(i), patch.contour)
+                          : glm::length(brep::vector_area(surface.brep, node.face));
+    to_.centroid[i] = patch.centroid;
+    to_.area[i] = to_.whole[i];
+    if (!neighbourhood_.may_be_buried(node.object, patch)) { return false; }
     Random random{key(i), 16};
     std::uint32_t count = 0;
     for (std::uint32_t c = 0; c < 16; ++c) {
       const double u = (c % 4 + random.uniform()) / 4.0;
-      count += buried(scene, node.object, sheet(i), sample(patch, u, (c / 4 + random.uniform()) / 4.0)) ? 0u : 1u;
+      count += buried(scene_.objects, node.object, sheet(i), sample(patch, u, (c / 4 + random.uniform()) / 4.0)) ? 0u : 1u;
     }
-    if (count == 0) { exposed[i] = 0.0; }
-    mixed[k] = count > 0 && count < 16 ? 1 : 0;
-  });
-  // The points of nodes that have none yet.
-  const auto draw = [&](const std::vector<std::uint32_t>& nodes) {
-    const std::size_t first = exposure.drawn.size();
-    exposure.drawn.resize(first + nodes.size());
-    parallel_for(nodes.size(), threads, [&](std::size_t k) {
-      const std::uint32_t i = nodes[k];
-      exposure.drawn_of[i] = static_cast<std::uint32_t>(first + k);
-      exposure.drawn[first + k] = ExposedPoints{scene, hierarchy[i].object, sheet(i), patches[i], key(i)};
-    });
-  };
-  std::vector<std::uint32_t> nodes;
-  for (std::size_t k = 0; k < new_nodes; ++k) {
-    if (mixed[k] != 0) { nodes.push_back(static_cast<std::uint32_t>(first_new + k)); }
+    if (count == 0) { to_.area[i] = 0.0; }
+    return count > 0 && count < 16;
   }
-  draw(nodes);
-  for (const std::uint32_t i : nodes) { exposed[i] = area[i] * (exposure.drawn[exposure.drawn_of[i]].count() / 256.0); }
 
-  exposure.buried_leaves = 0;
-  for (std::size_t i = hierarchy.size(); i-- > 0;) {
-    const Node& node = hierarchy[i];
-    if (node.leaf()) {
-      exposure.buried_leaves += exposed[i] == 0.0 ? 1 : 0;
-      continue;
-    }
-    area[i] = exposed[i] = 0.0;
-    centroid[i] = glm::dvec3{0.0};
-    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
-      area[i] += area[c];
-      exposed[i] += exposed[c];
-      centroid[i] += exposed[c] * centroid[c];
-    }
-    centroid[i] = exposed[i] > 0.0 ? centroid[i] / exposed[i] : node.centre;
+  // Draws the points of nodes that have none yet.
+  void draw(const std::vector<std::uint32_t>& nodes) {
+    const std::size_t first = to_.drawn.size();
+    to_.drawn.resize(first + nodes.size());
+    parallel_for(nodes.size(), threads_, [&](std::size_t k) {
+      const std::uint32_t i = nodes[k];
+      to_.drawn_of[i] = static_cast<std::uint32_t>(first + k);
+      to_.drawn[first + k] = ExposedPoints{scene_.objects, scene_.hierarchy[i].object, sheet(i), scene_.patches[i], key(i)};
+    });
   }
-  exposure.partly_buried.resize(hierarchy.size());
-  nodes.clear();
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
-    exposure.partly_buried[i] = exposed[i] > 0.0 && exposed[i] < area[i];
-    if (exposure.partly_buried[i] && exposure.drawn_of[i] == no_node && !hierarchy[i].is_cluster()) {
-      nodes.push_back(static_cast<std::uint32_t>(i));
-    }
+
+  [[nodiscard]] std::uint32_t sheet(std::size_t i) const {
+    return scene_.hierarchy[i].surface - scene_.surfaces[scene_.hierarchy[i].object].first_surface;
   }
-  draw(nodes);
-  exposure.all_buried = std::none_of(exposed.begin(), exposed.end(), [](double a) { return a > 0.0; });
+  [[nodiscard]] std::uint64_t key(std::size_t i) const { return Random{seed_, i, 0x6578706f73656421ull}.bits(); }
+
+  Exposure& to_;
+  SceneView scene_;
+  unsigned threads_;
+  std::uint64_t seed_;
+  Neighbourhood neighbourhood_;
+};
+
+HALFLIGHT_INLINE void extend(Exposure& exposure, const SceneView& scene, unsigned threads, std::uint64_t seed) {
+  const std::size_t first_new = exposure.area.size(), nodes = scene.hierarchy.size();
+  exposure.whole.resize(nodes, 0.0);
+  exposure.area.resize(nodes, 0.0);
+  exposure.centroid.resize(nodes, glm::dvec3{0.0});
+  exposure.drawn_of.resize(nodes, no_node);
+  exposure.partly_buried.resize(nodes);
+  ExposureMeasurement measurement{exposure, scene, threads, seed};
+  measurement.measure_leaves(first_new);
+  measurement.sum_up();
+  measurement.draw_partly_buried();
 }
 
 }  // namespace radiosity

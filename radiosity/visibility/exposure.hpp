@@ -13,11 +13,9 @@
 
 #include <glm/vec3.hpp>
 
-#include <raycast/scene.hpp>
-
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
-#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -40,9 +38,8 @@ struct Exposure {
 
 // Measures the leaves among the nodes that are new since the last call and sums all up. Leaves near other objects are measured by 16
 // stratified points, 256 where these disagree: the standard error of the area is at most 1/32 of a leaf at the border of what is hidden.
-// `patches` of all nodes.
-void extend(Exposure& exposure, const raycast::Scene& scene, const std::vector<Surface>& surfaces, const Hierarchy& hierarchy,
-            const Patches& patches, unsigned threads, std::uint64_t seed);
+// Needs the patches of all nodes.
+void extend(Exposure& exposure, const SceneView& scene, unsigned threads, std::uint64_t seed);
 
 }  // namespace radiosity
 

@@ -20,7 +20,7 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/support/parallel.hpp>
-#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 
 namespace radiosity {
 
@@ -51,14 +51,15 @@ HALFLIGHT_INLINE raycast::OccluderList OccluderLists::operator[](std::uint32_t i
 }
 
 HALFLIGHT_INLINE raycast::OccluderList OccluderLists::of(std::uint32_t p, std::uint32_t q, std::uint32_t ancestors,
-                                                         const raycast::Scene& scene, const Plan& plan, const Patches& patches) const {
+                                                         const SceneView& scene) const {
+  const Patches& patches = scene.patches;
   if (patches.is_cluster(p) || patches.is_cluster(q)) { return {}; }
-  if (ancestors != none && ancestors != hidden) { return scene.filter((*this)[ancestors], patches.shape(p), patches.shape(q)); }
-  const raycast::OccluderList all = scene.occluders(patches.shape(p), patches.shape(q));
+  if (ancestors != none && ancestors != hidden) { return scene.objects.filter((*this)[ancestors], patches.shape(p), patches.shape(q)); }
+  const raycast::OccluderList all = scene.objects.occluders(patches.shape(p), patches.shape(q));
   if (!all.known() || all.blocked()) { return all; }
   std::array<std::uint32_t, raycast::OccluderList::capacity> shapes{};
   const auto end = std::copy_if(all.shapes().begin(), all.shapes().end(), shapes.begin(),
-                                [&](std::uint32_t shape) { return !plan.outer[scene.object_of(shape)]; });
+                                [&](std::uint32_t shape) { return !scene.plan.outer[scene.objects.object_of(shape)]; });
   return {std::span<const std::uint32_t>{shapes.begin(), end}, all.rooms_clear()};
 }
 

@@ -17,7 +17,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
-#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 
 namespace radiosity {
 
@@ -54,8 +54,7 @@ class OccluderLists {
   [[nodiscard]] raycast::OccluderList operator[](std::uint32_t index) const;
 
   // The list of a pair of nodes; `ancestors` is the index of a pair of their ancestors. Of clusters nothing is known.
-  [[nodiscard]] raycast::OccluderList of(std::uint32_t p, std::uint32_t q, std::uint32_t ancestors, const raycast::Scene& scene,
-                                         const Plan& plan, const Patches& patches) const;
+  [[nodiscard]] raycast::OccluderList of(std::uint32_t p, std::uint32_t q, std::uint32_t ancestors, const SceneView& scene) const;
 
   // Keeps a list that `of` gave for these ancestors. Requires that not everything is blocked.
   [[nodiscard]] std::uint32_t keep(const raycast::OccluderList& list, std::uint32_t ancestors);
@@ -64,6 +63,12 @@ class OccluderLists {
 
  private:
   std::vector<std::uint32_t> words_;  // of each list: twice its length, plus 1 when no room is in the way; then the shapes
+};
+
+// A pair of nodes between which light may pass: it is still open whether they are linked, or that is decided and their exchange unknown.
+struct NodePair {
+  std::uint32_t p = 0, q = 0;
+  std::uint32_t list = OccluderLists::none;  // of the pair, or of the pair of ancestors from which it comes
 };
 
 }  // namespace radiosity

@@ -87,10 +87,8 @@ HALFLIGHT_INLINE bool lies_on_room(const Surface& surface, const Surface& room) 
   return true;
 }
 
-}  // namespace detail
-
-HALFLIGHT_INLINE Plan make_plan(const Scene& scene, const std::vector<Surface>& surfaces, bool shortcuts) {
-  Plan plan;
+// What the materials alone tell.
+HALFLIGHT_INLINE void look_at_materials(const Scene& scene, Plan& plan) {
   bool grey = true;
   for (const InputSurface& s : radiosity::surfaces(scene)) {
     const Material& material = scene.materials[s.material];
@@ -107,11 +105,14 @@ HALFLIGHT_INLINE Plan make_plan(const Scene& scene, const std::vector<Surface>& 
     plan.channels = 1;
     plan.left_out.push_back({"two colour channels", "every material is grey", "two thirds of the solver's arithmetic"});
   }
+}
 
+// Finds the outer surfaces, the objects that can stand between two patches, and whether the scene is closed. Returns whether no room can
+// stand between any two patches: a convex room with flat walls cannot, nor can a curved one that is alone.
+[[nodiscard]] HALFLIGHT_INLINE bool look_at_objects(const std::vector<Surface>& surfaces, Plan& plan) {
   const Surface* room = nullptr;
   bool holes = false;
-  bool rooms_clear = true;  // known of every pair that no room stands between: of what is in a curved one it is asked
-  std::uint32_t hull = 0;
+  bool rooms_clear = true;
   std::vector<std::uint32_t> sheets;  // flat surfaces that block no segment
   plan.outer.assign(surfaces.size(), false);
   const bool sheets_at_all =
@@ -122,9 +123,7 @@ HALFLIGHT_INLINE Plan make_plan(const Scene& scene, const std::vector<Surface>& 
     if (object.inside() && room == nullptr) { room = &surfaces[o]; }
     rooms_clear = rooms_clear && (!object.inside() || (object.convex() && (object.flat() || surfaces.size() == 1)));
     if (object.inside() && object.convex()) { continue; }
-    const bool on_hull = object.flat() && !object.solid() && detail::on_the_hull(extremes, surfaces[o].brep);
-    if (on_hull) {
-      ++hull;
+    if (object.flat() && !object.solid() && on_the_hull(extremes, surfaces[o].brep)) {
       plan.outer[o] = true;
       sheets.push_back(o);
       continue;
@@ -133,7 +132,12 @@ HALFLIGHT_INLINE Plan make_plan(const Scene& scene, const std::vector<Surface>& 
     ++plan.occluders;
   }
   plan.closed = room != nullptr && !holes &&
-                std::all_of(sheets.begin(), sheets.end(), [&](std::uint32_t o) { return detail::lies_on_room(surfaces[o], *room); });
+                std::all_of(sheets.begin(), sheets.end(), [&](std::uint32_t o) { return lies_on_room(surfaces[o], *room); });
+  return rooms_clear;
+}
+
+// Whether light that goes round in a closed scene fades, and fast enough to be traced.
+HALFLIGHT_INLINE void look_at_losses(const Scene& scene, Plan& plan) {
   for (const Material& material : scene.materials) {
     const Color& rho = material.reflectance;
     plan.traceable = plan.traceable && (!plan.closed || std::max({rho.x, rho.y, rho.z}) <= 1.0 - 1.0 / most_bounces);
@@ -151,8 +155,17 @@ HALFLIGHT_INLINE Plan make_plan(const Scene& scene, const std::vector<Surface>& 
     }
     plan.lossless = plan.lossless || (plan.closed && emits && !absorbs);
   }
-  if (hull > 0) {
-    plan.left_out.push_back({"occlusion by " + std::to_string(hull) + " outer surface" + (hull > 1 ? "s" : ""),
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE Plan make_plan(const Scene& scene, const std::vector<Surface>& surfaces, bool shortcuts) {
+  Plan plan;
+  detail::look_at_materials(scene, plan);
+  const bool rooms_clear = detail::look_at_objects(surfaces, plan);
+  detail::look_at_losses(scene, plan);
+  if (const auto outer = std::count(plan.outer.begin(), plan.outer.end(), true); outer > 0) {
+    plan.left_out.push_back({"occlusion by " + std::to_string(outer) + " outer surface" + (outer > 1 ? "s" : ""),
                              "the whole scene lies on one side of each", ""});
   }
   if (plan.occluders == 0 && rooms_clear) {

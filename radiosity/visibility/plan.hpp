@@ -4,10 +4,11 @@
 // What this scene does not need. The plan is made before work begins, from proofs about the objects alone, up to the slack
 // that each names; what it leaves out cannot change the result. Each omission says what, why and, after the run, what it saved.
 //
-// Without shortcuts all of it is done, so that the proofs can be tested: the result is the same, bit for bit, unless a segment grazes
-// within the skin of the law of occlusion. A pair of patches that was dropped because no light can pass is linked, and the link must be
-// found to carry nothing; a segment that nothing can block is asked of the whole scene. Patches of one curved convex solid are not
-// linked: no two points of the solid see each other, but chord patches do, a little, where the mesh has a reflex edge.
+// Without shortcuts all of it is done, so that the proofs can be tested: the result is the same, bit for bit, unless a segment passes
+// an object within the tolerance of occlusion (raycast/scene.hpp). A pair of patches that was dropped because no light can pass is
+// linked, and the link must be found to carry nothing; a segment that nothing can block is asked of the whole scene. Patches of one
+// curved convex solid are not linked: no two points of the solid see each other, but chord patches do, a little, where the mesh has a
+// reflex edge.
 
 #include <cstdint>
 #include <string>

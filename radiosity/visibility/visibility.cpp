@@ -20,7 +20,7 @@
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/support/random.hpp>
-#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 
 namespace radiosity {
 
@@ -128,14 +128,15 @@ class CellCounts {
                            [&](const glm::dvec3& a, const glm::dvec3& b) { return height(a) < height(b); });
 }
 
-HALFLIGHT_INLINE VisibilityEstimate visibility(const raycast::Scene& scene, const Plan& plan, const raycast::OccluderList& list,
-                                               const PatchEnd& p, const PatchEnd& q, std::uint32_t rounds, Random random) {
+HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p,
+                                               const PatchEnd& q, std::uint32_t rounds, Random random) {
   VisibilityEstimate estimate;
   estimate.proven = list.clear();
-  if (plan.shortcuts && estimate.proven) {
+  if (scene.plan.shortcuts && estimate.proven) {
     estimate.rays.avoided = segments_per_round;
     return estimate;
   }
+  const raycast::OccluderList known = scene.plan.shortcuts ? list : raycast::OccluderList{};
   const double softening = 0.01 * std::min(p.patch->area, q.patch->area);  // bounds the weight of touching points
   double total = 0.0;
   double arrived = 0.0;
@@ -157,7 +158,7 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const raycast::Scene& scene, cons
       weights[i] = std::max(0.0, glm::dot(p.patch->normal, d)) * std::max(0.0, -glm::dot(q.patch->normal, d)) / (r2 * r2);
       if (weights[i] > 0.0) { segments.set(i, {x, d}, p.object, q.object); }
     }
-    const std::uint32_t occluded = scene.occluded16(segments, plan.shortcuts ? list : raycast::OccluderList{}, last_occluder);
+    const std::uint32_t occluded = scene.objects.occluded16(segments, known, last_occluder);
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
       if (!(weights[i] > 0.0)) { continue; }
       const bool arrives = (occluded >> i & 1u) == 0;
@@ -182,7 +183,7 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const raycast::Scene& scene, cons
   const glm::dvec3 x = highest_corner(*p.patch, *q.patch);
   raycast::Segments16 segment;
   segment.set(0, {x, highest_corner(*q.patch, *p.patch) - x}, p.object, q.object);
-  estimate.fraction = scene.occluded16(segment, plan.shortcuts ? list : raycast::OccluderList{}, last_occluder) != 0 ? 0.0 : 1.0;
+  estimate.fraction = scene.objects.occluded16(segment, known, last_occluder) != 0 ? 0.0 : 1.0;
   ++estimate.rays.cast;
   return estimate;
 }

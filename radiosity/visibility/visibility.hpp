@@ -19,7 +19,7 @@
 
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/support/random.hpp>
-#include <radiosity/visibility/plan.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 
 namespace radiosity {
 
@@ -86,8 +86,8 @@ inline constexpr std::uint32_t segments_per_round = 16;
 // One round of 16 segments decides when they agree; else `rounds` rounds are averaged. So a patch of which the part p is hidden
 // passes for wholly visible with probability (1 - p)^16, and the fraction is too large by p (1 - p)^16 <= 0.022 on average.
 // The numbers drawn depend on `random` alone. `list` is that of the pair.
-[[nodiscard]] VisibilityEstimate visibility(const raycast::Scene& scene, const Plan& plan, const raycast::OccluderList& list,
-                                            const PatchEnd& p, const PatchEnd& q, std::uint32_t rounds, Random random);
+[[nodiscard]] VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p,
+                                            const PatchEnd& q, std::uint32_t rounds, Random random);
 
 }  // namespace radiosity
 

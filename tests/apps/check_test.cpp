@@ -8,11 +8,11 @@
 
 namespace {
 
-const std::string cube =
+const std::string cube_text =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
     "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string edited(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
 }
 
@@ -32,7 +32,7 @@ class Check : public program::Place {
 }  // namespace
 
 TEST_CASE("check: a sound mesh is exit code 0 with its counts, genus and volume") {
-  Check check(cube);
+  Check check(cube_text);
   CHECK(check.run("m.obj").last.code == 0);
   CHECK(check.says("8 vertices, 12 edges, 6 faces: 6 quadrilaterals"));
   CHECK(check.says("sound: 1 closed oriented shell"));
@@ -40,7 +40,7 @@ TEST_CASE("check: a sound mesh is exit code 0 with its counts, genus and volume"
 }
 
 TEST_CASE("check: every fault is told with its place, exit code 3") {
-  Check check(replaced(cube, "f 1 2 6 5", "f 1 5 6 2") + "v 7 7 7\nf 5 6 8 7\n");
+  Check check(edited(cube_text, "f 1 2 6 5", "f 1 5 6 2") + "v 7 7 7\nf 5 6 8 7\n");
   CHECK(check.run("m.obj").last.code == 3);
   CHECK(check.says("NOT SOUND: 3 faults"));
   CHECK(check.says("m.obj:11: f2 is flipped"));
@@ -49,7 +49,7 @@ TEST_CASE("check: every fault is told with its place, exit code 3") {
 }
 
 TEST_CASE("check --repair: says what it did, writes the result, and the result is sound") {
-  Check check(replaced(replaced(cube, "f 1 2 6 5", "f 1 5 6 2"), "f 2 4 8 6\n", "") + "v 7 7 7\n");
+  Check check(edited(edited(cube_text, "f 1 2 6 5", "f 1 5 6 2"), "f 2 4 8 6\n", "") + "v 7 7 7\n");
   for (const std::string name : {"r.obj", "r.ply", "r.off"}) {
     CHECK(check.run("m.obj --repair -o " + name).last.code == 0);
     CHECK(check.says("--- repaired: 3 steps"));
@@ -63,7 +63,7 @@ TEST_CASE("check --repair: says what it did, writes the result, and the result i
 }
 
 TEST_CASE("check --repair: what remains is exit code 3, and is written all the same") {
-  Check check(cube + "v 0 -1 0\nf 1 2 9\n");
+  Check check(cube_text + "v 0 -1 0\nf 1 2 9\n");
   CHECK(check.run("m.obj --repair -o r.ply").last.code == 3);
   CHECK(check.says("--- repaired: nothing"));
   CHECK(check.says("m.obj:9: the edge between v0 and v1 has 3 faces: f0 f2 f6"));
@@ -85,7 +85,7 @@ TEST_CASE("check: the border of a Moebius strip is not counted by its chains") {
 }
 
 TEST_CASE("check: long lists are cut and the number of the rest is told, --all shows them") {
-  std::string many = cube;
+  std::string many = cube_text;
   for (int i = 0; i < 25; ++i) many += "v 9 9 " + std::to_string(i) + "\n";
   Check check(many);
   CHECK(check.run("m.obj").last.code == 3);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/scene_file.hpp"
+#include "scene_texts.hpp"
 
 namespace {
 
@@ -26,10 +27,10 @@ std::string example(const std::string& name) {
   return apps::read_text(std::string(HALFLIGHT_SCENES) + "/" + name + ".scene", fault).value();
 }
 
-const std::string grey = "material grey reflectance 0.5\n";
-const std::string ball = "sphere ball center 0 0 0 radius 1 material grey\n";
+using scene_texts::ball;
+using scene_texts::grey;
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string with_replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   REQUIRE(at != std::string::npos);
   return text.replace(at, from.size(), to);
@@ -69,9 +70,9 @@ std::vector<Named> damaged() {
   }
   // braces
   add("last brace missing", cornell.substr(0, cornell.rfind('}')));
-  add("first closing brace missing", replaced(cornell, "}\n", "\n"));
-  add("first opening brace missing", replaced(cornell, "material white {", "material white"));
-  add("brace too many", replaced(cornell, "}\n", "}}\n"));
+  add("first closing brace missing", with_replaced(cornell, "}\n", "\n"));
+  add("first opening brace missing", with_replaced(cornell, "material white {", "material white"));
+  add("brace too many", with_replaced(cornell, "}\n", "}}\n"));
   add("a million open braces", grey + repeated("{", 1'000'000));
   add("a million closing braces", grey + repeated("}", 1'000'000));
   add("a million nested groups", grey + repeated("define a {\n", 1'000'000));
@@ -84,23 +85,23 @@ std::vector<Named> damaged() {
                                    12));
   add("a PNG header", "\x89PNG\r\n\x1a\n");
   add("UTF-16", std::string("m\0a\0t\0e\0r\0", 10));
-  add("a zero in the middle", replaced(cornell, "polygon", std::string("pol\0gon", 7)));
+  add("a zero in the middle", with_replaced(cornell, "polygon", std::string("pol\0gon", 7)));
   add("high bytes", repeated("\xff", 1000));
   // numbers
-  add("huge coordinate", replaced(cornell, "vertex 0.5528 0 0", "vertex 1e308 0 0"));
-  add("overflowing number", replaced(cornell, "0.5528", "1e999999999"));
-  add("a number of a million digits", replaced(cornell, "0.5528", repeated("9", 1'000'000)));
-  add("nan", replaced(cornell, "0.5528", "nan"));
-  add("infinity", replaced(room, "radius 0.6", "radius inf"));
-  add("huge face index", replaced(cornell, "face 0 1 2", "face 0 1 99999999999"));
-  add("negative face index", replaced(cornell, "face 0 1 2", "face 0 1 -1"));
-  add("scaled to nothing", replaced(room, "inside", "inside scale 1e-300"));
+  add("huge coordinate", with_replaced(cornell, "vertex 0.5528 0 0", "vertex 1e308 0 0"));
+  add("overflowing number", with_replaced(cornell, "0.5528", "1e999999999"));
+  add("a number of a million digits", with_replaced(cornell, "0.5528", repeated("9", 1'000'000)));
+  add("nan", with_replaced(cornell, "0.5528", "nan"));
+  add("infinity", with_replaced(room, "radius 0.6", "radius inf"));
+  add("huge face index", with_replaced(cornell, "face 0 1 2", "face 0 1 99999999999"));
+  add("negative face index", with_replaced(cornell, "face 0 1 2", "face 0 1 -1"));
+  add("scaled to nothing", with_replaced(room, "inside", "inside scale 1e-300"));
   add("scaled beyond everything", grey + ball.substr(0, ball.size() - 1) + repeated(" scale 1e30", 50) + "\n");
   // names
-  add("unknown material", replaced(room, "material ball\n", "material bull\n"));
-  add("unknown word", replaced(room, "center", "centre"));
-  add("unknown sheet", replaced(room, "sheet x0", "sheet x9"));
-  add("no material", replaced(room, "material wall  refl", "material wand  refl"));
+  add("unknown material", with_replaced(room, "material ball\n", "material bull\n"));
+  add("unknown word", with_replaced(room, "center", "centre"));
+  add("unknown sheet", with_replaced(room, "sheet x0", "sheet x9"));
+  add("no material", with_replaced(room, "material wall  refl", "material wand  refl"));
   add("same name twice", room + "sphere ball center 9 9 9 radius 1 material ball\n");
   // groups
   add("use of itself", grey + "define a {\n" + ball + "use a as b\n}\nuse a as c\n");
@@ -118,7 +119,7 @@ std::vector<Named> damaged() {
   add("comments only", repeated("# nothing\n", 1000));
   add("not a scene", "<html><body>404 not found</body></html>\n");
   // geometry
-  add("polygon that is not planar", replaced(cornell, "vertex 0.5496 0 0.5592", "vertex 0.5496 0.1 0.5592"));
+  add("polygon that is not planar", with_replaced(cornell, "vertex 0.5496 0 0.5592", "vertex 0.5496 0.1 0.5592"));
   add("polygon that crosses itself", grey + "polygon p material grey { vertex 0 0 0 vertex 1 1 0 vertex 1 0 0 vertex 0 1 0 }\n");
   add("mesh inside out",
       grey + "mesh m material grey { vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 vertex 0 0 1 face 0 1 2 face 0 3 1 face 0 2 3 face 1 3 2 }\n");

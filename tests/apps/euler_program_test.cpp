@@ -9,7 +9,7 @@
 
 namespace {
 
-struct Folder : program::Place {
+struct EulerFolder : program::Place {
   program::Run last;
 
   int run(const std::string& arguments) {
@@ -21,7 +21,7 @@ struct Folder : program::Place {
 }  // namespace
 
 TEST_CASE("euler draws every lesson as strip and page, exit code 0") {
-  Folder folder;
+  EulerFolder folder;
   std::size_t lessons = 0;
   for (const auto& entry : std::filesystem::directory_iterator(HALFLIGHT_LESSONS)) {
     if (entry.path().extension() != ".euler") { continue; }
@@ -37,7 +37,7 @@ TEST_CASE("euler draws every lesson as strip and page, exit code 0") {
 }
 
 TEST_CASE("euler: errors in a script are exit code 3 with file, line and column") {
-  Folder folder;
+  EulerFolder folder;
   folder.write("words.euler", "make_segment\nsplit_fase h0 h1\n");
   CHECK(folder.run("words.euler -o a.svg") == 3);
   CHECK(folder.last.err.find("words.euler:2:1: error: found 'split_fase'") == 0);
@@ -51,7 +51,7 @@ TEST_CASE("euler: errors in a script are exit code 3 with file, line and column"
 }
 
 TEST_CASE("euler: a script too long to be drawn is played all the same, and drawing it is refused at once") {
-  Folder folder;
+  EulerFolder folder;
   std::string script = "make_segment\n";
   for (int i = 1; i < 700; ++i) script += "split_edge h0\n";
   folder.write("long.euler", script + "expect v 701 e 700 f 1 s 1 h 0\n");
@@ -64,7 +64,7 @@ TEST_CASE("euler: a script too long to be drawn is played all the same, and draw
 }
 
 TEST_CASE("euler: wrong usage is exit code 2, a target that cannot be written 1") {
-  Folder folder;
+  EulerFolder folder;
   folder.write("a.euler", "make_segment\n");
   CHECK(folder.run("") == 2);
   CHECK(folder.run("a.euler -o a.png") == 2);
@@ -75,7 +75,7 @@ TEST_CASE("euler: wrong usage is exit code 2, a target that cannot be written 1"
 }
 
 TEST_CASE("euler --interactive answers every line and saves what was done as a script") {
-  Folder folder;
+  EulerFolder folder;
   folder.write(
       "input",
       "help\n# a comment\n\ntop = make_segment\nsplit_face top twin(top)\ncut top\nfoo\nsplit_edge h0\nundo\nexpect e 2\nexpect e 3\nshow\n"

@@ -18,7 +18,7 @@ TEST_CASE("facts: every value stands in the JSON under its path, however objects
     int name = 0;                   // every key is new, so no object is opened twice
     for (int i = 0; i < 20; ++i) {
       open.resize(open.size() - std::min<std::size_t>(open.size(), random() % 3));
-      while (random() % 3 == 0) { open.push_back("o" + std::to_string(name++)); }
+      while (random() % 3 == 0) { open.push_back(std::string("o").append(std::to_string(name++))); }
       std::vector<std::string> path = open;
       path.push_back("k" + std::to_string(name++));
       std::string dotted = path[0];

@@ -112,7 +112,7 @@ TEST_CASE("what a format writes is recognised as that format, whatever the mesh,
       const apps::FileGuess guess = apps::guess_kind(bytes);
       CHECK(guess.kind == apps::FileKind::mesh);
       CHECK(guess.format == format);
-      CHECK(apps::mesh_format("m" + std::string(format->ending)) == format);
+      CHECK(apps::mesh_format(std::string("m").append(format->ending)) == format);
       for (const MeshFormat* const wanted : apps::mesh_formats()) {
         CHECK(apps::wrong_kind("m", bytes, apps::FileKind::mesh, wanted).has_value() == (wanted != format));
       }

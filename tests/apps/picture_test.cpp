@@ -18,7 +18,7 @@
 namespace {
 
 using radiosity::Color;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Looks along -z from (0, 0, 1): at z = 0 the picture shows x and y from -1 to 1, y upwards.
 apps::View view(std::uint32_t pixels) {

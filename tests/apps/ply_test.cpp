@@ -17,7 +17,7 @@
 namespace {
 
 using radiosity::Color;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct PlyVertex {
   float position[3];

@@ -19,14 +19,14 @@
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
-struct Solved {
+struct SolvedFile {
   apps::SceneFile file;
   radiosity::Solution solution;
 };
 
-Solved solve(const std::string& text, double epsilon = 0.02) {
+SolvedFile solve(const std::string& text, double epsilon = 0.02) {
   apps::SceneResult parsed = apps::parse_scene(text);
   REQUIRE(parsed.file);
   radiosity::Options options;
@@ -38,12 +38,12 @@ Solved solve(const std::string& text, double epsilon = 0.02) {
   return {std::move(*parsed.file), std::move(*outcome.solution)};
 }
 
-std::string example(const std::string& name) {
+std::string example_text(const std::string& name) {
   std::ifstream file(HALFLIGHT_SCENES "/" + name + ".scene");
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-radiosity::Lookup lookup_of(const Solved& solved) { return {solved.file.scene, solved.solution.mesh, solved.solution.frame}; }
+radiosity::Lookup lookup_of(const SolvedFile& solved) { return {solved.file.scene, solved.solution.mesh, solved.solution.frame}; }
 
 }  // namespace
 
@@ -69,7 +69,7 @@ TEST_CASE("a point is seen in the direction of its place in the picture") {
 // proportion to the samples on a line. Where four samples do for a pixel they do not span more than 4 levels, and the mean of a bent
 // course between them is off by a fraction of that.
 TEST_CASE("on plane objects the picture is that of the mesh") {
-  const Solved solved = solve(example("cornell"));
+  const SolvedFile solved = solve(example_text("cornell"));
   const radiosity::Lookup lookup = lookup_of(solved);
   for (const unsigned samples : {1u, 4u}) {
     const std::uint32_t side = samples == 1 ? 300 : 150;
@@ -96,7 +96,7 @@ TEST_CASE("on plane objects the picture is that of the mesh") {
 // A sphere of radius r at distance d is the cone of half-angle asin(r/d) about the direction of its centre. Each pixel has one sample, at
 // its middle; where the picture and the cone do not agree, the middle's distance from the silhouette is the picture's error.
 TEST_CASE("close up, the silhouette of a sphere is smooth: within half a pixel of the cone, where the mesh is off by many") {
-  const Solved solved = solve(
+  const SolvedFile solved = solve(
       "material lamp reflectance 0 emission 1\n"
       "sphere ball center 3 1 2 radius 0.5 material lamp\n"
       "camera rim eye -1 0 1 look 0 0 1 fov 50\n");
@@ -146,7 +146,7 @@ TEST_CASE("close up, the silhouette of a sphere is smooth: within half a pixel o
 }
 
 TEST_CASE("the outline is as soft as its pixels are covered") {
-  const Solved solved = solve(
+  const SolvedFile solved = solve(
       "material lamp reflectance 0 emission 1\n"
       "sphere ball center 0 0 0 radius 1 material lamp\n");
   apps::Camera camera;
@@ -173,7 +173,7 @@ TEST_CASE("the outline is as soft as its pixels are covered") {
 }
 
 TEST_CASE("the picture does not depend on the threads, tells its progress and stops when asked to") {
-  const Solved solved = solve(example("room"), 0.1);
+  const SolvedFile solved = solve(example_text("room"), 0.1);
   const radiosity::Lookup lookup = lookup_of(solved);
   const apps::View view = apps::make_view(solved.file.cameras.front(), {160, 120});
   double last = 0.0;

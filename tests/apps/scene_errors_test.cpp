@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/scene_file.hpp"
+#include "scene_texts.hpp"
 
 namespace {
 
@@ -16,8 +17,8 @@ struct Case {
   std::string part;  // of the sentence
 };
 
-const std::string grey = "material grey reflectance 0.5\n";
-const std::string ball = "sphere ball center 0 0 0 radius 1 material grey\n";
+using scene_texts::ball;
+using scene_texts::grey;
 
 std::vector<Case> cases() {
   const std::string g = grey;

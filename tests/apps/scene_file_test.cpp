@@ -9,6 +9,7 @@
 
 #include "apps/bounds.hpp"
 #include "apps/scene_file.hpp"
+#include "scene_texts.hpp"
 
 #include <raycast/spans.hpp>
 
@@ -21,7 +22,7 @@ apps::SceneFile parsed(const std::string& text) {
   return std::move(*result.file);
 }
 
-const std::string grey = "material grey reflectance 0.5\n";
+using scene_texts::grey;
 
 void require_near(const glm::dvec3& a, const glm::dvec3& b) {
   for (int i = 0; i < 3; ++i) { CHECK(a[i] == test::Approx(b[i]).margin(1e-15)); }

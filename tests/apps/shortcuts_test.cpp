@@ -19,7 +19,7 @@
 
 namespace {
 
-radiosity::Solution solved(const radiosity::Scene& scene, radiosity::Options options, bool shortcuts) {
+radiosity::Solution solution_of(const radiosity::Scene& scene, radiosity::Options options, bool shortcuts) {
   options.shortcuts = shortcuts;
   options.audit_points = 0;
   auto outcome = radiosity::solve(scene, options);
@@ -29,8 +29,8 @@ radiosity::Solution solved(const radiosity::Scene& scene, radiosity::Options opt
 
 // The solution with shortcuts, once it is found equal to that without, bit for bit.
 radiosity::Audit same_without(const radiosity::Scene& scene, const radiosity::Options& options) {
-  const radiosity::Solution with = solved(scene, options, true);
-  const radiosity::Solution without = solved(scene, options, false);
+  const radiosity::Solution with = solution_of(scene, options, true);
+  const radiosity::Solution without = solution_of(scene, options, false);
   CHECK(without.audit.rays_avoided == 0);
   CHECK(without.audit.rays >= with.audit.rays);
   CHECK(without.audit.channels == 3);
@@ -104,7 +104,7 @@ TEST_CASE("shortcuts: without light, or without reflection, a whole solve finds 
   for (const std::string material : {"material m reflectance .5\n", "material m reflectance 0 emission 2\n"}) {
     const radiosity::Scene scene = parsed_scene(material + plates);
     for (const bool shortcuts : {true, false}) {
-      const radiosity::Solution solution = solved(scene, coarse(radiosity::Refinement::a_priori), shortcuts);
+      const radiosity::Solution solution = solution_of(scene, coarse(radiosity::Refinement::a_priori), shortcuts);
       CHECK((solution.links.empty() == shortcuts));
       for (const radiosity::Color& b : solution.radiosity) { CHECK(b == scene.materials[0].emission); }
     }

@@ -51,7 +51,7 @@ double to_double(const std::string& text) {
   return x;
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
+std::size_t count_parts(const std::string& text, const std::string& part) {
   std::size_t n = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) { ++n; }
   return n;
@@ -253,18 +253,18 @@ TEST_CASE("the page is well-formed, holds everything itself and states machine, 
   const std::string html = page(study);
   CHECK(markup::fault(html) == "");
   CHECK(html.find("http") == html.find("http://www.w3.org/2000/svg"));  // the namespace of SVG is a name, no address
-  CHECK(count(html, "http") == count(html, "xmlns=\"http://www.w3.org/2000/svg\""));
-  CHECK(count(html, "src=") == count(html, "src=\"data:image/png;base64,"));
+  CHECK(count_parts(html, "http") == count_parts(html, "xmlns=\"http://www.w3.org/2000/svg\""));
+  CHECK(count_parts(html, "src=") == count_parts(html, "src=\"data:image/png;base64,"));
   for (const char* outside : {"<link", "<script", "@import", "url("}) { CHECK(html.find(outside) == std::string::npos); }
-  CHECK(count(html, "href=\"") == count(html, "href=\"#scene"));
+  CHECK(count_parts(html, "href=\"") == count_parts(html, "href=\"#scene"));
   for (const std::string& stated : {study.machine, study.compiler, "halflight " + study.version, std::string("<dt>Seed</dt><dd>7</dd>")}) {
     CHECK(html.find(stated) != std::string::npos);
   }
-  CHECK(count(html, "<img ") == 2);
-  CHECK(count(html, "<svg ") == 4 + 4 + 1);  // plots of both scenes, and one scale
+  CHECK(count_parts(html, "<img ") == 2);
+  CHECK(count_parts(html, "<svg ") == 4 + 4 + 1);  // plots of both scenes, and one scale
   CHECK(html.find("no result: the matrix needs 4 GB") != std::string::npos);
   CHECK(html.find("two thirds of the solver&#39;s arithmetic") != std::string::npos);
-  CHECK(count(html, "Overview") == 1);
+  CHECK(count_parts(html, "Overview") == 1);
   CHECK(markup::fault(page({})) == "");
 }
 

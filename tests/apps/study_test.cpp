@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "apps/scene_file.hpp"
 #include "json.hpp"
@@ -30,7 +33,7 @@ radiosity::Scene scene_of(const std::string& text) {
 }
 
 // The reference points of two plates with made-up values.
-TrueRadiosity made_up() {
+TrueRadiosity made_up_values() {
   std::string fault;
   study::ReferenceOptions options;
   options.cells = 8;
@@ -55,7 +58,7 @@ std::vector<Color> values(const TrueRadiosity& truth) {
 }  // namespace
 
 TEST_CASE("a kept reference is read back bit for bit") {
-  const TrueRadiosity truth = made_up();
+  const TrueRadiosity truth = made_up_values();
   const std::string file = study::to_cache(truth, "0123456789abcdef");
   CHECK_NOTHROW(json::parse(file));
   TrueRadiosity read = truth;
@@ -70,7 +73,7 @@ TEST_CASE("a kept reference is read back bit for bit") {
 }
 
 TEST_CASE("a kept reference that is damaged, of another scene or too coarse is not believed") {
-  const TrueRadiosity truth = made_up();
+  const TrueRadiosity truth = made_up_values();
   const std::string key = "0123456789abcdef";
   const std::string file = study::to_cache(truth, key);
   TrueRadiosity read = truth;
@@ -94,7 +97,7 @@ TEST_CASE("a kept reference that is damaged, of another scene or too coarse is n
 }
 
 TEST_CASE("norms of a known offset") {
-  const TrueRadiosity truth = made_up();
+  const TrueRadiosity truth = made_up_values();
   const std::vector<Color> exact = values(truth);
   std::vector<Color> brighter = exact;
   for (Color& c : brighter) { c *= 1.01; }
@@ -191,6 +194,57 @@ TEST_CASE("the reference is kept beside the scene, and made anew when it does no
   CHECK(place.read("plates.reference.json") == kept);
 
   CHECK_FALSE(make(plates + "\n# a comment more\n").cached);
+}
+
+TEST_CASE("a study never destroys a file that it has not written for this scene") {
+  study::ReferenceOptions options;
+  options.cells = 8;
+  options.paths = 16;
+  const auto seed = GENERATE(take(8, random(0U, 0xffff'ffffU)));
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto number = [&](unsigned below) { return static_cast<unsigned>(random() % below); };
+  // What lies where a reference would be kept: bytes of any kind, something that begins like a reference, one of another scene.
+  const std::string other = study::to_cache(made_up_values(), "0123456789abcdef");
+  const auto foreign = [&] {
+    if (number(3) == 0) { return other; }
+    std::string bytes = other.substr(0, number(4) == 0 ? number(80) : 0);
+    for (unsigned i = number(50); i > 0; --i) { bytes += static_cast<char>(number(256)); }
+    return bytes;
+  };
+  const program::Place place;
+  const std::vector<std::string> names{"beside.reference.json", "output.reference.json"};
+  std::map<std::string, std::string> had;
+  for (const std::string& name : names) {
+    if (number(3) > 0) { place.write(name, had[name] = foreign()); }
+  }
+  std::vector<std::string> caches;
+  for (const std::string& name : names) { caches.push_back((place.path() / name).string()); }
+  std::string fault;
+  const auto first = study::make_reference(scene_of(plates), plates, caches, options, {}, fault);
+  REQUIRE(first);
+  CHECK_FALSE(first->cached);
+  for (const auto& [name, bytes] : had) { CHECK(place.read(name) == bytes); }
+  // It is kept all the same, in one new file, and found there.
+  CHECK(place.entries() == had.size() + 1);
+  const auto again = study::make_reference(scene_of(plates), plates, caches, options, {}, fault);
+  REQUIRE(again);
+  CHECK(again->cached);
+  CHECK(values(*again) == values(*first));
+  CHECK(place.entries() == had.size() + 1);
+  for (const auto& [name, bytes] : had) { CHECK(place.read(name) == bytes); }
+}
+
+TEST_CASE("halflight study says where the reference is kept when its place is taken") {
+  const program::Place place;
+  place.write("plates.scene", plates);
+  place.write("plates.reference.json", "my own notes\n");
+  const program::Run run = place.run("study plates.scene -o out --time-per-run 0.001 --paths 8 --dense 0");
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(place.read("plates.reference.json") == "my own notes\n");
+  CHECK(place.has("out/plates.reference.json"));
+  CHECK(run.err.find("plates.reference.json is left as it is") != std::string::npos);
 }
 
 TEST_CASE("halflight study: every method at six settings or more, the parts of an error, a reference that is kept") {

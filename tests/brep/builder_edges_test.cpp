@@ -12,6 +12,8 @@ using namespace brep;
 
 namespace {
 
+using shapes::names;
+
 // The edges of a builder's faces, each with the faces on its sides.
 std::vector<Builder::Edge> edges_of(const Builder& solid) {
   const auto mesh = shapes::build(solid);
@@ -22,7 +24,6 @@ std::vector<Builder::Edge> edges_of(const Builder& solid) {
   }
   return all;
 }
-bool names(const Defect& d, Element e) { return std::find(d.elements.begin(), d.elements.end(), e) != d.elements.end(); }
 
 // The solid by its edges alone: empty faces first, then the edges.
 Builder by_edges(const Builder& solid, const std::vector<Builder::Edge>& list) {

@@ -13,27 +13,17 @@ using namespace brep;
 
 namespace {
 
-using Faces = std::vector<std::vector<std::uint32_t>>;
+using shapes::Faces;
+using shapes::faces_of;
+using shapes::names;
+using shapes::with_faces;
 
-Faces faces_of(const Builder& b) {
-  Faces all;
-  for (std::uint32_t f = 0; f < b.face_count(); ++f) all.emplace_back(b.corners(f).begin(), b.corners(f).end());
-  return all;
-}
-Builder with_faces(const Builder& positions, const Faces& faces, std::uint32_t extra_vertices = 0) {
-  Builder b;
-  for (std::uint32_t v = 0; v < positions.vertex_count(); ++v) b.vertex(positions.position(v));
-  for (std::uint32_t v = 0; v < extra_vertices; ++v) b.vertex({9.0, 9.0, static_cast<double>(v)});
-  for (const auto& corners : faces) b.face(corners, 0);
-  return b;
-}
 std::vector<Defect> defects(const Builder& b) {
   auto result = close<shapes::Mesh>(b);
   CHECK(result.brep.has_value() == result.defects.empty());
   for (const Defect& d : result.defects) CHECK_FALSE(d.sentence.empty());
   return std::move(result.defects);
 }
-bool names(const Defect& d, Element e) { return std::find(d.elements.begin(), d.elements.end(), e) != d.elements.end(); }
 
 }  // namespace
 

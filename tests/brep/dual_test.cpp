@@ -17,9 +17,10 @@ using namespace brep;
 using maps::Bare;
 using shapes::Mesh;
 using shapes::Random;
-using Logged = BRep<NoData, NoData, NoData, EulerLog>;
 
 namespace {
+
+using Logged = BRep<NoData, NoData, NoData, EulerLog>;
 
 // The drawing in dual.hpp, half-edge by half-edge: with the counts it says all there is to say about a dual.
 template <class B, class D>

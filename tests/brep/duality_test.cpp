@@ -38,7 +38,7 @@ Operator dual_operator(Operator op) {
 
 // Anchors of the dual may differ: where a new face gets the twin as its anchor, so does the dual vertex, but what an operator that
 // removes an edge puts in the place of a lost anchor is the next around the face, or around the vertex.
-void check_dual(const Bare& start, const Call& call) {
+void check_dual_call(const Bare& start, const Call& call) {
   INFO(calls::to_string(call));
   Bare m = start, d = dual(start);
   const calls::Answer answer = calls::apply(m, call), of_dual = calls::apply(d, {dual_operator(call.op), call.a, call.b});
@@ -53,9 +53,11 @@ void check_all(const Bare& start) {
   CHECK(shapes::faults(dual(start)) == "");
   CHECK(picture(dual(dual(start))) == picture(start));
   for (HalfedgeId a : shapes::all_halfedges(start)) {
-    for (Operator op : {Operator::join_faces, Operator::join_vertices, Operator::cut, Operator::unweld}) check_dual(start, {op, a, {}});
+    for (Operator op : {Operator::join_faces, Operator::join_vertices, Operator::cut, Operator::unweld})
+      check_dual_call(start, {op, a, {}});
     for (HalfedgeId b : shapes::all_halfedges(start)) {
-      for (Operator op : {Operator::split_face, Operator::split_vertex, Operator::bridge, Operator::weld}) check_dual(start, {op, a, b});
+      for (Operator op : {Operator::split_face, Operator::split_vertex, Operator::bridge, Operator::weld})
+        check_dual_call(start, {op, a, b});
     }
   }
 }
@@ -79,7 +81,7 @@ TEST_CASE("the dual operator on the dual makes the dual, for two shells and in l
     Bare m;
     for (int i = 0; i < 400; ++i) {
       const Call call = calls::random_call(m, random, 50);
-      if (dual_operator(call.op) != call.op) check_dual(m, call);
+      if (dual_operator(call.op) != call.op) check_dual_call(m, call);
       calls::apply(m, call);
     }
   }

@@ -20,9 +20,10 @@ using shapes::faults;
 using shapes::Mesh;
 using shapes::Random;
 using shapes::records;
-using Bare = BRep<>;
 
 namespace {
+
+using Bare = BRep<>;
 
 // Edges that are loops, or join the same vertices as an edge before.
 template <class B>

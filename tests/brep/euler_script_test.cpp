@@ -41,7 +41,7 @@ std::string run(const std::string& text, Solid& solid) {
   return error ? std::to_string(error->place.line) + ": " + error->sentence : "";
 }
 
-const std::string cube =
+const std::string cube_script =
     "h0 = make_segment\nh2 = split_vertex h1 h1\nh4 = split_vertex h3 h3\nh6 = split_face h5 h0\nh8 = split_vertex h1 h1\n"
     "h10 = split_vertex h3 h3\nh12 = split_vertex h5 h5\nh14 = split_vertex h7 h7\nh16 = split_face h9 h15\nh18 = split_face h15 h13\n"
     "h20 = split_face h13 h11\nh22 = split_face h11 h16\n";
@@ -63,7 +63,7 @@ std::string content(const fs::path& path) {
 
 TEST_CASE("a script of twelve lines is a cube") {
   Solid solid;
-  CHECK(run(cube + "expect v 8 e 12 f 6 s 1 h 0\nexpect valid\n", solid) == "");
+  CHECK(run(cube_script + "expect v 8 e 12 f 6 s 1 h 0\nexpect valid\n", solid) == "");
   CHECK(shapes::faults(solid) == "");
   for (FaceId f : faces(solid)) CHECK(degree(solid, f) == 4);
   for (VertexId v : vertices(solid)) CHECK(degree(solid, v) == 3);
@@ -144,7 +144,7 @@ TEST_CASE("strict running stops at the first statement that is not done as writt
   const auto stops = [](const std::string& line, const std::string& why) {
     Solid solid;
     INFO(line);
-    CHECK(run(cube + line + "\nexpect v 0\n", solid) == "13: " + why);
+    CHECK(run(cube_script + line + "\nexpect v 0\n", solid) == "13: " + why);
     CHECK(shapes::faults(solid) == "");
   };
   stops("split_face h0 h1", "split_face: h0 and h1 lie on different faces");
@@ -179,15 +179,15 @@ TEST_CASE("running goes on after a statement that failed, but its name has no va
 
 TEST_CASE("undo and redo in a script walk through the log") {
   Solid solid, straight;
-  CHECK(run(cube + "undo\nundo\nexpect e 10\nredo\nredo\nexpect e 12\nundo\nh22 = split_face h11 h16\n", solid) == "");
-  CHECK(run(cube, straight) == "");
+  CHECK(run(cube_script + "undo\nundo\nexpect e 10\nredo\nredo\nexpect e 12\nundo\nh22 = split_face h11 h16\n", solid) == "");
+  CHECK(run(cube_script, straight) == "");
   CHECK(shapes::records(solid) == shapes::records(straight));
 }
 
 TEST_CASE("while a raw edit stands no operator runs, the validator tells its faults, and undo repairs it") {
   Solid solid, sound;
-  REQUIRE(run(cube, sound) == "");
-  REQUIRE(run(cube, solid) == "");
+  REQUIRE(run(cube_script, sound) == "");
+  REQUIRE(run(cube_script, solid) == "");
   const Script script = parse(
       "raw next h0 h4\nexpect R2 R3\nraw vertex h3 v77\nsplit_edge h0\nset_anchor next(h3)\nexpect v 8\nexpect R7\nredo\nundo\n"
       "expect R1\nundo\nexpect valid\n");
@@ -294,7 +294,7 @@ TEST_CASE("every lesson runs as written, forward and back to nothing") {
 
 TEST_CASE("the lesson of the dual makes the dual of the cube, half-edge by half-edge") {
   Solid solid, dual;
-  REQUIRE(run(cube, solid) == "");
+  REQUIRE(run(cube_script, solid) == "");
   REQUIRE_FALSE(run_script(parse(content(fs::path(HALFLIGHT_LESSONS) / "020_cube_from_its_dual.euler")), dual).has_value());
   REQUIRE(solid.edge_count() == dual.edge_count());
   for (HalfedgeId h : shapes::all_halfedges(solid)) {

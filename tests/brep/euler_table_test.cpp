@@ -31,7 +31,7 @@ std::vector<std::string> words(const OperatorForm& row) {
   return all;
 }
 
-Statement parse(const std::string& line) {
+Statement statement_of(const std::string& line) {
   INFO(line);
   const ScriptResult result = parse_script(line);
   REQUIRE(result.script.has_value());
@@ -109,7 +109,7 @@ TEST_CASE("every name of an operator parses to the same step, and the log prints
       std::string line = word;
       for (std::size_t i = 0; i < row.arguments.size(); ++i) line += i == 0 ? " h0" : " h6";
       INFO(line);
-      const Statement s = parse(line);
+      const Statement s = statement_of(line);
       CHECK(s.command == Command::apply);
       CHECK(s.op == row.op);
       CHECK(s.written == word);

@@ -16,10 +16,11 @@ using shapes::faults;
 using shapes::Mesh;
 using shapes::Random;
 using shapes::records;
-using Bare = BRep<>;
-using Logged = BRep<NoData, NoData, NoData, EulerLog>;
 
 namespace {
+
+using Bare = BRep<>;
+using Logged = BRep<NoData, NoData, NoData, EulerLog>;
 
 // By the divergence theorem, a pyramid over each face.
 double volume(const Mesh& m) {

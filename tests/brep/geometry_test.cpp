@@ -11,10 +11,10 @@ using namespace brep;
 
 namespace {
 
-using Points = std::vector<glm::dvec3>;
+using Corners = std::vector<glm::dvec3>;
 
-Points regular(unsigned n, double radius = 1.0) {
-  Points p;
+Corners regular(unsigned n, double radius = 1.0) {
+  Corners p;
   for (unsigned i = 0; i < n; ++i) {
     const double angle = 2.0 * shapes::pi * i / n;
     p.push_back({radius * std::cos(angle), radius * std::sin(angle), 0.0});
@@ -22,10 +22,10 @@ Points regular(unsigned n, double radius = 1.0) {
   return p;
 }
 // Turned out of the coordinate planes, scaled and moved.
-Points placed(const Points& p, double scale, const glm::dvec3& move) {
+Corners placed(const Corners& p, double scale, const glm::dvec3& move) {
   const glm::dvec3 x = glm::normalize(glm::dvec3{1.0, 2.0, 3.0}), z = glm::normalize(glm::cross(x, glm::dvec3{1.0, 0.0, 0.0}));
   const glm::dvec3 y = glm::cross(z, x);
-  Points q;
+  Corners q;
   for (const auto& a : p) q.push_back(move + scale * (a.x * x + a.y * y + a.z * z));
   return q;
 }
@@ -33,7 +33,7 @@ Points placed(const Points& p, double scale, const glm::dvec3& move) {
 }  // namespace
 
 TEST_CASE("unit square: area 1, normal up, centre in the middle, proportion 1 / sqrt 2") {
-  const Points p{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const Corners p{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   CHECK(area(p) == 1.0);
   CHECK(normal(p) == glm::dvec3{0, 0, 1});
   CHECK(glm::distance(centroid(p), glm::dvec3{0.5, 0.5, 0.0}) < 1e-15);
@@ -46,7 +46,7 @@ TEST_CASE("regular n-gons at any place, size and orientation") {
   // Rounding: coordinates of size M = 10 scale; the area is right to about n 2^-53 M / D.
   for (unsigned n : {3u, 4u, 5u, 6u, 7u, 12u, 64u, 257u}) {
     for (double scale : {1e-6, 1.0, 1e6}) {
-      const Points p = placed(regular(n), scale, scale * glm::dvec3{3.0, -7.0, 5.0});
+      const Corners p = placed(regular(n), scale, scale * glm::dvec3{3.0, -7.0, 5.0});
       CHECK(area(p) == test::Approx(0.5 * n * std::sin(2.0 * shapes::pi / n) * scale * scale).epsilon(1e-12));
       CHECK(glm::distance(centroid(p), scale * glm::dvec3{3.0, -7.0, 5.0}) < 1e-12 * scale);
       CHECK(is_convex(p));
@@ -58,19 +58,19 @@ TEST_CASE("regular n-gons at any place, size and orientation") {
 
 TEST_CASE("proportion: triangles, rectangles, straight corners") {
   CHECK(proportion(regular(3)) == test::Approx(0.5).epsilon(1e-12));
-  const Points right{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}};  // r = 1, R = 5/2
+  const Corners right{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}};  // r = 1, R = 5/2
   CHECK(proportion(right) == test::Approx(0.4).epsilon(1e-12));
-  const Points obtuse{{0, 0, 0}, {10, 0, 0}, {5, 1, 0}};  // the longest side is the diameter
+  const Corners obtuse{{0, 0, 0}, {10, 0, 0}, {5, 1, 0}};  // the longest side is the diameter
   const double r = 2.0 * area(obtuse) / (10.0 + 2.0 * std::sqrt(26.0));
   CHECK(proportion(obtuse) == test::Approx(r / 5.0).epsilon(1e-12));
   for (double w : {1.0, 2.0, 10.0, 1000.0}) {
-    const Points box{{0, 0, 0}, {w, 0, 0}, {w, 1, 0}, {0, 1, 0}};
+    const Corners box{{0, 0, 0}, {w, 0, 0}, {w, 1, 0}, {0, 1, 0}};
     CHECK(proportion(box) == test::Approx(1.0 / std::sqrt(w * w + 1.0)).epsilon(1e-10));
-    const Points with_t{{0, 0, 0}, {w / 4, 0, 0}, {w / 2, 0, 0}, {w, 0, 0}, {w, 0.25, 0}, {w, 1, 0}, {0, 1, 0}, {0, 0.5, 0}};
+    const Corners with_t{{0, 0, 0}, {w / 4, 0, 0}, {w / 2, 0, 0}, {w, 0, 0}, {w, 0.25, 0}, {w, 1, 0}, {0, 1, 0}, {0, 0.5, 0}};
     CHECK(proportion(with_t) == test::Approx(proportion(box)).epsilon(1e-10));
   }
-  CHECK(proportion(Points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}) == 0.0);
-  CHECK(proportion(Points{{0, 0, 0}, {1, 0, 0}}) == 0.0);
+  CHECK(proportion(Corners{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}) == 0.0);
+  CHECK(proportion(Corners{{0, 0, 0}, {1, 0, 0}}) == 0.0);
 }
 
 TEST_CASE("proportion of random convex polygons agrees with a search over all triples of sides") {
@@ -81,7 +81,7 @@ TEST_CASE("proportion of random convex polygons agrees with a search over all tr
     std::vector<double> angles(4 + random.below(8));
     for (double& a : angles) a = 2.0 * shapes::pi * random.unit();
     std::sort(angles.begin(), angles.end());
-    Points p;  // on an ellipse, hence convex
+    Corners p;  // on an ellipse, hence convex
     for (double a : angles) p.push_back({3.0 * std::cos(a), std::sin(a), 0.0});
     const Outline outline(p);
     double best = HUGE_VAL;
@@ -112,19 +112,19 @@ TEST_CASE("proportion of random convex polygons agrees with a search over all tr
 }
 
 TEST_CASE("convex means one turn to the left, straight corners allowed") {
-  CHECK(is_convex(Points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 1, 0}}));
-  CHECK_FALSE(is_convex(Points{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {1, 1, 0}, {0, 1, 0}}));
-  Points pentagram;
+  CHECK(is_convex(Corners{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 1, 0}}));
+  CHECK_FALSE(is_convex(Corners{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {1, 1, 0}, {0, 1, 0}}));
+  Corners pentagram;
   for (unsigned i = 0; i < 5; ++i) pentagram.push_back(regular(5)[2 * i % 5]);
   CHECK_FALSE(is_convex(pentagram));
-  CHECK_FALSE(is_convex(Points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
-  CHECK_FALSE(is_convex(Points{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {2, 3, 0}, {2, 2, 0}, {0, 2, 0}}));  // a spike
-  CHECK(is_convex(Points{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));                   // a repeated point
+  CHECK_FALSE(is_convex(Corners{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+  CHECK_FALSE(is_convex(Corners{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {2, 3, 0}, {2, 2, 0}, {0, 2, 0}}));  // a spike
+  CHECK(is_convex(Corners{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));                   // a repeated point
 }
 
 TEST_CASE("planarity is relative to the size") {
   for (double scale : {1e-3, 1.0, 1e3}) {
-    const Points bent = placed({{0, 0, 0}, {1, 0, 0.01}, {1, 1, 0}, {0, 1, 0.01}}, scale, glm::dvec3{0.0});
+    const Corners bent = placed({{0, 0, 0}, {1, 0, 0.01}, {1, 1, 0}, {0, 1, 0.01}}, scale, glm::dvec3{0.0});
     CHECK(planarity(bent) == test::Approx(0.005 / std::sqrt(2.0)).epsilon(0.3));  // extent lies between D and sqrt(3) D
   }
 }

@@ -17,10 +17,11 @@ using shapes::faults;
 using shapes::Mesh;
 using shapes::Random;
 using shapes::records;
-using Bare = BRep<>;
-using Logged = BRep<NoData, NoData, NoData, EulerLog>;
 
 namespace {
+
+using Bare = BRep<>;
+using Logged = BRep<NoData, NoData, NoData, EulerLog>;
 
 // The right answer by definition: the faces go, and twin(a_i) becomes the twin of twin(c_i). Vertices and faces are the orbits of what
 // is left. Each half-edge is named by that of m that it was.

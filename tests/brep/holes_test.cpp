@@ -66,7 +66,7 @@ double area_of(const Plate& plate) {
 }
 
 // Both ways to take face 0 apart.
-void check_parts(const Mesh& m, double whole) {
+void check_whole(const Mesh& m, double whole) {
   const std::size_t n = degree(m, FaceId{0});
   Mesh triangulated = m, split = m;
   const auto parts = triangulate_face(triangulated, FaceId{0});
@@ -133,7 +133,7 @@ TEST_CASE("a square with a square hole on a bridge: ten corners, eight triangles
     Mesh m = shells_of(plate);
     bridge_at(m, 0, from, to);
     REQUIRE(degree(m, FaceId{0}) == 10);
-    check_parts(m, 0.75);
+    check_whole(m, 0.75);
   }
 }
 
@@ -143,7 +143,7 @@ TEST_CASE("a row of square holes, each bridged to the one before along the line 
   Mesh row = shells_of(plate);
   bridge_at(row, 0, {0, 0}, {1, 1});
   for (std::size_t i = 1; i < 5; ++i) bridge_at(row, i, {2.0 * static_cast<double>(i), 1.0}, {2.0 * static_cast<double>(i) + 1.0, 1.0});
-  check_parts(row, 28.0);
+  check_whole(row, 28.0);
 
   const Plate fan{rectangle({0, 0}, {4, 4}), {rectangle({1, 2}, {2, 3}), rectangle({2, 1}, {3, 1.5})}};
   Mesh m = shells_of(fan);
@@ -154,7 +154,7 @@ TEST_CASE("a row of square holes, each bridged to the one before along the line 
     if (m.vertex(h) == m.vertex(first) && m.data(m.target(h)).position == glm::dvec3{4, 0, 0}) below = h;
   }
   REQUIRE(bridge(m, below, corner_at(m, back_of_hole(1), {2, 1})));
-  check_parts(m, 14.5);
+  check_whole(m, 14.5);
 }
 
 TEST_CASE("random plates with random holes on random bridges are covered exactly by triangles and by convex parts") {
@@ -180,7 +180,7 @@ TEST_CASE("random plates with random holes on random bridges are covered exactly
     }
     if (!all_bridged) continue;
     bridges += plate.holes.size();
-    check_parts(m, area_of(plate));
+    check_whole(m, area_of(plate));
   }
   CHECK(bridges > 200);
 }
@@ -198,7 +198,7 @@ TEST_CASE("coinciding corners are no excuse: crossing passes, two polygons in on
   CHECK(refused({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {3, 3}, {3, 1}, {1, 1}, {1, 3}, {3, 3}}) == Code::not_simple);
   CHECK(refused({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {2, 2}, {2, 3}, {3, 3}, {3, 1}, {1, 1}}) == Code::not_simple);
   // A hole that touches the outline in a corner, without a bridge, is one: the parts exist.
-  check_parts(shapes::build(shapes::pillow_builder({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 3}, {2, 2}, {3, 1}})), 12.0);
+  check_whole(shapes::build(shapes::pillow_builder({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 3}, {2, 2}, {3, 1}})), 12.0);
 }
 
 TEST_CASE("of random polygons on a small grid, those that are accepted wind once around what they cover, and all can be triangulated") {
@@ -237,7 +237,7 @@ TEST_CASE("of random polygons on a small grid, those that are accepted wind once
       }
       REQUIRE((winding == 0 || winding == 1));
     }
-    if (equal > 0) check_parts(shapes::build(shapes::pillow_builder(p)), vector_area(in_space).z);
+    if (equal > 0) check_whole(shapes::build(shapes::pillow_builder(p)), vector_area(in_space).z);
   }
   CAPTURE(accepted, with_holes);
   CHECK(accepted > 1000);

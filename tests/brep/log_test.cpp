@@ -11,18 +11,18 @@ using namespace brep;
 
 namespace {
 
-struct Numbered {
+struct NumberData {
   int number = 0;
 };
-struct Listed {
+struct ListData {
   std::vector<int> list;
 };
-using Logged = BRep<Numbered, Listed, Listed, EulerLog>;
+using DataLogged = BRep<NumberData, ListData, ListData, EulerLog>;
 
 // The picture of all records and the data of all living elements.
-std::vector<std::uint32_t> everything(const Logged& m) {
+std::vector<std::uint32_t> everything(const DataLogged& m) {
   std::vector<std::uint32_t> all = shapes::picture(m);
-  const auto add = [&](const Listed& data) {
+  const auto add = [&](const ListData& data) {
     for (int x : data.list) all.push_back(static_cast<std::uint32_t>(x));
   };
   for (HalfedgeId h : shapes::all_halfedges(m)) add(m.data(h));
@@ -33,7 +33,7 @@ std::vector<std::uint32_t> everything(const Logged& m) {
 
 // Elements that have just been made with default data get some of their own. (The log does not see what is written into data, so
 // nothing is written into older ones.)
-void write_new_data(Logged& m, int& number) {
+void write_new_data(DataLogged& m, int& number) {
   for (HalfedgeId h : shapes::all_halfedges(m)) {
     if (m.data(h).list.empty()) m.data(h).list = {++number, number};
   }
@@ -52,7 +52,7 @@ TEST_CASE("undo and redo restore every record, free list and datum; replay makes
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     INFO("seed " << seed);
     shapes::Random random(seed);
-    Logged m;
+    DataLogged m;
     std::vector<std::vector<std::uint32_t>> states{everything(m)};
     const std::size_t limit = 4 + random.below(40);
     int number = 0;
@@ -76,7 +76,7 @@ TEST_CASE("undo and redo restore every record, free list and datum; replay makes
         REQUIRE(everything(m) == states.back());
       }
     }
-    const Logged end = m;
+    const DataLogged end = m;
     for (std::size_t i = states.size() - 1; i-- > 0;) {
       REQUIRE(undo(m));
       REQUIRE(everything(m) == states[i]);
@@ -88,7 +88,7 @@ TEST_CASE("undo and redo restore every record, free list and datum; replay makes
       REQUIRE(everything(m) == states[i]);
     }
     CHECK_FALSE(redo(m));
-    Logged other;
+    DataLogged other;
     const Replay replayed = replay(steps(end), other);
     INFO(replayed.refusal.sentence());
     REQUIRE(replayed.done == states.size() - 1);

@@ -56,9 +56,9 @@ std::uint32_t& counter(ElementPool& pool) { return pool.*member(ElementCount{});
 std::uint32_t& list_head(HalfedgePool& pool) { return pool.*member(HalfedgeHead{}); }
 std::uint32_t& list_head(ElementPool& pool) { return pool.*member(ElementHead{}); }
 
-enum Field { next, prev, vertex, face, vertex_anchor, face_anchor, free_link, free_head, count, stale, fields };
-constexpr std::array<const char*, fields> names{"next",        "prev",      "vertex",    "face",    "vertex anchor",
-                                                "face anchor", "free link", "free head", "counter", "rest of a dead slot"};
+enum Mutation { next, prev, vertex, face, vertex_anchor, face_anchor, free_link, free_head, count, stale, fields };
+constexpr std::array<const char*, fields> mutation_names{"next",        "prev",      "vertex",    "face",    "vertex anchor",
+                                                         "face anchor", "free link", "free head", "counter", "rest of a dead slot"};
 constexpr std::uint32_t dead_bit = HalfedgePool::dead_bit;
 
 // A living or dead element, the first beyond the end, a flipped bit, or any number.
@@ -85,7 +85,7 @@ std::uint32_t slot(std::uint32_t end, std::uint32_t step, bool alive, Alive&& is
 }
 
 // Overwrites one field; the rule that must be named, 0 where the change is none or harmless by nature.
-int mutate(Bare& m, Field field, Random& random) {
+int mutate(Bare& m, Mutation field, Random& random) {
   const Bare before = m;
   auto& halfedges = Raw::halfedges(m);
   const auto live = [&](auto& pool, std::uint32_t step) {
@@ -178,7 +178,7 @@ Bare sample(Random& random) {
   return m;
 }
 
-std::set<int> rules(const std::vector<Fault>& faults) {
+std::set<int> rules_of(const std::vector<Fault>& faults) {
   std::set<int> found;
   for (const Fault& fault : faults) {
     CHECK(fault.sentence.substr(0, 4) == std::string{'R', static_cast<char>('0' + fault.rule), ':', ' '});
@@ -201,8 +201,8 @@ TEST_CASE("one field of one record is overwritten: every fault is caught, with t
     REQUIRE(slow_check::is_sound(sound));
     REQUIRE(shapes::faults(sound) == "");
     for (int round = 0; round < 5 * fields; ++round) {
-      const auto field = static_cast<Field>(round % fields);
-      INFO("round " << round << ", field " << names[field]);
+      const auto field = static_cast<Mutation>(round % fields);
+      INFO("round " << round << ", field " << mutation_names[field]);
       Bare m = sound;
       const int rule = mutate(m, field, random);
       const std::vector<Fault> found = validate(m);
@@ -215,7 +215,7 @@ TEST_CASE("one field of one record is overwritten: every fault is caught, with t
       if (is_sound) continue;
       ++score.faults;
       score.caught += !found.empty();
-      const bool right = rules(found).count(rule) != 0;
+      const bool right = rules_of(found).count(rule) != 0;
       score.right += right;
       if (!right) {
         INFO("expected R" << rule << ", found:\n" << shapes::faults(m));
@@ -226,7 +226,7 @@ TEST_CASE("one field of one record is overwritten: every fault is caught, with t
   std::printf("mutations of one field: %8s %8s %10s %9s\n", "faults", "caught", "right rule", "harmless");
   for (int i = 0; i < fields; ++i) {
     const Score& score = scores[static_cast<std::size_t>(i)];
-    std::printf("%23s %8d %7.1f%% %9.1f%% %9d\n", names[static_cast<std::size_t>(i)], score.faults,
+    std::printf("%23s %8d %7.1f%% %9.1f%% %9d\n", mutation_names[static_cast<std::size_t>(i)], score.faults,
                 score.faults == 0 ? 100.0 : 100.0 * score.caught / score.faults,
                 score.faults == 0 ? 100.0 : 100.0 * score.right / score.faults, score.harmless);
     CHECK(score.caught == score.faults);

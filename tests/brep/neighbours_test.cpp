@@ -13,9 +13,10 @@
 
 using namespace brep;
 using shapes::Mesh;
-using Bare = BRep<>;
 
 namespace {
+
+using Bare = BRep<>;
 
 template <class Range>
 auto list(const Range& range) {

@@ -20,7 +20,7 @@ using Logged = BRep<NoData, NoData, NoData, EulerLog>;
 
 constexpr std::size_t states_a_seed = 1100;
 
-struct Statistics {
+struct Tally {
   std::size_t states = 0, refused = 0, most_shells = 0;
   long most_handles = 0;
 };
@@ -51,7 +51,7 @@ struct Subject {
   calls::Shells shells{};
 
   // Applies the call; the law that does not hold, empty when all do.
-  std::string step(const Call& call, Statistics& statistics) {
+  std::string step(const Call& call, Tally& statistics) {
     const auto before = now;
     const calls::Shells shells_before = shells;
     const long v = static_cast<long>(m.vertex_count()), e = static_cast<long>(m.edge_count()), f = static_cast<long>(m.face_count());
@@ -94,7 +94,7 @@ struct Subject {
 
 std::string play(std::span<const Call> list) {
   Subject subject;
-  Statistics unused;
+  Tally unused;
   for (const Call& call : list) {
     if (std::string broken = subject.step(call, unused); !broken.empty()) return broken;
   }
@@ -102,7 +102,7 @@ std::string play(std::span<const Call> list) {
 }
 
 // All of one seed; the first law that is broken, with the shortest sequence found that breaks one.
-std::string run(std::uint32_t seed, Statistics& statistics) {
+std::string run(std::uint32_t seed, Tally& statistics) {
   Random random(seed);
   Subject subject;
   Logged& m = subject.m;
@@ -127,7 +127,7 @@ std::string run(std::uint32_t seed, Statistics& statistics) {
 }
 
 void run_seeds(std::uint32_t first, std::uint32_t last) {
-  Statistics statistics;
+  Tally statistics;
   for (std::uint32_t seed = first; seed <= last; ++seed) {
     if (const std::string broken = run(seed, statistics); !broken.empty()) FAIL("seed " << seed << ": " << broken);
   }

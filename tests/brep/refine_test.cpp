@@ -32,7 +32,7 @@ Mesh refined_at_random(const Builder& solid, std::uint32_t seed, int steps) {
   }
   return m;
 }
-const std::vector<Builder>& solids() {
+const std::vector<Builder>& refined_solids() {
   static const std::vector<Builder> all{shapes::cube_builder(), shapes::tetrahedron_builder(), shapes::prism_builder(3),
                                         shapes::prism_builder(5), shapes::prism_builder(12)};
   return all;
@@ -127,7 +127,7 @@ TEST_CASE("the level rule gives the same T-vertices as geometry on a cube's grid
 }
 
 TEST_CASE("random refinement: always valid, v - e + f = 2(s - h), area kept, faces convex, child k begins at the parent's corner k") {
-  for (const Builder& solid : solids()) {
+  for (const Builder& solid : refined_solids()) {
     for (std::uint32_t seed = 1; seed <= 6; ++seed) {
       INFO("seed " << seed);
       Mesh m = shapes::build(solid);
@@ -152,7 +152,7 @@ TEST_CASE("random refinement: always valid, v - e + f = 2(s - h), area kept, fac
 }
 
 TEST_CASE("corner 0 does not depend on what the neighbours do") {
-  for (const Builder& solid : solids()) {
+  for (const Builder& solid : refined_solids()) {
     Mesh m = shapes::build(solid);
     std::vector<VertexId> first;
     for (FaceId f : faces(m)) first.push_back(m.vertex(corners(m, f)[0]));
@@ -214,7 +214,7 @@ TEST_CASE("a face with a spur inside, on both sides of an edge, can be refined t
 }
 
 TEST_CASE("T-vertex elimination leaves triangles and quadrilaterals only, without T-vertices, and keeps the area") {
-  for (const Builder& solid : solids()) {
+  for (const Builder& solid : refined_solids()) {
     for (std::uint32_t seed = 1; seed <= 8; ++seed) {
       INFO("seed " << seed);
       Mesh m = refined_at_random(solid, seed, 60);

@@ -15,20 +15,10 @@ using namespace brep;
 
 namespace {
 
-using Faces = std::vector<std::vector<std::uint32_t>>;
+using shapes::Faces;
+using shapes::faces_of;
+using shapes::with_faces;
 
-Faces faces_of(const Builder& b) {
-  Faces all;
-  for (std::uint32_t f = 0; f < b.face_count(); ++f) all.emplace_back(b.corners(f).begin(), b.corners(f).end());
-  return all;
-}
-Builder with_faces(const Builder& positions, const Faces& faces, std::uint32_t extra_vertices = 0) {
-  Builder b;
-  for (std::uint32_t v = 0; v < positions.vertex_count(); ++v) b.vertex(positions.position(v));
-  for (std::uint32_t v = 0; v < extra_vertices; ++v) b.vertex({9.0, 9.0, static_cast<double>(v)});
-  for (const auto& corners : faces) b.face(corners, 0);
-  return b;
-}
 std::vector<std::uint32_t> rotated(std::vector<std::uint32_t> corners) {
   std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
   return corners;
@@ -61,7 +51,7 @@ void check_laws(const Builder& input, const RepairResult& r) {
   CHECK(again.repairs.empty());
   CHECK(faces_of(again.builder) == faces_of(r.builder));
 }
-const std::vector<Builder>& solids() {
+const std::vector<Builder>& sound_solids() {
   static const std::vector<Builder> all{shapes::cube_builder(), shapes::tetrahedron_builder(), shapes::prism_builder(7),
                                         shapes::torus_builder(5, 4)};
   return all;
@@ -70,7 +60,7 @@ const std::vector<Builder>& solids() {
 }  // namespace
 
 TEST_CASE("a sound builder is left as it is, nothing is said") {
-  for (const Builder& solid : solids()) {
+  for (const Builder& solid : sound_solids()) {
     const RepairResult r = repair(solid);
     CHECK((r.repairs.empty() && r.remaining.empty()));
     CHECK(faces_of(r.builder) == faces_of(solid));
@@ -82,7 +72,7 @@ TEST_CASE("flipped, doubled and missing faces are mended back to the solid, what
   for (std::uint32_t seed = 1; seed <= 300; ++seed) {
     INFO("seed " << seed);
     shapes::Random random(seed);
-    const Builder& solid = solids()[seed % solids().size()];
+    const Builder& solid = sound_solids()[seed % sound_solids().size()];
     Faces faces = faces_of(solid);
     for (std::size_t i = faces.size(); i-- > 1;) std::swap(faces[i], faces[random.below(i + 1)]);
     int flipped = 0, doubled = 0, missing = 0;
@@ -227,7 +217,7 @@ TEST_CASE("random damage to solids: the laws of repair hold, and close() gives a
   for (std::uint32_t seed = 1; seed <= 3000; ++seed) {
     INFO("seed " << seed);
     shapes::Random random(seed);
-    const Builder& solid = solids()[random.below(solids().size())];
+    const Builder& solid = sound_solids()[random.below(sound_solids().size())];
     Faces faces = faces_of(solid);
     for (std::uint32_t k = 1 + random.below(5); k > 0; --k) {
       auto& corners = faces[random.below(faces.size())];

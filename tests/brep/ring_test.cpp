@@ -16,7 +16,7 @@ using shapes::Mesh;
 
 namespace {
 
-constexpr FaceId top{1};  // of a prism
+constexpr FaceId prism_top{1};  // of a prism
 
 // A square and an equilateral triangle have 1.
 double relative_proportion(const Mesh& m, FaceId f) {
@@ -30,12 +30,12 @@ TEST_CASE("cut_ring: counts, corners, level and data of the cells and of the inn
   for (const std::uint32_t n : {6u, 7u, 9u, 12u, 16u, 33u, 256u}) {
     INFO("n = " << n);
     Mesh m = shapes::build(shapes::prism_builder(n));
-    m.data(top).label = 5;
-    const auto before = corners(m, top);
-    const double whole = area(m, top);
+    m.data(prism_top).label = 5;
+    const auto before = corners(m, prism_top);
+    const double whole = area(m, prism_top);
     const std::size_t v = m.vertex_count(), e = m.edge_count(), f = m.face_count(), half = (n + 1) / 2;
     int placed = 0;
-    const auto parts = cut_ring(m, top, [&](Mesh&, VertexId) { ++placed; });
+    const auto parts = cut_ring(m, prism_top, [&](Mesh&, VertexId) { ++placed; });
     REQUIRE(parts);
     REQUIRE(parts->size() == half + 1);
     CHECK(placed == static_cast<int>(half));
@@ -43,7 +43,7 @@ TEST_CASE("cut_ring: counts, corners, level and data of the cells and of the inn
     CHECK(m.edge_count() == e + 2 * half);
     CHECK(m.face_count() == f + half);
     CHECK(faults(m) == "");
-    CHECK(parts->back() == top);
+    CHECK(parts->back() == prism_top);
     double sum = 0.0;
     for (std::size_t k = 0; k <= half; ++k) {
       const FaceId part = (*parts)[k];
@@ -62,7 +62,7 @@ TEST_CASE("cut_ring: cells stay well proportioned however often they are refined
   for (const std::uint32_t n : {12u, 16u, 32u}) {
     INFO("n = " << n);
     Mesh ring = shapes::build(shapes::prism_builder(n)), wedges = ring;
-    std::vector<FaceId> cells{top};
+    std::vector<FaceId> cells{prism_top};
     for (std::size_t i = 0; i < cells.size(); ++i) {
       while (corners(ring, cells[i]).size() > most_regular_corners) {
         const auto parts = cut_ring(ring, cells[i], [](Mesh&, VertexId) {});
@@ -70,7 +70,7 @@ TEST_CASE("cut_ring: cells stay well proportioned however often they are refined
         cells.insert(cells.end(), parts->begin(), parts->end() - 1);
       }
     }
-    std::vector<FaceId> thin{top};
+    std::vector<FaceId> thin{prism_top};
     double worst = 1.0, worst_wedge = 1.0;
     for (int level = 0; level < 3; ++level) {
       for (auto* faces : {&cells, &thin}) {
@@ -97,10 +97,10 @@ TEST_CASE("cut_ring: cells stay well proportioned however often they are refined
 TEST_CASE("cut_ring: T-vertices of finer neighbours stay T-vertices, and are eliminated like others") {
   Mesh m = shapes::build(shapes::prism_builder(12));
   std::size_t refined = 0;
-  for (HalfedgeId h : corners(m, top)) {
+  for (HalfedgeId h : corners(m, prism_top)) {
     if (++refined % 3 == 0) REQUIRE(refine(m, m.face(twin(h))));
   }
-  const auto parts = cut_ring(m, top, [](Mesh&, VertexId) {});
+  const auto parts = cut_ring(m, prism_top, [](Mesh&, VertexId) {});
   REQUIRE(parts);
   std::size_t t_vertices = 0;
   for (const FaceId f : *parts) {
@@ -120,8 +120,8 @@ TEST_CASE("cut_ring: T-vertices of finer neighbours stay T-vertices, and are eli
 TEST_CASE("cut_ring: a flat ellipse keeps convex cells that cover it; what has too few corners is refused") {
   Mesh m = shapes::build(shapes::prism_builder(16));
   for (VertexId v : vertices(m)) m.data(v).position.x *= 1e-3;
-  const double whole = area(m, top);
-  const auto parts = cut_ring(m, top, [](Mesh&, VertexId) {});
+  const double whole = area(m, prism_top);
+  const auto parts = cut_ring(m, prism_top, [](Mesh&, VertexId) {});
   REQUIRE(parts);
   double sum = 0.0;
   for (const FaceId f : *parts) {

@@ -3,6 +3,7 @@
 
 // What the tests of brep/ share: attribute types, small solids, and a picture of all records to compare before and after.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -28,6 +29,23 @@ struct Face : brep::Tag {
   int label = 0;  // anything of the user's
 };
 using Mesh = brep::BRep<Vertex, brep::NoData, Face>;
+
+// The corners of each face of a builder, and a builder with other faces on the same vertices.
+using Faces = std::vector<std::vector<std::uint32_t>>;
+
+inline Faces faces_of(const brep::Builder& b) {
+  Faces all;
+  for (std::uint32_t f = 0; f < b.face_count(); ++f) all.emplace_back(b.corners(f).begin(), b.corners(f).end());
+  return all;
+}
+inline brep::Builder with_faces(const brep::Builder& positions, const Faces& faces, std::uint32_t extra_vertices = 0) {
+  brep::Builder b;
+  for (std::uint32_t v = 0; v < positions.vertex_count(); ++v) b.vertex(positions.position(v));
+  for (std::uint32_t v = 0; v < extra_vertices; ++v) b.vertex({9.0, 9.0, static_cast<double>(v)});
+  for (const auto& corners : faces) b.face(corners, 0);
+  return b;
+}
+inline bool names(const brep::Defect& d, brep::Element e) { return std::find(d.elements.begin(), d.elements.end(), e) != d.elements.end(); }
 
 constexpr double pi = 3.14159265358979323846;
 

@@ -37,7 +37,7 @@ std::size_t check_split(const Points& outline) {
   return parts->size();
 }
 
-Code refused(const std::vector<glm::dvec3>& points) {
+Code refused_in_space(const std::vector<glm::dvec3>& points) {
   Builder b;
   std::vector<std::uint32_t> front, back;
   for (const auto& p : points) {
@@ -91,12 +91,12 @@ TEST_CASE("random star-shaped polygons at any scale fall into convex parts") {
 }
 
 TEST_CASE("self-crossing, touching, bent and degenerate polygons are refused and nothing changes") {
-  CHECK(refused({{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 1, 0}}) == Code::not_simple);              // a bow tie
-  CHECK(refused({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}}) == Code::not_simple);   // a corner touches an edge
-  CHECK(refused({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, -1, 0}, {0, 4, 0}}) == Code::not_simple);  // it goes through
-  CHECK(refused({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {3, 4, 0}, {3, 5, 0}, {3, 4, 0}, {0, 4, 0}}) == Code::not_simple);  // a spike
-  CHECK(refused({{0, 0, 0}, {2, 0, 0}, {2, 1, 1}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}) == Code::not_planar);
-  CHECK(refused({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1.5, 0, 0}}) == Code::degenerate_polygon);
+  CHECK(refused_in_space({{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 1, 0}}) == Code::not_simple);              // a bow tie
+  CHECK(refused_in_space({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}}) == Code::not_simple);   // a corner touches an edge
+  CHECK(refused_in_space({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, -1, 0}, {0, 4, 0}}) == Code::not_simple);  // it goes through
+  CHECK(refused_in_space({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {3, 4, 0}, {3, 5, 0}, {3, 4, 0}, {0, 4, 0}}) == Code::not_simple);  // a spike
+  CHECK(refused_in_space({{0, 0, 0}, {2, 0, 0}, {2, 1, 1}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}) == Code::not_planar);
+  CHECK(refused_in_space({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1.5, 0, 0}}) == Code::degenerate_polygon);
   Mesh m;
   REQUIRE(make_segment(m));
   CHECK(split_until_convex(m, FaceId{0}).refusal().code == Code::few_corners);

@@ -13,7 +13,7 @@ using namespace brep;
 
 namespace {
 
-using Faces = std::vector<std::vector<std::uint32_t>>;
+using shapes::Faces;
 
 Builder without(const Builder& solid, std::vector<std::uint32_t> missing) {
   Builder b;

@@ -6,10 +6,11 @@
 #include <radiosity/clusters/cluster_exchange.hpp>
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/clusters/face_clusters.hpp>
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/links/evaluate.hpp>
 #include <radiosity/links/link_schedule.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/outcome.hpp>
@@ -206,7 +207,8 @@ TEST_CASE("a cluster lights no face that looks away") {
   radiosity::Patches patches{surfaces, tree};
   patches.extend(1);
   radiosity::Exposure exposure;
-  radiosity::extend(exposure, prepared.prepared->objects, surfaces, tree, patches, 1, 1);
+  const radiosity::SceneView view{prepared.prepared->objects, prepared.prepared->plan, surfaces, tree, patches};
+  radiosity::extend(exposure, view, 1, 1);
   const radiosity::ShownAreas shown{tree, [&](std::size_t i) { return exposure.area[i]; }};
   std::uint32_t box = 0;
   std::uint32_t plate = 0;
@@ -215,7 +217,7 @@ TEST_CASE("a cluster lights no face that looks away") {
     if (tree[i].object == 1) { plate = i; }
   }
   REQUIRE(box != 0);
-  const radiosity::ClusterSampler sampler{prepared.prepared->objects, tree, patches, &exposure, shown};
+  const radiosity::ClusterSampler sampler{view, &exposure, shown};
   radiosity::Links links{{box, plate}};
   (void)radiosity::evaluate_cluster_link(sampler, tree, links[0], 16, radiosity::Random{1, 2});
   REQUIRE(links[0].exchange > 0.0f);
@@ -252,9 +254,9 @@ TEST_CASE("the schedule of the links holds each once, and in no round a tile twi
   }
   for (std::uint32_t i = 0; i < links.size(); ++i) { links[i].exchange = static_cast<float>(i); }
   const radiosity::Links given = links;
-  std::vector<std::uint32_t> with(links.size());
-  std::iota(with.begin(), with.end(), 0u);
-  radiosity::LinkSchedule::arrange(nodes, links, with);
+  radiosity::MeasuredLinks measured;  // records move whole, and as links alone do
+  for (std::uint32_t i = 0; i < links.size(); ++i) { measured.push_back({links[i], i, {}}); }
+  radiosity::LinkSchedule::arrange(nodes, measured);
   const radiosity::LinkSchedule schedule{nodes, links};
   std::vector<int> seen(links.size(), 0);
   for (const auto& round : schedule.rounds()) {
@@ -263,7 +265,7 @@ TEST_CASE("the schedule of the links holds each once, and in no round a tile twi
       for (std::size_t k = round[b].begin; k < round[b].end; ++k) {
         const radiosity::Link& link = links[k];
         const auto was = static_cast<std::uint32_t>(link.exchange);
-        REQUIRE(with[k] == was);
+        REQUIRE((measured[k].list == was && measured[k].link.exchange == link.exchange));
         REQUIRE((link.p == given[was].p && link.q == given[was].q));
         REQUIRE((k == round[b].begin || links[k - 1].exchange < link.exchange));  // in the order in which they stood
         ++seen[was];

@@ -19,9 +19,10 @@
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/polygons.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/wall_cuts.hpp>
-#include <radiosity/oracle/oracle.hpp>
+#include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
@@ -123,9 +124,9 @@ TEST_CASE("input faces: a wall with windows is one root, with the area, the ligh
     far.normal = -node.normal;
     far.area = far.radius = 1e-3;
     Node many = node;
-    CHECK(radiosity::f_oracle(far, many, 0.1, 0.0) == radiosity::Decision::link);
+    CHECK(radiosity::f_rule(far, many, 0.1, 0.0) == radiosity::Decision::link);
     many.child_count = radiosity::most_linked_parts + 1;
-    CHECK(radiosity::f_oracle(far, many, 0.1, 0.0) == radiosity::Decision::split_q);
+    CHECK(radiosity::f_rule(far, many, 0.1, 0.0) == radiosity::Decision::split_q);
   }
   CHECK(whole == 2);
 }

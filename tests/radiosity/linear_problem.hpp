@@ -62,6 +62,6 @@ struct LinearProblem {
     reflectance[1] = 0.0;  // a black surface among them
     emission[0] = 1.0;
     emission[1] = 0.25;
-    return radiosity::solve_channel(hierarchy, transport, exposure.area, reflectance, emission, solver, residual, 100000);
+    return radiosity::solve_channel(transport, exposure.area, reflectance, emission, {solver, residual, 100000});
   }
 };

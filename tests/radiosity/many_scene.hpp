@@ -80,13 +80,14 @@ inline radiosity::Scene many(std::uint32_t k, Things kind, std::optional<double>
   return scene;
 }
 
-// Without an audit, with clusters from so many input faces.
+// Without an audit, all light by links, with clusters from so many input faces.
 inline radiosity::Options clustered(double epsilon, std::uint32_t from = 2) {
   radiosity::Options options;
   options.epsilon = epsilon;
   options.min_area = 0.02 * epsilon;
   options.audit_points = 0;
   options.threads = 1;
+  options.indirect = radiosity::Indirect::links;
   options.cluster_from = from;
   return options;
 }

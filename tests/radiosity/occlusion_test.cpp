@@ -16,9 +16,9 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/surface.hpp>
-#include <radiosity/oracle/oracle.hpp>
+#include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/occlusion.hpp>
@@ -62,6 +62,7 @@ TEST_CASE("segments of a pair are occluded as its list says, from whichever ance
     const radiosity::Hierarchy& nodes = r.hierarchy;
     radiosity::Patches patches{r.prepared.surfaces, nodes};
     patches.extend(1);
+    const radiosity::SceneView view{r.prepared.objects, r.prepared.plan, r.prepared.surfaces, nodes, patches};
     radiosity::Random random{seed, 1};
     std::uint64_t clear = 0, listed = 0;
     for (int round = 0; round < 4000; ++round) {
@@ -73,12 +74,12 @@ TEST_CASE("segments of a pair are occluded as its list says, from whichever ance
         }
       };
       const std::uint32_t p = leaf(), q = leaf();
-      if (radiosity::f_oracle(nodes[p], nodes[q], 1.0, 0.0) == Decision::drop) { continue; }
+      if (radiosity::face_away(nodes[p], nodes[q])) { continue; }
       OccluderLists lists;
       std::uint32_t index = OccluderLists::none;
       raycast::OccluderList list;
       for (std::uint64_t up = random.bits() % 6 + 1; up-- > 0 && !list.blocked();) {
-        list = lists.of(ancestor(nodes, p, up), ancestor(nodes, q, up), index, r.prepared.objects, r.prepared.plan, patches);
+        list = lists.of(ancestor(nodes, p, up), ancestor(nodes, q, up), index, view);
         if (!list.blocked()) { index = lists.keep(list, index); }
       }
       if (!list.blocked()) { list = lists[index]; }
@@ -104,5 +105,5 @@ TEST_CASE("two plates with a larger box between them are proven hidden from each
   const Refined r = refined(std::move(scene), 0.02);
   CHECK(r.result.pairs_hidden == 1);
   CHECK(r.result.rays.cast == 0);
-  for (const radiosity::Link& link : r.result.links) { CHECK((r.hierarchy[link.p].object == 2 || r.hierarchy[link.q].object == 2)); }
+  for (const radiosity::NodePair& link : r.result.linked) { CHECK((r.hierarchy[link.p].object == 2 || r.hierarchy[link.q].object == 2)); }
 }

@@ -15,6 +15,7 @@
 #include <raycast/objects/sphere.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/picture/reconstruct.hpp>
 #include <radiosity/scene/material.hpp>
@@ -49,11 +50,11 @@ Reconstructed reconstructed(const radiosity::Scene& scene, Reconstruction kind, 
   radiosity::Patches patches{surfaces, r.hierarchy};
   patches.extend(1);
   radiosity::Exposure exposure;
-  radiosity::extend(exposure, r.prepared.objects, surfaces, r.hierarchy, patches, 1, 1);
+  radiosity::extend(exposure, {r.prepared.objects, r.prepared.plan, surfaces, r.hierarchy, patches}, 1, 1);
   for (const radiosity::Node& node : r.hierarchy) { r.radiosity.push_back(radiosity::Color{light(node)}); }
   const std::vector<std::uint32_t> materials(radiosity::surfaces(scene).size(), 0);
   radiosity::eliminate_t_vertices(surfaces);
-  radiosity::reconstruct(surfaces, r.hierarchy, exposure, r.radiosity, materials, kind);
+  (void)radiosity::reconstruct(surfaces, {r.hierarchy, exposure, r.radiosity, materials}, kind);
   return r;
 }
 

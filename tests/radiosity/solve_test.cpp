@@ -53,7 +53,7 @@ TEST_CASE("the residual history falls by rho times the row sum with Jacobi, and 
   const std::vector<double> emission{1.0, 0.0};
   for (const auto& [solver, factor] : {std::pair{Solver::jacobi, 0.4}, std::pair{Solver::gauss_seidel, 0.16}}) {
     const auto solved =
-        radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, reflectance, emission, solver, 1e-10, 1000);
+        radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission, {solver, 1e-10, 1000});
     REQUIRE(solved.history.size() == solved.iterations + 1);
     REQUIRE(solved.history.size() > 5);
     CHECK(solved.history.back() == solved.residual);
@@ -78,8 +78,8 @@ TEST_CASE("conjugate gradients: at most 20 iterations for any reflectance below 
       }
       std::vector<double> emission(12, 0.0);
       emission[2] = 5.0;
-      const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, reflectance, emission,
-                                                   Solver::conjugate_gradients, 1e-10, 100);
+      const auto solved = radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission,
+                                                   {Solver::conjugate_gradients, 1e-10, 100});
       CHECK(solved.converged);
       CHECK(solved.iterations <= 20);
       double emitted = 0.0;
@@ -112,8 +112,8 @@ TEST_CASE("conjugate gradients: two closed rooms that do not see each other have
     std::vector<double> emission(12, 0.0);
     emission[2] = 1.0;
     emission[9] = 7.0;
-    const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, std::vector<double>(12, 1.0 - loss),
-                                                 emission, Solver::conjugate_gradients, 1e-8, 100);
+    const auto solved = radiosity::solve_channel(transport, problem.exposure.area, std::vector<double>(12, 1.0 - loss), emission,
+                                                 {Solver::conjugate_gradients, 1e-8, 100});
     CAPTURE(loss, solved.residual);
     CHECK(solved.converged);
     CHECK(solved.iterations <= 20);
@@ -124,8 +124,8 @@ TEST_CASE("a solver that is stopped too early says so and keeps its best iterate
   LinearProblem problem{8, 0.95, 53};
   Transport transport{problem.hierarchy, problem.links, problem.exposure};
   for (const Solver solver : {Solver::conjugate_gradients, Solver::jacobi, Solver::gauss_seidel, Solver::southwell}) {
-    const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, std::vector<double>(8, 0.99),
-                                                 {1, 0, 0, 0, 0, 0, 0, 0}, solver, 1e-12, 2);
+    const auto solved = radiosity::solve_channel(transport, problem.exposure.area, std::vector<double>(8, 0.99), {1, 0, 0, 0, 0, 0, 0, 0},
+                                                 {solver, 1e-12, 2});
     INFO(name(solver));
     CHECK_FALSE(solved.converged);
     CHECK(solved.residual == *std::min_element(solved.history.begin(), solved.history.end()));
@@ -141,10 +141,9 @@ TEST_CASE("a solver that is cancelled ends within an iteration, but conjugate gr
   const std::vector<radiosity::Color> reflectance(8, radiosity::Color{0.9}), emission(8, radiosity::Color{1.0});
   for (const Solver solver : {Solver::conjugate_gradients, Solver::jacobi, Solver::gauss_seidel, Solver::southwell}) {
     INFO(name(solver));
-    const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, std::vector<double>(8, 0.9),
-                                                 std::vector<double>(8, 1.0), solver, 1e-9, 1000, control);
-    const auto all = radiosity::solve_channels(problem.hierarchy, transport, problem.exposure.area, reflectance, emission, 3, solver, 1e-9,
-                                               1000, control);
+    const auto solved = radiosity::solve_channel(transport, problem.exposure.area, std::vector<double>(8, 0.9), std::vector<double>(8, 1.0),
+                                                 {solver, 1e-9, 1000}, control);
+    const auto all = radiosity::solve_channels(transport, problem.exposure.area, {reflectance, emission, 3}, {solver, 1e-9, 1000}, control);
     CHECK(solved.converged == (solver == Solver::conjugate_gradients));
     CHECK((solved.converged || solved.iterations == 0));
     CHECK(all.cancelled == !solved.converged);
@@ -164,7 +163,7 @@ TEST_CASE("Southwell: an iteration costs what one of Gauss-Seidel does, though t
   std::vector<double> reflectance(things + 2, 0.0), emission(things + 2, 0.0);
   reflectance[0] = reflectance[1] = 1.0;
   emission[0] = 1.0;
-  const auto solved = radiosity::solve_channel(problem.hierarchy, transport, area, reflectance, emission, Solver::southwell, 1e-12, 1);
+  const auto solved = radiosity::solve_channel(transport, area, reflectance, emission, {Solver::southwell, 1e-12, 1});
   REQUIRE(solved.history.size() == 2);
   // Gauss-Seidel goes through 5 nodes a surface and each link twice: 7 things + 12; a shot of each wall takes things + 12. So there are at
   // most 7 pairs of shots and a last one, and each shot leaves 0.8 of the light unshot; as many shots as surfaces would leave 1e-39 of it.
@@ -177,8 +176,8 @@ TEST_CASE("an iteration that diverges is stopped: rho times the row sums above 1
   Transport transport{problem.hierarchy, problem.links, problem.exposure};
   for (std::size_t i = 8; i < problem.hierarchy.size(); ++i) { REQUIRE(transport.row_sums()[i] > 1.2); }
   for (const Solver solver : {Solver::conjugate_gradients, Solver::jacobi, Solver::gauss_seidel}) {
-    const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, std::vector<double>(8, 1.0),
-                                                 {1, 0, 0, 0, 0, 0, 0, 0}, solver, 1e-8, 10000);
+    const auto solved = radiosity::solve_channel(transport, problem.exposure.area, std::vector<double>(8, 1.0), {1, 0, 0, 0, 0, 0, 0, 0},
+                                                 {solver, 1e-8, 10000});
     INFO(name(solver));
     CHECK_FALSE(solved.converged);
     CHECK(solved.iterations < 1000);
@@ -194,7 +193,7 @@ TEST_CASE("a scene without steady state is not reported as solved") {
   const std::vector<double> emission(6, 1.0);
   for (const Solver solver : {Solver::conjugate_gradients, Solver::jacobi}) {
     const auto solved =
-        radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, reflectance, emission, solver, 1e-8, 500);
+        radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission, {solver, 1e-8, 500});
     CHECK_FALSE(solved.converged);
     CHECK(solved.residual > 1e-8);
     for (const double b : solved.radiosity) { CHECK(std::isfinite(b)); }
@@ -204,8 +203,8 @@ TEST_CASE("a scene without steady state is not reported as solved") {
 TEST_CASE("no light, no radiosity, no iteration") {
   LinearProblem problem{4, 0.9, 37};
   Transport transport{problem.hierarchy, problem.links, problem.exposure};
-  const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, std::vector<double>(4, 0.5),
-                                               std::vector<double>(4, 0.0), Solver::conjugate_gradients, 1e-8, 100);
+  const auto solved = radiosity::solve_channel(transport, problem.exposure.area, std::vector<double>(4, 0.5), std::vector<double>(4, 0.0),
+                                               {Solver::conjugate_gradients, 1e-8, 100});
   CHECK(solved.converged);
   CHECK(solved.iterations == 0);
   for (const double b : solved.radiosity) { CHECK(b == 0.0); }

@@ -13,7 +13,7 @@
 #include <radiosity/hierarchy/wall_cuts.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -61,7 +61,7 @@ Work work_of(const radiosity::Scene& scene, double epsilon, double min_area) {
   const radiosity::RefineResult result = radiosity::refine(discrete, {epsilon, min_area, 0.25 * epsilon});
   REQUIRE(result.too_many == 0);
   for (const radiosity::Surface& surface : surfaces) { CHECK(brep::validate(surface.brep).empty()); }
-  return {roots, hierarchy.size(), result.links.size(), static_cast<std::size_t>(result.pairs_tested), area_before, area()};
+  return {roots, hierarchy.size(), result.linked.size(), static_cast<std::size_t>(result.pairs_tested), area_before, area()};
 }
 
 radiosity::Scene lit(std::vector<radiosity::SceneObject> objects) {
@@ -143,7 +143,7 @@ TEST_CASE("what is buried before refinement is what the exposure finds") {
     radiosity::Patches patches{made.prepared->surfaces, roots};
     patches.extend(1);
     radiosity::Exposure exposure;
-    radiosity::extend(exposure, made.prepared->objects, made.prepared->surfaces, roots, patches, 1, seed);
+    radiosity::extend(exposure, {made.prepared->objects, made.prepared->plan, made.prepared->surfaces, roots, patches}, 1, seed);
     const std::vector<bool> buried = radiosity::buried_nodes(made.prepared->surfaces, roots);
     for (std::size_t n = 0; n < roots.size(); ++n) {
       if (buried[n]) { CHECK(exposure.area[n] == 0.0); }

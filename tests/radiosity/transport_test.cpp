@@ -54,7 +54,7 @@ TEST_CASE("transport is symmetric: x . M y = y . M x") {
   }
 }
 
-TEST_CASE("a link with slopes carries what links between its leaves carry whose kernel is linear") {
+TEST_CASE("a link with gradients carries what links between its leaves carry whose kernel is linear") {
   LinearProblem coarse{2, 0.5, 5};
   for (std::uint32_t i = 2; i < 10; ++i) { coarse.exposure.centroid[i] = {0.1 * (i % 4), 0.2 * (i % 3), 0.3 * (i % 2)}; }
   for (std::uint32_t r = 0; r < 2; ++r) {
@@ -62,26 +62,26 @@ TEST_CASE("a link with slopes carries what links between its leaves carry whose 
       coarse.exposure.centroid[r] += coarse.exposure.area[i] / coarse.exposure.area[r] * coarse.exposure.centroid[i];
     }
   }
-  const glm::vec3 slope_p{0.5f, -0.25f, 0.125f};
-  const glm::vec3 slope_q{-0.5f, 0.75f, 0.25f};
-  coarse.links = {{0, 1, 0.3f, slope_p, slope_q}};
+  const glm::vec3 gradient_p{0.5f, -0.25f, 0.125f};
+  const glm::vec3 gradient_q{-0.5f, 0.75f, 0.25f};
+  coarse.links = {{0, 1, 0.3f, radiosity::EndShape::of_patch(gradient_p), radiosity::EndShape::of_patch(gradient_q)}};
   LinearProblem fine = coarse;
   fine.links.clear();
   for (std::uint32_t a = 2; a < 6; ++a) {
     for (std::uint32_t b = 6; b < 10; ++b) {
-      const double kernel = 1.0 + glm::dot(glm::dvec3{slope_p}, coarse.exposure.centroid[a] - coarse.exposure.centroid[0]) +
-                            glm::dot(glm::dvec3{slope_q}, coarse.exposure.centroid[b] - coarse.exposure.centroid[1]);
+      const double kernel = 1.0 + glm::dot(glm::dvec3{gradient_p}, coarse.exposure.centroid[a] - coarse.exposure.centroid[0]) +
+                            glm::dot(glm::dvec3{gradient_q}, coarse.exposure.centroid[b] - coarse.exposure.centroid[1]);
       const double share = coarse.exposure.area[a] / coarse.exposure.area[0] * coarse.exposure.area[b] / coarse.exposure.area[1];
       fine.links.push_back({a, b, static_cast<float>(0.3 * kernel * share)});
     }
   }
   std::vector<double> x(10, 0.0);
   for (std::size_t i = 2; i < 10; ++i) { x[i] = 1.0 + 0.1 * static_cast<double>(i * i); }
-  std::vector<double> by_slopes;
+  std::vector<double> by_gradients;
   std::vector<double> by_leaves;
-  Transport{coarse.hierarchy, coarse.links, coarse.exposure}.apply(x, by_slopes);
+  Transport{coarse.hierarchy, coarse.links, coarse.exposure}.apply(x, by_gradients);
   Transport{fine.hierarchy, fine.links, fine.exposure}.apply(x, by_leaves);
-  for (std::size_t i = 2; i < 10; ++i) { CHECK(by_slopes[i] == test::Approx(by_leaves[i]).epsilon(1e-6)); }  // exchanges are floats
+  for (std::size_t i = 2; i < 10; ++i) { CHECK(by_gradients[i] == test::Approx(by_leaves[i]).epsilon(1e-6)); }  // exchanges are floats
 }
 
 TEST_CASE("a link between roots carries the same as its sixteen leaf links in proportion to area") {
@@ -151,8 +151,8 @@ TEST_CASE("a closed scene has row sums of exactly 1, and a furnace glows evenly 
   for (const double rho : {0.5, 0.99, 0.999999}) {
     const std::vector<double> reflectance(8, rho);
     const std::vector<double> emission(8, 1.0 - rho);
-    const auto solved = radiosity::solve_channel(problem.hierarchy, transport, problem.exposure.area, reflectance, emission,
-                                                 Solver::conjugate_gradients, 1e-13, 100);
+    const auto solved = radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission,
+                                                 {Solver::conjugate_gradients, 1e-13, 100});
     CHECK(solved.iterations <= 20);
     // The residual bounds the error by residual * |E| / (1 - rho) = residual.
     for (const double b : solved.radiosity) { CHECK(std::abs(b - 1.0) < 1e-6); }

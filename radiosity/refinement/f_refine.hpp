@@ -22,6 +22,7 @@
 #include <raycast/shaft.hpp>
 
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/support/parallel.hpp>
@@ -31,9 +32,8 @@
 namespace radiosity {
 
 struct RefineResult {
-  Links links;                       // without their exchange
-  std::vector<std::uint32_t> lists;  // of each link: the index of its list of occluders
-  OccluderLists occluders;
+  std::vector<NodePair> linked;     // pairs that are to be linked
+  OccluderLists occluders;          // of these pairs
   std::uint64_t pairs_tested = 0;   // questions to the oracle
   std::uint64_t pairs_dropped = 0;  // proven to face away from each other
   std::uint64_t pairs_hidden = 0;   // proven to be hidden from each other by one object, or one is buried
@@ -47,35 +47,31 @@ struct RefineResult {
   std::uint64_t too_large = 0;  // bytes that would be needed, at least, when that is more than the budget allows
 };
 
-// 100 million links are 2.4 GB, and 2.8 GB until they are evaluated; a scene that asks for more is refused rather than left to exhaust
+// 100 million links are 2.4 GB, and 3.6 GB while they are made of pairs; a scene that asks for more is refused rather than left to exhaust
 // the memory.
 inline constexpr std::size_t link_limit = 100'000'000;
 
 namespace detail {
 
-struct Pair {
-  std::uint32_t p, q;
-  std::uint32_t list = OccluderLists::none;  // of the pair, or of the pair of ancestors from which it comes
-};
-
-// Asks `oracle(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
+// Asks `ask(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
 // the others keep their list and are shown to `look(pair, list, decision)`, in parallel. Without shortcuts what would be dropped is linked,
 // but for patches of one curved convex solid (plan.hpp).
-template <class Oracle, class Look>
-std::vector<Decision> decide(const DiscreteScene& scene, std::vector<Pair>& pairs, RefineResult& result, const Oracle& oracle,
+template <class Ask, class Look>
+std::vector<Decision> decide(const DiscreteScene& scene, std::vector<NodePair>& pairs, RefineResult& result, const Ask& ask,
                              const Look& look) {
   std::vector<Decision> decisions(pairs.size(), Decision::drop);
+  const SceneView view = scene.view();
   constexpr std::size_t batch = 1 << 14;  // lists of full length that live at a time
   std::vector<raycast::OccluderList> lists(std::min(batch, pairs.size()));
   for (std::size_t first = 0; first < pairs.size(); first += batch) {
     const std::size_t count = std::min(batch, pairs.size() - first);
     parallel_for(count, scene.threads, [&](std::size_t k) {
-      const Pair& pair = pairs[first + k];
+      const NodePair& pair = pairs[first + k];
       Decision& decision = decisions[first + k];
-      decision = oracle(pair.p, pair.q);
+      decision = ask(pair.p, pair.q);
       lists[k] = {};
       if (decision == Decision::drop || decision == Decision::convex) { return; }
-      lists[k] = result.occluders.of(pair.p, pair.q, pair.list, scene.objects, scene.plan, scene.patches);
+      lists[k] = result.occluders.of(pair.p, pair.q, pair.list, view);
       if (lists[k].blocked()) {
         decision = Decision::hide;
       } else {
@@ -107,13 +103,17 @@ std::vector<Decision> decide(const DiscreteScene& scene, std::vector<Pair>& pair
 // `light_epsilon` is 0.
 struct Fineness {
   double epsilon = 0.0, min_area = 0.0, light_epsilon = 0.0;
+  AnyOracle oracle = FOracle{};  // about the form factor
 };
 
+// Which pairs of input faces are linked: all, or those of which one shines. The latter need a hierarchy without clusters.
+enum class Linked { all, lamps };
+
 // Builds the links of the hierarchy, splitting leaves as needed.
-[[nodiscard]] RefineResult refine(DiscreteScene& scene, const Fineness& fineness);
+[[nodiscard]] RefineResult refine(DiscreteScene& scene, const Fineness& fineness, Linked linked = Linked::all);
 
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY
-#include <radiosity/refinement/refine.cpp>
+#include <radiosity/refinement/f_refine.cpp>
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/oracle/oracle.hpp>
+#include <radiosity/oracle/f_oracle.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,8 @@
 
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/oracle/cluster_oracle.hpp>
+#include <radiosity/oracle/oracle.hpp>
 
 namespace radiosity {
 
@@ -58,14 +60,24 @@ HALFLIGHT_INLINE glm::dvec3 nearest_point(const Node& patch, const glm::dvec3& x
   return std::max(estimate, disk_estimate(small.centre, small.normal, nearest_point(large, small.centre), large.normal, large.area));
 }
 
-HALFLIGHT_INLINE Decision f_oracle(const Node& p, const Node& q, double epsilon, double min_area) {
+HALFLIGHT_INLINE bool face_away(const Node& p, const Node& q) {
   const double slack = 1e-9 * (p.radius + q.radius + glm::length(q.centre - p.centre));
-  if (reach_above(p, q) <= slack || reach_above(q, p) <= slack) { return Decision::drop; }
+  return reach_above(p, q) <= slack || reach_above(q, p) <= slack;
+}
+
+HALFLIGHT_INLINE Decision f_rule(const Node& p, const Node& q, double epsilon, double min_area) {
   if (p.in_parts() && p.child_count > most_linked_parts) { return Decision::split_p; }
   if (q.in_parts() && q.child_count > most_linked_parts) { return Decision::split_q; }
   if (form_factor_estimate(p, q) <= epsilon) { return Decision::link; }
   if (std::max(p.area, q.area) <= min_area) { return Decision::link; }
   return q.area > p.area * (1.0 + 0x1p-20) ? Decision::split_q : Decision::split_p;
+}
+
+HALFLIGHT_INLINE Decision FOracle::operator()(const Question& question) const {
+  const Node& p = question.node_p();
+  const Node& q = question.node_q();
+  if (p.is_cluster() || q.is_cluster()) { return ClusterOracle{}(question); }
+  return f_rule(p, q, question.epsilon, question.min_area);
 }
 
 }  // namespace radiosity

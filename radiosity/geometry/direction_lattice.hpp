@@ -11,8 +11,8 @@
 //
 // This is linear in what a cluster sends and receives, so the operator stays linear and, both ends using the same weights, symmetric;
 // it is never negative and never too small; it is exact where n faces all three d_k or none. So a face that looks away from d by
-// more than the mesh of the lattice, 35.3 degrees, is sent exactly nothing, and one that looks away by less the little that is due to the d_k
-// it faces: 1.2 % of all light, averaged over normals and directions.
+// more than the mesh of the lattice, 35.3 degrees, is sent exactly nothing, and one that looks away by less is sent a little, by the d_k
+// that it faces: 1.2 % of all light, averaged over normals and directions.
 
 #include <algorithm>
 #include <array>
@@ -79,5 +79,5 @@ inline void add_shown(const glm::dvec3& normal, double amount, double* bins) {
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY
-#include <radiosity/geometry/directions.cpp>
+#include <radiosity/geometry/direction_lattice.cpp>
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/refinement/refine.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -12,11 +12,13 @@
 #include <raycast/shaft.hpp>
 #include <raycast/transform.hpp>
 
+#include <radiosity/clusters/clusters.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/oracle/light_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>
-#include <radiosity/oracle/pair_oracle.hpp>
+#include <radiosity/oracle/proof_oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
@@ -31,11 +33,13 @@ namespace detail {
 
 // Where refinement begins: with the pair of the root cluster with itself, or all pairs of input faces. In `inner` the input faces whose own
 // parts may face each other.
-HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const PairOracle& oracle, std::vector<Pair>& pairs, RefineResult& result) {
+HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const ProofOracle& proofs, Linked linked, std::vector<NodePair>& pairs,
+                                  RefineResult& result) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const auto count = static_cast<std::uint32_t>(hierarchy.size());
+  const auto counts = [&](std::uint32_t i) { return linked == Linked::all || !is_black(scene.emission[hierarchy[i].surface]); };
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (!is_input_face(hierarchy, i) || oracle.buried(i)) { continue; }
+    if (!is_input_face(hierarchy, i) || proofs.buried(i) || !counts(i)) { continue; }
     const raycast::PlacedObject& object = *scene.surfaces[hierarchy[i].object].object;
     if ((object.inside() || !object.convex()) && !object.flat()) { result.inner.push_back(i); }
   }
@@ -44,23 +48,22 @@ HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const PairOracle& 
     return;
   }
   for (std::uint32_t p = 0; p < count; ++p) {
-    if (!is_input_face(hierarchy, p)) { continue; }
-    for (std::uint32_t q = p + 1; q < count; ++q) {
-      if (!is_input_face(hierarchy, q)) { continue; }
-      if (!oracle.convex(hierarchy[p], hierarchy[q])) {
+    if (!is_input_face(hierarchy, p) || !counts(p)) { continue; }
+    for (std::uint32_t q = linked == Linked::all ? p + 1 : 0; q < count; ++q) {
+      if (!is_input_face(hierarchy, q) || q == p || (q < p && counts(q))) { continue; }
+      if (!proofs.convex(hierarchy[p], hierarchy[q])) {
         pairs.push_back({p, q});
       } else if (scene.plan.shortcuts || hierarchy[p].deviation > 0.0 || hierarchy[q].deviation > 0.0) {
         ++result.pairs_convex;
       } else {
-        result.links.push_back({p, q});
-        result.lists.push_back(OccluderLists::hidden);
+        result.linked.push_back({p, q, OccluderLists::hidden});
       }
     }
   }
 }
 
 // Which roots send light: those that emit, and those that reflect and are reached, over pairs that may be linked, from one that sends.
-HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, const std::vector<Pair>& pairs,
+HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, const std::vector<NodePair>& pairs,
                                                  const std::vector<Decision>& decisions) {
   const Hierarchy& roots = scene.hierarchy;
   std::vector<bool> sends(roots.size(), false), reflects(roots.size(), false);
@@ -85,8 +88,9 @@ struct FRefinement {
   FRefinement(DiscreteScene& of, const Fineness& to)
       : scene{of},
         fineness{to},
-        oracle{of.surfaces, of.hierarchy},
-        light{of.input, of.objects, of.plan, of.patches, of.hierarchy, oracle.shown(), to.light_epsilon, of.seed, oracle.buried()},
+        proofs{of.surfaces, of.hierarchy},
+        shown{of.hierarchy, [&](std::size_t i) { return of.hierarchy[i].area; }},
+        light{of.input, of.view(), shown, to.light_epsilon, of.seed, proofs.buried()},
         min_area{to.min_area * light.scene_area()} {
     const double finer = std::min(1.0, fineness.light_epsilon / (0.25 * fineness.epsilon));
     light_min_area = 0.25 * min_area * finer * finer;
@@ -105,14 +109,23 @@ struct FRefinement {
 
   DiscreteScene& scene;
   Fineness fineness;
-  PairOracle oracle;
+  ProofOracle proofs;
+  ShownAreas shown;  // by the clusters, by the whole area of their faces
   LightOracle light;
   double min_area;  // in the squared unit of the frame
   double light_min_area = 0.0;
-  std::vector<Pair> pairs;  // open
-  std::vector<bool> stuck;  // leaves that the BRep refused to split
+  std::vector<NodePair> pairs;  // open
+  std::vector<bool> stuck;      // leaves that the BRep refused to split
   RefineResult result;
 };
+
+// The answer of an oracle, but no leaf is split for a pair of which neither end is larger than min_area.
+[[nodiscard]] HALFLIGHT_INLINE Decision within_min_area(const Question& question, Decision answer) {
+  if (answer != Decision::split_p && answer != Decision::split_q) { return answer; }
+  const Node& split = answer == Decision::split_p ? question.node_p() : question.node_q();
+  const bool small = std::max(question.node_p().area, question.node_q().area) <= question.min_area;
+  return split.leaf() && small ? Decision::link : answer;
+}
 
 // What to do with each open pair.
 HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
@@ -121,14 +134,18 @@ HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
   std::vector<RayCount> rays(state.pairs.size());
   std::vector<Decision> decisions = decide(
       scene, state.pairs, state.result,
-      [&](std::uint32_t p, std::uint32_t q) { return state.oracle(p, q, state.fineness.epsilon, state.min_area); },
+      [&](std::uint32_t p, std::uint32_t q) {
+        const Question question{scene.hierarchy, p, q, state.shown, state.fineness.epsilon, state.min_area, &state.stuck};
+        const Decision proven = state.proofs(question);
+        return proven == Decision::link ? within_min_area(question, state.fineness.oracle(question)) : proven;
+      },
       [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
-        const auto [p, q, index] = state.pairs[i];
         if (decision != Decision::link || !(state.fineness.light_epsilon > 0.0)) { return; }
-        const std::uint32_t split = state.light.wants_split(p, q, list, rays[i]);
-        if (split != no_node && scene.hierarchy[split].area > state.light_min_area) {
-          decision = split == p ? Decision::split_p : Decision::split_q;
-        }
+        Question question{scene.hierarchy, state.pairs[i].p, state.pairs[i].q, state.shown, state.fineness.light_epsilon};
+        question.min_area = state.light_min_area;
+        question.between = &list;
+        question.rays = &rays[i];
+        decision = state.light(question);
       });
   for (const RayCount& r : rays) { state.result.rays += r; }
   return decisions;
@@ -158,9 +175,9 @@ HALFLIGHT_INLINE void drop_dark_pairs(FRefinement& state, std::vector<Decision>&
   const auto before = static_cast<std::uint32_t>(hierarchy.size());
   std::uint64_t nodes = before;
   for (std::uint32_t i = 0; i < before; ++i) { nodes += asked[i] && hierarchy[i].leaf() ? hierarchy[i].corners : 0; }
-  if (!state.fits(nodes, state.result.links.size(), state.pairs.size())) { return false; }
+  if (!state.fits(nodes, state.result.linked.size(), state.pairs.size())) { return false; }
   for (std::uint32_t i = 0; i < before; ++i) {
-    if (asked[i] && hierarchy[i].leaf() && !subdivide(state.scene.surfaces, hierarchy, i)) { state.stuck[i] = true; }
+    if (asked[i] && hierarchy[i].leaf() && !subdivide(state.scene.surfaces, hierarchy, i, state.scene.meshing)) { state.stuck[i] = true; }
   }
   return true;
 }
@@ -168,7 +185,7 @@ HALFLIGHT_INLINE void drop_dark_pairs(FRefinement& state, std::vector<Decision>&
 // How many pairs the next generation will have; nothing when these, or the links that are made now, are more than there may be.
 [[nodiscard]] HALFLIGHT_INLINE std::optional<std::uint64_t> count_opened(FRefinement& state, const std::vector<Decision>& decisions) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
-  std::uint64_t links = state.result.links.size(), opened = 0;
+  std::uint64_t links = state.result.linked.size(), opened = 0;
   for (std::size_t i = 0; i < state.pairs.size(); ++i) {
     links += decisions[i] == Decision::link ? 1 : 0;
     if (decisions[i] != Decision::split_p && decisions[i] != Decision::split_q) { continue; }
@@ -181,7 +198,7 @@ HALFLIGHT_INLINE void drop_dark_pairs(FRefinement& state, std::vector<Decision>&
 
 // The pairs of the children of `split` with the other node, or with each other.
 HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, std::uint32_t other, std::uint32_t list,
-                              std::vector<Pair>& pairs) {
+                              std::vector<NodePair>& pairs) {
   const std::uint32_t first = hierarchy[split].first_child;
   const std::uint32_t last = first + hierarchy[split].child_count;
   for (std::uint32_t a = first; a < last; ++a) {
@@ -195,7 +212,7 @@ HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, s
 }
 
 // Links the pairs for which that was decided, and replaces those that are split by the pairs of the children.
-HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Decision>& decisions, std::vector<Pair>& next) {
+HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Decision>& decisions, std::vector<NodePair>& next) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   for (std::size_t i = 0; i < state.pairs.size(); ++i) {
     const auto [p, q, list] = state.pairs[i];
@@ -209,14 +226,13 @@ HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Deci
     if (split_p || split_q) {
       split_p ? descend(hierarchy, p, q, list, next) : descend(hierarchy, q, p, list, next);
     } else {
-      state.result.links.push_back({p, q});
-      state.result.lists.push_back(list);
+      state.result.linked.push_back(state.pairs[i]);
     }
   }
 }
 
-// Parts of one hollow face see each other.
-HALFLIGHT_INLINE void descend_inner(FRefinement& state, std::vector<Pair>& next) {
+// The children of a concave curved face see each other.
+HALFLIGHT_INLINE void descend_inner(FRefinement& state, std::vector<NodePair>& next) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   std::vector<std::uint32_t> still_inner;
   for (const std::uint32_t p : state.result.inner) {
@@ -236,23 +252,23 @@ HALFLIGHT_INLINE void descend_inner(FRefinement& state, std::vector<Pair>& next)
 
 }  // namespace detail
 
-HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& fineness) {
+HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& fineness, Linked linked) {
   detail::FRefinement state{scene, fineness};
   RefineResult& result = state.result;
-  const std::uint64_t all_pairs = scene.clustered() ? 0 : scene.hierarchy.size() * scene.hierarchy.size() / 2;
+  const std::uint64_t all_pairs = scene.clustered() || linked == Linked::lamps ? 0 : scene.hierarchy.size() * scene.hierarchy.size() / 2;
   if (!state.few_enough(all_pairs) || !state.fits(scene.hierarchy.size(), 0, scene.clustered() ? 1 : all_pairs)) {
     return std::move(result);
   }
-  detail::first_pairs(scene, state.oracle, state.pairs, result);
+  detail::first_pairs(scene, state.proofs, linked, state.pairs, result);
   while (!state.pairs.empty()) {
     result.cancelled = scene.control.cancelled();
-    if (result.cancelled || !state.few_enough(result.links.size() + state.pairs.size())) { break; }
+    if (result.cancelled || !state.few_enough(result.linked.size() + state.pairs.size())) { break; }
     std::vector<Decision> decisions = detail::ask_oracles(state);
     if (result.generations == 0 && !scene.plan.closed && !scene.clustered()) { detail::drop_dark_pairs(state, decisions); }
     if (!detail::split_leaves(state, decisions)) { break; }
     const std::optional<std::uint64_t> opened = detail::count_opened(state, decisions);
     if (!opened) { break; }
-    std::vector<detail::Pair> next;
+    std::vector<NodePair> next;
     next.reserve(*opened);
     detail::link_or_descend(state, decisions, next);
     detail::descend_inner(state, next);

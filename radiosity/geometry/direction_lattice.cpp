@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/geometry/directions.hpp>
+#include <radiosity/geometry/direction_lattice.hpp>
 
 #include <algorithm>
 #include <array>

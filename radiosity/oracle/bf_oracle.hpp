@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The BF-oracle (paper 4.4): which end of a link is split whose error is one of the largest. That which errs more; where it cannot be split
+// any more, the other, if that would mend a quarter of the error at least, or is a cluster. A leaf alone is split by itself.
+
+#include <algorithm>
+
+#include <radiosity/oracle/oracle.hpp>
+
+namespace radiosity {
+
+struct BfOracle {
+  [[nodiscard]] Decision operator()(const Question& question) const {
+    if (question.p == question.q) { return question.can_split(question.p) ? Decision::split_p : Decision::link; }
+    const LinkError& e = *question.error;
+    const bool p_first = e.p >= e.q;
+    if (question.can_split(p_first ? question.p : question.q)) { return p_first ? Decision::split_p : Decision::split_q; }
+    const std::uint32_t second = p_first ? question.q : question.p;
+    const bool helps = question.hierarchy[second].is_cluster() || std::min(e.p, e.q) >= 0.25f * e.sum();
+    if (question.can_split(second) && helps) { return p_first ? Decision::split_q : Decision::split_p; }
+    return Decision::link;
+  }
+};
+static_assert(Oracle<BfOracle>);
+
+}  // namespace radiosity

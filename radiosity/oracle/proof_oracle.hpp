@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Which pairs of nodes are proven not to see each other, whatever stands between them: faces in one plane or on one convex solid, faces
+// that are buried, and patches that face away from each other. Asked about every pair before any other oracle.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <raycast/transform.hpp>
+
+#include <radiosity/hierarchy/buried.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/oracle/f_oracle.hpp>
+#include <radiosity/oracle/oracle.hpp>
+
+namespace radiosity {
+
+class ProofOracle {
+ public:
+  // The references must outlive the oracle; the hierarchy holds clusters and input faces when it is made, and may grow.
+  ProofOracle(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy)
+      : surfaces_{&surfaces}, buried_{buried_nodes(surfaces, hierarchy)} {}
+
+  // Do both lie in one plane or on one convex solid?
+  [[nodiscard]] bool convex(const Node& a, const Node& b) const {
+    if (a.object != b.object || a.object == no_node) { return false; }
+    const raycast::PlacedObject& object = *(*surfaces_)[a.object].object;
+    const bool sees_itself = object.inside() || !object.convex();
+    return !sees_itself || (object.flat() && a.surface == b.surface && a.surface != no_node);
+  }
+  // Of a node that was there when the oracle was made: is nothing of it to be seen?
+  [[nodiscard]] bool buried(std::uint32_t i) const { return i < buried_.size() && buried_[i]; }
+  [[nodiscard]] const std::vector<bool>& buried() const { return buried_; }
+  // A proof, or link when there is none. A cluster and itself is split.
+  [[nodiscard]] Decision operator()(const Question& question) const {
+    const Node& p = question.node_p();
+    const Node& q = question.node_q();
+    if (convex(p, q)) { return Decision::convex; }
+    if (buried(question.p) || buried(question.q)) { return Decision::hide; }
+    if (question.p == question.q) { return Decision::split_p; }
+    return !p.is_cluster() && !q.is_cluster() && face_away(p, q) ? Decision::drop : Decision::link;
+  }
+
+ private:
+  const std::vector<Surface>* surfaces_;
+  std::vector<bool> buried_;
+};
+static_assert(Oracle<ProofOracle>);
+
+}  // namespace radiosity

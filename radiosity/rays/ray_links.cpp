@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/rays/ray_links.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/rays/stored_rays.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/scene/material.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// The largest radius of an ancestor, relative to the length of a ray that is counted for it and to the distance of what its leaves see.
+inline constexpr double most_pooled = 0.4;
+
+// One ray, counted for two nodes.
+struct RayPart {
+  std::uint32_t p = no_node, q = no_node;  // p < q
+  float exchange = 0.0f;
+  glm::vec3 at_p{0.0f}, at_q{0.0f};
+};
+
+// Finds the nodes for which rays are counted.
+class Pooling {
+ public:
+  Pooling(const DiscreteScene& scene, const StoredRays& rays) : hierarchy_{&scene.hierarchy}, nearness_(scene.hierarchy.size(), 0.0) {
+    const Hierarchy& hierarchy = *hierarchy_;
+    std::vector<double> area(hierarchy.size(), 0.0);  // of the leaves below that cast rays
+    for (std::size_t i = hierarchy.size(); i-- > 0;) {
+      if (rays.count(i) > 0) {
+        area[i] = scene.exposure.area[i];
+        nearness_[i] = area[i] * rays.nearness(i);
+      }
+      if (hierarchy[i].parent != no_node) {
+        area[hierarchy[i].parent] += area[i];
+        nearness_[hierarchy[i].parent] += nearness_[i];
+      }
+      if (area[i] > 0.0) { nearness_[i] /= area[i]; }
+    }
+  }
+
+  [[nodiscard]] std::uint32_t node(std::uint32_t leaf, double length) const {
+    const Hierarchy& hierarchy = *hierarchy_;
+    std::uint32_t i = leaf;
+    for (std::uint32_t up = hierarchy[i].parent; up != no_node && !hierarchy[up].is_cluster(); up = hierarchy[i].parent) {
+      if (hierarchy[up].radius > most_pooled * length || hierarchy[up].radius * nearness_[up] > most_pooled) { break; }
+      i = up;
+    }
+    return i;
+  }
+
+ private:
+  const Hierarchy* hierarchy_;
+  std::vector<double> nearness_;  // 1 / harmonic mean distance of what the leaves of each node see
+};
+
+// All rays between leaves of which neither shines.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<RayPart> parts_of(const DiscreteScene& scene, const StoredRays& rays, RayLinks& result) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const Pooling pooling{scene, rays};
+  std::vector<RayPart> parts;
+  parts.reserve(rays.size());
+  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
+    std::size_t carried = 0;
+    for (const StoredRay& ray : rays.of(i)) {
+      if (ray.to == no_node || !(result.density[ray.to] > 0.0)) { continue; }
+      ++carried;
+      if (ray.to == i) { continue; }  // a hollow leaf sees itself: what it sees of others stands for that as well
+      const auto length = static_cast<double>(ray.length);
+      std::uint32_t p = pooling.node(i, length);
+      std::uint32_t q = pooling.node(ray.to, length);
+      if (p == q) {  // a hollow patch that sees itself
+        p = i;
+        q = ray.to;
+      }
+      const auto exchange = static_cast<float>(1.0 / (result.density[i] + result.density[ray.to]));
+      parts.push_back(p < q ? RayPart{p, q, exchange, ray.start, ray.end} : RayPart{q, p, exchange, ray.end, ray.start});
+    }
+    if (rays.count(i) > 0) { result.share[i] = static_cast<double>(carried) / static_cast<double>(rays.count(i)); }
+  }
+  return parts;
+}
+
+// The link of parts that are all of the same pair.
+[[nodiscard]] HALFLIGHT_INLINE Link pooled_link(const DiscreteScene& scene, const std::vector<RayPart>& parts,
+                                                std::span<const std::uint32_t> of) {
+  const std::uint32_t p = parts[of.front()].p;
+  const std::uint32_t q = parts[of.front()].q;
+  double sum = 0.0;
+  glm::dvec3 moment_p{0.0};
+  glm::dvec3 moment_q{0.0};
+  for (const std::uint32_t k : of) {
+    const auto exchange = static_cast<double>(parts[k].exchange);
+    sum += exchange;
+    moment_p += exchange * (glm::dvec3{parts[k].at_p} - scene.exposure.centroid[p]);
+    moment_q += exchange * (glm::dvec3{parts[k].at_q} - scene.exposure.centroid[q]);
+  }
+  Link link{p, q, static_cast<float>(sum), {}, {}};
+  if (!scene.hierarchy[p].leaf()) { link.shape_p = EndShape::of_patch(glm::vec3{scene.patches[p].inverse_inertia * (moment_p / sum)}); }
+  if (!scene.hierarchy[q].leaf()) { link.shape_q = EndShape::of_patch(glm::vec3{scene.patches[q].inverse_inertia * (moment_q / sum)}); }
+  return link;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, const std::vector<std::uint32_t>& spaced, double mean) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const std::vector<double>& area = scene.exposure.area;
+  double all = 0.0;
+  double roots = 0.0;
+  for (const std::uint32_t i : spaced) {
+    all += area[i];
+    roots += std::sqrt(area[i]);
+  }
+  std::vector<double> wanted(hierarchy.size(), 0.0);
+  for (const std::uint32_t i : spaced) { wanted[i] = all > 0.0 ? mean * std::sqrt(area[i]) * roots / all : 0.0; }
+  std::vector<std::uint32_t> counts(hierarchy.size(), 0);
+  constexpr double least = 32.0;                        // fewer tell too little of what is near a leaf
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
+    const Node& node = hierarchy[i];
+    if (!(wanted[i] > 0.0)) { continue; }
+    if (node.leaf()) { counts[i] = static_cast<std::uint32_t>(std::max(least, std::round(wanted[i]))); }
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { wanted[c] = wanted[i] * area[c] / area[i]; }
+  }
+  return counts;
+}
+
+HALFLIGHT_INLINE double rays_per_node(double epsilon) { return std::clamp(12.8 / std::sqrt(epsilon), 16.0, 4096.0); }
+
+// The variance of the share s of n rays is s (1 - s) / n; that of the row sum, which pools the rays of the spaced node in both directions, some
+// s / 2m, m the rays of that node. Each counts by the inverse of its variance.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<double> trust_in(const Hierarchy& hierarchy, const StoredRays& rays,
+                                                            const std::vector<double>& share, const std::vector<std::uint32_t>& spaced) {
+  std::vector<double> of_node(hierarchy.size(), 0.0);
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {
+    of_node[i] += static_cast<double>(rays.count(i));
+    if (hierarchy[i].parent != no_node) { of_node[hierarchy[i].parent] += of_node[i]; }
+  }
+  std::vector<double> pooled(hierarchy.size(), 0.0);
+  for (const std::uint32_t i : spaced) { pooled[i] = of_node[i]; }
+  std::vector<double> trust(hierarchy.size(), 0.0);
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
+    const Node& node = hierarchy[i];
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { pooled[c] = std::max(pooled[c], pooled[i]); }
+    if (of_node[i] > 0.0 && node.leaf()) { trust[i] = of_node[i] / (of_node[i] + 2.0 * (1.0 - share[i]) * pooled[i]); }
+  }
+  return trust;
+}
+
+HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays, const std::vector<std::uint32_t>& spaced) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const std::vector<double>& area = scene.exposure.area;
+  RayLinks result;
+  result.rays = rays.size();
+  result.share.assign(hierarchy.size(), 0.0);
+  result.density.assign(hierarchy.size(), 0.0);
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {  // first the numbers of rays
+    result.density[i] += static_cast<double>(rays.count(i));
+    if (hierarchy[i].parent != no_node) { result.density[hierarchy[i].parent] += result.density[i]; }
+    result.density[i] = area[i] > 0.0 ? result.density[i] / area[i] : 0.0;
+  }
+  const std::vector<detail::RayPart> parts = detail::parts_of(scene, rays, result);
+  result.trust = trust_in(hierarchy, rays, result.share, spaced);
+  // Parts by p, then by q.
+  std::vector<std::size_t> first(hierarchy.size() + 1, 0);
+  for (const detail::RayPart& part : parts) { ++first[part.p + 1]; }
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) { first[i + 1] += first[i]; }
+  std::vector<std::uint32_t> order(parts.size());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  for (std::uint32_t k = 0; k < parts.size(); ++k) { order[next[parts[k].p]++] = k; }
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    const std::span<std::uint32_t> of_p = std::span(order).subspan(first[i], first[i + 1] - first[i]);
+    std::sort(of_p.begin(), of_p.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return parts[a].q != parts[b].q ? parts[a].q < parts[b].q : a < b; });
+    for (std::size_t begin = 0, end = 0; begin < of_p.size(); begin = end) {
+      while (end < of_p.size() && parts[of_p[end]].q == parts[of_p[begin]].q) { ++end; }
+      const Link link = detail::pooled_link(scene, parts, of_p.subspan(begin, end - begin));
+      const double variance = static_cast<double>(link.exchange) / (result.density[link.p] + result.density[link.q]);
+      result.doubt.add(link.p, link.q, {0.0f, 0.0f, static_cast<float>(variance / area[link.p] + variance / area[link.q]), 0.0f, 0.0f});
+      result.links.push_back(link);
+    }
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE double RayLinks::noise(const DiscreteScene& scene, const Links& made, const std::vector<Color>& radiosity) const {
+  const std::vector<double>& area = scene.exposure.area;
+  struct Arrived {
+    double exchange = 0.0;
+    Color light{0.0};
+  };
+  std::vector<Arrived> arrived(scene.hierarchy.size());
+  const auto each_end = [&](const auto& visit) {
+    for (const Link& link : made) {
+      const auto exchange = static_cast<double>(link.exchange);
+      visit(link.p, link.q, exchange);
+      visit(link.q, link.p, exchange);
+    }
+  };
+  each_end([&](std::uint32_t to, std::uint32_t from, double exchange) {
+    arrived[to].exchange += exchange;
+    arrived[to].light += exchange * radiosity[from];
+  });
+  double square = 0.0;
+  each_end([&](std::uint32_t to, std::uint32_t from, double exchange) {
+    const double variance = exchange / (density[to] + density[from]);
+    const Color off = scene.reflectance[scene.hierarchy[to].surface] * (radiosity[from] - arrived[to].light / arrived[to].exchange);
+    square += variance / area[to] * glm::dot(off, off);
+  });
+  return square;
+}
+
+}  // namespace radiosity

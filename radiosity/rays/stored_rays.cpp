@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/rays/stored_rays.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/bundle.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/rays/leaf_locator.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/support/parallel.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/support/sobol.hpp>
+#include <radiosity/visibility/visibility.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE StoredRays::StoredRays(const std::vector<std::uint32_t>& counts) : first_(counts.size() + 1, 0) {
+  for (std::size_t i = 0; i < counts.size(); ++i) { first_[i + 1] = first_[i] + counts[i]; }
+  rays_.resize(first_.back());
+}
+
+HALFLIGHT_INLINE double StoredRays::nearness(std::size_t node) const {
+  double sum = 0.0;
+  for (const StoredRay& ray : of(node)) { sum += ray.length > 0.0f ? 1.0 / static_cast<double>(ray.length) : 0.0; }
+  return count(node) > 0 ? sum / static_cast<double>(count(node)) : 0.0;
+}
+
+namespace detail {
+
+// One leaf as the rays see it that start there.
+struct RayOrigins {
+  RayOrigins(const DiscreteScene& scene, std::size_t leaf)
+      : node{scene.hierarchy[leaf]},
+        patch{scene.patches[leaf]},
+        object{scene.objects.object(node.object)},
+        sheet{node.surface - scene.surfaces[node.object].first_surface},
+        exposed{leaf < scene.exposure.area.size() ? scene.exposure.points(leaf) : nullptr},
+        numbers{scene.seed, leaf, 0x72617973ull} {}
+
+  // Point and direction of ray k; u: coordinates of an even sequence.
+  [[nodiscard]] raycast::SurfacePoint start(const std::array<double, 4>& u) {
+    const auto cell = static_cast<std::uint32_t>(u[1] * 4.0) * 4 + static_cast<std::uint32_t>(u[0] * 4.0);
+    const glm::dvec3 x = exposed != nullptr ? exposed->draw(patch, cell, numbers) : sample(patch, u[0], u[1]);
+    return object.flat() ? raycast::SurfacePoint{x, patch.normal} : object.project(sheet, x);
+  }
+
+  const Node& node;
+  const Patch& patch;
+  const raycast::PlacedObject& object;
+  std::uint32_t sheet;
+  const ExposedPoints* exposed;
+  Random numbers;  // where a part of the leaf is buried
+};
+
+HALFLIGHT_INLINE void cast_from_leaf(const DiscreteScene& scene, const LeafLocator& locator, std::size_t leaf, std::span<StoredRay> rays) {
+  RayOrigins origins{scene, leaf};
+  const Sobol4 sequence{scene.seed, leaf};
+  const double reach = scene.objects.diameter();
+  for (std::size_t first = 0; first < rays.size(); first += 16) {
+    raycast::Segments16 segments;
+    const auto count = static_cast<unsigned>(std::min<std::size_t>(16, rays.size() - first));
+    for (unsigned k = 0; k < count; ++k) {
+      const std::array<double, 4> u = sequence(static_cast<std::uint32_t>(first) + k);
+      const raycast::SurfacePoint start = origins.start(u);
+      rays[first + k].start = start.position;
+      segments.set(k, {start.position, reach * cosine_direction(start.normal, u[2], u[3])}, origins.node.object, raycast::no_object);
+    }
+    const raycast::Hits16 hits = scene.objects.closest16(segments);
+    for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
+      const auto k = static_cast<unsigned>(std::countr_zero(rest));
+      const raycast::Hit& hit = hits.hit[k];
+      if (!hit.front) { continue; }
+      const raycast::PlacedObject& met = scene.objects.object(hit.object);
+      raycast::SurfacePoint end{segments.at(k).at(hit.t), glm::dvec3{0.0}};
+      if (!met.flat()) { end = met.project(hit.sheet, end.position); }
+      StoredRay& ray = rays[first + k];
+      ray.to = locator(scene.surfaces[hit.object].first_surface + hit.sheet, end);
+      ray.end = end.position;
+      ray.length = static_cast<float>(hit.t * reach);
+    }
+  }
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts) {
+  StoredRays rays{counts};
+  constexpr std::size_t batch = 1 << 12;  // leaves between two reports
+  for (std::size_t first = 0; first < counts.size() && !scene.control.cancelled(); first += batch) {
+    const std::size_t last = std::min(first + batch, counts.size());
+    parallel_for(
+        last - first, scene.threads,
+        [&](std::size_t k) {
+          if (counts[first + k] > 0) { detail::cast_from_leaf(scene, locator, first + k, rays.of(first + k)); }
+        },
+        16);
+  }
+  return rays;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Rays that leave the leaves of the hierarchy, kept with the leaf that each of them meets.
+//
+// They start at points even over a leaf, in directions of density cos / pi, so the share of them that meets another leaf estimates the form
+// factor to it, with all that stands between (Malley 1988). Start and end lie on the true surfaces, not on the patches. Only rays that meet
+// the front of a leaf are kept.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/rays/leaf_locator.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+
+namespace radiosity {
+
+struct StoredRay {
+  std::uint32_t to = no_node;  // a leaf; no_node: the ray met nothing, a back, or something without a leaf
+  float length = 0.0f;
+  glm::vec3 start{0.0f}, end{0.0f};
+};
+
+// In the order of the nodes, so many of each.
+class StoredRays {
+ public:
+  StoredRays() = default;
+  explicit StoredRays(const std::vector<std::uint32_t>& counts);
+
+  [[nodiscard]] std::span<const StoredRay> of(std::size_t node) const { return std::span(rays_).subspan(first_[node], count(node)); }
+  [[nodiscard]] std::span<StoredRay> of(std::size_t node) { return std::span(rays_).subspan(first_[node], count(node)); }
+  [[nodiscard]] std::size_t count(std::size_t node) const { return first_[node + 1] - first_[node]; }
+  [[nodiscard]] std::size_t size() const { return rays_.size(); }
+
+  // 1 / the harmonic mean of the lengths of a node's rays; those that met nothing count as infinitely long. 0 without rays.
+  [[nodiscard]] double nearness(std::size_t node) const;
+
+ private:
+  std::vector<std::size_t> first_{0};
+  std::vector<StoredRay> rays_;
+};
+
+// Casts counts[i] rays from leaf i, from what is exposed of it where that is known. Ends early, with rays missing, when the scene's control
+// says so.
+[[nodiscard]] StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts);
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/rays/stored_rays.cpp>
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The parts of a run's scene that form factors, visibility and exposure read.
+
+#include <vector>
+
+#include <raycast/scene.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/visibility/plan.hpp>
+
+namespace radiosity {
+
+class Patches;
+
+// The references must outlive this; the hierarchy, and with it surfaces and patches, may grow.
+struct SceneView {
+  const raycast::Scene& objects;  // in the frame
+  const Plan& plan;
+  const std::vector<Surface>& surfaces;  // boundary of each object
+  const Hierarchy& hierarchy;            // over the faces of the boundaries
+  const Patches& patches;                // of each node
+};
+
+}  // namespace radiosity
