@@ -96,7 +96,7 @@ class BRep {
   // The loop of f is walked from its anchor. `h` must lie on the loop of f.
   void set_anchor(FaceId f, HalfedgeId h) {
     assert(alive(h) && face(h) == f);
-    if constexpr (logs) log_.record({Operator::set_anchor, false, h, halfedge(f), {}, {}, {}, {}, {}});
+    if constexpr (logs) { log_.record({Operator::set_anchor, false, h, halfedge(f), {}, {}, {}, {}, {}}); }
     faces_[f.index].halfedge = h;
   }
 
@@ -198,27 +198,27 @@ struct Raw {
   template <class B>
   static VertexId new_vertex(B& brep) {
     const VertexId v{brep.vertices_.allocate()};
-    if constexpr (B::logs) brep.log_.give_back(brep.data(v));
+    if constexpr (B::logs) { brep.log_.give_back(brep.data(v)); }
     return v;
   }
   template <class B>
   static VertexId new_vertex(B& brep, VertexId parent) {
     const VertexId v{brep.vertices_.allocate()};
     inherit_vertex(brep.data(v), brep.data(parent));
-    if constexpr (B::logs) brep.log_.give_back(brep.data(v));
+    if constexpr (B::logs) { brep.log_.give_back(brep.data(v)); }
     return v;
   }
   template <class B>
   static FaceId new_face(B& brep) {
     const FaceId f{brep.faces_.allocate()};
-    if constexpr (B::logs) brep.log_.give_back(brep.data(f));
+    if constexpr (B::logs) { brep.log_.give_back(brep.data(f)); }
     return f;
   }
   template <class B>
   static FaceId new_face(B& brep, FaceId parent) {
     const FaceId f{brep.faces_.allocate()};
     inherit_face(brep.data(f), brep.data(parent));
-    if constexpr (B::logs) brep.log_.give_back(brep.data(f));
+    if constexpr (B::logs) { brep.log_.give_back(brep.data(f)); }
     return f;
   }
 
@@ -233,12 +233,12 @@ struct Raw {
   }
   template <class B>
   static void kill(B& brep, VertexId v) {
-    if constexpr (B::logs) brep.log_.keep(brep.data(v));
+    if constexpr (B::logs) { brep.log_.keep(brep.data(v)); }
     brep.vertices_.release(v.index);
   }
   template <class B>
   static void kill(B& brep, FaceId f) {
-    if constexpr (B::logs) brep.log_.keep(brep.data(f));
+    if constexpr (B::logs) { brep.log_.keep(brep.data(f)); }
     brep.faces_.release(f.index);
   }
 };

@@ -49,7 +49,7 @@ class Stitching {
 
   // Fills the empty BRep. False: the builder is not sound, and the BRep is rubbish.
   [[nodiscard]] bool run() {
-    if (builder_.corner_count() % 2 != 0 || !make_vertices()) return false;
+    if (builder_.corner_count() % 2 != 0 || !make_vertices()) { return false; }
     make_faces();
     Raw::halfedges(brep_).append(static_cast<std::uint32_t>(edges_));
     links_ = std::make_unique_for_overwrite<Link[]>(edges_);
@@ -78,7 +78,7 @@ class Stitching {
       const glm::dvec3& p = builder_.position(v);
       finite = finite & (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
       [[maybe_unused]] auto& data = pool.data(v);
-      if constexpr (requires { data.position = p; }) data.position = p;
+      if constexpr (requires { data.position = p; }) { data.position = p; }
     }
     return finite;
   }
@@ -88,7 +88,7 @@ class Stitching {
     pool.append(builder_.face_count());
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
       [[maybe_unused]] auto& data = pool.data(f);
-      if constexpr (requires { data.sheet = builder_.sheet(f); }) data.sheet = builder_.sheet(f);
+      if constexpr (requires { data.sheet = builder_.sheet(f); }) { data.sheet = builder_.sheet(f); }
     }
   }
 
@@ -96,7 +96,7 @@ class Stitching {
     degrees_.assign(builder_.vertex_count(), 0);
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
       for (std::uint32_t v : builder_.corners(f)) {
-        if (v < degrees_.size()) ++degrees_[v];
+        if (v < degrees_.size()) { ++degrees_[v]; }
       }
     }
   }
@@ -110,8 +110,8 @@ class Stitching {
       const bool sound = corners.size() == 4   ? make_face<by_degree>(FaceId{i}, corners.data(), std::make_index_sequence<4>())
                          : corners.size() == 3 ? make_face<by_degree>(FaceId{i}, corners.data(), std::make_index_sequence<3>())
                                                : make_face<by_degree>(FaceId{i}, corners);
-      if (!sound) return false;
-      if (!by_degree && too_many_steps()) return false;
+      if (!sound) { return false; }
+      if (!by_degree && too_many_steps()) { return false; }
     }
     return true;
   }
@@ -121,9 +121,9 @@ class Stitching {
   template <bool by_degree, std::size_t... k>
   bool make_face(FaceId f, const std::uint32_t* corners, std::index_sequence<k...>) {
     constexpr std::size_t n = sizeof...(k);
-    if (!are_different(corners, n)) return false;
+    if (!are_different(corners, n)) { return false; }
     const HalfedgeId h[n] = {find<by_degree>(corners[k], corners[(k + 1) % n])...};
-    if ((... || !h[k].valid())) return false;
+    if ((... || !h[k].valid())) { return false; }
     ((Raw::at(brep_, h[k]) = {h[(k + 1) % n], h[(k + n - 1) % n], VertexId{corners[k]}, f}), ...);
     ((Raw::at(brep_, VertexId{corners[k]}).halfedge = h[k]), ...);
     Raw::at(brep_, f).halfedge = h[0];
@@ -132,11 +132,11 @@ class Stitching {
 
   template <bool by_degree>
   bool make_face(FaceId f, std::span<const std::uint32_t> corners) {
-    if (!are_different(corners.data(), corners.size())) return false;
+    if (!are_different(corners.data(), corners.size())) { return false; }
     HalfedgeId first{}, before{};
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const HalfedgeId h = find<by_degree>(corners[k], corners[k + 1 < corners.size() ? k + 1 : 0]);
-      if (!h.valid()) return false;
+      if (!h.valid()) { return false; }
       Raw::at(brep_, h) = {h, before, VertexId{corners[k]}, f};
       Raw::at(brep_, VertexId{corners[k]}).halfedge = h;
       k == 0 ? first = h : Raw::at(brep_, before).next = h;
@@ -151,20 +151,20 @@ class Stitching {
   // At least three corners, all of them vertices, none twice.
   [[gnu::always_inline]] bool are_different(const std::uint32_t* corners, std::size_t n) {
     bool wrong = n < 3;
-    for (std::size_t k = 0; k < n; ++k) wrong = wrong | (corners[k] >= vertices_);
+    for (std::size_t k = 0; k < n; ++k) { wrong = wrong | (corners[k] >= vertices_); }
     if (n <= 16) {
       for (std::size_t k = 1; k < n; ++k) {
-        for (std::size_t j = 0; j < k; ++j) wrong = wrong | (corners[j] == corners[k]);
+        for (std::size_t j = 0; j < k; ++j) { wrong = wrong | (corners[j] == corners[k]); }
       }
       return !wrong;
     }
-    if (wrong) return false;
-    if (seen_.empty()) seen_.assign(vertices_, false);
+    if (wrong) { return false; }
+    if (seen_.empty()) { seen_.assign(vertices_, false); }
     for (std::size_t k = 0; k < n; ++k) {
       wrong = wrong || seen_[corners[k]];
       seen_[corners[k]] = true;
     }
-    for (std::size_t k = 0; k < n; ++k) seen_[corners[k]] = false;
+    for (std::size_t k = 0; k < n; ++k) { seen_[corners[k]] = false; }
     return !wrong;
   }
 
@@ -172,7 +172,7 @@ class Stitching {
   template <bool by_degree>
   [[gnu::always_inline]] HalfedgeId find(std::uint32_t u, std::uint32_t w) {
     bool at_u = u < w;
-    if constexpr (by_degree) at_u = degrees_[u] != degrees_[w] ? degrees_[u] < degrees_[w] : at_u;
+    if constexpr (by_degree) { at_u = degrees_[u] != degrees_[w] ? degrees_[u] < degrees_[w] : at_u; }
     std::uint32_t& head = heads_[at_u ? u : w];
     const std::uint32_t key = 2 * (at_u ? w : u) + (at_u ? 1 : 0);
     std::size_t steps = 0;
@@ -180,14 +180,14 @@ class Stitching {
       Link& link = links_[e];
       const std::uint32_t difference = link.key ^ key;
       if (difference <= 1) {
-        if (difference == 0 || (link.next & matched) != 0) return {};
+        if (difference == 0 || (link.next & matched) != 0) { return {}; }
         link.next |= matched;
         return HalfedgeId{2 * e + 1};
       }
       e = link.next & ~matched;
     }
-    if constexpr (!by_degree) steps_ += steps;
-    if (used_ == edges_) return {};
+    if constexpr (!by_degree) { steps_ += steps; }
+    if (used_ == edges_) { return {}; }
     links_[used_] = {key, head};
     head = static_cast<std::uint32_t>(used_);
     return HalfedgeId{2 * static_cast<std::uint32_t>(used_++)};
@@ -197,7 +197,7 @@ class Stitching {
     std::size_t met = 0;
     for (std::uint32_t v = 0; v < builder_.vertex_count(); ++v) {
       const HalfedgeId anchor = brep_.halfedge(VertexId{v});
-      if (!anchor.valid()) return false;
+      if (!anchor.valid()) { return false; }
       HalfedgeId h = anchor;
       do {
         h = brep_.next(twin(h));
@@ -235,9 +235,9 @@ template <class B, class... Allocator>
   static_assert(sizeof...(Allocator) <= 1);
   BuildResult<B> result;
   detail::Assembly assembly;  // the faces that are given by their edges, as corners
-  if (!builder.edges().empty()) assembly = detail::Assembler(builder).run();
+  if (!builder.edges().empty()) { assembly = detail::Assembler(builder).run(); }
   const Builder& corners = builder.edges().empty() ? builder : assembly.builder;
-  if (assembly.defects.empty() && detail::Stitching<B>(result.brep.emplace(allocator...), corners).run()) return result;
+  if (assembly.defects.empty() && detail::Stitching<B>(result.brep.emplace(allocator...), corners).run()) { return result; }
   result.brep.reset();
   result.defects = diagnose(builder);
   assert(!result.defects.empty());

@@ -124,14 +124,14 @@ class Assembler {
   [[nodiscard]] Assembly run() {
     for (const Builder::Edge& e : input_.edges()) {
       const bool left = add(e.from, e.to, e.left), right = add(e.to, e.from, e.right);
-      if (!left && !right) bare_.push_back({std::min(e.from, e.to), std::max(e.from, e.to)});
+      if (!left && !right) { bare_.push_back({std::min(e.from, e.to), std::max(e.from, e.to)}); }
     }
     std::stable_sort(halves_.begin(), halves_.end(), [](const Half& a, const Half& b) { return a.face < b.face; });
-    for (std::uint32_t v = 0; v < input_.vertex_count(); ++v) result_.builder.vertex(input_.position(v));
+    for (std::uint32_t v = 0; v < input_.vertex_count(); ++v) { result_.builder.vertex(input_.position(v)); }
     auto half = halves_.begin();
     for (std::uint32_t f = 0; f < input_.face_count(); ++f) {
       const auto begin = half;
-      while (half != halves_.end() && half->face == f) ++half;
+      while (half != halves_.end() && half->face == f) { ++half; }
       result_.builder.face(loop(f, {begin, half}), input_.sheet(f));
     }
     report_bare();
@@ -147,7 +147,7 @@ class Assembler {
   static std::string edge_name(std::uint32_t u, std::uint32_t w) { return to_string(VertexId{u}) + " - " + to_string(VertexId{w}); }
 
   bool add(std::uint32_t from, std::uint32_t to, std::uint32_t face) {
-    if (face == invalid_index) return false;
+    if (face == invalid_index) { return false; }
     if (face < input_.face_count()) {
       halves_.push_back({from, to, face});
     } else {
@@ -162,7 +162,7 @@ class Assembler {
   Corners loop(std::uint32_t f, const std::vector<Half>& halves) {
     const auto given = input_.corners(f);
     Corners corners(given.begin(), given.end());
-    if (halves.empty()) return corners;
+    if (halves.empty()) { return corners; }
     if (corners.empty()) {
       std::vector<Half> by_origin = halves;
       std::sort(by_origin.begin(), by_origin.end(), [](const Half& a, const Half& b) { return a.from < b.from; });
@@ -171,14 +171,14 @@ class Assembler {
         corners.push_back(v);
         const auto next =
             std::lower_bound(by_origin.begin(), by_origin.end(), v, [](const Half& h, std::uint32_t at) { return h.from < at; });
-        if (next == by_origin.end() || next->from != v) return broken(f, corners, "; it ends at " + to_string(VertexId{v}), halves);
+        if (next == by_origin.end() || next->from != v) { return broken(f, corners, "; it ends at " + to_string(VertexId{v}), halves); }
         if (next + 1 != by_origin.end() && (next + 1)->from == v) {
           return broken(f, {v}, ": two of them leave " + to_string(VertexId{v}), halves);
         }
         v = next->to;
       } while (v != corners[0] && corners.size() < halves.size());
-      if (v != corners[0]) return broken(f, corners, ": they meet " + to_string(VertexId{v}) + " twice", halves);
-      if (corners.size() == halves.size()) return corners;
+      if (v != corners[0]) { return broken(f, corners, ": they meet " + to_string(VertexId{v}) + " twice", halves); }
+      if (corners.size() == halves.size()) { return corners; }
       return broken(f, corners, ": a loop closes at " + to_string(VertexId{corners[0]}) + " and does not meet them all", halves);
     }
     for (const Half& h : halves) {
@@ -186,9 +186,10 @@ class Assembler {
       for (std::size_t k = 0; !found && k < corners.size(); ++k) {
         found = corners[k] == h.from && corners[k + 1 < corners.size() ? k + 1 : 0] == h.to;
       }
-      if (!found)
+      if (!found) {
         return broken(f, {h.from, h.to}, ", as it was given by corners between which the edge " + edge_name(h.from, h.to) + " does not run",
                       halves);
+      }
     }
     return corners;
   }
@@ -196,20 +197,20 @@ class Assembler {
   Corners broken(std::uint32_t f, const Corners& at, const std::string& how, const std::vector<Half>& halves) {
     result_.broken[f] = true;
     std::vector<Element> elements{FaceId{f}};
-    for (std::uint32_t v : at) elements.push_back(VertexId{v});
+    for (std::uint32_t v : at) { elements.push_back(VertexId{v}); }
     result_.defects.push_back(
         {DefectKind::broken_loop, std::move(elements),
          "the " + std::to_string(halves.size()) + " inserted edges of " + to_string(FaceId{f}) + " do not form one loop" + how});
     const auto given = input_.corners(f);
     Corners all(given.begin(), given.end());
-    for (const Half& h : halves) all.insert(all.end(), {h.from, h.to});
+    for (const Half& h : halves) { all.insert(all.end(), {h.from, h.to}); }
     all.push_back(invalid_index);
     return all;
   }
 
   // Inserted edges without faces, along which no face of the finished lists runs.
   void report_bare() {
-    if (bare_.empty()) return;
+    if (bare_.empty()) { return; }
     std::sort(bare_.begin(), bare_.end());
     bare_.erase(std::unique(bare_.begin(), bare_.end()), bare_.end());
     std::vector<bool> used(bare_.size(), false);
@@ -225,7 +226,7 @@ class Assembler {
       }
     }
     for (std::size_t i = 0; i < bare_.size(); ++i) {
-      if (used[i]) continue;
+      if (used[i]) { continue; }
       const auto [u, w] = bare_[i];
       result_.defects.push_back(
           {DefectKind::unused_edge, {VertexId{u}, VertexId{w}}, "no face runs along the inserted edge " + edge_name(u, w)});

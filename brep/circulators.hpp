@@ -51,7 +51,7 @@ struct Circle {
   [[nodiscard]] auto value() const { return Show()(*brep, current); }
   void step() {
     current = Around()(*brep, current);
-    if (current == first) current = HalfedgeId{};
+    if (current == first) { current = HalfedgeId{}; }
   }
   friend bool operator==(const Circle& a, const Circle& b) { return a.current == b.current; }
 };
@@ -74,18 +74,19 @@ struct All {
   }
   void skip_dead() {
     const std::uint32_t end = this->end();
-    while (current.index < end && !brep->alive(current)) ++current.index;
-    if (current.index >= end) current = IdType{};
+    while (current.index < end && !brep->alive(current)) { ++current.index; }
+    if (current.index >= end) { current = IdType{}; }
   }
   [[nodiscard]] std::uint32_t end() const {
-    if constexpr (std::is_same_v<IdType, VertexId>)
+    if constexpr (std::is_same_v<IdType, VertexId>) {
       return brep->vertex_end();
-    else if constexpr (std::is_same_v<IdType, HalfedgeId>)
+    } else if constexpr (std::is_same_v<IdType, HalfedgeId>) {
       return brep->halfedge_end();
-    else if constexpr (std::is_same_v<IdType, EdgeId>)
+    } else if constexpr (std::is_same_v<IdType, EdgeId>) {
       return brep->edge_end();
-    else
+    } else {
       return brep->face_end();
+    }
   }
   friend bool operator==(const All& a, const All& b) { return a.current == b.current; }
 };
@@ -128,14 +129,14 @@ template <class B>
 template <class B>
 [[nodiscard]] std::size_t degree(const B& brep, FaceId f) {
   std::size_t n = 0;
-  for ([[maybe_unused]] HalfedgeId h : halfedges_of(brep, f)) ++n;
+  for ([[maybe_unused]] HalfedgeId h : halfedges_of(brep, f)) { ++n; }
   return n;
 }
 // Number of half-edges that leave v; a loop edge counts twice.
 template <class B>
 [[nodiscard]] std::size_t degree(const B& brep, VertexId v) {
   std::size_t n = 0;
-  for ([[maybe_unused]] HalfedgeId h : halfedges_from(brep, v)) ++n;
+  for ([[maybe_unused]] HalfedgeId h : halfedges_from(brep, v)) { ++n; }
   return n;
 }
 
@@ -146,12 +147,12 @@ template <class B>
   std::vector<HalfedgeId> waiting;
   std::size_t shells = 0;
   const auto reach = [&](HalfedgeId h) {
-    if (seen[h.index]) return;
+    if (seen[h.index]) { return; }
     seen[h.index] = true;
     waiting.push_back(h);
   };
   for (EdgeId e : edges(brep)) {
-    if (seen[halfedge(e).index]) continue;
+    if (seen[halfedge(e).index]) { continue; }
     ++shells;
     reach(halfedge(e));
     while (!waiting.empty()) {

@@ -35,7 +35,7 @@ struct AtMost {
   bool operator()(const B& brep, FaceId f) const {
     std::size_t n = 0;
     for ([[maybe_unused]] HalfedgeId h : halfedges_of(brep, f)) {
-      if (++n > edges) return false;
+      if (++n > edges) { return false; }
     }
     return true;
   }
@@ -59,7 +59,7 @@ struct StrictlyConvex {
   bool operator()(const B& brep, FaceId f) const {
     const Outline outline{Polygon(positions(brep, f))};
     for (std::size_t i = 0; i < outline.size(); ++i) {
-      if (outline.turn(i) < 1e-9) return false;
+      if (outline.turn(i) < 1e-9) { return false; }
     }
     return true;
   }

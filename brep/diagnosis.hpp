@@ -29,18 +29,18 @@ namespace brep::detail {
   };
   std::vector<Key> keys;
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
-    if (skip[f]) continue;
+    if (skip[f]) { continue; }
     const auto corners = builder.corners(f);
     const auto start = static_cast<std::size_t>(std::min_element(corners.begin(), corners.end()) - corners.begin());
     keys.push_back({corners[start], static_cast<std::uint32_t>(corners.size()), corners[(start + 1) % corners.size()], f, start});
   }
   const auto compare = [&](const Key& a, const Key& b) {
-    if (a.least != b.least) return a.least < b.least ? -1 : 1;
-    if (a.count != b.count) return a.count < b.count ? -1 : 1;
-    if (a.after != b.after) return a.after < b.after ? -1 : 1;
+    if (a.least != b.least) { return a.least < b.least ? -1 : 1; }
+    if (a.count != b.count) { return a.count < b.count ? -1 : 1; }
+    if (a.after != b.after) { return a.after < b.after ? -1 : 1; }
     for (std::size_t k = 2; k < a.count; ++k) {
       const std::uint32_t u = builder.corners(a.face)[(a.start + k) % a.count], w = builder.corners(b.face)[(b.start + k) % b.count];
-      if (u != w) return u < w ? -1 : 1;
+      if (u != w) { return u < w ? -1 : 1; }
     }
     return 0;
   };
@@ -66,7 +66,7 @@ namespace brep::detail {
   constexpr std::size_t most = 12;
   std::string text;
   end = std::min(end, elements.size());
-  for (std::size_t i = begin; i < end && i < begin + most; ++i) text += ' ' + to_string(elements[i]);
+  for (std::size_t i = begin; i < end && i < begin + most; ++i) { text += ' ' + to_string(elements[i]); }
   return end - begin > most ? text + " ..." : text;
 }
 
@@ -77,14 +77,14 @@ class Diagnosis {
       : builder_(builder), excused_(builder.vertex_count(), false), skip_(unusable(builder)) {
     report_vertices();
     report_corners();
-    if (assembly == nullptr) return;
+    if (assembly == nullptr) { return; }
     std::erase_if(found_, [&](const Defect& d) {  // the corner invalid_index of a broken face only marks it
       return !d.elements.empty() && d.elements[0].letter == 'f' && assembly->broken[d.elements[0].index];
     });
     found_.insert(found_.end(), assembly->defects.begin(), assembly->defects.end());
     for (const Defect& d : assembly->defects) {
       for (const Element& e : d.elements) {
-        if (e.letter == 'v' && e.index < excused_.size()) excused_[e.index] = true;
+        if (e.letter == 'v' && e.index < excused_.size()) { excused_[e.index] = true; }
       }
     }
   }
@@ -100,16 +100,18 @@ class Diagnosis {
     report_edges(uses, orientation);
     report_flips(uses, orientation);
     const std::vector<Border> chains = borders(uses, orientation, excused_);
-    for (const Border& border : chains) report_border(border, uses);
+    for (const Border& border : chains) { report_border(border, uses); }
     report_fans(uses, chains);
     std::vector<bool> used(builder_.vertex_count(), false);
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
       for (std::uint32_t v : builder_.corners(f)) {
-        if (v < used.size()) used[v] = true;
+        if (v < used.size()) { used[v] = true; }
       }
     }
     for (std::uint32_t v = 0; v < used.size(); ++v) {
-      if (!used[v] && !excused_[v]) add(DefectKind::unused_vertex, {VertexId{v}}, to_string(VertexId{v}) + " is not a corner of any face");
+      if (!used[v] && !excused_[v]) {
+        add(DefectKind::unused_vertex, {VertexId{v}}, to_string(VertexId{v}) + " is not a corner of any face");
+      }
     }
     return std::move(found_);
   }
@@ -122,7 +124,7 @@ class Diagnosis {
   void report_vertices() {
     for (std::uint32_t v = 0; v < builder_.vertex_count(); ++v) {
       const glm::dvec3& p = builder_.position(v);
-      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) { continue; }
       add(DefectKind::bad_position, {VertexId{v}}, to_string(VertexId{v}) + " has a coordinate that is not a finite number");
     }
   }
@@ -132,7 +134,7 @@ class Diagnosis {
     const std::uint32_t n = builder_.vertex_count();
     std::vector<std::uint32_t> seen(n, invalid_index);
     for (std::uint32_t i = 0; i < builder_.face_count(); ++i) {
-      if (!skip_[i]) continue;
+      if (!skip_[i]) { continue; }
       const FaceId f{i};
       const auto corners = builder_.corners(i);
       if (corners.size() < 3) {
@@ -147,7 +149,7 @@ class Diagnosis {
               to_string(f) + " has the corner " + name + ", but there are only " + std::to_string(n) + " vertices");
           continue;
         }
-        if (seen[v] == i) add(DefectKind::repeated_corner, {f, VertexId{v}}, to_string(f) + " visits " + name + " twice");
+        if (seen[v] == i) { add(DefectKind::repeated_corner, {f, VertexId{v}}, to_string(f) + " visits " + name + " twice"); }
         seen[v] = i;
         excused_[v] = true;
       }
@@ -166,7 +168,7 @@ class Diagnosis {
                 ", and flipping cannot help: their surface has one side only, as a Moebius strip");
       } else if (all.size() > 2) {
         std::vector<Element> elements{VertexId{all[0].lo}, VertexId{all[0].hi}};
-        for (const EdgeUses::Use& use : all) elements.push_back(FaceId{uses.face(use.corner)});
+        for (const EdgeUses::Use& use : all) { elements.push_back(FaceId{uses.face(use.corner)}); }
         std::string sentence = "the edge between " + to_string(elements[0]) + " and " + to_string(elements[1]) + " has " +
                                std::to_string(all.size()) + " faces:" + name_list(elements, 2) + "; an edge of a surface has two";
         add(DefectKind::nonmanifold_edge, std::move(elements), std::move(sentence));
@@ -179,20 +181,20 @@ class Diagnosis {
     UnionFind groups(builder_.face_count());
     std::vector<std::uint32_t> sizes(orientation.one_sided.size(), 0);
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
-      if (orientation.patch[f] != invalid_index) ++sizes[orientation.patch[f]];
+      if (orientation.patch[f] != invalid_index) { ++sizes[orientation.patch[f]]; }
     }
     for (std::uint32_t e = 0; e < uses.edge_count(); ++e) {
       const auto all = uses.of(e);
-      if (all.size() != 2) continue;
+      if (all.size() != 2) { continue; }
       const std::uint32_t f = uses.face(all[0].corner), g = uses.face(all[1].corner);
-      if (orientation.flip[f] && orientation.flip[g]) groups.unite(f, g);
+      if (orientation.flip[f] && orientation.flip[g]) { groups.unite(f, g); }
     }
     std::vector<std::vector<Element>> members(builder_.face_count());
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
-      if (orientation.flip[f]) members[groups.find(f)].push_back(FaceId{f});
+      if (orientation.flip[f]) { members[groups.find(f)].push_back(FaceId{f}); }
     }
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
-      if (members[f].empty()) continue;
+      if (members[f].empty()) { continue; }
       const std::size_t others = sizes[orientation.patch[f]] - members[f].size();
       std::string sentence = members[f].size() == 1
                                  ? to_string(FaceId{f}) + " is flipped: it runs along its edges the same way as the neighbouring faces"
@@ -205,10 +207,10 @@ class Diagnosis {
   void report_border(const Border& border, const EdgeUses& uses) {
     const std::size_t count = border.edges.size();
     std::vector<Element> elements;
-    for (const Border::Edge& e : border.edges) elements.push_back(VertexId{e.from});
-    if (!border.closed) elements.push_back(VertexId{border.edges.back().to});
+    for (const Border::Edge& e : border.edges) { elements.push_back(VertexId{e.from}); }
+    if (!border.closed) { elements.push_back(VertexId{border.edges.back().to}); }
     const std::size_t corners = elements.size();
-    for (const Border::Edge& e : border.edges) elements.push_back(FaceId{uses.face(e.corner)});
+    for (const Border::Edge& e : border.edges) { elements.push_back(FaceId{uses.face(e.corner)}); }
     std::string sentence = "open border of " + std::to_string(count) + (count == 1 ? " edge" : " edges") + " along" +
                            name_list(elements, 0, corners) + ": nothing lies on the other side of" + name_list(elements, corners) +
                            "; a face is missing";
@@ -220,15 +222,15 @@ class Diagnosis {
     join_across(fans, chains, uses);
     std::vector<std::vector<Element>> faces(builder_.vertex_count());  // one of each fan
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
-      if (skip_[f]) continue;
+      if (skip_[f]) { continue; }
       std::uint32_t corner = builder_.first_corner(f);
       for (std::uint32_t v : builder_.corners(f)) {
-        if (fans.find(corner) == corner && !excused_[v]) faces[v].push_back(FaceId{f});
+        if (fans.find(corner) == corner && !excused_[v]) { faces[v].push_back(FaceId{f}); }
         ++corner;
       }
     }
     for (std::uint32_t v = 0; v < faces.size(); ++v) {
-      if (faces[v].size() < 2) continue;
+      if (faces[v].size() < 2) { continue; }
       std::vector<Element> elements{VertexId{v}};
       elements.insert(elements.end(), faces[v].begin(), faces[v].end());
       std::string sentence = to_string(VertexId{v}) + " has " + std::to_string(faces[v].size()) +
@@ -250,7 +252,7 @@ namespace brep {
 
 // All defects of the builder; none exactly when close() gives a BRep.
 [[nodiscard]] inline std::vector<Defect> diagnose(const Builder& builder) {
-  if (builder.edges().empty()) return detail::Diagnosis(builder, nullptr).run();
+  if (builder.edges().empty()) { return detail::Diagnosis(builder, nullptr).run(); }
   const detail::Assembly assembly = detail::Assembler(builder).run();
   return detail::Diagnosis(assembly.builder, &assembly).run();
 }

@@ -46,10 +46,10 @@ class DualMaker {
 
   Dual<D> run() {
     for (FaceId f : faces(brep_)) {
-      if (!reached_[f.index]) span_shell(f);
+      if (!reached_[f.index]) { span_shell(f); }
     }
     for (EdgeId e : edges(brep_)) {
-      if (!made(brep::halfedge(e))) connect(brep::halfedge(e));
+      if (!made(brep::halfedge(e))) { connect(brep::halfedge(e)); }
     }
     for (FaceId f : faces(brep_)) {
       const VertexId v = dual_.vertex_of_face[f.index] = dual_.brep.vertex(image(brep_.halfedge(f)));
@@ -57,7 +57,7 @@ class DualMaker {
         dual_.brep.data(v).position = centroid(brep_, f);
       }
     }
-    for (VertexId v : vertices(brep_)) dual_.face_of_vertex[v.index] = dual_.brep.face(image(twin(brep_.halfedge(v))));
+    for (VertexId v : vertices(brep_)) { dual_.face_of_vertex[v.index] = dual_.brep.face(image(twin(brep_.halfedge(v)))); }
     return std::move(dual_);
   }
 
@@ -73,15 +73,15 @@ class DualMaker {
   // a face lie the duals of its half-edges, backward. Looks both ways, so that n insertions cost O(n log n) in any order.
   [[nodiscard]] HalfedgeId corner(HalfedgeId h) const {
     for (HalfedgeId x = brep_.prev(h), y = brep_.next(h);; x = brep_.prev(x), y = brep_.next(y)) {
-      if (made(x)) return image(x);
-      if (made(y)) return dual_.brep.next(twin(image(y)));
+      if (made(x)) { return image(x); }
+      if (made(y)) { return dual_.brep.next(twin(image(y))); }
     }
   }
   // Both h* and its twin are to be inserted in one corner: which comes first, clockwise?
   [[nodiscard]] HalfedgeId first_in_corner(HalfedgeId h) const {
     for (HalfedgeId x = brep_.prev(h), y = brep_.next(h);; x = brep_.prev(x), y = brep_.next(y)) {
-      if (x == twin(h) || made(y)) return h;
-      if (y == twin(h) || made(x)) return twin(h);
+      if (x == twin(h) || made(y)) { return h; }
+      if (y == twin(h) || made(x)) { return twin(h); }
     }
   }
 
@@ -92,7 +92,7 @@ class DualMaker {
     for (std::size_t i = 0; i < found.size(); ++i) {
       for (HalfedgeId h : halfedges_of(brep_, found[i])) {
         const FaceId g = brep_.face(twin(h));
-        if (reached_[g.index]) continue;
+        if (reached_[g.index]) { continue; }
         reached_[g.index] = true;
         if (found.size() == 1) {
           set(h, unchecked::make_segment(dual_.brep));
@@ -103,7 +103,7 @@ class DualMaker {
         found.push_back(g);
       }
     }
-    if (found.size() > 1) return;
+    if (found.size() > 1) { return; }
     const HalfedgeId h = unchecked::make_segment(dual_.brep);
     set(brep_.halfedge(f), unchecked::split_face(dual_.brep, h, twin(h)));
     unchecked::join_vertices(dual_.brep, h);

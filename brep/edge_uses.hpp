@@ -25,7 +25,7 @@ class UnionFind {
  public:
   explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
   [[nodiscard]] std::uint32_t find(std::uint32_t x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+    while (parent_[x] != x) { x = parent_[x] = parent_[parent_[x]]; }
     return x;
   }
   void unite(std::uint32_t a, std::uint32_t b) {
@@ -74,7 +74,7 @@ class EdgeUses {
         const std::uint32_t after = k + 1 < count ? k + 1 : 0;
         face_[first + k] = f;
         next_[first + k] = first + after;
-        if (skip[f]) continue;
+        if (skip[f]) { continue; }
         const std::uint32_t u = corners[k], w = corners[after];
         uses_.push_back({std::min(u, w), std::max(u, w), first + k, u < w});
       }
@@ -82,7 +82,7 @@ class EdgeUses {
     std::sort(uses_.begin(), uses_.end(),
               [](const Use& a, const Use& b) { return std::tie(a.lo, a.hi, a.corner) < std::tie(b.lo, b.hi, b.corner); });
     for (std::uint32_t i = 0; i < uses_.size(); ++i) {
-      if (i == 0 || uses_[i].lo != uses_[i - 1].lo || uses_[i].hi != uses_[i - 1].hi) first_.push_back(i);
+      if (i == 0 || uses_[i].lo != uses_[i - 1].lo || uses_[i].hi != uses_[i - 1].hi) { first_.push_back(i); }
       edge_[uses_[i].corner] = static_cast<std::uint32_t>(first_.size() - 1);
     }
     first_.push_back(static_cast<std::uint32_t>(uses_.size()));
@@ -132,7 +132,7 @@ struct FlipPlan {
       : patch(builder.face_count(), invalid_index), flip(builder.face_count(), false) {
     std::vector<std::uint32_t> members;
     for (std::uint32_t seed = 0; seed < builder.face_count(); ++seed) {
-      if (skip[seed] || patch[seed] != invalid_index) continue;
+      if (skip[seed] || patch[seed] != invalid_index) { continue; }
       const auto id = static_cast<std::uint32_t>(one_sided.size());
       one_sided.push_back(false);
       patch[seed] = id;
@@ -143,7 +143,7 @@ struct FlipPlan {
         against += flip[f] ? 1 : 0;
         for (std::uint32_t c = first; c < first + builder.corners(f).size(); ++c) {
           const auto pair = uses.of(uses.edge(c));
-          if (pair.size() != 2) continue;
+          if (pair.size() != 2) { continue; }
           const std::uint32_t g = uses.face(pair[pair[0].corner == c ? 1 : 0].corner);
           const bool expected = flip[f] != (pair[0].forward == pair[1].forward);
           if (patch[g] == invalid_index) {
@@ -156,7 +156,7 @@ struct FlipPlan {
         }
       }
       const bool majority = 2 * against > members.size();
-      for (std::uint32_t f : members) flip[f] = !one_sided[id] && flip[f] != majority;
+      for (std::uint32_t f : members) { flip[f] = !one_sided[id] && flip[f] != majority; }
     }
   }
 };
@@ -181,7 +181,7 @@ struct Border {
   std::vector<std::uint32_t> enters(excused.size(), 0), leaves(excused.size(), 0);
   for (std::uint32_t e = 0; e < uses.edge_count(); ++e) {
     const EdgeUses::Use& use = uses.of(e).front();
-    if (uses.of(e).size() != 1 || excused[use.lo] || excused[use.hi]) continue;
+    if (uses.of(e).size() != 1 || excused[use.lo] || excused[use.hi]) { continue; }
     const bool flip = orientation.flip[uses.face(use.corner)];
     open.push_back({flip ? use.to() : use.from(), flip ? use.from() : use.to(), use.corner});
     ++leaves[open.back().from];
@@ -189,9 +189,9 @@ struct Border {
   }
   std::sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return std::tie(a.from, a.corner) < std::tie(b.from, b.corner); });
   std::vector<std::uint32_t> cursor(excused.size(), 0);  // open edges by origin: those not yet taken begin here
-  for (std::uint32_t i = static_cast<std::uint32_t>(open.size()); i-- > 0;) cursor[open[i].from] = i;
+  for (std::uint32_t i = static_cast<std::uint32_t>(open.size()); i-- > 0;) { cursor[open[i].from] = i; }
   const auto take = [&](std::uint32_t v) {
-    if (leaves[v] == 0) return none;
+    if (leaves[v] == 0) { return none; }
     --leaves[v];
     return cursor[v]++;
   };
@@ -210,20 +210,20 @@ struct Border {
         continue;
       }
       all.push_back({{path.begin() + place[v], path.end()}, true});
-      for (std::size_t k = place[v] + 1; k < path.size(); ++k) place[path[k].from] = none;
+      for (std::size_t k = place[v] + 1; k < path.size(); ++k) { place[path[k].from] = none; }
       path.resize(place[v]);
     }
-    for (const Border::Edge& e : path) place[e.from] = place[e.to] = none;
+    for (const Border::Edge& e : path) { place[e.from] = place[e.to] = none; }
     place[start] = none;
-    if (!path.empty()) all.push_back({path, false});
+    if (!path.empty()) { all.push_back({path, false}); }
   };
   std::vector<std::uint32_t> starts;  // chains that cannot close begin where more edges leave than enter
   for (const Border::Edge& e : open) {
-    if (enters[e.from] < leaves[e.from]) starts.push_back(e.from);
+    if (enters[e.from] < leaves[e.from]) { starts.push_back(e.from); }
   }
-  for (std::uint32_t v : starts) follow(v);
+  for (std::uint32_t v : starts) { follow(v); }
   for (const Border::Edge& e : open) {
-    while (leaves[e.from] > 0) follow(e.from);
+    while (leaves[e.from] > 0) { follow(e.from); }
   }
   return all;
 }
@@ -237,7 +237,7 @@ inline void join_across(UnionFind& fans, const std::vector<Border>& borders, con
   for (const Border& border : borders) {
     for (std::size_t i = 0; i < border.edges.size(); ++i) {
       const bool last = i + 1 == border.edges.size();
-      if (last && !border.closed) continue;
+      if (last && !border.closed) { continue; }
       const Border::Edge& here = border.edges[i];
       fans.unite(corner_at(here, here.to), corner_at(border.edges[last ? 0 : i + 1], here.to));
     }

@@ -33,18 +33,18 @@ template <class B>
   std::array<VertexId, 2> third{};  // merged with its twin edge when the triangle goes
   for (std::size_t i = 0; i < 2; ++i) {
     const HalfedgeId side = i == 0 ? h : twin(h);
-    if (has_triangle(brep, side)) third[i] = brep.target(brep.next(side));
+    if (has_triangle(brep, side)) { third[i] = brep.target(brep.next(side)); }
   }
   SmallList<VertexId, 32> of_v;
   for (HalfedgeId x : halfedges_from(brep, v)) {
-    if (x != h) of_v.push_back(brep.target(x));
+    if (x != h) { of_v.push_back(brep.target(x)); }
   }
   std::sort(of_v.begin(), of_v.end());
   for (HalfedgeId x : halfedges_from(brep, w)) {
-    if (x == twin(h)) continue;
+    if (x == twin(h)) { continue; }
     const VertexId y = brep.target(x);
-    if (y == v) return v;
-    if (y != w && y != third[0] && y != third[1] && std::binary_search(of_v.begin(), of_v.end(), y)) return y;
+    if (y == v) { return v; }
+    if (y != w && y != third[0] && y != third[1] && std::binary_search(of_v.begin(), of_v.end(), y)) { return y; }
   }
   return {};
 }
@@ -53,7 +53,7 @@ template <class B>
 template <class B>
 void remove_two_gon(B& brep, HalfedgeId h) {
   const HalfedgeId other = brep.next(h);
-  if (other != h && other != twin(h) && brep.next(other) == h) unchecked::join_faces(brep, twin(h));
+  if (other != h && other != twin(h) && brep.next(other) == h) { unchecked::join_faces(brep, twin(h)); }
 }
 
 }  // namespace detail
@@ -73,16 +73,16 @@ void remove_two_gon(B& brep, HalfedgeId h) {
 // Inverse: split_face for the merged edges, so that they are two, then split_vertex. Time: d(v) log d(v) + d(w) log d(v) for the degrees d.
 template <class B>
 Result<VertexId> collapse_edge(B& brep, HalfedgeId h) {
-  if (!brep.alive(h)) return Refusal{Code::dead, {h}};
+  if (!brep.alive(h)) { return Refusal{Code::dead, {h}}; }
   const HalfedgeId t = twin(h);
-  if (brep.vertex(h) == brep.target(h)) return Refusal{Code::same_vertex, {h, brep.vertex(h)}};
-  if (brep.next(h) == t && brep.next(t) == h) return Refusal{Code::last_edge, {h}};
-  if (const VertexId x = detail::common_neighbour(brep, h); x.valid()) return Refusal{Code::link_condition, {h, x}};
+  if (brep.vertex(h) == brep.target(h)) { return Refusal{Code::same_vertex, {h, brep.vertex(h)}}; }
+  if (brep.next(h) == t && brep.next(t) == h) { return Refusal{Code::last_edge, {h}}; }
+  if (const VertexId x = detail::common_neighbour(brep, h); x.valid()) { return Refusal{Code::link_condition, {h, x}}; }
   const bool left = detail::has_triangle(brep, h), right = detail::has_triangle(brep, t);
   const HalfedgeId from_w = brep.next(h), from_v = brep.next(t), to_w = brep.prev(t);
   const VertexId v = unchecked::join_vertices(brep, h);
-  if (left) detail::remove_two_gon(brep, from_w);
-  if (right) detail::remove_two_gon(brep, brep.alive(to_w) ? to_w : from_v);
+  if (left) { detail::remove_two_gon(brep, from_w); }
+  if (right) { detail::remove_two_gon(brep, brep.alive(to_w) ? to_w : from_v); }
   return v;
 }
 
@@ -100,12 +100,12 @@ Result<VertexId> collapse_edge(B& brep, HalfedgeId h) {
 // Inverse: flip_edge again, as often as the polygon has corners less one; for two triangles 3 times (4 flips are none, 2 turn h around).
 template <class B>
 Result<HalfedgeId> flip_edge(B& brep, HalfedgeId h) {
-  if (!brep.alive(h)) return Refusal{Code::dead, {h}};
+  if (!brep.alive(h)) { return Refusal{Code::dead, {h}}; }
   const HalfedgeId first = halfedge(edge(h)), second = twin(first);  // the new edge has its first half first
   const FaceId f = brep.face(first), g = brep.face(second);
-  if (f == g) return Refusal{Code::cannot_flip, {h, f}};
-  if (brep.next(first) == first) return Refusal{Code::cannot_flip, {h, f}};
-  if (brep.next(second) == second) return Refusal{Code::cannot_flip, {h, g}};
+  if (f == g) { return Refusal{Code::cannot_flip, {h, f}}; }
+  if (brep.next(first) == first) { return Refusal{Code::cannot_flip, {h, f}}; }
+  if (brep.next(second) == second) { return Refusal{Code::cannot_flip, {h, g}}; }
   const HalfedgeId a = brep.next(first), c = brep.next(second);
   using Data = typename B::face_type;
   if constexpr (std::is_copy_constructible_v<Data> && std::is_copy_assignable_v<Data> && !std::is_empty_v<Data>) {

@@ -35,7 +35,7 @@ namespace brep {
 // Refused: no handle is left.     Inverse: kill_segment(h).
 template <class B>
 Result<HalfedgeId> make_segment(B& brep) {
-  if (detail::Raw::halfedges(brep).full()) return Refusal{Code::full, {}};
+  if (detail::Raw::halfedges(brep).full()) { return Refusal{Code::full, {}}; }
   return unchecked::make_segment(brep);
 }
 
@@ -44,8 +44,8 @@ Result<HalfedgeId> make_segment(B& brep) {
 // Refused (nothing changes): h is dead; its shell has another edge.     Inverse: make_segment (all data are lost).
 template <class B>
 Result<bool> kill_segment(B& brep, HalfedgeId h) {
-  if (!brep.alive(h)) return Refusal{Code::dead, {h}};
-  if (brep.next(h) != twin(h) || brep.prev(h) != twin(h)) return Refusal{Code::not_a_segment, {h}};
+  if (!brep.alive(h)) { return Refusal{Code::dead, {h}}; }
+  if (brep.next(h) != twin(h) || brep.prev(h) != twin(h)) { return Refusal{Code::not_a_segment, {h}}; }
   unchecked::kill_segment(brep, h);
   return true;
 }
@@ -61,10 +61,10 @@ Result<bool> kill_segment(B& brep, HalfedgeId h) {
 // Time: the length of a's side. Swap a and b when the sides are alike and b's is shorter: see first_side_is_shorter.
 template <class B>
 Result<HalfedgeId> split_face(B& brep, HalfedgeId a, HalfedgeId b) {
-  if (!brep.alive(a)) return Refusal{Code::dead, {a}};
-  if (!brep.alive(b)) return Refusal{Code::dead, {b}};
-  if (brep.face(a) != brep.face(b)) return Refusal{Code::different_faces, {a, b}};
-  if (detail::Raw::halfedges(brep).full()) return Refusal{Code::full, {}};
+  if (!brep.alive(a)) { return Refusal{Code::dead, {a}}; }
+  if (!brep.alive(b)) { return Refusal{Code::dead, {b}}; }
+  if (brep.face(a) != brep.face(b)) { return Refusal{Code::different_faces, {a, b}}; }
+  if (detail::Raw::halfedges(brep).full()) { return Refusal{Code::full, {}}; }
   return unchecked::split_face(brep, a, b);
 }
 
@@ -81,9 +81,9 @@ Result<HalfedgeId> split_face(B& brep, HalfedgeId a, HalfedgeId b) {
 // (Where the one-edge face is face(h) itself, the inverse restores the shape with the names of f and g exchanged.)
 template <class B>
 Result<FaceId> join_faces(B& brep, HalfedgeId h) {
-  if (!brep.alive(h)) return Refusal{Code::dead, {h}};
-  if (brep.face(h) == brep.face(twin(h))) return Refusal{Code::same_face, {h, brep.face(h)}};
-  if (brep.next(h) == h && brep.next(twin(h)) == twin(h)) return Refusal{Code::last_edge, {h}};
+  if (!brep.alive(h)) { return Refusal{Code::dead, {h}}; }
+  if (brep.face(h) == brep.face(twin(h))) { return Refusal{Code::same_face, {h, brep.face(h)}}; }
+  if (brep.next(h) == h && brep.next(twin(h)) == twin(h)) { return Refusal{Code::last_edge, {h}}; }
   return unchecked::join_faces(brep, h);
 }
 
@@ -100,10 +100,10 @@ Result<FaceId> join_faces(B& brep, HalfedgeId h) {
 // Time: the number of half-edges on a's side.
 template <class B>
 Result<HalfedgeId> split_vertex(B& brep, HalfedgeId a, HalfedgeId b) {
-  if (!brep.alive(a)) return Refusal{Code::dead, {a}};
-  if (!brep.alive(b)) return Refusal{Code::dead, {b}};
-  if (brep.vertex(a) != brep.vertex(b)) return Refusal{Code::different_vertices, {a, b}};
-  if (detail::Raw::halfedges(brep).full()) return Refusal{Code::full, {}};
+  if (!brep.alive(a)) { return Refusal{Code::dead, {a}}; }
+  if (!brep.alive(b)) { return Refusal{Code::dead, {b}}; }
+  if (brep.vertex(a) != brep.vertex(b)) { return Refusal{Code::different_vertices, {a, b}}; }
+  if (detail::Raw::halfedges(brep).full()) { return Refusal{Code::full, {}}; }
   return unchecked::split_vertex(brep, a, b);
 }
 
@@ -119,9 +119,9 @@ Result<HalfedgeId> split_vertex(B& brep, HalfedgeId a, HalfedgeId b) {
 // (Where v is the end of a spur, the inverse restores the shape with the names of v and w exchanged.)
 template <class B>
 Result<VertexId> join_vertices(B& brep, HalfedgeId h) {
-  if (!brep.alive(h)) return Refusal{Code::dead, {h}};
-  if (brep.vertex(h) == brep.target(h)) return Refusal{Code::same_vertex, {h, brep.vertex(h)}};
-  if (brep.next(h) == twin(h) && brep.prev(h) == twin(h)) return Refusal{Code::last_edge, {h}};
+  if (!brep.alive(h)) { return Refusal{Code::dead, {h}}; }
+  if (brep.vertex(h) == brep.target(h)) { return Refusal{Code::same_vertex, {h, brep.vertex(h)}}; }
+  if (brep.next(h) == twin(h) && brep.prev(h) == twin(h)) { return Refusal{Code::last_edge, {h}}; }
   return unchecked::join_vertices(brep, h);
 }
 
@@ -133,8 +133,8 @@ Result<VertexId> join_vertices(B& brep, HalfedgeId h) {
 // Refused (nothing changes): h is dead.     Inverse: join_vertices(twin(n)).     Time: O(1).
 template <class B>
 Result<HalfedgeId> split_edge(B& brep, HalfedgeId h) {
-  if (!brep.alive(h)) return Refusal{Code::dead, {h}};
-  if (detail::Raw::halfedges(brep).full()) return Refusal{Code::full, {}};
+  if (!brep.alive(h)) { return Refusal{Code::dead, {h}}; }
+  if (detail::Raw::halfedges(brep).full()) { return Refusal{Code::full, {}}; }
   return unchecked::split_edge(brep, h);
 }
 
@@ -150,10 +150,10 @@ Result<HalfedgeId> split_edge(B& brep, HalfedgeId h) {
 // Refused (nothing changes): a or b is dead; they lie on the same face.     Inverse: cut(h).     Time: the edges of face(b).
 template <class B>
 Result<HalfedgeId> bridge(B& brep, HalfedgeId a, HalfedgeId b) {
-  if (!brep.alive(a)) return Refusal{Code::dead, {a}};
-  if (!brep.alive(b)) return Refusal{Code::dead, {b}};
-  if (brep.face(a) == brep.face(b)) return Refusal{Code::one_face, {a, b}};
-  if (detail::Raw::halfedges(brep).full()) return Refusal{Code::full, {}};
+  if (!brep.alive(a)) { return Refusal{Code::dead, {a}}; }
+  if (!brep.alive(b)) { return Refusal{Code::dead, {b}}; }
+  if (brep.face(a) == brep.face(b)) { return Refusal{Code::one_face, {a, b}}; }
+  if (detail::Raw::halfedges(brep).full()) { return Refusal{Code::full, {}}; }
   return unchecked::bridge(brep, a, b);
 }
 
@@ -167,10 +167,10 @@ Result<HalfedgeId> bridge(B& brep, HalfedgeId a, HalfedgeId b) {
 template <class B>
 Result<FaceId> cut(B& brep, HalfedgeId h) {
   const HalfedgeId t = twin(h);
-  if (!brep.alive(h)) return Refusal{Code::dead, {h}};
-  if (brep.face(h) != brep.face(t)) return Refusal{Code::two_faces, {h}};
-  if (brep.next(h) == t) return Refusal{Code::spur, {h, brep.vertex(t)}};
-  if (brep.next(t) == h) return Refusal{Code::spur, {h, brep.vertex(h)}};
+  if (!brep.alive(h)) { return Refusal{Code::dead, {h}}; }
+  if (brep.face(h) != brep.face(t)) { return Refusal{Code::two_faces, {h}}; }
+  if (brep.next(h) == t) { return Refusal{Code::spur, {h, brep.vertex(t)}}; }
+  if (brep.next(t) == h) { return Refusal{Code::spur, {h, brep.vertex(h)}}; }
   return unchecked::cut(brep, h);
 }
 
@@ -186,10 +186,10 @@ Result<FaceId> cut(B& brep, HalfedgeId h) {
 // Refused (nothing changes): a or b is dead; they leave the same vertex.     Inverse: unweld(h).     Time: the edges of vertex(b).
 template <class B>
 Result<HalfedgeId> weld(B& brep, HalfedgeId a, HalfedgeId b) {
-  if (!brep.alive(a)) return Refusal{Code::dead, {a}};
-  if (!brep.alive(b)) return Refusal{Code::dead, {b}};
-  if (brep.vertex(a) == brep.vertex(b)) return Refusal{Code::one_vertex, {a, b}};
-  if (detail::Raw::halfedges(brep).full()) return Refusal{Code::full, {}};
+  if (!brep.alive(a)) { return Refusal{Code::dead, {a}}; }
+  if (!brep.alive(b)) { return Refusal{Code::dead, {b}}; }
+  if (brep.vertex(a) == brep.vertex(b)) { return Refusal{Code::one_vertex, {a, b}}; }
+  if (detail::Raw::halfedges(brep).full()) { return Refusal{Code::full, {}}; }
   return unchecked::weld(brep, a, b);
 }
 
@@ -202,10 +202,10 @@ Result<HalfedgeId> weld(B& brep, HalfedgeId a, HalfedgeId b) {
 template <class B>
 Result<VertexId> unweld(B& brep, HalfedgeId h) {
   const HalfedgeId t = twin(h);
-  if (!brep.alive(h)) return Refusal{Code::dead, {h}};
-  if (brep.vertex(h) != brep.vertex(t)) return Refusal{Code::two_vertices, {h}};
-  if (brep.next(h) == h) return Refusal{Code::one_edge_face, {h, brep.face(h)}};
-  if (brep.next(t) == t) return Refusal{Code::one_edge_face, {h, brep.face(t)}};
+  if (!brep.alive(h)) { return Refusal{Code::dead, {h}}; }
+  if (brep.vertex(h) != brep.vertex(t)) { return Refusal{Code::two_vertices, {h}}; }
+  if (brep.next(h) == h) { return Refusal{Code::one_edge_face, {h, brep.face(h)}}; }
+  if (brep.next(t) == t) { return Refusal{Code::one_edge_face, {h, brep.face(t)}}; }
   return unchecked::unweld(brep, h);
 }
 
@@ -214,12 +214,12 @@ Result<VertexId> unweld(B& brep, HalfedgeId h) {
 // side gets the new name asks here and cuts a loop of n edges in O(shorter side).
 template <class B>
 [[nodiscard]] bool first_side_is_shorter(const B& brep, HalfedgeId a, HalfedgeId b) {
-  if (a == b) return true;
+  if (a == b) { return true; }
   for (HalfedgeId x = a, y = b;;) {
     x = brep.next(x);
-    if (x == b) return true;
+    if (x == b) { return true; }
     y = brep.next(y);
-    if (y == a) return false;
+    if (y == a) { return false; }
   }
 }
 

@@ -54,21 +54,21 @@ class EulerLog::For {
         data_of_future_(std::move(other.data_of_future_), a) {}
 
   void record(const Step& step) {
-    if (mode != Mode::recording) return;
+    if (mode != Mode::recording) { return; }
     past.push_back(step);
-    if (future.empty()) return;
+    if (future.empty()) { return; }
     future.clear();
     data_of_future_.clear();
   }
   // Data of a killed element, and of one that comes back. Steps nest, hence stacks.
   template <class T>
   void keep(T& data) {
-    if constexpr (!std::is_empty_v<T>) stack<T>(mode == Mode::undoing ? data_of_future_ : data_of_past_).push_back(std::move(data));
+    if constexpr (!std::is_empty_v<T>) { stack<T>(mode == Mode::undoing ? data_of_future_ : data_of_past_).push_back(std::move(data)); }
   }
   template <class T>
   void give_back(T& data) {
     if constexpr (!std::is_empty_v<T>) {
-      if (mode == Mode::recording) return;
+      if (mode == Mode::recording) { return; }
       auto& kept = stack<T>(mode == Mode::undoing ? data_of_past_ : data_of_future_);
       data = std::move(kept.back());
       kept.pop_back();
@@ -93,12 +93,13 @@ class EulerLog::For {
   };
   template <class T>
   static List<T>& stack(Data& data) {  // types that are the same share a stack
-    if constexpr (std::is_same_v<T, VertexT>)
+    if constexpr (std::is_same_v<T, VertexT>) {
       return data.vertices;
-    else if constexpr (std::is_same_v<T, HalfedgeT>)
+    } else if constexpr (std::is_same_v<T, HalfedgeT>) {
       return data.halfedges;
-    else
+    } else {
       return data.faces;
+    }
   }
   Data data_of_past_, data_of_future_;
 };
@@ -119,7 +120,7 @@ template <class B>
 template <class B>
 bool undo(B& brep) requires(B::logs) {
   auto& log = detail::Raw::log(brep);
-  if (log.past.empty()) return false;
+  if (log.past.empty()) { return false; }
   log.mode = std::decay_t<decltype(log)>::Mode::undoing;
   const Step step = log.past.back();
   log.past.pop_back();
@@ -133,7 +134,7 @@ bool undo(B& brep) requires(B::logs) {
 template <class B>
 bool redo(B& brep) requires(B::logs) {
   auto& log = detail::Raw::log(brep);
-  if (log.future.empty()) return false;
+  if (log.future.empty()) { return false; }
   log.mode = std::decay_t<decltype(log)>::Mode::redoing;
   const Step step = log.future.back();
   log.future.pop_back();
@@ -148,9 +149,9 @@ bool redo(B& brep) requires(B::logs) {
 // Undoes, or redoes, until `mark` steps stand. False when there were never so many: then all that can be redone is.
 template <class B>
 bool undo_to(B& brep, std::size_t mark) requires(B::logs) {
-  while (brep::mark(brep) > mark) undo(brep);
+  while (brep::mark(brep) > mark) { undo(brep); }
   while (brep::mark(brep) < mark) {
-    if (!redo(brep)) return false;
+    if (!redo(brep)) { return false; }
   }
   return true;
 }

@@ -33,7 +33,7 @@ class ScriptParser {
     return false;
   }
   void skip() {
-    while (at_ < line_.size() && detail::is_blank(line_[at_])) ++at_;
+    while (at_ < line_.size() && detail::is_blank(line_[at_])) { ++at_; }
   }
   [[nodiscard]] bool at_end() {
     skip();
@@ -42,19 +42,19 @@ class ScriptParser {
   [[nodiscard]] std::string_view word() {
     skip();
     const std::size_t begin = at_;
-    while (at_ < line_.size() && detail::is_word(line_[at_])) ++at_;
+    while (at_ < line_.size() && detail::is_word(line_[at_])) { ++at_; }
     return line_.substr(begin, at_ - begin);
   }
   [[nodiscard]] bool take(char c) {
     skip();
-    if (at_ == line_.size() || line_[at_] != c) return false;
+    if (at_ == line_.size() || line_[at_] != c) { return false; }
     ++at_;
     return true;
   }
   [[nodiscard]] std::string found() {  // what stands here, for messages
-    if (at_end()) return "the end of the line";
+    if (at_end()) { return "the end of the line"; }
     const std::size_t begin = at_;
-    if (!word().empty()) return detail::quoted(line_.substr(begin, std::exchange(at_, begin) - begin));
+    if (!word().empty()) { return detail::quoted(line_.substr(begin, std::exchange(at_, begin) - begin)); }
     return detail::quoted(line_.substr(at_, std::max<std::size_t>(1, detail::character_length(line_.substr(at_)))));
   }
 
@@ -78,13 +78,13 @@ inline std::optional<Statement> ScriptParser::parse_line(std::string_view line, 
   line_ = line;
   at_ = 0;
   number_ = number;
-  if (!split_comment() || at_end()) return std::nullopt;
+  if (!split_comment() || at_end()) { return std::nullopt; }
   Statement s;
   s.place = {number_, static_cast<std::uint32_t>(at_ + 1)};
   s.text = line_.substr(at_);
-  while (detail::is_blank(s.text.back())) s.text.pop_back();
-  if (!statement(s)) return std::nullopt;
-  if (!s.result.name.empty()) names_[s.result.name] = detail::result_kind(s);
+  while (detail::is_blank(s.text.back())) { s.text.pop_back(); }
+  if (!statement(s)) { return std::nullopt; }
+  if (!s.result.name.empty()) { names_[s.result.name] = detail::result_kind(s); }
   return s;
 }
 
@@ -93,14 +93,14 @@ inline bool ScriptParser::split_comment() {
   comment_.reset();
   for (std::size_t i = 0; i < line_.size();) {
     const std::size_t n = detail::character_length(line_.substr(i));
-    if (n == 0) return fail(i, "found a byte that is not text; expected UTF-8 without control characters");
+    if (n == 0) { return fail(i, "found a byte that is not text; expected UTF-8 without control characters"); }
     i += n;
   }
   const std::size_t sharp = line_.find('#');
-  if (sharp == line_.npos) return true;
+  if (sharp == line_.npos) { return true; }
   std::string_view text = line_.substr(sharp + 1);
-  if (!text.empty() && detail::is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && detail::is_blank(text.back())) text.remove_suffix(1);
+  if (!text.empty() && detail::is_blank(text.front())) { text.remove_prefix(1); }
+  while (!text.empty() && detail::is_blank(text.back())) { text.remove_suffix(1); }
   comment_ = std::string(text);
   line_ = line_.substr(0, sharp);
   return true;
@@ -134,16 +134,16 @@ inline bool ScriptParser::statement(Statement& s) {
     s.op = known->op;
     s.written = first;
   }
-  if (s.refused && known == nullptr) return fail(begin, std::string(first) + " cannot be refused; expected an operator");
-  if (s.refused && !left.empty()) return fail(left_at, "a refused operator has no result; leave out " + detail::quoted(left) + " =");
-  if (!left.empty() && !left_side(s, left, left_at)) return false;
-  if (s.command == Command::raw) return raw(s);
-  if (s.command == Command::expect) return expect(s);
+  if (s.refused && known == nullptr) { return fail(begin, std::string(first) + " cannot be refused; expected an operator"); }
+  if (s.refused && !left.empty()) { return fail(left_at, "a refused operator has no result; leave out " + detail::quoted(left) + " ="); }
+  if (!left.empty() && !left_side(s, left, left_at)) { return false; }
+  if (s.command == Command::raw) { return raw(s); }
+  if (s.command == Command::expect) { return expect(s); }
   for (char kind : detail::argument_kinds(s)) {
     s.arguments.emplace_back();
-    if (!expression(kind, s.arguments.back())) return false;
+    if (!expression(kind, s.arguments.back())) { return false; }
   }
-  if (at_end()) return true;
+  if (at_end()) { return true; }
   const std::size_t n = s.arguments.size();
   return fail(at_, "found " + found() + "; expected the end of the line: " + detail::command_name(s) + " has " +
                        (n == 0   ? "no arguments"
@@ -154,10 +154,10 @@ inline bool ScriptParser::statement(Statement& s) {
 inline bool ScriptParser::left_side(Statement& s, std::string_view text, std::size_t at) {
   const char kind = detail::result_kind(s);
   s.result.place = {number_, static_cast<std::uint32_t>(at + 1)};
-  if (kind == 0) return fail(at, detail::command_name(s) + " has no result; leave out " + detail::quoted(text) + " =");
+  if (kind == 0) { return fail(at, detail::command_name(s) + " has no result; leave out " + detail::quoted(text) + " ="); }
   s.result.handle = detail::parse_handle(text);
   if (s.result.handle.letter != 0) {
-    if (s.result.handle.letter == kind) return true;
+    if (s.result.handle.letter == kind) { return true; }
     return fail(at,
                 "found " + detail::quoted(text) + "; expected " + detail::kind_name(kind) + ", the result of " + detail::command_name(s));
   }
@@ -186,7 +186,7 @@ inline bool ScriptParser::expression(char kind, Expression& e) {
     const auto fits = [&](char letter) { return letter == wanted || (wanted == 'a' && (letter == 'f' || letter == 'v')); };
     if (const auto f = detail::find_word(function_names, text)) {
       const Function function = static_cast<Function>(*f);
-      if (!take('(')) return fail(at_, "found " + found() + "; expected '(' after " + std::string(text));
+      if (!take('(')) { return fail(at_, "found " + found() + "; expected '(' after " + std::string(text)); }
       if (!fits(detail::result_kind(function))) {
         return fail(begin, std::string(text) + " gives " + detail::kind_name(detail::result_kind(function)) + expected());
       }
@@ -205,11 +205,11 @@ inline bool ScriptParser::expression(char kind, Expression& e) {
       e.name = text;
       letter = name->second;
     }
-    if (!fits(letter)) return fail(begin, detail::quoted(text) + " is " + detail::kind_name(letter) + expected());
+    if (!fits(letter)) { return fail(begin, detail::quoted(text) + " is " + detail::kind_name(letter) + expected()); }
     break;
   }
   for (std::size_t i = 0; i < e.functions.size(); ++i) {
-    if (!take(')')) return fail(at_, "found " + found() + "; expected ')'");
+    if (!take(')')) { return fail(at_, "found " + found() + "; expected ')'"); }
   }
   std::reverse(e.functions.begin(), e.functions.end());
   return true;
@@ -227,7 +227,7 @@ inline bool ScriptParser::raw(Statement& s) {
   const char owner = s.field == Field::anchor ? 'a' : 'h';
   const char value = s.field == Field::vertex ? 'v' : s.field == Field::face ? 'f' : 'h';
   s.arguments.resize(2);
-  if (!expression(owner, s.arguments[0]) || !expression(value, s.arguments[1])) return false;
+  if (!expression(owner, s.arguments[0]) || !expression(value, s.arguments[1])) { return false; }
   return at_end() || fail(at_, "found " + found() + "; expected the end of the line: raw has a field and two handles");
 }
 
@@ -237,10 +237,10 @@ inline bool ScriptParser::number(long& value) {
   const std::string_view text = word();
   value = 0;
   for (char c : text) {
-    if (c < '0' || c > '9' || text.size() > 9) break;
+    if (c < '0' || c > '9' || text.size() > 9) { break; }
     value = 10 * value + (c - '0');
   }
-  if (!text.empty() && text.size() <= 9 && text.find_first_not_of("0123456789") == text.npos) return true;
+  if (!text.empty() && text.size() <= 9 && text.find_first_not_of("0123456789") == text.npos) { return true; }
   at_ = begin;
   return fail(begin, "found " + found() + "; expected a count");
 }
@@ -259,14 +259,14 @@ inline bool ScriptParser::expect(Statement& s) {
       return at_end() || fail(at_, "found " + found() + "; expected the end of the line");
     }
     if (text.size() == 2 && text[0] == 'R' && text[1] >= '1' && text[1] <= '8' && (!any || s.rules)) {
-      if (!s.rules) s.rules.emplace();
-      if (std::find(s.rules->begin(), s.rules->end(), text[1] - '0') != s.rules->end()) return wrong("each rule once");
+      if (!s.rules) { s.rules.emplace(); }
+      if (std::find(s.rules->begin(), s.rules->end(), text[1] - '0') != s.rules->end()) { return wrong("each rule once"); }
       s.rules->push_back(text[1] - '0');
     } else if (text.size() == 1 && counted.find(text[0]) != counted.npos && !s.rules) {
       std::optional<long>& count = s.counts[counted.find(text[0])];
-      if (count) return wrong("each count once");
+      if (count) { return wrong("each count once"); }
       long value = 0;
-      if (!number(value)) return false;
+      if (!number(value)) { return false; }
       count = value;
     } else {
       return wrong(s.rules ? "a rule, R1 to R8"
@@ -275,8 +275,8 @@ inline bool ScriptParser::expect(Statement& s) {
     }
     any = true;
   }
-  if (!any) return fail(at_, "found the end of the line; expected counts (v 8 e 12 f 6 s 1 h 0), rules (R1 to R8), or valid");
-  if (s.rules) std::sort(s.rules->begin(), s.rules->end());
+  if (!any) { return fail(at_, "found the end of the line; expected counts (v 8 e 12 f 6 s 1 h 0), rules (R1 to R8), or valid"); }
+  if (s.rules) { std::sort(s.rules->begin(), s.rules->end()); }
   return true;
 }
 
@@ -286,18 +286,18 @@ inline bool ScriptParser::expect(Statement& s) {
   Script script;
   std::string comment;  // lines that wait for their statement
   const auto append = [](std::string& to, std::string_view line) {
-    if (!to.empty()) to += '\n';
+    if (!to.empty()) { to += '\n'; }
     to += line;
   };
   std::uint32_t number = 1;
   bool head = true;  // only comments so far, no empty line
-  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
+  if (text.substr(0, 3) == "\xef\xbb\xbf") { text.remove_prefix(3); }
   for (std::size_t begin = 0; begin < text.size() && parser.errors().size() < ScriptParser::max_errors; ++number) {
     const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
     std::optional<Statement> s = parser.parse_line(text.substr(begin, end - begin), number);
     if (s) {
-      if (parser.comment()) append(comment, *parser.comment());
-      while (!comment.empty() && comment.back() == '\n') comment.pop_back();
+      if (parser.comment()) { append(comment, *parser.comment()); }
+      while (!comment.empty() && comment.back() == '\n') { comment.pop_back(); }
       s->caption = std::exchange(comment, {});
       script.statements.push_back(std::move(*s));
       head = false;
@@ -316,9 +316,9 @@ inline bool ScriptParser::expect(Statement& s) {
     }
     begin = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
   }
-  while (!comment.empty() && comment.back() == '\n') comment.pop_back();
+  while (!comment.empty() && comment.back() == '\n') { comment.pop_back(); }
   script.closing = std::move(comment);
-  if (!parser.errors().empty()) return {std::nullopt, parser.errors()};
+  if (!parser.errors().empty()) { return {std::nullopt, parser.errors()}; }
   return {std::move(script), {}};
 }
 

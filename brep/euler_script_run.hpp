@@ -37,7 +37,7 @@ class ScriptRunner {
   Outcome run(const Statement& s) {
     Outcome outcome = dispatch(s);
     // An older value must not stand in for a result that did not come.
-    if (outcome.kind != Outcome::Kind::done) names_.erase(s.result.name);
+    if (outcome.kind != Outcome::Kind::done) { names_.erase(s.result.name); }
     if (s.refused && outcome.kind == Outcome::Kind::done) {
       outcome.kind = Outcome::Kind::failed;
       outcome.sentence = std::string(name(s.op)) + " was done, but the script says that it is refused";
@@ -76,7 +76,7 @@ class ScriptRunner {
     return outcome;
   }
   static Outcome outcome_of(const Result<Element>& result) {
-    if (!result) return refused(result.refusal());
+    if (!result) { return refused(result.refusal()); }
     Outcome outcome;
     outcome.result = *result;
     return outcome;
@@ -127,25 +127,27 @@ class ScriptRunner {
   }
 
   Outcome dispatch(const Statement& s) {
-    if (s.command == Command::expect) return expect(s);
-    if (s.command == Command::undo) return undo_last();
-    if (s.command != Command::raw && damaged()) return failed("a raw edit stands, and operators trust the records; `undo` takes it back");
-    if (s.command == Command::redo) return redo(*brep_) ? Outcome{} : failed("there is nothing to redo");
+    if (s.command == Command::expect) { return expect(s); }
+    if (s.command == Command::undo) { return undo_last(); }
+    if (s.command != Command::raw && damaged()) {
+      return failed("a raw edit stands, and operators trust the records; `undo` takes it back");
+    }
+    if (s.command == Command::redo) { return redo(*brep_) ? Outcome{} : failed("there is nothing to redo"); }
     std::vector<Element> arguments;
     for (const Expression& e : s.arguments) {
       Outcome why;
       arguments.push_back(evaluate(e, why));
-      if (arguments.back().letter == 0) return why;
+      if (arguments.back().letter == 0) { return why; }
     }
-    if (s.command == Command::raw) return raw(s.field, arguments[0], arguments[1].index);
+    if (s.command == Command::raw) { return raw(s.field, arguments[0], arguments[1].index); }
     const HalfedgeId a{arguments.empty() ? invalid_index : arguments[0].index};
     const HalfedgeId b{arguments.size() < 2 ? invalid_index : arguments[1].index};
     Outcome outcome = outcome_of(apply(*brep_, s.op, a, b));
     if (outcome.kind == Outcome::Kind::refused && !s.written.empty() && s.written != name(s.op)) {
       outcome.sentence += " (" + s.written + " is " + std::string(name(s.op)) + " here)";
     }
-    if (outcome.kind != Outcome::Kind::done) return outcome;
-    if (!s.result.name.empty()) names_[s.result.name] = outcome.result;
+    if (outcome.kind != Outcome::Kind::done) { return outcome; }
+    if (!s.result.name.empty()) { names_[s.result.name] = outcome.result; }
     if (s.result.handle.letter != 0 && s.result.handle != outcome.result) {
       Outcome other = failed("the result is " + to_string(outcome.result) + ", but the script says " + to_string(s.result.handle));
       other.result = outcome.result;
@@ -157,8 +159,8 @@ class ScriptRunner {
   // The word that a raw edit overwrites; `owner` is alive.
   [[nodiscard]] std::uint32_t& word(Field field, Element owner) {
     using detail::Raw;
-    if (owner.letter == 'v') return Raw::at(*brep_, VertexId{owner.index}).halfedge.index;
-    if (owner.letter == 'f') return Raw::at(*brep_, FaceId{owner.index}).halfedge.index;
+    if (owner.letter == 'v') { return Raw::at(*brep_, VertexId{owner.index}).halfedge.index; }
+    if (owner.letter == 'f') { return Raw::at(*brep_, FaceId{owner.index}).halfedge.index; }
     auto& record = Raw::at(*brep_, HalfedgeId{owner.index});
     return field == Field::next     ? record.next.index
            : field == Field::prev   ? record.prev.index
@@ -166,7 +168,7 @@ class ScriptRunner {
                                     : record.face.index;
   }
   Outcome raw(Field field, Element owner, std::uint32_t value) {
-    if (!alive(owner)) return refused(Refusal{Code::dead, {owner}});
+    if (!alive(owner)) { return refused(Refusal{Code::dead, {owner}}); }
     edits_.push_back({field, owner, word(field, owner)});
     word(field, owner) = value;
     Outcome outcome;
@@ -192,11 +194,11 @@ class ScriptRunner {
     if (s.rules) {
       std::string found;
       std::vector<int> rules;
-      for (const Fault& fault : outcome.faults) rules.push_back(fault.rule);
+      for (const Fault& fault : outcome.faults) { rules.push_back(fault.rule); }
       std::sort(rules.begin(), rules.end());
       rules.erase(std::unique(rules.begin(), rules.end()), rules.end());
-      for (int rule : rules) found += " R" + std::to_string(rule);
-      if (rules != *s.rules) fail(rules.empty() ? "no rule is broken" : "the rules that are broken are" + found);
+      for (int rule : rules) { found += " R" + std::to_string(rule); }
+      if (rules != *s.rules) { fail(rules.empty() ? "no rule is broken" : "the rules that are broken are" + found); }
       return outcome;
     }
     if (!outcome.faults.empty()) {
@@ -207,11 +209,11 @@ class ScriptRunner {
                                     static_cast<long>(brep_->face_count()), static_cast<long>(shell_count(*brep_)), genus(*brep_)};
     std::string differences;
     for (std::size_t i = 0; i < found.size(); ++i) {
-      if (!s.counts[i] || *s.counts[i] == found[i]) continue;
-      if (!differences.empty()) differences += ", ";
+      if (!s.counts[i] || *s.counts[i] == found[i]) { continue; }
+      if (!differences.empty()) { differences += ", "; }
       (differences += counted[i]) += " is " + std::to_string(found[i]) + ", not " + std::to_string(*s.counts[i]);
     }
-    if (!differences.empty()) fail(std::move(differences));
+    if (!differences.empty()) { fail(std::move(differences)); }
     return outcome;
   }
 
@@ -226,7 +228,7 @@ template <class B>
   ScriptRunner<B> runner(brep);
   for (const Statement& s : script.statements) {
     const Outcome outcome = runner.run(s);
-    if (!outcome.as_written) return ScriptError{s.place, outcome.sentence};
+    if (!outcome.as_written) { return ScriptError{s.place, outcome.sentence}; }
   }
   return std::nullopt;
 }

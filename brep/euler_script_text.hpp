@@ -17,12 +17,12 @@ namespace brep {
   const auto arguments = detail::arguments(s);
   std::string text = row.result != 'h' ? "" : to_string(row.second ? twin(s.h) : s.h) + " = ";  // the step names the first half
   text += row.name;
-  for (std::size_t i = 0; i < row.arguments.size(); ++i) text += ' ' + to_string(arguments[i]);
+  for (std::size_t i = 0; i < row.arguments.size(); ++i) { text += ' ' + to_string(arguments[i]); }
   return text;
 }
 [[nodiscard]] inline std::string to_text(std::span<const Step> steps) {
   std::string text;
-  for (const Step& s : steps) text += to_text(s) + '\n';
+  for (const Step& s : steps) { text += to_text(s) + '\n'; }
   return text;
 }
 

@@ -83,7 +83,7 @@ void undo_unweld(B& brep, const Step& s) {
 // set_anchor of brep.hpp with the question whether h is alive.
 template <class B>
 Result<bool> checked_set_anchor(B& brep, HalfedgeId h) {
-  if (!brep.alive(h)) return Refusal{Code::dead, {h}};
+  if (!brep.alive(h)) { return Refusal{Code::dead, {h}}; }
   brep.set_anchor(brep.face(h), h);
   return true;
 }
@@ -148,7 +148,7 @@ inline constexpr auto operator_forms =
 
 static_assert([] {
   for (std::size_t i = 0; i < operator_forms.size(); ++i) {
-    if (static_cast<std::size_t>(operator_forms[i].op) != i) return false;
+    if (static_cast<std::size_t>(operator_forms[i].op) != i) { return false; }
   }
   return static_cast<std::size_t>(Operator::set_anchor) + 1 == operator_forms.size();
 }());
@@ -161,9 +161,9 @@ static_assert([] {
 
 // The row that has this name or textbook name; nullptr when none has.
 [[nodiscard]] constexpr const OperatorForm* find_operator(std::string_view word) {
-  if (word.empty()) return nullptr;
+  if (word.empty()) { return nullptr; }
   for (const OperatorForm& row : operator_forms) {
-    if (row.name == word || std::find(row.textbook.begin(), row.textbook.end(), word) != row.textbook.end()) return &row;
+    if (row.name == word || std::find(row.textbook.begin(), row.textbook.end(), word) != row.textbook.end()) { return &row; }
   }
   return nullptr;
 }
@@ -175,11 +175,12 @@ template <class B>
 class Dispatch {
   template <class T>
   static Result<Element> as_element(const Result<T>& result) {
-    if (!result) return result.refusal();
-    if constexpr (std::is_same_v<T, bool>)
+    if (!result) { return result.refusal(); }
+    if constexpr (std::is_same_v<T, bool>) {
       return Element{};
-    else
+    } else {
       return Element(*result);
+    }
   }
   template <std::size_t row>
   static Result<Element> apply_row(B& brep, HalfedgeId a, HalfedgeId b) {
@@ -213,7 +214,7 @@ class Dispatch {
 template <class B>
 void undo(B& brep, const Step& s) {
   Dispatch<B>::inverse[static_cast<std::size_t>(s.op)](brep, s);
-  if (!s.face_a.valid()) return;
+  if (!s.face_a.valid()) { return; }
   const HalfedgeId p = removes_edge(s.op) ? s.h : s.a, q = removes_edge(s.op) ? twin(s.h) : s.b;
   Raw::at(brep, brep.face(p)).halfedge = s.face_a;
   Raw::at(brep, brep.face(q)).halfedge = s.face_b;

@@ -53,25 +53,25 @@ concept Placed = requires(typename B::vertex_type& data) {
 // Inverse: join_faces for the n edges of the cap, last made first, then join_vertices for the n edges of the collar.
 template <class B, std::invocable<B&, VertexId, VertexId> Place>
 Result<FaceId> extrude_face(B& brep, FaceId f, Place&& place) {
-  if (!brep.alive(f)) return Refusal{Code::dead, {f}};
+  if (!brep.alive(f)) { return Refusal{Code::dead, {f}}; }
   SmallList<HalfedgeId> loop;
-  for (HalfedgeId h : halfedges_of(brep, f)) loop.push_back(h);
+  for (HalfedgeId h : halfedges_of(brep, f)) { loop.push_back(h); }
   const std::size_t n = loop.size();
-  if (!detail::has_room(brep, 2 * n)) return Refusal{Code::full, {}};
+  if (!detail::has_room(brep, 2 * n)) { return Refusal{Code::full, {}}; }
   SmallList<HalfedgeId> down;  // from the new vertices
-  for (HalfedgeId h : loop) down.push_back(twin(unchecked::split_vertex(brep, h, h)));
+  for (HalfedgeId h : loop) { down.push_back(twin(unchecked::split_vertex(brep, h, h))); }
   HalfedgeId first{}, last{};
   for (std::size_t i = 0; i < n; ++i) {
     last = unchecked::split_face(brep, down[i], i + 1 < n ? down[i + 1] : i > 0 ? first : down[0]);
-    if (i == 0) first = last;
+    if (i == 0) { first = last; }
   }
-  for (std::size_t i = 0; i < n; ++i) place(brep, brep.vertex(down[i]), brep.vertex(loop[i]));
+  for (std::size_t i = 0; i < n; ++i) { place(brep, brep.vertex(down[i]), brep.vertex(loop[i])); }
   return n > 1 ? f : brep.face(twin(last));
 }
 template <class B>
 Result<FaceId> extrude_face(B& brep, FaceId f) {
   return extrude_face(brep, f, [](B& b, VertexId lifted, VertexId base) {
-    if constexpr (detail::Placed<B>) b.data(lifted).position = b.data(base).position;
+    if constexpr (detail::Placed<B>) { b.data(lifted).position = b.data(base).position; }
   });
 }
 // All vertices of the cap moved by `offset`.
@@ -92,13 +92,13 @@ Result<FaceId> extrude_face(B& brep, FaceId f, const glm::dvec3& offset) {
 // Inverse: join_faces for the spokes, last made first, but the first one; then join_vertices(h) for that, h ending at the vertex.
 template <class B, std::invocable<B&, VertexId> Place>
 Result<VertexId> poke_face(B& brep, FaceId f, Place&& place) {
-  if (!brep.alive(f)) return Refusal{Code::dead, {f}};
+  if (!brep.alive(f)) { return Refusal{Code::dead, {f}}; }
   SmallList<HalfedgeId> loop;
-  for (HalfedgeId h : halfedges_of(brep, f)) loop.push_back(h);
-  if (!detail::has_room(brep, loop.size())) return Refusal{Code::full, {}};
+  for (HalfedgeId h : halfedges_of(brep, f)) { loop.push_back(h); }
+  if (!detail::has_room(brep, loop.size())) { return Refusal{Code::full, {}}; }
   HalfedgeId spoke = twin(unchecked::split_vertex(brep, loop[0], loop[0]));  // from the new vertex
   const VertexId centre = brep.vertex(spoke);
-  for (std::size_t i = 1; i < loop.size(); ++i) spoke = unchecked::split_face(brep, spoke, loop[i]);
+  for (std::size_t i = 1; i < loop.size(); ++i) { spoke = unchecked::split_face(brep, spoke, loop[i]); }
   place(brep, centre);
   return centre;
 }

@@ -19,7 +19,7 @@ namespace brep {
 template <class B>
 [[nodiscard]] SmallList<glm::dvec3> positions(const B& brep, FaceId f) {
   SmallList<glm::dvec3> result;
-  for (HalfedgeId h : halfedges_of(brep, f)) result.push_back(brep.data(brep.vertex(h)).position);
+  for (HalfedgeId h : halfedges_of(brep, f)) { result.push_back(brep.data(brep.vertex(h)).position); }
   return result;
 }
 

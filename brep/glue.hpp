@@ -28,10 +28,10 @@ namespace detail {
 
 template <class B>
 [[nodiscard]] Refusal check_pair(const B& brep, HalfedgeId a, HalfedgeId c) {
-  if (!brep.alive(a)) return {Code::dead, {a}};
-  if (!brep.alive(c)) return {Code::dead, {c}};
-  if (brep.face(a) == brep.face(c)) return {Code::equal_faces, {a, c}};
-  if (degree(brep, brep.face(a)) != degree(brep, brep.face(c))) return {Code::different_degrees, {a, c}};
+  if (!brep.alive(a)) { return {Code::dead, {a}}; }
+  if (!brep.alive(c)) { return {Code::dead, {c}}; }
+  if (brep.face(a) == brep.face(c)) { return {Code::equal_faces, {a, c}}; }
+  if (degree(brep, brep.face(a)) != degree(brep, brep.face(c))) { return {Code::different_degrees, {a, c}}; }
   return {};
 }
 
@@ -45,7 +45,7 @@ void close_gap(B& brep, HalfedgeId h) {
   }
   const VertexId v = brep.vertex(h), w = unchecked::unweld(brep, h);
   using Data = typename B::vertex_type;
-  if constexpr (std::is_copy_assignable_v<Data> && !std::is_empty_v<Data>) brep.data(w) = brep.data(v);
+  if constexpr (std::is_copy_assignable_v<Data> && !std::is_empty_v<Data>) { brep.data(w) = brep.data(v); }
 }
 
 }  // namespace detail
@@ -67,8 +67,8 @@ void close_gap(B& brep, HalfedgeId h) {
 // Time: the edges of both faces, and the edges of what is killed: the vertices of g and two-edge faces.
 template <class B>
 Result<std::size_t> glue_faces(B& brep, HalfedgeId a, HalfedgeId c) {
-  if (const Refusal refusal = detail::check_pair(brep, a, c); refusal.code != Code::none) return refusal;
-  if (detail::Raw::halfedges(brep).full()) return Refusal{Code::full, {}};
+  if (const Refusal refusal = detail::check_pair(brep, a, c); refusal.code != Code::none) { return refusal; }
+  if (detail::Raw::halfedges(brep).full()) { return Refusal{Code::full, {}}; }
   std::size_t seam = 0, pairs = degree(brep, brep.face(a));
   detail::close_gap(brep, unchecked::bridge(brep, a, brep.next(c)));
   for (; pairs > 1; --pairs) {  // one loop of 2 * pairs half-edges, where c comes before a
@@ -78,7 +78,9 @@ Result<std::size_t> glue_faces(B& brep, HalfedgeId a, HalfedgeId c) {
       unchecked::join_vertices(brep, c);
     } else {
       detail::close_gap(brep, twin(unchecked::split_face(brep, c, next)));  // c and a are the loop of a two-edge face now
-      if (next == twin(c)) next = a;                                        // which takes its place
+      if (next == twin(c)) {
+        next = a;  // which takes its place
+      }
       unchecked::join_faces(brep, twin(c));
       ++seam;
     }
@@ -108,12 +110,12 @@ Result<std::size_t> glue_faces(B& brep, HalfedgeId a, HalfedgeId c) {
 // Inverse: join_faces for the other edges of the tunnel, last made first, then cut(h).
 template <class B>
 Result<HalfedgeId> punch_hole(B& brep, HalfedgeId a, HalfedgeId c) {
-  if (const Refusal refusal = detail::check_pair(brep, a, c); refusal.code != Code::none) return refusal;
+  if (const Refusal refusal = detail::check_pair(brep, a, c); refusal.code != Code::none) { return refusal; }
   const std::size_t n = degree(brep, brep.face(a));
-  if (!detail::has_room(brep, n)) return Refusal{Code::full, {}};
+  if (!detail::has_room(brep, n)) { return Refusal{Code::full, {}}; }
   const HalfedgeId h = unchecked::bridge(brep, a, brep.next(c));
   HalfedgeId rung = twin(h);  // the loop runs: half-edge of g, rung, half-edge of f
-  for (std::size_t i = 1; i < n; ++i) rung = unchecked::split_face(brep, brep.prev(rung), brep.next(brep.next(rung)));
+  for (std::size_t i = 1; i < n; ++i) { rung = unchecked::split_face(brep, brep.prev(rung), brep.next(brep.next(rung))); }
   return h;
 }
 

@@ -52,7 +52,7 @@ struct Element {
 };
 
 [[nodiscard]] inline std::string to_string(Element e) {
-  if (e.letter == 0) return "nothing";
+  if (e.letter == 0) { return "nothing"; }
   std::string text(1, e.letter);
   text += e.index == invalid_index ? std::string("?") : std::to_string(e.index);
   return text;

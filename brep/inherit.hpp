@@ -28,15 +28,16 @@ concept Inheriting = requires(T child, const T& parent) {
 
 template <class T>
 void inherit_face(T& child, const T& parent) {
-  if constexpr (Inheriting<T>)
+  if constexpr (Inheriting<T>) {
     child.inherit(parent);
-  else if constexpr (std::is_copy_assignable_v<T> && !std::is_empty_v<T>)
+  } else if constexpr (std::is_copy_assignable_v<T> && !std::is_empty_v<T>) {
     child = parent;
+  }
 }
 
 template <class T>
 void inherit_vertex([[maybe_unused]] T& child, [[maybe_unused]] const T& parent) {
-  if constexpr (Inheriting<T>) child.inherit(parent);
+  if constexpr (Inheriting<T>) { child.inherit(parent); }
 }
 
 }  // namespace brep::detail

@@ -42,7 +42,7 @@ class ColouredMap {
 
   ColouredMap(const B& brep, Orientation orientation) : brep_(brep), orientation_(orientation), colour_(brep.halfedge_end()) {
     start_with_degrees();
-    for (int round = 0; round < 8; ++round) refine();
+    for (int round = 0; round < 8; ++round) { refine(); }
     find_shells();
   }
 
@@ -58,7 +58,7 @@ class ColouredMap {
   void start_with_degrees() {
     for (FaceId f : faces(brep_)) {
       const std::size_t n = degree(brep_, f);
-      for (HalfedgeId h : halfedges_of(brep_, f)) colour_[h.index] = n;
+      for (HalfedgeId h : halfedges_of(brep_, f)) { colour_[h.index] = n; }
     }
     for (VertexId v : vertices(brep_)) {
       const std::size_t n = degree(brep_, v);
@@ -71,17 +71,17 @@ class ColouredMap {
   void refine() {
     std::vector<Colour> finer(colour_.size());
     for (EdgeId e : edges(brep_)) {
-      for (HalfedgeId h : {halfedge(e), twin(halfedge(e))}) finer[h.index] = mix(mix(colour(h), colour(next(h))), colour(twin(h)));
+      for (HalfedgeId h : {halfedge(e), twin(halfedge(e))}) { finer[h.index] = mix(mix(colour(h), colour(next(h))), colour(twin(h))); }
     }
     colour_ = std::move(finer);
   }
   void find_shells() {
     std::vector<bool> seen(brep_.halfedge_end(), false);
     for (EdgeId e : edges(brep_)) {
-      if (seen[halfedge(e).index]) continue;
+      if (seen[halfedge(e).index]) { continue; }
       Shell shell;
       const auto reach = [&](HalfedgeId h) {
-        if (seen[h.index]) return;
+        if (seen[h.index]) { return; }
         seen[h.index] = true;
         shell.halfedges.push_back(h);
         shell.colours.push_back(colour(h));
@@ -126,7 +126,7 @@ bool extend(const ColouredMap<A>& a, const ColouredMap<B>& b, HalfedgeId x, Half
   std::vector<HalfedgeId> mapped;
   const auto set = [&](HalfedgeId from, HalfedgeId to) {
     HalfedgeId& known = image[from.index];
-    if (known.valid()) return known == to;
+    if (known.valid()) { return known == to; }
     known = to;
     mapped.push_back(from);
     return a.colour(from) == b.colour(to);
@@ -137,7 +137,7 @@ bool extend(const ColouredMap<A>& a, const ColouredMap<B>& b, HalfedgeId x, Half
     agrees = set(twin(from), twin(to)) && set(a.next(from), b.next(to));
   }
   if (!agrees) {
-    for (HalfedgeId h : mapped) image[h.index] = HalfedgeId{};
+    for (HalfedgeId h : mapped) { image[h.index] = HalfedgeId{}; }
   }
   return agrees;
 }
@@ -146,10 +146,10 @@ bool extend(const ColouredMap<A>& a, const ColouredMap<B>& b, HalfedgeId x, Half
 template <class Range, class B>
 std::string degrees(Range&& range, const B& brep) {
   std::map<std::size_t, std::size_t> count;
-  for (auto id : range) ++count[degree(brep, id)];
+  for (auto id : range) { ++count[degree(brep, id)]; }
   std::string text;
   for (const auto& [n, times] : count) {
-    if (!text.empty()) text += ", ";
+    if (!text.empty()) { text += ", "; }
     text += std::to_string(times) + " of degree " + std::to_string(n);
   }
   return text.empty() ? "none" : text;
@@ -160,10 +160,10 @@ std::string degrees(Range&& range, const B& brep) {
 // The image of each half-edge of a in b, indexed by half-edge (invalid for dead ones), or nothing when there is no isomorphism.
 template <class A, class B>
 [[nodiscard]] std::optional<std::vector<HalfedgeId>> find_isomorphism(const A& a, const B& b, Orientation orientation = Orientation::kept) {
-  if (a.vertex_count() != b.vertex_count() || a.edge_count() != b.edge_count() || a.face_count() != b.face_count()) return std::nullopt;
+  if (a.vertex_count() != b.vertex_count() || a.edge_count() != b.edge_count() || a.face_count() != b.face_count()) { return std::nullopt; }
   const detail::ColouredMap<A> from(a, Orientation::kept);
   const detail::ColouredMap<B> to(b, orientation);
-  if (from.shells().size() != to.shells().size()) return std::nullopt;
+  if (from.shells().size() != to.shells().size()) { return std::nullopt; }
   std::vector<HalfedgeId> image(a.halfedge_end());
   std::vector<bool> taken(to.shells().size(), false);
   for (const auto& shell : from.shells()) {
@@ -171,14 +171,14 @@ template <class A, class B>
     bool found = false;
     for (std::size_t i = 0; i < taken.size() && !found; ++i) {
       const auto& partner = to.shells()[i];
-      if (taken[i] || partner.colours != shell.colours) continue;
+      if (taken[i] || partner.colours != shell.colours) { continue; }
       for (HalfedgeId h : partner.halfedges) {
-        if (to.colour(h) != from.colour(root) || !detail::extend(from, to, root, h, image)) continue;
+        if (to.colour(h) != from.colour(root) || !detail::extend(from, to, root, h, image)) { continue; }
         taken[i] = found = true;
         break;
       }
     }
-    if (!found) return std::nullopt;
+    if (!found) { return std::nullopt; }
   }
   return image;
 }
@@ -186,18 +186,18 @@ template <class A, class B>
 // What stands against an isomorphism, in sentences; empty when there is one. Says when b is the mirror image of a.
 template <class A, class B>
 [[nodiscard]] std::string difference(const A& a, const B& b) {
-  if (find_isomorphism(a, b)) return {};
+  if (find_isomorphism(a, b)) { return {}; }
   std::string text;
   const auto compare = [&](const char* what, const auto& x, const auto& y) {
-    if (x != y) text += std::string(text.empty() ? "" : "\n") + what + ": " + x + ", expected " + y;
+    if (x != y) { text += std::string(text.empty() ? "" : "\n") + what + ": " + x + ", expected " + y; }
   };
   compare("vertices", detail::degrees(vertices(a), a), detail::degrees(vertices(b), b));
   compare("faces", detail::degrees(faces(a), a), detail::degrees(faces(b), b));
   compare("edges", std::to_string(a.edge_count()), std::to_string(b.edge_count()));
   compare("shells", std::to_string(shell_count(a)), std::to_string(shell_count(b)));
   compare("handles", std::to_string(genus(a)), std::to_string(genus(b)));
-  if (!text.empty()) return text;
-  if (find_isomorphism(a, b, Orientation::reversed)) return "it is the mirror image: some faces run the wrong way round";
+  if (!text.empty()) { return text; }
+  if (find_isomorphism(a, b, Orientation::reversed)) { return "it is the mirror image: some faces run the wrong way round"; }
   return "all counts and degrees agree, but the elements are connected differently";
 }
 

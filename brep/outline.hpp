@@ -34,7 +34,7 @@ class Outline {
     const glm::dvec3 across = std::abs(n.x) < 0.6 ? glm::dvec3{1.0, 0.0, 0.0} : glm::dvec3{0.0, 1.0, 0.0};
     const glm::dvec3 v = glm::cross(n, across), u = glm::cross(v, n);
     const double unit = glm::length(v) > 0.0 ? 1.0 / glm::length(v) : 0.0;
-    for (const glm::dvec3& x : p) points_.push_back(unit * glm::dvec2{glm::dot(x - p[0], u), glm::dot(x - p[0], v)});
+    for (const glm::dvec3& x : p) { points_.push_back(unit * glm::dvec2{glm::dot(x - p[0], u), glm::dot(x - p[0], v)}); }
     const double size = extent(p);
     tolerance_ = 1e-14 * size * size;
   }
@@ -59,10 +59,10 @@ class Outline {
   // Does the segment from corner i to corner j lie inside, touch the outline nowhere but at these two points, and cut two areas that are
   // not zero? Other corners may coincide with these two (the ends of a bridge): there the angles of the polygon at i and j decide.
   [[nodiscard]] bool inner_diagonal(std::size_t i, std::size_t j) const {
-    if (i == j || next(i) == j || next(j) == i || !in_cone(i, j) || !in_cone(j, i)) return false;
+    if (i == j || next(i) == j || next(j) == i || !in_cone(i, j) || !in_cone(j, i)) { return false; }
     const auto at_end = [&](std::size_t k) { return points_[k] == points_[i] || points_[k] == points_[j]; };
     for (std::size_t k = 0; k < size(); ++k) {
-      if (!at_end(k) && !at_end(next(k)) && touch(i, j, k, next(k))) return false;
+      if (!at_end(k) && !at_end(next(k)) && touch(i, j, k, next(k))) { return false; }
     }
     return true;
   }
@@ -75,7 +75,7 @@ class Outline {
     for (std::size_t k = 0; k < size(); ++k) {
       order[k] = k;
       const glm::dvec2 in = points_[k] - points_[prev(k)], out = points_[next(k)] - points_[k];
-      if (out == glm::dvec2{0.0} || (side(prev(k), k, next(k)) == 0 && glm::dot(in, out) < 0.0)) return k;
+      if (out == glm::dvec2{0.0} || (side(prev(k), k, next(k)) == 0 && glm::dot(in, out) < 0.0)) { return k; }
     }
     const auto lo = [&](std::size_t k) { return std::min(points_[k].x, points_[next(k)].x); };
     const auto hi = [&](std::size_t k) { return std::max(points_[k].x, points_[next(k)].x); };
@@ -83,7 +83,7 @@ class Outline {
     for (std::size_t a = 0; a < size(); ++a) {
       for (std::size_t b = a + 1; b < size() && lo(order[b]) <= hi(order[a]); ++b) {
         const std::size_t k = order[a], l = order[b];
-        if (next(k) != l && next(l) != k && touch(k, next(k), l, next(l)) && !legal_contact(k, l)) return k;
+        if (next(k) != l && next(l) != k && touch(k, next(k), l, next(l)) && !legal_contact(k, l)) { return k; }
       }
     }
     return std::nullopt;
@@ -107,13 +107,13 @@ class Outline {
       const double first = area[j] - area[i] + 0.5 * cross(points_[j], points_[i]), second = area[size()] - first;
       const double a = length[j] - length[i] + chord, b = length[size()] - length[j] + length[i] + chord;
       const double score = std::min(first / (a * a), second / (b * b));
-      if (score > 0.0) candidates.push_back({score, {i, j}});
+      if (score > 0.0) { candidates.push_back({score, {i, j}}); }
     };
     for (std::size_t i = 0; i < size(); ++i) {
       if (from && i != *from) {
         add(std::min(i, *from), std::max(i, *from));
       } else if (!from) {
-        for (std::size_t j = i + 2; j < size(); ++j) add(i, j);
+        for (std::size_t j = i + 2; j < size(); ++j) { add(i, j); }
       }
     }
     const auto worse = [](const Candidate& a, const Candidate& b) {
@@ -123,7 +123,7 @@ class Outline {
     while (!candidates.empty()) {
       std::pop_heap(candidates.begin(), candidates.end(), worse);
       const Diagonal best = candidates.back().diagonal;
-      if (inner_diagonal(best.first, best.second)) return best;
+      if (inner_diagonal(best.first, best.second)) { return best; }
       candidates.pop_back();
     }
     return std::nullopt;
@@ -156,8 +156,8 @@ class Outline {
     const std::size_t m = next(k), n = next(l);
     bool coincide = false;
     for (const auto& [i, j] : {Diagonal{k, l}, Diagonal{k, n}, Diagonal{m, l}, Diagonal{m, n}}) {
-      if (points_[i] != points_[j]) continue;
-      if (in_cone(i, next(j)) || in_cone(i, prev(j)) || in_cone(j, next(i)) || in_cone(j, prev(i))) return false;
+      if (points_[i] != points_[j]) { continue; }
+      if (in_cone(i, next(j)) || in_cone(i, prev(j)) || in_cone(j, next(i)) || in_cone(j, prev(i))) { return false; }
       coincide = true;
     }
     return coincide && (points_[k] != points_[l] || points_[m] != points_[n]);

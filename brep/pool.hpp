@@ -60,11 +60,11 @@ class Pages {
   Pages(Pages&& other) noexcept : pages_(std::move(other.pages_)), size_(std::exchange(other.size_, 0)) { other.pages_.clear(); }
   Pages(const Pages& other) : Pages(other, std::allocator_traits<Allocator>::select_on_container_copy_construction(other.allocator())) {}
   Pages(const Pages& other, const Allocator& allocator) : Pages(allocator) {
-    for (std::uint32_t i = 0; i < other.size_; ++i) push_back(other[i]);
+    for (std::uint32_t i = 0; i < other.size_; ++i) { push_back(other[i]); }
   }
   Pages(Pages&& other, const Allocator& allocator) : Pages(allocator) {
     if (pages_.get_allocator() != other.pages_.get_allocator()) {
-      for (std::uint32_t i = 0; i < other.size_; ++i) push_back(std::move(other[i]));
+      for (std::uint32_t i = 0; i < other.size_; ++i) { push_back(std::move(other[i])); }
       other.clear();
     } else {
       swap(other);
@@ -92,7 +92,7 @@ class Pages {
   }
   template <class... Arguments>
   void push_back(Arguments&&... arguments) {
-    if ((size_ & (page_size - 1)) == 0) add_page();
+    if ((size_ & (page_size - 1)) == 0) { add_page(); }
     ElementAllocator allocator(pages_.get_allocator());
     Traits::construct(allocator, pages_.back() + (size_ & (page_size - 1)), std::forward<Arguments>(arguments)...);
     ++size_;
@@ -105,18 +105,18 @@ class Pages {
   static constexpr std::uint32_t page_size = std::uint32_t{1} << Shift;
 
   void add_page() {  // the table first: a page that it has no room for would be lost
-    if (pages_.size() == size_ >> Shift) pages_.push_back(nullptr);
-    if (pages_.back() != nullptr) return;
+    if (pages_.size() == size_ >> Shift) { pages_.push_back(nullptr); }
+    if (pages_.back() != nullptr) { return; }
     ElementAllocator allocator(pages_.get_allocator());
     pages_.back() = Traits::allocate(allocator, page_size);
   }
   void clear() {
     ElementAllocator allocator(pages_.get_allocator());
     if constexpr (!std::is_trivially_destructible_v<T>) {
-      for (std::uint32_t i = 0; i < size_; ++i) Traits::destroy(allocator, &(*this)[i]);
+      for (std::uint32_t i = 0; i < size_; ++i) { Traits::destroy(allocator, &(*this)[i]); }
     }
     for (T* page : pages_) {
-      if (page != nullptr) Traits::deallocate(allocator, page, page_size);
+      if (page != nullptr) { Traits::deallocate(allocator, page, page_size); }
     }
     pages_.clear();
     size_ = 0;
@@ -145,7 +145,7 @@ class Array {
   Array(Array&& other) noexcept : allocator_(other.allocator_) { swap(other); }
   Array(const Array& other) : Array(other, std::allocator_traits<Allocator>::select_on_container_copy_construction(other.allocator())) {}
   Array(const Array& other, const Allocator& allocator) : Array(allocator) {
-    if (other.size_ == 0) return;
+    if (other.size_ == 0) { return; }
     reserve(other.size_);
     std::memcpy(static_cast<void*>(data_), other.data_, other.size_ * sizeof(T));
     size_ = other.size_;
@@ -177,15 +177,16 @@ class Array {
     return data_[i];
   }
   [[gnu::noinline]] void reserve(std::size_t capacity) {
-    if (capacity <= capacity_) return;
+    if (capacity <= capacity_) { return; }
     if constexpr (reallocates) {
       void* block = nullptr;
-      while ((block = std::realloc(static_cast<void*>(data_), capacity * sizeof(T))) == nullptr)
+      while ((block = std::realloc(static_cast<void*>(data_), capacity * sizeof(T))) == nullptr) {
         ::operator delete(::operator new(capacity * sizeof(T)));  // no memory: ends here, unless a new-handler finds some
+      }
       data_ = static_cast<T*>(block);
     } else {
       T* const block = Traits::allocate(allocator_, capacity);
-      if (size_ != 0) std::memcpy(static_cast<void*>(block), data_, size_ * sizeof(T));
+      if (size_ != 0) { std::memcpy(static_cast<void*>(block), data_, size_ * sizeof(T)); }
       free();
       data_ = block;
     }
@@ -193,7 +194,7 @@ class Array {
   }
   // Appends `count` records, which hold anything, and returns the index of the first.
   std::uint32_t extend(std::uint32_t count) {
-    if (size_ + std::size_t{count} > capacity_) grow(size_ + std::size_t{count});
+    if (size_ + std::size_t{count} > capacity_) { grow(size_ + std::size_t{count}); }
     return std::exchange(size_, size_ + count);
   }
   [[nodiscard]] std::uint32_t size() const { return size_; }
@@ -203,10 +204,11 @@ class Array {
  private:
   void grow(std::size_t least) { reserve(std::max({least, capacity_ + capacity_ / (reallocates ? 8 : 1), std::size_t{16}})); }
   void free() {
-    if constexpr (reallocates)
+    if constexpr (reallocates) {
       std::free(data_);
-    else if (data_ != nullptr)
+    } else if (data_ != nullptr) {
       Traits::deallocate(allocator_, data_, capacity_);
+    }
   }
   void swap(Array& other) {  // of equal allocators
     std::swap(data_, other.data_);
@@ -274,18 +276,18 @@ class Pool {
 
   // Index of the first record of a slot; its records hold whatever they held when the slot was released.
   [[nodiscard]] std::uint32_t allocate() {
-    if (free_ == end_of_list) return first_use();
+    if (free_ == end_of_list) { return first_use(); }
     ++count_;
     const std::uint32_t i = free_;
     free_ = link(records_[i]) & ~dead_bit;
     link(records_[i]) = 0;
-    if constexpr (std::is_trivially_destructible_v<Data>) reset(i);
+    if constexpr (std::is_trivially_destructible_v<Data>) { reset(i); }
     return i;
   }
   // Data that own something let it go here, the others are overwritten when the slot is used again.
   void release(std::uint32_t i) {
     assert(alive(i) && i % Group == 0);
-    if constexpr (!std::is_trivially_destructible_v<Data>) reset(i);
+    if constexpr (!std::is_trivially_destructible_v<Data>) { reset(i); }
     link(records_[i]) = dead_bit | free_;
     free_ = i;
     --count_;
@@ -295,7 +297,7 @@ class Pool {
     assert(records_.size() < end_of_list - slots * Group);
     count_ += slots;
     if constexpr (!std::is_empty_v<Data>) {
-      for (std::uint32_t k = 0; k < slots * Group; ++k) data_.push_back();
+      for (std::uint32_t k = 0; k < slots * Group; ++k) { data_.push_back(); }
     }
     return records_.extend(slots * Group);
   }
@@ -313,13 +315,13 @@ class Pool {
  private:
   [[gnu::noinline]] std::uint32_t first_use() {  // apart, to keep the operators small
     const std::uint32_t i = append(1);
-    for (std::uint32_t k = 0; k < Group; ++k) records_[i + k] = Record{};
+    for (std::uint32_t k = 0; k < Group; ++k) { records_[i + k] = Record{}; }
     link(records_[i]) = 0;
     return i;
   }
   void reset(std::uint32_t i) {
     if constexpr (!std::is_empty_v<Data>) {
-      for (std::uint32_t k = 0; k < Group; ++k) data_[i + k] = Data{};
+      for (std::uint32_t k = 0; k < Group; ++k) { data_[i + k] = Data{}; }
     }
   }
 

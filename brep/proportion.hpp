@@ -34,7 +34,7 @@ struct Side {  // the half-plane  dot(normal, x) >= distance
 inline double meeting_time(const Side& a, const Side& b, const Side& c) {
   const glm::dvec2 ab = b.normal - a.normal, ac = c.normal - a.normal;
   const double det = cross2(ab, ac);
-  if (!(std::abs(det) > 1e-14)) return HUGE_VAL;
+  if (!(std::abs(det) > 1e-14)) { return HUGE_VAL; }
   const double db = b.distance - a.distance, dc = c.distance - a.distance;  // dot(ab, x) = db, dot(ac, x) = dc
   const glm::dvec2 x{(db * ac.y - dc * ab.y) / det, (ab.x * dc - ac.x * db) / det};
   return glm::dot(a.normal, x) - a.distance;
@@ -45,15 +45,15 @@ inline double inscribed_radius(const Outline& p) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const glm::dvec2 along = p[p.next(i)] - p[i];
     const double length = glm::length(along);
-    if (!(length > 0.0)) continue;
+    if (!(length > 0.0)) { continue; }
     const glm::dvec2 n{-along.y / length, along.x / length};
     const Side side{n, glm::dot(n, p[i])};
     const auto straight = [&](const Side& other) { return std::abs(cross2(n, other.normal)) < 1e-10 && glm::dot(n, other.normal) > 0.0; };
-    if (!sides.empty() && straight(sides.back())) continue;
-    if (!sides.empty() && p.next(i) == 0 && straight(sides.front())) continue;
+    if (!sides.empty() && straight(sides.back())) { continue; }
+    if (!sides.empty() && p.next(i) == 0 && straight(sides.front())) { continue; }
     sides.push_back(side);
   }
-  if (sides.size() < 3) return 0.0;
+  if (sides.size() < 3) { return 0.0; }
   const auto time = [&](std::size_t i) {
     const std::size_t n = sides.size();
     return meeting_time(sides[(i + n - 1) % n], sides[i], sides[(i + 1) % n]);
@@ -89,13 +89,13 @@ inline Circle2 circle_through(const glm::dvec2& a, const glm::dvec2& b, const gl
 inline double circumscribed_radius(const Outline& p) {
   Circle2 circle;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (circle.holds(p[i])) continue;
+    if (circle.holds(p[i])) { continue; }
     circle = {p[i], 0.0};
     for (std::size_t j = 0; j < i; ++j) {
-      if (circle.holds(p[j])) continue;
+      if (circle.holds(p[j])) { continue; }
       circle = circle_through(p[i], p[j]);
       for (std::size_t k = 0; k < j; ++k) {
-        if (!circle.holds(p[k])) circle = circle_through(p[i], p[j], p[k]);
+        if (!circle.holds(p[k])) { circle = circle_through(p[i], p[j], p[k]); }
       }
     }
   }
@@ -106,7 +106,7 @@ inline double circumscribed_radius(const Outline& p) {
 
 // For a convex polygon; in [0, 1), relative error about 1e-10. 0 without area.
 [[nodiscard]] inline double proportion(Polygon polygon) {
-  if (!(area(polygon) > 0.0)) return 0.0;
+  if (!(area(polygon) > 0.0)) { return 0.0; }
   const Outline outline(polygon);
   return std::fmax(0.0, detail::inscribed_radius(outline)) / detail::circumscribed_radius(outline);
 }

@@ -43,11 +43,11 @@ template <class B>
   HalfedgeId first = brep.halfedge(f);
   while (!is_corner(first)) {
     first = brep.prev(first);
-    if (first == brep.halfedge(f)) return result;
+    if (first == brep.halfedge(f)) { return result; }
   }
   HalfedgeId h = first;
   do {
-    if (is_corner(h)) result.push_back(h);
+    if (is_corner(h)) { result.push_back(h); }
     h = brep.next(h);
   } while (h != first);
   return result;
@@ -59,7 +59,7 @@ namespace detail {
 template <class B>
 HalfedgeId mid_edge(const B& brep, HalfedgeId c, HalfedgeId next_corner, unsigned level) {
   for (HalfedgeId h = brep.next(c); h != next_corner; h = brep.next(h)) {
-    if (brep.data(brep.vertex(h)).level == level + 1) return h;
+    if (brep.data(brep.vertex(h)).level == level + 1) { return h; }
   }
   return {};
 }
@@ -90,13 +90,13 @@ HalfedgeId cut_child(B& brep, HalfedgeId from, HalfedgeId to, std::vector<FaceId
 // vertices, but none of level l + 1 (the levels were not made by refine).
 template <class B, class Place>
 Result<std::vector<FaceId>> refine(B& brep, FaceId f, Place&& place) {
-  if (!brep.alive(f)) return Refusal{Code::dead, {f}};
+  if (!brep.alive(f)) { return Refusal{Code::dead, {f}}; }
   const unsigned level = brep.data(f).level;
-  if (level == 255) return Refusal{Code::level_limit, {f}};
+  if (level == 255) { return Refusal{Code::level_limit, {f}}; }
   Corners corner = corners(brep, f);
   const std::size_t n = corner.size();
-  if (n < 3) return Refusal{Code::few_corners, {f}};
-  if (detail::Raw::halfedges(brep).size() > 0x7ffffff0u - 8 * static_cast<std::uint32_t>(n)) return Refusal{Code::full, {}};
+  if (n < 3) { return Refusal{Code::few_corners, {f}}; }
+  if (detail::Raw::halfedges(brep).size() > 0x7ffffff0u - 8 * static_cast<std::uint32_t>(n)) { return Refusal{Code::full, {}}; }
   SmallList<glm::dvec3> outline;
   for (std::size_t k = 0; k < n; ++k) {
     const HalfedgeId next_corner = corner[(k + 1) % n];
@@ -114,7 +114,7 @@ Result<std::vector<FaceId>> refine(B& brep, FaceId f, Place&& place) {
       m = unchecked::split_edge(brep, corner[k]);
       if (brep.face(other) == f) {  // f lies on both sides of this edge: the other side's corner moved to the new half
         for (HalfedgeId& c : corner) {
-          if (c == other) c = brep.prev(other);
+          if (c == other) { c = brep.prev(other); }
         }
       }
       detail::put(brep, brep.vertex(m), 0.5 * (outline[k] + outline[(k + 1) % n]), level + 1, place);
@@ -134,9 +134,9 @@ Result<std::vector<FaceId>> refine(B& brep, FaceId f, Place&& place) {
   } else {
     HalfedgeId spoke = unchecked::split_edge(brep, h);  // centre -> mid-edge point
     detail::put(brep, brep.vertex(spoke), centroid(Polygon{outline.data(), outline.size()}), level + 1, place);
-    for (std::size_t k = 2; k < n; ++k) spoke = detail::cut_child(brep, spoke, middle[k], children);
+    for (std::size_t k = 2; k < n; ++k) { spoke = detail::cut_child(brep, spoke, middle[k], children); }
   }
-  for (std::size_t k = 0; k < n; ++k) brep.set_anchor(children[k], corner[k]);
+  for (std::size_t k = 0; k < n; ++k) { brep.set_anchor(children[k], corner[k]); }
   return children;
 }
 

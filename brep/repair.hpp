@@ -55,10 +55,12 @@ class Repairer {
     const Builder& b = assembly_.builder;
     unreadable_ = Diagnosis(b, &assembly_).run();
     std::erase_if(unreadable_, [](const Defect& d) { return d.kind != DefectKind::bad_index; });
-    for (std::uint32_t v = 0; v < b.vertex_count(); ++v) place_.push_back(v);
+    for (std::uint32_t v = 0; v < b.vertex_count(); ++v) { place_.push_back(v); }
     for (std::uint32_t f = 0; f < b.face_count(); ++f) {
       faces_.emplace_back(b.corners(f).begin(), b.corners(f).end());
-      for (std::uint32_t& v : faces_.back()) v = v < b.vertex_count() ? v : invalid_index;  // never the number of a new vertex
+      for (std::uint32_t& v : faces_.back()) {
+        v = v < b.vertex_count() ? v : invalid_index;  // never the number of a new vertex
+      }
       sheets_.push_back(b.sheet(f));
     }
     dropped_.assign(faces_.size(), false);
@@ -86,8 +88,8 @@ class Repairer {
   // The present state, all numbers kept: dropped faces have no corners.
   [[nodiscard]] Builder snapshot() const {
     Builder b;
-    for (std::uint32_t v : place_) b.vertex(assembly_.builder.position(v));
-    for (std::size_t f = 0; f < faces_.size(); ++f) b.face(faces_[f], sheets_[f]);
+    for (std::uint32_t v : place_) { b.vertex(assembly_.builder.position(v)); }
+    for (std::size_t f = 0; f < faces_.size(); ++f) { b.face(faces_[f], sheets_[f]); }
     return b;
   }
   // Vertices of faces that cannot be used. Nothing is filled in or parted at them: that would repair a consequence, not the cause.
@@ -95,7 +97,7 @@ class Repairer {
     std::vector<bool> touched(place_.size(), false);
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       for (std::uint32_t v : faces_[f]) {
-        if (bad[f] && v < touched.size()) touched[v] = true;
+        if (bad[f] && v < touched.size()) { touched[v] = true; }
       }
     }
     return touched;
@@ -105,10 +107,10 @@ class Repairer {
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
       std::vector<std::uint32_t>& corners = faces_[f];
       const bool readable = std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return v < place_.size(); });
-      if (!readable) continue;
+      if (!readable) { continue; }
       const std::size_t before = corners.size();
       corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-      while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+      while (corners.size() > 1 && corners.front() == corners.back()) { corners.pop_back(); }
       const std::string name = to_string(FaceId{f});
       if (corners.size() < 3) {
         add(RepairKind::dropped_face, {FaceId{f}}, name + " was dropped: it has fewer than three different corners");
@@ -135,18 +137,18 @@ class Repairer {
     const EdgeUses uses(now, bad);
     const FlipPlan orientation(now, uses, bad);
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-      if (!orientation.flip[f]) continue;
+      if (!orientation.flip[f]) { continue; }
       std::reverse(faces_[f].begin() + 1, faces_[f].end());
       add(RepairKind::flipped_face, {FaceId{f}}, to_string(FaceId{f}) + " was flipped: now it runs as its neighbours do");
     }
     for (const Border& border : borders(uses, orientation, vertices_of(bad))) {
-      if (!border.closed) continue;
+      if (!border.closed) { continue; }
       std::vector<std::uint32_t> corners;
-      for (const Border::Edge& e : border.edges) corners.push_back(e.from);
+      for (const Border::Edge& e : border.edges) { corners.push_back(e.from); }
       std::reverse(corners.begin(), corners.end());
       const FaceId f{static_cast<std::uint32_t>(faces_.size())};
       std::vector<Element> elements{f};
-      for (std::uint32_t v : corners) elements.push_back(VertexId{v});
+      for (std::uint32_t v : corners) { elements.push_back(VertexId{v}); }
       std::string sentence = "a hole of " + std::to_string(corners.size()) + " edges was closed with the new face " + to_string(f) +
                              " along" + name_list(elements, 1);
       add(RepairKind::closed_hole, std::move(elements), std::move(sentence));
@@ -169,13 +171,13 @@ class Repairer {
     std::vector<Split> splits;
     std::vector<std::uint32_t> split_of(now.vertex_count(), invalid_index);
     for (std::uint32_t f = 0; f < now.face_count(); ++f) {
-      if (bad[f]) continue;
+      if (bad[f]) { continue; }
       std::uint32_t corner = now.first_corner(f);
       for (std::uint32_t& v : faces_[f]) {
         const std::uint32_t fan = fans.find(corner++);
-        if (touched[v]) continue;
-        if (owner[v] == invalid_index) owner[v] = fan;
-        if (owner[v] == fan) continue;
+        if (touched[v]) { continue; }
+        if (owner[v] == invalid_index) { owner[v] = fan; }
+        if (owner[v] == fan) { continue; }
         if (vertex_of[fan] == invalid_index) {
           vertex_of[fan] = static_cast<std::uint32_t>(place_.size());
           place_.push_back(place_[v]);
@@ -200,16 +202,18 @@ class Repairer {
     std::vector<bool> used(place_.size(), false);
     for (const auto& corners : faces_) {
       for (std::uint32_t v : corners) {
-        if (v < used.size()) used[v] = true;
+        if (v < used.size()) { used[v] = true; }
       }
     }
     for (const Defect& d : assembly_.defects) {  // the ends of an inserted edge without a face
       for (const Element& e : d.elements) {
-        if (e.letter == 'v' && e.index < used.size()) used[e.index] = true;
+        if (e.letter == 'v' && e.index < used.size()) { used[e.index] = true; }
       }
     }
     for (std::uint32_t v = 0; v < used.size(); ++v) {
-      if (!used[v]) add(RepairKind::dropped_vertex, {VertexId{v}}, to_string(VertexId{v}) + " was dropped: it is not a corner of any face");
+      if (!used[v]) {
+        add(RepairKind::dropped_vertex, {VertexId{v}}, to_string(VertexId{v}) + " was dropped: it is not a corner of any face");
+      }
     }
     return used;
   }
@@ -221,7 +225,7 @@ class Repairer {
     std::vector<Defect>& found = result_.remaining;
     std::erase_if(found, [&](const Defect& d) {  // what was taken away is no defect any more
       const Element& e = d.elements[0];
-      if (d.kind == DefectKind::bad_index) return true;
+      if (d.kind == DefectKind::bad_index) { return true; }
       return e.letter == 'f' ? e.index < dropped_.size() && dropped_[e.index] : e.index < used.size() && !used[e.index];
     });
     found.insert(found.begin(), unreadable_.begin(), unreadable_.end());  // their sentences keep the numbers of the input
@@ -230,18 +234,18 @@ class Repairer {
   void renumber(const std::vector<bool>& used) {
     std::vector<std::uint32_t> new_vertex(place_.size(), invalid_index);
     for (std::uint32_t v = 0; v < place_.size(); ++v) {
-      if (!used[v]) continue;
+      if (!used[v]) { continue; }
       new_vertex[v] = result_.builder.vertex(assembly_.builder.position(place_[v]));
       result_.old_vertex.push_back(v);
     }
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-      if (dropped_[f]) continue;
-      for (std::uint32_t& v : faces_[f]) v = v < new_vertex.size() ? new_vertex[v] : invalid_index;
+      if (dropped_[f]) { continue; }
+      for (std::uint32_t& v : faces_[f]) { v = v < new_vertex.size() ? new_vertex[v] : invalid_index; }
       result_.builder.face(faces_[f], sheets_[f]);
       result_.old_face.push_back(f);
     }
     for (const Defect& d : assembly_.defects) {  // inserted edges without a face stay as they are
-      if (d.kind != DefectKind::unused_edge && d.kind != DefectKind::bad_index) continue;
+      if (d.kind != DefectKind::unused_edge && d.kind != DefectKind::bad_index) { continue; }
       const std::uint32_t u = d.elements[d.elements.size() - 2].index, w = d.elements.back().index;
       const std::uint32_t face = d.kind == DefectKind::bad_index ? invalid_index - 1 : invalid_index;
       const auto renamed = [&](std::uint32_t v) { return v < assembly_.builder.vertex_count() ? new_vertex[v] : invalid_index; };

@@ -31,10 +31,10 @@ Replay replay(std::span<const Step> steps, B& brep) {
     Refusal refusal = answer.refusal();
     if (answer && answer->letter == 'h') {
       const HalfedgeId made = halfedge(edge(HalfedgeId{answer->index}));  // the step names the first half of the new edge
-      if (made != s.h) refusal = {Code::other_handle, {s.h, made}};
+      if (made != s.h) { refusal = {Code::other_handle, {s.h, made}}; }
     }
     result.refusal = refusal;
-    if (refusal.code != Code::none) return result;
+    if (refusal.code != Code::none) { return result; }
     ++result.done;
   }
   return result;

@@ -36,15 +36,15 @@ inline constexpr std::size_t most_regular_corners = 8;
 // Counts, m = ceil(n / 2): v + m, e + 2 m, f + m. Time: O(edges of f).
 template <class B, class Place>
 Result<std::vector<FaceId>> cut_ring(B& brep, FaceId f, Place&& place) {
-  if (!brep.alive(f)) return Refusal{Code::dead, {f}};
+  if (!brep.alive(f)) { return Refusal{Code::dead, {f}}; }
   const Corners corner = corners(brep, f);
   const std::size_t n = corner.size(), m = (n + 1) / 2;
-  if (n < 6) return Refusal{Code::few_corners, {f}};
-  if (detail::Raw::halfedges(brep).size() > 0x7ffffff0u - 8 * static_cast<std::uint32_t>(n)) return Refusal{Code::full, {}};
+  if (n < 6) { return Refusal{Code::few_corners, {f}}; }
+  if (detail::Raw::halfedges(brep).size() > 0x7ffffff0u - 8 * static_cast<std::uint32_t>(n)) { return Refusal{Code::full, {}}; }
   const unsigned level = brep.data(f).level;
 
   std::vector<glm::dvec3> outline;
-  for (std::size_t k = 0; k < n; ++k) outline.push_back(brep.data(brep.vertex(corner[k])).position);
+  for (std::size_t k = 0; k < n; ++k) { outline.push_back(brep.data(brep.vertex(corner[k])).position); }
   const glm::dvec3 centre = centroid(Polygon(outline));
   double width = 0.0, radius = 0.0;
   for (std::size_t k = 0; k < m; ++k) {
@@ -70,7 +70,7 @@ Result<std::vector<FaceId>> cut_ring(B& brep, FaceId f, Place&& place) {
     spoke = insert(h, k + 1);
   }
   detail::cut_child(brep, spoke, first, cells);
-  for (std::size_t k = 0; k < m; ++k) brep.set_anchor(cells[k], corner[2 * k]);
+  for (std::size_t k = 0; k < m; ++k) { brep.set_anchor(cells[k], corner[2 * k]); }
   brep.set_anchor(f, first);
   cells.push_back(f);
   return cells;

@@ -27,7 +27,7 @@ template <class B, class Visit>
 void flood(const B& brep, HalfedgeId h, std::vector<bool>& seen, Visit&& visit) {  // seen: by edge
   std::vector<HalfedgeId> waiting;
   const auto reach = [&](HalfedgeId x) {
-    if (seen[edge(x).index]) return;
+    if (seen[edge(x).index]) { return; }
     seen[edge(x).index] = true;
     waiting.push_back(x);
   };
@@ -50,13 +50,15 @@ template <class B>
   std::vector<bool> seen(brep.edge_end(), false);
   std::vector<Shell> result;
   for (EdgeId e : edges(brep)) {
-    if (seen[e.index]) continue;
+    if (seen[e.index]) { continue; }
     Shell shell{halfedge(e)};
     std::size_t halves = 0;
     detail::flood(brep, halfedge(e), seen, [&](HalfedgeId h) {
       ++halves;
-      if (brep.halfedge(brep.vertex(h)) == h) ++shell.vertices;  // every vertex and every face has one anchor
-      if (brep.halfedge(brep.face(h)) == h) ++shell.faces;
+      if (brep.halfedge(brep.vertex(h)) == h) {
+        ++shell.vertices;  // every vertex and every face has one anchor
+      }
+      if (brep.halfedge(brep.face(h)) == h) { ++shell.faces; }
     });
     shell.edges = halves / 2;
     result.push_back(shell);
@@ -78,7 +80,7 @@ template <class B>
   std::vector<bool> seen(brep.edge_end(), false);
   std::vector<FaceId> result;
   detail::flood(brep, h, seen, [&](HalfedgeId x) {
-    if (brep.halfedge(brep.face(x)) == x) result.push_back(brep.face(x));
+    if (brep.halfedge(brep.face(x)) == x) { result.push_back(brep.face(x)); }
   });
   return result;
 }
@@ -88,7 +90,7 @@ template <class B>
   std::vector<bool> seen(brep.edge_end(), false);
   std::vector<VertexId> result;
   detail::flood(brep, h, seen, [&](HalfedgeId x) {
-    if (brep.halfedge(brep.vertex(x)) == x) result.push_back(brep.vertex(x));
+    if (brep.halfedge(brep.vertex(x)) == x) { result.push_back(brep.vertex(x)); }
   });
   return result;
 }

@@ -27,7 +27,7 @@ class SmallList {
       inline_[size_++] = value;
       return;
     }
-    if (heap_.empty()) heap_.assign(inline_.begin(), inline_.end());
+    if (heap_.empty()) { heap_.assign(inline_.begin(), inline_.end()); }
     heap_.push_back(value);
     ++size_;
   }

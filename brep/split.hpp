@@ -47,10 +47,11 @@ struct Parts {
 template <class B>
 void rejoin(B& brep, const Parts& parts) {
   for (std::size_t i = parts.steps.size(); i-- > 0;) {
-    if (parts.steps[i].new_vertex)
+    if (parts.steps[i].new_vertex) {
       unchecked::join_vertices(brep, twin(parts.steps[i].h));
-    else
+    } else {
       unchecked::join_faces(brep, parts.steps[i].h);
+    }
   }
 }
 
@@ -59,10 +60,11 @@ namespace detail {
 // The same for a refusal: a log is as before, too. Nothing was changed since the steps, each of which is one step of the log.
 template <class B>
 void take_back(B& brep, const Parts& parts) {
-  if constexpr (B::logs)
+  if constexpr (B::logs) {
     undo_to(brep, mark(brep) - parts.steps.size());
-  else
+  } else {
     rejoin(brep, parts);
+  }
 }
 
 template <class B>
@@ -102,20 +104,20 @@ class FaceSplit {
  private:
   Refusal apply(FaceId part, Cut cut) {
     for (const auto& [h, on] : {std::pair{cut.a, cut.on_a}, std::pair{cut.b, cut.on_b}}) {
-      if (!brep_.alive(h)) return {Code::dead, {h}};
-      if (brep_.face(h) != part) return {Code::not_on_face, {h, part}};
-      if (!(on >= 0.0 && on < 1.0)) return {Code::not_on_edge, {h}};
+      if (!brep_.alive(h)) { return {Code::dead, {h}}; }
+      if (brep_.face(h) != part) { return {Code::not_on_face, {h, part}}; }
+      if (!(on >= 0.0 && on < 1.0)) { return {Code::not_on_edge, {h}}; }
     }
-    if (edge(cut.a) == edge(cut.b) && cut.on_a > 0.0 && cut.on_b > 0.0) return {Code::no_progress, {cut.a, cut.b}};
+    if (edge(cut.a) == edge(cut.b) && cut.on_a > 0.0 && cut.on_b > 0.0) { return {Code::no_progress, {cut.a, cut.b}}; }
     const HalfedgeId a = cut.a, b = cut.b;
     if (cut.on_a > 0.0) {
-      if (const Refusal refusal = insert(part, a, cut.on_a, cut.a, cut.b); refusal.code != Code::none) return refusal;
+      if (const Refusal refusal = insert(part, a, cut.on_a, cut.a, cut.b); refusal.code != Code::none) { return refusal; }
     }
     if (cut.on_b > 0.0) {
-      if (const Refusal refusal = insert(part, b, cut.on_b, cut.b, cut.a); refusal.code != Code::none) return refusal;
+      if (const Refusal refusal = insert(part, b, cut.on_b, cut.b, cut.a); refusal.code != Code::none) { return refusal; }
     }
-    if (cut.a == cut.b || brep_.next(cut.a) == cut.b || brep_.next(cut.b) == cut.a) return {Code::no_progress, {a, b}};
-    if (Raw::halfedges(brep_).full()) return {Code::full, {}};
+    if (cut.a == cut.b || brep_.next(cut.a) == cut.b || brep_.next(cut.b) == cut.a) { return {Code::no_progress, {a, b}}; }
+    if (Raw::halfedges(brep_).full()) { return {Code::full, {}}; }
     const bool in_order = first_side_is_shorter(brep_, cut.a, cut.b);
     const HalfedgeId h = unchecked::split_face(brep_, in_order ? cut.a : cut.b, in_order ? cut.b : cut.a);
     parts_.steps.push_back({h, false});
@@ -125,12 +127,12 @@ class FaceSplit {
 
   // Puts a vertex on h; `end` becomes the half-edge that starts there, and the other end is renamed where it started on twin(h).
   Refusal insert(FaceId part, HalfedgeId h, double fraction, HalfedgeId& end, HalfedgeId& other) {
-    if (vertices_left_ == 0) return {Code::vertex_limit, {part}};
-    if (Raw::halfedges(brep_).full()) return {Code::full, {}};
+    if (vertices_left_ == 0) { return {Code::vertex_limit, {part}}; }
+    if (Raw::halfedges(brep_).full()) { return {Code::full, {}}; }
     --vertices_left_;
     const VertexId from = brep_.vertex(h), to = brep_.target(h);
     end = unchecked::split_edge(brep_, h);
-    if (other == twin(h)) other = twin(end);
+    if (other == twin(h)) { other = twin(end); }
     auto& data = brep_.data(brep_.vertex(end));
     if constexpr (requires { data.position; }) {
       data.position = (1.0 - fraction) * brep_.data(from).position + fraction * brep_.data(to).position;
@@ -160,7 +162,7 @@ template <class B, SplitObjectFor<B> Split, ConditionFor<B> Condition>
 [[nodiscard]] Result<Parts> split_recursively(B& brep, std::span<const FaceId> faces, Split&& split, Condition&& finished,
                                               std::size_t vertex_limit = 65536) {
   for (FaceId f : faces) {
-    if (!brep.alive(f)) return Refusal{Code::dead, {f}};
+    if (!brep.alive(f)) { return Refusal{Code::dead, {f}}; }
   }
   return detail::FaceSplit<B>(brep, faces, vertex_limit).run(split, finished);
 }
@@ -173,7 +175,7 @@ template <class B, SplitObjectFor<B> Split, ConditionFor<B> Condition>
 template <class B, SplitObjectFor<B> Split, ConditionFor<B> Condition>
 [[nodiscard]] Result<Parts> split_recursively(B& brep, Split&& split, Condition&& finished, std::size_t vertex_limit = 65536) {
   std::vector<FaceId> all;
-  for (FaceId f : faces(brep)) all.push_back(f);
+  for (FaceId f : faces(brep)) { all.push_back(f); }
   return split_recursively(brep, std::span<const FaceId>(all), split, finished, vertex_limit);
 }
 
@@ -182,14 +184,14 @@ namespace detail {
 // Is f a polygon that diagonals can take apart: finite, with area, and with a boundary that meets itself at bridges alone?
 template <class B>
 [[nodiscard]] Refusal check_polygon(const B& brep, FaceId f, double greatest_planarity) {
-  if (!brep.alive(f)) return {Code::dead, {f}};
+  if (!brep.alive(f)) { return {Code::dead, {f}}; }
   const auto points = positions(brep, f);
-  if (points.size() < 3) return {Code::few_corners, {f}};
+  if (points.size() < 3) { return {Code::few_corners, {f}}; }
   const double size = extent(points);
-  if (!std::isfinite(size) || !(area(points) > 1e-14 * size * size)) return {Code::degenerate_polygon, {f}};
-  if (planarity(points) > greatest_planarity) return {Code::not_planar, {f}};
-  if (is_convex(points)) return {};
-  if (const auto contact = Outline(points).self_contact()) return {Code::not_simple, {f, brep.vertex(loop_of(brep, f)[*contact])}};
+  if (!std::isfinite(size) || !(area(points) > 1e-14 * size * size)) { return {Code::degenerate_polygon, {f}}; }
+  if (planarity(points) > greatest_planarity) { return {Code::not_planar, {f}}; }
+  if (is_convex(points)) { return {}; }
+  if (const auto contact = Outline(points).self_contact()) { return {Code::not_simple, {f, brep.vertex(loop_of(brep, f)[*contact])}}; }
   return {};
 }
 
@@ -201,10 +203,10 @@ template <class B>
 // boundary crosses or touches itself.
 template <class B>
 [[nodiscard]] Result<std::vector<FaceId>> split_until_convex(B& brep, FaceId f) {
-  if (const Refusal refusal = detail::check_polygon(brep, f, 1e-6); refusal.code != Code::none) return refusal;
+  if (const Refusal refusal = detail::check_polygon(brep, f, 1e-6); refusal.code != Code::none) { return refusal; }
   Result<Parts> parts = split_recursively(brep, f, AtNonConvexCorner{}, Convex{});
-  if (!parts) return parts.refusal();
-  if (parts->unfinished.empty()) return std::move(parts->faces);
+  if (!parts) { return parts.refusal(); }
+  if (parts->unfinished.empty()) { return std::move(parts->faces); }
   detail::take_back(brep, *parts);  // a simple polygon always has such diagonals; only one that is degenerate within rounding ends here
   return Refusal{Code::degenerate_polygon, {f}};
 }

@@ -35,7 +35,7 @@ namespace detail {
 template <class B>
 [[nodiscard]] SmallList<HalfedgeId> loop_of(const B& brep, FaceId f) {
   SmallList<HalfedgeId> loop;
-  for (HalfedgeId h : halfedges_of(brep, f)) loop.push_back(h);
+  for (HalfedgeId h : halfedges_of(brep, f)) { loop.push_back(h); }
   return loop;
 }
 
@@ -65,11 +65,11 @@ struct AtNonConvexCorner {
     const Outline outline{Polygon(positions(brep, f))};
     std::size_t corner = 0;
     for (std::size_t i = 1; i < outline.size(); ++i) {
-      if (outline.turn(i) < outline.turn(corner)) corner = i;
+      if (outline.turn(i) < outline.turn(corner)) { corner = i; }
     }
-    if (!(outline.turn(corner) < 0.0)) return {};
+    if (!(outline.turn(corner) < 0.0)) { return {}; }
     const auto diagonal = outline.best_diagonal(corner);
-    if (!diagonal) return {};
+    if (!diagonal) { return {}; }
     const auto loop = detail::loop_of(brep, f);
     return {loop[diagonal->first], loop[diagonal->second]};
   }
@@ -80,7 +80,7 @@ struct NiceSplit {
   template <class B>
   Cut operator()(const B& brep, FaceId f) const {
     const auto diagonal = Outline{Polygon(positions(brep, f))}.best_diagonal();
-    if (!diagonal) return {};
+    if (!diagonal) { return {}; }
     const auto loop = detail::loop_of(brep, f);
     return {loop[diagonal->first], loop[diagonal->second]};
   }
@@ -92,7 +92,7 @@ struct AtBestEar {
   template <class B>
   Cut operator()(const B& brep, FaceId f) const {
     const auto loop = detail::loop_of(brep, f);
-    if (loop.size() < 4) return {};
+    if (loop.size() < 4) { return {}; }
     const auto points = positions(brep, f);
     const glm::dvec3 n = normal(points);
     const double whole = area(points);
@@ -102,7 +102,7 @@ struct AtBestEar {
       const std::size_t j = (i + 1) % loop.size(), k = (i + 2) % loop.size();
       const double ear = 0.5 * glm::dot(glm::cross(points[j] - points[i], points[k] - points[i]), n);
       const double smaller = std::fmin(ear, whole - ear);
-      if (smaller <= best_area) continue;
+      if (smaller <= best_area) { continue; }
       best_area = smaller;
       best = {loop[i], loop[k]};
     }

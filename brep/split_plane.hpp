@@ -35,10 +35,10 @@ struct AlongPlane {
     const auto points = positions(brep, f);
     const std::size_t count = points.size();
     const double length = glm::length(normal);
-    if (!(length > 0.0) || !std::isfinite(length)) return {};
+    if (!(length > 0.0) || !std::isfinite(length)) { return {}; }
     const glm::dvec3 unit = normal / length;
     double far = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
-    for (const glm::dvec3& p : points) far = std::max({far, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    for (const glm::dvec3& p : points) { far = std::max({far, std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
     const double tolerance = 1e-12 * extent(points) + 16.0 * std::numeric_limits<double>::epsilon() * far;
 
     SmallList<glm::dvec2> flat;  // x along the common line, y the height above the plane: 0 when on it
@@ -51,7 +51,7 @@ struct AlongPlane {
       above = above || y > tolerance;
       below = below || y < -tolerance;
     }
-    if (!above || !below) return {};
+    if (!above || !below) { return {}; }
 
     SmallList<Crossing> crossings;
     for (std::size_t i = 0; i < count; ++i) {
@@ -67,12 +67,12 @@ struct AlongPlane {
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
     for (std::size_t i = 0; i < crossings.size(); ++i) {
       const Crossing& from = crossings[i];
-      if (!from.begins) continue;
+      if (!from.begins) { continue; }
       std::size_t k = i + 1;
-      while (k < crossings.size() && crossings[k].x <= from.x + tolerance) ++k;
+      while (k < crossings.size() && crossings[k].x <= from.x + tolerance) { ++k; }
       for (const double near = k < crossings.size() ? crossings[k].x + tolerance : 0.0; k < crossings.size() && crossings[k].x <= near;
            ++k) {
-        if (!crossings[k].ends) continue;
+        if (!crossings[k].ends) { continue; }
         const auto loop = detail::loop_of(brep, f);
         return {loop[from.corner], loop[crossings[k].corner], from.fraction, crossings[k].fraction};
       }
@@ -94,7 +94,7 @@ struct AlongPlane {
     const glm::dvec2 d{x, 0.0};
     const double turn = cross(out, in);  // positive: the angle of the face is below pi
     const bool straight = turn == 0.0 && glm::dot(in, out) < 0.0;
-    if (turn > 0.0 || straight) return cross(out, d) > 0.0 && cross(d, in) > 0.0;
+    if (turn > 0.0 || straight) { return cross(out, d) > 0.0 && cross(d, in) > 0.0; }
     const double after_in = cross(in, d), before_out = cross(d, out);  // is it in the angle outside, its sides included?
     return after_in < 0.0 || before_out < 0.0 || (after_in == 0.0 && before_out == 0.0 && glm::dot(d, in) < 0.0);
   }

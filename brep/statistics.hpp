@@ -78,18 +78,18 @@ class StatisticsOf {
     result_.faces = builder_.face_count();
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
       ++result_.face_sizes[builder_.corners(f).size()];
-      if (skip_[f]) ++result_.unusable_faces;
+      if (skip_[f]) { ++result_.unusable_faces; }
       for (std::uint32_t v : builder_.corners(f)) {
-        if (!skip_[f]) used[v] = true;
+        if (!skip_[f]) { used[v] = true; }
       }
     }
     std::vector<glm::dvec3> positions;
     bool first = true;
     for (std::uint32_t v = 0; v < used.size(); ++v) {
       const glm::dvec3& p = builder_.position(v);
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) { continue; }
       positions.push_back(p);
-      if (!used[v]) continue;
+      if (!used[v]) { continue; }
       result_.lo = first ? p : glm::min(result_.lo, p);
       result_.hi = first ? p : glm::max(result_.hi, p);
       first = false;
@@ -104,11 +104,11 @@ class StatisticsOf {
   void find_components() {
     UnionFind sets(builder_.face_count());
     for (std::uint32_t e = 0; e < uses_.edge_count(); ++e) {
-      for (const EdgeUses::Use& use : uses_.of(e).subspan(1)) sets.unite(uses_.face(uses_.of(e)[0].corner), uses_.face(use.corner));
+      for (const EdgeUses::Use& use : uses_.of(e).subspan(1)) { sets.unite(uses_.face(uses_.of(e)[0].corner), uses_.face(use.corner)); }
     }
     component_.assign(builder_.face_count(), invalid_index);
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
-      if (skip_[f]) continue;
+      if (skip_[f]) { continue; }
       const std::uint32_t root = sets.find(f);  // the lowest number of the set: met first
       if (root == f) {
         component_[f] = static_cast<std::uint32_t>(result_.components.size());
@@ -118,7 +118,7 @@ class StatisticsOf {
       component_[f] = component_[root];
       Component& c = result_.components[component_[f]];
       ++c.faces;
-      if (orientation_.one_sided[orientation_.patch[f]]) c.two_sided = false;
+      if (orientation_.one_sided[orientation_.patch[f]]) { c.two_sided = false; }
     }
   }
 
@@ -129,9 +129,9 @@ class StatisticsOf {
       Component& c = component_of(all[0].corner);
       const auto forward = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const auto& use) { return use.forward; }));
       ++c.edges;
-      if (all.size() == 1) ++c.border_edges;
-      if (all.size() > 2) ++c.nonmanifold_edges;
-      if (forward > 1 || all.size() - forward > 1) c.oriented = false;
+      if (all.size() == 1) { ++c.border_edges; }
+      if (all.size() > 2) { ++c.nonmanifold_edges; }
+      if (forward > 1 || all.size() - forward > 1) { c.oriented = false; }
     }
     for (const Component& c : result_.components) {
       result_.border_edges += c.border_edges;
@@ -145,23 +145,24 @@ class StatisticsOf {
     UnionFind fans = uses_.fans();
     join_across(fans, all, uses_);
     for (std::uint32_t corner = 0; corner < builder_.corner_count(); ++corner) {
-      if (uses_.edge(corner) != invalid_index && fans.find(corner) == corner) ++component_of(corner).vertices;
+      if (uses_.edge(corner) != invalid_index && fans.find(corner) == corner) { ++component_of(corner).vertices; }
     }
     std::vector<bool> surface(result_.components.size(), true);
-    for (std::size_t i = 0; i < surface.size(); ++i)
+    for (std::size_t i = 0; i < surface.size(); ++i) {
       surface[i] = result_.components[i].two_sided && result_.components[i].nonmanifold_edges == 0;
+    }
     for (const Border& border : all) {
       const std::uint32_t id = component_[uses_.face(border.edges.front().corner)];
       ++result_.components[id].borders;
       for (const Border::Edge& e : border.edges) {
         const std::uint32_t other = component_[uses_.face(e.corner)];
-        if (border.closed && other == id) continue;
+        if (border.closed && other == id) { continue; }
         surface[id] = surface[other] = false;
       }
     }
     for (std::size_t i = 0; i < surface.size(); ++i) {
       Component& c = result_.components[i];
-      if (surface[i]) c.genus = (2 - c.euler() - static_cast<long>(c.borders)) / 2;
+      if (surface[i]) { c.genus = (2 - c.euler() - static_cast<long>(c.borders)) / 2; }
     }
   }
 
@@ -173,7 +174,7 @@ class StatisticsOf {
     };
     std::vector<Sum> sums(result_.components.size());
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
-      if (skip_[f]) continue;
+      if (skip_[f]) { continue; }
       Sum& sum = sums[component_[f]];
       const glm::dvec3 origin = builder_.position(builder_.corners(result_.components[component_[f]].first.index)[0]);
       const auto corners = builder_.corners(f);
@@ -189,7 +190,7 @@ class StatisticsOf {
       // Each term is wrong by less than 2^-49 of its product of lengths, each of the n sums by 2^-53 of the sum of all sizes.
       const double bound = (0x1p-49 + sums[i].count * 0x1p-53) * sums[i].sizes;
       Component& c = result_.components[i];
-      if (c.closed() && c.oriented && std::isfinite(bound)) c.volume = std::abs(sums[i].terms) <= bound ? 0.0 : sums[i].terms / 6.0;
+      if (c.closed() && c.oriented && std::isfinite(bound)) { c.volume = std::abs(sums[i].terms) <= bound ? 0.0 : sums[i].terms / 6.0; }
     }
   }
 
@@ -207,7 +208,7 @@ class StatisticsOf {
 
 // O(n log n) in the corners. Inserted edges count by the faces that they make.
 [[nodiscard]] inline Statistics statistics(const Builder& builder) {
-  if (builder.edges().empty()) return detail::StatisticsOf(builder).run();
+  if (builder.edges().empty()) { return detail::StatisticsOf(builder).run(); }
   return detail::StatisticsOf(detail::Assembler(builder).run().builder).run();
 }
 

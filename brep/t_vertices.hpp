@@ -40,7 +40,7 @@ struct NoTVertices {
   template <class B>
   bool operator()(const B& brep, FaceId f) const {
     for (HalfedgeId h : halfedges_of(brep, f)) {
-      if (is_t_vertex(brep, h)) return false;
+      if (is_t_vertex(brep, h)) { return false; }
     }
     return true;
   }
@@ -50,19 +50,19 @@ struct NoTVertices {
 struct AtTVertex {
   template <class B>
   Cut operator()(const B& brep, FaceId f) const {
-    if (NoTVertices{}(brep, f)) return {};
+    if (NoTVertices{}(brep, f)) { return {}; }
     const auto loop = detail::loop_of(brep, f);
     const auto points = positions(brep, f);
     const Outline outline(points);
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      if (!is_t_vertex(brep, loop[i])) continue;
+      if (!is_t_vertex(brep, loop[i])) { continue; }
       std::optional<std::size_t> nearest;
       for (std::size_t j = 0; j < loop.size(); ++j) {
-        if (is_t_vertex(brep, loop[j])) continue;
-        if (nearest && glm::distance(points[i], points[j]) >= glm::distance(points[i], points[*nearest])) continue;
-        if (outline.inner_diagonal(i, j)) nearest = j;
+        if (is_t_vertex(brep, loop[j])) { continue; }
+        if (nearest && glm::distance(points[i], points[j]) >= glm::distance(points[i], points[*nearest])) { continue; }
+        if (outline.inner_diagonal(i, j)) { nearest = j; }
       }
-      if (nearest) return {loop[i], loop[*nearest]};
+      if (nearest) { return {loop[i], loop[*nearest]}; }
     }
     return {};
   }
@@ -75,10 +75,10 @@ template <class B>
 std::size_t eliminate_t_vertices(B& brep, FaceId f) {
   const auto split = first_of(AtTVertex{}, NiceSplit{}, AtBestEar{});
   const auto parts = split_recursively(brep, f, split, triangles || (quadrangles && NoTVertices{} && StrictlyConvex{}));
-  if (!parts || parts->faces.size() == 1) return 0;
+  if (!parts || parts->faces.size() == 1) { return 0; }
   for (FaceId part : parts->faces) {
     auto& level = brep.data(part).level;
-    for (HalfedgeId h : halfedges_of(brep, part)) level = std::max(level, brep.data(brep.vertex(h)).level);
+    for (HalfedgeId h : halfedges_of(brep, part)) { level = std::max(level, brep.data(brep.vertex(h)).level); }
   }
   return parts->faces.size() - 1;
 }

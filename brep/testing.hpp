@@ -35,7 +35,7 @@ namespace detail {
 
 inline std::string sentences(const std::vector<Fault>& faults) {
   std::string text;
-  for (const Fault& fault : faults) text += '\n' + fault.sentence;
+  for (const Fault& fault : faults) { text += '\n' + fault.sentence; }
   return text;
 }
 
@@ -96,10 +96,10 @@ struct HasCounts {
     }
     bool equal = true;
     const auto compare = [&](const char* name, const std::optional<long>& expected, auto&& count) {
-      if (!expected) return;
+      if (!expected) { return; }
       const long value = static_cast<long>(count());
       found += std::string("\n") + name + " = " + std::to_string(value);
-      if (value == *expected) return;
+      if (value == *expected) { return; }
       found += ", expected " + std::to_string(*expected);
       equal = false;
     };
@@ -127,7 +127,7 @@ class IsIsomorphicTo {
       found_ = "\nbut that one is not valid:" + detail::sentences(validate(*expected_));
     } else if (found_.empty()) {
       found_ = difference(brep, *expected_);
-      if (!found_.empty()) found_.insert(0, 1, '\n');
+      if (!found_.empty()) { found_.insert(0, 1, '\n'); }
     }
     return found_.empty();
   }

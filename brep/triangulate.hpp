@@ -24,23 +24,23 @@ template <class B>
 [[nodiscard]] Result<std::vector<FaceId>> triangulate(B& brep, std::vector<FaceId> faces) {
   if constexpr (Placed<B>) {
     for (FaceId f : faces) {
-      if (brep.alive(f) && triangles(brep, f)) continue;
-      if (const Refusal refusal = check_polygon(brep, f, HUGE_VAL); refusal.code != Code::none) return refusal;
+      if (brep.alive(f) && triangles(brep, f)) { continue; }
+      if (const Refusal refusal = check_polygon(brep, f, HUGE_VAL); refusal.code != Code::none) { return refusal; }
     }
     Result<Parts> parts = split_recursively(brep, std::span<const FaceId>(faces), NiceSplit{}, triangles);
-    if (!parts) return parts.refusal();
-    if (parts->unfinished.empty()) return std::move(parts->faces);
+    if (!parts) { return parts.refusal(); }
+    if (parts->unfinished.empty()) { return std::move(parts->faces); }
     FaceId stuck = parts->unfinished.front();  // a part: on the way back it becomes the face that was given
     for (; !parts->steps.empty(); parts->steps.pop_back()) {
       const Parts last{{}, {}, {parts->steps.back()}};
-      if (brep.face(twin(last.steps[0].h)) == stuck) stuck = brep.face(last.steps[0].h);
+      if (brep.face(twin(last.steps[0].h)) == stuck) { stuck = brep.face(last.steps[0].h); }
       take_back(brep, last);
     }
     return Refusal{Code::degenerate_polygon, {stuck}};
   } else {
     const auto ear = [](const B& b, FaceId f) { return Cut{b.halfedge(f), b.next(b.next(b.halfedge(f)))}; };
     Result<Parts> parts = split_recursively(brep, std::span<const FaceId>(faces), ear, triangles);
-    if (!parts) return parts.refusal();
+    if (!parts) { return parts.refusal(); }
     return std::move(parts->faces);
   }
 }
@@ -60,9 +60,9 @@ template <class B>
 template <class B>
 [[nodiscard]] Result<std::size_t> triangulate(B& brep) {
   std::vector<FaceId> all;
-  for (FaceId f : faces(brep)) all.push_back(f);
+  for (FaceId f : faces(brep)) { all.push_back(f); }
   const auto parts = detail::triangulate(brep, all);
-  if (!parts) return parts.refusal();
+  if (!parts) { return parts.refusal(); }
   return parts->size() - all.size();
 }
 

@@ -50,7 +50,7 @@ inline HalfedgeId split_face(B& brep, HalfedgeId a, HalfedgeId b) {
   const HalfedgeId anchor = brep.halfedge(f);
   const bool moved = a != b && detail::rename_loop(brep, a, t, g, anchor);
   Raw::at(brep, g).halfedge = moved ? anchor : t;
-  if (moved) Raw::at(brep, f).halfedge = h;
+  if (moved) { Raw::at(brep, f).halfedge = h; }
   return h;
 }
 
@@ -60,10 +60,10 @@ inline FaceId join_faces(B& brep, HalfedgeId h) {
   Raw::note(brep, Operator::join_faces, h, after_t == t ? after_h : after_t, after_h == h ? after_t : after_h, after_h == h);
   const FaceId f = brep.face(h), g = brep.face(t);
   const VertexId v = brep.vertex(h), w = brep.vertex(t);
-  if (after_t != t) detail::rename_loop(brep, after_t, t, f);
+  if (after_t != t) { detail::rename_loop(brep, after_t, t, f); }
   const detail::Ends ends = detail::delete_edge(brep, h);
-  if (brep.halfedge(v) == h) Raw::at(brep, v).halfedge = ends.at_origin;
-  if (brep.halfedge(w) == t) Raw::at(brep, w).halfedge = ends.at_target;
+  if (brep.halfedge(v) == h) { Raw::at(brep, v).halfedge = ends.at_origin; }
+  if (brep.halfedge(w) == t) { Raw::at(brep, w).halfedge = ends.at_target; }
   if (brep.halfedge(f) == h) {
     const HalfedgeId other = brep.halfedge(g);
     Raw::at(brep, f).halfedge = other != t ? other : ends.at_target;
@@ -82,7 +82,7 @@ inline HalfedgeId split_vertex(B& brep, HalfedgeId a, HalfedgeId b) {
   const bool moved = a != b && detail::rename_orbit(brep, a, b, w, anchor);
   detail::expand_edge(brep, h, a, b, w);
   Raw::at(brep, w).halfedge = moved ? anchor : t;
-  if (moved) Raw::at(brep, v).halfedge = h;
+  if (moved) { Raw::at(brep, v).halfedge = h; }
   return h;
 }
 
@@ -94,10 +94,10 @@ inline VertexId join_vertices(B& brep, HalfedgeId h) {
   const HalfedgeId after_t = brep.next(t) == h ? brep.next(h) : brep.next(t);
   Raw::note(brep, Operator::join_vertices, h, after_h, after_t, brep.next(t) == h);
   const VertexId v = brep.vertex(h), w = brep.vertex(t);
-  if (brep.next(h) != t) detail::rename_orbit(brep, brep.next(h), t, v);
+  if (brep.next(h) != t) { detail::rename_orbit(brep, brep.next(h), t, v); }
   detail::contract_edge(brep, h);
-  if (brep.halfedge(brep.face(h)) == h) Raw::at(brep, brep.face(h)).halfedge = after_h;
-  if (brep.halfedge(brep.face(t)) == t) Raw::at(brep, brep.face(t)).halfedge = after_t;
+  if (brep.halfedge(brep.face(h)) == h) { Raw::at(brep, brep.face(h)).halfedge = after_h; }
+  if (brep.halfedge(brep.face(t)) == t) { Raw::at(brep, brep.face(t)).halfedge = after_t; }
   if (brep.halfedge(v) == h) {
     const HalfedgeId other = brep.halfedge(w);
     Raw::at(brep, v).halfedge = other != t ? other : after_t;
@@ -123,7 +123,7 @@ inline HalfedgeId split_edge(B& brep, HalfedgeId h) {
   Raw::at(brep, t).vertex = m;
   const bool anchored = brep.halfedge(b) == t;
   Raw::at(brep, m).halfedge = anchored ? t : n;
-  if (anchored) Raw::at(brep, b).halfedge = back;
+  if (anchored) { Raw::at(brep, b).halfedge = back; }
   return n;
 }
 
@@ -147,9 +147,9 @@ FaceId cut(B& brep, HalfedgeId h) {
   const detail::Ends ends = detail::delete_edge(brep, h);
   const bool moved = detail::rename_loop(brep, ends.at_target, ends.at_target, g, anchor);
   Raw::at(brep, g).halfedge = moved ? anchor : ends.at_target;
-  if (moved || anchor == h || anchor == t) Raw::at(brep, f).halfedge = ends.at_origin;
-  if (brep.halfedge(brep.vertex(h)) == h) Raw::at(brep, brep.vertex(h)).halfedge = ends.at_origin;
-  if (brep.halfedge(brep.vertex(t)) == t) Raw::at(brep, brep.vertex(t)).halfedge = ends.at_target;
+  if (moved || anchor == h || anchor == t) { Raw::at(brep, f).halfedge = ends.at_origin; }
+  if (brep.halfedge(brep.vertex(h)) == h) { Raw::at(brep, brep.vertex(h)).halfedge = ends.at_origin; }
+  if (brep.halfedge(brep.vertex(t)) == t) { Raw::at(brep, brep.vertex(t)).halfedge = ends.at_target; }
   Raw::kill(brep, edge(h));
   return g;
 }
@@ -174,9 +174,9 @@ VertexId unweld(B& brep, HalfedgeId h) {
   detail::contract_edge(brep, h);
   const bool moved = detail::rename_orbit(brep, b, b, w, anchor);
   Raw::at(brep, w).halfedge = moved ? anchor : b;
-  if (moved || anchor == h || anchor == t) Raw::at(brep, v).halfedge = a;
-  if (brep.halfedge(brep.face(h)) == h) Raw::at(brep, brep.face(h)).halfedge = a;
-  if (brep.halfedge(brep.face(t)) == t) Raw::at(brep, brep.face(t)).halfedge = b;
+  if (moved || anchor == h || anchor == t) { Raw::at(brep, v).halfedge = a; }
+  if (brep.halfedge(brep.face(h)) == h) { Raw::at(brep, brep.face(h)).halfedge = a; }
+  if (brep.halfedge(brep.face(t)) == t) { Raw::at(brep, brep.face(t)).halfedge = b; }
   Raw::kill(brep, edge(h));
   return w;
 }

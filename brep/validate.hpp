@@ -34,10 +34,10 @@ namespace detail {
 // The free list has as many slots as there are dead ones, all dead, and then ends. So no slot is on it twice: such a list never ends.
 template <class PoolType>
 bool free_list_is_sound(const PoolType& pool, std::uint32_t step) {
-  if (pool.size() % step != 0 || pool.count() > pool.size() / step) return false;
+  if (pool.size() % step != 0 || pool.count() > pool.size() / step) { return false; }
   std::uint32_t i = pool.first_free();
   for (std::uint32_t dead = pool.size() / step - pool.count(); dead > 0; --dead) {
-    if (i >= pool.size() || i % step != 0 || pool.alive(i)) return false;
+    if (i >= pool.size() || i % step != 0 || pool.alive(i)) { return false; }
     i = link(pool[i]) & ~PoolType::dead_bit;
   }
   return i == PoolType::end_of_list;
@@ -48,7 +48,7 @@ template <class Halfedges>
 bool is_entered(const Halfedges& halfedges, std::uint32_t dead) {
   for (std::uint32_t x : {dead, dead + 1}) {
     const std::uint32_t before = halfedges[x].prev.index;
-    if (halfedges.alive(before) && halfedges[before].next.index == x) return true;
+    if (halfedges.alive(before) && halfedges[before].next.index == x) { return true; }
   }
   return false;
 }
@@ -64,10 +64,10 @@ bool steps_are_sound(const B& brep) {
     const HalfedgeRecord* const pair = &halfedges[h];
     const HalfedgeRecord &r = pair[0], &t = pair[1];
     if ((link(r) & halfedges.dead_bit) != 0) {
-      if (is_entered(halfedges, h)) return false;
+      if (is_entered(halfedges, h)) { return false; }
       continue;
     }
-    if ((r.next.index >= end) | (t.next.index >= end)) return false;
+    if ((r.next.index >= end) | (t.next.index >= end)) { return false; }
     const HalfedgeRecord &after_r = halfedges[r.next.index], &after_t = halfedges[t.next.index];
     if ((after_r.prev.index ^ h) | (after_t.prev.index ^ (h + 1)) | (after_r.face.index ^ r.face.index) |
         (after_t.face.index ^ t.face.index) | (after_r.vertex.index ^ t.vertex.index) | (after_t.vertex.index ^ r.vertex.index)) {
@@ -85,8 +85,8 @@ bool walks_meet_all(const PoolType& elements, const Halfedges& halfedges, Owner&
   std::size_t met = 0, live = 0;
   for (std::uint32_t i = 0; i < elements.size(); ++i) {
     const std::uint32_t anchor = link(elements[i]);
-    if ((anchor & elements.dead_bit) != 0) continue;
-    if (!halfedges.alive(anchor) || owner(halfedges[anchor]) != i) return false;
+    if ((anchor & elements.dead_bit) != 0) { continue; }
+    if (!halfedges.alive(anchor) || owner(halfedges[anchor]) != i) { return false; }
     ++live;
     std::uint32_t h = anchor;
     do {
@@ -118,7 +118,7 @@ template <class B>
 // All faults of the records; empty for a valid BRep. Fault texts name elements by handle, so they can be looked up.
 template <class B>
 [[nodiscard]] std::vector<Fault> validate(const B& brep) {
-  if (is_valid(brep)) return {};
+  if (is_valid(brep)) { return {}; }
   return detail::Explanation<B>(brep).run();
 }
 

@@ -64,10 +64,12 @@ void check_vertices(const B& brep, Constraint set, std::vector<Fault>& faults) {
                              "only " + std::to_string(n) + " half-edges leave " + to_string(v) +
                                  "; usually a T-vertex, or what is left after edges were removed"));
     }
-    if (!contains(set, Constraint::one_edge_between_vertices)) continue;
+    if (!contains(set, Constraint::one_edge_between_vertices)) { continue; }
     for (HalfedgeId h : halfedges_from(brep, v)) {
       const VertexId w = brep.target(h);
-      if (w <= v) continue;  // each pair once; loops are R10
+      if (w <= v) {
+        continue;  // each pair once; loops are R10
+      }
       if (reached_from[w.index] == v) {
         faults.push_back(fault(14, {edge(by[w.index]), edge(h), v, w},
                                to_string(edge(by[w.index])) + " and " + to_string(edge(h)) + " both join " + to_string(v) + " and " +
@@ -125,7 +127,7 @@ void check_faces(const B& brep, Constraint set, std::vector<Fault>& faults) {
 template <class B>
 [[nodiscard]] std::vector<Fault> validate(const B& brep, Constraint set) {
   std::vector<Fault> faults = validate(brep);
-  if (!faults.empty()) return faults;
+  if (!faults.empty()) { return faults; }
   detail::check_vertices(brep, set, faults);
   detail::check_edges(brep, set, faults);
   detail::check_faces(brep, set, faults);

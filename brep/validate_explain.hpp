@@ -45,7 +45,7 @@ class Explanation {
     check_steps();
     check_loops();
     check_orbits();
-    if (links_are_sound_) check_shells();
+    if (links_are_sound_) { check_shells(); }
     return std::move(faults_);
   }
 
@@ -54,7 +54,7 @@ class Explanation {
   template <class Visit>
   void each_halfedge(Visit&& visit) const {
     for (std::uint32_t i = 0; i < brep_.halfedge_end(); ++i) {
-      if (brep_.alive(HalfedgeId{i})) visit(HalfedgeId{i});
+      if (brep_.alive(HalfedgeId{i})) { visit(HalfedgeId{i}); }
     }
   }
 
@@ -85,10 +85,11 @@ class Explanation {
     }
     std::uint32_t live = 0;
     for (std::uint32_t i = 0; i < pool.size(); i += step) {
-      if (pool.alive(i))
+      if (pool.alive(i)) {
         ++live;
-      else if (!listed[i])
+      } else if (!listed[i]) {
         add(7, {name(i)}, to_string(name(i)) + " is dead but not in the free list: its handle can never be used again");
+      }
     }
     if (live != pool.count()) {
       add(8, {},
@@ -99,7 +100,7 @@ class Explanation {
 
   template <char Letter>
   [[nodiscard]] bool check_handle(Element owner, const char* field, Id<Letter> id) {
-    if (brep_.alive(id)) return true;
+    if (brep_.alive(id)) { return true; }
     add(1, {owner, id},
         to_string(owner) + " has the " + field + " " + to_string(id) + ", which is not alive; usually a handle kept over a kill");
     return false;
@@ -107,13 +108,13 @@ class Explanation {
   void check_handles() {
     each_halfedge([&](HalfedgeId h) {
       const HalfedgeRecord& r = Raw::at(brep_, h);
-      if (!check_handle(h, "next", r.next)) links_are_sound_ = false;
-      if (!check_handle(h, "prev", r.prev)) links_are_sound_ = false;
-      if (!check_handle(h, "vertex", r.vertex)) vertices_are_alive_ = false;
-      if (!check_handle(h, "face", r.face)) faces_are_alive_ = false;
+      if (!check_handle(h, "next", r.next)) { links_are_sound_ = false; }
+      if (!check_handle(h, "prev", r.prev)) { links_are_sound_ = false; }
+      if (!check_handle(h, "vertex", r.vertex)) { vertices_are_alive_ = false; }
+      if (!check_handle(h, "face", r.face)) { faces_are_alive_ = false; }
     });
-    for (FaceId f : faces(brep_)) faces_are_alive_ &= check_handle(f, "anchor", brep_.halfedge(f));
-    for (VertexId v : vertices(brep_)) vertices_are_alive_ &= check_handle(v, "anchor", brep_.halfedge(v));
+    for (FaceId f : faces(brep_)) { faces_are_alive_ &= check_handle(f, "anchor", brep_.halfedge(f)); }
+    for (VertexId v : vertices(brep_)) { vertices_are_alive_ &= check_handle(v, "anchor", brep_.halfedge(v)); }
   }
 
   // What can be seen at one half-edge.
@@ -155,7 +156,9 @@ class Explanation {
     bool anchored = true;
     for (IdType id : range) {
       HalfedgeId h = brep_.halfedge(id);
-      if (!brep_.alive(h)) continue;  // R1
+      if (!brep_.alive(h)) {
+        continue;  // R1
+      }
       if (owner(h) != id) {
         anchored = false;
         add(6, {id, h, owner(h)},
@@ -171,18 +174,24 @@ class Explanation {
                   ", the anchor of " + to_string(id) + ", passes it; usually a half-edge that was not relabelled");
         }
         const HalfedgeId after = brep_.next(from(h));
-        if (!brep_.alive(after) || brep_.prev(after) != from(h)) break;  // R1, R3
+        if (!brep_.alive(after) || brep_.prev(after) != from(h)) {
+          break;  // R1, R3
+        }
         h = after;
       }
     }
-    if (!complete || !anchored) return;  // what was not met may be beyond a fault that has its sentence already
+    if (!complete || !anchored) {
+      return;  // what was not met may be beyond a fault that has its sentence already
+    }
     each_halfedge([&](HalfedgeId h) {
-      if (seen[h.index]) return;
+      if (seen[h.index]) { return; }
       const IdType id = owner(h);
       add(rule, {id, h},
           to_string(id) + " is also named by " + to_string(h) + ", which the walk " + walk + " from its anchor " +
               to_string(brep_.halfedge(id)) + " never reaches: " + cause);
-      for (HalfedgeId x = h; !seen[x.index]; x = brep_.next(from(x))) seen[x.index] = true;  // one sentence for each further walk
+      for (HalfedgeId x = h; !seen[x.index]; x = brep_.next(from(x))) {
+        seen[x.index] = true;  // one sentence for each further walk
+      }
     });
   }
   void check_loops() {
@@ -203,12 +212,12 @@ class Explanation {
     std::vector<HalfedgeId> roots, waiting;
     std::vector<long> v, e, f;
     each_halfedge([&](HalfedgeId root) {
-      if (shell_of[root.index] != invalid_index) return;
+      if (shell_of[root.index] != invalid_index) { return; }
       const auto shell = static_cast<std::uint32_t>(roots.size());
       roots.push_back(root);
-      for (auto* count : {&v, &e, &f}) count->push_back(0);
+      for (auto* count : {&v, &e, &f}) { count->push_back(0); }
       const auto reach = [&](HalfedgeId h) {
-        if (shell_of[h.index] != invalid_index) return;
+        if (shell_of[h.index] != invalid_index) { return; }
         shell_of[h.index] = shell;
         e[shell] += h.index % 2 == 0;
         waiting.push_back(h);
@@ -222,14 +231,14 @@ class Explanation {
       }
     });
     for (VertexId x : vertices(brep_)) {
-      if (brep_.alive(brep_.halfedge(x))) ++v[shell_of[brep_.halfedge(x).index]];
+      if (brep_.alive(brep_.halfedge(x))) { ++v[shell_of[brep_.halfedge(x).index]]; }
     }
     for (FaceId x : faces(brep_)) {
-      if (brep_.alive(brep_.halfedge(x))) ++f[shell_of[brep_.halfedge(x).index]];
+      if (brep_.alive(brep_.halfedge(x))) { ++f[shell_of[brep_.halfedge(x).index]]; }
     }
     for (std::size_t i = 0; i < roots.size(); ++i) {
       const long sum = v[i] - e[i] + f[i];
-      if (sum <= 2 && sum % 2 == 0) continue;
+      if (sum <= 2 && sum % 2 == 0) { continue; }
       add(8, {roots[i]},
           "in the shell of " + to_string(roots[i]) + " v - e + f = " + std::to_string(v[i]) + " - " + std::to_string(e[i]) + " + " +
               std::to_string(f[i]) + " = " + std::to_string(sum) +

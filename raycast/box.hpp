@@ -5,23 +5,20 @@
 //
 // The slab test must never miss a box that the line meets (Ize 2013, "Robust BVH Ray Traversal"): each slab parameter is a product of a
 // rounded difference and a rounded reciprocal, so it is exact up to a factor 1 +- 3u/(1-3u); entry and exit are therefore compared
-// with a relative slack of 8u. A direction component of +-0 gives +-inf, and 0 * inf = NaN when the origin lies on the slab's plane;
+// with a relative slack of eps_slab. A direction component of +-0 gives +-inf, and 0 * inf = NaN when the origin lies on the slab's plane;
 // comparisons are written so that a NaN leaves the interval as it is, which counts the plane as inside.
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <raycast/ray.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
-inline constexpr double unit_roundoff = 0.5 * std::numeric_limits<double>::epsilon();
 
 struct Box {
   glm::dvec3 lo{infinity}, hi{-infinity};  // the default is the empty box
@@ -37,8 +34,9 @@ struct Box {
   // The largest absolute coordinate: what rounding errors of positions are relative to.
   [[nodiscard]] double magnitude() const {
     double m = 0.0;
-    if (!empty())
-      for (int k = 0; k < 3; ++k) m = std::max({m, std::abs(lo[k]), std::abs(hi[k])});
+    if (!empty()) {
+      for (int k = 0; k < 3; ++k) { m = std::max({m, std::abs(lo[k]), std::abs(hi[k])}); }
+    }
     return m;
   }
   [[nodiscard]] bool contains(const glm::dvec3& p, double margin = 0.0) const {
@@ -62,7 +60,7 @@ class SlabTest {
   explicit SlabTest(const Segment& line)
       : origin_(line.origin), inverse_(1.0 / line.direction.x, 1.0 / line.direction.y, 1.0 / line.direction.z) {
     // From the reciprocal, not from the direction: -0.0 must choose the side that its -inf belongs to.
-    for (int k = 0; k < 3; ++k) backward_[k] = std::signbit(inverse_[k]);
+    for (int k = 0; k < 3; ++k) { backward_[k] = std::signbit(inverse_[k]); }
   }
 
   // Does the line meet the box within [t0, t1]? `entry` becomes the (rounded) parameter where it does, at least t0.
@@ -72,7 +70,7 @@ class SlabTest {
     axis(box.lo.y, box.hi.y, origin_.y, inverse_.y, backward_[1], in, out);
     axis(box.lo.z, box.hi.z, origin_.z, inverse_.z, backward_[2], in, out);
     entry = in;
-    return in <= out || in - out <= 8.0 * unit_roundoff * std::min(std::abs(in), std::abs(out));
+    return in <= out || in - out <= eps_slab * std::min(std::abs(in), std::abs(out));
   }
 
  private:

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A bounding volume hierarchy over boxes: binary, built by the surface area heuristic over 16 bins per axis (Wald 2007), in one flat
-// array. The two children of a node are neighbours, the one of larger area first: any-hit searches look there first.
+// A bounding volume hierarchy over boxes in double precision: binary, in one flat array (bvh_builder.hpp). line_query.hpp and
+// point_query.hpp search it.
 //
-// The boxes must already be grown by the rounding of what lies inside; the tree adds nothing to them. traverse.hpp walks it.
+// The boxes must already be grown by the rounding of what lies inside; the tree adds nothing to them.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,18 +12,14 @@
 #include <vector>
 
 #include <raycast/box.hpp>
+#include <raycast/bvh_builder.hpp>
 
 namespace raycast {
 
 class Bvh {
  public:
-  static constexpr std::uint32_t depth_limit = 88;  // of any tree: heuristic splits to depth 56, then halves (2^32 items at most)
-
-  struct Node {
-    Box box;
-    std::uint32_t first;  // leaf: items first .. first + count; inner node: children first and first + 1
-    std::uint32_t count;  // 0 for an inner node
-  };
+  using Node = BinaryNode<Box>;
+  static constexpr std::size_t fan_out = 2;
 
   Bvh() = default;
 
@@ -32,23 +28,13 @@ class Bvh {
 
   [[nodiscard]] bool empty() const { return nodes_.empty(); }
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  [[nodiscard]] bool is_leaf(std::uint32_t node) const { return nodes_[node].count > 0; }
   [[nodiscard]] std::span<const std::uint32_t> items(const Node& leaf) const {
     return std::span<const std::uint32_t>(items_).subspan(leaf.first, leaf.count);
   }
   [[nodiscard]] std::size_t bytes() const { return nodes_.capacity() * sizeof(Node) + items_.capacity() * sizeof(std::uint32_t); }
 
  private:
-  static constexpr std::size_t bin_count = 16;
-  struct Bin {
-    Box box;
-    std::uint32_t count = 0;
-  };
-
-  static std::size_t bin_of(const Box& box, const Box& centres, int axis);
-
-  // Turns a leaf into an inner node with two leaves, unless testing all its items is expected to be cheaper.
-  bool split(std::uint32_t index, std::uint32_t depth, std::span<const Box> boxes, double item_cost);
-
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> items_;
 };

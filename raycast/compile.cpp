@@ -20,13 +20,16 @@
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
 
 HALFLIGHT_INLINE void Compiler::sphere(const glm::dvec3& centre, double radius) {
-  if (object_->inside()) return;
-  if (!similar_) return superquadric(centre, glm::dmat3(1.0 / radius), 2.0, 2.0, 0.0);  // an ellipsoid
+  if (object_->inside()) { return; }
+  if (!similar_) {
+    return superquadric(centre, glm::dmat3(1.0 / radius), 2.0, 2.0, 0.0);  // an ellipsoid
+  }
   const glm::dvec3 c = map(centre);
   const double r = radius * stretch_ * out_.scale;
   Box box{c - r, c + r};
@@ -35,20 +38,22 @@ HALFLIGHT_INLINE void Compiler::sphere(const glm::dvec3& centre, double radius) 
 }
 
 HALFLIGHT_INLINE void Compiler::cylinder(const glm::dvec3& base, const AxisFrame& frame, double radius, double height) {
-  if (object_->inside()) return;
-  if (!similar_) return cone(base, frame.into(radius, height), 1.0, 0.0);
+  if (object_->inside()) { return; }
+  if (!similar_) { return cone(base, frame.into(radius, height), 1.0, 0.0); }
   const glm::dvec3 axis = height * frame.w;
   const glm::dvec3 b = map(base), w = object_->placement().linear * axis * out_.scale, unit = glm::normalize(w);
   CylinderShape cylinder{{}, {}, static_cast<float>(glm::length(w)), static_cast<float>(radius * stretch_ * out_.scale), index_};
-  for (int k = 0; k < 3; ++k) cylinder.base[k] = static_cast<float>(b[k]), cylinder.axis[k] = static_cast<float>(unit[k]);
+  for (int k = 0; k < 3; ++k) { cylinder.base[k] = static_cast<float>(b[k]), cylinder.axis[k] = static_cast<float>(unit[k]); }
   add_object_box(Kind::cylinder, static_cast<std::uint32_t>(cylinders_.size()));
   cylinders_.push_back(cylinder);
 }
 
 HALFLIGHT_INLINE void Compiler::superquadric(const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring) {
-  if (std::min(p, q) < 0.2 || std::max(p, q) > 16.0 || ring > 64.0) return;  // powers are not known well enough
+  if (std::min(p, q) < smallest_power || std::max(p, q) > largest_power || ring > largest_ring) {
+    return;  // powers are not known well enough
+  }
   form(p >= 1.0 && q >= 1.0 && ring == 0.0 ? FormKind::convex : FormKind::concave, centre, unit, p, q, ring,
-       0x1p-15 * (1.0 + 0.5 / p + 0.5 / q));
+       eps_power * (1.0 + 0.5 / p + 0.5 / q));
 }
 
 HALFLIGHT_INLINE void Compiler::body(std::span<const Plane> planes) {
@@ -60,27 +65,28 @@ HALFLIGHT_INLINE void Compiler::body(std::span<const Plane> planes) {
   }
   const auto index = static_cast<std::uint32_t>(bodies_.size());
   bodies_.push_back({first, static_cast<std::uint32_t>(planes.size()), index_});
-  if (object_->inside())
+  if (object_->inside()) {
     room_body_ = index;
-  else
+  } else {
     add_object_box(Kind::body, index);
+  }
 }
 
 HALFLIGHT_INLINE void Compiler::face(std::uint32_t number, std::span<const glm::dvec3> corners) {
   world_.clear();
-  for (const glm::dvec3& p : corners) world_.push_back(map(p));
-  if (mirrored_) std::reverse(world_.begin(), world_.end());
+  for (const glm::dvec3& p : corners) { world_.push_back(map(p)); }
+  if (mirrored_) { std::reverse(world_.begin(), world_.end()); }
   if (corners.size() == 3) {
     // Slivers are left to double precision: their normal is not known.
     const glm::dvec3 area = glm::cross(world_[1] - world_[0], world_[2] - world_[0]);
     const double length = glm::length(area);
     const double extent =
         std::max({glm::dot(world_[1] - world_[0], world_[1] - world_[0]), glm::dot(world_[2] - world_[0], world_[2] - world_[0])});
-    pieces(number, length > 1e-6 * extent ? area / length : glm::dvec3{0.0}, true);
+    pieces(number, length > tol_sliver * extent ? area / length : glm::dvec3{0.0}, true);
   } else {
     const Plane plane = plane_of(world_);
     const double extent = brep::extent(world_);
-    const bool exact = plane.slack == 0.0 && glm::length(brep::vector_area(world_)) > 1e-6 * extent * extent;
+    const bool exact = plane.slack == 0.0 && glm::length(brep::vector_area(world_)) > tol_sliver * extent * extent;
     pieces(number, exact ? plane.normal : glm::dvec3{0.0}, brep::is_convex(world_));
   }
 }
@@ -91,7 +97,7 @@ HALFLIGHT_INLINE Compiler::Compiler(Compiled& out, const Box& bounds, double ski
   int exponent = 0;
   std::frexp(0.5 * std::max({size.x, size.y, size.z}), &exponent);
   out_.scale = std::ldexp(1.0, -exponent);
-  out_.margin = static_cast<float>(0x1p-19 + 4 * skin * out_.scale);
+  out_.margin = static_cast<float>(eps_height + 4 * skin * out_.scale);
 }
 
 HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& object, std::span<const glm::dvec3> outline,
@@ -103,8 +109,9 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
   const glm::dmat3 square = glm::transpose(m) * m;
   const double s = (square[0][0] + square[1][1] + square[2][2]) / 3;
   similar_ = true;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) similar_ = similar_ && std::abs(square[i][j] - (i == j ? s : 0.0)) <= 1e-9 * s;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) { similar_ = similar_ && std::abs(square[i][j] - (i == j ? s : 0.0)) <= tol_similar * s; }
+  }
   stretch_ = std::sqrt(s);
   out_.bounds.push_back(rounded(scaled(object.bounds())));
   out_.roles.push_back(!outline.empty() ? Role::polygon : object.solid() ? Role::solid : Role::surface);
@@ -113,15 +120,15 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
   const std::uint32_t faces_before = face_count_;
   if (!outline.empty()) {
     world_.clear();
-    for (const glm::dvec3& p : outline) world_.push_back(out_.local(p));
+    for (const glm::dvec3& p : outline) { world_.push_back(out_.local(p)); }
     const double extent = brep::extent(world_);
-    const bool exact = object.slack() == 0.0 && glm::length(brep::vector_area(world_)) > 1e-6 * extent * extent;
+    const bool exact = object.slack() == 0.0 && glm::length(brep::vector_area(world_)) > tol_sliver * extent * extent;
     pieces(0, exact ? normal : glm::dvec3{0.0}, object.convex());
   } else {
     object.object().compile(*this);
   }
   if (object.inside()) {
-    out_.bounds.back() = {{-1e30f, -1e30f, -1e30f}, {1e30f, 1e30f, 1e30f}};
+    out_.bounds.back() = {{-no_bound, -no_bound, -no_bound}, {no_bound, no_bound, no_bound}};
     out_.rooms.push_back(index);
     out_.room_bodies.push_back(room_body_);
   } else if (items_.size() == before) {
@@ -136,27 +143,27 @@ HALFLIGHT_INLINE FloatBox Compiler::rounded(const Box& b) const {  // grown by t
   const double grow = out_.margin;
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    result.lo[i] = std::nextafter(static_cast<float>(b.lo[k] - grow), -1e30f);
-    result.hi[i] = std::nextafter(static_cast<float>(b.hi[k] + grow), 1e30f);
+    result.lo[i] = std::nextafter(static_cast<float>(b.lo[k] - grow), -no_bound);
+    result.hi[i] = std::nextafter(static_cast<float>(b.hi[k] + grow), no_bound);
   }
   return result;
 }
 
 HALFLIGHT_INLINE void Compiler::form(FormKind kind, const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring,
                                      double eps) {
-  if (object_->inside()) return;
+  if (object_->inside()) { return; }
   const Placement& place = object_->placement();
   const glm::dmat3 inverse = glm::inverse(place.linear), linear = unit * inverse / out_.scale;
   const glm::dvec3 shift = unit * (inverse * (out_.centre - place.translation) - centre);
   const auto norm = [](const glm::dmat3& m) { return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])); };
-  if (!(norm(unit * inverse) * norm(glm::inverse(unit * inverse)) < 1e4)) return;
+  if (!(norm(unit * inverse) * norm(glm::inverse(unit * inverse)) < largest_condition)) { return; }
   Form f{{}, {}, static_cast<float>(p), static_cast<float>(q), static_cast<float>(ring), static_cast<float>(eps), kind, index_};
   for (int k = 0; k < 3; ++k) {
     const glm::dvec3 row{linear[0][k], linear[1][k], linear[2][k]};
-    for (int i = 0; i < 3; ++i) f.map[k][i] = static_cast<float>(row[i]);
+    for (int i = 0; i < 3; ++i) { f.map[k][i] = static_cast<float>(row[i]); }
     f.map[k][3] = static_cast<float>(shift[k]);
     f.slop[k] = 2.0f * out_.margin * static_cast<float>(glm::length(row));
-    if (!(f.slop[k] < 0.02f)) return;
+    if (!(f.slop[k] < largest_slop)) { return; }
   }
   add_object_box(Kind::form, static_cast<std::uint32_t>(forms_.size()));
   forms_.push_back(f);
@@ -171,25 +178,26 @@ HALFLIGHT_INLINE void Compiler::pieces(std::uint32_t number, const glm::dvec3& n
     const auto corner = [&](std::size_t i) -> const glm::dvec3& { return i == 0 || whole ? world_[i] : world_[first + i - 1]; };
     Face face{{}, number};
     Box box;
-    for (std::size_t i = 0; i < corners; ++i) box.extend(corner(i));
+    for (std::size_t i = 0; i < corners; ++i) { box.extend(corner(i)); }
     face.row[0] = row(normal, -glm::dot(normal, world_[0]));
-    if (known)
+    if (known) {
       for (std::size_t i = 0; i < corners; ++i) {
         const glm::dvec3 side = corner((i + 1) % corners) - corner(i);
         const glm::dvec3 in = glm::normalize(glm::cross(normal, side));
         face.row[i + 1] = row(in, -glm::dot(in, corner(i)));
       }
+    }
     ++face_count_;
     add(box, corners == 3 ? Kind::triangle : Kind::quad, static_cast<std::uint32_t>(faces_.size()));
     faces_.push_back(face);
-    if (whole) return;
+    if (whole) { return; }
   }
 }
 
 HALFLIGHT_INLINE std::uint32_t Compiler::emit(Kind kind, std::span<const Item> items) {
   const auto append = [&](auto& out, auto&& make) {
     const auto first = static_cast<std::uint32_t>(out.size());
-    for (const Item& item : items) out.push_back(make(item));
+    for (const Item& item : items) { out.push_back(make(item)); }
     return first;
   };
   switch (kind) {
@@ -202,9 +210,9 @@ HALFLIGHT_INLINE std::uint32_t Compiler::emit(Kind kind, std::span<const Item> i
       for (std::size_t i = 0; i < 8; ++i) {
         block.object[i] = no_object_id;
         block.radius[i] = -1.0f;
-        for (std::size_t k = 0; k < 3; ++k) block.centre[k][i] = 8.0f;
-        if (i >= items.size()) continue;
-        for (std::size_t k = 0; k < 3; ++k) block.centre[k][i] = spheres_[items[i].data][k];
+        for (std::size_t k = 0; k < 3; ++k) { block.centre[k][i] = 8.0f; }
+        if (i >= items.size()) { continue; }
+        for (std::size_t k = 0; k < 3; ++k) { block.centre[k][i] = spheres_[items[i].data][k]; }
         block.radius[i] = spheres_[items[i].data][3];
         block.object[i] = items[i].object;
       }

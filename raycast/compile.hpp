@@ -18,6 +18,7 @@
 #include <raycast/circle.hpp>
 #include <raycast/compiled.hpp>
 #include <raycast/planar.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
@@ -37,7 +38,7 @@ class Compiler {
   // |x, y| <= 1, z = 0 where x, y, z are unit (p - centre).
   void disk(const glm::dvec3& centre, const glm::dmat3& unit) { form(FormKind::disk, centre, unit, 0.0, 0.0, 0.0, 0.0); }
   // 0 <= z <= 1, |x, y| <= p + q z, neither beyond 1.
-  void cone(const glm::dvec3& base, const glm::dmat3& unit, double p, double q) { form(FormKind::cone, base, unit, p, q, 0.0, 0x1p-20); }
+  void cone(const glm::dvec3& base, const glm::dmat3& unit, double p, double q) { form(FormKind::cone, base, unit, p, q, 0.0, eps_cone); }
   // ((|x|^p + |y|^p)^(1/p) - ring)^q + |z|^q <= 1.
   void superquadric(const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring);
   // A convex solid behind all these planes; at most 32 of them.
@@ -53,7 +54,7 @@ class Compiler {
   Compiler(Compiled& out, const Box& bounds, double skin);
   void add(std::uint32_t index, const PlacedObject& object, std::span<const glm::dvec3> outline, const glm::dvec3& normal);
   // Arranges everything. Up to `loop_limit` shapes are a loop for occlusion; the first hit is always looked for in the tree.
-  void finish(std::size_t loop_limit);  // tree.hpp
+  void finish(std::size_t loop_limit);  // wide_tree.hpp
 
  private:
   struct Face {
@@ -85,10 +86,11 @@ class Compiler {
     for (std::size_t i = 0; i < 8; ++i) {
       block.object[i] = no_object_id;
       block.row[0][3][i] = 1.0f;
-      if (i >= items.size()) continue;
+      if (i >= items.size()) { continue; }
       const Face& face = faces_[items[i].data];
-      for (std::size_t r = 0; r <= Edges; ++r)
-        for (std::size_t c = 0; c < 4; ++c) block.row[r][c][i] = face.row[r][c];
+      for (std::size_t r = 0; r <= Edges; ++r) {
+        for (std::size_t c = 0; c < 4; ++c) { block.row[r][c][i] = face.row[r][c]; }
+      }
       block.object[i] = items[i].object;
       block.face[i] = face.number;
     }

@@ -39,10 +39,11 @@ HALFLIGHT_INLINE std::size_t Compiled::bytes() const {
 }
 
 HALFLIGHT_INLINE bool may_contain(const Compiled& scene, std::uint32_t owner, std::uint32_t object) {
-  if (owner == 0xffffffffu || owner == object || scene.roles[owner] != Role::solid) return false;
+  if (owner == 0xffffffffu || owner == object || scene.roles[owner] != Role::solid) { return false; }
   const FloatBox &a = scene.bounds[owner], &b = scene.bounds[object];
-  for (std::size_t k = 0; k < 3; ++k)
-    if (a.hi[k] < b.lo[k] || b.hi[k] < a.lo[k]) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (a.hi[k] < b.lo[k] || b.hi[k] < a.lo[k]) { return false; }
+  }
   return true;
 }
 

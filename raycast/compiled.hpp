@@ -6,10 +6,8 @@
 // Coordinates are moved to the middle of the scene and scaled by a power of two, so that the scene lies in [-1,1]^3; nothing below
 // depends on the size or the place of the scene. Segments may leave it a little (to |x| <= 1.5; what is longer is clipped, bundle.hpp).
 //
-// The error bound. A coordinate is rounded by 2^-24, a direction by 2^-23; a height above a plane of unit normal adds 2^-24 (sqrt(3) 2.6)
-// for the plane's own rounding and at most 4 roundings of terms below 2.6 sqrt(3): less than 20 * 2^-24. The same holds for a distance from
-// a centre or an axis. `margin` = 2^-19 = 32 * 2^-24 plus the skins of scene.hpp: what lies farther than this from the limit of a decision
-// is decided as the double-precision reference decides it; what lies nearer is not decided here but there.
+// The error bound: `margin` = eps_height (tolerances.hpp) plus the skins of scene.hpp. What lies farther than this from the limit of a
+// decision is decided as the double-precision reference decides it; what lies nearer is not decided here but there.
 //
 // Boxes of nodes are grown by the margin and rounded outwards; so a node is never missed for a shape that could be met.
 
@@ -21,10 +19,13 @@
 
 #include <glm/vec3.hpp>
 
+#include <raycast/tolerances.hpp>
+
 namespace raycast {
 
 // The kinds of shapes. faces: convex polygons of three or four corners; body: a convex solid behind planes; guard: the bounds of an object
-// that is kept as faces; form: a shape with a formula in coordinates of its own; other: bounds of an object that is asked through its spans.
+// that is kept as faces; form: a shape with a formula in coordinates of its own; other: bounds of an object that is asked through its
+// spans.
 enum class Kind : std::uint32_t { triangle, quad, sphere, body, cylinder, guard, other, form };
 
 // A shape's name: its kind and its index among its kind.
@@ -82,9 +83,9 @@ struct alignas(64) Node {
 enum class Role : std::uint8_t { polygon, surface, solid };
 
 struct FloatBox {
-  std::array<float, 3> lo{1e30f, 1e30f, 1e30f}, hi{-1e30f, -1e30f, -1e30f};
+  std::array<float, 3> lo{no_bound, no_bound, no_bound}, hi{-no_bound, -no_bound, -no_bound};
   void extend(const FloatBox& b) {
-    for (std::size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], b.lo[k]), hi[k] = std::max(hi[k], b.hi[k]);
+    for (std::size_t k = 0; k < 3; ++k) { lo[k] = std::min(lo[k], b.lo[k]), hi[k] = std::max(hi[k], b.hi[k]); }
   }
   [[nodiscard]] float half_area() const {
     const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
@@ -93,9 +94,11 @@ struct FloatBox {
 };
 
 struct Compiled {
+  static constexpr std::size_t fan_out = 8;
+
   glm::dvec3 centre{0.0};
   double scale = 1.0;
-  float margin = 0x1p-19f;
+  float margin = static_cast<float>(eps_height);
   std::vector<Node> nodes;  // the first is the root; none without shapes
   std::vector<FaceBlock<3>> triangles;
   std::vector<FaceBlock<4>> quads;
@@ -113,6 +116,7 @@ struct Compiled {
   std::uint32_t shape_count = 0;
 
   [[nodiscard]] bool few() const { return nodes.empty() || !leaves.empty(); }
+  [[nodiscard]] static bool is_leaf(std::uint32_t child) { return raycast::is_leaf(child); }
   [[nodiscard]] glm::dvec3 local(const glm::dvec3& p) const { return (p - centre) * scale; }
   [[nodiscard]] std::uint32_t object_of(std::uint32_t shape) const;
   [[nodiscard]] std::size_t bytes() const;

@@ -19,12 +19,13 @@
 #include <raycast/compiled.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/kernels.hpp>
+#include <raycast/line_query.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
-#include <raycast/walk.hpp>
 
 namespace raycast {
 
@@ -32,9 +33,9 @@ HALFLIGHT_INLINE bool Scene::Search::clip(const Compiled& scene) {
   const glm::dvec3 o = scene.local(ray.origin), d = ray.direction * scene.scale;
   t0 = 0.0, t1 = infinity;
   for (int k = 0; k < 3; ++k) {
-    const double lo = (-1.25 - o[k]) / d[k], hi = (1.25 - o[k]) / d[k];
-    if (d[k] == 0.0 && !(std::abs(o[k]) <= 1.25)) return false;
-    if (d[k] == 0.0) continue;
+    const double lo = (-lane_cube - o[k]) / d[k], hi = (lane_cube - o[k]) / d[k];
+    if (d[k] == 0.0 && !(std::abs(o[k]) <= lane_cube)) { return false; }
+    if (d[k] == 0.0) { continue; }
     t0 = std::max(t0, std::min(lo, hi));
     t1 = std::min(t1, std::max(lo, hi));
   }
@@ -49,7 +50,7 @@ struct Scene::Asker {
   float operator()(unsigned lane, std::uint32_t object) const {
     Search& s = searches[lane];
     scene.approach(Line(s.ray), s.source, object, s.nearest);
-    return static_cast<float>(std::min((s.nearest.limit - s.t0) / (s.t1 - s.t0), 1.0)) * 1.00001f + 1e-6f;
+    return static_cast<float>(std::min((s.nearest.limit - s.t0) / (s.t1 - s.t0), 1.0)) * limit_up + eps_limit;
   }
   [[nodiscard]] bool near(unsigned lane, std::uint32_t object) const {
     const Search& s = searches[lane];
@@ -65,10 +66,10 @@ HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, floa
   for (unsigned i = 0; i < entries.count; ++i) {
     const std::uint32_t object = entries.entry[i].object;
     const auto other = [&](const Entries::Entry& e) { return e.object != object; };
-    if (!std::all_of(entries.entry, entries.entry + i, other)) continue;
+    if (!std::all_of(entries.entry, entries.entry + i, other)) { continue; }
     if (const Record& r = records_[object]; r.corner_count) {  // a polygon that is crossed for certain: as approach() has it
       const double step = glm::dot(r.normal, ray.direction), t = -glm::dot(r.normal, ray.origin - r.point) / step;
-      if (t <= nearest.limit) offer(ray, Hit{t, object, 0, step < 0.0}, nearest);
+      if (t <= nearest.limit) { offer(ray, Hit{t, object, 0, step < 0.0}, nearest); }
       continue;
     }
     Crossing first{infinity, 0};
@@ -76,31 +77,34 @@ HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, floa
     const bool only = entries.count == 1 && entries.entry[0].sure;
     for (unsigned j = i; j < entries.count && !by_spans; ++j) {
       const Entries::Entry& e = entries.entry[j];
-      if (e.object != object) continue;
+      if (e.object != object) { continue; }
       by_spans = !only && !(e.timed && e.to < entries.exit && e.to <= limit);
-      if (by_spans || !(e.sure || objects_[object].enters(ray, e.face))) continue;
+      if (by_spans || !(e.sure || objects_[object].enters(ray, e.face))) { continue; }
       const Crossing at = objects_[object].crossing(ray, e.face);
-      if (at.t < first.t || (at.t == first.t && at.sheet < first.sheet)) first = at;
+      if (at.t < first.t || (at.t == first.t && at.sheet < first.sheet)) { first = at; }
     }
-    if (by_spans)
+    if (by_spans) {
       approach(Line(ray), search.source, object, nearest);
-    else if (first.t > 0.0 && first.t < infinity && first.t <= nearest.limit)
+    } else if (first.t > 0.0 && first.t < infinity && first.t <= nearest.limit) {
       offer(ray, Hit{first.t, object, first.sheet, true}, nearest);
+    }
   }
-  if (entries.complete) return;
+  if (entries.complete) { return; }
   const Line line(ray);
-  for (std::uint32_t i = 0; i < objects_.size(); ++i)
-    if (compiled_.roles[i] == Role::solid && !objects_[i].inside()) approach(line, search.source, i, nearest);
+  for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+    if (compiled_.roles[i] == Role::solid && !objects_[i].inside()) { approach(line, search.source, i, nearest); }
+  }
 }
 
 HALFLIGHT_INLINE void Scene::approach_bounded(Search& search) const {
-  if (compiled_.nodes.empty() || !search.clip(compiled_)) return;
+  if (compiled_.nodes.empty() || !search.clip(compiled_)) { return; }
   const Segment& ray = search.ray;
   const glm::dvec3 o = compiled_.local(ray.origin), d = ray.direction * compiled_.scale;
   const glm::dvec3 from = o + search.t0 * d, along = (search.t1 - search.t0) * d;
   const Segment inner{from / compiled_.scale + compiled_.centre, along / compiled_.scale};
   Rays16 rays;
-  if (!(Box{o, o}.magnitude() < 1e6) || !HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, inner, search.source.owner, no_object, rays))) {
+  if (!(Box{o, o}.magnitude() < farthest_cut) ||
+      !HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, inner, search.source.owner, no_object, rays))) {
     const Line line(ray);
     objects_along(compiled_, ray, 0.0, search.nearest.limit, [&](std::uint32_t i) {
       approach(line, search.source, i, search.nearest);
@@ -124,10 +128,10 @@ HALFLIGHT_INLINE Hits16 Scene::closest16(const Segments16& rays) const {
     const auto i = static_cast<unsigned>(std::countr_zero(rest));
     Search& s = searches[i];
     s = {rays.at(i), end_at(rays.source[i])};
-    if (!has_line(s.ray)) continue;
-    for (const std::uint32_t room : compiled_.rooms) approach(Line(s.ray), s.source, room, s.nearest);
+    if (!has_line(s.ray)) { continue; }
+    for (const std::uint32_t room : compiled_.rooms) { approach(Line(s.ray), s.source, room, s.nearest); }
     const glm::dvec3 o = compiled_.local(s.ray.origin), d = s.ray.direction * compiled_.scale;
-    if (!(Box{o, o}.magnitude() < 1e6)) {
+    if (!(Box{o, o}.magnitude() < farthest_cut)) {
       approach_bounded(s);
     } else if (s.clip(compiled_)) {
       inner.set(i, {(o + s.t0 * d) * per_scale + compiled_.centre, (s.t1 - s.t0) * d * per_scale}, s.source.owner, no_object);
@@ -144,10 +148,11 @@ HALFLIGHT_INLINE Hits16 Scene::closest16(const Segments16& rays) const {
     HALFLIGHT_DISPATCH(isa_, first16(compiled_, converted, near, limits, entries, asker));
     for (std::uint32_t rest = inner.lanes; rest; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
-      if (near >> i & 1u)
+      if (near >> i & 1u) {
         decide(searches[i], entries[i], limits[i]);
-      else
+      } else {
         approach_bounded(searches[i]);
+      }
     }
   }
   for (std::uint32_t rest = rays.lanes; rest; rest &= rest - 1) {

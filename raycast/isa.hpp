@@ -17,9 +17,10 @@ enum class Isa : std::uint8_t { portable, avx2, avx512 };
 [[nodiscard]] inline Isa best_isa() {
 #ifdef HALFLIGHT_X86
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("fma"))
+      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("fma")) {
     return Isa::avx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return Isa::avx2;
+  }
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) { return Isa::avx2; }
 #endif
   return Isa::portable;
 }

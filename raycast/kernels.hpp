@@ -1,15 +1,43 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The searches over compiled.hpp, for every instruction set (lanes.hpp), and what they are asked with: sixteen segments in arrays.
+// The searches over compiled.hpp in single precision, for every instruction set (lanes.hpp), and what they are asked with.
 //
-// Every test has three answers: blocked for certain, free for certain, or too near to the limit to say. The third is collected by object
-// and asked of the double-precision reference once no certain blocker was found: so the answer of a search is that of the reference,
-// whatever the order and the instruction set.
+// Lanes. A bundle is sixteen segments as a structure of arrays: Rays16::ox are the x of sixteen origins. Segment i is lane i, on every
+// machine; a set of lanes is an unsigned number with bit i for lane i, and so is the result of every comparison. The vector F holds
+// lane_count lanes, 4, 8 or 16; a bundle takes `chunks` = 16 / lane_count of them. The vector B is for the other use, one segment against
+// eight boxes or shapes at once, in `box_chunks` steps.
+//
+// Layout (compiled.hpp). A Node holds the bounds of eight children in six rows of eight floats, and their eight numbers, in four cache
+// lines. A number is the index of a node or, with bit 31, a leaf: a kind, a count and the first of up to eight shapes of this kind.
+// Triangles, quads and spheres lie in blocks of eight, again row by row: a face is its plane and one plane through each edge, so that to
+// test it is to compute heights. Places without a shape hold what no segment meets. All other kinds lie one after the other.
+//
+// Two ways. A node or a block can be tested lane by lane, eight children at once (segment.inc), or child by child, all lanes at once
+// (shapes.inc, slabs() of hull.inc). search.inc compares the numbers of tests, which depend on how many lanes are still alive; a bundle
+// whose segments run beside each other drops children by its convex hull first.
+//
+// Conservative. Single precision cannot decide what is near a limit: a segment that passes an edge within rounding. So each limit is moved
+// by `margin` both ways, and every test has three answers: blocked for certain (Bits::hit), free for certain, undecided (Bits::maybe).
+// Boxes are grown by the margin, and hulls by their rounding, so nothing is lost on the way to a shape.
+//
+// What is asked in double precision, of Scene, object by object:
+//   - undecided lanes; they are collected by object (Pending) and asked only if no certain blocker was found;
+//   - objects that the lanes do not know (Kind::other), and what depends on the order of crossings: an end on or in a solid;
+//   - where a ray meets first: here its parameter is only known between bounds (Entries), which mostly leave one candidate.
+// So the answers are those of double precision alone, whatever the order and the instruction set.
+//
+//   lanes.inc     the operations on vectors        convert.inc   from the world into the compiled scene
+//   shapes.inc    a bundle against one shape       search.inc    which lanes are blocked
+//   forms.inc     shapes with a formula, convex    pairs.inc     what can stand between two patches
+//   march.inc     and not convex                   first.inc     what is met first
+//   segment.inc   a segment against eight          hull.inc      the hull of a bundle against eight
+//   walk.inc      the walk of walk.hpp
 
 #include "bundle.hpp"
 #include "compiled.hpp"
 #include "lanes.hpp"
+#include "walk.hpp"
 
 #include <bit>
 
@@ -67,18 +95,18 @@ struct Entries {
   void add(const Entry& e) {
     if (e.sure) {  // what certainly comes later does not matter
       unsigned kept = 0;
-      for (unsigned i = 0; i < count; ++i)
-        if (entry[i].from <= e.to) entry[kept++] = entry[i];
+      for (unsigned i = 0; i < count; ++i) {
+        if (entry[i].from <= e.to) { entry[kept++] = entry[i]; }
+      }
       count = kept;
     }
-    if (count == capacity)
+    if (count == capacity) {
       complete = false;
-    else
+    } else {
       entry[count++] = e;
+    }
   }
 };
-
-inline constexpr unsigned stack_size = 640;  // 7 entries a level, and no tree is deeper than 80 (tree.hpp)
 
 // Which lanes are undecided about which object.
 struct Pending {
@@ -97,6 +125,7 @@ struct Pending {
 #undef HALFLIGHT_LANES
 #undef HALFLIGHT_TARGET
 #undef HALFLIGHT_OP
+#undef HALFLIGHT_LAMBDA
 
 #ifdef HALFLIGHT_X86
 #define HALFLIGHT_ISA avx2
@@ -107,6 +136,7 @@ struct Pending {
 #undef HALFLIGHT_LANES
 #undef HALFLIGHT_TARGET
 #undef HALFLIGHT_OP
+#undef HALFLIGHT_LAMBDA
 
 #define HALFLIGHT_ISA avx512
 #define HALFLIGHT_LANES 16
@@ -116,6 +146,7 @@ struct Pending {
 #undef HALFLIGHT_LANES
 #undef HALFLIGHT_TARGET
 #undef HALFLIGHT_OP
+#undef HALFLIGHT_LAMBDA
 #endif
 
 // The call in the namespace of the instruction set: its functions have the same names in each.

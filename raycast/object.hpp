@@ -23,11 +23,10 @@
 
 #include <glm/vec3.hpp>
 
-#include <brep/builder_input.hpp>
-
 #include <raycast/box.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace brep {
 class Builder;  // brep/builder_input.hpp
@@ -119,12 +118,12 @@ struct Made {
 };
 
 // Coordinates beyond 1e60 in magnitude, infinities and NaN are refused by every factory: cubes and squares of lengths must stay finite.
-[[nodiscard]] inline bool usable(double x) { return x > -1e60 && x < 1e60; }
+[[nodiscard]] inline bool usable(double x) { return x > -largest_length && x < largest_length; }
 [[nodiscard]] inline bool usable(const glm::dvec3& p) { return usable(p.x) && usable(p.y) && usable(p.z); }
 
-// A length that is positive, above 1e-60, and not lost beside coordinates of the given magnitude (2^-40 of it keeps 13 bits).
+// A length that is positive, above 1e-60, and not lost beside coordinates of the given magnitude.
 [[nodiscard]] inline bool usable_length(double length, double magnitude) {
-  return length > 1e-60 && length < 1e60 && length > 0x1p-40 * magnitude;
+  return length > smallest_length && length < largest_length && length > tol_vanishing * magnitude;
 }
 
 }  // namespace raycast

@@ -23,6 +23,7 @@
 #include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
@@ -31,7 +32,7 @@ namespace detail {
 
 // Four points whose hull contains the contour; the contour itself if it has no more.
 HALFLIGHT_INLINE std::array<glm::dvec3, 4> four_corners(std::span<const glm::dvec3> contour) {
-  if (contour.size() <= 4) return {contour[0], contour[1], contour[2], contour[std::min<std::size_t>(3, contour.size() - 1)]};
+  if (contour.size() <= 4) { return {contour[0], contour[1], contour[2], contour[std::min<std::size_t>(3, contour.size() - 1)]}; }
   const glm::dvec3 n = brep::normal(contour), u = glm::normalize(contour[1] - contour[0]), v = glm::cross(n, u);
   double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
   for (const glm::dvec3& p : contour) {
@@ -46,7 +47,7 @@ HALFLIGHT_INLINE std::array<glm::dvec3, 4> four_corners(std::span<const glm::dve
 
 HALFLIGHT_INLINE OccluderList Scene::occluders(const PatchShape& a, const PatchShape& b) const { return list_of(nullptr, a, b); }
 HALFLIGHT_INLINE OccluderList Scene::filter(const OccluderList& parent, const PatchShape& a, const PatchShape& b) const {
-  if (parent.blocked() || parent.clear() || !parent.known()) return parent;
+  if (parent.blocked() || parent.clear() || !parent.known()) { return parent; }
   return list_of(&parent, a, b);
 }
 
@@ -64,26 +65,31 @@ HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const P
     }
   }
   const double bulge = std::max(a.bulge, b.bulge);
-  if (!(reach + bulge * compiled_.scale < 1.5)) return list;  // not in the compiled scene
-  c.bulge = bulge > 0.0 ? static_cast<float>(bulge * compiled_.scale) * 1.0001f + 0x1p-24f : 0.0f;
+  if (!(reach + bulge * compiled_.scale < lane_reach)) {
+    return list;  // not in the compiled scene
+  }
+  c.bulge = bulge > 0.0 ? static_cast<float>(bulge * compiled_.scale) * length_up + unit_roundoff_single : 0.0f;
   c.source = a.owner, c.target = b.owner;
   HALFLIGHT_DISPATCH(isa_, spread_corners(pf, qf, c));
   const bool faces_alone =
       parent && parent->known() && std::all_of(parent->shapes().begin(), parent->shapes().end(), [](std::uint32_t shape) {
         return kind_of(shape) == Kind::triangle || kind_of(shape) == Kind::quad;
       });
-  if (!faces_alone) HALFLIGHT_DISPATCH(isa_, widen(c));  // faces are compared with the corners
+  if (!faces_alone) {
+    HALFLIGHT_DISPATCH(isa_, widen(c));  // faces are compared with the corners
+  }
 
   // A polygon matters only if some corner lies behind its plane and another before it, by more than rounding: half the skin of
   // scene.hpp for points that are themselves known to a fraction of it.
   const auto touches = [&](std::uint32_t object) {
     const Record& r = records_[object];
     double low = infinity, high = -infinity;
-    for (const auto& contour : {p, q})
+    for (const auto& contour : {p, q}) {
       for (const glm::dvec3& x : contour) {
         const double height = glm::dot(r.normal, x - r.point);
         low = std::min(low, height), high = std::max(high, height);
       }
+    }
     return !(low - bulge >= -0.5 * rounding_ || high + bulge <= 0.5 * rounding_);
   };
   const auto skips = [&](std::uint32_t object) {
@@ -107,11 +113,12 @@ HALFLIGHT_INLINE bool Scene::within(std::uint32_t object, std::span<const glm::d
   const PlacedObject& body = objects_[object];
   for (const glm::dvec3& p : points) {
     const Segment inwards = between(p, body.bounds().centre());
-    if (!has_line(inwards)) continue;
+    if (!has_line(inwards)) { continue; }
     Spans spans;
     body.spans(inwards, spans);
-    if (spans.size() != 1 || !(spans[0].in.t * glm::length(inwards.direction) <= 0.25 * rounding_) || !(spans[0].out.t >= 0.0))
+    if (spans.size() != 1 || !(spans[0].in.t * glm::length(inwards.direction) <= 0.25 * rounding_) || !(spans[0].out.t >= 0.0)) {
       return false;
+    }
   }
   return true;
 }
@@ -120,22 +127,25 @@ HALFLIGHT_INLINE bool Scene::within(std::uint32_t object, std::span<const glm::d
 HALFLIGHT_INLINE bool Scene::rooms_clear(const PatchShape& a, const PatchShape& b) const {
   for (std::size_t r = 0; r < compiled_.rooms.size(); ++r) {
     const std::uint32_t room = compiled_.rooms[r];
-    if (!objects_[room].convex()) return false;
-    if (a.owner == room && b.owner == room) continue;
-    for (const PatchShape* patch : {&a, &b})
+    if (!objects_[room].convex()) { return false; }
+    if (a.owner == room && b.owner == room) { continue; }
+    for (const PatchShape* patch : {&a, &b}) {
       if (patch->owner != room &&
-          !std::all_of(patch->contour.begin(), patch->contour.end(), [&](const glm::dvec3& p) { return in_room(r, p, patch->bulge); }))
+          !std::all_of(patch->contour.begin(), patch->contour.end(), [&](const glm::dvec3& p) { return in_room(r, p, patch->bulge); })) {
         return false;
+      }
+    }
   }
   return true;
 }
 
 HALFLIGHT_INLINE std::uint32_t Scene::occluded16(const Segments16& segments, const OccluderList& list, std::uint32_t& hint) const {
-  if (list.clear()) return 0;
+  if (list.clear()) { return 0; }
   if (list.blocked()) {
     std::uint32_t lines = 0;
-    for (unsigned i = 0; i < 16; ++i)
-      if (segments.lanes >> i & 1u) lines |= static_cast<std::uint32_t>(has_line(segments.at(i))) << i;
+    for (unsigned i = 0; i < 16; ++i) {
+      if (segments.lanes >> i & 1u) { lines |= static_cast<std::uint32_t>(has_line(segments.at(i))) << i; }
+    }
     return lines;
   }
   return occluded16(segments, list.known() ? list.shapes_.data() : nullptr, list.count_, list.rooms_clear_, hint);

@@ -21,27 +21,28 @@
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
 
 namespace detail {
 
-// A segment that leaves the compiled scene, cut to what lies within 1.25 of its middle: in lane `lane` of `rays`. False: nothing does.
-// Requires ends within 1e6, so that the cut is known to 1e-10.
+// A segment that leaves the compiled scene, cut to what lies within `lane_cube` of its middle: in lane `lane` of `rays`. False: nothing
+// does. Requires ends within `farthest_cut`.
 HALFLIGHT_INLINE bool clip(const Compiled& scene, const Segment& segment, unsigned lane, Rays16& rays) {
   const glm::dvec3 o = scene.local(segment.origin), d = segment.direction * scene.scale;
   double t0 = 0.0, t1 = 1.0;
   for (int k = 0; k < 3; ++k) {
-    const double a = (-1.25 - o[k]) / d[k], b = (1.25 - o[k]) / d[k];
+    const double a = (-lane_cube - o[k]) / d[k], b = (lane_cube - o[k]) / d[k];
     if (d[k] == 0.0) {
-      if (std::abs(o[k]) > 1.25) return false;
+      if (std::abs(o[k]) > lane_cube) { return false; }
       continue;
     }
     t0 = std::max(t0, std::min(a, b));
     t1 = std::min(t1, std::max(a, b));
   }
-  if (!(t0 < t1)) return false;
+  if (!(t0 < t1)) { return false; }
   const glm::dvec3 from = o + t0 * d, to = o + t1 * d;
   float* const rows[9] = {rays.ox, rays.oy, rays.oz, rays.tx, rays.ty, rays.tz, rays.dx, rays.dy, rays.dz};
   for (int k = 0; k < 3; ++k) {
@@ -63,8 +64,9 @@ struct Scene::Exact {
     std::uint32_t result = 0;
     for (std::uint32_t rest = lanes; rest; rest &= rest - 1) {
       const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-      if (scene.blocks(Line(segments.at(lane)), scene.end_at(segments.source[lane]), scene.end_at(segments.target[lane]), object))
+      if (scene.blocks(Line(segments.at(lane)), scene.end_at(segments.source[lane]), scene.end_at(segments.target[lane]), object)) {
         result |= 1u << lane;
+      }
     }
     return result;
   }
@@ -96,9 +98,9 @@ HALFLIGHT_INLINE std::uint32_t Scene::blocked_by_rooms(const Segments16& segment
     for (std::uint32_t rest = objects_[room].convex() ? ask : 0; rest; rest &= rest - 1) {  // ends on or near a wall
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       const Segment s = segments.at(i);
-      if (((from >> i & 1u) || in_room(r, s.origin)) && ((to >> i & 1u) || in_room(r, s.at(1.0)))) ask &= ~(1u << i);
+      if (((from >> i & 1u) || in_room(r, s.origin)) && ((to >> i & 1u) || in_room(r, s.at(1.0)))) { ask &= ~(1u << i); }
     }
-    if (ask) blocked |= exact(room, ask);
+    if (ask) { blocked |= exact(room, ask); }
   }
   return blocked;
 }
@@ -115,20 +117,23 @@ HALFLIGHT_INLINE std::uint32_t Scene::occluded16(const Segments16& segments, con
       const auto lane = static_cast<unsigned>(std::countr_zero(rest));
       const Segment s = segments.at(lane);
       const Box ends{compiled_.local(s.origin), compiled_.local(s.at(1.0))};
-      if (!(std::max(Box{ends.lo, ends.lo}.magnitude(), Box{ends.hi, ends.hi}.magnitude()) < 1e6)) {
-        for (std::uint32_t i = 0; i < objects_.size(); ++i)
+      if (!(std::max(Box{ends.lo, ends.lo}.magnitude(), Box{ends.hi, ends.hi}.magnitude()) < farthest_cut)) {
+        for (std::uint32_t i = 0; i < objects_.size(); ++i) {
           if (exact(i, 1u << lane)) {
             blocked |= 1u << lane;
             break;
           }
+        }
       } else if (detail::clip(compiled_, s, lane, rays)) {
         bounded |= 1u << lane;
       }
     }
     HALFLIGHT_DISPATCH(isa_, finish(rays));
   }
-  if (bounded) blocked |= HALFLIGHT_DISPATCH(isa_, blocked(compiled_, rays, bounded, list, count, hint, exact));
-  if (!rooms_clear && !compiled_.rooms.empty() && (lines & ~blocked)) blocked |= blocked_by_rooms(segments, rays, near, lines & ~blocked);
+  if (bounded) { blocked |= HALFLIGHT_DISPATCH(isa_, blocked(compiled_, rays, bounded, list, count, hint, exact)); }
+  if (!rooms_clear && !compiled_.rooms.empty() && (lines & ~blocked)) {
+    blocked |= blocked_by_rooms(segments, rays, near, lines & ~blocked);
+  }
   return blocked;
 }
 
@@ -137,7 +142,7 @@ HALFLIGHT_INLINE std::uint32_t Scene::occluded16(const Segments16& segments, std
 }
 
 HALFLIGHT_INLINE bool Scene::occluded(const Segment& segment, std::uint32_t source_owner, std::uint32_t target_owner) const {
-  if (!has_line(segment)) return false;
+  if (!has_line(segment)) { return false; }
   Rays16 rays;
   if (!HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, segment, source_owner, target_owner, rays))) {
     Segments16 segments;
@@ -147,12 +152,12 @@ HALFLIGHT_INLINE bool Scene::occluded(const Segment& segment, std::uint32_t sour
   const auto exact = [&](std::uint32_t object, std::uint32_t) -> std::uint32_t {
     return blocks(Line(segment), end_at(source_owner), end_at(target_owner), object);
   };
-  if (HALFLIGHT_DISPATCH(isa_, blocked_one(compiled_, rays, exact))) return true;
+  if (HALFLIGHT_DISPATCH(isa_, blocked_one(compiled_, rays, exact))) { return true; }
   for (std::size_t r = 0; r < compiled_.rooms.size(); ++r) {
     const std::uint32_t room = compiled_.rooms[r];
     const bool clear = objects_[room].convex() && (source_owner == room || in_room(r, segment.origin)) &&
                        (target_owner == room || in_room(r, segment.at(1.0)));
-    if (!clear && exact(room, 1u)) return true;
+    if (!clear && exact(room, 1u)) { return true; }
   }
   return false;
 }

@@ -17,6 +17,7 @@
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -42,7 +43,7 @@ HALFLIGHT_INLINE Plane plane_of(std::span<const glm::dvec3> corners) {
     highest = std::max(highest, height);
     magnitude = std::max(magnitude, Box{p, p}.magnitude());
   }
-  if (highest - lowest > 16 * unit_roundoff * magnitude) {
+  if (highest - lowest > eps_plane * magnitude) {
     plane.point += mean * plane.normal;
     plane.slack = std::max(highest - mean, mean - lowest);
   }
@@ -53,15 +54,16 @@ namespace detail {
 
 HALFLIGHT_INLINE int side_of(const Flat& a, const Flat& b, const Flat& c) {
   const double l = (b[0] - a[0]) * (c[1] - a[1]), r = (b[1] - a[1]) * (c[0] - a[0]);
-  const double error = 4 * unit_roundoff * (std::abs(l) + std::abs(r));
+  const double error = eps_orientation * (std::abs(l) + std::abs(r));
   return l - r > error ? 1 : l - r < -error ? -1 : 0;
 }
 
 HALFLIGHT_INLINE bool meet(const Flat& a, const Flat& b, const Flat& c, const Flat& d) {
-  for (std::size_t k = 0; k < 2; ++k)
-    if (std::max(a[k], b[k]) < std::min(c[k], d[k]) || std::max(c[k], d[k]) < std::min(a[k], b[k])) return false;
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (std::max(a[k], b[k]) < std::min(c[k], d[k]) || std::max(c[k], d[k]) < std::min(a[k], b[k])) { return false; }
+  }
   const int abc = side_of(a, b, c), abd = side_of(a, b, d), cda = side_of(c, d, a), cdb = side_of(c, d, b);
-  if (abc * abd < 0 && cda * cdb < 0) return true;
+  if (abc * abd < 0 && cda * cdb < 0) { return true; }
   return (abc == 0 && within(a, b, c)) || (abd == 0 && within(a, b, d)) || (cda == 0 && within(c, d, a)) || (cdb == 0 && within(c, d, b));
 }
 
@@ -70,39 +72,47 @@ HALFLIGHT_INLINE bool meet(const Flat& a, const Flat& b, const Flat& c, const Fl
 HALFLIGHT_INLINE std::optional<std::string> polygon_fault(std::span<const glm::dvec3> corners) {
   const std::size_t n = corners.size();
   const auto name = [](std::size_t i) { return std::to_string(i + 1); };  // people count from one
-  if (n < 3) return "has " + std::to_string(n) + " corners; it needs at least 3";
-  for (std::size_t i = 0; i < n; ++i)
-    if (!usable(corners[i])) return "has a corner (number " + name(i) + ") that is not finite (or beyond 1e60)";
+  if (n < 3) { return "has " + std::to_string(n) + " corners; it needs at least 3"; }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!usable(corners[i])) { return "has a corner (number " + name(i) + ") that is not finite (or beyond 1e60)"; }
+  }
   Box box;
-  for (const glm::dvec3& p : corners) box.extend(p);
+  for (const glm::dvec3& p : corners) { box.extend(p); }
   const double extent = brep::extent(corners);
-  if (!usable_length(extent, box.magnitude())) return "has no size (all corners coincide, compared with their coordinates)";
-  for (std::size_t i = 0; i < n; ++i)
-    if (corners[i] == corners[(i + 1) % n])
+  if (!usable_length(extent, box.magnitude())) { return "has no size (all corners coincide, compared with their coordinates)"; }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (corners[i] == corners[(i + 1) % n]) {
       return "has two equal corners in succession (numbers " + name(i) + " and " + name((i + 1) % n) + ")";
+    }
+  }
   const glm::dvec3 area = brep::vector_area(corners);
-  if (!(glm::length(area) > 1e-12 * extent * extent)) return "has no area: its corners lie on a line, or it crosses itself";
+  if (!(glm::length(area) > tol_area * extent * extent)) { return "has no area: its corners lie on a line, or it crosses itself"; }
   const Plane plane = plane_of(corners);
-  if (plane.slack > 1e-6 * extent + 16 * unit_roundoff * box.magnitude()) {
+  if (plane.slack > tol_planar * extent + eps_plane * box.magnitude()) {
     std::size_t worst = 0;
     const auto height = [&](std::size_t i) { return std::abs(glm::dot(corners[i] - plane.point, plane.normal)); };
-    for (std::size_t i = 1; i < n; ++i)
-      if (height(i) > height(worst)) worst = i;
+    for (std::size_t i = 1; i < n; ++i) {
+      if (height(i) > height(worst)) { worst = i; }
+    }
     return "is not planar: corner " + name(worst) + " lies " + std::to_string(height(worst) / extent) +
            " of the polygon's extent off its plane (1e-6 is allowed)";
   }
-  if (n == 3) return std::nullopt;
+  if (n == 3) { return std::nullopt; }
   int drop = 0;
-  for (int k = 1; k < 3; ++k)
-    if (std::abs(area[k]) > std::abs(area[drop])) drop = k;
+  for (int k = 1; k < 3; ++k) {
+    if (std::abs(area[k]) > std::abs(area[drop])) { drop = k; }
+  }
   const auto flat = [&](std::size_t i) { return detail::Flat{corners[i][(drop + 1) % 3], corners[i][(drop + 2) % 3]}; };
   for (std::size_t i = 0; i < n; ++i) {
     const detail::Flat a = flat(i), b = flat((i + 1) % n), c = flat((i + 2) % n);
-    if (detail::side_of(a, b, c) == 0 && (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]) < 0.0)
+    if (detail::side_of(a, b, c) == 0 && (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]) < 0.0) {
       return "turns back on itself at corner " + name((i + 1) % n);
-    for (std::size_t j = i + 2; j < n; ++j)
-      if (!(i == 0 && j == n - 1) && detail::meet(a, b, flat(j), flat((j + 1) % n)))
+    }
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if (!(i == 0 && j == n - 1) && detail::meet(a, b, flat(j), flat((j + 1) % n))) {
         return "intersects itself: edge " + name(i) + " meets edge " + name(j);
+      }
+    }
   }
   return std::nullopt;
 }

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Walks through a Bvh from a point: what lies around it, and what lies nearest to it. What the items are is the caller's business.
-// Both walks are exact in terms of the boxes that the tree was built from, and neither touches the heap.
+// Searches of a Bvh from a point: what lies around it, and what lies nearest to it. What the items are is the caller's business.
+// Both are exact in terms of the boxes that the tree was built from.
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -15,28 +13,40 @@
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
+#include <raycast/walk.hpp>
 
 namespace raycast {
+
+// Calls visit(item) -> bool for the items of every leaf whose box, and those of all nodes above it, are wanted(box), until one returns
+// true.
+template <class Wanted, class Visit>
+bool any_within(const Bvh& bvh, Wanted&& wanted, Visit&& visit) {
+  if (bvh.empty()) { return false; }
+  struct Open {
+    std::uint32_t child;
+  };
+  const Bvh::Node* const nodes = bvh.nodes().data();
+  const auto leaf = [&](const Open& at) {
+    for (const std::uint32_t item : bvh.items(nodes[at.child])) {
+      if (visit(item)) { return true; }
+    }
+    return false;
+  };
+  const auto inner = [&](const Open& at, auto& put_off) {
+    put_off.push({nodes[at.child].first + 1});
+    put_off.push({nodes[at.child].first});
+    return false;
+  };
+  return portable::walk(
+      bvh, Open{0}, [&](const Open& at) { return wanted(nodes[at.child].box); }, leaf, inner);
+}
 
 // Calls visit(item) for the items of every leaf whose box contains p, faces included: for all items whose own box contains p, and
 // possibly more.
 template <class Visit>
 void around(const Bvh& bvh, const glm::dvec3& p, Visit&& visit) {
-  if (bvh.empty()) return;
-  const Bvh::Node* const nodes = bvh.nodes().data();
-  std::array<std::uint32_t, Bvh::depth_limit + 2> stack;
-  std::size_t top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const Bvh::Node& node = nodes[stack[--top]];
-    if (!node.box.contains(p)) continue;
-    if (node.count > 0) {
-      for (const std::uint32_t item : bvh.items(node)) visit(item);
-      continue;
-    }
-    stack[top++] = node.first + 1;
-    stack[top++] = node.first;
-  }
+  any_within(
+      bvh, [&](const Box& box) { return box.contains(p); }, [&](std::uint32_t item) { return visit(item), false; });
 }
 
 // The squared distance from p to the box; 0 inside.
@@ -53,36 +63,34 @@ void around(const Bvh& bvh, const glm::dvec3& p, Visit&& visit) {
 // of its box. Of items equally far, the one that is met first.
 template <class Squared>
 [[nodiscard]] std::optional<std::uint32_t> nearest(const Bvh& bvh, const glm::dvec3& p, Squared&& squared) {
-  if (bvh.empty()) return std::nullopt;
-  struct Entry {
-    std::uint32_t node;
+  if (bvh.empty()) { return std::nullopt; }
+  struct Open {
+    std::uint32_t child;
     double squared;
   };
   const Bvh::Node* const nodes = bvh.nodes().data();
-  std::array<Entry, Bvh::depth_limit + 2> stack;
-  std::size_t top = 0;
-  stack[top++] = {0, squared_distance(nodes[0].box, p)};
   std::optional<std::uint32_t> best;
   double best_squared = infinity;
-  while (top > 0) {
-    const Entry at = stack[--top];
-    if (best && at.squared >= best_squared) continue;
-    const Bvh::Node& node = nodes[at.node];
-    if (node.count > 0) {
-      for (const std::uint32_t item : bvh.items(node)) {
-        const double distance = squared(item);
-        if (best && !(distance < best_squared)) continue;
-        best = item;
-        best_squared = distance;
-      }
-      continue;
+  const auto near = [&](const Open& at) { return !(best && at.squared >= best_squared); };
+  const auto leaf = [&](const Open& at) {
+    for (const std::uint32_t item : bvh.items(nodes[at.child])) {
+      const double distance = squared(item);
+      if (best && !(distance < best_squared)) { continue; }
+      best = item;
+      best_squared = distance;
     }
-    Entry near{node.first, squared_distance(nodes[node.first].box, p)};
-    Entry far{node.first + 1, squared_distance(nodes[node.first + 1].box, p)};
-    if (far.squared < near.squared) std::swap(near, far);
-    stack[top++] = far;
-    stack[top++] = near;
-  }
+    return false;
+  };
+  const auto inner = [&](Open& at, auto& put_off) {
+    const std::uint32_t first = nodes[at.child].first;
+    Open other{first + 1, squared_distance(nodes[first + 1].box, p)};
+    at = {first, squared_distance(nodes[first].box, p)};
+    if (other.squared < at.squared) { std::swap(at, other); }
+    put_off.push(other);
+    put_off.push(at);
+    return false;
+  };
+  portable::walk(bvh, Open{0, 0.0}, near, leaf, inner);
   return best;
 }
 

@@ -5,10 +5,12 @@
 // and is never normalised, so t has no unit and every answer of this room is the same at any scale: multiplying all coordinates of a
 // scene by a power of two leaves each t bit-identical. Outside [0,1] the same formula names the points of the whole line.
 //
-// Accuracy convention of the room: u = 2^-53 is the unit roundoff of double; bounds in comments are multiples of u.
+// Accuracy convention of the room: u = 2^-53 is the unit roundoff of double; bounds in comments are multiples of u (tolerances.hpp).
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -25,7 +27,7 @@ struct Segment {
 // when they are that small.) Also false for NaN and infinite directions.
 [[nodiscard]] inline bool has_line(const Segment& s) {
   const double squared = glm::dot(s.direction, s.direction);
-  return squared > 1e-300 && squared < 1e300;
+  return squared > smallest_square && squared < largest_square;
 }
 
 // The parameter of the point of the line that is nearest to `centre`. Moving the origin there before a quadratic is solved removes

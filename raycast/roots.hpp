@@ -16,6 +16,7 @@
 
 #include <raycast/box.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -30,12 +31,12 @@ template <class F>
   double last = b - a;
   for (int i = 0; i < 200; ++i) {
     const Sample at = f(s);
-    if (at.value == 0.0) return s;
+    if (at.value == 0.0) { return s; }
     ((at.value < 0.0) == rising ? a : b) = s;
     double next = s - at.value / at.slope;
-    if (!(next > a && next < b && std::abs(next - s) <= 0.5 * last)) next = a + 0.5 * (b - a);
+    if (!(next > a && next < b && std::abs(next - s) <= 0.5 * last)) { next = a + 0.5 * (b - a); }
     last = std::abs(next - s);
-    if (last <= 2 * unit_roundoff * std::max(std::abs(a), std::abs(b)) || next <= a || next >= b) return next;
+    if (last <= eps_root * std::max(std::abs(a), std::abs(b)) || next <= a || next >= b) { return next; }
     s = next;
   }
   return s;
@@ -55,7 +56,7 @@ void sign_changes(F&& f, double a, double b, double negligible, Found&& found) {
     double a, b;
     SplitSample at_a, at_b;
   };
-  const double shortest = 4 * unit_roundoff * std::max(std::abs(a), std::abs(b));
+  const double shortest = eps_interval * std::max(std::abs(a), std::abs(b));
   InlineVector<Part, 64> stack;
   stack.push({a, b, f(a), f(b)});
   while (!stack.empty()) {
@@ -85,7 +86,7 @@ void sign_changes(F&& f, double a, double b, double negligible, Found&& found) {
           middle = p.a + std::clamp(meet, 0.1 * width, 0.9 * width);
         }
       }
-      if (lowest > -negligible) continue;
+      if (lowest > -negligible) { continue; }
     }
     const SplitSample at = f(middle);
     stack.push({middle, p.b, at, p.at_b});

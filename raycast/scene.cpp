@@ -22,13 +22,14 @@
 #include <raycast/compiled.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/isa.hpp>
+#include <raycast/line_query.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
-#include <raycast/tree.hpp>
-#include <raycast/walk.hpp>
+#include <raycast/wide_tree.hpp>
 
 namespace raycast {
 
@@ -48,14 +49,14 @@ HALFLIGHT_INLINE Scene::Scene(std::vector<PlacedObject> objects, Isa isa) : obje
       record.corner_count = static_cast<std::uint32_t>(outline.size());
       corners_.insert(corners_.end(), outline.begin(), outline.end());
     }
-    record.touch = 1e-9 * object.bounds().diameter();
+    record.touch = tol_contact * object.bounds().diameter();
     record.slack = object.slack();
     slack_ = std::max(slack_, record.slack);
     touch = std::max(touch, record.touch);
     records_.push_back(record);
     bounds_.extend(object.bounds());
   }
-  rounding_ = 64 * unit_roundoff * bounds_.magnitude();
+  rounding_ = eps_surface * bounds_.magnitude();
   Compiler compiler(compiled_, bounds_, rounding_ + 2 * slack_ + touch);
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
     const Record& r = records_[i];
@@ -64,11 +65,12 @@ HALFLIGHT_INLINE Scene::Scene(std::vector<PlacedObject> objects, Isa isa) : obje
   compiler.finish(loop_limit);
   for (const std::uint32_t room : compiled_.rooms) {
     const PlacedObject& object = objects_[room];
-    if (object.convex() && object.flat() && object.sheet_count() <= 32)
+    if (object.convex() && object.flat() && object.sheet_count() <= 32) {
       for (std::uint32_t sheet = 0; sheet < object.sheet_count(); ++sheet) {
         const SurfacePoint wall = object.project(sheet, object.bounds().centre());
         walls_.push_back({wall.position, wall.normal});
       }
+    }
     first_wall_.push_back(static_cast<std::uint32_t>(walls_.size()));
   }
 }
@@ -76,18 +78,18 @@ HALFLIGHT_INLINE Scene::Scene(std::vector<PlacedObject> objects, Isa isa) : obje
 HALFLIGHT_INLINE bool Scene::blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const {
   const Record& r = records_[i];
   if (r.corner_count) {  // a polygon: the ends lie on different sides of its plane, both out of the skin
-    if (i == a.owner || i == b.owner) return false;
+    if (i == a.owner || i == b.owner) { return false; }
     const double from = glm::dot(r.normal, line.segment.origin - r.point);
     const double to = from + glm::dot(r.normal, line.segment.direction);
-    if ((from > 0.0) == (to > 0.0)) return false;
-    if (!(std::abs(from) > skin(a, i)) || !(std::abs(to) > skin(b, i))) return false;
+    if ((from > 0.0) == (to > 0.0)) { return false; }
+    if (!(std::abs(from) > skin(a, i)) || !(std::abs(to) > skin(b, i))) { return false; }
     return passes(line, r);
   }
   const PlacedObject& object = objects_[i];
   // A room whose body the line passes through once is solid before it and behind it: two spans that belong to the ends.
-  if (i == a.owner && i == b.owner && (object.convex() || (object.inside() && object.passes_once(line.segment)))) return false;
+  if (i == a.owner && i == b.owner && (object.convex() || (object.inside() && object.passes_once(line.segment)))) { return false; }
   double entry = 0.0;
-  if (!object.inside() && !line.slabs(object.bounds(), 0.0, 1.0, entry)) return false;
+  if (!object.inside() && !line.slabs(object.bounds(), 0.0, 1.0, entry)) { return false; }
   return blocks_by_spans(line, a, b, i);
 }
 
@@ -96,23 +98,23 @@ HALFLIGHT_INLINE bool Scene::blocks_by_spans(const Line& line, const End& a, con
   const Segment& s = line.segment;
   Spans spans;
   object.spans_of_segment(s, spans);
-  if (spans.empty()) return false;
+  if (spans.empty()) { return false; }
   const double skin_a = skin(a, i), skin_b = skin(b, i);
   // An end out of the bounds, skin included, cannot touch: the common case, decided without normals.
   const bool near_a = object.inside() || object.bounds().contains(s.origin, skin_a);
   const bool near_b = object.inside() || object.bounds().contains(s.at(1.0), skin_b);
   for (const Span& span : spans) {
     const Crossing &in = span.in, &out = span.out;
-    if (out.t <= 0.0) continue;
-    if (in.t >= 1.0) break;
-    if (i == a.owner && in.t <= 0.0) continue;
-    if (i == b.owner && out.t >= 1.0) continue;
-    if (near_a && depth(i, s, out, out.t) <= skin_a) continue;
-    if (near_b && depth(i, s, in, 1.0 - in.t) <= skin_b) continue;
+    if (out.t <= 0.0) { continue; }
+    if (in.t >= 1.0) { break; }
+    if (i == a.owner && in.t <= 0.0) { continue; }
+    if (i == b.owner && out.t >= 1.0) { continue; }
+    if (near_a && depth(i, s, out, out.t) <= skin_a) { continue; }
+    if (near_b && depth(i, s, in, 1.0 - in.t) <= skin_b) { continue; }
     // The owner's own span that begins in the skin of the source (a corner of a box, by rounding), and likewise at the target.
-    if (near_a && i == a.owner && depth(i, s, in, in.t) <= skin_a) continue;
-    if (near_b && i == b.owner && depth(i, s, out, 1.0 - out.t) <= skin_b) continue;
-    if (within_owner(s, a, true, span, i) || within_owner(s, b, false, span, i)) continue;
+    if (near_a && i == a.owner && depth(i, s, in, in.t) <= skin_a) { continue; }
+    if (near_b && i == b.owner && depth(i, s, out, 1.0 - out.t) <= skin_b) { continue; }
+    if (within_owner(s, a, true, span, i) || within_owner(s, b, false, span, i)) { continue; }
     return true;
   }
   return false;
@@ -120,15 +122,15 @@ HALFLIGHT_INLINE bool Scene::blocks_by_spans(const Line& line, const End& a, con
 
 // Does the span of object i end before the segment comes out of its source's owner, or begin after it went into its target's?
 HALFLIGHT_INLINE bool Scene::within_owner(const Segment& s, const End& end, bool source, const Span& span, std::uint32_t i) const {
-  if (end.owner == no_object || end.owner == i) return false;
+  if (end.owner == no_object || end.owner == i) { return false; }
   const PlacedObject& owner = objects_[end.owner];
   const Crossing& inner = source ? span.out : span.in;
   const double near = skin(end, i);
-  if (!owner.solid() || !std::isfinite(inner.t) || (!owner.inside() && !owner.bounds().contains(s.at(inner.t), near))) return false;
+  if (!owner.solid() || !std::isfinite(inner.t) || (!owner.inside() && !owner.bounds().contains(s.at(inner.t), near))) { return false; }
   Spans own;
   owner.spans(s, own);
   for (const Span& o : own) {
-    if (source ? o.in.t > 0.0 || o.out.t <= 0.0 : o.in.t >= 1.0 || o.out.t < 1.0) continue;
+    if (source ? o.in.t > 0.0 || o.out.t <= 0.0 : o.in.t >= 1.0 || o.out.t < 1.0) { continue; }
     const double beyond = source ? inner.t - o.out.t : o.in.t - inner.t;
     return beyond <= 0.0 || depth(i, s, inner, beyond) <= near;
   }
@@ -136,11 +138,11 @@ HALFLIGHT_INLINE bool Scene::within_owner(const Segment& s, const End& end, bool
 }
 
 HALFLIGHT_INLINE std::optional<Hit> Scene::closest(const Segment& ray, std::uint32_t source_owner) const {
-  if (!has_line(ray)) return std::nullopt;
+  if (!has_line(ray)) { return std::nullopt; }
   Search search{ray, end_at(source_owner)};
-  for (const std::uint32_t i : compiled_.rooms) approach(Line(ray), search.source, i, search.nearest);
+  for (const std::uint32_t i : compiled_.rooms) { approach(Line(ray), search.source, i, search.nearest); }
   approach_bounded(search);
-  if (search.nearest.hit.object == no_object) return std::nullopt;
+  if (search.nearest.hit.object == no_object) { return std::nullopt; }
   return search.nearest.hit;
 }
 
@@ -148,31 +150,31 @@ HALFLIGHT_INLINE void Scene::approach(const Line& line, const End& a, std::uint3
   const Record& r = records_[i];
   const Segment& s = line.segment;
   if (r.corner_count) {
-    if (i == a.owner) return;
+    if (i == a.owner) { return; }
     const double from = glm::dot(r.normal, s.origin - r.point), step = glm::dot(r.normal, s.direction);
-    if (step == 0.0 || (from > 0.0) == (step > 0.0) || !(std::abs(from) > skin(a, i))) return;
+    if (step == 0.0 || (from > 0.0) == (step > 0.0) || !(std::abs(from) > skin(a, i))) { return; }
     const double t = -from / step;
-    if (t <= nearest.limit && passes(line, r)) offer(s, Hit{t, i, 0, step < 0.0}, nearest);
+    if (t <= nearest.limit && passes(line, r)) { offer(s, Hit{t, i, 0, step < 0.0}, nearest); }
     return;
   }
   const PlacedObject& object = objects_[i];
   double entry = 0.0;
-  if (!object.inside() && !line.slabs(object.bounds(), 0.0, nearest.limit, entry)) return;
+  if (!object.inside() && !line.slabs(object.bounds(), 0.0, nearest.limit, entry)) { return; }
   Spans spans;
   object.spans(s, spans);
   const double skin_a = skin(a, i);
   const bool near_a = object.inside() || object.bounds().contains(s.origin, skin_a);
   for (const Span& span : spans) {
-    if (!(span.in.t > 0.0)) continue;
-    if (near_a && depth(i, s, span.out, span.out.t) <= skin_a) continue;
-    if (near_a && i == a.owner && depth(i, s, span.in, span.in.t) <= skin_a) continue;
-    if (span.in.t <= nearest.limit) offer(s, Hit{span.in.t, i, span.in.sheet, object.solid() || along(i, s, span.in) < 0.0}, nearest);
+    if (!(span.in.t > 0.0)) { continue; }
+    if (near_a && depth(i, s, span.out, span.out.t) <= skin_a) { continue; }
+    if (near_a && i == a.owner && depth(i, s, span.in, span.in.t) <= skin_a) { continue; }
+    if (span.in.t <= nearest.limit) { offer(s, Hit{span.in.t, i, span.in.sheet, object.solid() || along(i, s, span.in) < 0.0}, nearest); }
     return;
   }
 }
 
-// Takes the hit if it is nearer, or as near as rounding can tell and covering. Ties are looked for within 1000 skins along the ray: beyond
-// that the ray grazes at less than a thousandth of a right angle, and the nearer parameter decides.
+// Takes the hit if it is nearer, or as near as rounding can tell and covering. Ties are looked for within `tie_reach`: beyond, the
+// nearer parameter decides.
 HALFLIGHT_INLINE void Scene::offer(const Segment& ray, const Hit& hit, Nearest& nearest) const {
   const double length = glm::length(ray.direction);
   Hit& best = nearest.hit;
@@ -180,13 +182,14 @@ HALFLIGHT_INLINE void Scene::offer(const Segment& ray, const Hit& hit, Nearest& 
   if (best.object != no_object) {
     const End other = end_at(best.object);
     const double tolerance = skin(other, hit.object), gap = std::abs(hit.t - best.t);
-    if (gap * length <= 1000 * tolerance && gap * std::abs(along(hit.object, ray, {hit.t, hit.sheet})) <= tolerance)
+    if (gap * length <= tie_reach * tolerance && gap * std::abs(along(hit.object, ray, {hit.t, hit.sheet})) <= tolerance) {
       take = hit.front != best.front ? hit.front : hit.object > best.object;
+    }
   }
-  if (!take) return;
+  if (!take) { return; }
   best = hit;
   const Record& r = records_[hit.object];
-  nearest.limit = hit.t + 1000 * (rounding_ + r.slack + slack_ + r.touch) / length;
+  nearest.limit = hit.t + tie_reach * (rounding_ + r.slack + slack_ + r.touch) / length;
 }
 
 HALFLIGHT_INLINE bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const {
@@ -194,19 +197,19 @@ HALFLIGHT_INLINE bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, s
   const Line line(out_of_p);
   const End end = end_at(owner);
   const auto covers = [&](std::uint32_t i) {
-    if (i == owner) return false;
+    if (i == owner) { return false; }
     const PlacedObject& object = objects_[i];
     const Record& r = records_[i];
     const double near = skin(end, i);
-    if (!object.inside() && !object.bounds().contains(p, near)) return false;
-    // A coincident surface of object i, its normal at a cosine to n: parallel within 2.5 degrees counts as the same direction.
-    const auto coincides = [&](double cosine) { return cosine > 0.999 && i > owner; };
-    if (r.corner_count) return std::abs(glm::dot(r.normal, p - r.point)) <= near && coincides(glm::dot(r.normal, n)) && passes(line, r);
+    if (!object.inside() && !object.bounds().contains(p, near)) { return false; }
+    // A coincident surface of object i, its normal at a cosine to n.
+    const auto coincides = [&](double cosine) { return cosine > tol_same_way && i > owner; };
+    if (r.corner_count) { return std::abs(glm::dot(r.normal, p - r.point)) <= near && coincides(glm::dot(r.normal, n)) && passes(line, r); }
     Spans spans;
     object.spans(out_of_p, spans);
     for (const Span& span : spans) {
-      if (object.solid() && span.in.t <= near && span.out.t > near) return true;
-      if (std::abs(span.out.t) <= near && coincides(along(i, out_of_p, span.out))) return true;
+      if (object.solid() && span.in.t <= near && span.out.t > near) { return true; }
+      if (std::abs(span.out.t) <= near && coincides(along(i, out_of_p, span.out))) { return true; }
     }
     return false;
   };

@@ -13,10 +13,9 @@
 // A depth is measured across the surface, |t_crossing - t_end| |n.d|, so it does not depend on the angle of the ray. For a convex solid
 // it bounds how deep any point of the dropped part lies inside.
 //
-// Skins. `rounding` = 64 u M, M the largest coordinate of the scene: an interpolated point is off its surface by at most 8 u M, an
-// affine map adds 12 u M, a plane distance 12 u M, a crossing of sphere or cylinder 32 u M (measured with binary128). To it comes what
-// the two surfaces are known to be non-planar by, and, between two objects, 1e-9 of the smaller one's diameter: so closely a lamp
-// must fit the ceiling to count as lying on it. The same skin decides in covered(), so what is coincident there is so here too.
+// Skins. `rounding` = eps_surface M, M the largest coordinate of the scene (tolerances.hpp). To it comes what the two surfaces are known to
+// be non-planar by, and, between two objects, tol_contact of the smaller one's diameter: so closely a lamp must fit the ceiling to count as
+// lying on it. The same skin decides in covered(), so what is coincident there is so here too.
 //
 // This law, object by object, is blocks(). The fast searches answer from single precision where its error bound allows, and ask
 // blocks() elsewhere: their answers are those of asking blocks() about every object, bit for bit, for any instruction set.
@@ -105,7 +104,7 @@ class Scene {
   struct Record {                                      // what a query needs to know of an object
     glm::dvec3 normal{0.0}, point{0.0};                // of a polygon
     std::uint32_t first_corner = 0, corner_count = 0;  // 0 corners: not a polygon
-    double touch = 0.0;                                // 1e-9 of its diameter
+    double touch = 0.0;                                // tol_contact of its diameter
     double slack = 0.0;
   };
   struct End {  // of a segment
@@ -142,15 +141,16 @@ class Scene {
   // Is the point in the convex polyhedral room number r, or on its wall as well as rounding can tell? False for other rooms.
   [[nodiscard]] bool in_room(std::size_t r, const glm::dvec3& p, double bulge = 0.0) const {
     const std::uint32_t first = first_wall_[r], end = first_wall_[r + 1];
-    for (std::uint32_t k = first; k < end; ++k)
-      if (!(glm::dot(walls_[k].normal, p - walls_[k].point) >= bulge - 0.5 * rounding_)) return false;
+    for (std::uint32_t k = first; k < end; ++k) {
+      if (!(glm::dot(walls_[k].normal, p - walls_[k].point) >= bulge - 0.5 * rounding_)) { return false; }
+    }
     return first < end;
   }
   [[nodiscard]] std::uint32_t blocked_by_rooms(const Segments16& segments, const Rays16& rays, std::uint32_t near,
                                                std::uint32_t lanes) const;
 
   [[nodiscard]] End end_at(std::uint32_t owner) const {
-    if (owner == no_object) return {owner, 0.0, rounding_};
+    if (owner == no_object) { return {owner, 0.0, rounding_}; }
     return {owner, records_[owner].touch, rounding_ + records_[owner].slack};
   }
   [[nodiscard]] double skin(const End& end, std::uint32_t i) const {

@@ -49,13 +49,13 @@ class InlineVector {
     if (size_ < N) {
       inline_[size_] = value;
     } else {
-      if (heap_.empty()) heap_.assign(inline_.begin(), inline_.end());
+      if (heap_.empty()) { heap_.assign(inline_.begin(), inline_.end()); }
       heap_.push_back(value);
     }
     ++size_;
   }
   void pop() {
-    if (!heap_.empty()) heap_.pop_back();
+    if (!heap_.empty()) { heap_.pop_back(); }
     --size_;
   }
   void clear() {
@@ -74,10 +74,10 @@ class Spans {
   // Appends a span that begins no earlier than the last one began; one that overlaps or touches the last is merged with it.
   // A span of negative length (possible by rounding where a line grazes an edge) is dropped.
   void push(const Span& span) {
-    if (!(span.in.t <= span.out.t)) return;
+    if (!(span.in.t <= span.out.t)) { return; }
     if (!spans_.empty() && span.in.t <= spans_.back().out.t) {
       assert(span.in.t >= spans_.back().in.t);
-      if (span.out.t > spans_.back().out.t) spans_.back().out = span.out;
+      if (span.out.t > spans_.back().out.t) { spans_.back().out = span.out; }
       return;
     }
     spans_.push(span);
@@ -94,11 +94,11 @@ class Spans {
     InlineVector<Span, 8> rest;
     Crossing from{-infinity, no_crossing_sheet};
     for (const Span& s : spans_) {
-      if (s.in.t == s.out.t) continue;
-      if (s.in.t > -infinity) rest.push(Span{from, s.in});
+      if (s.in.t == s.out.t) { continue; }
+      if (s.in.t > -infinity) { rest.push(Span{from, s.in}); }
       from = s.out;
     }
-    if (from.t < infinity) rest.push(Span{from, Crossing{infinity, no_crossing_sheet}});
+    if (from.t < infinity) { rest.push(Span{from, Crossing{infinity, no_crossing_sheet}}); }
     spans_ = rest;
   }
 

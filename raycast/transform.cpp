@@ -21,17 +21,20 @@
 #include <raycast/box.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
 HALFLIGHT_INLINE std::optional<std::string> check(const Placement& placement) {
   const glm::dmat3& m = placement.linear;
-  if (!usable(m[0]) || !usable(m[1]) || !usable(m[2]) || !usable(placement.translation))
+  if (!usable(m[0]) || !usable(m[1]) || !usable(m[2]) || !usable(placement.translation)) {
     return "the placement is not finite (or beyond 1e60)";
+  }
   double product = 1.0;
-  for (int k = 0; k < 3; ++k) product *= glm::length(m[k]);
-  if (!(product > 1e-180) || !(std::abs(glm::determinant(m)) > 1e-12 * product))
+  for (int k = 0; k < 3; ++k) { product *= glm::length(m[k]); }
+  if (!(product > smallest_volume) || !(std::abs(glm::determinant(m)) > tol_singular * product)) {
     return "the placement flattens the object: its determinant is zero";
+  }
   return std::nullopt;
 }
 
@@ -41,7 +44,7 @@ HALFLIGHT_INLINE double stretch(const glm::dmat3& linear) {
   for (int i = 0; i <= 9; ++i) {
     const double trace = power[0][0] + power[1][1] + power[2][2];
     log_scale += std::log(trace) * exponent;
-    if (i == 9) break;
+    if (i == 9) { break; }
     power = power / trace;
     power = power * power;
     exponent *= 0.5;
@@ -56,45 +59,48 @@ HALFLIGHT_INLINE PlacedObject::PlacedObject(std::shared_ptr<const Object> object
     normal_map_ = glm::transpose(inverse_);
     stretch_ = stretch(placement_.linear);
   }
-  if (const std::span<const glm::dvec3> corners = object_->outline(); !corners.empty())
-    for (const glm::dvec3& p : corners) bounds_.extend(to_world(p));
-  else
+  if (const std::span<const glm::dvec3> corners = object_->outline(); !corners.empty()) {
+    for (const glm::dvec3& p : corners) { bounds_.extend(to_world(p)); }
+  } else {
     bounds_ = world_box(object_->bounds());
+  }
 }
 
 HALFLIGHT_INLINE std::vector<glm::dvec3> PlacedObject::outline() const {
   const std::span<const glm::dvec3> corners = object_->outline();
   std::vector<glm::dvec3> result;
-  for (const glm::dvec3& p : corners) result.push_back(to_world(p));
-  if (mirrored()) std::reverse(result.begin(), result.end());
+  for (const glm::dvec3& p : corners) { result.push_back(to_world(p)); }
+  if (mirrored()) { std::reverse(result.begin(), result.end()); }
   return result;
 }
 
 HALFLIGHT_INLINE void PlacedObject::approximate(double tolerance, brep::Builder& out) const {
-  if (identity_ && !placement_.inside) return object_->approximate(tolerance, out);
+  if (identity_ && !placement_.inside) { return object_->approximate(tolerance, out); }
   brep::Builder local;
   object_->approximate(tolerance / stretch_, local);
-  if (local.vertex_count() == 0) return;
+  if (local.vertex_count() == 0) { return; }
   const std::uint32_t first = out.vertex(to_world(local.position(0)));
-  for (std::uint32_t v = 1; v < local.vertex_count(); ++v) out.vertex(to_world(local.position(v)));
+  for (std::uint32_t v = 1; v < local.vertex_count(); ++v) { out.vertex(to_world(local.position(v))); }
   std::vector<std::uint32_t> corners;
   for (std::uint32_t f = 0; f < local.face_count(); ++f) {
     corners.assign(local.corners(f).begin(), local.corners(f).end());
-    for (std::uint32_t& v : corners) v += first;
-    if (mirrored() != placement_.inside) std::reverse(corners.begin() + 1, corners.end());  // corner 0 stays first
+    for (std::uint32_t& v : corners) { v += first; }
+    if (mirrored() != placement_.inside) {
+      std::reverse(corners.begin() + 1, corners.end());  // corner 0 stays first
+    }
     out.face(std::span<const std::uint32_t>(corners), local.sheet(f));
   }
 }
 
 HALFLIGHT_INLINE SurfacePoint PlacedObject::project(std::uint32_t sheet, const glm::dvec3& p) const {
   SurfacePoint result = object_->project(sheet, identity_ ? p : inverse_ * (p - placement_.translation));
-  if (!identity_) result = {to_world(result.position), glm::normalize(normal_map_ * result.normal)};
-  if (placement_.inside) result.normal = -result.normal;
+  if (!identity_) { result = {to_world(result.position), glm::normalize(normal_map_ * result.normal)}; }
+  if (placement_.inside) { result.normal = -result.normal; }
   return result;
 }
 
 HALFLIGHT_INLINE Box PlacedObject::world_box(const Box& box) const {
-  if (identity_) return box;
+  if (identity_) { return box; }
   const glm::dvec3 centre = placement_.linear * box.centre() + placement_.translation, half = 0.5 * box.size();
   Box result{centre, centre};
   for (int row = 0; row < 3; ++row) {
@@ -103,8 +109,8 @@ HALFLIGHT_INLINE Box PlacedObject::world_box(const Box& box) const {
       reach += std::abs(placement_.linear[column][row]) * half[column];
       sum += std::abs(placement_.linear[column][row]) * box.magnitude();
     }
-    result.lo[row] -= reach + 8 * unit_roundoff * sum;
-    result.hi[row] += reach + 8 * unit_roundoff * sum;
+    result.lo[row] -= reach + eps_map * sum;
+    result.hi[row] += reach + eps_map * sum;
   }
   return result;
 }

@@ -20,8 +20,6 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-#include <brep/builder_input.hpp>
-
 #include <raycast/box.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
@@ -46,7 +44,7 @@ struct Placement {
 // to be so when the determinant is below 1e-12 of the product of the columns' lengths.
 [[nodiscard]] std::optional<std::string> check(const Placement& placement);
 [[nodiscard]] inline std::optional<std::string> check(const Object& object, const Placement& placement) {
-  if (placement.inside && !object.solid()) return "only a solid can be turned inside out: this is a surface without inside";
+  if (placement.inside && !object.solid()) { return "only a solid can be turned inside out: this is a surface without inside"; }
   return check(placement);
 }
 
@@ -78,10 +76,10 @@ class PlacedObject {
 
   void spans(const Segment& line, Spans& out) const {
     object_->spans(to_object(line), out);
-    if (placement_.inside) out.complement();
+    if (placement_.inside) { out.complement(); }
   }
   void spans_of_segment(const Segment& segment, Spans& out) const {
-    if (placement_.inside) return spans(segment, out);
+    if (placement_.inside) { return spans(segment, out); }
     object_->spans_of_segment(to_object(segment), out);
   }
 

@@ -1,63 +1,65 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A walk in double precision along a line through a compiled scene. No box that the line meets is missed (box.hpp), and the heap is not
-// touched.
+// The walk under all searches of trees: top down, depth first, with a stack of what is put off; the heap is not touched. A search says in
+// two functions what it does at an inner node and at a leaf, and so is ten lines: any hit and first hit, along a line or around a point,
+// for one ray or for sixteen, through the binary trees of bvh.hpp and the eight-wide one of compiled.hpp.
+//
+//   walk(tree, root, wanted, leaf, inner) -> bool
+//
+//   root                   an Open: `child`, a node of the tree (compiled.hpp: or a leaf), and what this search knows of it: where the ray
+//                          enters, which lanes are alive
+//   wanted(at) -> bool     asked when a subtree's turn comes: does it matter still? May narrow `at`. everything: always.
+//   leaf(at) -> bool       true ends the walk, which returns true; without, it returns false in the end
+//   inner(at, put_off) -> bool
+//                          pushes those children that matter on `put_off`; the last is looked at first. true: goes on with `at` at once,
+//                          which has become one of the children
+//
+// The function itself is in kernels/walk.inc, because it is compiled for every instruction set; portable::walk is the one for code that is
+// written in no vectors.
 
 #include <cstddef>
-#include <cstdint>
+#include <type_traits>
 
-#include <glm/vec3.hpp>
-
-#include <raycast/box.hpp>
-#include <raycast/compiled.hpp>
-#include <raycast/kernels.hpp>
-#include <raycast/ray.hpp>
+#include <raycast/bvh_builder.hpp>
 
 namespace raycast {
 
-// The objects of a compiled scene whose bounds the line may meet within [t0, limit], nearer ones first as far as it is cheap to know:
-// visit(object) -> bool, until one returns true. visit may lower `limit`. Rooms are not among them, and an object of many shapes is
-// visited once for its guard.
-template <class Visit>
-bool objects_along(const Compiled& scene, const Segment& line, double t0, const double& limit, Visit&& visit) {
-  const auto leaf = [&](std::uint32_t at) {
-    const Kind kind = leaf_kind(at);
-    for (std::uint32_t j = 0; j < leaf_count(at); ++j) {
-      const std::uint32_t object = scene.object_of(shape_id(kind, leaf_first(at) + j));
-      const bool by_guard = (kind == Kind::triangle || kind == Kind::quad) && scene.roles[object] != Role::polygon;
-      if (!by_guard && visit(object)) return true;
-    }
-    return false;
-  };
-  if (scene.nodes.empty()) return false;
-  struct Entry {
-    std::uint32_t child;
-    double t;
-  };
-  const SlabTest slabs(Segment{scene.local(line.origin), line.direction * scene.scale});
-  Entry stack[stack_size];
-  std::size_t top = 0;
-  stack[top++] = {0, t0};
-  while (top > 0) {
-    const Entry at = stack[--top];
-    if (at.t > limit) continue;
-    if (is_leaf(at.child)) {
-      if (leaf(at.child)) return true;
-      continue;
-    }
-    const Node& node = scene.nodes[at.child];
-    const std::size_t first = top;
-    for (std::size_t i = 0; i < 8; ++i) {
-      const Box box{{node.bound[0][i], node.bound[1][i], node.bound[2][i]}, {node.bound[3][i], node.bound[4][i], node.bound[5][i]}};
-      Entry entry{node.child[i], 0.0};
-      if (box.empty() || !slabs(box, t0, limit, entry.t)) continue;
-      std::size_t place = top++;
-      for (; place > first && stack[place - 1].t < entry.t; --place) stack[place] = stack[place - 1];
-      stack[place] = entry;
-    }
+// Walking down a path leaves all children but one of each of its nodes behind.
+template <class Tree>
+inline constexpr std::size_t walk_stack_size = (Tree::fan_out - 1) * tree_depth_limit + 1;
+
+// What a walk has put off.
+template <class Tree, class Open>
+class PutOff {
+  static_assert(std::is_trivially_copyable_v<Open> && std::is_trivially_default_constructible_v<Open>);
+
+ public:
+  PutOff() {}  // not "= default": the entries stay uninitialised
+
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  void push(const Open& open) { entries_[size_++] = open; }
+  const Open& pop() { return entries_[--size_]; }  // valid until the next push
+
+  // Sorts the entry in among those above `bottom`: the one of least `at` comes next.
+  void push_sorted(std::size_t bottom, const Open& open) {
+    std::size_t place = size_++;
+    for (; place > bottom && entries_[place - 1].at < open.at; --place) { entries_[place] = entries_[place - 1]; }
+    entries_[place] = open;
   }
-  return false;
-}
+
+ private:
+  std::size_t size_ = 0;
+  Open entries_[walk_stack_size<Tree>];
+};
+
+inline constexpr auto everything = [](const auto&) { return true; };
 
 }  // namespace raycast
+
+#define HALFLIGHT_ISA portable
+#define HALFLIGHT_OP inline
+#include "kernels/walk.inc"
+#undef HALFLIGHT_ISA
+#undef HALFLIGHT_OP

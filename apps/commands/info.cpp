@@ -10,6 +10,7 @@
 #include <raycast/box.hpp>
 
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/rays/ray_choice.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -81,25 +82,37 @@ std::string cameras(const SceneFile& file) {
 }
 
 // The plan of a run, before any light.
-std::string plan(const radiosity::Prepared& prepared) {
+std::string plan(const radiosity::Scene& scene, const radiosity::Prepared& prepared) {
   const radiosity::Plan& plan = prepared.plan;
+  const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(scene);
   std::size_t faces = 0;
-  for (const radiosity::Surface& surface : prepared.surfaces) { faces += radiosity::input_faces(surface).size(); }
+  std::size_t lamps = 0;
+  for (const radiosity::Surface& surface : prepared.surfaces) {
+    for (const std::vector<brep::FaceId>& parts : radiosity::input_faces(surface)) {
+      const std::uint32_t input = surface.first_surface + surface.brep.data(parts.front()).sheet;
+      ++faces;
+      lamps += radiosity::is_black(scene.materials[inputs[input].material].emission) ? 0 : 1;
+    }
+  }
   std::string out = "input faces: " + std::to_string(faces) + "\n";
   out += std::string("closed: ") + (plan.closed ? "proven, no light leaves the scene\n" : "not proven\n");
   out +=
       "can stand between two others: " + std::to_string(plan.occluders) + " of " + std::to_string(prepared.surfaces.size()) + " objects\n";
   out += "left out when rendered, as far as known without solving:\n";
   for (const radiosity::LeftOut& item : plan.left_out) { out += "  " + item.what + ": " + item.why + "\n"; }
+  const radiosity::RayChoice rays = radiosity::choose_rays(faces, lamps, {});
   const radiosity::ClusterChoice clusters = radiosity::choose_clusters(faces, {});
-  if (!clusters.build) { out += "  clusters above the input faces: " + clusters.reason + "\n"; }
-  return out + (plan.left_out.empty() && clusters.build ? "  nothing\n" : "");
+  if (!rays.cast) { out += "  stored rays for the light between surfaces that do not shine: " + rays.reason + "\n"; }
+  if (rays.cast || !clusters.build) {
+    out += "  clusters above the input faces: " + (rays.cast ? "light goes by stored rays" : clusters.reason) + "\n";
+  }
+  return out;
 }
 
 std::string summary(const SceneFile& file, const radiosity::Prepared& prepared, const std::string& name) {
   const raycast::Box bounds = scene_bounds(file.scene);
   return name + "\n" + "bounds: " + triple(bounds.lo) + "  to  " + triple(bounds.hi) + "\n" + materials(file.scene) +
-         objects(file, prepared) + cameras(file) + plan(prepared);
+         objects(file, prepared) + cameras(file) + plan(file.scene, prepared);
 }
 
 ExitCode run(const InfoOptions& options) {

@@ -41,12 +41,12 @@ class Assemble {
   template <class Same>
   void merge(std::uint32_t h, Same&& same) {
     const std::uint32_t t = work_.halves[h].twin, f = work_.halves[h].face, g = work_.halves[t].face;
-    if (removed_[h] != 0 || !keep_[f] || !keep_[g] || work_.faces[f].plane != work_.faces[g].plane) return;
-    if (f != g && !same(work_.faces[f].attribute, work_.faces[g].attribute)) return;
+    if (removed_[h] != 0 || !keep_[f] || !keep_[g] || work_.faces[f].plane != work_.faces[g].plane) { return; }
+    if (f != g && !same(work_.faces[f].attribute, work_.faces[g].attribute)) { return; }
     const std::uint32_t before_h = work_.halves[h].prev, after_h = work_.halves[h].next;
     const std::uint32_t before_t = work_.halves[t].prev, after_t = work_.halves[t].next;
-    if (after_h != t) work_.link(before_t, after_h);
-    if (after_t != h) work_.link(before_h, after_t);
+    if (after_h != t) { work_.link(before_t, after_h); }
+    if (after_t != h) { work_.link(before_h, after_t); }
     removed_[h] = removed_[t] = gone;
     groups_.unite(f, g);
   }
@@ -56,21 +56,21 @@ class Assemble {
   void straighten(Candidate&& candidate) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> leaving;  // point, half-edge
     for (std::uint32_t f = 0; f < work_.faces.size(); ++f) {
-      if (!keep_[f]) continue;
+      if (!keep_[f]) { continue; }
       const WorkFace& face = work_.faces[f];
       for (std::uint32_t i = 0; i < face.count; ++i) {
         const std::uint32_t h = work_.half(face, i);
-        if (removed_[h] != gone && candidate(work_.halves[h].point)) leaving.emplace_back(work_.halves[h].point, h);
+        if (removed_[h] != gone && candidate(work_.halves[h].point)) { leaving.emplace_back(work_.halves[h].point, h); }
       }
     }
     std::sort(leaving.begin(), leaving.end());
     for (std::size_t first = 0, end = 0; first < leaving.size(); first = end) {
-      while (end < leaving.size() && leaving[end].first == leaving[first].first) ++end;
-      if (!straight(leaving.data() + first, leaving.data() + end)) continue;
+      while (end < leaving.size() && leaving[end].first == leaving[first].first) { ++end; }
+      if (!straight(leaving.data() + first, leaving.data() + end)) { continue; }
       const std::uint32_t ahead = work_.target(leaving[first].second);
       for (std::size_t i = first; i < end; ++i) {
         const std::uint32_t h = leaving[i].second;
-        if (work_.target(h) != ahead) continue;
+        if (work_.target(h) != ahead) { continue; }
         drop(h);
       }
     }
@@ -104,11 +104,11 @@ class Assemble {
 // The boundary with faces as large as they can be, if that may be another one.
 template <class Same>
 [[nodiscard]] std::optional<Boundary> with_largest_faces(const PlaneTable& planes, const Boundary& boundary, Same&& same) {
-  if (!boundary.touching) return std::nullopt;
+  if (!boundary.touching) { return std::nullopt; }
   Work work(planes);
   work.add(boundary, false, false, 0);
   Assemble assemble(work, std::vector<std::uint8_t>(work.faces.size(), 1));
-  for (std::uint32_t h = 0; h < work.halves.size(); ++h) assemble.merge(h, same);
+  for (std::uint32_t h = 0; h < work.halves.size(); ++h) { assemble.merge(h, same); }
   assemble.straighten_umbrellas();
   return assemble.run();
 }

@@ -41,13 +41,13 @@ enum class Operation : std::uint8_t { unite, intersect, subtract };
 
 template <class F>
 [[nodiscard]] Result<Solid<F>> operate(const Solid<F>& a, const Solid<F>& b, Operation operation) {
-  if (!(a.grid() == b.grid())) return Refusal{Code::different_grids, {}};
+  if (!(a.grid() == b.grid())) { return Refusal{Code::different_grids, {}}; }
   const auto of_a = static_cast<std::uint32_t>(a.attributes().size());
   Arrangement arrangement(a.grid().planes(), a.boundary(), b.boundary(), operation == Operation::subtract, of_a);
   const auto value = [&](std::uint32_t i) -> const F& { return i < of_a ? a.attributes()[i] : b.attributes()[i - of_a]; };
   const auto same = [&](std::uint32_t i, std::uint32_t j) { return i == j || value(i) == value(j); };
   Boundary boundary;
-  if (!select(arrangement, operation == Operation::unite, same, boundary)) return Refusal{Code::self_intersecting, {}};
+  if (!select(arrangement, operation == Operation::unite, same, boundary)) { return Refusal{Code::self_intersecting, {}}; }
   boundary.touching = boundary.touching || a.boundary().touching || b.boundary().touching;
   std::vector<F> attributes = attributes_of(a, b, boundary);
   std::optional<Boundary> largest = with_largest_faces(

@@ -45,7 +45,7 @@ struct Box {
   std::array<std::int32_t, 3> lo{INT32_MAX, INT32_MAX, INT32_MAX}, hi{INT32_MIN, INT32_MIN, INT32_MIN};
 
   void add(const Box& b) {
-    for (std::size_t i = 0; i < 3; ++i) lo[i] = lo[i] < b.lo[i] ? lo[i] : b.lo[i], hi[i] = hi[i] > b.hi[i] ? hi[i] : b.hi[i];
+    for (std::size_t i = 0; i < 3; ++i) { lo[i] = lo[i] < b.lo[i] ? lo[i] : b.lo[i], hi[i] = hi[i] > b.hi[i] ? hi[i] : b.hi[i]; }
   }
   void add(const glm::dvec3& p, bool exact) {  // |p| < 2^25, exact or rounded down by less than 2^-27
     for (int i = 0; i < 3; ++i) {

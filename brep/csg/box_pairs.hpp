@@ -40,7 +40,7 @@ class BoxPairs {
       if (count_a * count_b <= few) {
         for (const BoxItem* x = t.a; x != t.a_end; ++x) {
           for (const BoxItem* y = t.b; y != t.b_end; ++y) {
-            if (x->box.meets(y->box)) visit(x->number, y->number);
+            if (x->box.meets(y->box)) { visit(x->number, y->number); }
           }
         }
       } else if (count_a >= count_b) {
@@ -63,7 +63,7 @@ class BoxPairs {
 
   static Box around(const BoxItem* x, const BoxItem* end) {
     Box box;
-    for (; x != end; ++x) box.add(x->box);
+    for (; x != end; ++x) { box.add(x->box); }
     return box;
   }
   static BoxItem* keep(BoxItem* x, BoxItem* end, const Box& box) {
@@ -73,7 +73,7 @@ class BoxPairs {
     const Box box = around(x, end);
     std::size_t axis = 0;
     const auto length = [&](std::size_t i) { return std::int64_t{box.hi[i]} - box.lo[i]; };
-    for (std::size_t i = 1; i < 3; ++i) axis = length(i) > length(axis) ? i : axis;
+    for (std::size_t i = 1; i < 3; ++i) { axis = length(i) > length(axis) ? i : axis; }
     BoxItem* const middle = x + (end - x) / 2;
     std::nth_element(x, middle, end, [axis](const BoxItem& p, const BoxItem& q) {
       return std::int64_t{p.box.lo[axis]} + p.box.hi[axis] < std::int64_t{q.box.lo[axis]} + q.box.hi[axis];

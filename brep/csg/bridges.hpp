@@ -32,19 +32,19 @@ class Bridges {
         cycle.push_back({h, place_(h)});
         h = brep.next(h);
       } while (h != cycles[c]);
-      for (std::size_t i = 0; i < cycle.size(); ++i) edges_.push_back({cycle[i].at, cycle[i + 1 < cycle.size() ? i + 1 : 0].at});
+      for (std::size_t i = 0; i < cycle.size(); ++i) { edges_.push_back({cycle[i].at, cycle[i + 1 < cycle.size() ? i + 1 : 0].at}); }
     }
   }
 
   // Joins all cycles to the one of the largest area, whose face stays.
   void run() {
     std::size_t outer = 0;
-    for (std::size_t c = 1; c < cycles_.size(); ++c) outer = area(cycles_[c]) > area(cycles_[outer]) ? c : outer;
+    for (std::size_t c = 1; c < cycles_.size(); ++c) { outer = area(cycles_[c]) > area(cycles_[outer]) ? c : outer; }
     std::swap(cycles_[0], cycles_[outer]);
     std::vector<Corner> joined = std::move(cycles_[0]);
     cycles_.erase(cycles_.begin());
     const auto right = [](const Corner& a, const Corner& b) { return a.at.x != b.at.x ? a.at.x < b.at.x : a.at.y < b.at.y; };
-    for (std::vector<Corner>& hole : cycles_) std::rotate(hole.begin(), std::max_element(hole.begin(), hole.end(), right), hole.end());
+    for (std::vector<Corner>& hole : cycles_) { std::rotate(hole.begin(), std::max_element(hole.begin(), hole.end(), right), hole.end()); }
     std::stable_sort(cycles_.begin(), cycles_.end(), [&](const auto& a, const auto& b) { return right(b[0], a[0]); });
     for (const std::vector<Corner>& hole : cycles_) {
       const Corner from = hole[0];
@@ -57,7 +57,7 @@ class Bridges {
       std::size_t to = near.front().second;
       for (double margin : {8.0, 0.0}) {
         const auto seen = std::find_if(near.begin(), near.end(), [&](const auto& n) { return visible(from, joined[n.second], margin); });
-        if (seen == near.end()) continue;
+        if (seen == near.end()) { continue; }
         to = seen->second;
         break;
       }
@@ -81,27 +81,27 @@ class Bridges {
   static double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
   static double area(const std::vector<Corner>& cycle) {
     double sum = 0.0;
-    for (std::size_t i = 1; i + 1 < cycle.size(); ++i) sum += cross(cycle[i].at - cycle[0].at, cycle[i + 1].at - cycle[0].at);
+    for (std::size_t i = 1; i + 1 < cycle.size(); ++i) { sum += cross(cycle[i].at - cycle[0].at, cycle[i + 1].at - cycle[0].at); }
     return sum;
   }
 
   [[nodiscard]] bool visible(const Corner& from, const Corner& to, double margin) const {
     const glm::dvec2 d = to.at - from.at;
-    if (from.at == to.at || !within(from, d) || !within(to, -d)) return false;
+    if (from.at == to.at || !within(from, d) || !within(to, -d)) { return false; }
     for (const Edge& e : edges_) {
       const double a = cross(d, e.from - from.at), b = cross(d, e.to - from.at);
-      if ((a > margin && b > margin) || (a < -margin && b < -margin)) continue;
+      if ((a > margin && b > margin) || (a < -margin && b < -margin)) { continue; }
       const bool shares_from = e.from == from.at || e.from == to.at, shares_to = e.to == from.at || e.to == to.at;
-      if (shares_from && shares_to) return false;
+      if (shares_from && shares_to) { return false; }
       if (shares_from || shares_to) {  // the other end must not lie on the bridge
         const glm::dvec2 other = shares_from ? e.to : e.from;
         const double s = cross(d, other - from.at), along = glm::dot(d, other - from.at);
-        if (std::abs(s) <= margin && along > 0.0 && along < glm::dot(d, d)) return false;
+        if (std::abs(s) <= margin && along > 0.0 && along < glm::dot(d, d)) { return false; }
         continue;
       }
       const glm::dvec2 x = e.to - e.from;
       const double s = cross(x, from.at - e.from), t = cross(x, to.at - e.from);
-      if ((s > margin && t > margin) || (s < -margin && t < -margin)) continue;
+      if ((s > margin && t > margin) || (s < -margin && t < -margin)) { continue; }
       return false;
     }
     return true;
@@ -109,7 +109,7 @@ class Bridges {
   // Does the direction leave into the face at the corner?
   [[nodiscard]] bool within(const Corner& c, const glm::dvec2& d) const {
     const glm::dvec2 out = place_(brep_.next(c.h)) - c.at, in = place_(brep_.prev(c.h)) - c.at;
-    if (cross(out, in) > 0.0) return cross(out, d) > 0.0 && cross(d, in) > 0.0;
+    if (cross(out, in) > 0.0) { return cross(out, d) > 0.0 && cross(d, in) > 0.0; }
     return cross(out, d) > 0.0 || cross(d, in) > 0.0;
   }
 

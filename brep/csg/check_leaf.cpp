@@ -31,19 +31,19 @@ class SelfContacts : public Contacts {
   using Contacts::Contacts;
 
   [[nodiscard]] bool legal(std::uint32_t f, std::uint32_t g) {
-    if (at_most_a_vertex(f, g) || at_most_a_vertex(g, f) || !meet(f, g)) return true;
+    if (at_most_a_vertex(f, g) || at_most_a_vertex(g, f) || !meet(f, g)) { return true; }
     int state[2] = {0, 0};
     for (std::uint32_t k = 0; k + 1 < groups_.size(); ++k) {
-      if (state[0] != 0 && state[1] != 0 && !(edge_before(k, false) && edge_before(k, true))) return false;
+      if (state[0] != 0 && state[1] != 0 && !(edge_before(k, false) && edge_before(k, true))) { return false; }
       bool at[2] = {state[0] != 0, state[1] != 0};
       std::uint32_t vertex[2] = {invalid_index, invalid_index};
       for (std::uint32_t i = groups_[k]; i < groups_[k + 1]; ++i) {
         const Event& e = events_[i];
         at[e.of_g] = true;
         state[e.of_g] ^= e.turn;
-        if (e.vertex) vertex[e.of_g] = work_.halves[e.half].point;
+        if (e.vertex) { vertex[e.of_g] = work_.halves[e.half].point; }
       }
-      if (at[0] && at[1] && (vertex[0] == invalid_index || vertex[0] != vertex[1])) return false;
+      if (at[0] && at[1] && (vertex[0] == invalid_index || vertex[0] != vertex[1])) { return false; }
     }
     return true;
   }
@@ -56,19 +56,19 @@ class SelfContacts : public Contacts {
     int side = 0;
     for (std::uint32_t h = gg.first; h < gg.first + gg.count; ++h) {
       const int s = work_.predicates.side(work_.from(h), ff.plane.number());
-      if (s * side < 0) return false;
-      if (s == 0 && on != invalid_index) return false;
-      if (s == 0) on = work_.halves[h].point;
-      if (s != 0) side = s;
+      if (s * side < 0) { return false; }
+      if (s == 0 && on != invalid_index) { return false; }
+      if (s == 0) { on = work_.halves[h].point; }
+      if (s != 0) { side = s; }
     }
     bool common = on == invalid_index;
-    for (std::uint32_t h = ff.first; h < ff.first + ff.count; ++h) common = common || work_.halves[h].point == on;
+    for (std::uint32_t h = ff.first; h < ff.first + ff.count; ++h) { common = common || work_.halves[h].point == on; }
     return common;
   }
   // Is all between the groups k - 1 and k one edge of the face?
   [[nodiscard]] bool edge_before(std::uint32_t k, bool of_g) const {
     for (const Along& a : along_) {
-      if (a.of_g == of_g && a.first + 1 == k && a.last == k) return true;
+      if (a.of_g == of_g && a.first + 1 == k && a.last == k) { return true; }
     }
     return false;
   }
@@ -76,30 +76,30 @@ class SelfContacts : public Contacts {
 
 HALFLIGHT_INLINE Refusal CheckLeaf::run() {
   Refusal refusal = contacts();
-  if (refusal.code == Code::none) refusal = wedges();
-  if (refusal.code == Code::none) refusal = shells();
+  if (refusal.code == Code::none) { refusal = wedges(); }
+  if (refusal.code == Code::none) { refusal = shells(); }
   return refusal;
 }
 
 HALFLIGHT_INLINE Refusal CheckLeaf::contacts() {
   for (std::uint32_t h = 0; h < work_.halves.size(); ++h) {
     const std::uint32_t f = work_.halves[h].face, g = work_.halves[work_.halves[h].twin].face;
-    if (work_.faces[f].plane == work_.faces[g].plane.flipped()) return {Code::self_intersecting, {name(f), name(g)}};
+    if (work_.faces[f].plane == work_.faces[g].plane.flipped()) { return {Code::self_intersecting, {name(f), name(g)}}; }
   }
   SelfContacts contacts(work_);
   BoxPairs pairs;
-  for (std::uint32_t f = 0; f < work_.faces.size(); ++f) pairs.a.push_back({work_.faces[f].box, f});
+  for (std::uint32_t f = 0; f < work_.faces.size(); ++f) { pairs.a.push_back({work_.faces[f].box, f}); }
   pairs.b = pairs.a;
   Refusal refusal;
   pairs.run([&](std::uint32_t f, std::uint32_t g) {
-    if (f < g && refusal.code == Code::none && !contacts.legal(f, g)) refusal = {Code::self_intersecting, {name(f), name(g)}};
+    if (f < g && refusal.code == Code::none && !contacts.legal(f, g)) { refusal = {Code::self_intersecting, {name(f), name(g)}}; }
   });
   return refusal;
 }
 
 HALFLIGHT_INLINE Refusal CheckLeaf::wedges() {
   const auto wrong = pair_wedges(work_, 0, several);
-  if (!wrong) return {};
+  if (!wrong) { return {}; }
   return {Code::self_intersecting, {name(work_.halves[wrong->first].face), name(work_.halves[wrong->second].face)}};
 }
 
@@ -124,7 +124,7 @@ HALFLIGHT_INLINE int CheckLeaf::orientation(const std::vector<std::uint32_t>& sh
       }
     }
     rough += glm::dot(o, area);
-    for (int k = 0; on_grid && k < 3; ++k) exact += exact_area[static_cast<std::size_t>(k)] * static_cast<std::int64_t>(o[k]);
+    for (int k = 0; on_grid && k < 3; ++k) { exact += exact_area[static_cast<std::size_t>(k)] * static_cast<std::int64_t>(o[k]); }
   }
   return on_grid ? detail::sign(exact) : detail::sign(rough);
 }
@@ -133,14 +133,14 @@ HALFLIGHT_INLINE Refusal CheckLeaf::shells() {
   std::vector<std::uint32_t> shell_of(work_.faces.size(), invalid_index);
   std::vector<std::vector<std::uint32_t>> shells;
   for (std::uint32_t f = 0; f < work_.faces.size(); ++f) {
-    if (shell_of[f] != invalid_index) continue;
+    if (shell_of[f] != invalid_index) { continue; }
     std::vector<std::uint32_t> shell{f};
     shell_of[f] = static_cast<std::uint32_t>(shells.size());
     for (std::size_t k = 0; k < shell.size(); ++k) {
       const WorkFace& face = work_.faces[shell[k]];
       for (std::uint32_t i = 0; i < face.count; ++i) {
         const std::uint32_t g = work_.halves[work_.halves[work_.half(face, i)].twin].face;
-        if (shell_of[g] == invalid_index) shell_of[g] = shell_of[f], shell.push_back(g);
+        if (shell_of[g] == invalid_index) { shell_of[g] = shell_of[f], shell.push_back(g); }
       }
     }
     shells.push_back(std::move(shell));
@@ -149,15 +149,15 @@ HALFLIGHT_INLINE Refusal CheckLeaf::shells() {
   for (const std::vector<std::uint32_t>& shell : shells) {
     int depth = -1;
     if (shells.size() > 1) {
-      for (WorkFace& f : work_.faces) f.of_b = true;
-      for (std::uint32_t f : shell) work_.faces[f].of_b = false;
+      for (WorkFace& f : work_.faces) { f.of_b = true; }
+      for (std::uint32_t f : shell) { work_.faces[f].of_b = false; }
       const std::uint32_t h = work_.half(work_.faces[shell[0]], 0);
       depth = others(others.vertex(work_.halves[h].point));
-      if (depth == 0) depth = others(others.middle(work_.halves[h].point, work_.target(h)));
+      if (depth == 0) { depth = others(others.middle(work_.halves[h].point, work_.target(h))); }
     }
-    if (orientation(shell) != -depth) return {Code::inside_out, {name(shell[0])}};
+    if (orientation(shell) != -depth) { return {Code::inside_out, {name(shell[0])}}; }
   }
-  for (WorkFace& f : work_.faces) f.of_b = false;
+  for (WorkFace& f : work_.faces) { f.of_b = false; }
   return {};
 }
 

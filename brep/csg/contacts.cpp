@@ -22,37 +22,37 @@ namespace brep::csg::detail {
 HALFLIGHT_INLINE bool Contacts::meet(std::uint32_t f, std::uint32_t g) {
   const WorkFace &ff = work_.faces[f], &gg = work_.faces[g];
   const PlaneNumber p = ff.plane.number(), q = gg.plane.number();
-  if (p == q || !sides(ff, q, sides_f_) || !sides(gg, p, sides_g_)) return false;
+  if (p == q || !sides(ff, q, sides_f_) || !sides(gg, p, sides_g_)) { return false; }
   const Line line(work_.predicates.plane(p), work_.predicates.plane(q));
-  if (line.axis < 0) return false;
+  if (line.axis < 0) { return false; }
   axis_ = line.axis;
   events_.clear();
   along_.clear();
   collect(ff, q, sides_f_, false);
   const std::size_t middle = events_.size();
   collect(gg, p, sides_g_, true);
-  if (middle == 0 || middle == events_.size()) return false;
+  if (middle == 0 || middle == events_.size()) { return false; }
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   for (const Event& e : events_) {
     low[e.of_g] = std::min(low[e.of_g], e.point.position[axis_]);
     high[e.of_g] = std::max(high[e.of_g], e.point.position[axis_]);
   }
-  if (low[0] > high[1] || low[1] > high[0]) return false;
+  if (low[0] > high[1] || low[1] > high[0]) { return false; }
   std::sort(events_.begin(), events_.end(),
             [&](const Event& a, const Event& b) { return work_.predicates.compare(a.point, b.point, axis_) < 0; });
   groups_.clear();
   for (std::uint32_t i = 0; i < events_.size(); ++i) {
-    if (i == 0 || work_.predicates.compare(events_[i - 1].point, events_[i].point, axis_) != 0) groups_.push_back(i);
+    if (i == 0 || work_.predicates.compare(events_[i - 1].point, events_[i].point, axis_) != 0) { groups_.push_back(i); }
     events_[i].group = static_cast<std::uint32_t>(groups_.size() - 1);
   }
   groups_.push_back(static_cast<std::uint32_t>(events_.size()));
   for (Along& a : along_) {
     for (const Event& e : events_) {
-      if (!e.vertex || (e.of_g != 0) != a.of_g) continue;
-      if (e.half == a.half) a.first = e.group;
-      if (e.half == work_.halves[a.half].next) a.last = e.group;
+      if (!e.vertex || (e.of_g != 0) != a.of_g) { continue; }
+      if (e.half == a.half) { a.first = e.group; }
+      if (e.half == work_.halves[a.half].next) { a.last = e.group; }
     }
-    if (a.first > a.last) std::swap(a.first, a.last);
+    if (a.first > a.last) { std::swap(a.first, a.last); }
   }
   return true;
 }
@@ -84,7 +84,7 @@ HALFLIGHT_INLINE void Contacts::collect(const WorkFace& f, PlaneNumber q, const 
       const int before = side[half.prev - f.first];
       const int turn = ((after > 0) != (before > 0) ? 1 : 0) | ((after < 0) != (before < 0) ? 2 : 0);
       events_.push_back({work_.points[half.point], h, of_g, true, static_cast<std::uint8_t>(turn), 0});
-      if (after == 0) along_.push_back({h, 0, 0, of_g});
+      if (after == 0) { along_.push_back({h, 0, 0, of_g}); }
     }
   }
 }
@@ -105,8 +105,8 @@ HALFLIGHT_INLINE void Contacts::walk(std::uint32_t f, std::uint32_t g) {
     if (at_f && at_g) {
       here = resolve(k);
       if (before != invalid_index) {
-        if (!run_along(k, false)) state_f == 3 ? segments.push_back({f, before, here, q}) : void(consistent = false);
-        if (!run_along(k, true)) state_g == 3 ? segments.push_back({g, before, here, p}) : void(consistent = false);
+        if (!run_along(k, false)) { state_f == 3 ? segments.push_back({f, before, here, q}) : void(consistent = false); }
+        if (!run_along(k, true)) { state_g == 3 ? segments.push_back({g, before, here, p}) : void(consistent = false); }
       }
     }
     state_f = after_f, state_g = after_g;
@@ -118,14 +118,14 @@ HALFLIGHT_INLINE void Contacts::walk(std::uint32_t f, std::uint32_t g) {
 HALFLIGHT_INLINE std::uint32_t Contacts::resolve(std::uint32_t k) {
   std::uint32_t number = invalid_index;
   for (std::uint32_t i = groups_[k]; i < groups_[k + 1]; ++i) {
-    if (events_[i].vertex) number = table.of_vertex(work_.halves[events_[i].half].point);
+    if (events_[i].vertex) { number = table.of_vertex(work_.halves[events_[i].half].point); }
   }
-  if (number == invalid_index) number = table.of(events_[groups_[k]].point);
+  if (number == invalid_index) { number = table.of(events_[groups_[k]].point); }
   for (std::uint32_t i = groups_[k]; i < groups_[k + 1]; ++i) {
-    if (!events_[i].vertex) nodes.push_back({lower(events_[i].half), number});
+    if (!events_[i].vertex) { nodes.push_back({lower(events_[i].half), number}); }
   }
   for (const Along& a : along_) {
-    if (a.first < k && k < a.last) nodes.push_back({lower(a.half), number});
+    if (a.first < k && k < a.last) { nodes.push_back({lower(a.half), number}); }
   }
   return number;
 }
@@ -133,7 +133,7 @@ HALFLIGHT_INLINE std::uint32_t Contacts::resolve(std::uint32_t k) {
 HALFLIGHT_INLINE bool Contacts::run_along(std::uint32_t k, bool of_g) {
   bool found = false;
   for (const Along& a : along_) {
-    if (a.of_g != of_g || a.first >= k || a.last < k) continue;
+    if (a.of_g != of_g || a.first >= k || a.last < k) { continue; }
     along.push_back(lower(a.half));
     found = true;
   }

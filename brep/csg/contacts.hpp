@@ -43,7 +43,7 @@ class Contacts {
 
   // Compares the faces f and g of the two operands.
   void compare(std::uint32_t f, std::uint32_t g) {
-    if (!meet(f, g)) return;
+    if (!meet(f, g)) { return; }
     walk(f, g);
   }
 

@@ -21,9 +21,9 @@ struct Projection {
   explicit Projection(const Plane& plane, int sign) {
     const auto size = [&](std::size_t i) { return plane.n[i] < 0 ? -plane.n[i] : plane.n[i]; };
     std::size_t k = 0;
-    for (std::size_t i = 1; i < 3; ++i) k = size(i) > size(k) ? i : k;
+    for (std::size_t i = 1; i < 3; ++i) { k = size(i) > size(k) ? i : k; }
     u = static_cast<int>(k == 2 ? 0 : k + 1), v = static_cast<int>(k == 0 ? 2 : k - 1);
-    if ((plane.n[k] < 0) != (sign < 0)) std::swap(u, v);
+    if ((plane.n[k] < 0) != (sign < 0)) { std::swap(u, v); }
   }
 };
 
@@ -38,8 +38,8 @@ struct Direction {
 [[nodiscard]] inline int turn(const Direction& a, const Direction& b) {
   const double x = static_cast<double>(a.u) * static_cast<double>(b.v), y = static_cast<double>(a.v) * static_cast<double>(b.u);
   const double value = x - y, bound = (std::abs(x) + std::abs(y)) * 0x1p-50;
-  if (value > bound) return 1;
-  if (value < -bound) return -1;
+  if (value > bound) { return 1; }
+  if (value < -bound) { return -1; }
   return (product(a.u, b.v) - product(a.v, b.u)).sign();
 }
 // Order of angles in [0, 360) degrees from the u axis.

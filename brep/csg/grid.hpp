@@ -26,10 +26,10 @@ class Grid {
   Grid(const glm::dvec3& lo, const glm::dvec3& hi) : planes_(std::make_shared<PlaneTable>()) {
     const glm::dvec3 half = 0.5 * hi - 0.5 * lo;
     double size = std::max({half.x, half.y, half.z});
-    if (!(size > 0x1p-900 && size < 0x1p900)) size = 1.0;
+    if (!(size > 0x1p-900 && size < 0x1p900)) { size = 1.0; }
     spacing_ = std::exp2(std::ceil(std::log2(size)) - 24.0);
     const glm::dvec3 middle = glm::round((0.5 * lo + 0.5 * hi) / (spacing_ * 0x1p20)) * (spacing_ * 0x1p20);
-    if (std::isfinite(middle.x) && std::isfinite(middle.y) && std::isfinite(middle.z)) centre_ = middle;
+    if (std::isfinite(middle.x) && std::isfinite(middle.y) && std::isfinite(middle.z)) { centre_ = middle; }
   }
 
   [[nodiscard]] double spacing() const { return spacing_; }                                         // in the units of the leaves

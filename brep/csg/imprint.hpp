@@ -27,14 +27,14 @@ struct Imprint {
 // Time: as unite.
 template <class F>
 [[nodiscard]] Result<Imprint<F>> imprint(const Solid<F>& a, const Solid<F>& b) {
-  if (!(a.grid() == b.grid())) return Refusal{Code::different_grids, {}};
+  if (!(a.grid() == b.grid())) { return Refusal{Code::different_grids, {}}; }
   detail::Arrangement arrangement(a.grid().planes(), a.boundary(), b.boundary(), false, 0);
-  if (arrangement.fault != invalid_index) return Refusal{Code::self_intersecting, {}};
+  if (arrangement.fault != invalid_index) { return Refusal{Code::self_intersecting, {}}; }
   const auto part = [&](bool of_b, std::vector<Side>& sides) {
     std::vector<std::uint8_t> keep;
     for (std::size_t f = 0; f < arrangement.work.faces.size(); ++f) {
       keep.push_back(arrangement.work.faces[f].of_b == of_b);
-      if (keep.back()) sides.push_back(arrangement.labels.sides[f]);
+      if (keep.back()) { sides.push_back(arrangement.labels.sides[f]); }
     }
     Boundary boundary = detail::Assemble(arrangement.work, std::move(keep)).run();
     boundary.touching = (of_b ? b : a).boundary().touching;

@@ -30,9 +30,9 @@ HALFLIGHT_INLINE Refusal Leaf::run(Boundary& boundary) {
   plane_.assign(anchor.size(), OrientedPlane{});
   bool planar = true;
   for (std::uint32_t f = 0; f < anchor.size(); ++f) {
-    if (const Refusal refusal = check_edges(f); refusal.code != Code::none) return refusal;
+    if (const Refusal refusal = check_edges(f); refusal.code != Code::none) { return refusal; }
     const std::optional<OrientedPlane> plane = snapped_plane(f);
-    if (plane) plane_[f] = *plane;
+    if (plane) { plane_[f] = *plane; }
     planar = planar && plane;
   }
   if (!planar) {
@@ -41,7 +41,7 @@ HALFLIGHT_INLINE Refusal Leaf::run(Boundary& boundary) {
     planar = is_simple() && place_by_planes();
     if (!planar) {
       corners = bridged;
-      if (const Refusal refusal = triangulate(); refusal.code != Code::none) return refusal;
+      if (const Refusal refusal = triangulate(); refusal.code != Code::none) { return refusal; }
       strip_bridges();
     }
   } else {
@@ -53,7 +53,7 @@ HALFLIGHT_INLINE Refusal Leaf::run(Boundary& boundary) {
 
 HALFLIGHT_INLINE Leaf::Grid3 Leaf::snapped(std::uint32_t vertex) const {
   Grid3 result{};
-  for (int i = 0; i < 3; ++i) result[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::round(vertices[vertex][i]));
+  for (int i = 0; i < 3; ++i) { result[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::round(vertices[vertex][i])); }
   return result;
 }
 
@@ -61,7 +61,7 @@ HALFLIGHT_INLINE void Leaf::number_points() {
   struct Hash {
     std::size_t operator()(const Grid3& p) const {
       std::uint64_t h = 0;
-      for (std::int64_t x : p) h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u;
+      for (std::int64_t x : p) { h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u; }
       return h ^ (h >> 32);
     }
   };
@@ -82,7 +82,7 @@ HALFLIGHT_INLINE void Leaf::number_points() {
 HALFLIGHT_INLINE Refusal Leaf::check_edges(std::uint32_t f) const {
   std::uint32_t c = anchor[f];
   do {
-    if (point_[corners[c].vertex] == point_[corners[corners[c].next].vertex]) return {Code::collapsed, {FaceId{given[f]}}};
+    if (point_[corners[c].vertex] == point_[corners[corners[c].next].vertex]) { return {Code::collapsed, {FaceId{given[f]}}}; }
     c = corners[c].next;
   } while (c != anchor[f]);
   return {};
@@ -94,7 +94,7 @@ HALFLIGHT_INLINE std::array<Int128, 3> Leaf::newell(std::uint32_t f) const {
   std::uint32_t c = anchor[f];
   do {
     Grid3 a = snapped(corners[c].vertex), b = snapped(corners[corners[c].next].vertex);
-    for (std::size_t i = 0; i < 3; ++i) a[i] -= o[i], b[i] -= o[i];
+    for (std::size_t i = 0; i < 3; ++i) { a[i] -= o[i], b[i] -= o[i]; }
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
       sum[i] += static_cast<Int128>(a[j]) * b[k] - static_cast<Int128>(a[k]) * b[j];
@@ -107,11 +107,11 @@ HALFLIGHT_INLINE std::array<Int128, 3> Leaf::newell(std::uint32_t f) const {
 HALFLIGHT_INLINE std::optional<OrientedPlane> Leaf::snapped_plane(std::uint32_t f) const {
   const std::array<Int128, 3> sum = newell(f);
   const Int128 divisor = gcd(gcd(sum[0], sum[1]), sum[2]);
-  if (divisor == 0) return std::nullopt;
+  if (divisor == 0) { return std::nullopt; }
   Grid3 n{};
   for (std::size_t i = 0; i < 3; ++i) {
     const Int128 x = sum[i] / divisor;
-    if (size(x) > (Int128{1} << 53)) return std::nullopt;
+    if (size(x) > (Int128{1} << 53)) { return std::nullopt; }
     n[i] = static_cast<std::int64_t>(x);
   }
   const auto product = [&](const Grid3& p) {
@@ -120,7 +120,7 @@ HALFLIGHT_INLINE std::optional<OrientedPlane> Leaf::snapped_plane(std::uint32_t 
   const Int128 d = -product(snapped(corners[anchor[f]].vertex));
   std::uint32_t c = anchor[f];
   do {
-    if (product(snapped(corners[c].vertex)) != -d) return std::nullopt;
+    if (product(snapped(corners[c].vertex)) != -d) { return std::nullopt; }
     c = corners[c].next;
   } while (c != anchor[f]);
   return planes_.insert(n, d);
@@ -129,12 +129,12 @@ HALFLIGHT_INLINE std::optional<OrientedPlane> Leaf::snapped_plane(std::uint32_t 
 HALFLIGHT_INLINE bool Leaf::is_simple() const {
   std::vector<std::uint8_t> degree(points_.size(), 0);
   for (std::uint32_t c = 0; c < corners.size(); ++c) {
-    if (gone_[c]) continue;
+    if (gone_[c]) { continue; }
     std::uint8_t& n = degree[point_[corners[c].vertex]];
-    if (++n > 3) return false;
+    if (++n > 3) { return false; }
   }
   for (std::uint8_t n : degree) {
-    if (n != 3) return false;
+    if (n != 3) { return false; }
   }
   return true;
 }
@@ -142,14 +142,14 @@ HALFLIGHT_INLINE bool Leaf::is_simple() const {
 HALFLIGHT_INLINE std::vector<Leaf::Mean> Leaf::means() const {
   std::vector<Mean> result(anchor.size());
   for (std::uint32_t c = 0; c < corners.size(); ++c) {
-    if (gone_[c]) continue;
+    if (gone_[c]) { continue; }
     Mean& m = result[corners[c].face];
     const glm::dvec3 &v = vertices[corners[c].vertex], &w = vertices[corners[corners[c].next].vertex];
-    if (m.count == 0.0) m.origin = v;
+    if (m.count == 0.0) { m.origin = v; }
     m.normal += glm::cross(v - m.origin, w - m.origin);
     m.middle += v - m.origin;
     m.count += 1.0;
-    for (int i = 0; i < 3; ++i) m.level[i] = m.level[i] && v[i] == m.origin[i];
+    for (int i = 0; i < 3; ++i) { m.level[i] = m.level[i] && v[i] == m.origin[i]; }
   }
   return result;
 }
@@ -159,9 +159,9 @@ HALFLIGHT_INLINE bool Leaf::place_by_planes() {
   const std::vector<Mean> mean = means();
   for (std::uint32_t f = 0; f < plane.size(); ++f) {
     const Mean& m = mean[f];
-    if (plane[f].code != invalid_index && (m.level[0] || m.level[1] || m.level[2])) continue;
+    if (plane[f].code != invalid_index && (m.level[0] || m.level[1] || m.level[2])) { continue; }
     const double length = glm::length(m.normal);
-    if (!(length > 0.0)) return false;
+    if (!(length > 0.0)) { return false; }
     Grid3 n{};
     Int128 offset = Int128{1} << 26;  // in 2^-27 spacings, rounded
     for (int i = 0; i < 3; ++i) {
@@ -176,22 +176,22 @@ HALFLIGHT_INLINE bool Leaf::place_by_planes() {
   std::vector<std::uint8_t> done(points_.size(), 0);
   for (std::uint32_t c = 0; c < corners.size(); ++c) {
     const std::uint32_t p = point_[corners[c].vertex];
-    if (gone_[c] || done[p]) continue;
+    if (gone_[c] || done[p]) { continue; }
     done[p] = 1;
     const std::uint32_t second = corners[corners[c].twin].next, third = corners[corners[second].twin].next;
     const PlaneNumber a = plane[corners[c].face].number(), b = plane[corners[second].face].number(),
                       d = plane[corners[third].face].number();
-    if (meet(planes_[a], planes_[b], planes_[d]).w.zero()) return false;
+    if (meet(planes_[a], planes_[b], planes_[d]).w.zero()) { return false; }
     const Homogeneous<4> h = meet(planes_[a], planes_[b], planes_[d]);
     const glm::dvec3 rough = glm::dvec3{h.x[0].approximate(), h.x[1].approximate(), h.x[2].approximate()} / h.w.approximate();
     const glm::dvec3 moved = glm::abs(rough - vertices[corners[c].vertex]);
-    if (!(moved.x < 1.0 && moved.y < 1.0 && moved.z < 1.0)) return false;
+    if (!(moved.x < 1.0 && moved.y < 1.0 && moved.z < 1.0)) { return false; }
     placed[p] = predicates.point(a, b, d);
   }
   for (std::uint32_t c = 0; c < corners.size(); ++c) {  // no edge may be turned round by it
-    if (gone_[c]) continue;
+    if (gone_[c]) { continue; }
     const std::uint32_t v = corners[c].vertex, w = corners[corners[c].next].vertex;
-    if (!(glm::dot(placed[point_[w]].position - placed[point_[v]].position, vertices[w] - vertices[v]) > 0.0)) return false;
+    if (!(glm::dot(placed[point_[w]].position - placed[point_[v]].position, vertices[w] - vertices[v]) > 0.0)) { return false; }
   }
   plane_ = std::move(plane);
   points_ = std::move(placed);
@@ -201,13 +201,13 @@ HALFLIGHT_INLINE bool Leaf::place_by_planes() {
 HALFLIGHT_INLINE Refusal Leaf::triangulate() {
   const auto count = static_cast<std::uint32_t>(anchor.size());
   for (std::uint32_t f = 0; f < count; ++f) {
-    if (plane_[f].code != invalid_index) continue;
+    if (plane_[f].code != invalid_index) { continue; }
     const std::array<Int128, 3> sum = newell(f);
     std::size_t axis = 0;
-    for (std::size_t i = 1; i < 3; ++i) axis = size(sum[i]) > size(sum[axis]) ? i : axis;
-    if (sum[axis] == 0) return {Code::collapsed, {FaceId{given[f]}}};
+    for (std::size_t i = 1; i < 3; ++i) { axis = size(sum[i]) > size(sum[axis]) ? i : axis; }
+    if (sum[axis] == 0) { return {Code::collapsed, {FaceId{given[f]}}}; }
     std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    if (sum[axis] < 0) std::swap(u, v);
+    if (sum[axis] < 0) { std::swap(u, v); }
     std::vector<std::uint32_t> loop;
     std::vector<GridCorner> seen;
     std::uint32_t c = anchor[f];
@@ -218,13 +218,13 @@ HALFLIGHT_INLINE Refusal Leaf::triangulate() {
       c = corners[c].next;
     } while (c != anchor[f]);
     const auto cut = ears(seen);
-    if (!cut) return {Code::not_planar, {FaceId{given[f]}}};
-    for (const Ear& ear : *cut) loop[ear.before] = cut_off(loop[ear.corner]);
+    if (!cut) { return {Code::not_planar, {FaceId{given[f]}}}; }
+    for (const Ear& ear : *cut) { loop[ear.before] = cut_off(loop[ear.corner]); }
   }
   for (std::uint32_t f = 0; f < anchor.size(); ++f) {
-    if (plane_[f].code != invalid_index) continue;
+    if (plane_[f].code != invalid_index) { continue; }
     const std::optional<OrientedPlane> plane = snapped_plane(f);
-    if (!plane) return {Code::collapsed, {FaceId{given[f]}}};
+    if (!plane) { return {Code::collapsed, {FaceId{given[f]}}}; }
     plane_[f] = *plane;
   }
   return {};
@@ -251,10 +251,10 @@ HALFLIGHT_INLINE void Leaf::strip_bridges() {
   gone_.assign(corners.size(), 0);
   for (std::uint32_t c = 0; c < corners.size(); ++c) {
     const std::uint32_t t = corners[c].twin;
-    if (gone_[c] || !is_bridge(c)) continue;
+    if (gone_[c] || !is_bridge(c)) { continue; }
     const std::uint32_t before_c = corners[c].prev, after_c = corners[c].next, before_t = corners[t].prev, after_t = corners[t].next;
-    if (after_c != t) corners[before_t].next = after_c, corners[after_c].prev = before_t;
-    if (after_t != c) corners[before_c].next = after_t, corners[after_t].prev = before_c;
+    if (after_c != t) { corners[before_t].next = after_c, corners[after_c].prev = before_t; }
+    if (after_t != c) { corners[before_c].next = after_t, corners[after_t].prev = before_c; }
     gone_[c] = gone_[t] = 1;
   }
 }
@@ -262,19 +262,19 @@ HALFLIGHT_INLINE void Leaf::strip_bridges() {
 HALFLIGHT_INLINE void Leaf::emit(Boundary& boundary) {
   std::vector<std::uint32_t> first(anchor.size() + 1, 0), place(corners.size(), invalid_index);
   for (std::uint32_t c = 0; c < corners.size(); ++c) {
-    if (!gone_[c]) ++first[corners[c].face + 1];
+    if (!gone_[c]) { ++first[corners[c].face + 1]; }
   }
-  for (std::size_t f = 0; f < anchor.size(); ++f) first[f + 1] += first[f];
+  for (std::size_t f = 0; f < anchor.size(); ++f) { first[f + 1] += first[f]; }
   std::vector<std::uint32_t> end = first;
   for (std::uint32_t c = 0; c < corners.size(); ++c) {
-    if (!gone_[c]) place[c] = end[corners[c].face]++;
+    if (!gone_[c]) { place[c] = end[corners[c].face]++; }
   }
   boundary.points = points_;
   boundary.halves.resize(first.back());
   boundary.faces.resize(anchor.size());
-  for (std::uint32_t f = 0; f < anchor.size(); ++f) boundary.faces[f] = {plane_[f], first[f], first[f + 1] - first[f], given[f], {}};
+  for (std::uint32_t f = 0; f < anchor.size(); ++f) { boundary.faces[f] = {plane_[f], first[f], first[f + 1] - first[f], given[f], {}}; }
   for (std::uint32_t c = 0; c < corners.size(); ++c) {
-    if (gone_[c]) continue;
+    if (gone_[c]) { continue; }
     const Corner& corner = corners[c];
     const std::uint32_t point = point_[corner.vertex];
     boundary.halves[place[c]] = {point, place[corner.next], place[corner.twin], corner.face, plane_[corners[corner.twin].face].number()};
@@ -282,20 +282,20 @@ HALFLIGHT_INLINE void Leaf::emit(Boundary& boundary) {
   }
   for (Half& h : boundary.halves) {
     const PlaneNumber plane = boundary.faces[h.face].plane.number();
-    if (h.across == plane) h.across = upright(points_[h.point], points_[boundary.halves[h.next].point], plane);
+    if (h.across == plane) { h.across = upright(points_[h.point], points_[boundary.halves[h.next].point], plane); }
   }
 }
 
 HALFLIGHT_INLINE PlaneNumber Leaf::upright(const Point& p, const Point& q, PlaneNumber plane) {
   const Grid3 n = planes_[plane].n;
   std::size_t k = 0;
-  for (std::size_t i = 1; i < 3; ++i) k = std::abs(n[i]) > std::abs(n[k]) ? i : k;
+  for (std::size_t i = 1; i < 3; ++i) { k = std::abs(n[i]) > std::abs(n[k]) ? i : k; }
   const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
   Grid3 m{};
   m[u] = static_cast<std::int64_t>(q.position[static_cast<int>(v)] - p.position[static_cast<int>(v)]);
   m[v] = static_cast<std::int64_t>(p.position[static_cast<int>(u)] - q.position[static_cast<int>(u)]);
   Int128 d = 0;
-  for (int i = 0; i < 3; ++i) d -= static_cast<Int128>(m[static_cast<std::size_t>(i)]) * static_cast<std::int64_t>(p.position[i]);
+  for (int i = 0; i < 3; ++i) { d -= static_cast<Int128>(m[static_cast<std::size_t>(i)]) * static_cast<std::int64_t>(p.position[i]); }
   return planes_.insert(m, d).number();
 }
 

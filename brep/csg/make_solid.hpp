@@ -32,7 +32,7 @@ template <class F, class B, class Position, class Attribute>
   std::vector<std::uint32_t> number(brep.vertex_end(), invalid_index), place(brep.halfedge_end(), invalid_index);
   for (VertexId v : vertices(brep)) {
     const glm::dvec3 p = position(v);
-    if (!grid.contains(p)) return Refusal{Code::outside_grid, {v, brep.face(brep.halfedge(v))}};
+    if (!grid.contains(p)) { return Refusal{Code::outside_grid, {v, brep.face(brep.halfedge(v))}}; }
     number[v.index] = static_cast<std::uint32_t>(leaf.vertices.size());
     leaf.vertices.push_back(grid.to_grid(p));
   }
@@ -58,15 +58,15 @@ template <class F, class B, class Position, class Attribute>
     leaf.corners[b].twin = a;
   }
   Boundary boundary;
-  if (const Refusal refusal = leaf.run(boundary); refusal.code != Code::none) return refusal;
+  if (const Refusal refusal = leaf.run(boundary); refusal.code != Code::none) { return refusal; }
   detail::Work work(grid.planes());
   work.add(boundary, false, false, 0);
   detail::CheckLeaf check(work);
-  if (const Refusal refusal = check.run(); refusal.code != Code::none) return refusal;
+  if (const Refusal refusal = check.run(); refusal.code != Code::none) { return refusal; }
   detail::Assemble assemble(work, std::vector<std::uint8_t>(work.faces.size(), 1));
   const auto same = [&](std::uint32_t i, std::uint32_t j) { return attributes[i] == attributes[j]; };
-  for (std::uint32_t h : check.several) assemble.hold(h);
-  for (std::uint32_t h = 0; h < work.halves.size(); ++h) assemble.merge(h, same);
+  for (std::uint32_t h : check.several) { assemble.hold(h); }
+  for (std::uint32_t h = 0; h < work.halves.size(); ++h) { assemble.merge(h, same); }
   assemble.straighten([](std::uint32_t) { return true; });
   boundary = assemble.run();
   std::optional<Boundary> largest = detail::with_largest_faces(grid.planes(), boundary, same);

@@ -54,7 +54,7 @@ class Arrangement {
 // False: the operands are not valid.
 template <class Same>
 [[nodiscard]] bool select(Arrangement& arrangement, bool unite, Same&& same, Boundary& result) {
-  if (arrangement.fault != invalid_index) return false;
+  if (arrangement.fault != invalid_index) { return false; }
   Work& work = arrangement.work;
   std::vector<std::uint8_t> keep(work.faces.size());
   for (std::size_t f = 0; f < keep.size(); ++f) {
@@ -62,9 +62,9 @@ template <class Same>
     keep[f] = side == Side::on_same ? !work.faces[f].of_b : side == (unite ? Side::outside : Side::inside);
   }
   Assemble assemble(work, std::move(keep));
-  if (!assemble.glue(arrangement.radial)) return false;
-  for (const Spine& s : arrangement.radial.spines) assemble.merge(s.half, same);
-  for (std::uint32_t c : arrangement.cuts) assemble.merge(c, same);
+  if (!assemble.glue(arrangement.radial)) { return false; }
+  for (const Spine& s : arrangement.radial.spines) { assemble.merge(s.half, same); }
+  for (std::uint32_t c : arrangement.cuts) { assemble.merge(c, same); }
   assemble.straighten([&](std::uint32_t p) { return arrangement.contacts.table.contains(p); });
   result = assemble.run();
   return true;

@@ -45,7 +45,7 @@ HALFLIGHT_INLINE OrientedPlane PlaneTable::insert(std::array<std::int64_t, 3> n,
   plane.d = flip ? -(d / divisor) : d / divisor;
   plane.offset = static_cast<double>(plane.d);
   plane.bound = (std::abs(plane.normal[0]) + std::abs(plane.normal[1]) + std::abs(plane.normal[2])) * 0x1p-24;
-  if (2 * planes_.size() >= slots_.size()) grow();
+  if (2 * planes_.size() >= slots_.size()) { grow(); }
   std::uint32_t& slot = find(plane);
   if (slot == invalid_index) {
     slot = static_cast<std::uint32_t>(planes_.size());
@@ -56,13 +56,13 @@ HALFLIGHT_INLINE OrientedPlane PlaneTable::insert(std::array<std::int64_t, 3> n,
 
 HALFLIGHT_INLINE std::uint64_t PlaneTable::hash(const Plane& p) {
   std::uint64_t h = static_cast<std::uint64_t>(p.d) * 0x9e3779b97f4a7c15u;
-  for (std::int64_t x : p.n) h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(x)) * 0xbf58476d1ce4e5b9u;
+  for (std::int64_t x : p.n) { h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(x)) * 0xbf58476d1ce4e5b9u; }
   return h ^ (h >> 32);
 }
 
 HALFLIGHT_INLINE std::uint32_t& PlaneTable::find(const Plane& plane) {
   std::size_t i = hash(plane) & (slots_.size() - 1);
-  while (slots_[i] != invalid_index && !(planes_[slots_[i]] == plane)) i = (i + 1) & (slots_.size() - 1);
+  while (slots_[i] != invalid_index && !(planes_[slots_[i]] == plane)) { i = (i + 1) & (slots_.size() - 1); }
   return slots_[i];
 }
 

@@ -67,7 +67,7 @@ class PlaneTable {
   std::uint32_t& find(const Plane& plane);
   void grow() {
     slots_.assign(slots_.empty() ? 64 : 2 * slots_.size(), invalid_index);
-    for (std::uint32_t p = 0; p < planes_.size(); ++p) find(planes_[p]) = p;
+    for (std::uint32_t p = 0; p < planes_.size(); ++p) { find(planes_[p]) = p; }
   }
 
   std::vector<Plane> planes_;

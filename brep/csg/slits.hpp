@@ -23,7 +23,7 @@ namespace brep::csg {
 // The same solid, whose faces(), which are exported, have no slits; boundary(), with which operations go on, stays.     Time: O(v log v).
 template <class F>
 [[nodiscard]] Solid<F> close_slits(const Solid<F>& solid) {
-  if (!solid.boundary().touching) return solid;
+  if (!solid.boundary().touching) { return solid; }
   detail::Work work(solid.grid().planes());
   work.add(solid.boundary(), false, false, 0);
   // Half-edges in one plane, looking the same way, by the points between which they run.
@@ -33,7 +33,7 @@ template <class F>
     const std::uint32_t from = work.halves[h].point, to = work.target(h);
     seen.emplace(std::tuple(from, to, plane), h);
     const auto found = seen.find(std::tuple(to, from, plane));
-    if (found == seen.end() || work.halves[h].twin == found->second) continue;
+    if (found == seen.end() || work.halves[h].twin == found->second) { continue; }
     const std::uint32_t g = found->second, across_h = work.halves[h].twin, across_g = work.halves[g].twin;
     work.halves[h].twin = g;
     work.halves[g].twin = h;
@@ -42,7 +42,7 @@ template <class F>
   }
   detail::Assemble assemble(work, std::vector<std::uint8_t>(work.faces.size(), 1));
   const auto same = [&](std::uint32_t i, std::uint32_t j) { return solid.attributes()[i] == solid.attributes()[j]; };
-  for (std::uint32_t h = 0; h < work.halves.size(); ++h) assemble.merge(h, same);
+  for (std::uint32_t h = 0; h < work.halves.size(); ++h) { assemble.merge(h, same); }
   assemble.straighten_umbrellas();
   return Solid<F>(solid.grid(), solid.boundary(), assemble.run(), solid.attributes());
 }

@@ -21,7 +21,7 @@ HALFLIGHT_INLINE void SplitEdges::run(std::vector<EdgeNode>& nodes) {
   std::sort(nodes.begin(), nodes.end(), [](const EdgeNode& a, const EdgeNode& b) { return a.edge < b.edge; });
   for (std::size_t i = 0; i < nodes.size();) {
     std::size_t end = i;
-    while (end < nodes.size() && nodes[end].edge == nodes[i].edge) ++end;
+    while (end < nodes.size() && nodes[end].edge == nodes[i].edge) { ++end; }
     split(nodes[i].edge, {nodes.begin() + static_cast<std::ptrdiff_t>(i), nodes.begin() + static_cast<std::ptrdiff_t>(end)});
     i = end;
   }
@@ -32,7 +32,7 @@ HALFLIGHT_INLINE void SplitEdges::split(std::uint32_t h, std::vector<EdgeNode> n
   const Point from = work_.from(h), to = work_.to(h);
   int axis = 0;
   for (int i = 1; i < 3; ++i) {
-    if (std::abs(to.position[i] - from.position[i]) > std::abs(to.position[axis] - from.position[axis])) axis = i;
+    if (std::abs(to.position[i] - from.position[i]) > std::abs(to.position[axis] - from.position[axis])) { axis = i; }
   }
   const bool forward = work_.predicates.compare(from, to, axis) < 0;
   std::sort(nodes.begin(), nodes.end(), [&](const EdgeNode& a, const EdgeNode& b) {
@@ -43,7 +43,7 @@ HALFLIGHT_INLINE void SplitEdges::split(std::uint32_t h, std::vector<EdgeNode> n
               nodes.end());
   std::erase_if(nodes, [&](const EdgeNode& n) { return n.point == work_.halves[h].point || n.point == work_.halves[t].point; });
   const auto count = static_cast<std::uint32_t>(nodes.size());
-  if (count == 0) return;
+  if (count == 0) { return; }
   const auto rest = static_cast<std::uint32_t>(work_.halves.size()), rest_of_twin = rest + count;
   work_.halves.resize(rest + 2 * count);
   for (std::uint32_t i = 0; i < count; ++i) {

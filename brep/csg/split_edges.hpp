@@ -33,7 +33,7 @@ class SplitEdges {
     const bool split = found != parts_.end() && found->edge == edge;
     visit(edge);
     visit(split ? found->twin : work_.halves[edge].twin);
-    for (std::uint32_t i = 0; split && i < found->count; ++i) visit(found->rest + i), visit(found->rest_of_twin + i);
+    for (std::uint32_t i = 0; split && i < found->count; ++i) { visit(found->rest + i), visit(found->rest_of_twin + i); }
   }
   [[nodiscard]] const std::vector<EdgeParts>& parts() const { return parts_; }
 

@@ -40,16 +40,16 @@ namespace detail {
 template <class F>
 [[nodiscard]] double area(const Solid<F>& solid) {
   double sum = 0.0;
-  for (const Face& f : solid.faces().faces) sum += 0.5 * glm::length(detail::double_area(solid.faces(), f));
+  for (const Face& f : solid.faces().faces) { sum += 0.5 * glm::length(detail::double_area(solid.faces(), f)); }
   return sum * solid.grid().spacing() * solid.grid().spacing();
 }
 template <class F>
 [[nodiscard]] double volume(const Solid<F>& solid) {
   const Boundary& b = solid.faces();
-  if (b.faces.empty()) return 0.0;
+  if (b.faces.empty()) { return 0.0; }
   const glm::dvec3 origin = b.points[0].position;
   double sum = 0.0;
-  for (const Face& f : b.faces) sum += glm::dot(detail::double_area(b, f), b.points[b.halves[f.first].point].position - origin) / 6.0;
+  for (const Face& f : b.faces) { sum += glm::dot(detail::double_area(b, f), b.points[b.halves[f.first].point].position - origin) / 6.0; }
   return sum * solid.grid().spacing() * solid.grid().spacing() * solid.grid().spacing();
 }
 
@@ -70,18 +70,19 @@ class Export {
     std::vector<std::uint32_t> cycle(count, invalid_index);
     std::vector<std::uint32_t> first;  // a half-edge of each cycle: first the one of each face, then further ones
     const auto walk = [&](std::uint32_t h) {
-      for (std::uint32_t x = h; cycle[x] == invalid_index; x = boundary_.halves[x].next)
+      for (std::uint32_t x = h; cycle[x] == invalid_index; x = boundary_.halves[x].next) {
         cycle[x] = static_cast<std::uint32_t>(first.size());
+      }
       first.push_back(h);
     };
-    for (const Face& f : boundary_.faces) walk(outer(f));
+    for (const Face& f : boundary_.faces) { walk(outer(f)); }
     for (std::uint32_t h = 0; h < count; ++h) {
-      if (cycle[h] == invalid_index) walk(h);
+      if (cycle[h] == invalid_index) { walk(h); }
     }
     Raw::faces(brep_).append(static_cast<std::uint32_t>(first.size()));
     for (std::uint32_t f = 0; f < first.size(); ++f) {
       Raw::at(brep_, FaceId{f}).halfedge = HalfedgeId{name_[first[f]]};
-      if (f < boundary_.faces.size()) set_face(brep_.data(FaceId{f}), boundary_.faces[f].attribute);
+      if (f < boundary_.faces.size()) { set_face(brep_.data(FaceId{f}), boundary_.faces[f].attribute); }
     }
     for (std::uint32_t h = 0; h < count; ++h) {
       const Half& half = boundary_.halves[h];
@@ -97,7 +98,7 @@ class Export {
       holes[boundary_.halves[first[c]].face].push_back(HalfedgeId{name_[first[c]]});
     }
     for (std::uint32_t f = 0; f < holes.size(); ++f) {
-      if (holes[f].empty()) continue;
+      if (holes[f].empty()) { continue; }
       holes[f].push_back(HalfedgeId{name_[first[f]]});
       const OrientedPlane plane = boundary_.faces[f].plane;
       const Projection on(grid_.planes()[plane.number()], plane.sign());
@@ -116,7 +117,7 @@ class Export {
     name_.assign(boundary_.halves.size(), invalid_index);
     std::uint32_t next = 0;
     for (std::uint32_t h = 0; h < name_.size(); ++h) {
-      if (name_[h] != invalid_index) continue;
+      if (name_[h] != invalid_index) { continue; }
       name_[h] = next;
       name_[boundary_.halves[h].twin] = next + 1;
       next += 2;
@@ -131,7 +132,7 @@ class Export {
     double largest = 0.0;
     std::vector<bool> seen(f.count, false);
     for (std::uint32_t h = f.first; h < f.first + f.count; ++h) {
-      if (seen[h - f.first]) continue;
+      if (seen[h - f.first]) { continue; }
       const glm::dvec3 o = boundary_.points[boundary_.halves[h].point].position;
       glm::dvec3 sum{0.0};
       for (std::uint32_t x = h; !seen[x - f.first]; x = boundary_.halves[x].next) {
@@ -139,7 +140,7 @@ class Export {
         sum += glm::cross(boundary_.points[boundary_.halves[x].point].position - o,
                           boundary_.points[boundary_.halves[boundary_.halves[x].next].point].position - o);
       }
-      if (glm::dot(sum, normal) > largest) best = h, largest = glm::dot(sum, normal);
+      if (glm::dot(sum, normal) > largest) { best = h, largest = glm::dot(sum, normal); }
     }
     return best;
   }
@@ -148,9 +149,9 @@ class Export {
   [[nodiscard]] std::vector<std::uint32_t> umbrellas() {
     using brep::detail::Raw;
     std::vector<std::uint32_t> previous(boundary_.halves.size()), vertex(boundary_.halves.size(), invalid_index), start;
-    for (std::uint32_t h = 0; h < previous.size(); ++h) previous[boundary_.halves[h].next] = h;
+    for (std::uint32_t h = 0; h < previous.size(); ++h) { previous[boundary_.halves[h].next] = h; }
     for (std::uint32_t h = 0; h < vertex.size(); ++h) {
-      if (vertex[h] != invalid_index) continue;
+      if (vertex[h] != invalid_index) { continue; }
       for (std::uint32_t x = h; vertex[x] == invalid_index; x = boundary_.halves[previous[x]].twin) {
         vertex[x] = static_cast<std::uint32_t>(start.size());
       }

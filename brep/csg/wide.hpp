@@ -22,18 +22,18 @@ class Wide {
   constexpr Wide(Int128 value) {  // implicit: every smaller integer is one
     words_[0] = static_cast<std::uint64_t>(value);
     words_[1] = static_cast<std::uint64_t>(static_cast<Word128>(value) >> 64);
-    for (std::size_t i = 2; i < N; ++i) words_[i] = value < 0 ? ~std::uint64_t{0} : 0;
+    for (std::size_t i = 2; i < N; ++i) { words_[i] = value < 0 ? ~std::uint64_t{0} : 0; }
   }
   template <std::size_t M>
   requires(M < N) constexpr explicit Wide(const Wide<M>& value) {
-    for (std::size_t i = 0; i < N; ++i) words_[i] = i < M ? value.word(i) : value.negative() ? ~std::uint64_t{0} : 0;
+    for (std::size_t i = 0; i < N; ++i) { words_[i] = i < M ? value.word(i) : value.negative() ? ~std::uint64_t{0} : 0; }
   }
 
   [[nodiscard]] constexpr std::uint64_t word(std::size_t i) const { return words_[i]; }
   [[nodiscard]] constexpr bool negative() const { return (words_[N - 1] >> 63) != 0; }
   [[nodiscard]] constexpr bool zero() const {
     std::uint64_t any = 0;
-    for (std::uint64_t w : words_) any |= w;
+    for (std::uint64_t w : words_) { any |= w; }
     return any == 0;
   }
   [[nodiscard]] constexpr int sign() const { return negative() ? -1 : zero() ? 0 : 1; }
@@ -62,7 +62,7 @@ class Wide {
   friend constexpr Wide operator*(const Wide& a, const Wide& b) {
     Wide product;
     for (std::size_t i = 0; i < N; ++i) {
-      if (a.words_[i] == 0) continue;
+      if (a.words_[i] == 0) { continue; }
       Word128 carry = 0;
       for (std::size_t j = 0; i + j < N; ++j) {
         carry += static_cast<Word128>(a.words_[i]) * b.words_[j] + product.words_[i + j];
@@ -78,7 +78,7 @@ class Wide {
   [[nodiscard]] double approximate() const {
     const Wide size = negative() ? -*this : *this;
     double value = 0.0;
-    for (std::size_t i = N; i-- > 0;) value = value * 0x1p64 + static_cast<double>(size.words_[i]);
+    for (std::size_t i = N; i-- > 0;) { value = value * 0x1p64 + static_cast<double>(size.words_[i]); }
     return negative() ? -value : value;
   }
 

@@ -32,7 +32,7 @@ HALFLIGHT_INLINE void Work::add(const Boundary& b, bool of_b, bool reversed, std
   for (const Face& f : b.faces) {
     faces.push_back({reversed ? f.plane.flipped() : f.plane, h0 + f.first, f.count, attributes + f.attribute, of_b, false, f.box});
   }
-  if (!of_b) faces_a = static_cast<std::uint32_t>(faces.size());
+  if (!of_b) { faces_a = static_cast<std::uint32_t>(faces.size()); }
   halves_given = static_cast<std::uint32_t>(halves.size());
 }
 

@@ -5,10 +5,7 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
-#include <radiosity/hierarchy/hierarchy.hpp>
-#include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 
 namespace radiosity {
@@ -21,20 +18,13 @@ struct RayChoice {
 // Rays pay from so many input faces on: the links among fewer are soon made, and have no noise. Measured on rooms of 17 to 10 000 faces.
 inline constexpr std::uint64_t rays_from = 100;
 
-// `emission` of each input surface.
-[[nodiscard]] inline RayChoice choose_rays(const Hierarchy& roots, const std::vector<Color>& emission, const Options& options) {
+// `faces`: input faces, `lamps` among them.
+[[nodiscard]] inline RayChoice choose_rays(std::uint64_t faces, std::uint64_t lamps, const Options& options) {
   if (options.indirect == Indirect::links) { return {false, "all light was asked to go by links"}; }
   if (options.oracle) { return {false, "an oracle was supplied to choose all links"}; }
   if (options.refinement == Refinement::a_posteriori) { return {false, "BF-refinement splits links by what they carry"}; }
   if (options.solver == Solver::gauss_seidel || options.solver == Solver::southwell) {
     return {false, "Gauss-Seidel and Southwell go through the links of one patch at a time"};
-  }
-  std::uint64_t faces = 0;
-  std::uint64_t lamps = 0;
-  for (std::size_t i = 0; i < roots.size(); ++i) {
-    if (!is_input_face(roots, i)) { continue; }
-    ++faces;
-    lamps += is_black(emission[roots[i].surface]) ? 0 : 1;
   }
   if (2 * lamps > faces) { return {false, "most input faces shine"}; }
   constexpr std::uint64_t most_pairs = 4'000'000;

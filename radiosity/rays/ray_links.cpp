@@ -142,7 +142,7 @@ HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scen
   return counts;
 }
 
-HALFLIGHT_INLINE double rays_per_node(double epsilon) { return std::clamp(12.8 / std::sqrt(epsilon), 16.0, 4096.0); }
+HALFLIGHT_INLINE double rays_per_node(double epsilon) { return std::clamp(12.8 / std::sqrt(epsilon), 16.0, 65536.0); }
 
 // The variance of the share s of n rays is s (1 - s) / n; that of the row sum, which pools the rays of the spaced node in both directions, some
 // s / 2m, m the rays of that node. Each counts by the inverse of its variance.

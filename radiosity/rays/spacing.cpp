@@ -8,6 +8,7 @@
 
 #include <raycast/inline.hpp>
 
+#include <radiosity/hierarchy/buried.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/rays/leaf_locator.hpp>
@@ -20,6 +21,7 @@ namespace radiosity {
 HALFLIGHT_INLINE SpacingResult split_by_distance(DiscreteScene& scene, double tolerance, double min_area) {
   SpacingResult result;
   Hierarchy& hierarchy = scene.hierarchy;
+  const std::vector<bool> buried = buried_nodes(scene.surfaces, hierarchy);  // of the input faces
   double all = 0.0;
   for (std::size_t i = 0; i < hierarchy.size(); ++i) { all += is_input_face(hierarchy, i) ? hierarchy[i].area : 0.0; }
   for (std::size_t first_new = 0; first_new < hierarchy.size();) {
@@ -31,7 +33,8 @@ HALFLIGHT_INLINE SpacingResult split_by_distance(DiscreteScene& scene, double to
     std::vector<std::uint32_t> counts(end, 0);
     for (std::size_t i = first_new; i < end; ++i) {
       const Node& node = hierarchy[i];
-      counts[i] = node.leaf() && is_black(scene.emission[node.surface]) && node.area > min_area * all ? 16 : 0;
+      const bool shows = i >= buried.size() || !buried[i];
+      counts[i] = shows && node.leaf() && is_black(scene.emission[node.surface]) && node.area > min_area * all ? 16 : 0;
     }
     const StoredRays rays = cast_rays(scene, LeafLocator{hierarchy, scene.patches, scene.inputs.size()}, counts);
     result.rays += rays.size();

@@ -48,7 +48,14 @@ HALFLIGHT_INLINE std::optional<Failure> build(detail::Run& run) {
   if (const std::size_t left = cut_at_walls(boundaries, scene.objects.diameter())) { audit.warnings.push_back(warning_of_uncut(left)); }
   cut_long_faces(boundaries, options.min_area);
   scene.hierarchy = make_roots(boundaries);
-  if (run.needs_links()) { run.rays = choose_rays(scene.hierarchy, scene.emission, options); }
+  std::uint64_t faces = 0;
+  std::uint64_t lamps = 0;
+  for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {
+    if (!is_input_face(scene.hierarchy, i)) { continue; }
+    ++faces;
+    lamps += is_black(scene.emission[scene.hierarchy[i].surface]) ? 0 : 1;
+  }
+  if (run.needs_links()) { run.rays = choose_rays(faces, lamps, options); }
   run.clusters = run.rays.cast ? ClusterChoice{false, "between surfaces that do not shine light goes by stored rays"}
                                : choose_clusters(scene.hierarchy.size(), options);
   if (run.clusters.build) { scene.hierarchy = make_clusters(boundaries, scene.hierarchy); }

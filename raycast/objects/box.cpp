@@ -21,19 +21,21 @@
 namespace raycast {
 
 HALFLIGHT_INLINE Made<BoxObject> BoxObject::make(const glm::dvec3& lo, const glm::dvec3& hi) {
-  if (!usable(lo) || !usable(hi)) return "a box's corners must be finite (and below 1e60)";
+  if (!usable(lo) || !usable(hi)) { return "a box's corners must be finite (and below 1e60)"; }
   const double magnitude = Box{glm::min(lo, hi), glm::max(lo, hi)}.magnitude();
-  for (int k = 0; k < 3; ++k)
-    if (!usable_length(hi[k] - lo[k], magnitude))
+  for (int k = 0; k < 3; ++k) {
+    if (!usable_length(hi[k] - lo[k], magnitude)) {
       return std::string("a box must have a positive size along ") + "xyz"[k] + ": its first corner must be below its second";
+    }
+  }
   return std::shared_ptr<const BoxObject>(new BoxObject(Box{lo, hi}));
 }
 
 HALFLIGHT_INLINE void BoxObject::spans(const Segment& line, Spans& out) const {
   Span span{{-infinity, 0}, {infinity, 0}};
-  if (!clip(0, box_.lo.x, box_.hi.x, line.origin.x, line.direction.x, span)) return;
-  if (!clip(2, box_.lo.y, box_.hi.y, line.origin.y, line.direction.y, span)) return;
-  if (!clip(4, box_.lo.z, box_.hi.z, line.origin.z, line.direction.z, span)) return;
+  if (!clip(0, box_.lo.x, box_.hi.x, line.origin.x, line.direction.x, span)) { return; }
+  if (!clip(2, box_.lo.y, box_.hi.y, line.origin.y, line.direction.y, span)) { return; }
+  if (!clip(4, box_.lo.z, box_.hi.z, line.origin.z, line.direction.z, span)) { return; }
   out.push(span);  // drops an empty span
 }
 
@@ -48,8 +50,9 @@ HALFLIGHT_INLINE void BoxObject::compile(Compiler& compiler) const {
 
 HALFLIGHT_INLINE void BoxObject::approximate(double, brep::Builder& out) const {
   std::uint32_t v[8] = {};  // bit k of the index: upper end along axis k
-  for (unsigned i = 0; i < 8; ++i)
+  for (unsigned i = 0; i < 8; ++i) {
     v[i] = out.vertex({i & 1u ? box_.hi.x : box_.lo.x, i & 2u ? box_.hi.y : box_.lo.y, i & 4u ? box_.hi.z : box_.lo.z});
+  }
   out.face({v[0], v[4], v[6], v[2]}, 0);
   out.face({v[1], v[3], v[7], v[5]}, 1);
   out.face({v[0], v[1], v[5], v[4]}, 2);
@@ -67,14 +70,14 @@ HALFLIGHT_INLINE SurfacePoint BoxObject::project(std::uint32_t sheet, const glm:
 }
 
 HALFLIGHT_INLINE bool BoxObject::clip(std::uint32_t lower, double lo, double hi, double origin, double direction, Span& span) {
-  if (direction == 0.0) return lo <= origin && origin <= hi;
+  if (direction == 0.0) { return lo <= origin && origin <= hi; }
   const double to_lo = (lo - origin) / direction, to_hi = (hi - origin) / direction;
   const bool forward = direction > 0.0;
   const Crossing in{forward ? to_lo : to_hi, forward ? lower : lower + 1};
   const Crossing out{forward ? to_hi : to_lo, forward ? lower + 1 : lower};
   // A denormal direction makes these infinite, or 0/denormal = 0 on the plane itself: never NaN.
-  if (in.t > span.in.t) span.in = in;
-  if (out.t < span.out.t) span.out = out;
+  if (in.t > span.in.t) { span.in = in; }
+  if (out.t < span.out.t) { span.out = out; }
   return span.in.t <= span.out.t;
 }
 

@@ -11,8 +11,6 @@
 
 #include <glm/vec3.hpp>
 
-#include <brep/builder_input.hpp>
-
 #include <raycast/box.hpp>
 #include <raycast/compile.hpp>
 #include <raycast/object.hpp>

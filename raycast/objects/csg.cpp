@@ -28,20 +28,21 @@
 #include <raycast/objects/mesh.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
 
 HALFLIGHT_INLINE Made<Csg> Csg::make(const CsgNode& root) {
   Made<CsgTree> tree = CsgTree::make(root);
-  if (!tree) return std::move(tree.refusal);
+  if (!tree) { return std::move(tree.refusal); }
   std::shared_ptr<Csg> csg(new Csg(std::move(tree.object)));
-  if (std::string refusal = csg->evaluate(); !refusal.empty()) return refusal;
+  if (std::string refusal = csg->evaluate(); !refusal.empty()) { return refusal; }
   return std::shared_ptr<const Csg>(std::move(csg));
 }
 
 HALFLIGHT_INLINE void Csg::spans(const Segment& line, Spans& out) const {
-  if (!mesh_) return tree_->spans(line, out);
+  if (!mesh_) { return tree_->spans(line, out); }
   Spans faces;
   mesh_->spans(line, faces);
   for (Span span : faces) {
@@ -52,11 +53,13 @@ HALFLIGHT_INLINE void Csg::spans(const Segment& line, Spans& out) const {
 }
 
 HALFLIGHT_INLINE void Csg::approximate(double tolerance, brep::Builder& out) const {
-  if (flat() || tolerance >= 0.98 * tolerance_) return append(polygons_, out);  // a placement knows its stretch to 0.2 %
+  if (flat() || tolerance >= 0.98 * tolerance_) {
+    return append(polygons_, out);  // a placement knows its stretch to 0.2 %
+  }
   // What can be done with coarse chords can be done with fine ones, but for features that fall below the grid, or too many faces.
   for (; tolerance < 0.98 * tolerance_; tolerance *= 2) {
     const CsgBoundaryResult finer = csg_boundary(*tree_, region_, tolerance);
-    if (finer.boundary && finer.boundary->brep.face_count() > 0) return detail::append(finer.boundary->brep, out);
+    if (finer.boundary && finer.boundary->brep.face_count() > 0) { return detail::append(finer.boundary->brep, out); }
   }
   append(polygons_, out);
 }
@@ -69,42 +72,43 @@ HALFLIGHT_INLINE brep::Builder Csg::polygons_of(const CsgBRep& brep) {
 
 HALFLIGHT_INLINE void Csg::append(const brep::Builder& polygons, brep::Builder& out) {
   const std::uint32_t first = out.vertex_count();
-  for (std::uint32_t v = 0; v < polygons.vertex_count(); ++v) out.vertex(polygons.position(v));
+  for (std::uint32_t v = 0; v < polygons.vertex_count(); ++v) { out.vertex(polygons.position(v)); }
   std::vector<std::uint32_t> corners;
   for (std::uint32_t f = 0; f < polygons.face_count(); ++f) {
     corners.assign(polygons.corners(f).begin(), polygons.corners(f).end());
-    for (std::uint32_t& v : corners) v += first;
+    for (std::uint32_t& v : corners) { v += first; }
     out.face(std::span<const std::uint32_t>(corners), polygons.sheet(f));
   }
 }
 
 HALFLIGHT_INLINE std::string Csg::evaluate() {
-  if (tree_->bounds().empty()) return "nothing is left: the parts of an intersection do not meet";
+  if (tree_->bounds().empty()) { return "nothing is left: the parts of an intersection do not meet"; }
   const auto& leaves = tree_->leaves();
   const bool curved = !std::all_of(leaves.begin(), leaves.end(), [](const CsgTree::Leaf& leaf) { return leaf.solid.flat(); });
   region_ = curved ? csg_region(*tree_) : CsgRegion{tree_->bounds(), {}};
-  if (region_.whole.empty()) return "nothing is left of the solid";
-  tolerance_ = 0.01 * region_.whole.diameter();
+  if (region_.whole.empty()) { return "nothing is left of the solid"; }
+  tolerance_ = tol_chord * region_.whole.diameter();
   CsgBoundaryResult result = csg_boundary(*tree_, region_, tolerance_);
   // What is thinner than the chords are inexact may get lost between them, or be nothing else.
   for (int finer = 0; finer < 2 && curved && result.boundary && !holds_solid(result.boundary->brep); ++finer) {
     CsgBoundaryResult next = csg_boundary(*tree_, region_, 0.25 * tolerance_);
-    if (!next.boundary) break;
+    if (!next.boundary) { break; }
     tolerance_ *= 0.25;
     result = std::move(next);
   }
-  if (!result.boundary) return std::move(result.refusal);
-  if (curved ? !holds_solid(result.boundary->brep) : result.boundary->brep.face_count() == 0)
+  if (!result.boundary) { return std::move(result.refusal); }
+  if (curved ? !holds_solid(result.boundary->brep) : result.boundary->brep.face_count() == 0) {
     return curved ? "nothing is left of the solid that is thicker than " + std::to_string(tolerance_) : "nothing is left of the solid";
+  }
   polygons_ = polygons_of(result.boundary->brep);
-  if (curved) return {};
+  if (curved) { return {}; }
   Made<Mesh> mesh = Mesh::make(result.boundary->brep);
-  if (!mesh) return "the faces of the result are too thin: " + mesh.refusal;
+  if (!mesh) { return "the faces of the result are too thin: " + mesh.refusal; }
   mesh_ = std::move(mesh.object);
-  if (std::string film = find_film(result.boundary->near); !film.empty()) return film;
+  if (std::string film = find_film(result.boundary->near); !film.empty()) { return film; }
   // Off the sheets by more than a placement rounds: known to the grid only.
   const Box box = mesh_->bounds();
-  slack_ = result.boundary->off > 32 * unit_roundoff * box.magnitude() ? result.boundary->off : mesh_->slack();
+  slack_ = result.boundary->off > eps_vertex * box.magnitude() ? result.boundary->off : mesh_->slack();
   return {};
 }
 
@@ -112,8 +116,8 @@ HALFLIGHT_INLINE bool Csg::holds_solid(const CsgBRep& brep) const {
   for (const brep::FaceId f : brep::faces(brep)) {
     Spans spans;
     const glm::dvec3 normal = brep::normal(brep, f);
-    if (normal != glm::dvec3(0.0)) tree_->spans(Segment{brep::centroid(brep, f), normal}, spans);
-    if (spans.size() > 0) return true;
+    if (normal != glm::dvec3(0.0)) { tree_->spans(Segment{brep::centroid(brep, f), normal}, spans); }
+    if (spans.size() > 0) { return true; }
   }
   return false;
 }
@@ -121,14 +125,17 @@ HALFLIGHT_INLINE bool Csg::holds_solid(const CsgBRep& brep) const {
 HALFLIGHT_INLINE std::string Csg::find_film(double near) const {
   for (std::uint32_t f = 0; f < polygons_.face_count(); ++f) {
     glm::dvec3 centre(0.0);
-    for (const std::uint32_t v : polygons_.corners(f)) centre += polygons_.position(v) / static_cast<double>(polygons_.corners(f).size());
+    for (const std::uint32_t v : polygons_.corners(f)) {
+      centre += polygons_.position(v) / static_cast<double>(polygons_.corners(f).size());
+    }
     const std::uint32_t sheet = polygons_.sheet(f);
     const Segment line{centre, -tree_->project(sheet, centre).normal};  // t is a length
     Spans spans;
     tree_->spans(line, spans);
-    if (std::none_of(spans.begin(), spans.end(), [&](const Span& s) { return std::abs(s.in.t) <= near; }))
+    if (std::none_of(spans.begin(), spans.end(), [&](const Span& s) { return std::abs(s.in.t) <= near; })) {
       return "the surface of '" + std::string(sheet_name(sheet)) +
              "' nearly coincides with that of another part that is turned otherwise: closer than 2^-22 of the size, but not equal";
+    }
   }
   return {};
 }

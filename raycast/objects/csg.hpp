@@ -50,7 +50,7 @@ class Csg final : public Object {
   void spans(const Segment& line, Spans& out) const override;
 
   void compile(Compiler& compiler) const override {
-    if (mesh_) mesh_->compile(compiler);
+    if (mesh_) { mesh_->compile(compiler); }
   }
   [[nodiscard]] Crossing crossing(const Segment& line, std::uint32_t face) const override {
     return {mesh_->crossing(line, face).t, polygons_.sheet(face)};

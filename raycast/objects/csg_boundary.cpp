@@ -40,28 +40,21 @@
 #include <raycast/objects/csg_plan.hpp>
 #include <raycast/objects/csg_region.hpp>
 #include <raycast/objects/csg_tree.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
 
 namespace detail {
 
-HALFLIGHT_INLINE void append(const CsgBRep& brep, brep::Builder& out) {
-  std::vector<std::uint32_t> number(brep.vertex_end(), 0), corners;
-  for (const brep::VertexId v : brep::vertices(brep)) number[v.index] = out.vertex(brep.data(v).position);
-  for (const brep::FaceId f : brep::faces(brep)) {
-    corners.clear();
-    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) corners.push_back(number[brep.vertex(h).index]);
-    out.face(corners, brep.data(f).sheet);
-  }
-}
-
 // The rotation in a placement that keeps angles and does not mirror: what its first column and the plane of the first two say.
 HALFLIGHT_INLINE std::optional<glm::dmat3> rotation_of(const glm::dmat3& m) {
   const glm::dmat3 square = glm::transpose(m) * m;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (!(std::abs(square[i][j] - (i == j ? square[0][0] : 0.0)) <= 1e-12 * square[0][0])) return std::nullopt;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (!(std::abs(square[i][j] - (i == j ? square[0][0] : 0.0)) <= tol_rotation * square[0][0])) { return std::nullopt; }
+    }
+  }
   return m / std::copysign(std::sqrt(square[0][0]), glm::determinant(m));
 }
 
@@ -77,16 +70,17 @@ class CsgEvaluation {
     CsgBoundary result;
     if (!attempt(result.brep)) {  // what was finished in a frame of its own may not bear to be snapped again: all on one grid
       nested_ = false;
-      if (!too_many_) refusal_.clear();
-      if (too_many_ || !attempt(result.brep)) return {std::nullopt, std::move(refusal_), too_many_};
+      if (!too_many_) { refusal_.clear(); }
+      if (too_many_ || !attempt(result.brep)) { return {std::nullopt, std::move(refusal_), too_many_}; }
     }
-    for (const brep::FaceId f : brep::faces(result.brep))
+    for (const brep::FaceId f : brep::faces(result.brep)) {
       for (const brep::HalfedgeId h : brep::halfedges_of(result.brep, f)) {
         const glm::dvec3& p = result.brep.data(result.brep.vertex(h)).position;
         result.off = std::max(result.off, glm::length(tree_.project(result.brep.data(f).sheet, p).position - p));
       }
+    }
     result.near = near_;
-    for (const double chord : chords_) result.chord = std::max(result.chord, chord);
+    for (const double chord : chords_) { result.chord = std::max(result.chord, chord); }
     return {std::move(result), {}, false};
   }
 
@@ -110,17 +104,17 @@ class CsgEvaluation {
     const CsgTree::Node& node = tree_.nodes()[index];
     for (const std::uint32_t part : node.parts) {
       const glm::dmat3 frame = frame_of(part);
-      if (frame != glm::dmat3(1.0)) return frame;
-      if (tree_.nodes()[part].parts.empty() && leaf_of(part).solid.flat()) return frame;
+      if (frame != glm::dmat3(1.0)) { return frame; }
+      if (tree_.nodes()[part].parts.empty() && leaf_of(part).solid.flat()) { return frame; }
     }
-    if (!node.parts.empty() || !leaf_of(index).solid.flat()) return glm::dmat3(1.0);
+    if (!node.parts.empty() || !leaf_of(index).solid.flat()) { return glm::dmat3(1.0); }
     return rotation_of(leaf_of(index).solid.placement().linear).value_or(glm::dmat3(1.0));
   }
   [[nodiscard]] const CsgTree::Leaf& leaf_of(std::uint32_t node) const { return tree_.leaves()[tree_.nodes()[node].leaf]; }
   static bool same(const glm::dmat3& a, const glm::dmat3& b) {
     double difference = 0.0;
-    for (int i = 0; i < 3; ++i) difference = std::max(difference, glm::length(a[i] - b[i]));
-    return difference < 1e-9;
+    for (int i = 0; i < 3; ++i) { difference = std::max(difference, glm::length(a[i] - b[i])); }
+    return difference < tol_frame;
   }
 
   // Parts on the node's own grid are leaves and inner nodes of the same frame; inner nodes of another frame are evaluated in theirs,
@@ -129,11 +123,12 @@ class CsgEvaluation {
     Exact result{{}, frame_of(index), 0.0};
     std::vector<Operand> operands;
     collect(index, index, result.frame, operands);
-    if (!refusal_.empty()) return result;
+    if (!refusal_.empty()) { return result; }
     Box box;
     const glm::dmat3 back = glm::transpose(result.frame);
-    for (Operand& operand : operands)
-      for (const brep::VertexId v : brep::vertices(operand.mesh)) box.extend(back * operand.mesh.data(v).position);
+    for (Operand& operand : operands) {
+      for (const brep::VertexId v : brep::vertices(operand.mesh)) { box.extend(back * operand.mesh.data(v).position); }
+    }
     const brep::csg::Grid grid(box.lo, box.hi);
     result.near = 4 * grid.spacing();
     near_ = std::max(near_, result.near);
@@ -161,7 +156,7 @@ class CsgEvaluation {
   // Of a part of the node `whole`, in the order in which combine() takes them.
   void collect(std::uint32_t whole, std::uint32_t index, const glm::dmat3& frame, std::vector<Operand>& out) {
     const CsgTree::Node& node = tree_.nodes()[index];
-    if (!refusal_.empty()) return;
+    if (!refusal_.empty()) { return; }
     if (node.parts.empty()) {
       out.emplace_back();
       const CsgTree::Leaf& leaf = tree_.leaves()[node.leaf];
@@ -170,26 +165,27 @@ class CsgEvaluation {
     } else if (index != whole && own_grid(index, frame)) {
       out.emplace_back();
       Exact part = evaluate(index);
-      if (refusal_.empty()) finish(part, out.back().mesh);
+      if (refusal_.empty()) { finish(part, out.back().mesh); }
       const CsgTree::Node& first = tree_.nodes()[node.parts[0]];
       out.back().name = "a nested part";
-      if (is_cut(index) && first.parts.empty()) out.back().name = tree_.sheet_name(tree_.leaves()[first.leaf].first_sheet);
+      if (is_cut(index) && first.parts.empty()) { out.back().name = tree_.sheet_name(tree_.leaves()[first.leaf].first_sheet); }
     } else {
-      for (const std::uint32_t part : node.parts) collect(whole, part, frame, out);
+      for (const std::uint32_t part : node.parts) { collect(whole, part, frame, out); }
     }
   }
   void approximate(std::uint32_t index, Operand& out) {
     const CsgTree::Leaf& leaf = tree_.leaves()[index];
     const auto close = [&](const brep::Builder& builder) {
       auto closed = brep::close<CsgBRep>(builder);
-      if (closed.brep)
+      if (closed.brep) {
         out.mesh = std::move(*closed.brep);
-      else
+      } else {
         refusal_ = "'" + out.name + "': its approximation is not a closed boundary: " + closed.defects.front().sentence;
+      }
       return refusal_.empty();
     };
     brep::Builder builder;
-    const double tolerance = plan_.tolerances[index], coarse = 0.002 * leaf.solid.bounds().diameter();
+    const double tolerance = plan_.tolerances[index], coarse = tol_coarse_chord * leaf.solid.bounds().diameter();
     leaf.solid.approximate(std::max(tolerance, coarse), builder);
     if (!leaf.solid.flat()) {
       // The number of faces is inverse to the tolerance.
@@ -198,9 +194,10 @@ class CsgEvaluation {
         leaf.solid.approximate(tolerance, builder);
       }
       std::vector<CsgPlace> places;
-      for (const CsgPlace& place : plan_.places)
-        if (place.tolerance < 0.5 * tolerance && meet(place.box, leaf.solid.bounds())) places.push_back(place);
-      if (!refusal_.empty() || !close(builder)) return;
+      for (const CsgPlace& place : plan_.places) {
+        if (place.tolerance < 0.5 * tolerance && meet(place.box, leaf.solid.bounds())) { places.push_back(place); }
+      }
+      if (!refusal_.empty() || !close(builder)) { return; }
       if (!places.empty()) {
         CsgRefinement refinement(leaf.solid, places, out.mesh, static_cast<std::size_t>(most_faces_));
         if (refinement.changed()) {
@@ -208,17 +205,19 @@ class CsgEvaluation {
           append(out.mesh, builder);
         }
       }
-      if (!take(static_cast<double>(out.mesh.face_count()), out.name)) return;
+      if (!take(static_cast<double>(out.mesh.face_count()), out.name)) { return; }
       faces_ += out.mesh.face_count();
-      for (const brep::FaceId f : brep::faces(out.mesh)) chords_[index] = std::max(chords_[index], chord_error(leaf.solid, out.mesh, f));
+      for (const brep::FaceId f : brep::faces(out.mesh)) {
+        chords_[index] = std::max(chords_[index], chord_error(leaf.solid, out.mesh, f));
+      }
       chords_[index] = std::min(tolerance, 1.1 * chords_[index]);
     }
-    if (!close(fans(builder))) return;
-    for (const brep::FaceId f : brep::faces(out.mesh)) out.mesh.data(f).sheet += leaf.first_sheet;
+    if (!close(fans(builder))) { return; }
+    for (const brep::FaceId f : brep::faces(out.mesh)) { out.mesh.data(f).sheet += leaf.first_sheet; }
   }
   // May there be so many more faces?
   bool take(double faces, const std::string& name) {
-    if (!(static_cast<double>(faces_) + faces > most_faces_)) return true;
+    if (!(static_cast<double>(faces_) + faces > most_faces_)) { return true; }
     too_many_ = true;
     refusal_ = "its curved parts need more than " + std::to_string(static_cast<long long>(most_faces_)) +
                " faces in all (the last one was '" + name + "'): make several objects of it, or its parts more alike in size";
@@ -232,17 +231,17 @@ class CsgEvaluation {
   // again.
   static brep::Builder fans(const brep::Builder& polygons) {
     brep::Builder result;
-    for (std::uint32_t v = 0; v < polygons.vertex_count(); ++v) result.vertex(polygons.position(v));
+    for (std::uint32_t v = 0; v < polygons.vertex_count(); ++v) { result.vertex(polygons.position(v)); }
     std::vector<glm::dvec3> positions;
     for (std::uint32_t f = 0; f < polygons.face_count(); ++f) {
       const std::span<const std::uint32_t> corners = polygons.corners(f);
       positions.clear();
-      for (const std::uint32_t v : corners) positions.push_back(polygons.position(v));
+      for (const std::uint32_t v : corners) { positions.push_back(polygons.position(v)); }
       if (corners.size() <= 4 || !brep::is_convex(positions)) {
         result.face(corners, polygons.sheet(f));
         continue;
       }
-      for (std::size_t i = 2; i < corners.size(); ++i) result.face({corners[0], corners[i - 1], corners[i]}, polygons.sheet(f));
+      for (std::size_t i = 2; i < corners.size(); ++i) { result.face({corners[0], corners[i - 1], corners[i]}, polygons.sheet(f)); }
     }
     return result;
   }
@@ -257,8 +256,8 @@ class CsgEvaluation {
   template <class Operation>
   Solid apply(Operation&& operation, const Solid& a, const Solid& b) {
     auto result = operation(a, b);
-    if (result) return std::move(*result);
-    if (refusal_.empty()) refusal_ = result.refusal().sentence();
+    if (result) { return std::move(*result); }
+    if (refusal_.empty()) { refusal_ = result.refusal().sentence(); }
     return a;
   }
 
@@ -267,8 +266,8 @@ class CsgEvaluation {
   Solid reduce(std::vector<Solid> parts, Operation&& operation) {
     while (parts.size() > 1) {
       std::vector<Solid> pairs;
-      for (std::size_t i = 0; i + 1 < parts.size(); i += 2) pairs.push_back(apply(operation, parts[i], parts[i + 1]));
-      if (parts.size() % 2 == 1) pairs.push_back(parts.back());
+      for (std::size_t i = 0; i + 1 < parts.size(); i += 2) { pairs.push_back(apply(operation, parts[i], parts[i + 1])); }
+      if (parts.size() % 2 == 1) { pairs.push_back(parts.back()); }
       parts = std::move(pairs);
     }
     return parts[0];
@@ -276,17 +275,18 @@ class CsgEvaluation {
 
   Solid combine(std::uint32_t index, const glm::dmat3& frame, const std::vector<Solid>& solids, std::size_t& next) {
     const CsgTree::Node& node = tree_.nodes()[index];
-    if (node.parts.empty()) return solids[next++];
+    if (node.parts.empty()) { return solids[next++]; }
     std::vector<Solid> parts;
     for (const std::uint32_t part : node.parts) {
       const bool leaf = tree_.nodes()[part].parts.empty() || own_grid(part, frame);
       parts.push_back(leaf ? solids[next++] : combine(part, frame, solids, next));
     }
     const auto unite = [](const Solid& a, const Solid& b) { return brep::csg::unite(a, b); };
-    if (node.operation == CsgOperation::unite) return reduce(std::move(parts), unite);
-    if (node.operation == CsgOperation::intersect)
+    if (node.operation == CsgOperation::unite) { return reduce(std::move(parts), unite); }
+    if (node.operation == CsgOperation::intersect) {
       return reduce(std::move(parts), [](const Solid& a, const Solid& b) { return brep::csg::intersect(a, b); });
-    if (parts.size() == 1) return parts[0];
+    }
+    if (parts.size() == 1) { return parts[0]; }
     const Solid away = reduce({parts.begin() + 1, parts.end()}, unite);
     return apply([](const Solid& a, const Solid& b) { return brep::csg::subtract(a, b); }, parts[0], away);
   }
@@ -294,13 +294,13 @@ class CsgEvaluation {
   // From the exact solid to convex faces on the true sheets, in the tree's coordinates.
   bool finish(const Exact& exact, CsgBRep& out) {
     out = brep::csg::to_brep<CsgBRep>(brep::csg::close_slits(exact.solid));
-    for (const brep::VertexId v : brep::vertices(out)) out.data(v).position = exact.frame * out.data(v).position;
-    if (!all_flat()) take_away_slivers(out);
-    if (!cut(out)) return false;
+    for (const brep::VertexId v : brep::vertices(out)) { out.data(v).position = exact.frame * out.data(v).position; }
+    if (!all_flat()) { take_away_slivers(out); }
+    if (!cut(out)) { return false; }
     CsgPlacement(tree_, chords_).put_back(out, exact.near);
     for (int round = 0; round < 2 && !all_flat(); ++round) {
       take_away_slivers(out);
-      if (!cut(out)) return false;
+      if (!cut(out)) { return false; }
     }
     tell_edges_apart(out);
     return true;
@@ -338,9 +338,9 @@ HALFLIGHT_INLINE CsgBoundaryResult csg_boundary(const CsgTree& tree, const CsgRe
   const double few = std::min(most_faces, 0x1p14 * std::max(1.0, 0.01 * region.whole.diameter() / tolerance));
   for (double relax = 1.0;; relax *= 4.0) {
     const CsgPlan plan = csg_plan(tree, region, tolerance, relax);
-    if (!plan.refusal.empty()) return {std::nullopt, plan.refusal, false};
+    if (!plan.refusal.empty()) { return {std::nullopt, plan.refusal, false}; }
     CsgBoundaryResult result = detail::CsgEvaluation(plan, plan.finer ? few : most_faces).run();
-    if (!result.too_many_faces || !plan.finer) return result;
+    if (!result.too_many_faces || !plan.finer) { return result; }
   }
 }
 

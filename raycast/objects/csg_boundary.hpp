@@ -9,8 +9,6 @@
 #include <optional>
 #include <string>
 
-#include <brep/builder_input.hpp>
-
 #include <raycast/objects/csg_leaf.hpp>
 #include <raycast/objects/csg_region.hpp>
 #include <raycast/objects/csg_tree.hpp>
@@ -28,12 +26,6 @@ struct CsgBoundaryResult {
   std::string refusal;
   bool too_many_faces = false;  // why it was refused
 };
-
-namespace detail {
-
-void append(const CsgBRep& brep, brep::Builder& out);
-
-}  // namespace detail
 
 // The boundary of the tree with chords within `tolerance` of curved sheets, and finer where small parts meet (csg_plan.hpp); no faces when
 // nothing is left. `region`: csg_region(tree). Refused, with a sentence: what

@@ -26,6 +26,7 @@
 #include <raycast/inline.hpp>
 #include <raycast/objects/csg_leaf.hpp>
 #include <raycast/objects/csg_tree.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -36,24 +37,24 @@ HALFLIGHT_INLINE void take_away_slivers(CsgBRep& brep) {
   for (const brep::FaceId f : brep::faces(brep)) {
     const auto corners = brep::positions(brep, f);
     const double size = brep::extent(corners);
-    if (!(brep::area(corners) > 1e-9 * size * size) && !brep::is_convex(corners)) thin.push_back(f);
+    if (!(brep::area(corners) > tol_thin_face * size * size) && !brep::is_convex(corners)) { thin.push_back(f); }
   }
   for (const brep::FaceId f : thin) {
-    if (!brep.alive(f)) continue;
+    if (!brep.alive(f)) { continue; }
     brep::HalfedgeId longest{};
     double length = -1.0;
     for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
       const double l = glm::length(brep.data(brep.target(h)).position - brep.data(brep.vertex(h)).position);
-      if (brep.face(brep::twin(h)) == f || l <= length) continue;
+      if (brep.face(brep::twin(h)) == f || l <= length) { continue; }
       longest = brep::twin(h);
       length = l;
     }
-    if (length < 0.0) continue;
+    if (length < 0.0) { continue; }
     const brep::FaceId g = brep::unchecked::join_faces(brep, longest);
     for (bool again = true; again;) {  // of further common edges a spur is left
       again = false;
       for (const brep::HalfedgeId h : brep::halfedges_of(brep, g)) {
-        if (brep.next(h) != brep::twin(h) || brep.next(brep::twin(h)) == h) continue;
+        if (brep.next(h) != brep::twin(h) || brep.next(brep::twin(h)) == h) { continue; }
         brep::unchecked::join_vertices(brep, h);  // the end goes into the origin
         again = true;
         break;
@@ -64,19 +65,21 @@ HALFLIGHT_INLINE void take_away_slivers(CsgBRep& brep) {
 
 HALFLIGHT_INLINE std::string cut_into_convex_parts(CsgBRep& brep, const CsgTree& tree, bool planar) {
   std::vector<brep::FaceId> concave;
-  for (const brep::FaceId f : brep::faces(brep))
-    if (!brep::is_convex(brep, f)) concave.push_back(f);
+  for (const brep::FaceId f : brep::faces(brep)) {
+    if (!brep::is_convex(brep, f)) { concave.push_back(f); }
+  }
   for (const brep::FaceId f : concave) {
     const auto parts = brep::split_until_convex(brep, f);
-    if (parts) continue;
+    if (parts) { continue; }
     const auto refusal = [&](const brep::Refusal& why) {
       return "a face of '" + std::string(tree.sheet_name(brep.data(f).sheet)) +
              "' is too thin to be cut into convex parts: " + why.sentence();
     };
-    if (planar) return refusal(parts.refusal());
+    if (planar) { return refusal(parts.refusal()); }
     const auto split = brep::first_of(brep::AtNonConvexCorner{}, brep::AtBestEar{});
-    if (const auto warped = brep::split_recursively(brep, f, split, brep::Convex{} || brep::triangles); !warped)
+    if (const auto warped = brep::split_recursively(brep, f, split, brep::Convex{} || brep::triangles); !warped) {
       return refusal(warped.refusal());
+    }
   }
   return {};
 }
@@ -90,7 +93,7 @@ HALFLIGHT_INLINE void tell_edges_apart(CsgBRep& brep) {
   std::sort(ends.begin(), ends.end());
   for (std::size_t i = 1; i < ends.size(); ++i) {
     const auto& [a, b, e] = ends[i];
-    if (std::get<0>(ends[i - 1]) != a || std::get<1>(ends[i - 1]) != b) continue;
+    if (std::get<0>(ends[i - 1]) != a || std::get<1>(ends[i - 1]) != b) { continue; }
     const glm::dvec3 middle = 0.5 * (brep.data(brep::VertexId{a}).position + brep.data(brep::VertexId{b}).position);
     brep.data(brep.vertex(brep::unchecked::split_edge(brep, brep::halfedge(e)))).position = middle;
   }

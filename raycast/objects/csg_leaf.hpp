@@ -40,6 +40,9 @@ struct CsgPlace {
 
 namespace detail {
 
+// The faces, behind what is there already.
+void append(const CsgBRep& brep, brep::Builder& out);
+
 // How far the face is off its sheet, at the middles of its edges and at its own.
 double chord_error(const PlacedObject& solid, const CsgBRep& brep, brep::FaceId f);
 

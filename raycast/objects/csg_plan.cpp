@@ -14,6 +14,7 @@
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/csg_region.hpp>
 #include <raycast/objects/csg_tree.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
@@ -34,18 +35,19 @@ HALFLIGHT_INLINE CsgPlanner::CsgPlanner(const CsgTree& tree, const CsgRegion& re
     if (const Box& own = region.leaves[i]; !own.empty() && own.diameter() > 0.0) {
       const double here = of_size(std::min(size, own.diameter()));
       plan_.finer = plan_.finer || here < tolerance_;
-      if (here < tolerance_) plan_.places.push_back({own.grown(0.25 * own.diameter()), here});
+      if (here < tolerance_) { plan_.places.push_back({own.grown(0.25 * own.diameter()), here}); }
     }
-    if (size <= large * size_) continue;
+    if (size <= large * size_) { continue; }
     cut = true;
     shares[i] = share_of(regions, i, surroundings);
-    if (shares[i] != CsgTree::Share::within) continue;
-    plan_.tolerances[i] = std::max(tolerance_, 0.01 * size);
-    if (size > largest * size_ && plan_.refusal.empty())
+    if (shares[i] != CsgTree::Share::within) { continue; }
+    plan_.tolerances[i] = std::max(tolerance_, tol_chord * size);
+    if (size > largest * size_ && plan_.refusal.empty()) {
       plan_.refusal = "'" + std::string(tree.sheet_name(leaves[i].first_sheet)) + "' is " + thousands(size / size_) +
                       " times as large as what is left of the solid, too large to know its surface there: cut it down to what is needed";
+    }
   }
-  if (!cut) return;
+  if (!cut) { return; }
   plan_.places.push_back({surroundings, tolerance_});
   plan_.tree = tree.cut(shares, BoxObject::make(surroundings.lo, surroundings.hi).object);
   plan_.tolerances.resize(plan_.tree.leaves().size(), tolerance_);
@@ -57,8 +59,8 @@ HALFLIGHT_INLINE CsgTree::Share CsgPlanner::share_of(const CsgRegions& regions, 
   bool inside = false, outside = false;
   for (int i = 0; i < cells * cells * cells; ++i) {
     const glm::dvec3 lo = box.lo + glm::dvec3(i % cells, i / cells % cells, i / cells / cells) * step;
-    const CsgRegions::Where where = regions.where(leaf, Box{lo, lo + step}.grown(1e-9 * size_));
-    if (where == CsgRegions::Where::unknown) return CsgTree::Share::within;
+    const CsgRegions::Where where = regions.where(leaf, Box{lo, lo + step}.grown(tol_cell * size_));
+    if (where == CsgRegions::Where::unknown) { return CsgTree::Share::within; }
     (where == CsgRegions::Where::inside ? inside : outside) = true;
   }
   return inside && outside ? CsgTree::Share::within : inside ? CsgTree::Share::full : CsgTree::Share::none;

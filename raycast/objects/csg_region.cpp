@@ -18,6 +18,7 @@
 #include <raycast/objects/csg_tree.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {
@@ -35,12 +36,14 @@ HALFLIGHT_INLINE CsgRegions::CsgRegions(const CsgTree& tree) : tree_(tree) {
 
 HALFLIGHT_INLINE CsgRegion CsgRegions::run() const {
   CsgRegion result{tree_.bounds(), {}};
-  const double touching = 0x1p-24 * tree_.bounds().diameter();
+  const double touching = tol_touching * tree_.bounds().diameter();
   for (int round = 0; round < 80 && !result.whole.empty(); ++round) {
     const double before = result.whole.diameter();
     result = inside(result.whole);
-    if (!(result.whole.diameter() > touching)) return {{}, std::vector<Box>(tree_.leaves().size())};  // a common point is no solid
-    if (result.whole.diameter() > 0.8 * before) break;
+    if (!(result.whole.diameter() > touching)) {
+      return {{}, std::vector<Box>(tree_.leaves().size())};  // a common point is no solid
+    }
+    if (result.whole.diameter() > 0.8 * before) { break; }
   }
   return result;
 }
@@ -48,19 +51,22 @@ HALFLIGHT_INLINE CsgRegion CsgRegions::run() const {
 HALFLIGHT_INLINE CsgRegions::Where CsgRegions::where(std::uint32_t leaf, const Box& cell) const {
   const PlacedObject& solid = tree_.leaves()[leaf].solid;
   const Box& bounds = solid.bounds();
-  for (int k = 0; k < 3; ++k)
-    if (cell.lo[k] > bounds.hi[k] || cell.hi[k] < bounds.lo[k]) return Where::outside;
-  if (shrink_[leaf] == 0.0) return Where::unknown;
+  for (int k = 0; k < 3; ++k) {
+    if (cell.lo[k] > bounds.hi[k] || cell.hi[k] < bounds.lo[k]) { return Where::outside; }
+  }
+  if (shrink_[leaf] == 0.0) { return Where::unknown; }
   const glm::dvec3 middle = cell.centre();
-  const double radius = 0.5 * cell.diameter() / shrink_[leaf] * (1.0 + 1e-9) + 0x1p-40 * cell.magnitude();
+  const double radius = 0.5 * cell.diameter() / shrink_[leaf] * (1.0 + tol_cell) + tol_cell_place * cell.magnitude();
   bool near = false, convex = solid.convex();
   for (std::uint32_t s = 0; s < solid.sheet_count(); ++s) {
     const SurfacePoint on = solid.project(s, middle);
     const glm::dvec3 way = middle - on.position;
-    if (convex && glm::dot(way, on.normal) > radius) return Where::outside;  // a convex solid lies behind each of its sheets
+    if (convex && glm::dot(way, on.normal) > radius) {
+      return Where::outside;  // a convex solid lies behind each of its sheets
+    }
     near = near || !(glm::length(way) > radius);
   }
-  if (near) return Where::unknown;
+  if (near) { return Where::unknown; }
   Spans through;
   solid.spans(Segment{middle, glm::dvec3(0.6, 0.64, 0.48)}, through);
   const bool in = std::any_of(through.begin(), through.end(), [](const Span& s) { return s.in.t < 0.0 && s.out.t > 0.0; });
@@ -71,8 +77,8 @@ HALFLIGHT_INLINE CsgRegion CsgRegions::inside(const Box& box) const {
   CsgRegion result{{}, std::vector<Box>(tree_.leaves().size())};
   const glm::dvec3 step = box.size() / static_cast<double>(cells);
   std::vector<Where> of_leaf(tree_.leaves().size()), of_node(tree_.nodes().size());
-  for (int i = 0; i < cells; ++i)
-    for (int j = 0; j < cells; ++j)
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j) {
       for (int k = 0; k < cells; ++k) {
         Box cell;
         const auto corner = [&](int a, int b, int c) {  // the last ones are those of the box, however rounding falls
@@ -81,14 +87,17 @@ HALFLIGHT_INLINE CsgRegion CsgRegions::inside(const Box& box) const {
         };
         cell.extend(corner(i, j, k));
         cell.extend(corner(i + 1, j + 1, k + 1));
-        for (std::uint32_t leaf = 0; leaf < of_leaf.size(); ++leaf) of_leaf[leaf] = where(leaf, cell);
+        for (std::uint32_t leaf = 0; leaf < of_leaf.size(); ++leaf) { of_leaf[leaf] = where(leaf, cell); }
         const Where all = of_tree(of_leaf, of_node);
-        if (all == Where::outside) continue;
+        if (all == Where::outside) { continue; }
         result.whole.extend(cell);
-        if (all == Where::inside) continue;
-        for (std::uint32_t leaf = 0; leaf < of_leaf.size(); ++leaf)
-          if (of_leaf[leaf] == Where::unknown) result.leaves[leaf].extend(cell);
+        if (all == Where::inside) { continue; }
+        for (std::uint32_t leaf = 0; leaf < of_leaf.size(); ++leaf) {
+          if (of_leaf[leaf] == Where::unknown) { result.leaves[leaf].extend(cell); }
+        }
       }
+    }
+  }
   for (std::uint32_t leaf = 0; leaf < of_leaf.size(); ++leaf) {
     Box& own = result.leaves[leaf];
     own.lo = glm::max(own.lo, tree_.leaves()[leaf].solid.bounds().lo);
@@ -110,13 +119,14 @@ HALFLIGHT_INLINE CsgRegions::Where CsgRegions::of_tree(const std::vector<Where>&
     Where value = otherwise;
     for (std::size_t i = 0; i < node.parts.size(); ++i) {
       Where part = of_node[node.parts[i]];
-      if (node.operation == CsgOperation::subtract && i > 0 && part != Where::unknown)
+      if (node.operation == CsgOperation::subtract && i > 0 && part != Where::unknown) {
         part = part == Where::inside ? Where::outside : Where::inside;
+      }
       if (part == decides) {
         value = decides;
         break;
       }
-      if (part == Where::unknown) value = Where::unknown;
+      if (part == Where::unknown) { value = Where::unknown; }
     }
     of_node[n] = value;
   }

@@ -20,31 +20,33 @@
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
 HALFLIGHT_INLINE Made<Disk> Disk::make(const glm::dvec3& centre, const glm::dvec3& normal, double radius) {
-  if (!usable(centre) || !usable(normal)) return "a disk's centre and normal must be finite (and below 1e60)";
-  if (!usable_length(glm::length(normal), 0.0)) return "a disk's normal must have a length: it says which side is seen";
-  if (!usable_length(radius, Box{centre, centre}.magnitude()))
+  if (!usable(centre) || !usable(normal)) { return "a disk's centre and normal must be finite (and below 1e60)"; }
+  if (!usable_length(glm::length(normal), 0.0)) { return "a disk's normal must have a length: it says which side is seen"; }
+  if (!usable_length(radius, Box{centre, centre}.magnitude())) {
     return "a disk's radius must be positive, finite and not vanishing beside its centre's coordinates";
+  }
   return std::shared_ptr<const Disk>(new Disk(centre, normal, radius));
 }
 
 HALFLIGHT_INLINE Box Disk::bounds() const {
   Box box;
   frame_.extend(box, centre_, radius_);
-  return box.grown(4 * unit_roundoff * box.magnitude());
+  return box.grown(eps_bounds * box.magnitude());
 }
 
 HALFLIGHT_INLINE void Disk::spans(const Segment& line, Spans& out) const {
   const double along = glm::dot(frame_.w, line.direction);
   const double shift = nearest_parameter(line, centre_);
   const glm::dvec3 f = line.at(shift) - centre_;
-  if (along == 0.0 || !(glm::dot(f, f) < radius_ * radius_)) return;
+  if (along == 0.0 || !(glm::dot(f, f) < radius_ * radius_)) { return; }
   const double height = glm::dot(frame_.w, f), step = -height / along;
   const glm::dvec3 across = (f - height * frame_.w) + step * (line.direction - along * frame_.w);
-  if (glm::dot(across, across) < radius_ * radius_) out.push(Span{{shift + step, 0}, {shift + step, 0}});
+  if (glm::dot(across, across) < radius_ * radius_) { out.push(Span{{shift + step, 0}, {shift + step, 0}}); }
 }
 
 HALFLIGHT_INLINE void Disk::approximate(double tolerance, brep::Builder& out) const {

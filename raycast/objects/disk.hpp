@@ -15,8 +15,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <brep/builder_input.hpp>
-
 #include <raycast/box.hpp>
 #include <raycast/circle.hpp>
 #include <raycast/compile.hpp>

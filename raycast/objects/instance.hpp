@@ -16,8 +16,6 @@
 
 #include <glm/vec3.hpp>
 
-#include <brep/builder_input.hpp>
-
 #include <raycast/box.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
@@ -30,9 +28,9 @@ class Instance final : public Object {
  public:
   // Refused: no object; a placement that `check` refuses; one that turns the object inside out, which is for the outermost placement.
   static Made<Instance> make(std::shared_ptr<const Object> object, const Placement& placement) {
-    if (!object) return "an instance needs an object";
-    if (placement.inside) return "an instance cannot be turned inside out: turn what is made of it";
-    if (std::optional<std::string> fault = check(placement)) return std::move(*fault);
+    if (!object) { return "an instance needs an object"; }
+    if (placement.inside) { return "an instance cannot be turned inside out: turn what is made of it"; }
+    if (std::optional<std::string> fault = check(placement)) { return std::move(*fault); }
     return std::shared_ptr<const Instance>(new Instance(PlacedObject(std::move(object), placement)));
   }
 

@@ -24,39 +24,42 @@
 #include <raycast/bvh.hpp>
 #include <raycast/compile.hpp>
 #include <raycast/inline.hpp>
+#include <raycast/line_query.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
-#include <raycast/traverse.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
 HALFLIGHT_INLINE Made<Mesh> Mesh::make(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces) {
   std::shared_ptr<Mesh> mesh(new Mesh);
-  if (std::string refusal = mesh->take(positions, faces); !refusal.empty()) return refusal;
-  if (std::string refusal = mesh->close_borders(); !refusal.empty()) return refusal;
-  if (mesh->borders_.empty() && !(mesh->volume() > 0.0))
+  if (std::string refusal = mesh->take(positions, faces); !refusal.empty()) { return refusal; }
+  if (std::string refusal = mesh->close_borders(); !refusal.empty()) { return refusal; }
+  if (mesh->borders_.empty() && !(mesh->volume() > 0.0)) {
     return "the mesh is closed and inside out: list the corners of its faces counter-clockwise seen from outside";
+  }
   mesh->prepare();
   return std::shared_ptr<const Mesh>(std::move(mesh));
 }
 
 HALFLIGHT_INLINE void Mesh::spans_of_segment(const Segment& segment, Spans& out) const {
-  if (solid()) return spans(segment, out);
+  if (solid()) { return spans(segment, out); }
   const double distance = box_.magnitude() + glm::length(segment.origin) + box_.diameter();
-  const double margin = 1e-6 + 64 * unit_roundoff * distance / glm::length(segment.direction);  // far beyond the rounding of crossings
+  const double margin = tol_beyond_ends + eps_surface * distance / glm::length(segment.direction);
   spans_between(segment, -margin, 1.0 + margin, out);
 }
 
 HALFLIGHT_INLINE void Mesh::compile(Compiler& compiler) const {
-  if (convex_ && slack_ == 0.0)
-    if (const std::vector<Plane> distinct = distinct_planes(); distinct.size() <= 32) return compiler.body(distinct);
-  if (!compiler.takes_faces(planes_.size())) return;
+  if (convex_ && slack_ == 0.0) {
+    if (const std::vector<Plane> distinct = distinct_planes(); distinct.size() <= 32) { return compiler.body(distinct); }
+  }
+  if (!compiler.takes_faces(planes_.size())) { return; }
   std::vector<glm::dvec3> polygon;
   for (std::uint32_t f = 0; f < planes_.size(); ++f) {
     polygon.clear();
-    for (const std::uint32_t v : corners(f)) polygon.push_back(positions_[v]);
+    for (const std::uint32_t v : corners(f)) { polygon.push_back(positions_[v]); }
     compiler.face(f, polygon);
   }
 }
@@ -70,14 +73,14 @@ HALFLIGHT_INLINE Crossing Mesh::crossing(const Segment& line, std::uint32_t face
 HALFLIGHT_INLINE void Mesh::approximate(double, brep::Builder& out) const {
   std::vector<std::uint32_t> loop;
   const std::uint32_t first = positions_.empty() ? 0 : out.vertex(positions_[0]);
-  for (std::size_t i = 1; i < positions_.size(); ++i) out.vertex(positions_[i]);
+  for (std::size_t i = 1; i < positions_.size(); ++i) { out.vertex(positions_[i]); }
   const auto face = [&](std::span<const std::uint32_t> from, std::uint32_t sheet) {
     loop.assign(from.begin(), from.end());
-    for (std::uint32_t& v : loop) v += first;
+    for (std::uint32_t& v : loop) { v += first; }
     out.face(std::span<const std::uint32_t>(loop), sheet);
   };
-  for (std::uint32_t f = 0; f < planes_.size(); ++f) face(corners(f), f);
-  for (const std::vector<std::uint32_t>& border : borders_) face(border, brep::no_sheet);
+  for (std::uint32_t f = 0; f < planes_.size(); ++f) { face(corners(f), f); }
+  for (const std::vector<std::uint32_t>& border : borders_) { face(border, brep::no_sheet); }
 }
 
 HALFLIGHT_INLINE void Mesh::spans_between(const Segment& line, double t0, double t1, Spans& out) const {
@@ -88,24 +91,26 @@ HALFLIGHT_INLINE void Mesh::spans_between(const Segment& line, double t0, double
   InlineVector<Crossing, 16> in, leave;
   const auto visit = [&](std::uint32_t f) {
     const int w = winding(frame, f);
-    if (w != 0) (w < 0 ? in : leave).push(Crossing{shift + crossing_near(near, f), f});
+    if (w != 0) { (w < 0 ? in : leave).push(Crossing{shift + crossing_near(near, f), f}); }
     return false;
   };
   if (bvh_.empty()) {
-    for (std::uint32_t f = 0; f < planes_.size(); ++f) visit(f);
+    for (std::uint32_t f = 0; f < planes_.size(); ++f) { visit(f); }
   } else {
-    static_cast<void>(any(bvh_, SlabTest(near), t0 - shift, t1 - shift, visit));
+    static_cast<void>(any_along(bvh_, SlabTest(near), t0 - shift, t1 - shift, visit));
   }
   const auto earlier = [](const Crossing& a, const Crossing& b) { return a.t < b.t || (a.t == b.t && a.sheet < b.sheet); };
-  if (!solid())
-    for (const Crossing& c : leave) in.push(c);
+  if (!solid()) {
+    for (const Crossing& c : leave) { in.push(c); }
+  }
   std::sort(in.begin(), in.end(), earlier);
   std::sort(leave.begin(), leave.end(), earlier);
   for (std::size_t i = 0; i < in.size(); ++i) {
-    if (!solid())
+    if (!solid()) {
       out.push(Span{in[i], in[i]});
-    else if (i < leave.size())
+    } else if (i < leave.size()) {
       out.push(Span{in[i], leave[i]});
+    }
   }
 }
 
@@ -113,11 +118,11 @@ HALFLIGHT_INLINE std::vector<Plane> Mesh::distinct_planes() const {
   std::vector<Plane> distinct;
   for (const Plane& plane : planes_) {
     const auto same = [&](const Plane& other) {
-      return glm::dot(plane.normal, other.normal) > 1.0 - 2e-15 &&
-             std::abs(glm::dot(plane.normal, plane.point - other.point)) < 1e-9 * box_.diameter();
+      return glm::dot(plane.normal, other.normal) > 1.0 - tol_same_normal &&
+             std::abs(glm::dot(plane.normal, plane.point - other.point)) < tol_same_plane * box_.diameter();
     };
-    if (std::none_of(distinct.begin(), distinct.end(), same)) distinct.push_back(plane);
-    if (distinct.size() > 32) break;
+    if (std::none_of(distinct.begin(), distinct.end(), same)) { distinct.push_back(plane); }
+    if (distinct.size() > 32) { break; }
   }
   return distinct;
 }
@@ -130,11 +135,11 @@ HALFLIGHT_INLINE void Mesh::clip(const Segment& line, Spans& out) const {
     const double height = glm::dot(planes_[f].normal, near.origin - planes_[f].point);
     const double rate = glm::dot(planes_[f].normal, near.direction);
     if (rate == 0.0) {
-      if (height > 0.0) return;
+      if (height > 0.0) { return; }
       continue;
     }
     const double t = -height / rate;
-    if (rate < 0.0 ? t > span.in.t : t < span.out.t) (rate < 0.0 ? span.in : span.out) = {t, f};
+    if (rate < 0.0 ? t > span.in.t : t < span.out.t) { (rate < 0.0 ? span.in : span.out) = {t, f}; }
   }
   span.in.t += shift, span.out.t += shift;
   out.push(span);  // drops an empty span
@@ -159,7 +164,9 @@ HALFLIGHT_INLINE double Mesh::crossing_near(const Segment& line, std::uint32_t f
     t = glm::dot(plane.normal, plane.point - line.origin) / glm::dot(plane.normal, line.direction);
   }
   const double at = t * dd;
-  if (!(at >= lowest)) return lowest / dd;  // NaN as well
+  if (!(at >= lowest)) {
+    return lowest / dd;  // NaN as well
+  }
   return at <= highest ? t : highest / dd;
 }
 
@@ -167,27 +174,31 @@ HALFLIGHT_INLINE double Mesh::volume() const {
   double six = 0.0;
   for (std::uint32_t f = 0; f < planes_.size(); ++f) {
     const auto face = corners(f);
-    for (std::size_t i = 2; i < face.size(); ++i)
+    for (std::size_t i = 2; i < face.size(); ++i) {
       six += glm::dot(positions_[face[0]] - positions_[0],
                       glm::cross(positions_[face[i - 1]] - positions_[0], positions_[face[i]] - positions_[0]));
+    }
   }
   return six / 6.0;
 }
 
 HALFLIGHT_INLINE std::string Mesh::take(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces) {
-  if (faces.empty()) return "the mesh has no faces";
+  if (faces.empty()) { return "the mesh has no faces"; }
   std::vector<std::uint32_t> renamed(positions.size(), brep::no_sheet);  // keeps the order, closes the gaps
-  for (std::size_t f = 0; f < faces.size(); ++f)
+  for (std::size_t f = 0; f < faces.size(); ++f) {
     for (const std::uint32_t v : faces[f]) {
-      if (v >= positions.size())
+      if (v >= positions.size()) {
         return "face " + std::to_string(f) + " names vertex " + std::to_string(v) + ", but there are " + std::to_string(positions.size());
+      }
       renamed[v] = 0;
     }
-  for (std::size_t v = 0; v < positions.size(); ++v)
+  }
+  for (std::size_t v = 0; v < positions.size(); ++v) {
     if (renamed[v] == 0) {
       renamed[v] = static_cast<std::uint32_t>(positions_.size());
       positions_.push_back(positions[v]);
     }
+  }
   std::vector<glm::dvec3> polygon;
   for (std::size_t f = 0; f < faces.size(); ++f) {
     polygon.clear();
@@ -195,7 +206,7 @@ HALFLIGHT_INLINE std::string Mesh::take(const std::vector<glm::dvec3>& positions
       corners_.push_back(renamed[v]);
       polygon.push_back(positions[v]);
     }
-    if (std::optional<std::string> fault = polygon_fault(polygon)) return "face " + std::to_string(f) + " " + *fault;
+    if (std::optional<std::string> fault = polygon_fault(polygon)) { return "face " + std::to_string(f) + " " + *fault; }
     first_corner_.push_back(static_cast<std::uint32_t>(corners_.size()));
     planes_.push_back(plane_of(polygon));
     slack_ = std::max(slack_, planes_.back().slack);
@@ -208,49 +219,53 @@ HALFLIGHT_INLINE std::string Mesh::close_borders() {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  // directed
   for (std::uint32_t f = 0; f < planes_.size(); ++f) {
     const auto face = corners(f);
-    for (std::size_t i = 0; i < face.size(); ++i) edges.push_back({face[i], face[(i + 1) % face.size()]});
+    for (std::size_t i = 0; i < face.size(); ++i) { edges.push_back({face[i], face[(i + 1) % face.size()]}); }
   }
   std::sort(edges.begin(), edges.end());
   std::map<std::uint32_t, std::uint32_t> next;  // along the border, which runs against its faces
-  for (const auto& [a, b] : edges)
-    if (!std::binary_search(edges.begin(), edges.end(), std::pair(b, a)) && !next.emplace(b, a).second)
+  for (const auto& [a, b] : edges) {
+    if (!std::binary_search(edges.begin(), edges.end(), std::pair(b, a)) && !next.emplace(b, a).second) {
       return "the mesh is not a manifold: two borders meet at the vertex at (" + place(b) + "), or an edge has more than two faces";
+    }
+  }
   while (!next.empty()) {
     borders_.emplace_back();
     for (auto at = next.begin(); at != next.end(); at = next.find(borders_.back().back())) {
-      if (borders_.back().empty()) borders_.back().push_back(at->first);
+      if (borders_.back().empty()) { borders_.back().push_back(at->first); }
       borders_.back().push_back(at->second);
       next.erase(at);
     }
-    if (borders_.back().front() != borders_.back().back()) return "the mesh is not a manifold: a border does not close";
+    if (borders_.back().front() != borders_.back().back()) { return "the mesh is not a manifold: a border does not close"; }
     borders_.back().pop_back();
   }
   brep::Builder builder;
   approximate(0.0, builder);
   const auto closed = brep::close<brep::BRep<>>(builder);
-  if (!closed.defects.empty()) return "the mesh is not a manifold: " + closed.defects.front().sentence;
+  if (!closed.defects.empty()) { return "the mesh is not a manifold: " + closed.defects.front().sentence; }
   return {};
 }
 
 HALFLIGHT_INLINE void Mesh::prepare() {
-  for (const glm::dvec3& p : positions_) box_.extend(p);
+  for (const glm::dvec3& p : positions_) { box_.extend(p); }
   triangles_ = true;
-  for (std::size_t f = 0; f < planes_.size(); ++f) triangles_ = triangles_ && first_corner_[f + 1] == 3 * (f + 1);
+  for (std::size_t f = 0; f < planes_.size(); ++f) { triangles_ = triangles_ && first_corner_[f + 1] == 3 * (f + 1); }
   if (planes_.size() > 8) {
-    // Grown by what the line test rounds: projections of vertices seen from the middle are exact to 8 u of the distances.
-    const double margin = 16 * unit_roundoff * (box_.magnitude() + box_.diameter()) + slack_;
+    // Grown by what the line test rounds.
+    const double margin = eps_projection * (box_.magnitude() + box_.diameter()) + slack_;
     std::vector<Box> boxes(planes_.size());
     for (std::uint32_t f = 0; f < planes_.size(); ++f) {
-      for (const std::uint32_t v : corners(f)) boxes[f].extend(positions_[v]);
+      for (const std::uint32_t v : corners(f)) { boxes[f].extend(positions_[v]); }
       boxes[f] = boxes[f].grown(margin);
     }
     bvh_ = Bvh(boxes);
   }
-  // Convex: every vertex behind every plane, to 1e-12 of the size. Not worth the time for meshes of many faces, which rarely are.
+  // Convex: every vertex behind every plane, to tol_convex of the size. Not worth the time for meshes of many faces, which rarely are.
   convex_ = solid() && planes_.size() <= 1000;
-  for (std::size_t f = 0; f < planes_.size() && convex_; ++f)
-    for (const glm::dvec3& p : positions_)
-      if (glm::dot(p - planes_[f].point, planes_[f].normal) > 1e-12 * box_.diameter() + slack_) convex_ = false;
+  for (std::size_t f = 0; f < planes_.size() && convex_; ++f) {
+    for (const glm::dvec3& p : positions_) {
+      if (glm::dot(p - planes_[f].point, planes_[f].normal) > tol_convex * box_.diameter() + slack_) { convex_ = false; }
+    }
+  }
   few_planes_ = convex_ && slack_ == 0.0 && planes_.size() <= 32 && distinct_planes().size() == planes_.size();
 }
 

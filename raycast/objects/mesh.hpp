@@ -55,10 +55,11 @@ class Mesh final : public Object {
     }
     std::vector<std::vector<std::uint32_t>> faces;
     for (const brep::FaceId f : brep::faces(shape)) {
-      if constexpr (requires { shape.data(f).sheet; })
-        if (shape.data(f).sheet == brep::no_sheet) continue;
+      if constexpr (requires { shape.data(f).sheet; }) {
+        if (shape.data(f).sheet == brep::no_sheet) { continue; }
+      }
       faces.emplace_back();
-      for (const brep::HalfedgeId h : brep::halfedges_of(shape, f)) faces.back().push_back(number.at(shape.vertex(h)));
+      for (const brep::HalfedgeId h : brep::halfedges_of(shape, f)) { faces.back().push_back(number.at(shape.vertex(h))); }
     }
     return make(positions, faces);
   }
@@ -72,7 +73,7 @@ class Mesh final : public Object {
   [[nodiscard]] std::string_view sheet_name(std::uint32_t sheet) const override { return names_[sheet]; }
 
   void spans(const Segment& line, Spans& out) const override {
-    if (few_planes_) return clip(line, out);
+    if (few_planes_) { return clip(line, out); }
     spans_between(line, -infinity, infinity, out);
   }
   // The crossings of a surface without inside stand for themselves; those of a solid are told apart by all that come before them.
@@ -103,7 +104,7 @@ class Mesh final : public Object {
   // A convex solid with one face a plane: the part of the line that is behind all of them. From the middle of the mesh, as above.
   void clip(const Segment& line, Spans& out) const;
   [[nodiscard]] std::span<const std::uint32_t> corners(std::uint32_t f) const {
-    if (triangles_) return std::span<const std::uint32_t>(corners_).subspan(3 * std::size_t{f}, 3);
+    if (triangles_) { return std::span<const std::uint32_t>(corners_).subspan(3 * std::size_t{f}, 3); }
     return std::span<const std::uint32_t>(corners_).subspan(first_corner_[f], first_corner_[f + 1] - first_corner_[f]);
   }
   [[nodiscard]] int winding(const RayFrame& frame, std::uint32_t f) const {

@@ -33,7 +33,7 @@ class Polygon final : public Object {
  public:
   // Refused: see polygon_fault.
   static Made<Polygon> make(std::vector<glm::dvec3> corners) {
-    if (std::optional<std::string> fault = polygon_fault(corners)) return "the polygon " + *fault;
+    if (std::optional<std::string> fault = polygon_fault(corners)) { return "the polygon " + *fault; }
     return std::shared_ptr<const Polygon>(new Polygon(std::move(corners)));
   }
 
@@ -48,7 +48,7 @@ class Polygon final : public Object {
 
   void spans(const Segment& line, Spans& out) const override {
     const double along = glm::dot(plane_.normal, line.direction);
-    if (along == 0.0 || RayFrame(line).winding(corners_) == 0) return;
+    if (along == 0.0 || RayFrame(line).winding(corners_) == 0) { return; }
     const double t = glm::dot(plane_.normal, plane_.point - line.origin) / along;
     out.push(Span{{t, 0}, {t, 0}});
   }
@@ -56,7 +56,7 @@ class Polygon final : public Object {
   // The polygon itself, whatever the tolerance, and its back as a face of brep::no_sheet.
   void approximate(double, brep::Builder& out) const override {
     std::vector<std::uint32_t> front;
-    for (const glm::dvec3& p : corners_) front.push_back(out.vertex(p));
+    for (const glm::dvec3& p : corners_) { front.push_back(out.vertex(p)); }
     out.face(std::span<const std::uint32_t>(front), 0);
     const std::vector<std::uint32_t> back(front.rbegin(), front.rend());
     out.face(std::span<const std::uint32_t>(back), brep::no_sheet);
@@ -69,7 +69,7 @@ class Polygon final : public Object {
  private:
   explicit Polygon(std::vector<glm::dvec3> corners)
       : corners_(std::move(corners)), plane_(plane_of(corners_)), convex_(brep::is_convex(corners_)) {
-    for (const glm::dvec3& p : corners_) box_.extend(p);
+    for (const glm::dvec3& p : corners_) { box_.extend(p); }
   }
 
   std::vector<glm::dvec3> corners_;

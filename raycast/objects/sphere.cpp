@@ -24,9 +24,10 @@
 namespace raycast {
 
 HALFLIGHT_INLINE Made<Sphere> Sphere::make(const glm::dvec3& centre, double radius) {
-  if (!usable(centre)) return "a sphere's centre must be finite (and below 1e60)";
-  if (!usable_length(radius, Box{centre, centre}.magnitude()))
+  if (!usable(centre)) { return "a sphere's centre must be finite (and below 1e60)"; }
+  if (!usable_length(radius, Box{centre, centre}.magnitude())) {
     return "a sphere's radius must be positive, finite and not vanishing beside its centre's coordinates";
+  }
   return std::shared_ptr<const Sphere>(new Sphere(centre, radius));
 }
 
@@ -35,7 +36,7 @@ HALFLIGHT_INLINE void Sphere::spans(const Segment& line, Spans& out) const {
   const double dd = glm::dot(line.direction, line.direction);
   const double k = -glm::dot(f, line.direction) / dd;
   const double l = glm::length(f + k * line.direction);
-  if (!(l < radius_)) return;
+  if (!(l < radius_)) { return; }
   const double half = std::sqrt((radius_ - l) * (radius_ + l) / dd);
   out.push(Span{{k - half, 0}, {k + half, 0}});
 }
@@ -52,12 +53,12 @@ HALFLIGHT_INLINE void Sphere::approximate(double tolerance, brep::Builder& out) 
   std::map<std::array<int, 3>, std::uint32_t> made;  // by integer position on the cube [0,n]^3: sides share their edges
   const auto vertex = [&](const std::array<int, 3>& at) {
     const auto [place, fresh] = made.try_emplace(at, 0u);
-    if (fresh) place->second = out.vertex(centre_ + radius_ * direction(at, n));
+    if (fresh) { place->second = out.vertex(centre_ + radius_ * direction(at, n)); }
     return place->second;
   };
-  for (int axis = 0; axis < 3; ++axis)
-    for (int end = 0; end < 2; ++end)
-      for (int i = 0; i < n; ++i)
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int end = 0; end < 2; ++end) {
+      for (int i = 0; i < n; ++i) {
         for (int j = 0; j < n; ++j) {
           const auto at = [&](int a, int b) {
             std::array<int, 3> p{};
@@ -66,23 +67,27 @@ HALFLIGHT_INLINE void Sphere::approximate(double tolerance, brep::Builder& out) 
             p[static_cast<std::size_t>((axis + 2) % 3)] = j + b;
             return vertex(p);
           };
-          if (end == 1)
+          if (end == 1) {
             out.face({at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, 0);
-          else
+          } else {
             out.face({at(0, 0), at(0, 1), at(1, 1), at(1, 0)}, 0);
+          }
         }
+      }
+    }
+  }
 }
 
 HALFLIGHT_INLINE double Sphere::grid(int i, int n) {
-  if (2 * i == n) return 0.0;
-  if (i == 0 || i == n) return i == 0 ? -1.0 : 1.0;
-  if (2 * i < n) return -grid(n - i, n);
+  if (2 * i == n) { return 0.0; }
+  if (i == 0 || i == n) { return i == 0 ? -1.0 : 1.0; }
+  if (2 * i < n) { return -grid(n - i, n); }
   return std::tan(std::numbers::pi / 4 * (2.0 * i - n) / n);
 }
 
 HALFLIGHT_INLINE double Sphere::chord_error(int n) {
   double worst = 0.0;
-  for (int i = n / 2; i < n; ++i)
+  for (int i = n / 2; i < n; ++i) {
     for (int j = n / 2; j <= i; ++j) {
       const glm::dvec3 q[4] = {direction({n, i, j}, n), direction({n, i + 1, j}, n), direction({n, i + 1, j + 1}, n),
                                direction({n, i, j + 1}, n)};
@@ -91,16 +96,17 @@ HALFLIGHT_INLINE double Sphere::chord_error(int n) {
         worst = std::max(worst, 1.0 - glm::dot(normal, q[k]));
       }
     }
+  }
   return worst;
 }
 
 HALFLIGHT_INLINE int Sphere::subdivisions(double relative) {
   constexpr int most = 256;
-  if (!(relative > 0.0)) return most;
+  if (!(relative > 0.0)) { return most; }
   // Near the middle of a side the error is pi^2 / (16 n^2); start below it and count up.
   const double guess = std::floor(0.7 * std::numbers::pi / 4 / std::sqrt(relative));
   int n = guess >= most ? most : std::max(1, static_cast<int>(guess));
-  while (n < most && chord_error(n) > relative) ++n;
+  while (n < most && chord_error(n) > relative) { ++n; }
   return n;
 }
 

@@ -16,8 +16,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <brep/builder_input.hpp>
-
 #include <raycast/box.hpp>
 #include <raycast/compile.hpp>
 #include <raycast/object.hpp>

@@ -26,28 +26,33 @@
 #include <raycast/roots.hpp>
 #include <raycast/spans.hpp>
 #include <raycast/superellipse.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
 HALFLIGHT_INLINE Made<Superquadric> Superquadric::make(const glm::dvec3& centre, const glm::dvec3& radii, double profile, double around,
                                                        double ring) {
-  if (!usable(centre) || !usable(radii)) return "a superquadric's centre and radii must be finite (and below 1e60)";
+  if (!usable(centre) || !usable(radii)) { return "a superquadric's centre and radii must be finite (and below 1e60)"; }
   const double largest = std::max({radii.x, radii.y, radii.z});
-  for (int k = 0; k < 3; ++k)
-    if (!usable_length(radii[k], Box{centre, centre}.magnitude()) || !(radii[k] >= 1e-6 * largest))
+  for (int k = 0; k < 3; ++k) {
+    if (!usable_length(radii[k], Box{centre, centre}.magnitude()) || !(radii[k] >= thinnest_superquadric * largest)) {
       return "a superquadric's radii must be positive, finite, not vanishing beside its centre's coordinates and within 1e6 of each "
              "other";
-  if (!(profile >= 0.001 && profile <= 10.0) || !(around >= 0.001 && around <= 10.0))
+    }
+  }
+  if (!(profile >= 0.001 && profile <= 10.0) || !(around >= 0.001 && around <= 10.0)) {
     return "a superquadric's exponents must lie between 0.001 (a box) and 10 (blades; above, both their sides are one for rounding)";
-  if (ring != 0.0 && !(ring > 1.0 && ring <= 1e4))
+  }
+  if (ring != 0.0 && !(ring > 1.0 && ring <= 1e4)) {
     return "a superquadric's ring must be 0 (no hole) or lie between 1 and 10000: up to 1 the surface passes through itself";
+  }
   return std::shared_ptr<const Superquadric>(new Superquadric(centre, radii, profile, around, ring));
 }
 
 HALFLIGHT_INLINE Box Superquadric::bounds() const {
   const glm::dvec3 half = radii_ * limit_;
   const Box box{centre_ - half, centre_ + half};
-  return box.grown(4 * unit_roundoff * box.magnitude());
+  return box.grown(eps_bounds * box.magnitude());
 }
 
 HALFLIGHT_INLINE void Superquadric::spans(const Segment& line, Spans& out) const {
@@ -60,19 +65,20 @@ HALFLIGHT_INLINE void Superquadric::spans(const Segment& line, Spans& out) const
   double lo = -infinity, hi = infinity;
   for (int k = 0; k < 3; ++k) {
     if (e[k] == 0.0) {
-      if (std::abs(f[k]) > limit_[k]) return;
+      if (std::abs(f[k]) > limit_[k]) { return; }
       continue;
     }
     const double forward = std::copysign(limit_[k], e[k]);
     lo = std::max(lo, (-forward - f[k]) / e[k]);
     hi = std::min(hi, (forward - f[k]) / e[k]);
   }
-  if (!(lo < hi)) return;
+  if (!(lo < hi)) { return; }
   Cut cuts;
-  if (convex())
+  if (convex()) {
     cut_convex(f, e, lo, hi, cuts);
-  else
+  } else {
     cut_pieces(f, e, lo, hi, cuts);
+  }
   for (const auto& [in, leave] : cuts) {
     const auto t = [&](double s) { return shift + (again + s) / length; };
     out.push(Span{{t(in), 0}, {t(leave), 0}});
@@ -89,20 +95,22 @@ HALFLIGHT_INLINE SurfacePoint Superquadric::project(std::uint32_t, const glm::dv
   double distance = glm::length(f - x);
   const auto take_if_nearer = [&](const glm::dvec3& next) {
     const double there = glm::length(f - next);
-    if (!(there < distance)) return false;
+    if (!(there < distance)) { return false; }
     x = next;
     distance = there;
     return true;
   };
   take_if_nearer(settle(f));
-  if (!around_.convex() || !profile_.convex()) take_if_nearer(settle(glm::max(f, 1e-30 * radii_)));  // out of the middle of a blade
-  const double small = 1e-8 * std::max({radii_.x, radii_.y, radii_.z});
+  if (!around_.convex() || !profile_.convex()) {
+    take_if_nearer(settle(glm::max(f, off_blade * radii_)));  // out of the middle of a blade
+  }
+  const double small = tol_project * std::max({radii_.x, radii_.y, radii_.z});
   for (int round = 0; round < 32; ++round) {
     // Along the tangent plane towards the foot of p, and back onto the surface; part of the way while that leads away.
     const glm::dvec3 n = normal(x);
     glm::dvec3 step = (f - x) - glm::dot(f - x, n) * n;
-    while (glm::length(step) > small && !take_if_nearer(settle(glm::max(x + step, glm::dvec3(0.0))))) step *= 0.25;
-    if (glm::length(step) <= small) break;
+    while (glm::length(step) > small && !take_if_nearer(settle(glm::max(x + step, glm::dvec3(0.0))))) { step *= 0.25; }
+    if (glm::length(step) <= small) { break; }
   }
   return {centre_ + sign * x, sign * normal(x)};
 }
@@ -110,7 +118,9 @@ HALFLIGHT_INLINE SurfacePoint Superquadric::project(std::uint32_t, const glm::dv
 HALFLIGHT_INLINE void Superquadric::approximate(double tolerance, brep::Builder& out) const {
   // The farthest point of the unit curve is on an axis or half-way between two.
   const double across = limit_.x * std::max(radii_.x, radii_.y) * std::max(1.0, std::numbers::sqrt2 / around_(1.0, 1.0).value);
-  if (ring_ > 0.0) tolerance = std::min(tolerance, 0.25 * std::min({radii_.x, radii_.y, radii_.z}));  // a mesh that is still a ring
+  if (ring_ > 0.0) {
+    tolerance = std::min(tolerance, 0.25 * std::min({radii_.x, radii_.y, radii_.z}));  // a mesh that is still a ring
+  }
   const int n = around_.points(0.5 * tolerance, limit_.x * radii_.x, limit_.y * radii_.y, 8);
   const int m = profile_.points(0.5 * tolerance, across / limit_.x, radii_.z, 8);
   std::vector<std::uint32_t> ring;
@@ -118,12 +128,14 @@ HALFLIGHT_INLINE void Superquadric::approximate(double tolerance, brep::Builder&
   const auto vertex = [&](const glm::dvec2& column, const glm::dvec2& row) {
     return out.vertex(centre_ + radii_ * glm::dvec3((ring_ + row.x) * column.x, (ring_ + row.x) * column.y, row.y));
   };
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < n; ++i) ring.push_back(vertex(around_.point(i, n), profile_.point((first + j + m) % m, m)));
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < n; ++i) { ring.push_back(vertex(around_.point(i, n), profile_.point((first + j + m) % m, m))); }
+  }
   const auto at = [&](int j, int i) { return ring[static_cast<std::size_t>(j % rows * n + i % n)]; };
-  for (int j = 0; j < (ring_ > 0.0 ? rows : rows - 1); ++j)
-    for (int i = 0; i < n; ++i) out.face({at(j, i), at(j, i + 1), at(j + 1, i + 1), at(j + 1, i)}, 0);
-  if (ring_ > 0.0) return;
+  for (int j = 0; j < (ring_ > 0.0 ? rows : rows - 1); ++j) {
+    for (int i = 0; i < n; ++i) { out.face({at(j, i), at(j, i + 1), at(j + 1, i + 1), at(j + 1, i)}, 0); }
+  }
+  if (ring_ > 0.0) { return; }
   const std::uint32_t south = vertex({0.0, 0.0}, {0.0, -1.0}), north = vertex({0.0, 0.0}, {0.0, 1.0});
   for (int i = 0; i < n; ++i) {
     out.face({at(0, i + 1), at(0, i), south}, 0);
@@ -140,30 +152,32 @@ HALFLIGHT_INLINE Sample Superquadric::norm(const glm::dvec3& f, const glm::dvec3
 }
 
 HALFLIGHT_INLINE void Superquadric::cut_convex(const glm::dvec3& f, const glm::dvec3& e, double lo, double hi, Cut& cuts) const {
-  const double step = 2 * unit_roundoff * std::max(std::abs(lo), std::abs(hi));
+  const double step = eps_root * std::max(std::abs(lo), std::abs(hi));
   const auto zero = [&](double from, double to) -> std::optional<double> {
     double s = from;
     for (int i = 0; i < 200; ++i) {
       const Sample at = norm(f, e, s);
-      if (!(at.value > 0.0)) return s;
-      if (!(at.slope * (to - from) < 0.0)) return std::nullopt;
+      if (!(at.value > 0.0)) { return s; }
+      if (!(at.slope * (to - from) < 0.0)) { return std::nullopt; }
       const double next = s - at.value / at.slope;
-      if (!(std::abs(next - from) <= std::abs(to - from))) return std::nullopt;
-      if (std::abs(next - s) <= step) return next;
+      if (!(std::abs(next - from) <= std::abs(to - from))) { return std::nullopt; }
+      if (std::abs(next - s) <= step) { return next; }
       s = next;
     }
     return s;
   };
-  if (const std::optional<double> in = zero(lo, hi))
-    if (const std::optional<double> leave = zero(hi, lo); leave && *in <= *leave) cuts.push({*in, *leave});
+  if (const std::optional<double> in = zero(lo, hi)) {
+    if (const std::optional<double> leave = zero(hi, lo); leave && *in <= *leave) { cuts.push({*in, *leave}); }
+  }
 }
 
 HALFLIGHT_INLINE void Superquadric::cut_pieces(const glm::dvec3& f, const glm::dvec3& e, double lo, double hi, Cut& cuts) const {
   const Line line{f, e, -f / e, lo, hi};
   std::array<double, 5> ends{lo};
   std::size_t count = 1;
-  for (int k = 0; k < 3; ++k)
-    if (line.crosses(k)) ends[count++] = line.zero[k];
+  for (int k = 0; k < 3; ++k) {
+    if (line.crosses(k)) { ends[count++] = line.zero[k]; }
+  }
   ends[count++] = hi;
   std::sort(ends.begin(), ends.begin() + count);
   struct Change {
@@ -172,9 +186,9 @@ HALFLIGHT_INLINE void Superquadric::cut_pieces(const glm::dvec3& f, const glm::d
   };
   InlineVector<Change, 16> changes;
   bool outside[2] = {true, false};  // of the outer, within the inner surface; at lo
-  const double negligible = 16 * unit_roundoff * (1.0 + ring_) * (1.0 + 1.0 / around_.p() + 1.0 / profile_.p());
+  const double negligible = eps_norm * (1.0 + ring_) * (1.0 + 1.0 / around_.p() + 1.0 / profile_.p());
   for (std::size_t i = 0; i + 1 < count; ++i) {
-    if (!(ends[i] < ends[i + 1])) continue;
+    if (!(ends[i] < ends[i + 1])) { continue; }
     const double middle = 0.5 * (ends[i] + ends[i + 1]);
     const glm::dvec3 rate{line.rate(0, middle), line.rate(1, middle), line.rate(2, middle)};
     for (int inner = 0; inner <= (ring_ > 0.0 ? 1 : 0); ++inner) {
@@ -182,7 +196,7 @@ HALFLIGHT_INLINE void Superquadric::cut_pieces(const glm::dvec3& f, const glm::d
       const auto gauge = [&](double s) {  // of the profile, less one: positive outside of the surface
         const auto [a, da] = around_.along(line.at(0, s), line.at(1, s), rate.x, rate.y);
         const double w = sign * (a - ring_);
-        if (!(w > 0.0)) return Sample{line.at(2, s) - 1.0, rate.z};
+        if (!(w > 0.0)) { return Sample{line.at(2, s) - 1.0, rate.z}; }
         const auto [value, slope] = profile_.along(w, line.at(2, s), sign * da, rate.z);
         return Sample{value - 1.0, slope};
       };
@@ -195,7 +209,7 @@ HALFLIGHT_INLINE void Superquadric::cut_pieces(const glm::dvec3& f, const glm::d
         (profile_.convex() ? at.convex : at.concave) += db;
         return at;
       };
-      if (i == 0) outside[inner] = !(split(lo).value < 0.0);
+      if (i == 0) { outside[inner] = !(split(lo).value < 0.0); }
       sign_changes(split, ends[i], ends[i + 1], negligible, [&](double a, double b, bool rising) {
         changes.push({bracketed_root(gauge, a, b, rising, 0.5 * (a + b)), inner == 1, !rising});
       });
@@ -207,16 +221,16 @@ HALFLIGHT_INLINE void Superquadric::cut_pieces(const glm::dvec3& f, const glm::d
     const bool before = !outside[0] && !outside[1];
     outside[change.inner ? 1 : 0] = !change.enters;
     const bool after = !outside[0] && !outside[1];
-    if (after && !before) entry = change.s;
-    if (before && !after) cuts.push({entry, change.s});
+    if (after && !before) { entry = change.s; }
+    if (before && !after) { cuts.push({entry, change.s}); }
   }
-  if (!outside[0] && !outside[1]) cuts.push({entry, hi});
+  if (!outside[0] && !outside[1]) { cuts.push({entry, hi}); }
 }
 
 HALFLIGHT_INLINE glm::dvec3 Superquadric::onto(const glm::dvec3& f) const {
   const glm::dvec3 p = f / radii_;
   const double a = around_(p.x, p.y).value, w = from_ring(a), m = profile_(std::abs(w), p.z).value;
-  if (!(m > 0.0)) return radii_ * (a > 0.0 ? glm::dvec3((ring_ + 1.0) / a * p.x, (ring_ + 1.0) / a * p.y, 0.0) : glm::dvec3(0, 0, 1.0));
+  if (!(m > 0.0)) { return radii_ * (a > 0.0 ? glm::dvec3((ring_ + 1.0) / a * p.x, (ring_ + 1.0) / a * p.y, 0.0) : glm::dvec3(0, 0, 1.0)); }
   const double to = ring_ + w / m;
   return radii_ * (a > 0.0 ? glm::dvec3(to / a * p.x, to / a * p.y, p.z / m) : glm::dvec3(to, 0.0, p.z / m));
 }
@@ -228,7 +242,7 @@ HALFLIGHT_INLINE std::pair<double, glm::dvec3> Superquadric::level(const glm::dv
   const auto m = profile_(std::abs(w), p.z);
   const double outward = w == 0.0 ? 0.0 : std::copysign(m.dx, w);
   glm::dvec3 n{p.x == 0.0 ? 0.0 : outward * a.dx, p.y == 0.0 ? 0.0 : outward * a.dy, p.z == 0.0 ? 0.0 : m.dy};
-  for (int k = 0; k < 3; ++k) n[k] = std::clamp(n[k], -1e100, 1e100) / radii_[k];
+  for (int k = 0; k < 3; ++k) { n[k] = std::clamp(n[k], -1e100, 1e100) / radii_[k]; }
   return {m.value - 1.0, n};
 }
 
@@ -242,7 +256,7 @@ HALFLIGHT_INLINE glm::dvec3 Superquadric::settle(glm::dvec3 x) const {
   for (int i = 0; i < 16; ++i) {
     const auto [value, gradient] = level(x);
     const double squared = glm::dot(gradient, gradient);
-    if (std::abs(value) <= 4 * unit_roundoff || !(squared > 0.0)) break;
+    if (std::abs(value) <= eps_gauge || !(squared > 0.0)) { break; }
     x = glm::max(x - (value / squared) * gradient, glm::dvec3(0.0));
   }
   return onto(x);

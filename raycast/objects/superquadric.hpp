@@ -23,8 +23,6 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include <brep/builder_input.hpp>
-
 #include <raycast/box.hpp>
 #include <raycast/compile.hpp>
 #include <raycast/object.hpp>
@@ -32,6 +30,7 @@
 #include <raycast/roots.hpp>
 #include <raycast/spans.hpp>
 #include <raycast/superellipse.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
@@ -97,7 +96,7 @@ class Superquadric final : public Object {
   void cut_pieces(const glm::dvec3& f, const glm::dvec3& e, double lo, double hi, Cut& cuts) const;
 
   // Distance from the middle of the tube; 0 up to rounding, so that the edges of a pinched tube are edges.
-  [[nodiscard]] double from_ring(double a) const { return std::abs(a - ring_) <= 8 * unit_roundoff * ring_ ? 0.0 : a - ring_; }
+  [[nodiscard]] double from_ring(double a) const { return std::abs(a - ring_) <= eps_ring * ring_ ? 0.0 : a - ring_; }
 
   // The point of the surface on the way from the centre of the profile to f >= 0, in lengths.
   [[nodiscard]] glm::dvec3 onto(const glm::dvec3& f) const;

@@ -23,31 +23,33 @@
 #include <raycast/ray.hpp>
 #include <raycast/roots.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
 HALFLIGHT_INLINE Made<Torus> Torus::make(const glm::dvec3& centre, const glm::dvec3& axis, double major, double minor) {
-  if (!usable(centre) || !usable(axis)) return "a torus's centre and axis must be finite (and below 1e60)";
-  if (!usable_length(glm::length(axis), 0.0)) return "a torus's axis must have a length: it is the direction through the hole";
+  if (!usable(centre) || !usable(axis)) { return "a torus's centre and axis must be finite (and below 1e60)"; }
+  if (!usable_length(glm::length(axis), 0.0)) { return "a torus's axis must have a length: it is the direction through the hole"; }
   const double magnitude = Box{centre, centre}.magnitude();
-  if (!usable_length(major, magnitude) || !usable_length(minor, magnitude))
+  if (!usable_length(major, magnitude) || !usable_length(minor, magnitude)) {
     return "a torus's radii must be positive, finite and not vanishing beside its centre's coordinates";
-  if (!(minor < major)) return "a torus's minor radius must be below the major one: otherwise the surface passes through itself";
-  if (!(minor >= 1e-4 * major)) return "a torus's minor radius must be at least 1e-4 of the major one";
+  }
+  if (!(minor < major)) { return "a torus's minor radius must be below the major one: otherwise the surface passes through itself"; }
+  if (!(minor >= thinnest_torus * major)) { return "a torus's minor radius must be at least 1e-4 of the major one"; }
   return std::shared_ptr<const Torus>(new Torus(centre, axis, major, minor));
 }
 
 HALFLIGHT_INLINE Box Torus::bounds() const {
   Box box;
   frame_.extend(box, centre_, major_);
-  return box.grown(minor_ + 4 * unit_roundoff * (box.magnitude() + minor_));
+  return box.grown(minor_ + eps_bounds * (box.magnitude() + minor_));
 }
 
 HALFLIGHT_INLINE void Torus::spans(const Segment& line, Spans& out) const {
   const double shift = nearest_parameter(line, centre_), length = glm::length(line.direction);
   const Tube tube = along(line, shift, length);
   double lo = 0.0, hi = 0.0;
-  if (!tube.clip(lo, hi)) return;
+  if (!tube.clip(lo, hi)) { return; }
   std::array<double, 5> ends;  // lo, the extrema between, hi
   const std::size_t count = tube.extrema(lo, hi, ends);
   const auto t = [&](double s) { return shift + s * (major_ / length); };
@@ -60,7 +62,7 @@ HALFLIGHT_INLINE void Torus::spans(const Segment& line, Spans& out) const {
       continue;
     }
     const double root = bracketed_root(tube, before, at, inside, 0.5 * (before + at));
-    if (inside) out.push(Span{{t(entry), 0}, {t(root), 0}});
+    if (inside) { out.push(Span{{t(entry), 0}, {t(root), 0}}); }
     entry = root;
     inside = !inside;
     before = at;
@@ -88,7 +90,7 @@ HALFLIGHT_INLINE void Torus::approximate(double tolerance, brep::Builder& out) c
   for (;;) {
     const double dn = 2 * std::numbers::pi / n, dm = 2 * std::numbers::pi / m;
     const double around = dn * dn * (major_ + minor_), across = dm * dm * minor_;
-    if (around + 2 * dn * dm * minor_ + across <= 8 * tolerance || (n >= 512 && m >= 512)) break;
+    if (around + 2 * dn * dm * minor_ + across <= 8 * tolerance || (n >= 512 && m >= 512)) { break; }
     (n < 512 && (around >= across || m >= 512) ? n : m) += 4;
   }
   std::vector<std::uint32_t> ring;
@@ -101,8 +103,9 @@ HALFLIGHT_INLINE void Torus::approximate(double tolerance, brep::Builder& out) c
     }
   }
   const auto at = [&](int i, int j) { return ring[static_cast<std::size_t>(i % n * m + j % m)]; };
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < m; ++j) out.face({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}, 0);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < m; ++j) { out.face({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}, 0); }
+  }
 }
 
 HALFLIGHT_INLINE Sample Torus::Tube::operator()(double s) const {
@@ -112,12 +115,12 @@ HALFLIGHT_INLINE Sample Torus::Tube::operator()(double s) const {
 }
 
 HALFLIGHT_INLINE bool Torus::Tube::clip(double& lo, double& hi) const {
-  const double grown = 1.0 + 16 * unit_roundoff, ball = (1.0 + r_) * grown, l = glm::length(f_);
-  if (!(l < ball)) return false;
-  hi = std::sqrt((ball - l) * (ball + l));
+  const double grown = 1.0 + eps_tube, sphere = (1.0 + r_) * grown, l = glm::length(f_);
+  if (!(l < sphere)) { return false; }
+  hi = std::sqrt((sphere - l) * (sphere + l));
   lo = -hi;
-  const double slab = r_ * grown + 16 * unit_roundoff;
-  if (e_.z == 0.0) return std::abs(f_.z) <= slab;
+  const double slab = r_ * grown + eps_tube;
+  if (e_.z == 0.0) { return std::abs(f_.z) <= slab; }
   const double middle = -f_.z / e_.z, half = slab / std::abs(e_.z);
   lo = std::max(lo, middle - half);
   hi = std::min(hi, middle + half);
@@ -143,9 +146,9 @@ HALFLIGHT_INLINE std::size_t Torus::Tube::extrema(double lo, double hi, std::arr
   for (std::size_t i = 0; i < found; ++i) {
     for (int newton = 0; newton < 2; ++newton) {
       const double s = roots[i], slope = 3 * s * s + p, step = ((s * s + p) * s + q) / slope;
-      if (std::abs(step) <= 1e-3 * std::abs(s)) roots[i] = s - step;
+      if (std::abs(step) <= tol_newton * std::abs(s)) { roots[i] = s - step; }
     }
-    if (roots[i] > ends[count - 1] && roots[i] < hi) ends[count++] = roots[i];
+    if (roots[i] > ends[count - 1] && roots[i] < hi) { ends[count++] = roots[i]; }
   }
   ends[count++] = hi;
   return count;

@@ -4,7 +4,7 @@
 // The ring torus: a tube of the minor radius r around a circle of the major radius R > r; one sheet. A concave solid that lights and
 // shadows itself.
 //
-// Intersection: in units of R, from the point of the line nearest to the centre, clipped to the ball and the slab that hold the torus.
+// Intersection: in units of R, from the point of the line nearest to the centre, clipped to the sphere and the slab that hold the torus.
 // There the implicit quartic has no cubic term,
 //      (s^2 + k)^2 - 4 (a s^2 + 2 b s + c) = 0,      k = |f|^2 + 1 - r^2,  a s^2 + 2 b s + c = squared distance from the axis,
 // so its extrema are the roots of s^3 + (k - 2 a) s - 2 b. Between two of them lies one crossing or none, which the sign of the
@@ -19,8 +19,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-
-#include <brep/builder_input.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/circle.hpp>
@@ -51,8 +49,8 @@ class Torus final : public Object {
 
   [[nodiscard]] SurfacePoint project(std::uint32_t, const glm::dvec3& p) const override;
 
-  // n columns about the axis and m rows about the tube, multiples of 4 between 8 and 512, whose quadrilaterals are trapezoids. The chord error
-  // of a cell is at most (dn^2 (R + r) + 2 dn dm r + dm^2 r) / 8 for angles dn, dm (Filip, Magedson, Markot 1986).
+  // n columns about the axis and m rows about the tube, multiples of 4 between 8 and 512, whose quadrilaterals are trapezoids. The chord
+  // error of a cell is at most (dn^2 (R + r) + 2 dn dm r + dm^2 r) / 8 for angles dn, dm (Filip, Magedson, Markot 1986).
   void approximate(double tolerance, brep::Builder& out) const override;
 
  private:

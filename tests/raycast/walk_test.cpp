@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// The walk and the builder under all searches (raycast/walk.hpp, raycast/bvh_builder.hpp): laws that hold for any boxes.
+
+#include "catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
+#include <raycast/bvh_builder.hpp>
+#include <raycast/compiled.hpp>
+#include <raycast/line_query.hpp>
+#include <raycast/point_query.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/walk.hpp>
+
+namespace {
+
+using raycast::Box;
+using raycast::Bvh;
+using Boxes = std::vector<Box>;
+
+// Boxes that make trees of every kind: anywhere; all equal; each half as far from the origin as the one before, which the heuristic peels
+// off in few at a time; each around the one before, with equal centres.
+std::vector<Boxes> families(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> place(-1.0, 1.0), size(0.0, 0.1);
+  std::vector<Boxes> result(4);
+  for (int i = 0; i < 700; ++i) {
+    Box box;
+    box.extend(glm::dvec3(place(random), place(random), place(random)));
+    result[0].push_back(box.grown(size(random)));
+    result[1].push_back(Box{glm::dvec3(0.0), glm::dvec3(1.0)});
+    const double far = std::ldexp(1.0, -i), half = 0.1 * far;
+    result[2].push_back(Box{glm::dvec3(far - half, -half, -half), glm::dvec3(far + half, half, half)});
+    result[3].push_back(Box{glm::dvec3(-far), glm::dvec3(far)});
+  }
+  return result;
+}
+
+std::size_t depth(const Bvh& bvh, std::uint32_t node) {
+  const Bvh::Node& at = bvh.nodes()[node];
+  return at.count ? 0 : 1 + std::max(depth(bvh, at.first), depth(bvh, at.first + 1));
+}
+
+TEST_CASE("a tree holds each item once, within its box, behind its parent, and is no deeper than the stack of a walk") {
+  const std::uint64_t seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937_64 random(seed);
+  for (const Boxes& boxes : families(random)) {
+    const Bvh bvh(boxes);
+    CHECK(depth(bvh, 0) <= raycast::tree_depth_limit);
+    std::vector<int> seen(boxes.size(), 0);
+    for (std::uint32_t n = 0; n < bvh.nodes().size(); ++n) {
+      const Bvh::Node& node = bvh.nodes()[n];
+      const auto holds = [&](const Box& box) { return node.box.contains(box.lo) && node.box.contains(box.hi); };
+      if (node.count == 0) {
+        REQUIRE(node.first > n);
+        CHECK(holds(bvh.nodes()[node.first].box));
+        CHECK(holds(bvh.nodes()[node.first + 1].box));
+        continue;
+      }
+      for (const std::uint32_t item : bvh.items(node)) {
+        ++seen[item];
+        CHECK(holds(boxes[item]));
+      }
+    }
+    CHECK(std::count(seen.begin(), seen.end(), 1) == static_cast<std::ptrdiff_t>(boxes.size()));
+  }
+}
+
+TEST_CASE("a search finds what asking every box finds, whatever the tree, and stops when it is told to") {
+  const std::uint64_t seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> place(-1.5, 1.5);
+  for (const Boxes& boxes : families(random)) {
+    const Bvh bvh(boxes);
+    for (int k = 0; k < 50; ++k) {
+      const raycast::Segment line{{place(random), place(random), place(random)}, {place(random), place(random), place(random)}};
+      const raycast::SlabTest slabs(line);
+      std::vector<std::uint32_t> met, wanted;
+      const auto meets = [&](std::uint32_t item) {
+        double entry = 0.0;
+        return slabs(boxes[item], 0.0, 1.0, entry);
+      };
+      CHECK_FALSE(raycast::any_along(bvh, slabs, 0.0, 1.0, [&](std::uint32_t item) {
+        if (meets(item)) met.push_back(item);
+        return false;
+      }));
+      for (std::uint32_t i = 0; i < boxes.size(); ++i)
+        if (meets(i)) wanted.push_back(i);
+      std::sort(met.begin(), met.end());
+      CHECK(met == wanted);
+      int visits = 0;
+      CHECK(raycast::any_along(bvh, slabs, 0.0, 1.0, [&](std::uint32_t item) { return ++visits, meets(item); }) == !wanted.empty());
+      CHECK(visits <= static_cast<int>(boxes.size()));
+    }
+  }
+}
+
+TEST_CASE("what is put off comes back by distance, nearest first, above what lay there before") {
+  const std::uint64_t seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937_64 random(seed);
+  struct Open {
+    std::uint32_t child;
+    int at;
+  };
+  for (int k = 0; k < 200; ++k) {
+    raycast::PutOff<raycast::Compiled, Open> put_off;
+    put_off.push({99, -1});
+    std::vector<int> wanted;
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      wanted.push_back(static_cast<int>(random() % 5));
+      put_off.push_sorted(1, {i, wanted.back()});
+    }
+    std::sort(wanted.begin(), wanted.end());
+    for (const int at : wanted) CHECK(put_off.pop().at == at);
+    CHECK(put_off.pop().child == 99);
+    CHECK(put_off.empty());
+  }
+}
+
+}  // namespace
