@@ -43,7 +43,7 @@ class Pooling {
     for (std::size_t i = hierarchy.size(); i-- > 0;) {
       if (rays.count(i) > 0) {
         area[i] = scene.exposure.area[i];
-        nearness_[i] = area[i] * rays.nearness(i);
+        nearness_[i] = area[i] * rays.nearness(i, 0.1 * hierarchy[i].radius);
       }
       if (hierarchy[i].parent != no_node) {
         area[hierarchy[i].parent] += area[i];
@@ -144,8 +144,8 @@ HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scen
 
 HALFLIGHT_INLINE double rays_per_node(double epsilon) { return std::clamp(12.8 / std::sqrt(epsilon), 16.0, 65536.0); }
 
-// The variance of the share s of n rays is s (1 - s) / n; that of the row sum, which pools the rays of the spaced node in both directions, some
-// s / 2m, m the rays of that node. Each counts by the inverse of its variance.
+// The variance of the share s of n rays is s (1 - s) / n; that of the row sum, which pools the rays of the spaced node in both directions,
+// some s / 2m, m the rays of that node. Each counts by the inverse of its variance.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<double> trust_in(const Hierarchy& hierarchy, const StoredRays& rays,
                                                             const std::vector<double>& share, const std::vector<std::uint32_t>& spaced) {
   std::vector<double> of_node(hierarchy.size(), 0.0);

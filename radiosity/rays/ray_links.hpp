@@ -8,7 +8,7 @@
 // area, a ray between leaves i and j stands for an exchange of 1 / (d_i + d_j) (balance heuristic, Veach and Guibas 1995). So rays in
 // both directions count for both, and the links are symmetric like all others.
 //
-// A long ray is not the business of one leaf alone: at each end it is counted for the largest ancestor that is small beside the length of the
+// A long ray tells about more than one leaf: at each end it is counted for the largest ancestor that is small beside the length of the
 // ray, and beside the distance of what the ancestor's leaves see (Ward, Rubinstein and Clear 1988), so that nothing near makes the light
 // change within it. The link of two such ancestors pools the rays of all their leaves, and the places where they start give its
 // gradients. Rays are few for each leaf and many for each link.
@@ -38,8 +38,8 @@ struct RayLinks {
   [[nodiscard]] double noise(const DiscreteScene& scene, const Links& from, const std::vector<Color>& radiosity) const;
 };
 
-// How many rays each leaf casts, given the nodes over which light that comes from everywhere changes little (spacing.hpp): `mean` for each of
-// these if they were of one size, and by the root of its area, which is best for the L2 error; its leaves share them by their areas. None
+// How many rays each leaf casts, given the nodes over which light that comes from everywhere changes little (spacing.hpp): `mean` for each
+// of these if they were of one size, and by the root of its area, which is best for the L2 error; its leaves share them by their areas. None
 // for what is not exposed. Lamps, which are not among the nodes, cast none: their light has links of its own.
 [[nodiscard]] std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, const std::vector<std::uint32_t>& spaced, double mean);
 

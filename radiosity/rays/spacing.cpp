@@ -43,7 +43,7 @@ HALFLIGHT_INLINE SpacingResult split_by_distance(DiscreteScene& scene, double to
     std::vector<std::uint32_t> split;
     std::uint64_t nodes = end;
     for (std::uint32_t i = static_cast<std::uint32_t>(first_new); i < end; ++i) {
-      if (counts[i] == 0 || !wants(i, rays.nearness(i))) { continue; }
+      if (counts[i] == 0 || !wants(i, rays.nearness(i, 0.1 * hierarchy[i].radius))) { continue; }
       split.push_back(i);
       nodes += hierarchy[i].corners;
     }

@@ -33,25 +33,40 @@ HALFLIGHT_INLINE StoredRays::StoredRays(const std::vector<std::uint32_t>& counts
   rays_.resize(first_.back());
 }
 
-HALFLIGHT_INLINE double StoredRays::nearness(std::size_t node) const {
+HALFLIGHT_INLINE double StoredRays::nearness(std::size_t node, double shortest) const {
   double sum = 0.0;
-  for (const StoredRay& ray : of(node)) { sum += ray.length > 0.0f ? 1.0 / static_cast<double>(ray.length) : 0.0; }
-  return count(node) > 0 ? sum / static_cast<double>(count(node)) : 0.0;
+  double cast = 0.0;
+  for (const StoredRay& ray : of(node)) {
+    cast += ray.length >= 0.0f ? 1.0 : 0.0;
+    sum += ray.length > 0.0f ? 1.0 / std::max(shortest, static_cast<double>(ray.length)) : 0.0;
+  }
+  return cast > 0.0 ? sum / cast : 0.0;
 }
 
 namespace detail {
 
+// A number for each node by its place in the hierarchy, whatever else was split before it: so the rays of a leaf depend on the leaf alone.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<std::uint64_t> keys_of(const Hierarchy& hierarchy) {
+  std::vector<std::uint64_t> keys(hierarchy.size(), 0);
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
+    const Node& node = hierarchy[i];
+    if (is_input_face(hierarchy, i)) { keys[i] = scramble(i); }
+    for (std::uint32_t k = 0; k < node.child_count && !node.is_cluster(); ++k) { keys[node.first_child + k] = scramble(keys[i] + k); }
+  }
+  return keys;
+}
+
 // One leaf as the rays see it that start there.
 struct RayOrigins {
-  RayOrigins(const DiscreteScene& scene, std::size_t leaf)
+  RayOrigins(const DiscreteScene& scene, std::size_t leaf, std::uint64_t key)
       : node{scene.hierarchy[leaf]},
         patch{scene.patches[leaf]},
         object{scene.objects.object(node.object)},
         sheet{node.surface - scene.surfaces[node.object].first_surface},
         exposed{leaf < scene.exposure.area.size() ? scene.exposure.points(leaf) : nullptr},
-        numbers{scene.seed, leaf, 0x72617973ull} {}
+        numbers{scene.seed, key, 0x72617973ull} {}
 
-  // Point and direction of ray k; u: coordinates of an even sequence.
+  // Where a ray starts, and the normal there; u: coordinates of an even sequence.
   [[nodiscard]] raycast::SurfacePoint start(const std::array<double, 4>& u) {
     const auto cell = static_cast<std::uint32_t>(u[1] * 4.0) * 4 + static_cast<std::uint32_t>(u[0] * 4.0);
     const glm::dvec3 x = exposed != nullptr ? exposed->draw(patch, cell, numbers) : sample(patch, u[0], u[1]);
@@ -66,10 +81,13 @@ struct RayOrigins {
   Random numbers;  // where a part of the leaf is buried
 };
 
-HALFLIGHT_INLINE void cast_from_leaf(const DiscreteScene& scene, const LeafLocator& locator, std::size_t leaf, std::span<StoredRay> rays) {
-  RayOrigins origins{scene, leaf};
-  const Sobol4 sequence{scene.seed, leaf};
+// `key` of the leaf.
+HALFLIGHT_INLINE void cast_from_leaf(const DiscreteScene& scene, const LeafLocator& locator, std::size_t leaf, std::uint64_t key,
+                                     std::span<StoredRay> rays) {
+  RayOrigins origins{scene, leaf, key};
+  const Sobol4 sequence{scene.seed, key};
   const double reach = scene.objects.diameter();
+  const bool exposure_known = leaf < scene.exposure.area.size();
   for (std::size_t first = 0; first < rays.size(); first += 16) {
     raycast::Segments16 segments;
     const auto count = static_cast<unsigned>(std::min<std::size_t>(16, rays.size() - first));
@@ -77,6 +95,10 @@ HALFLIGHT_INLINE void cast_from_leaf(const DiscreteScene& scene, const LeafLocat
       const std::array<double, 4> u = sequence(static_cast<std::uint32_t>(first) + k);
       const raycast::SurfacePoint start = origins.start(u);
       rays[first + k].start = start.position - origins.node.centre;
+      if (!exposure_known && scene.objects.covered(start.position, start.normal, origins.node.object)) {
+        rays[first + k].length = -1.0f;
+        continue;
+      }
       segments.set(k, {start.position, reach * cosine_direction(start.normal, u[2], u[3])}, origins.node.object, raycast::no_object);
     }
     const raycast::Hits16 hits = scene.objects.closest16(segments);
@@ -99,13 +121,14 @@ HALFLIGHT_INLINE void cast_from_leaf(const DiscreteScene& scene, const LeafLocat
 
 HALFLIGHT_INLINE StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts) {
   StoredRays rays{counts};
+  const std::vector<std::uint64_t> keys = detail::keys_of(scene.hierarchy);
   constexpr std::size_t batch = 1 << 12;  // leaves between two looks at the cancel flag
   for (std::size_t first = 0; first < counts.size() && !scene.control.cancelled(); first += batch) {
     const std::size_t last = std::min(first + batch, counts.size());
     parallel_for(
         last - first, scene.threads,
         [&](std::size_t k) {
-          if (counts[first + k] > 0) { detail::cast_from_leaf(scene, locator, first + k, rays.of(first + k)); }
+          if (counts[first + k] > 0) { detail::cast_from_leaf(scene, locator, first + k, keys[first + k], rays.of(first + k)); }
         },
         16);
   }

@@ -21,8 +21,8 @@
 namespace radiosity {
 
 struct StoredRay {
-  std::uint32_t to = no_node;  // a leaf; no_node: the ray met nothing, a back, or something without a leaf
-  float length = 0.0f;
+  std::uint32_t to = no_node;        // a leaf; no_node: the ray met nothing, a back, or something without a leaf
+  float length = 0.0f;               // 0: it met nothing; below 0: it was not cast, for its start is buried
   glm::vec3 start{0.0f}, end{0.0f};  // from the centres of the nodes on which they lie: a leaf may be too small for floats of the frame
 };
 
@@ -37,19 +37,20 @@ class StoredRays {
   [[nodiscard]] std::size_t count(std::size_t node) const { return first_[node + 1] - first_[node]; }
   [[nodiscard]] std::size_t size() const { return rays_.size(); }
 
-  // 1 / the harmonic mean of the lengths of a node's rays; those that met nothing count as infinitely long. 0 without rays.
-  [[nodiscard]] double nearness(std::size_t node) const;
+  // 1 / the harmonic mean of the lengths of a node's rays; those that met nothing count as infinitely long, and none as shorter than
+  // `shortest`, or a start beside an edge would decide alone. 0 without rays.
+  [[nodiscard]] double nearness(std::size_t node, double shortest) const;
 
  private:
   std::vector<std::size_t> first_{0};
   std::vector<StoredRay> rays_;
 };
 
-// 400 million rays are 40 GB when links are made of them; a run that asks for more is refused rather than left to exhaust the memory.
+// 400 million rays are 60 GB when links are made of them; a run that asks for more is refused rather than left to exhaust the memory.
 inline constexpr std::uint64_t ray_limit = 400'000'000;
 
-// Casts counts[i] rays from leaf i, from what is exposed of it where that is known. Ends early, with rays missing, when the scene's control
-// says so.
+// Casts counts[i] rays from leaf i, from what is exposed of it: where that is not known yet, rays whose start is buried are left out. Ends
+// early, with rays missing, when the scene's control says so.
 [[nodiscard]] StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts);
 
 }  // namespace radiosity

@@ -30,8 +30,8 @@ namespace radiosity {
 
 namespace detail {
 
-// The links of stored rays: their row sums are in a closed scene what the links of the lamps leave of 1, else what the rays of each leaf tell
-// beside those of others. Returns the row sums before that.
+// The links of stored rays: their row sums are in a closed scene what the links of the lamps leave of 1, else what the rays of each leaf
+// tell beside those of others. Returns the row sums before that.
 HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run) {
   const bool closed = run.scene.plan.closed;
   const RayLinks& made = run.ray_links;

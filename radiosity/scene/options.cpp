@@ -28,7 +28,8 @@ HALFLIGHT_INLINE std::vector<std::string> faults(const Options& options) {
     sentences.emplace_back("light by stored rays needs F-refinement: BF-refinement splits links by what they carry");
   }
   if (options.indirect == Indirect::rays && (options.solver == Solver::gauss_seidel || options.solver == Solver::southwell)) {
-    sentences.emplace_back("light by stored rays needs the solver cg or jacobi: Gauss-Seidel and Southwell go through the links of one patch at a time");
+    sentences.emplace_back(
+        "light by stored rays needs the solver cg or jacobi: Gauss-Seidel and Southwell go through the links of one patch at a time");
   }
   if (options.memory && *options.memory == 0) { sentences.emplace_back("memory is 0; it must be above 0, or be left out for no limit"); }
   check("residual", options.residual, options.residual > 0.0, "above 0");

@@ -31,8 +31,8 @@ inline constexpr const char* name(Solver solver) {
   constexpr const char* names[] = {"cg", "jacobi", "gauss-seidel", "southwell"};
   return names[static_cast<int>(solver)];
 }
-// How the light between surfaces that do not shine travels after F-refinement: over links that are chosen by form factor, or over links made of
-// stored rays (rays/ray_links.hpp). Lamps have links in either case.
+// How the light between surfaces that do not shine travels after F-refinement: over links that are chosen by form factor, or over links
+// made of stored rays (rays/ray_links.hpp). Lamps have links in either case.
 enum class Indirect { automatic, links, rays };
 inline constexpr const char* name(Indirect indirect) {
   constexpr const char* names[] = {"auto", "links", "rays"};

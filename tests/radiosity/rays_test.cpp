@@ -269,7 +269,8 @@ TEST_CASE("rays of small things are as good beside something far away") {
   const auto means = [](double distance) {
     radiosity::Scene scene;
     scene.materials = {{"white", radiosity::Color{0.7}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{5.0}}};
-    scene.objects = {scenes::square("floor", {0.0, 0.0, 0.0}, 1.0, true), scenes::object("box", scenes::box({-0.3, -0.3, 0.0}, {0.3, 0.3, 0.6})),
+    scene.objects = {scenes::square("floor", {0.0, 0.0, 0.0}, 1.0, true),
+                     scenes::object("box", scenes::box({-0.3, -0.3, 0.0}, {0.3, 0.3, 0.6})),
                      scenes::square("lamp", {0.8, 0.0, 1.5}, 0.3, false, 1), scenes::square("far", {0.0, 0.0, -distance}, 1.0, false)};
     Options options;
     options.epsilon = 0.05;
