@@ -105,14 +105,14 @@ HALFLIGHT_INLINE void cast_from_leaf(const DiscreteScene& scene, const LeafLocat
     for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
       const auto k = static_cast<unsigned>(std::countr_zero(rest));
       const raycast::Hit& hit = hits.hit[k];
+      StoredRay& ray = rays[first + k];
+      ray.length = static_cast<float>(hit.t * reach);
       if (!hit.front) { continue; }
       const raycast::PlacedObject& met = scene.objects.object(hit.object);
       raycast::SurfacePoint end{segments.at(k).at(hit.t), glm::dvec3{0.0}};
       if (!met.flat()) { end = met.project(hit.sheet, end.position); }
-      StoredRay& ray = rays[first + k];
       ray.to = locator(scene.surfaces[hit.object].first_surface + hit.sheet, end);
       if (ray.to != no_node) { ray.end = end.position - scene.hierarchy[ray.to].centre; }
-      ray.length = static_cast<float>(hit.t * reach);
     }
   }
 }

@@ -22,7 +22,7 @@ namespace radiosity {
 
 struct StoredRay {
   std::uint32_t to = no_node;        // a leaf; no_node: the ray met nothing, a back, or something without a leaf
-  float length = 0.0f;               // 0: it met nothing; below 0: it was not cast, for its start is buried
+  float length = 0.0f;               // to what it met; 0: nothing; below 0: it was not cast, for its start is buried
   glm::vec3 start{0.0f}, end{0.0f};  // from the centres of the nodes on which they lie: a leaf may be too small for floats of the frame
 };
 
