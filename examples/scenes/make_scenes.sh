@@ -11,7 +11,7 @@
 #   sh make_scenes.sh sphere [RADIUS]                     of a sphere under a square lamp                 0.5
 #   sh make_scenes.sh cylinder [RADIUS]                   of a cylinder 1 m high, under the same lamp     0.5
 #
-# The files beside this one are made with the values at the right:  sh make_scenes.sh corridor > corridor.scene
+# The files beside this one, none of them an office, are made with the values at the right:  sh make_scenes.sh corridor > corridor.scene
 # A sweep:  for rho in 0.5 0.8 0.9 0.95 0.99; do sh make_scenes.sh corridor 16 $rho > corridor_$rho.scene; done
 set -eu
 

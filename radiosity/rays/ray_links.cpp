@@ -83,7 +83,7 @@ class Pooling {
       const auto length = static_cast<double>(ray.length);
       std::uint32_t p = pooling.node(i, length);
       std::uint32_t q = pooling.node(ray.to, length);
-      if (p == q) {  // a hollow patch that sees itself
+      if (p == q) {  // of a hollow patch that sees itself; then its parts do
         p = i;
         q = ray.to;
       }
@@ -96,6 +96,31 @@ class Pooling {
     if (rays.count(i) > 0) { result.share[i] = static_cast<double>(carried) / static_cast<double>(rays.count(i)); }
   }
   return parts;
+}
+
+// Of each node: the rays of its leaves.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<double> rays_below(const Hierarchy& hierarchy, const StoredRays& rays) {
+  std::vector<double> below(hierarchy.size(), 0.0);
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {  // children before parents
+    below[i] += static_cast<double>(rays.count(i));
+    if (hierarchy[i].parent != no_node) { below[hierarchy[i].parent] += below[i]; }
+  }
+  return below;
+}
+
+// The variance of the share s of n rays is s (1 - s) / n; that of the row sum, which pools the rays of the spaced node in both directions,
+// some s / 2m, m the rays of that node. Each counts by the inverse of its variance.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<double> trust_in(const Hierarchy& hierarchy, const std::vector<double>& rays,
+                                                            const std::vector<double>& share, const std::vector<std::uint32_t>& spaced) {
+  std::vector<double> pooled(hierarchy.size(), 0.0);
+  for (const std::uint32_t i : spaced) { pooled[i] = rays[i]; }
+  std::vector<double> trust(hierarchy.size(), 0.0);
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
+    const Node& node = hierarchy[i];
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { pooled[c] = std::max(pooled[c], pooled[i]); }
+    if (rays[i] > 0.0 && node.leaf()) { trust[i] = rays[i] / (rays[i] + 2.0 * (1.0 - share[i]) * pooled[i]); }
+  }
+  return trust;
 }
 
 // The link of parts that are all of the same pair.
@@ -144,26 +169,6 @@ HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scen
 
 HALFLIGHT_INLINE double rays_per_node(double epsilon) { return std::clamp(12.8 / std::sqrt(epsilon), 16.0, 65536.0); }
 
-// The variance of the share s of n rays is s (1 - s) / n; that of the row sum, which pools the rays of the spaced node in both directions,
-// some s / 2m, m the rays of that node. Each counts by the inverse of its variance.
-[[nodiscard]] HALFLIGHT_INLINE std::vector<double> trust_in(const Hierarchy& hierarchy, const StoredRays& rays,
-                                                            const std::vector<double>& share, const std::vector<std::uint32_t>& spaced) {
-  std::vector<double> of_node(hierarchy.size(), 0.0);
-  for (std::size_t i = hierarchy.size(); i-- > 0;) {
-    of_node[i] += static_cast<double>(rays.count(i));
-    if (hierarchy[i].parent != no_node) { of_node[hierarchy[i].parent] += of_node[i]; }
-  }
-  std::vector<double> pooled(hierarchy.size(), 0.0);
-  for (const std::uint32_t i : spaced) { pooled[i] = of_node[i]; }
-  std::vector<double> trust(hierarchy.size(), 0.0);
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
-    const Node& node = hierarchy[i];
-    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { pooled[c] = std::max(pooled[c], pooled[i]); }
-    if (of_node[i] > 0.0 && node.leaf()) { trust[i] = of_node[i] / (of_node[i] + 2.0 * (1.0 - share[i]) * pooled[i]); }
-  }
-  return trust;
-}
-
 HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays, const std::vector<std::uint32_t>& spaced) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const std::vector<double>& area = scene.exposure.area;
@@ -171,13 +176,10 @@ HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const Store
   result.rays = rays.size();
   result.share.assign(hierarchy.size(), 0.0);
   result.density.assign(hierarchy.size(), 0.0);
-  for (std::size_t i = hierarchy.size(); i-- > 0;) {  // first the numbers of rays
-    result.density[i] += static_cast<double>(rays.count(i));
-    if (hierarchy[i].parent != no_node) { result.density[hierarchy[i].parent] += result.density[i]; }
-    result.density[i] = area[i] > 0.0 ? result.density[i] / area[i] : 0.0;
-  }
+  const std::vector<double> below = detail::rays_below(hierarchy, rays);
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) { result.density[i] = area[i] > 0.0 ? below[i] / area[i] : 0.0; }
   const std::vector<detail::RayPart> parts = detail::parts_of(scene, rays, result);
-  result.trust = trust_in(hierarchy, rays, result.share, spaced);
+  result.trust = detail::trust_in(hierarchy, below, result.share, spaced);
   // Parts by p, then by q.
   std::vector<std::size_t> first(hierarchy.size() + 1, 0);
   for (const detail::RayPart& part : parts) { ++first[part.p + 1]; }
@@ -191,10 +193,7 @@ HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const Store
               [&](std::uint32_t a, std::uint32_t b) { return parts[a].q != parts[b].q ? parts[a].q < parts[b].q : a < b; });
     for (std::size_t begin = 0, end = 0; begin < of_p.size(); begin = end) {
       while (end < of_p.size() && parts[of_p[end]].q == parts[of_p[begin]].q) { ++end; }
-      const Link link = detail::pooled_link(scene, parts, of_p.subspan(begin, end - begin));
-      const double variance = static_cast<double>(link.exchange) / (result.density[link.p] + result.density[link.q]);
-      result.doubt.add(link.p, link.q, {0.0f, 0.0f, static_cast<float>(variance / area[link.p] + variance / area[link.q]), 0.0f, 0.0f});
-      result.links.push_back(link);
+      result.links.push_back(detail::pooled_link(scene, parts, of_p.subspan(begin, end - begin)));
     }
   }
   return result;

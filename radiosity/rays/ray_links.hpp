@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <radiosity/exchange/doubt.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
@@ -30,20 +29,18 @@ struct RayLinks {
   std::vector<double> share;    // of the rays of each leaf: those that links stand for
   std::vector<double> trust;    // how much this share tells of the leaf's row sum, beside what its links sum up to: 0 to 1
   std::vector<double> density;  // of the rays that start on each node, by its area
-  DoubtSum doubt;               // of the row sums
 
   // What the noise of the rays adds to the squared L2 error of a solution. The mean of what arrives at a node is known, by its own rays;
-  // which of the others it comes from is not.
-  // `from`: the links, wherever they are now.
-  [[nodiscard]] double noise(const DiscreteScene& scene, const Links& from, const std::vector<Color>& radiosity) const;
+  // which of the others it comes from is not. `made`: the links, wherever they are now.
+  [[nodiscard]] double noise(const DiscreteScene& scene, const Links& made, const std::vector<Color>& radiosity) const;
 };
 
 // How many rays each leaf casts, given the nodes over which light that comes from everywhere changes little (spacing.hpp): `mean` for each
-// of these if they were of one size, and by the root of its area, which is best for the L2 error; its leaves share them by their areas. None
-// for what is not exposed. Lamps, which are not among the nodes, cast none: their light has links of its own.
+// of these if they were of one size, and by the root of its area, which is best for the L2 error; its leaves share them by their areas.
+// None for what is not exposed. Lamps, which are not among the nodes, cast none: their light has links of its own.
 [[nodiscard]] std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, const std::vector<std::uint32_t>& spaced, double mean);
 
-// So many rays a node that their noise falls with the other errors of F-refinement: measured on rooms of 17 to 10 000 input faces.
+// So many rays a node that their noise falls with the other errors of F-refinement: measured on rooms of 19 to 10 000 input faces.
 [[nodiscard]] double rays_per_node(double epsilon);
 
 // `spaced`: as for ray_counts.

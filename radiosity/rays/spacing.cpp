@@ -23,7 +23,7 @@ HALFLIGHT_INLINE SpacingResult split_by_distance(DiscreteScene& scene, double to
   Hierarchy& hierarchy = scene.hierarchy;
   const std::vector<bool> buried = buried_nodes(scene.surfaces, hierarchy);  // of the input faces
   double all = 0.0;
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) { all += is_input_face(hierarchy, i) ? hierarchy[i].area : 0.0; }
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) { all += is_input_face(hierarchy, i) && !buried[i] ? hierarchy[i].area : 0.0; }
   for (std::size_t first_new = 0; first_new < hierarchy.size();) {
     const std::size_t end = hierarchy.size();
     const auto wants = [&](std::size_t i, double nearness) {

@@ -20,9 +20,9 @@ struct SpacingResult {
   std::uint64_t too_large = 0;  // bytes that would be needed, at least, when that is more than the budget allows
 };
 
-// Splits leaves of more than `min_area` (relative to the area of all input faces) until, for each, r / R times the root of its share of
-// that area is at most `tolerance`: what each leaf adds to the L2 error is then about the same. Lamps are left as they are. R is found by
-// 16 rays.
+// Splits leaves of more than `min_area` (relative to the area of all input faces that are not buried) until, for each, r / R times the
+// root of its share of that area is at most `tolerance`: what each leaf adds to the L2 error is then about the same. Lamps are left as they
+// are. R is found by 16 rays.
 [[nodiscard]] SpacingResult split_by_distance(DiscreteScene& scene, double tolerance, double min_area);
 
 }  // namespace radiosity

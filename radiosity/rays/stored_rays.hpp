@@ -4,8 +4,7 @@
 // Rays that leave the leaves of the hierarchy, kept with the leaf that each of them meets.
 //
 // They start at points even over a leaf, in directions of density cos / pi, so the share of them that meets another leaf estimates the form
-// factor to it, with all that stands between (Malley 1988). Start and end lie on the true surfaces, not on the patches. Only rays that meet
-// the front of a leaf are kept.
+// factor to it, with all that stands between (Malley 1988). Start and end lie on the true surfaces, not on the patches.
 
 #include <cstddef>
 #include <cstdint>

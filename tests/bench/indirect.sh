@@ -1,5 +1,5 @@
 #!/bin/sh
-# Light between surfaces that do not shine: links against stored rays, on scenes of 17 to 10 000 input faces, each at two or three settings.
+# Light between surfaces that do not shine: links against stored rays, on scenes of 19 to 10 000 input faces, each at two or three settings.
 # Prints a row a run: CPU seconds (without the audit), links, measured errors of the surfaces and of the leaves.
 #
 #   sh tests/bench/indirect.sh [PROGRAM]      default: build/release/apps/halflight

@@ -164,9 +164,10 @@ TEST_CASE("links of rays between the walls of a cube are its form factors, withi
     ++checked;
   }
   CHECK(checked == 10);
-  // All rays of the walls that do not go to the lamp meet a leaf that has rays.
+  // Rays that do not go to the lamp meet a leaf that has rays. The lamp is .09 of the ceiling, of which floor and walls see .2: they see
+  // some .02 of it, and the standard error of the share of 4096 rays is .0022.
   for (const std::uint32_t i : leaves_of(*discrete)) {
-    if (counts[i] > 0) { CHECK(made.share[i] + 0.05 > 0.9); }
+    if (counts[i] > 0) { CHECK(made.share[i] > 0.95); }
   }
 }
 

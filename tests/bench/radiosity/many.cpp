@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
   };
+  options.indirect = radiosity::Indirect::links;  // clusters are for these
   options.cluster_from = static_cast<std::uint32_t>(number(6, options.cluster_from));
   std::printf("%8s %8s %9s %9s %9s %9s %8s %7s %7s   %-14s  slope of links, time\n", "polygons", "clusters", "leaves", "links", "of clust.",
               "rays", "MB", "CPU s", "wall s", "L2 of leaves");
