@@ -137,32 +137,34 @@ class Pooling {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, const std::vector<std::uint32_t>& spaced, double mean) {
+HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, const std::vector<Caster>& casters, double mean) {
   const std::vector<double>& area = scene.exposure.area;
   double all = 0.0;
-  double roots = 0.0;
-  for (const std::uint32_t i : spaced) {
-    all += area[i];
-    roots += std::sqrt(area[i]);
+  double weighted = 0.0;
+  for (const Caster& caster : casters) {
+    all += area[caster.node];
+    weighted += caster.weight * std::sqrt(area[caster.node]);
   }
   constexpr double least = 32.0;  // fewer tell too little of what is near a node
   std::vector<std::uint32_t> counts(scene.hierarchy.size(), 0);
-  for (const std::uint32_t i : spaced) {
-    if (area[i] > 0.0) { counts[i] = static_cast<std::uint32_t>(std::max(least, std::round(mean * std::sqrt(area[i]) * roots / all))); }
+  for (const Caster& caster : casters) {
+    if (!(area[caster.node] > 0.0)) { continue; }
+    const double wanted = mean * caster.weight * std::sqrt(area[caster.node]) * weighted / all;
+    counts[caster.node] = static_cast<std::uint32_t>(std::clamp(std::round(wanted), least, 1e6));
   }
   return counts;
 }
 
 HALFLIGHT_INLINE double rays_per_node(double epsilon) { return std::clamp(12.8 / std::sqrt(epsilon), 16.0, 65536.0); }
 
-HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays, const std::vector<std::uint32_t>& spaced) {
+HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays, const std::vector<Caster>& casters) {
   const Hierarchy& hierarchy = scene.hierarchy;
   RayLinks result;
   result.rays = rays.size();
   result.share.assign(hierarchy.size(), 0.0);
   result.density = detail::densities(scene, rays);
   result.caster.assign(hierarchy.size(), no_node);
-  for (const std::uint32_t i : spaced) { result.caster[i] = i; }
+  for (const Caster& caster : casters) { result.caster[caster.node] = caster.node; }
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
     if (result.caster[i] == no_node && hierarchy[i].parent != no_node) { result.caster[i] = result.caster[hierarchy[i].parent]; }
   }

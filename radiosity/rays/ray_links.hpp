@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Links made of stored rays (stored_rays.hpp): light between surfaces that do not shine, where links chosen by form factor would be many and
-// weak.
+// Links made of stored rays (stored_rays.hpp): light between surfaces that do not shine, where links chosen by form factor would be many
+// and weak.
 //
 // They are cast from the nodes over which such light changes little (spacing.hpp), whether or not the light of a lamp has split these
 // further: what arrives is the same for all leaves below.
@@ -20,6 +20,7 @@
 #include <vector>
 
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/rays/spacing.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
@@ -41,16 +42,14 @@ struct RayLinks {
   [[nodiscard]] double noise(const DiscreteScene& scene, const Links& made, const std::vector<Color>& radiosity) const;
 };
 
-// How many rays each node casts, given those over which light that comes from everywhere changes little (spacing.hpp): `mean` for each of
-// these if they were of one size, and by the root of its area, which is best for the L2 error. None for what is not exposed. Lamps, which
-// are not among the nodes, cast none: their light has links of its own.
-[[nodiscard]] std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, const std::vector<std::uint32_t>& spaced, double mean);
+// How many rays each node casts: `mean` if all casters were of one size and weight 1; by the root of the area and by the weight, which is
+// best for the L2 error. Lamps are no casters: their light has links of its own.
+[[nodiscard]] std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, const std::vector<Caster>& casters, double mean);
 
 // So many rays a node that their noise falls with the other errors of F-refinement: measured on rooms of 19 to 10 000 input faces.
 [[nodiscard]] double rays_per_node(double epsilon);
 
-// `spaced`: as for ray_counts.
-[[nodiscard]] RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays, const std::vector<std::uint32_t>& spaced);
+[[nodiscard]] RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays, const std::vector<Caster>& casters);
 
 }  // namespace radiosity
 
