@@ -11,16 +11,24 @@
 
 namespace raycast {
 
-// Sixteen segments in the world, as the caller fills them in. Lanes that are not set take no part.
+// Of an end of which it is not known on which sheet of its owner it lies.
+inline constexpr std::uint32_t unknown_sheet = 0xffffffff;
+
+// Sixteen segments in the world, as the caller fills them in. Lanes that are not set take no part. Sheets of the ends save time: what a
+// segment does at an end that lies on a flat sheet is known without double precision. They change no answer but for a segment that runs into
+// its owner through a reentrant edge on which its end lies.
 struct alignas(64) Segments16 {
   double ox[16] = {}, oy[16] = {}, oz[16] = {}, dx[16] = {}, dy[16] = {}, dz[16] = {};
-  std::uint32_t source[16] = {}, target[16] = {};  // owners of the ends
-  std::uint32_t lanes = 0;                         // one bit per lane that is set
+  std::uint32_t source[16] = {}, target[16] = {};              // owners of the ends
+  std::uint32_t source_sheet[16] = {}, target_sheet[16] = {};  // where these are objects: sheets of theirs, or unknown_sheet
+  std::uint32_t lanes = 0;                                     // one bit per lane that is set
 
-  void set(unsigned lane, const Segment& s, std::uint32_t source_owner, std::uint32_t target_owner) {
+  void set(unsigned lane, const Segment& s, std::uint32_t source_owner, std::uint32_t target_owner, std::uint32_t on_source = unknown_sheet,
+           std::uint32_t on_target = unknown_sheet) {
     ox[lane] = s.origin.x, oy[lane] = s.origin.y, oz[lane] = s.origin.z;
     dx[lane] = s.direction.x, dy[lane] = s.direction.y, dz[lane] = s.direction.z;
     source[lane] = source_owner, target[lane] = target_owner;
+    source_sheet[lane] = on_source, target_sheet[lane] = on_target;
     lanes |= 1u << lane;
   }
   [[nodiscard]] Segment at(unsigned lane) const { return {{ox[lane], oy[lane], oz[lane]}, {dx[lane], dy[lane], dz[lane]}}; }

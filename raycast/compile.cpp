@@ -2,10 +2,13 @@
 #include <raycast/compile.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -73,6 +76,7 @@ HALFLIGHT_INLINE void Compiler::body(std::span<const Plane> planes) {
 }
 
 HALFLIGHT_INLINE void Compiler::face(std::uint32_t number, std::span<const glm::dvec3> corners) {
+  const std::uint32_t sheet = object_->sheet_of(number);
   world_.clear();
   for (const glm::dvec3& p : corners) { world_.push_back(map(p)); }
   if (mirrored_) { std::reverse(world_.begin(), world_.end()); }
@@ -82,12 +86,12 @@ HALFLIGHT_INLINE void Compiler::face(std::uint32_t number, std::span<const glm::
     const double length = glm::length(area);
     const double extent =
         std::max({glm::dot(world_[1] - world_[0], world_[1] - world_[0]), glm::dot(world_[2] - world_[0], world_[2] - world_[0])});
-    pieces(number, length > tol_sliver * extent ? area / length : glm::dvec3{0.0}, true);
+    pieces(number, sheet, length > tol_sliver * extent ? area / length : glm::dvec3{0.0}, true);
   } else {
     const Plane plane = plane_of(world_);
     const double extent = brep::extent(world_);
     const bool exact = plane.slack == 0.0 && glm::length(brep::vector_area(world_)) > tol_sliver * extent * extent;
-    pieces(number, exact ? plane.normal : glm::dvec3{0.0}, brep::is_convex(world_));
+    pieces(number, sheet, exact ? plane.normal : glm::dvec3{0.0}, brep::is_convex(world_));
   }
 }
 
@@ -115,6 +119,14 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
   stretch_ = std::sqrt(s);
   out_.bounds.push_back(rounded(scaled(object.bounds())));
   out_.roles.push_back(!outline.empty() ? Role::polygon : object.solid() ? Role::solid : Role::surface);
+  out_.first_sheet.push_back(no_shape);
+  if (object.flat() && object.solid()) {
+    out_.first_sheet.back() = static_cast<std::uint32_t>(out_.sheets.size());
+    for (std::uint32_t sheet = 0; sheet < object.sheet_count(); ++sheet) {
+      const SurfacePoint at = object.project(sheet, out_.centre);
+      out_.sheets.push_back(row(at.normal, -glm::dot(at.normal, out_.local(at.position))));
+    }
+  }
   room_body_ = no_shape;
   const std::size_t before = items_.size();
   const std::uint32_t faces_before = face_count_;
@@ -123,7 +135,7 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
     for (const glm::dvec3& p : outline) { world_.push_back(out_.local(p)); }
     const double extent = brep::extent(world_);
     const bool exact = object.slack() == 0.0 && glm::length(brep::vector_area(world_)) > tol_sliver * extent * extent;
-    pieces(0, exact ? normal : glm::dvec3{0.0}, object.convex());
+    pieces(0, 0, exact ? normal : glm::dvec3{0.0}, object.convex());
   } else {
     object.object().compile(*this);
   }
@@ -169,29 +181,36 @@ HALFLIGHT_INLINE void Compiler::form(FormKind kind, const glm::dvec3& centre, co
   forms_.push_back(f);
 }
 
-HALFLIGHT_INLINE void Compiler::pieces(std::uint32_t number, const glm::dvec3& normal, bool convex) {
+HALFLIGHT_INLINE void Compiler::pieces(std::uint32_t number, std::uint32_t sheet, const glm::dvec3& normal, bool convex) {
   const std::size_t n = world_.size();
-  const bool known = convex && normal != glm::dvec3{0.0};
-  for (std::size_t first = 1; first + 1 < n; first += 2) {
-    const bool whole = !known || n <= 4;
-    const std::size_t corners = whole ? n : std::min<std::size_t>(4, n - first + 1);
-    const auto corner = [&](std::size_t i) -> const glm::dvec3& { return i == 0 || whole ? world_[i] : world_[first + i - 1]; };
-    Face face{{}, number};
+  const auto piece = [&](std::span<const std::size_t> corners, bool known) {
+    Face face{{}, number, sheet};
     Box box;
-    for (std::size_t i = 0; i < corners; ++i) { box.extend(corner(i)); }
+    for (const std::size_t i : corners) { box.extend(world_[i]); }
     face.row[0] = row(normal, -glm::dot(normal, world_[0]));
-    if (known) {
-      for (std::size_t i = 0; i < corners; ++i) {
-        const glm::dvec3 side = corner((i + 1) % corners) - corner(i);
-        const glm::dvec3 in = glm::normalize(glm::cross(normal, side));
-        face.row[i + 1] = row(in, -glm::dot(in, corner(i)));
-      }
+    for (std::size_t i = 0; i < corners.size() && known; ++i) {
+      const glm::dvec3& corner = world_[corners[i]];
+      const glm::dvec3 in = glm::normalize(glm::cross(normal, world_[corners[(i + 1) % corners.size()]] - corner));
+      face.row[i + 1] = row(in, -glm::dot(in, corner));
     }
     ++face_count_;
-    add(box, corners == 3 ? Kind::triangle : Kind::quad, static_cast<std::uint32_t>(faces_.size()));
+    add(box, corners.size() == 3 ? Kind::triangle : Kind::quad, static_cast<std::uint32_t>(faces_.size()));
     faces_.push_back(face);
-    if (whole) { return; }
+  };
+  if (normal != glm::dvec3{0.0} && convex) {
+    for (std::size_t first = 1; first + 1 < n; first += 2) {
+      const std::array<std::size_t, 4> corners{0, first, first + 1, first + 2};
+      piece(std::span(corners).first(std::min<std::size_t>(4, n - first + 1)), true);
+    }
+    return;
   }
+  const std::vector<std::array<std::size_t, 3>> parts =
+      normal != glm::dvec3{0.0} && n <= most_corners ? ears(world_, normal) : std::vector<std::array<std::size_t, 3>>{};
+  for (const std::array<std::size_t, 3>& part : parts) { piece(part, true); }
+  if (!parts.empty()) { return; }
+  std::vector<std::size_t> all(n);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  piece(all, false);
 }
 
 HALFLIGHT_INLINE std::uint32_t Compiler::emit(Kind kind, std::span<const Item> items) {

@@ -45,7 +45,7 @@ class Compiler {
   void body(std::span<const Plane> planes);
   // Is it worth listing so many faces? Beyond four million in a scene no copies are made of them.
   [[nodiscard]] bool takes_faces(std::size_t count) const { return !object_->inside() && face_count_ + count <= 4'000'000; }
-  // One face of a surface, in the order of its corners; all faces must be listed.
+  // One face of a surface, in the order of its corners; all faces must be listed. Faces of one sheet lie in one plane.
   void face(std::uint32_t number, std::span<const glm::dvec3> corners);
 
   // --- What Scene calls. ---
@@ -59,7 +59,7 @@ class Compiler {
  private:
   struct Face {
     std::array<std::array<float, 4>, 5> row;
-    std::uint32_t number;
+    std::uint32_t number, sheet;
   };
 
   [[nodiscard]] glm::dvec3 map(const glm::dvec3& p) const {
@@ -76,9 +76,10 @@ class Compiler {
   // What double precision computes in the shape's coordinates must be better than the margin there: so not under very uneven maps.
   void form(FormKind kind, const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring, double eps);
 
-  // Cuts the polygon `world_` into pieces of at most four corners. Where the plane is not known (normal 0) or the polygon is not convex
-  // its rows stay zero: neither in nor out, double precision decides.
-  void pieces(std::uint32_t number, const glm::dvec3& normal, bool convex);
+  // Cuts the polygon `world_` into pieces of at most four corners. Where the plane is not known (normal 0), or no triangles are found, the
+  // rows of the whole stay zero: neither in nor out, double precision decides.
+  static constexpr std::size_t most_corners = 1000;  // cutting off ears takes their square
+  void pieces(std::uint32_t number, std::uint32_t sheet, const glm::dvec3& normal, bool convex);
 
   template <int Edges>
   std::uint32_t emit_faces(std::vector<FaceBlock<Edges>>& blocks, std::span<const Item> items) {
@@ -93,6 +94,7 @@ class Compiler {
       }
       block.object[i] = items[i].object;
       block.face[i] = face.number;
+      block.sheet[i] = face.sheet;
     }
     blocks.push_back(block);
     return 8 * static_cast<std::uint32_t>(blocks.size() - 1);

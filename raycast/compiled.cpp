@@ -35,7 +35,16 @@ HALFLIGHT_INLINE std::size_t Compiled::bytes() const {
          spheres.capacity() * sizeof(SphereBlock) + bodies.capacity() * sizeof(Body) + planes.capacity() * 16 +
          cylinders.capacity() * sizeof(CylinderShape) + forms.capacity() * sizeof(Form) +
          (guards.capacity() + others.capacity() + leaves.capacity() + rooms.capacity() + room_bodies.capacity()) * sizeof(std::uint32_t) +
-         roles.capacity() + bounds.capacity() * sizeof(FloatBox);
+         (first_sheet.capacity() + 4 * sheets.capacity()) * sizeof(std::uint32_t) + roles.capacity() + bounds.capacity() * sizeof(FloatBox);
+}
+
+HALFLIGHT_INLINE bool leaves_at_once(const Compiled& scene, std::uint32_t owner, std::uint32_t sheet, const float (&to)[3], float length) {
+  if (sheet == 0xffffffffu || scene.first_sheet[owner] == no_shape) { return false; }
+  const std::array<float, 4>& plane = scene.sheets[scene.first_sheet[owner] + sheet];
+  const float height = plane[0] * to[0] + plane[1] * to[1] + plane[2] * to[2] + plane[3];
+  // A skin is at most (margin - eps_height) / 4, and the way through it at most 2 length / height times as long.
+  constexpr auto rounding = static_cast<float>(eps_height);
+  return height > 2.0f * scene.margin && (scene.margin - rounding) * length <= rounding * height;
 }
 
 HALFLIGHT_INLINE bool may_contain(const Compiled& scene, std::uint32_t owner, std::uint32_t object) {

@@ -38,7 +38,7 @@ inline constexpr std::uint32_t no_shape = 0xffffffff;
 template <int Edges>
 struct alignas(64) FaceBlock {
   float row[Edges + 1][4][8];
-  std::uint32_t object[8], face[8];  // of an unused place: no_object, and heights of 1 everywhere, which nothing crosses
+  std::uint32_t object[8], face[8], sheet[8];  // of an unused place: no_object, and heights of 1 everywhere, which nothing crosses
 };
 struct alignas(64) SphereBlock {
   float centre[3][8], radius[8];
@@ -112,7 +112,9 @@ struct Compiled {
   std::vector<Role> roles;            // by object
   std::vector<FloatBox> bounds;       // by object, grown by the margin; everything for a room
   std::vector<std::uint32_t> rooms;   // objects turned inside out
-  std::vector<std::uint32_t> room_bodies;  // by room: its convex body, or no_shape
+  std::vector<std::uint32_t> room_bodies;    // by room: its convex body, or no_shape
+  std::vector<std::array<float, 4>> sheets;  // planes of the sheets of flat solids: heights in the air
+  std::vector<std::uint32_t> first_sheet;    // by object, of these; no_shape where it is none
   std::uint32_t shape_count = 0;
 
   [[nodiscard]] bool few() const { return nodes.empty() || !leaves.empty(); }
@@ -121,6 +123,10 @@ struct Compiled {
   [[nodiscard]] std::uint32_t object_of(std::uint32_t shape) const;
   [[nodiscard]] std::size_t bytes() const;
 };
+
+// Does a segment of this length that begins on a sheet of its owner, and ends at `to`, leave the owner at once? Then what lies of it in the
+// owner, up to skins, is shorter than eps_height, and nothing that is met deeper than the margin is within.
+[[nodiscard]] bool leaves_at_once(const Compiled& scene, std::uint32_t owner, std::uint32_t sheet, const float (&to)[3], float length);
 
 // May a span of the object lie within the solid that owns an end of a segment? Not when their bounds are apart.
 [[nodiscard]] bool may_contain(const Compiled& scene, std::uint32_t owner, std::uint32_t object);

@@ -2,8 +2,8 @@
 
 // The first hit of one ray and of sixteen: the search of kernels/first.inc in front of the law of scene.hpp.
 //
-// The search goes through the part of the ray that lies in a cube around the compiled scene. Polygons that are crossed for certain and
-// faces of solids that are entered for certain it leaves over, with bounds of the parameter; mostly one is left, whose place is then
+// The search goes through the part of the ray that lies in a cube around the compiled scene. Polygons and faces of open surfaces that are
+// crossed for certain and faces of solids that are entered for certain it leaves over, with bounds of the parameter; mostly one is left, whose place is then
 // computed in double precision, as the law does. Of everything else the law is asked.
 
 #include <algorithm>
@@ -52,6 +52,7 @@ struct Scene::Asker {
     scene.approach(Line(s.ray), s.source, object, s.nearest);
     return static_cast<float>(std::min((s.nearest.limit - s.t0) / (s.t1 - s.t0), 1.0)) * limit_up + eps_limit;
   }
+  // The origin lies on the object or near its bounds: an end may only touch it.
   [[nodiscard]] bool near(unsigned lane, std::uint32_t object) const {
     const Search& s = searches[lane];
     return object == s.source.owner || scene.objects_[object].bounds().contains(s.ray.origin, 2 * scene.skin(s.source, object));
@@ -72,27 +73,28 @@ HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, floa
       if (t <= nearest.limit) { offer(ray, Hit{t, object, 0, step < 0.0}, nearest); }
       continue;
     }
+    const bool solid = compiled_.roles[object] == Role::solid;
     Crossing first{infinity, 0};
     bool by_spans = !entries.complete;
     const bool only = entries.count == 1 && entries.entry[0].sure;
     for (unsigned j = i; j < entries.count && !by_spans; ++j) {
       const Entries::Entry& e = entries.entry[j];
       if (e.object != object) { continue; }
-      by_spans = !only && !(e.timed && e.to < entries.exit && e.to <= limit);
-      if (by_spans || !(e.sure || objects_[object].enters(ray, e.face))) { continue; }
+      by_spans = !only && !(e.timed && (e.to < entries.exit || !solid) && e.to <= limit);
+      if (by_spans || !(e.sure || objects_[object].enters(ray, e.face))) { continue; }  // of an open surface all are sure
       const Crossing at = objects_[object].crossing(ray, e.face);
       if (at.t < first.t || (at.t == first.t && at.sheet < first.sheet)) { first = at; }
     }
     if (by_spans) {
       approach(Line(ray), search.source, object, nearest);
     } else if (first.t > 0.0 && first.t < infinity && first.t <= nearest.limit) {
-      offer(ray, Hit{first.t, object, first.sheet, true}, nearest);
+      offer(ray, Hit{first.t, object, first.sheet, solid || along(object, ray, first) < 0.0}, nearest);
     }
   }
   if (entries.complete) { return; }
   const Line line(ray);
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-    if (compiled_.roles[i] == Role::solid && !objects_[i].inside()) { approach(line, search.source, i, nearest); }
+    if (compiled_.roles[i] != Role::polygon && !objects_[i].inside()) { approach(line, search.source, i, nearest); }
   }
 }
 
@@ -104,7 +106,7 @@ HALFLIGHT_INLINE void Scene::approach_bounded(Search& search) const {
   const Segment inner{from / compiled_.scale + compiled_.centre, along / compiled_.scale};
   Rays16 rays;
   if (!(Box{o, o}.magnitude() < farthest_cut) ||
-      !HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, inner, search.source.owner, no_object, rays))) {
+      !HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, inner, search.source.owner, search.source_sheet, no_object, rays))) {
     const Line line(ray);
     objects_along(compiled_, ray, 0.0, search.nearest.limit, [&](std::uint32_t i) {
       approach(line, search.source, i, search.nearest);
@@ -127,14 +129,15 @@ HALFLIGHT_INLINE Hits16 Scene::closest16(const Segments16& rays) const {
   for (std::uint32_t rest = rays.lanes; rest; rest &= rest - 1) {
     const auto i = static_cast<unsigned>(std::countr_zero(rest));
     Search& s = searches[i];
-    s = {rays.at(i), end_at(rays.source[i])};
+    s = {rays.at(i), end_at(rays.source[i]), rays.source_sheet[i]};
     if (!has_line(s.ray)) { continue; }
     for (const std::uint32_t room : compiled_.rooms) { approach(Line(s.ray), s.source, room, s.nearest); }
     const glm::dvec3 o = compiled_.local(s.ray.origin), d = s.ray.direction * compiled_.scale;
     if (!(Box{o, o}.magnitude() < farthest_cut)) {
       approach_bounded(s);
     } else if (s.clip(compiled_)) {
-      inner.set(i, {(o + s.t0 * d) * per_scale + compiled_.centre, (s.t1 - s.t0) * d * per_scale}, s.source.owner, no_object);
+      inner.set(i, {(o + s.t0 * d) * per_scale + compiled_.centre, (s.t1 - s.t0) * d * per_scale}, s.source.owner, no_object,
+                s.source_sheet);
     }
   }
   if (inner.lanes && !compiled_.nodes.empty()) {

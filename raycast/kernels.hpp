@@ -49,8 +49,9 @@ struct alignas(64) Rays16 {
   float length[16];                      // of d, from above
   float per_square[16];                  // 1 / d.d
   std::uint32_t source[16], target[16];  // owners
-  std::uint32_t back[3];                 // by axis: the lanes with i < 0
-  bool uniform;                          // all lanes have the owners of lane 0
+  std::uint32_t source_sheet[16], target_sheet[16];
+  std::uint32_t back[3];  // by axis: the lanes with i < 0
+  bool uniform;           // all lanes have the owners of lane 0
 };
 
 // The convex hull of a bundle from outside: its bounds, and in each coordinate plane the two lines that run beside its outline
@@ -74,6 +75,7 @@ struct Corners16 {
   float bulge = 0.0f;
   float smallest = 0.0f;         // what is smaller than this hides no section: such proofs are not tried
   std::uint32_t source, target;  // owners
+  std::uint32_t source_sheet, target_sheet;
 };
 enum class Relevance : std::uint8_t { none, some, blocks_all };
 

@@ -81,6 +81,8 @@ class Object {
   // An object that consists of shapes which the fast lanes know tells them (compile.hpp). Whatever says nothing is asked through spans().
   virtual void compile(Compiler&) const {}
 
+  // Of objects that compile to faces: the sheet of a face; two of one sheet lie in one plane.
+  [[nodiscard]] virtual std::uint32_t sheet_of(std::uint32_t face) const { return face; }
   // Of objects that compile to faces: where the line crosses the face, which it is known to do, and the sheet that the face belongs to.
   // Bit for bit what spans() says.
   [[nodiscard]] virtual Crossing crossing(const Segment&, std::uint32_t face) const { return {0.0, face}; }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include <glm/geometric.hpp>
@@ -70,6 +71,7 @@ HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const P
   }
   c.bulge = bulge > 0.0 ? static_cast<float>(bulge * compiled_.scale) * length_up + unit_roundoff_single : 0.0f;
   c.source = a.owner, c.target = b.owner;
+  c.source_sheet = a.sheet, c.target_sheet = b.sheet;
   HALFLIGHT_DISPATCH(isa_, spread_corners(pf, qf, c));
   const bool faces_alone =
       parent && parent->known() && std::all_of(parent->shapes().begin(), parent->shapes().end(), [](std::uint32_t shape) {
@@ -92,8 +94,12 @@ HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const P
     }
     return !(low - bulge >= -0.5 * rounding_ || high + bulge <= 0.5 * rounding_);
   };
+  std::array<std::optional<bool>, 2> skipped;  // a convex solid kept as faces is asked for each of them
   const auto skips = [&](std::uint32_t object) {
-    return objects_[object].convex() && (a.owner == b.owner || within(object, object == a.owner ? a.contour : b.contour));
+    if (!objects_[object].convex()) { return false; }
+    std::optional<bool>& known = skipped[object == a.owner ? 0 : 1];
+    if (!known) { known = a.owner == b.owner || within(object, object == a.owner ? a.contour : b.contour); }
+    return *known;
   };
   const std::uint32_t count =
       parent ? HALFLIGHT_DISPATCH(isa_, narrow(compiled_, c, parent->shapes_.data(), parent->count_, list.shapes_.data(), touches, skips))

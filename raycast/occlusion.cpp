@@ -70,6 +70,23 @@ struct Scene::Exact {
     }
     return result;
   }
+  [[nodiscard]] bool touches(unsigned lane, bool source, std::uint32_t object, std::uint32_t sheet) const {
+    const Segment s = segments.at(lane);
+    return scene.touches(source ? s.origin : s.at(1.0), scene.end_at(source ? segments.source[lane] : segments.target[lane]), object,
+                         sheet);
+  }
+};
+
+// The same for one segment.
+struct Scene::ExactOne {
+  const Scene& scene;
+  const Segment& segment;
+  End source, target;
+
+  std::uint32_t operator()(std::uint32_t object, std::uint32_t) const { return scene.blocks(Line(segment), source, target, object); }
+  [[nodiscard]] bool touches(unsigned, bool at_source, std::uint32_t object, std::uint32_t sheet) const {
+    return scene.touches(at_source ? segment.origin : segment.at(1.0), at_source ? source : target, object, sheet);
+  }
 };
 
 // Which of `near` lie in a convex room with both ends, or are the room's own at both.
@@ -144,20 +161,18 @@ HALFLIGHT_INLINE std::uint32_t Scene::occluded16(const Segments16& segments, std
 HALFLIGHT_INLINE bool Scene::occluded(const Segment& segment, std::uint32_t source_owner, std::uint32_t target_owner) const {
   if (!has_line(segment)) { return false; }
   Rays16 rays;
-  if (!HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, segment, source_owner, target_owner, rays))) {
+  if (!HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, segment, source_owner, unknown_sheet, target_owner, rays))) {
     Segments16 segments;
     segments.set(0, segment, source_owner, target_owner);
     return occluded16(segments) != 0;
   }
-  const auto exact = [&](std::uint32_t object, std::uint32_t) -> std::uint32_t {
-    return blocks(Line(segment), end_at(source_owner), end_at(target_owner), object);
-  };
+  const ExactOne exact{*this, segment, end_at(source_owner), end_at(target_owner)};
   if (HALFLIGHT_DISPATCH(isa_, blocked_one(compiled_, rays, exact))) { return true; }
   for (std::size_t r = 0; r < compiled_.rooms.size(); ++r) {
     const std::uint32_t room = compiled_.rooms[r];
     const bool clear = objects_[room].convex() && (source_owner == room || in_room(r, segment.origin)) &&
                        (target_owner == room || in_room(r, segment.at(1.0)));
-    if (!clear && exact(room, 1u)) { return true; }
+    if (!clear && exact(room, 1u) != 0) { return true; }
   }
   return false;
 }

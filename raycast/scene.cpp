@@ -109,8 +109,10 @@ HALFLIGHT_INLINE bool Scene::blocks_by_spans(const Line& line, const End& a, con
     if (in.t >= 1.0) { break; }
     if (i == a.owner && in.t <= 0.0) { continue; }
     if (i == b.owner && out.t >= 1.0) { continue; }
-    if (near_a && depth(i, s, out, out.t) <= skin_a) { continue; }
-    if (near_b && depth(i, s, in, 1.0 - in.t) <= skin_b) { continue; }
+    const auto begins = [&] { return in.t <= 0.0 || depth(i, s, in, in.t) <= skin_a; };
+    const auto ends = [&] { return out.t >= 1.0 || depth(i, s, out, 1.0 - out.t) <= skin_b; };
+    if (near_a && depth(i, s, out, out.t) <= skin_a && begins()) { continue; }
+    if (near_b && depth(i, s, in, 1.0 - in.t) <= skin_b && ends()) { continue; }
     // The owner's own span that begins in the skin of the source (a corner of a box, by rounding), and likewise at the target.
     if (near_a && i == a.owner && depth(i, s, in, in.t) <= skin_a) { continue; }
     if (near_b && i == b.owner && depth(i, s, out, 1.0 - out.t) <= skin_b) { continue; }
@@ -120,7 +122,12 @@ HALFLIGHT_INLINE bool Scene::blocks_by_spans(const Line& line, const End& a, con
   return false;
 }
 
-// Does the span of object i end before the segment comes out of its source's owner, or begin after it went into its target's?
+HALFLIGHT_INLINE bool Scene::touches(const glm::dvec3& p, const End& end, std::uint32_t object, std::uint32_t sheet) const {
+  const SurfacePoint on = objects_[object].project(sheet, p);
+  return std::abs(glm::dot(on.normal, p - on.position)) <= 0.5 * skin(end, object);
+}
+
+// Does the span of object i begin and end before the segment comes out of its source's owner, or after it went into its target's?
 HALFLIGHT_INLINE bool Scene::within_owner(const Segment& s, const End& end, bool source, const Span& span, std::uint32_t i) const {
   if (end.owner == no_object || end.owner == i) { return false; }
   const PlacedObject& owner = objects_[end.owner];
@@ -131,15 +138,18 @@ HALFLIGHT_INLINE bool Scene::within_owner(const Segment& s, const End& end, bool
   owner.spans(s, own);
   for (const Span& o : own) {
     if (source ? o.in.t > 0.0 || o.out.t <= 0.0 : o.in.t >= 1.0 || o.out.t < 1.0) { continue; }
-    const double beyond = source ? inner.t - o.out.t : o.in.t - inner.t;
-    return beyond <= 0.0 || depth(i, s, inner, beyond) <= near;
+    const auto reached = [&](const Crossing& at) {
+      const double beyond = source ? at.t - o.out.t : o.in.t - at.t;
+      return beyond <= 0.0 || depth(i, s, at, beyond) <= near;
+    };
+    return reached(inner) && reached(source ? span.in : span.out);
   }
   return false;
 }
 
-HALFLIGHT_INLINE std::optional<Hit> Scene::closest(const Segment& ray, std::uint32_t source_owner) const {
+HALFLIGHT_INLINE std::optional<Hit> Scene::closest(const Segment& ray, std::uint32_t source_owner, std::uint32_t source_sheet) const {
   if (!has_line(ray)) { return std::nullopt; }
-  Search search{ray, end_at(source_owner)};
+  Search search{ray, end_at(source_owner), source_sheet};
   for (const std::uint32_t i : compiled_.rooms) { approach(Line(ray), search.source, i, search.nearest); }
   approach_bounded(search);
   if (search.nearest.hit.object == no_object) { return std::nullopt; }
@@ -166,8 +176,7 @@ HALFLIGHT_INLINE void Scene::approach(const Line& line, const End& a, std::uint3
   const bool near_a = object.inside() || object.bounds().contains(s.origin, skin_a);
   for (const Span& span : spans) {
     if (!(span.in.t > 0.0)) { continue; }
-    if (near_a && depth(i, s, span.out, span.out.t) <= skin_a) { continue; }
-    if (near_a && i == a.owner && depth(i, s, span.in, span.in.t) <= skin_a) { continue; }
+    if (near_a && depth(i, s, span.in, span.in.t) <= skin_a && (i == a.owner || depth(i, s, span.out, span.out.t) <= skin_a)) { continue; }
     if (span.in.t <= nearest.limit) { offer(s, Hit{span.in.t, i, span.in.sheet, object.solid() || along(i, s, span.in) < 0.0}, nearest); }
     return;
   }

@@ -7,9 +7,10 @@
 // epsilon along the ray, spans decide:
 //   - of an end's owner, the span that contains the end is dropped: a ray that leaves a solid is never stopped by its own skin, while a
 //     concave solid still shadows itself further on. A polygon that is an owner is left out, and so is a convex object that owns both ends;
-//   - of every other object, a span is dropped when the end only touches it: it is no deeper behind the crossed surface than a skin; or
-//     when it ends within the owner's own dropped span (up to the skin): a chord point inside its owner stands for the owner's surface, and
-//     what is sunk into the owner, or fills the same place, is not in front of that.
+//   - of every other object, a span is dropped when the end only touches it: the span begins at the end, up to a skin, and the end is no
+//     deeper behind the surface where the span ends than a skin; or when it begins and ends within the owner's own dropped span (up to the
+//     skin): a chord point inside its owner stands for the owner's surface, and what is sunk into the owner, or fills the same place, is not
+//     in front of that.
 // A depth is measured across the surface, |t_crossing - t_end| |n.d|, so it does not depend on the angle of the ray. For a convex solid
 // it bounds how deep any point of the dropped part lies inside.
 //
@@ -90,7 +91,9 @@ class Scene {
 
   // The first surface met at t > 0, without upper limit: where a span of any object begins. Of surfaces that coincide the one that
   // covers is met: the later object when they face the same way, the front when they stand back to back.
-  [[nodiscard]] std::optional<Hit> closest(const Segment& ray, std::uint32_t source_owner = no_object) const;
+  // `source_sheet` as in Segments16.
+  [[nodiscard]] std::optional<Hit> closest(const Segment& ray, std::uint32_t source_owner = no_object,
+                                           std::uint32_t source_sheet = unknown_sheet) const;
 
   // As above for sixteen rays, bit for bit; the targets' owners do not matter. Rays that run close to each other are faster so.
   [[nodiscard]] Hits16 closest16(const Segments16& rays) const;
@@ -124,6 +127,7 @@ class Scene {
   struct Search {  // for the first hit of a ray
     Segment ray;
     End source;
+    std::uint32_t source_sheet = unknown_sheet;
     Nearest nearest{};
     double t0 = 0.0, t1 = infinity;  // of the ray: the part that runs through the compiled scene
 
@@ -132,6 +136,7 @@ class Scene {
   };
 
   struct Exact;
+  struct ExactOne;
   struct Asker;
   [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const std::uint32_t* list, std::uint32_t count, bool rooms_clear,
                                          std::uint32_t& hint) const;
@@ -169,6 +174,8 @@ class Scene {
   }
   [[nodiscard]] bool blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const;
   [[nodiscard]] bool blocks_by_spans(const Line& line, const End& a, const End& b, std::uint32_t i) const;
+  // Does the point at an end of a segment lie on the plane of this sheet, well within the skin?
+  [[nodiscard]] bool touches(const glm::dvec3& p, const End& end, std::uint32_t object, std::uint32_t sheet) const;
   [[nodiscard]] bool within_owner(const Segment& s, const End& end, bool source, const Span& span, std::uint32_t i) const;
   void approach(const Line& line, const End& a, std::uint32_t i, Nearest& nearest) const;
   void approach_bounded(Search& search) const;

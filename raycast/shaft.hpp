@@ -22,6 +22,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <raycast/bundle.hpp>
 #include <raycast/object.hpp>
 
 namespace raycast {
@@ -31,7 +32,8 @@ class Scene;
 struct PatchShape {
   std::span<const glm::dvec3> contour;  // at least 3 points, planar up to the bulge
   std::uint32_t owner = no_object;
-  double bulge = 0.0;  // a length in the world
+  double bulge = 0.0;                   // a length in the world
+  std::uint32_t sheet = unknown_sheet;  // of the owner: as in Segments16
 };
 
 class OccluderList {

@@ -86,6 +86,7 @@ class PlacedObject {
   // Of the body, without the part of a room that is outside it.
   [[nodiscard]] bool passes_once(const Segment& line) const { return object_->passes_once(to_object(line)); }
 
+  [[nodiscard]] std::uint32_t sheet_of(std::uint32_t face) const { return object_->sheet_of(face); }
   [[nodiscard]] Crossing crossing(const Segment& line, std::uint32_t face) const { return object_->crossing(to_object(line), face); }
   [[nodiscard]] bool enters(const Segment& line, std::uint32_t face) const { return object_->enters(to_object(line), face); }
 

@@ -80,7 +80,7 @@ class PathTracer {
       const double u = random.uniform();
       const glm::dvec3 onwards = cosine_direction(n, u, random.uniform());
       if (const std::optional<Emitters::Sample> lamp = emitters_.sample(x, n, random)) {
-        const std::optional<raycast::Hit> hit = first_front(x, lamp->direction, object, rays);
+        const std::optional<raycast::Hit> hit = first_front(x, lamp->direction, object, sheet, rays);
         if (hit) { arrives(throughput * emission(*hit) * balance(lamp->density, glm::dot(n, lamp->direction))); }
       }
       if (!first) {
@@ -89,7 +89,7 @@ class PathTracer {
         throughput /= survival;
       }
 
-      const std::optional<raycast::Hit> hit = first_front(x, onwards, object, rays);
+      const std::optional<raycast::Hit> hit = first_front(x, onwards, object, sheet, rays);
       if (!hit) { return result; }
       if (!is_black(emission(*hit))) {
         arrives(throughput * emission(*hit) * balance(emitters_.density(x, n, onwards), glm::dot(n, onwards)));
@@ -99,18 +99,19 @@ class PathTracer {
       x = point.position;
       n = point.normal;
       object = hit->object;
-      material = &materials_[surface(object, hit->sheet)];
+      sheet = hit->sheet;
+      material = &materials_[surface(object, sheet)];
     }
   }
 
  private:
   [[nodiscard]] const Color& emission(const raycast::Hit& hit) const { return materials_[surface(hit.object, hit.sheet)].emission; }
 
-  // What the ray from x, on a surface of `object`, meets, if that shows its front.
+  // What the ray from x, on a sheet of `object`, meets, if that shows its front.
   [[nodiscard]] std::optional<raycast::Hit> first_front(const glm::dvec3& x, const glm::dvec3& direction, std::uint32_t object,
-                                                        std::uint64_t& rays) const {
+                                                        std::uint32_t sheet, std::uint64_t& rays) const {
     ++rays;
-    const auto hit = objects_->closest({x, direction * objects_->diameter()}, object);
+    const auto hit = objects_->closest({x, direction * objects_->diameter()}, object, sheet);
     return hit && hit->front ? hit : std::nullopt;
   }
 

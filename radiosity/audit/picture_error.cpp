@@ -93,15 +93,17 @@ HALFLIGHT_INLINE std::optional<PictureAudit::Seen> PictureAudit::seen(const Show
   ray.origin = (ray.origin - prepared_->frame.centre) * prepared_->frame.scale;
   ray.direction = glm::normalize(ray.direction) * objects.diameter();
   std::uint32_t from = raycast::no_object;
+  std::uint32_t sheet = raycast::unknown_sheet;
   constexpr int most = 10'000;  // only backs are passed, so this ends what rounding might not
   for (int passed = 0; passed < most; ++passed) {
     ++rays;
-    const auto hit = objects.closest(ray, from);
+    const auto hit = objects.closest(ray, from, sheet);
     if (!hit) { return std::nullopt; }
     const raycast::SurfacePoint point = objects.object(hit->object).project(hit->sheet, ray.at(hit->t));
     if (hit->front && !objects.covered(point.position, point.normal, hit->object)) { return Seen{point, hit->object, hit->sheet}; }
     ray.origin = point.position;
     from = hit->object;
+    sheet = hit->sheet;
   }
   return std::nullopt;
 }

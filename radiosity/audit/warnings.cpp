@@ -133,9 +133,11 @@ HALFLIGHT_INLINE StrayRays stray_rays(const DiscreteScene& scene, std::uint32_t 
       p = sample(patches[i], u, random.uniform());
     }
     const Node& node = hierarchy[i];
-    const raycast::SurfacePoint from = objects.object(node.object).project(node.surface - scene.surfaces[node.object].first_surface, p);
+    const std::uint32_t sheet = node.surface - scene.surfaces[node.object].first_surface;
+    const raycast::SurfacePoint from = objects.object(node.object).project(sheet, p);
     const double u = random.uniform();
-    const auto hit = objects.closest({from.position, cosine_direction(from.normal, u, random.uniform()) * objects.diameter()}, node.object);
+    const auto hit =
+        objects.closest({from.position, cosine_direction(from.normal, u, random.uniform()) * objects.diameter()}, node.object, sheet);
     ends[k] = !hit ? End::nowhere : hit->front ? End::front : End::back;
   });
   StrayRays stray;

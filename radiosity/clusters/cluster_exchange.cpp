@@ -58,7 +58,7 @@ HALFLIGHT_INLINE ClusterExchange ClusterSampler::operator()(const ClusterEnd& p,
       const double edge_on = 1e-12 * std::sqrt(r2);  // of one plane, but for rounding
       if (!(leaves > edge_on && arrives > edge_on)) { continue; }
       weights[i] = std::min(leaves * arrives / r2 * x.per_shown * y.per_shown, most_weight) / (std::numbers::pi * r2);
-      segments.set(i, {x.position, d}, x.object, y.object);
+      segments.set(i, {x.position, d}, x.object, y.object, x.sheet, y.sheet);
     }
     const std::uint32_t occluded = scene_.objects.occluded16(segments, hint);
     for (std::uint32_t i = 0; i < 16; ++i) {
@@ -106,9 +106,10 @@ HALFLIGHT_INLINE ClusterSampler::Point ClusterSampler::draw(const ClusterEnd& en
     i = chosen;
   }
   const Patch& patch = scene_.patches[i];
-  const PatchEnd ground{&patch, nodes[i].object, exposure_ != nullptr ? exposure_->points(i) : nullptr};
+  const PatchEnd ground{&patch, nodes[i].object, exposure_ != nullptr ? exposure_->points(i) : nullptr,
+                        scene_.sheet(i)};
   const auto cell = static_cast<std::uint32_t>(random.bits() & 15u);
-  return {draw_exposed(ground, cell, random), patch.normal, i == end.node ? 1.0 : 1.0 / per_shown, nodes[i].object};
+  return {draw_exposed(ground, cell, random), patch.normal, i == end.node ? 1.0 : 1.0 / per_shown, nodes[i].object, scene_.sheet(i)};
 }
 
 HALFLIGHT_INLINE ClusterExchange evaluate_cluster_link(const ClusterSampler& sampler, const Hierarchy& hierarchy, Link& link,

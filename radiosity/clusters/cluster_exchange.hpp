@@ -55,7 +55,7 @@ class ClusterSampler {
     glm::dvec3 position{0.0};
     glm::dvec3 normal{0.0};
     double per_shown = 1.0;  // area of its face over what that shows
-    std::uint32_t object = 0;
+    std::uint32_t object = 0, sheet = 0;
   };
   // A face that is nearly edge on from the centre is drawn rarely and would count for very much: cut off.
   static constexpr double most_weight = 4.0;

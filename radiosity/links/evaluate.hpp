@@ -106,7 +106,9 @@ class LinkEvaluator {
   [[nodiscard]] LinkVariation variation_of_cluster_link(const Link& link, const ClusterExchange& seen, const LinkVariation& before) const;
   // Every face and every link errs for itself: by its place, by what it sees, by the lattice of directions and by sampling.
   [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkVariation& variation) const;
-  [[nodiscard]] PatchEnd end(std::uint32_t i) const { return {&scene_.patches[i], scene_.hierarchy[i].object, exposure_->points(i)}; }
+  [[nodiscard]] PatchEnd end(std::uint32_t i) const {
+    return {&scene_.patches[i], scene_.hierarchy[i].object, exposure_->points(i), scene_.sheet(i)};
+  }
 
   SceneView scene_;
   const Exposure* exposure_;

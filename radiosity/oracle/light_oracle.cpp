@@ -66,13 +66,14 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
   const Hierarchy& nodes = scene_.hierarchy;
   const bool q_shines = emission(nodes[q]) >= emission(nodes[p]);
   const std::uint32_t receiver = q_shines ? p : q;
+  const std::uint32_t lamp = q_shines ? q : p;
   const Node& to = nodes[receiver];
-  const Node& from = nodes[q_shines ? q : p];
+  const Node& from = nodes[lamp];
   // A light that was split into k parts has k links here, whose variations add up to between sqrt k and k of one.
-  const double parts = from.is_cluster() ? 1.0 : nodes[input_face(nodes, q_shines ? q : p)].area / from.area;
+  const double parts = from.is_cluster() ? 1.0 : nodes[input_face(nodes, lamp)].area / from.area;
   const double weight = emission(from) * std::sqrt(parts * to.area / scene_area_);
   if (!(weight > epsilon_)) { return no_node; }
-  if (to.is_cluster() || from.is_cluster()) { return wants_cluster_split(receiver, q_shines ? q : p, weight, rays); }
+  if (to.is_cluster() || from.is_cluster()) { return wants_cluster_split(receiver, lamp, weight, rays); }
 
   const Patch& patch = scene_.patches[receiver];
   double low = 1.0;
@@ -91,7 +92,7 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
   if (weight * (high - low) > std::sqrt(12.0) * epsilon_) { return receiver; }
   if (!(weight * high * 0.5 > epsilon_)) { return no_node; }  // sqrt(V (1 - V)) is at most one half
 
-  const Patch& light = scene_.patches[q_shines ? q : p];
+  const auto end_at = [&](std::uint32_t i) { return PatchEnd{&scene_.patches[i], nodes[i].object, nullptr, scene_.sheet(i)}; };
   // The smallest shadow that matters covers this part of the patch. Segments enough to meet it three times are cast, unless they are too
   // many or their first have told.
   const double mean = weight * 0.5 * (low + high);
@@ -100,7 +101,7 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
   double arrives = 0.0;
   for (double round = 0.0; round < rounds; round += 1.0) {
     const VisibilityEstimate seen =
-        visibility(scene_, list, {&patch, to.object}, {&light, from.object}, 1,
+        visibility(scene_, list, end_at(receiver), end_at(lamp), 1,
                    Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull + static_cast<std::uint64_t>(round)});
     rays += seen.rays;
     arrives += seen.fraction;

@@ -155,7 +155,7 @@ HALFLIGHT_INLINE std::array<std::optional<Lookup::Seen>, 16> Lookup::seen16(cons
         result[i] = Seen{first_sheet_[hit.object] + hit.sheet, *color};
         rays.lanes &= ~(1u << i);
       } else {
-        rays.set(i, {place.position, ray.direction}, hit.object, raycast::no_object);
+        rays.set(i, {place.position, ray.direction}, hit.object, raycast::no_object, hit.sheet);
       }
     }
   }

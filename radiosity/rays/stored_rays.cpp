@@ -117,7 +117,7 @@ HALFLIGHT_INLINE void cast_from(const DiscreteScene& scene, const LeafLocator& l
         rays[first + k].length = -1.0f;
         continue;
       }
-      segments.set(k, {start.position, reach * cosine_direction(start.normal, u[2], u[3])}, object, raycast::no_object);
+      segments.set(k, {start.position, reach * cosine_direction(start.normal, u[2], u[3])}, object, raycast::no_object, origins.sheet);
     }
     const raycast::Hits16 hits = scene.objects.closest16(segments);
     for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {

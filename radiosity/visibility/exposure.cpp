@@ -139,7 +139,7 @@ class ExposureMeasurement {
     const Patch& patch = scene_.patches[i];
     // A separate polygon is all that its quad-tree knows of the surface.
     const bool curved = node.deviation > 0.0 && surface.topology == Topology::shared;
-    to_.whole[i] = curved ? curved_area(scene_.objects.object(node.object), sheet(i), patch.contour)
+    to_.whole[i] = curved ? curved_area(scene_.objects.object(node.object), scene_.sheet(i), patch.contour)
                           : glm::length(brep::vector_area(surface.brep, node.face));
     to_.centroid[i] = patch.centroid;
     to_.area[i] = to_.whole[i];
@@ -148,7 +148,7 @@ class ExposureMeasurement {
     std::uint32_t count = 0;
     for (std::uint32_t c = 0; c < 16; ++c) {
       const double u = (c % 4 + random.uniform()) / 4.0;
-      count += buried(scene_.objects, node.object, sheet(i), sample(patch, u, (c / 4 + random.uniform()) / 4.0)) ? 0u : 1u;
+      count += buried(scene_.objects, node.object, scene_.sheet(i), sample(patch, u, (c / 4 + random.uniform()) / 4.0)) ? 0u : 1u;
     }
     if (count == 0) { to_.area[i] = 0.0; }
     return count > 0 && count < 16;
@@ -161,13 +161,10 @@ class ExposureMeasurement {
     parallel_for(nodes.size(), threads_, [&](std::size_t k) {
       const std::uint32_t i = nodes[k];
       to_.drawn_of[i] = static_cast<std::uint32_t>(first + k);
-      to_.drawn[first + k] = ExposedPoints{scene_.objects, scene_.hierarchy[i].object, sheet(i), scene_.patches[i], key(i)};
+      to_.drawn[first + k] = ExposedPoints{scene_.objects, scene_.hierarchy[i].object, scene_.sheet(i), scene_.patches[i], key(i)};
     });
   }
 
-  [[nodiscard]] std::uint32_t sheet(std::size_t i) const {
-    return scene_.hierarchy[i].surface - scene_.surfaces[scene_.hierarchy[i].object].first_surface;
-  }
   [[nodiscard]] std::uint64_t key(std::size_t i) const { return Random{seed_, i, 0x6578706f73656421ull}.bits(); }
 
   Exposure& to_;

@@ -36,7 +36,7 @@ class Patches {
   // The patch as the occluder lists see it. Its descendants leave its plane by at most the tilt of the true surface over its radius.
   [[nodiscard]] raycast::PatchShape shape(std::uint32_t i) const {
     const Node& node = (*hierarchy_)[i];
-    return {patches_[i].contour, node.object, node.radius * node.deviation};
+    return {patches_[i].contour, node.object, node.radius * node.deviation, node.surface - (*surfaces_)[node.object].first_surface};
   }
 
  private:

@@ -22,6 +22,9 @@ struct SceneView {
   const std::vector<Surface>& surfaces;  // boundary of each object
   const Hierarchy& hierarchy;            // over the faces of the boundaries
   const Patches& patches;                // of each node
+
+  // On which sheet of its object a node lies that is no cluster.
+  [[nodiscard]] std::uint32_t sheet(std::size_t i) const { return hierarchy[i].surface - surfaces[hierarchy[i].object].first_surface; }
 };
 
 }  // namespace radiosity

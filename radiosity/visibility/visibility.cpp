@@ -156,7 +156,7 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const ray
       const glm::dvec3 d = y - x;
       const double r2 = glm::dot(d, d) + softening;
       weights[i] = std::max(0.0, glm::dot(p.patch->normal, d)) * std::max(0.0, -glm::dot(q.patch->normal, d)) / (r2 * r2);
-      if (weights[i] > 0.0) { segments.set(i, {x, d}, p.object, q.object); }
+      if (weights[i] > 0.0) { segments.set(i, {x, d}, p.object, q.object, p.sheet, q.sheet); }
     }
     const std::uint32_t occluded = scene.objects.occluded16(segments, known, last_occluder);
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
@@ -182,7 +182,7 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const ray
   // No sample is above both horizons: what is highest above them decides.
   const glm::dvec3 x = highest_corner(*p.patch, *q.patch);
   raycast::Segments16 segment;
-  segment.set(0, {x, highest_corner(*q.patch, *p.patch) - x}, p.object, q.object);
+  segment.set(0, {x, highest_corner(*q.patch, *p.patch) - x}, p.object, q.object, p.sheet, q.sheet);
   estimate.fraction = scene.objects.occluded16(segment, known, last_occluder) != 0 ? 0.0 : 1.0;
   ++estimate.rays.cast;
   return estimate;

@@ -62,6 +62,7 @@ struct PatchEnd {
   const Patch* patch = nullptr;
   std::uint32_t object = 0;
   const ExposedPoints* exposed = nullptr;  // of a patch that is partly buried
+  std::uint32_t sheet = raycast::unknown_sheet;
 };
 
 // A point of the exposed part of the end, in cell 0...15 of a 4 x 4 grid if that is exposed.
@@ -86,8 +87,8 @@ inline constexpr std::uint32_t segments_per_round = 16;
 // One round of 16 segments decides when they agree; else `rounds` rounds are averaged. So a patch of which the part p is hidden
 // passes for wholly visible with probability (1 - p)^16, and the fraction is too large by p (1 - p)^16 <= 0.022 on average.
 // The numbers drawn depend on `random` alone. `list` is that of the pair.
-[[nodiscard]] VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p,
-                                            const PatchEnd& q, std::uint32_t rounds, Random random);
+[[nodiscard]] VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p, const PatchEnd& q,
+                                            std::uint32_t rounds, Random random);
 
 }  // namespace radiosity
 

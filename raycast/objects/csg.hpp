@@ -52,6 +52,7 @@ class Csg final : public Object {
   void compile(Compiler& compiler) const override {
     if (mesh_) { mesh_->compile(compiler); }
   }
+  [[nodiscard]] std::uint32_t sheet_of(std::uint32_t face) const override { return polygons_.sheet(face); }
   [[nodiscard]] Crossing crossing(const Segment& line, std::uint32_t face) const override {
     return {mesh_->crossing(line, face).t, polygons_.sheet(face)};
   }

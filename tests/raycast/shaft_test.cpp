@@ -12,7 +12,8 @@ struct TestPatch {
   Corners contour;
   std::uint32_t owner = no_object;
   double bulge = 0.0;
-  [[nodiscard]] PatchShape shape() const { return {contour, owner, bulge}; }
+  std::uint32_t sheet = unknown_sheet;
+  [[nodiscard]] PatchShape shape() const { return {contour, owner, bulge, sheet}; }
 };
 
 dvec3 inside(Random& random, const Corners& contour) {
@@ -36,7 +37,7 @@ void check_pair(Random& random, const Scene& scene, const TestPatch& p, const Te
                 std::size_t& blocked, const std::function<dvec3(const TestPatch&, const dvec3&)>& lift) {
   Segments16 segments;
   for (unsigned lane = 0; lane < 16; ++lane)
-    segments.set(lane, between(lift(p, inside(random, p.contour)), lift(q, inside(random, q.contour))), p.owner, q.owner);
+    segments.set(lane, between(lift(p, inside(random, p.contour)), lift(q, inside(random, q.contour))), p.owner, q.owner, p.sheet, q.sheet);
   std::uint32_t expected = 0;
   for (unsigned lane = 0; lane < 16; ++lane)
     expected |= static_cast<std::uint32_t>(by_law(scene, segments.at(lane), p.owner, q.owner)) << lane;
@@ -61,8 +62,8 @@ TEST_CASE("a list of occluders gives the answers of the law, at every level and 
     const auto sets = instruction_sets();
     const Scene scene(w.objects, sets[static_cast<std::size_t>(turn) % sets.size()]);
     const auto any = [&] {
-      const auto& [owner, corners] = w.faces[random.below(static_cast<std::uint32_t>(w.faces.size()))];
-      return TestPatch{corners, owner, 0.0};
+      const auto& [owner, corners, sheet] = w.faces[random.below(static_cast<std::uint32_t>(w.faces.size()))];
+      return TestPatch{corners, owner, 0.0, random.below(3) ? sheet : unknown_sheet};
     };
     const auto stay = [](const TestPatch&, const dvec3& x) { return x; };
     for (int i = 0; i < 60; ++i) {
@@ -107,7 +108,7 @@ TEST_CASE("lists of curved patches hold for points that move out to the true sur
     const auto cap = [&](std::uint32_t i, double width) {
       const auto& [centre, radius] = balls[i];
       const glm::dmat3 turned = random.rotation();
-      TestPatch patch{{}, i, 0.0};
+      TestPatch patch{{}, i, 0.0, unknown_sheet};
       for (int k = 0; k < 4; ++k)
         patch.contour.push_back(centre +
                                 radius * glm::normalize(turned * dvec3(k == 1 || k == 2 ? width : -width, k >= 2 ? width : -width, 1)));

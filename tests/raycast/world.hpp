@@ -34,12 +34,18 @@ inline bool by_law(const Scene& scene, const Segment& s, std::uint32_t source, s
 // A place on some object's surface (the vertex or the middle of a face of its mesh), or a free point.
 struct Place {
   dvec3 at{0.0};
-  std::uint32_t owner = no_object;
+  std::uint32_t owner = no_object, sheet = unknown_sheet;
+};
+
+struct Facet {
+  std::uint32_t owner;
+  Corners corners;
+  std::uint32_t sheet;
 };
 
 struct World {
   std::vector<PlacedObject> objects;
-  std::vector<std::pair<std::uint32_t, Corners>> faces;  // owner, corners
+  std::vector<Facet> faces;
 };
 
 // A room with objects of every kind, some of them touching, at any scale and any place.
@@ -52,7 +58,7 @@ inline World world(Random& random, int count, double scale, const dvec3& shift, 
       if (mesh.sheet(f) == brep::no_sheet) continue;
       Corners corners;
       for (const std::uint32_t v : mesh.corners(f)) corners.push_back(mesh.position(v));
-      w.faces.push_back({static_cast<std::uint32_t>(w.objects.size()), corners});
+      w.faces.push_back({static_cast<std::uint32_t>(w.objects.size()), corners, mesh.sheet(f)});
     }
     w.objects.push_back(object);
   };
@@ -121,15 +127,16 @@ inline World world(Random& random, int count, double scale, const dvec3& shift, 
 }
 inline Place place(Random& random, const World& w, double scale, const dvec3& shift) {
   if (random.below(6) == 0) return {shift + scale * random.in_cube(random.below(8) ? 1.0 : 20.0)};
-  const auto& [owner, corners] = w.faces[random.below(static_cast<std::uint32_t>(w.faces.size()))];
-  if (random.below(12) == 0) return {corners[0], owner};
+  const auto& [owner, corners, of_face] = w.faces[random.below(static_cast<std::uint32_t>(w.faces.size()))];
+  const std::uint32_t sheet = random.below(3) ? of_face : unknown_sheet;
+  if (random.below(12) == 0) return {corners[0], owner, sheet};
   double sum = 0.0;
   dvec3 p{0.0};
   for (const dvec3& c : corners) {
     const double weight = random.uniform();
     p += weight * c, sum += weight;
   }
-  return {p / sum, owner};
+  return {p / sum, owner, sheet};
 }
 
 }  // namespace test
