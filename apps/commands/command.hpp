@@ -70,6 +70,7 @@ struct Command {
 [[nodiscard]] Command stress_command();
 [[nodiscard]] Command euler_command();
 [[nodiscard]] Command study_command();
+[[nodiscard]] Command explain_command();
 
 // --- kinds of arguments; `target` must outlive the reading of the command line
 

@@ -7,10 +7,10 @@
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
 
-#include "apps/euler/html_page.hpp"
 #include "apps/euler/svg.hpp"
+#include "apps/html_document.hpp"
 #include "apps/json.hpp"
-#include "apps/markup.hpp"
+#include "embedded/euler.hpp"
 
 namespace apps::euler {
 namespace {
@@ -63,17 +63,8 @@ std::string page(const Story& story) {
   json.open_object().fields("title", story.title, "introduction", story.introduction).key("frames").open_array();
   for (std::size_t i = 0; i < story.frames.size(); ++i) { write(json, story, i, layouts[i]); }
   json.close().close();
-  std::string data;  // no '<' in the data can end the script element
-  for (const char c : json.text()) {
-    if (c == '<') {
-      data += "\\u003c";
-    } else {
-      data += c;
-    }
-  }
-  return "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n<meta name='viewport' content='width=device-width'>\n<title>" +
-         escaped(story.title) + "</title>\n<style>" + page_style + drawing_style() + "\n</style>\n</head>\n<body>" + page_body +
-         "<script>\n'use strict';\nconst story = " + data + ";" + page_script + "</script>\n</body>\n</html>\n";
+  return to_text(HtmlDocument{story.title, embedded::euler_page_css + drawing_style(), embedded::euler_page_html, json.text(),
+                              embedded::euler_page_js});
 }
 
 }  // namespace apps::euler

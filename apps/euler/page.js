@@ -1,68 +1,5 @@
-// SPDX-License-Identifier: MIT
-#pragma once
-
-// The fixed parts of the stepper's page: style, elements, and the script that steps. html.cpp puts the data between them.
-
-namespace apps::euler {
-
-inline constexpr const char* page_style = R"~(
-*{box-sizing:border-box}
-html,body{height:100%;margin:0}
-body{display:grid;grid-template:auto minmax(0,1fr) auto / minmax(210px,270px) minmax(320px,1fr) minmax(330px,400px);
- font:15px/1.45 'Segoe UI','DejaVu Sans',Verdana,sans-serif;color:#222;background:#fbfbf9}
-header{grid-column:1/4;padding:10px 20px 6px;border-bottom:1px solid #dcdcd6;display:flex;gap:18px;align-items:baseline}
-h1{font-size:20px;margin:0}
-header span{color:#777;font-size:13px}
-code,.mono,td,th,#script li{font-family:'DejaVu Sans Mono',Consolas,Menlo,monospace}
-#script{overflow:auto;margin:0;padding:8px 0;border-right:1px solid #dcdcd6;list-style:none;font-size:12px}
-#script li{padding:3px 12px 3px 38px;position:relative;cursor:pointer;white-space:pre-wrap}
-#script li::before{content:attr(data-n);position:absolute;left:0;width:30px;text-align:right;color:#aaa}
-#script li:hover{background:#eeeee8}
-#script li.now{background:#222;color:#fff}
-#script li.bad{color:#a8200a}#script li.bad.now{color:#ffb3a5}
-main{display:flex;flex-direction:column;min-width:0;min-height:0;padding:10px 16px 0}
-#head{display:flex;gap:14px;align-items:baseline;flex-wrap:wrap;min-height:28px}
-#operator{font-size:17px;font-weight:bold}
-#picture{flex:1;min-height:0;display:flex;justify-content:center;padding:6px 0}
-#picture svg{width:100%;height:100%}
-#numbers{display:flex;gap:26px;justify-content:center;font-size:16px;padding:2px 0 8px;flex-wrap:wrap}
-#numbers b{color:#888;font-weight:normal}
-#numbers .moved{background:#ffe3a8;border-radius:3px;padding:0 2px}
-aside{overflow:auto;border-left:1px solid #dcdcd6;padding:12px 16px;min-height:0}
-#caption{min-height:5em}
-#caption p{margin:0 0 .7em}
-.note{border-left:4px solid #c8310f;background:#fdf0ec;padding:6px 10px;margin:0 0 8px;color:#8c1c06;font-size:14px}
-.note.fine{border-color:#cf8a00;background:#fff7e4;color:#6d4a00}
-.note.good{border-color:#14702d;background:#eef8f0;color:#14572a}
-table{border-collapse:collapse;font-size:12.5px;margin:8px 0 14px}
-th{font-weight:normal;color:#888;text-align:right;padding:1px 8px;position:sticky;top:-12px;background:#fbfbf9}
-td{text-align:right;padding:1px 8px;border-top:1px solid #ecece6}
-td:first-child{color:#555;font-weight:bold}
-td.moved{background:#ffe3a8}tr.fresh td{background:#fde4de}
-tr.lit td{outline:1px solid #0b5bd3;outline-offset:-1px}
-#anchors{display:flex;gap:24px;align-items:flex-start}
-footer{grid-column:1/4;border-top:1px solid #dcdcd6;padding:8px 20px;display:flex;gap:8px;align-items:center}
-button{font:inherit;padding:4px 12px;border:1px solid #bbb;border-radius:6px;background:#fff;cursor:pointer;min-width:44px}
-button:hover{background:#f0f0ea}button:disabled{opacity:.4;cursor:default}
-input[type=range]{flex:1}
-footer span{color:#777;font-size:13px;min-width:7em;text-align:right}
-@media(max-width:1000px){body{display:block;overflow:auto}#script{max-height:9em;border:0}#picture svg{height:90vw}footer{position:sticky;bottom:0;background:#fbfbf9}}
-@media print{footer,#script{display:none}}
-)~";
-
-inline constexpr const char* page_body = R"~(
-<header><h1 id="title"></h1><span>next: &rarr; &nbsp; undo: &larr; &nbsp; play: space</span></header>
-<ol id="script"></ol>
-<main><div id="head"><span id="operator" class="mono"></span></div><div id="picture"></div><div id="numbers" class="mono"></div></main>
-<aside><div id="caption"></div><div id="notes"></div><div id="tables"></div></aside>
-<footer><button id="first" title="the start (Home)">|&#9664;</button><button id="back" title="undo this step (left arrow)">&#9664; undo</button>
-<button id="forth" title="the next step (right arrow)">next &#9654;</button><button id="last" title="the end (End)">&#9654;|</button>
-<button id="play" title="play (space)">play</button><input id="slide" type="range" min="0" value="0" aria-label="step"><span id="where"></span></footer>
-)~";
-
-inline constexpr const char* page_script = R"~(
 const $ = id => document.getElementById(id);
-const frames = story.frames;
+const story = data, frames = story.frames;
 let now = -1, timer = null, moving = 0;
 
 const element = (tag, text, kind) => {
@@ -202,6 +139,3 @@ document.addEventListener('keydown', e => {
 const asked = () => { const m = /step=(\d+)/.exec(location.hash); return m ? +m[1] : 0; };
 addEventListener('hashchange', () => go(asked()));
 show(asked());
-)~";
-
-}  // namespace apps::euler

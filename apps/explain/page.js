@@ -1,0 +1,506 @@
+addEventListener('error', e => { document.documentElement.dataset.error = e.message; });
+const $ = id => document.getElementById(id);
+const element = (tag, text, kind) => {
+  const e = document.createElement(tag);
+  if (text !== undefined) e.textContent = text;
+  if (kind) e.className = kind;
+  return e;
+};
+const svg = (tag, attributes) => {
+  const e = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes)) e.setAttribute(name, value);
+  return e;
+};
+const numbers = text => text ? text.split(' ').map(Number) : [];
+const points = text => {
+  const n = numbers(text);
+  return Array.from({length: n.length / 3}, (_, i) => n.slice(3 * i, 3 * i + 3));
+};
+const short = x => x === 0 ? '0' : Math.abs(x) >= 1e-3 && Math.abs(x) < 1e4 ? String(+x.toPrecision(3)) : x.toExponential(1);
+const plus = (a, b) => a.map((x, i) => x + b[i]), minus = (a, b) => a.map((x, i) => x - b[i]), times = (a, s) => a.map(x => x * s);
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const centre = polygon => times(polygon.reduce(plus), 1 / polygon.length);
+
+// A hierarchy as the pictures need it: contours, children, depths, and for each moment the leaves of then.
+function hierarchy(nodes, born) {
+  const tree = nodes.map(n => ({...n, points: points(n.contour), children: [], depth: 0}));
+  tree.forEach((n, i) => {
+    n.centre = centre(n.points);
+    n.born = born ? born[i] : 0;
+    if (n.parent >= 0) {
+      tree[n.parent].children.push(i);
+      n.depth = tree[n.parent].depth + 1;
+    }
+  });
+  tree.leaves = known => tree.map((_, i) => i).filter(i => known(i) && !tree[i].children.some(known));
+  return tree;
+}
+const main = hierarchy(data.nodes, numbers(data.born)), byLight = hierarchy(data.bfNodes);
+for (const name of ['emission', 'reflectance', 'radiosity', 'levels']) data[name] = numbers(data[name]);
+for (const step of data.iterations) for (const name of ['sent', 'gathered', 'arrived']) step[name] = numbers(step[name]);
+for (const b of data.bf) b.radiosity = numbers(b.radiosity);
+for (const l of data.links) { l.rays = points(l.rays); l.arrives = numbers(l.arrives); }
+for (const l of data.leaves) { l.corners = points(l.corners); l.levels = numbers(l.levels); l.t = numbers(l.t); }
+for (const m of data.mesh) { m.corners = points(m.corners); m.simple = numbers(m.simple); m.weighted = numbers(m.weighted); }
+for (const s of data.solvers) {
+  s.solution = numbers(s.solution);
+  for (const m of s.methods) { m.residual = numbers(m.residual); m.radiosity = m.radiosity.map(numbers); }
+}
+data.pairs.forEach(p => { p.children = []; });
+data.pairs.forEach(p => { if (p.parent >= 0) data.pairs[p.parent].children.push(p); });
+
+// Radiosity as a grey with a warm tint; the lamp is above the scale and white. Light is shown by its square root, as eyes and screens take it.
+const reflected = data.radiosity.filter((_, i) => data.emission[i] === 0);
+const most = Math.max(1e-30, ...(reflected.some(x => x > 0) ? reflected : data.radiosity));
+const shade = b => {
+  const t = Math.sqrt(Math.min(1, Math.max(0, b / most)));
+  return b < 0 ? '#7a3fb0' : `rgb(${Math.round(28 + 227 * t)},${Math.round(28 + 217 * t)},${Math.round(34 + 186 * t)})`;
+};
+
+// --- the picture: polygons from back to front, lines above them
+const eye = {turn: -0.6, lift: 0.45, zoom: 1};
+const bounds = main.filter(n => n.parent < 0).flatMap(n => n.points);
+const low = [0, 1, 2].map(c => Math.min(...bounds.map(p => p[c]))), high = [0, 1, 2].map(c => Math.max(...bounds.map(p => p[c])));
+const middle = times(plus(low, high), 0.5), reach = Math.hypot(...minus(high, low)) / 2 || 1;
+function camera(width, height) {
+  const {turn, lift} = eye;
+  const back = [Math.cos(lift) * Math.sin(turn), -Math.cos(lift) * Math.cos(turn), Math.sin(lift)];
+  const right = [Math.cos(turn), Math.sin(turn), 0], up = cross(back, right), distance = 3.2 * reach, from = plus(middle, times(back, distance));
+  const scale = 1.5 * eye.zoom * Math.min(width, height);
+  return {from, to: p => {
+    const d = minus(p, from), depth = Math.max(1e-9, -dot(d, back));
+    return [width / 2 + scale * dot(d, right) / depth, height / 2 - scale * dot(d, up) / depth, depth];
+  }};
+}
+// The first view is the one that shows most of what is lit; backs cannot be seen.
+function bestView() {
+  let best = -1;
+  for (const lift of [0.45, -0.45]) for (let turn = -0.6; turn < 5.6; turn += Math.PI / 4) {
+    const back = [Math.cos(lift) * Math.sin(turn), -Math.cos(lift) * Math.cos(turn), Math.sin(lift)];
+    let shown = turn < 0 && lift > 0 ? 0.05 * reach * reach : 0;
+    main.forEach((n, i) => {
+      if (n.parent >= 0) return;
+      const normal = n.points.reduce((sum, p, k) => plus(sum, cross(minus(p, n.centre), minus(n.points[(k + 1) % n.points.length], n.centre))), [0, 0, 0]);
+      shown += Math.max(0, dot(normal, back)) / 2 * (data.emission[i] > 0 ? 0.3 : data.radiosity[i] / most);
+    });
+    if (shown > best) { best = shown; Object.assign(eye, {turn, lift}); }
+  }
+}
+bestView();
+// faces: {points, fill, node, edge, wide}; lines: {from, to, colour, width}; marks: {at, text, colour}
+function paint(canvas, {faces, lines = [], marks = []}) {
+  const ratio = devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight, context = canvas.getContext('2d');
+  canvas.width = width * ratio;
+  canvas.height = height * ratio;
+  context.scale(ratio, ratio);
+  context.lineJoin = 'round';
+  const look = camera(width, height), drawn = [];
+  for (const f of faces) {
+    const at = f.points.map(look.to), c = centre(f.points);
+    const normal = f.points.reduce((n, p, i) => plus(n, cross(minus(p, c), minus(f.points[(i + 1) % f.points.length], c))), [0, 0, 0]);
+    drawn.push({...f, at, depth: Math.hypot(...minus(c, look.from)), front: dot(normal, minus(look.from, c)) > 0});
+  }
+  drawn.sort((a, b) => b.depth - a.depth || (a.wide ? 1 : 0) - (b.wide ? 1 : 0));
+  const path = at => {
+    context.beginPath();
+    at.forEach((p, i) => i ? context.lineTo(p[0], p[1]) : context.moveTo(p[0], p[1]));
+    context.closePath();
+  };
+  for (const f of drawn) {
+    path(f.at);
+    if (f.front) {
+      context.fillStyle = f.fill;
+      context.fill();
+    }
+    context.strokeStyle = f.edge || (f.front ? 'rgba(60,90,140,.55)' : 'rgba(120,120,120,.25)');
+    context.lineWidth = f.wide ? 2.5 : 0.8;
+    if (f.edge !== 'none') context.stroke();
+  }
+  for (const l of lines) {
+    const a = look.to(l.from), b = look.to(l.to);
+    context.beginPath();
+    context.moveTo(a[0], a[1]);
+    context.lineTo(b[0], b[1]);
+    context.strokeStyle = l.colour;
+    context.lineWidth = l.width || 1;
+    context.stroke();
+  }
+  context.font = '12px sans-serif';
+  for (const m of marks) {
+    const p = look.to(m.at);
+    context.fillStyle = m.colour;
+    if (m.text) {
+      context.fillText(m.text, p[0] - 3, p[1] + 4);
+    } else {
+      context.beginPath();
+      context.arc(p[0], p[1], 4, 0, 7);
+      context.fill();
+    }
+  }
+  canvas.drawn = drawn;
+}
+function hit(canvas, x, y) {
+  for (const f of [...canvas.drawn].reverse()) {
+    if (!f.front || f.node === undefined) continue;
+    let inside = false;
+    for (let i = 0, j = f.at.length - 1; i < f.at.length; j = i++) {
+      const [xi, yi] = f.at[i], [xj, yj] = f.at[j];
+      if ((yi > y) !== (yj > y) && x < (xj - xi) * (y - yi) / (yj - yi) + xi) inside = !inside;
+    }
+    if (inside) return f.node;
+  }
+  return -1;
+}
+
+// --- the trees: one box a node, children under their parent, as wide as their leaves
+function drawTree(tree, known, fill, ring) {
+  const width = new Array(tree.length).fill(0), left = new Array(tree.length).fill(0);
+  for (let i = tree.length; i-- > 0;) {
+    if (!known(i)) continue;
+    width[i] = width[i] || 1;
+    if (tree[i].parent >= 0) width[tree[i].parent] += width[i];
+  }
+  const row = 20, all = tree.map((n, i) => n.parent < 0 ? width[i] : 0).reduce((a, b) => a + b), unit = 1000 / all;
+  let at = 0, depth = 0;
+  const next = [];
+  const picture = svg('svg', {});
+  tree.forEach((n, i) => {
+    if (!known(i)) return;
+    if (n.parent < 0) { left[i] = at; at += width[i]; } else { left[i] = next[n.parent]; next[n.parent] += width[i]; }
+    next[i] = left[i];
+    depth = Math.max(depth, n.depth);
+    const box = svg('rect', {x: (left[i] * unit + 0.5).toFixed(2), y: n.depth * row + 1, width: Math.max(0.6, width[i] * unit - 1).toFixed(2),
+      height: row - 3, fill: fill(i), stroke: ring(i) || '#b9b9b0', 'stroke-width': ring(i) ? 2.5 : 0.5});
+    box.append(svg('title', {}));
+    box.firstChild.textContent = n.name;
+    box.onclick = () => pick(i);
+    picture.append(box);
+    if (n.parent < 0 && width[i] * unit > 7 * n.name.length) {
+      const label = svg('text', {x: left[i] * unit + 5, y: n.depth * row + 15, 'font-size': 12, 'pointer-events': 'none', fill: '#0b5bd3', stroke: 'white', 'stroke-width': 3, 'paint-order': 'stroke'});
+      label.textContent = n.name;
+      picture.append(label);
+    }
+  });
+  picture.setAttribute('viewBox', `0 0 1000 ${(depth + 1) * row + 2}`);
+  $('tree').replaceChildren(picture);
+}
+
+// A chart with logarithmic y; series: {name, colour, values}, a value a step.
+const colours = ['#0b5bd3', '#c8310f', '#14702d', '#8a5a00', '#7a3fb0', '#0a8a8a'];
+function chart(series, upTo, title) {
+  const picture = svg('svg', {viewBox: '0 0 400 200', role: 'img'}), values = series.flatMap(s => s.values).filter(v => v > 0);
+  const floor = Math.max(Math.min(...values), Math.max(...values) * 1e-10), top = Math.log10(Math.max(...values)), bottom = Math.log10(floor) - 0.05;
+  const steps = Math.max(1, ...series.map(s => s.values.length - 1));
+  const x = i => 46 + 340 * i / steps, y = v => 22 + 150 * (top - Math.log10(Math.max(v, floor))) / Math.max(1e-9, top - bottom);
+  const say = (text, px, py, fill, anchor) => {
+    const t = svg('text', {x: px, y: py, 'font-size': 11, fill, 'text-anchor': anchor || 'start'});
+    t.textContent = text;
+    picture.append(t);
+  };
+  say(title, 6, 12, '#555');
+  const ticks = Math.max(1, Math.ceil((top - bottom) / 6));
+  for (let e = Math.ceil(bottom); e <= top; e += ticks) {
+    picture.append(svg('line', {x1: 46, x2: 386, y1: y(10 ** e), y2: y(10 ** e), stroke: '#e4e4de'}));
+    say(e >= 0 && e < 5 ? String(10 ** e) : '1e' + e, 42, y(10 ** e) + 4, '#777', 'end');
+  }
+  say('0', 46, 190, '#777', 'middle');
+  say(String(steps), 386, 190, '#777', 'middle');
+  series.forEach((s, k) => {
+    const shown = s.values.slice(0, upTo + 1);
+    picture.append(svg('polyline', {points: shown.map((v, i) => x(i).toFixed(1) + ',' + y(v).toFixed(1)).join(' '), fill: 'none',
+      stroke: s.colour || colours[k], 'stroke-width': 2}));
+  });
+  const legend = element('div');
+  series.forEach((s, k) => {
+    const item = element('span', '\u25a0 ' + s.name + '  ');
+    item.style.cssText = 'font-size:12px;margin-right:10px;color:' + (s.colour || colours[k]);
+    legend.append(item);
+  });
+  const box = element('div');
+  box.append(picture, legend);
+  return box;
+}
+
+let picked = -1, threshold = data.epsilon, showLinks = false, at99 = 1, now = 0, chapter = 0, timer = null;
+const blue = '#0b5bd3', orange = '#d9730d';
+const facesOf = (tree, leaves, fill) => leaves.map(i => ({points: tree[i].points, node: i, fill: fill(i)}));
+const outline = (tree, i, edge) => ({points: tree[i].points, fill: 'rgba(255,255,255,.15)', edge, wide: true});
+const link = (tree, l, colour, width) => ({from: tree[l.p].centre, to: tree[l.q].centre, colour, width});
+const everything = () => true;
+const list = (items, chosen, open) => {
+  const all = element('ol');
+  items.forEach(([text, value]) => {
+    const e = element('li', text, value === chosen ? 'now' : '');
+    e.onclick = () => open(value);
+    all.append(e);
+  });
+  return all;
+};
+
+// What refinement by form factor alone would do at another threshold, as far as this run has looked.
+function atThreshold(t) {
+  const links = [];
+  let open = 0;
+  const go = p => {
+    if (p.is === 'drop' || p.is === 'convex' || p.is === 'hide') return;
+    const byLamp = p.f === 'link' && p.is !== 'link';
+    if (p.estimate <= t && !byLamp) links.push(p);
+    else if (p.children.length) p.children.forEach(go);
+    else if (p.is === 'link' && p.estimate <= data.epsilon) ++open;
+    else if (p.is === 'link') links.push(p);
+  };
+  data.pairs.filter(p => p.parent < 0).forEach(go);
+  return {links, open};
+}
+const generations = Math.max(0, ...data.pairs.map(p => p.generation)) + 2;
+const leavesAt = Array.from({length: generations}, (_, g) => main.leaves(i => main[i].born <= g).length);
+const linksBy = [], matrixBy = [];
+data.pairs.reduce((sum, p) => { linksBy.push(sum += p.is === 'link' ? 1 : 0); matrixBy.push(leavesAt[p.generation] ** 2); return sum; }, 0);
+
+const chapters = [{
+  name: 'Refine', steps: data.pairs.length, known: k => i => main[i].born <= data.pairs[k].generation, tree: main,
+  fill: i => shade(data.emission[i] > 0 ? most : most / 4),
+  ring: k => i => i === data.pairs[k].p ? blue : i === data.pairs[k].q ? orange : '',
+  show(k) {
+    const p = data.pairs[k], mine = atThreshold(threshold), small = Math.max(main[p.p].area, main[p.q].area);
+    $('heading').textContent = `Question ${k + 1} of ${data.pairs.length}, generation ${p.generation}`;
+    $('caption').textContent = `${main[p.p].name} (blue) and ${main[p.q].name} (orange): ${p.why}.`;
+    const slider = element('input');
+    Object.assign(slider, {type: 'range', min: -3, max: 0, step: 0.01, value: Math.log10(threshold)});
+    slider.oninput = () => { threshold = 10 ** slider.value; redraw(); };
+    const label = element('label', `your threshold: ${short(threshold)} (this run: ${short(data.epsilon)})`), box = element('input');
+    box.type = 'checkbox';
+    box.checked = showLinks;
+    box.onchange = () => { showLinks = box.checked; redraw(); };
+    const other = element('label', ' show all links at your threshold');
+    other.prepend(box);
+    keep('threshold', slider, label, other);
+    label.append(slider);
+    const verdict = ['drop', 'convex', 'hide'].includes(p.is) ? 'no light passes, whatever the threshold'
+      : p.estimate <= threshold ? `F = ${short(p.estimate)}: you would link them here`
+      : p.is === 'link' && p.estimate > data.epsilon ? `F = ${short(p.estimate)}: you would split, but ${short(small)} m2 is the least area`
+      : `F = ${short(p.estimate)}: you would split the larger`;
+    const note = element('div', `${verdict}. In all: ${mine.links.length} links` +
+      (mine.open ? `, and ${mine.open} pairs that this run linked and you would split further.` : '.'), 'note');
+    $('details').append(note, chart([{name: 'links so far', values: linksBy}, {name: 'n\u00b2, n leaves', values: matrixBy}], k, 'links against n\u00b2, by question'));
+    const l = data.links.find(x => (x.p === p.p && x.q === p.q) || (x.p === p.q && x.q === p.p));
+    const lines = showLinks ? mine.links.map(x => link(main, x, 'rgba(11,91,211,.25)', 1)) : [];
+    lines.push({...link(main, p, p.is === 'link' ? '#14702d' : '#c8310f', 2)});
+    if (l && p.is === 'link') {
+      l.arrives.forEach((ok, i) => lines.push({from: l.rays[2 * i], to: l.rays[2 * i + 1], colour: ok ? 'rgba(20,112,45,.5)' : 'rgba(200,49,15,.6)'}));
+      $('details').append(element('div', 'The link: ' + l.why + '.', 'note'));
+    }
+    const known = this.known(k);
+    return {faces: [...facesOf(main, main.leaves(known), this.fill), outline(main, p.p, blue), outline(main, p.q, orange)], lines};
+  }
+}, {
+  name: 'Links', steps: data.links.length, known: () => everything, tree: main, fill: i => shade(data.radiosity[i]),
+  ring: k => i => i === data.links[k].p ? blue : i === data.links[k].q ? orange : '',
+  show(k) {
+    const l = data.links[k], above = new Set();
+    $('heading').textContent = `Link ${k + 1} of ${data.links.length}`;
+    $('caption').textContent = `${main[l.p].name} (blue) and ${main[l.q].name} (orange): ${l.why}. Exchange ${short(l.exchange)} m2, ` +
+      `${short(l.unoccluded)} m2 if nothing stood between. Green rays arrive, red ones are stopped; where none was needed they are drawn as they would run.`;
+    for (let i = picked; i >= 0; i = main[i].parent) above.add(i);
+    const own = data.links.map((x, i) => [x, i]).filter(([x]) => above.has(x.p) || above.has(x.q));
+    if (picked >= 0) $('details').append(element('div', `${own.length} links bring light to ${main[picked].name}: its own, and those of the nodes above it.`, 'note'));
+    $('details').append(list((picked >= 0 ? own : data.links.map((x, i) => [x, i])).slice(0, 400).map(([x, i]) => [`${main[x.p].name} \u2013 ${main[x.q].name}: ${x.why}`, i]), k, go));
+    if (data.faint) $('details').append(element('div', `${data.faint} pairs were to be linked, but none of their rays arrived: they carry nothing and are left out.`, 'note'));
+    const lines = own.map(([x]) => link(main, x, 'rgba(11,91,211,.35)', 1));
+    l.arrives.forEach((ok, i) => lines.push({from: l.rays[2 * i], to: l.rays[2 * i + 1], colour: ok ? '#14702d' : '#c8310f'}));
+    return {faces: [...facesOf(main, main.leaves(everything), this.fill), outline(main, l.p, blue), outline(main, l.q, orange)], lines};
+  }
+}, {
+  name: 'Light', steps: 3 * data.iterations.length, known: () => everything, tree: main,
+  value(k) {
+    const step = data.iterations[Math.floor(k / 3)], next = data.iterations[Math.floor(k / 3) + 1];
+    return k % 3 === 0 ? i => step.gathered[i] : k % 3 === 1 ? i => step.arrived[i] : i => next ? next.sent[i] : data.emission[i] + data.reflectance[i] * step.arrived[i];
+  },
+  fillAt(k) { const v = this.value(k); return i => shade(v(i)); },
+  ring: () => i => i === picked ? blue : '',
+  show(k) {
+    const n = Math.floor(k / 3), value = this.value(k), step = data.iterations[n];
+    $('heading').textContent = `Iteration ${n + 1}: ${['gather', 'push', 'pull'][k % 3]}`;
+    $('caption').textContent = [
+      'Every node gathers over its own links: irradiance = sum of F B of the other ends. Faces show what their own node has gathered; boxes of the tree, what each level has.',
+      'What inner nodes gathered is pushed down and added: each leaf now has the irradiance of all links above it.',
+      'Each leaf radiates B = E + rho times its irradiance, and the area averages are pulled up, so that every node can send.'][k % 3];
+    const rows = element('table'), head = element('tr');
+    for (const t of ['input face', 'sends', 'gathered', 'arrived']) head.append(element('th', t));
+    rows.append(head);
+    main.forEach((m, i) => {
+      if (m.parent >= 0 && i !== picked) return;
+      const row = element('tr');
+      for (const t of [m.name, short(step.sent[i]), short(step.gathered[i]), short(step.arrived[i])]) row.append(element('td', t));
+      rows.append(row);
+    });
+    $('details').append(chart([{name: 'relative change of B', values: data.iterations.map(s => s.residual)}], n, 'by iteration'), element('div', 'W/m2; arrived: with what was pushed from above', ''), rows);
+    return {faces: facesOf(main, main.leaves(everything), i => shade(value(i)))};
+  }
+}, {
+  name: 'T-vertices', steps: 5, known: () => everything, tree: main, fill: i => shade(data.radiosity[i]), ring: () => i => i === picked ? blue : '',
+  show(k) {
+    const count = data.leaves.reduce((n, l) => n + l.t.filter(Boolean).length, 0);
+    $('heading').textContent = ['Level tags', 'T-vertices', 'Connected', 'Simple reconstruction', 'Weighted reconstruction'][k];
+    $('caption').textContent = [
+      'Every vertex carries the level at which it was made. A leaf of level l has corners of level l or less.',
+      `A vertex with a level above that of the leaf is a T-vertex: ${count} here, red. Drawn as they are, the colours of both sides would part there.`,
+      `Each T-vertex is connected to the nearest corner: ${data.leaves.length} leaves, ${data.mesh.length} faces. No coordinates are compared, tags decide.`,
+      'The colour of a corner is the average of all faces around the vertex: light bleeds over the edges of a solid (paper, fig. 7).',
+      'Weighted by the cosine between the normals: smooth on one surface, sharp at its edges (paper, figs. 5 and 8).'][k];
+    if (k < 2) {
+      const marks = data.leaves.flatMap(l => l.corners.map((c, i) => k ? {at: c, colour: '#c8310f', t: l.t[i]} : {at: c, text: String(l.levels[i]), colour: '#14702d', t: 1}))
+        .filter(m => m.t);
+      return {faces: data.leaves.map(l => ({points: l.corners, node: l.node, fill: shade(data.radiosity[l.node])})), marks};
+    }
+    if (k === 2) return {faces: data.mesh.map(m => ({points: m.corners, node: m.node, fill: shade(data.radiosity[m.node])}))};
+    const faces = [];  // bilinear: a face as 4 x 4 cells
+    for (const m of data.mesh) {
+      const b = k === 3 ? m.simple : m.weighted, q = i => Math.min(i, m.corners.length - 1), cut = 4;
+      const mix = (v, u, w, add) => add(add(times(v[0], (1 - u) * (1 - w)), times(v[1], u * (1 - w))), add(times(v[q(2)], u * w), times(v[q(3)], (1 - u) * w)));
+      const at = (u, w) => mix(m.corners, u, w, plus), light = (u, w) => mix(b.map(x => [x]), u, w, plus)[0];
+      for (let i = 0; i < cut; ++i) for (let j = 0; j < cut; ++j) {
+        faces.push({points: [at(i / cut, j / cut), at((i + 1) / cut, j / cut), at((i + 1) / cut, (j + 1) / cut), at(i / cut, (j + 1) / cut)], node: m.node,
+          fill: shade(light((i + 0.5) / cut, (j + 0.5) / cut)), edge: shade(light((i + 0.5) / cut, (j + 0.5) / cut))});
+      }
+    }
+    return {faces};
+  }
+}, {
+  name: 'By light (BF)', steps: data.bf.length, tree: byLight, known: k => i => i < data.bf[k].nodes, fillAt: k => i => shade(data.bf[k].radiosity[i]),
+  ring: k => i => { const c = data.bf[k].choices[0]; return c && i === c.p ? blue : c && i === c.q ? orange : ''; },
+  show(k) {
+    const g = data.bf[k];
+    $('heading').textContent = `BF-refinement, generation ${k}: ${g.leaves} leaves, ${g.links} links`;
+    $('caption').textContent = `Estimated error ${short(100 * g.estimate)} %, wanted ${short(100 * data.target)} %. The mesh so far is solved, and the links whose light errs most are refined next` +
+      (g.choices.length ? ':' : '; here it ends.');
+    $('details').append(chart([{name: 'links', values: data.bf.map(b => b.links)}, {name: 'n\u00b2', values: data.bf.map(b => b.leaves ** 2)}], k, 'links against n\u00b2, by generation'),
+      list(g.choices.map((c, i) => [c.why, i]), 0, i => { g.choices.unshift(g.choices.splice(i, 1)[0]); redraw(); }));
+    const c = g.choices[0], known = this.known(k), faces = facesOf(byLight, byLight.leaves(known), this.fillAt(k));
+    if (c) faces.push(outline(byLight, c.p, blue), outline(byLight, c.q, orange));
+    return {faces, lines: g.choices.filter(x => x.p !== x.q).map(x => link(byLight, x, x === c ? '#c8310f' : 'rgba(200,49,15,.25)', x === c ? 2 : 1))};
+  }
+}, {
+  name: 'Solvers', steps: Math.max(...data.solvers[1].methods.map(m => m.residual.length)), known: () => everything, tree: main,
+  fill: i => shade(data.radiosity[i]), ring: () => i => i === picked ? blue : '',
+  show(k) {
+    const s = data.solvers[at99], box = element('input'), label = element('label', ` all that reflects at .99 (else as in the scene, at most ${short(data.solvers[0].reflectance)})`);
+    box.type = 'checkbox';
+    box.checked = at99 === 1;
+    box.onchange = () => { at99 = box.checked ? 1 : 0; redraw(); };
+    label.prepend(box);
+    keep('solvers', box, label);
+    $('heading').textContent = `Solvers after ${k} ${k === 1 ? 'pass' : 'passes'} over all links`;
+    $('caption').textContent = 'Residual against work. Jacobi gathers everywhere at once; Gauss-Seidel face by face with what is new; Southwell shoots from the face with the most unshot light; ' +
+      'over-shooting sends more than there is and takes back the rest as negative light (violet), first worse, later faster where light is reflected long; conjugate gradients search all directions at once.';
+    $('details').append(chart(s.methods.map(m => ({name: m.name, values: m.residual})), k, 'relative residual, by passes'));
+    if (at99) {
+      const thumbs = element('div', undefined, 'thumbs');
+      const top = Math.max(1e-30, ...s.solution.filter((_, i) => data.emission[i] === 0));
+      s.methods.forEach(m => {
+        const b = m.radiosity[Math.min(k, m.radiosity.length - 1)], figure = element('figure'), small = element('canvas');
+        figure.append(small, element('figcaption', m.name));
+        thumbs.append(figure);
+        requestAnimationFrame(() => paint(small, {faces: facesOf(main, main.leaves(everything), i => shade(b[i] / top * most)).map(f => ({...f, edge: 'none'}))}));
+      });
+      $('details').append(thumbs);
+    }
+    return {faces: facesOf(main, main.leaves(everything), this.fill)};
+  }
+}];
+
+// A control that is being dragged must outlive the redraw that it causes.
+function keep(name, ...controls) {
+  if ($('controls').dataset.of !== name) {
+    $('controls').replaceChildren(...controls.slice(name === 'threshold' ? 1 : 0).filter(c => c.tagName === 'LABEL'));
+    $('controls').dataset.of = name;
+  } else if (name === 'threshold') {
+    $('controls').firstChild.firstChild.textContent = controls[1].textContent;
+  }
+}
+function pick(i) {
+  picked = i === picked ? -1 : i;
+  if (chapters[chapter].name === 'Links' && picked >= 0) {
+    const own = data.links.findIndex(l => l.p === picked || l.q === picked);
+    if (own >= 0) now = own;
+  }
+  redraw();
+}
+function redraw() {
+  const c = chapters[chapter], k = now;
+  $('details').replaceChildren();
+  if (!['Refine', 'Solvers'].includes(c.name)) { $('controls').replaceChildren(); $('controls').dataset.of = ''; }
+  $('picked').textContent = '';
+  if (!c.steps) {
+    $('heading').textContent = c.name;
+    $('caption').textContent = 'There is nothing of this kind here.';
+  } else {
+    const picture = c.show(k), fill = c.fillAt ? c.fillAt(k) : c.fill, known = c.known(k), marked = c.ring(k);
+    if (picked >= 0 && picked < c.tree.length && known(picked)) {
+      picture.faces.push(outline(c.tree, picked, '#d400d4'));
+      const n = c.tree[picked], first = c.tree === main ? `, level ${n.depth}, ${data.links.filter(l => l.p === picked || l.q === picked).length} links of its own` : '';
+      const leaf = c.tree === main && data.leaves.find(l => l.node === picked);
+      $('picked').textContent = `${n.name}: ${short(n.area)} m2${first}` + (leaf ? `; tags of its vertices ${leaf.levels.join(' ')}` : `; ${n.children.length} children`) +
+        (c.tree === main ? `; radiosity ${short(data.radiosity[picked])} W/m2` : '');
+    }
+    drawTree(c.tree, known, fill, i => i === picked ? '#d400d4' : marked(i));
+    last = picture;
+    paint($('view'), picture);
+  }
+  $('slide').max = Math.max(0, c.steps - 1);
+  $('slide').value = k;
+  $('where').textContent = `${c.steps ? k + 1 : 0} of ${c.steps}`;
+  [...$('chapters').children].forEach((b, i) => b.classList.toggle('now', i === chapter));
+  history.replaceState(null, '', `#${c.name.split(' ')[0].toLowerCase()}=${k}`);
+}
+let last = {faces: []};
+const go = k => { now = Math.max(0, Math.min(chapters[chapter].steps - 1, k)); redraw(); };
+function open(i, k = 0) { play(false); chapter = i; if (chapters[i].tree !== main) picked = -1; go(k); }
+function play(on) {
+  clearInterval(timer);
+  timer = null;
+  if (on && now >= chapters[chapter].steps - 1) go(0);
+  if (on) timer = setInterval(() => now < chapters[chapter].steps - 1 ? go(now + 1) : play(false), 700);
+  $('play').textContent = on ? 'pause' : 'play';
+}
+document.title = 'explain ' + data.scene;
+$('title').textContent = data.scene;
+chapters.forEach((c, i) => {
+  const b = element('button', c.name);
+  b.onclick = () => open(i);
+  $('chapters').append(b);
+});
+$('back').onclick = () => { play(false); go(now - 1); };
+$('forth').onclick = () => { play(false); go(now + 1); };
+$('play').onclick = () => play(!timer);
+$('slide').oninput = () => { play(false); go(+$('slide').value); };
+const view = $('view');
+let drag = null, moved = 0;
+view.onpointerdown = e => { drag = [e.clientX, e.clientY]; moved = 0; view.setPointerCapture(e.pointerId); };
+view.onpointermove = e => {
+  if (!drag) return;
+  moved += Math.abs(e.clientX - drag[0]) + Math.abs(e.clientY - drag[1]);
+  eye.turn -= (e.clientX - drag[0]) / 150;
+  eye.lift = Math.max(-1.5, Math.min(1.5, eye.lift + (e.clientY - drag[1]) / 150));
+  drag = [e.clientX, e.clientY];
+  paint(view, last);
+};
+view.onpointerup = e => {
+  drag = null;
+  if (moved < 4) {
+    const box = view.getBoundingClientRect(), i = hit(view, e.clientX - box.left, e.clientY - box.top);
+    if (i >= 0) pick(i);
+  }
+};
+view.onwheel = e => { e.preventDefault(); eye.zoom *= Math.exp(-e.deltaY / 800); paint(view, last); };
+addEventListener('resize', () => paint(view, last));
+document.addEventListener('keydown', e => {
+  if (e.ctrlKey || e.altKey || e.metaKey || e.target.tagName === 'INPUT' && e.target.type === 'range' && e.target.id !== 'slide') return;
+  const step = {ArrowRight: 1, ArrowLeft: -1, PageDown: 10, PageUp: -10}[e.key];
+  if (step) { play(false); go(now + step); } else if (e.key === ' ') play(!timer); else return;
+  e.preventDefault();
+});
+const asked = /#([a-z-]+)=(\d+)/.exec(location.hash);
+open(asked ? Math.max(0, chapters.findIndex(c => c.name.toLowerCase().startsWith(asked[1]))) : 0, asked ? +asked[2] : 0);
+document.documentElement.dataset.ready = '1';

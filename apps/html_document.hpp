@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A page of one file: its style, its elements, its data and the script that shows them. No network, no library; it works from a folder.
+
+#include <string>
+#include <string_view>
+
+#include "apps/markup.hpp"
+
+namespace apps {
+
+struct HtmlDocument {
+  std::string title, style, body;
+  std::string data;  // JSON; the script knows it as `data`
+  std::string_view script;
+};
+
+[[nodiscard]] inline std::string to_text(const HtmlDocument& page) {
+  std::string data;
+  for (const char c : page.data) { c == '<' ? data += "\\u003c" : data += c; }  // so that nothing in it ends the script element
+  return "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n<meta name='viewport' content='width=device-width'>\n<title>" +
+         escaped(page.title) + "</title>\n<style>" + page.style + "\n</style>\n</head>\n<body>" + page.body +
+         "<script>\n'use strict';\nconst data = " + data + ";" + std::string(page.script) + "</script>\n</body>\n</html>\n";
+}
+
+}  // namespace apps
