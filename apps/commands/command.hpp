@@ -71,6 +71,7 @@ struct Command {
 [[nodiscard]] Command euler_command();
 [[nodiscard]] Command study_command();
 [[nodiscard]] Command explain_command();
+[[nodiscard]] Command exercise_command();
 
 // --- kinds of arguments; `target` must outlive the reading of the command line
 
