@@ -72,6 +72,7 @@ struct Command {
 [[nodiscard]] Command study_command();
 [[nodiscard]] Command explain_command();
 [[nodiscard]] Command exercise_command();
+[[nodiscard]] Command figures_command();
 
 // --- kinds of arguments; `target` must outlive the reading of the command line
 

@@ -7,6 +7,7 @@
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
 
+#include "apps/euler/solid.hpp"
 #include "apps/euler/svg.hpp"
 #include "apps/html_document.hpp"
 #include "apps/json.hpp"
@@ -51,7 +52,7 @@ void write(JsonWriter& json, const Story& story, std::size_t i, const Layout& la
                           [&](const Check& check) { json.object("text", check.text, "met", check.met, "sentence", check.sentence); });
   json.fields("damaged", frame.damaged, "counts", numbers, "equation", equation(frame), "lit", lit, "halfedges",
               halfedge_rows(frame.records), "vertices", anchor_rows(frame.records.vertices), "faces", anchor_rows(frame.records.faces),
-              "panels", layout.panels.size(), "picture", drawing(story, i, layout, 790.0));
+              "panels", layout.panels.size(), "picture", drawing(story, i, layout, 790.0), "solid", solid_view(frame, story.coordinates, 240.0));
   json.close();
 }
 

@@ -4,8 +4,11 @@
 // A script that was run, moment by moment: what the pictures and the page show.
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include <brep/euler_script.hpp>
 #include <brep/euler_script_run.hpp>
@@ -40,6 +43,7 @@ struct Story {
   std::string title, introduction;
   std::vector<Frame> frames;              // the first is the start
   std::vector<brep::ScriptError> errors;  // statements that were not done as written
+  std::map<std::uint32_t, glm::dvec3> coordinates;  // of vertices, where the script has some (solid.hpp)
   std::size_t edges = 0;                  // of all frames together: what drawing it costs
 };
 

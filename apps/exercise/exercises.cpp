@@ -2,11 +2,10 @@
 #include "apps/exercise/exercises.hpp"
 
 #include <array>
-#include <string_view>
 
 #include "apps/exercise/numbers.hpp"
 #include "apps/exercise/scripts.hpp"
-#include "embedded/exercises.hpp"
+#include "embedded/examples.hpp"
 
 namespace apps::exercise {
 namespace {
@@ -31,8 +30,8 @@ constexpr std::array<Exercise, 12> exercises{{
 std::span<const Exercise> all() { return exercises; }
 
 std::string beginning(const Exercise& exercise) {
-  for (const auto& [name, text] : embedded::exercises) {
-    if (std::string_view(name) == exercise.file) { return std::string(text).substr(1); }  // behind the line end that the build puts first
+  for (const auto& [name, text] : embedded::examples) {
+    if (name == "exercises/" + std::string(exercise.file)) { return std::string(text).substr(1); }  // behind the line end that the build puts first
   }
   return {};
 }
