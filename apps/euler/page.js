@@ -1,3 +1,4 @@
+addEventListener('error', e => { document.documentElement.dataset.error = e.message; });
 const $ = id => document.getElementById(id);
 const story = data, frames = story.frames;
 let now = -1, timer = null, moving = 0;
@@ -21,12 +22,14 @@ for (const f of frames) {
 
 function records(title, columns, here, before, lit) {
   const t = element('table'), head = element('tr');
+  t.dataset.of = title;
   for (const c of [title, ...columns]) head.append(element('th', c));
   t.append(head);
   for (const [name, fields] of here) {
     const old = before && before.get(name), row = element('tr');
     if (before && !old) row.className = 'fresh';
     if (lit.includes(name)) row.classList.add('lit');
+    row.dataset.of = name;
     row.append(element('td', name));
     fields.forEach((x, i) => row.append(element('td', x, old && old[i] !== x ? 'moved' : '')));
     t.append(row);
@@ -63,6 +66,41 @@ function move(from, to) {
   requestAnimationFrame(draw);
 }
 
+// The walk of what is pointed at: around a face, from a vertex, or of a half-edge around its face.
+let held = null;
+function walkOf(name) {
+  const f = frames[now], edge = /^e(\d+)$/.exec(name);
+  if (edge) name = 'h' + 2 * edge[1];
+  const around = face => {
+    const all = [], first = f.f.get(face)[0];
+    for (let h = first; all.length <= f.h.size && f.h.has(h); h = f.h.get(h)[0]) { all.push(h); if (f.h.get(h)[0] === first) break; }
+    return all;
+  };
+  if (f.f.has(name)) return {names: [name, ...around(name)], text: name + ': ' + around(name).map(h => h + ' from ' + f.h.get(h)[2]).join(', ')};
+  if (f.v.has(name)) {
+    const out = [...f.h].filter(([, fields]) => fields[2] === name).map(([h]) => h);
+    return {names: [name, ...out], text: name + ': ' + out.map(h => h + ' in ' + f.h.get(h)[3]).join(', ')};
+  }
+  if (!f.h.has(name)) return null;
+  const [next, prev, vertex, face] = f.h.get(name), twin = 'h' + (+name.slice(1) ^ 1);
+  return {names: [name, ...around(face)], text: `${name}: from ${vertex}, in ${face}, next ${next}, prev ${prev}, twin ${twin}; ${face}: ${around(face).join(' ')}`};
+}
+function mark(name) {
+  const walk = name && !frames[now].damaged ? walkOf(name) : null, names = new Set(walk ? walk.names : []);
+  for (const e of document.querySelectorAll('#picture [data-k]')) {
+    const plain = e.dataset.k.replace(/^n(?=h)/, '').replace(/^(h\d+)s\d+$/, '$1').replace(/^l(\d+)(c\d+)?$/, 'f$1');
+    e.classList.toggle('walked', names.has(plain));
+  }
+  for (const e of document.querySelectorAll('#solid [data-of], #tables tr[data-of]')) e.classList.toggle('walked', e.dataset.of.split(' ').some(n => names.has(n)));
+  $('walk').textContent = walk ? walk.text : '';
+}
+const pointed = e => {
+  const of = e.target.closest && e.target.closest('[data-k],[data-of]');
+  if (!of) return null;
+  const name = of.dataset.k || of.dataset.of.split(' ')[0];
+  return name.replace(/^n(?=h)/, '').replace(/^(h\d+)s\d+$/, '$1').replace(/^l(\d+)(c\d+)?$/, 'f$1').replace(/^s(\d+)$/, 'h$1').replace(/^tip(\d+)$/, 'h$1');
+};
+
 function show(i) {
   i = Math.max(0, Math.min(frames.length - 1, i));
   if (i === now) return;
@@ -75,6 +113,8 @@ function show(i) {
   if (near && old && f.panels === frames[now].panels) move(old, svg);
   now = i;
 
+  held = null;
+  $('solid').innerHTML = f.solid ? '<svg viewBox="-120 -110 240 220">' + f.solid + '</svg>' : '';
   $('operator').textContent = f.headline || 'the start: nothing';
   $('numbers').replaceChildren();
   const counts = element('span');
@@ -91,11 +131,18 @@ function show(i) {
   if (f.damaged) $('notes').append(element('div', 'The picture shows the records before the damage; the table shows them as they are.', 'note fine'));
   $('caption').replaceChildren();
   for (const p of (i === 0 ? story.introduction + '\n\n' + f.caption : f.caption).split(/\n\n+/)) if (p.trim()) $('caption').append(element('p', p));
+  if (f.told) $('caption').append(element('p', f.told, 'told'));
   const anchors = element('div');
   anchors.id = 'anchors';
   anchors.append(records('vertex', ['anchor'], f.v, before && before.v, f.lit), records('face', ['anchor'], f.f, before && before.f, f.lit));
   $('tables').replaceChildren();
   if (f.h.size) $('tables').append(records('half-edge', ['next', 'prev', 'vertex', 'face'], f.h, before && before.h, f.lit), anchors);
+  mark(null);
+  const changed = $('tables').querySelector('.fresh, .moved');
+  if (changed) {  // in the middle of what scrolls; at the top is the caption, which comes first where both fit
+    const box = document.querySelector('aside'), at = changed.getBoundingClientRect().top - box.getBoundingClientRect().top + box.scrollTop;
+    box.scrollTop = at > box.clientHeight - 40 ? at - box.clientHeight / 2 : 0;
+  }
   [...$('script').children].forEach((e, k) => e.classList.toggle('now', k === i));
   $('script').children[i].scrollIntoView({block: 'nearest'});
   $('slide').value = i;
@@ -136,6 +183,11 @@ document.addEventListener('keydown', e => {
   else return;
   e.preventDefault();
 });
+for (const id of ['picture', 'solid', 'tables']) {
+  $(id).addEventListener('pointerover', e => { if (!held) mark(pointed(e)); });
+  $(id).addEventListener('pointerleave', () => { if (!held) mark(null); });
+  $(id).addEventListener('click', e => { const name = pointed(e); held = name && name !== held ? name : null; mark(held); });
+}
 const asked = () => { const m = /step=(\d+)/.exec(location.hash); return m ? +m[1] : 0; };
 addEventListener('hashchange', () => go(asked()));
 show(asked());

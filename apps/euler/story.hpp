@@ -28,6 +28,7 @@ struct Check {  // an `expect` behind a step
 struct Frame {
   std::string statement;  // empty for the start
   std::string caption;
+  std::string told;  // what the step did, in words (caption.hpp); of drawn stories
   std::uint32_t line = 0;
   brep::Outcome outcome;
   Records records;               // as they are, damaged ones too

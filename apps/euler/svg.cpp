@@ -203,7 +203,7 @@ std::vector<TextLine> notes(const Frame& frame, std::size_t width) {
     add((check.met ? "\xe2\x9c\x93 " : "\xe2\x9c\x97 ") + check.text + (check.met ? "" : ": " + check.sentence),
         check.met ? "good" : "bad");
   }
-  add(frame.caption, "caption");
+  add(frame.caption.empty() ? frame.told : frame.caption, "caption");
   return lines;
 }
 
