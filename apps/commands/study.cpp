@@ -274,7 +274,14 @@ Command study_command() {
        whole_number("--threads", options->threads, 0, most_threads, "0: as many as the machine has; results do not depend on it"),
        flag("-q,--quiet", options->quiet, "no narration on stderr")},
       [options] { return run(*options); },
-      [options] { return std::string(options->scenes.empty() && options->merge.empty() ? "SCENE, the .scene files" : ""); }};
+      [options] { return std::string(options->scenes.empty() && options->merge.empty() ? "SCENE, the .scene files" : ""); },
+      "Spread over machines, each pair of a scene and a method goes to one part; a part is one process, by GNU parallel:\n"
+      "  parallel -j 4 halflight study *.scene -o parts --threads 1 -q --part {}/16 ::: $(seq 16)\n"
+      "or by a Slurm array, its folder on a disk that all machines share:\n"
+      "  sbatch --array=1-16 --wrap 'halflight study *.scene -o parts --threads 1 -q --part $SLURM_ARRAY_TASK_ID/16'\n"
+      "and when all are done, one merges:\n"
+      "  halflight study --merge parts -o study\n"
+      "Figures are those of one machine, but for times: measure on machines of one kind, one part a core.\n"};
 }
 
 }  // namespace apps
