@@ -113,9 +113,9 @@ function paint(canvas, {faces, lines = [], marks = []}) {
       context.fillStyle = f.fill;
       context.fill();
     }
-    context.strokeStyle = f.edge || (f.front ? 'rgba(60,90,140,.55)' : 'rgba(120,120,120,.25)');
+    context.strokeStyle = (f.front || f.wide) && f.edge || (f.front ? 'rgba(60,90,140,.55)' : 'rgba(120,120,120,.25)');
     context.lineWidth = f.wide ? 2.5 : 0.8;
-    if (f.edge !== 'none') context.stroke();
+    if (f.edge !== 'none' && (f.front || f.wide || !f.edge)) context.stroke();
   }
   for (const l of lines) {
     const a = look.to(l.from), b = look.to(l.to);
@@ -222,6 +222,16 @@ function chart(series, upTo, title) {
   return box;
 }
 
+// Means over the leaves of each node.
+function overLeaves(tree, values) {
+  const mean = tree.map((n, i) => n.children.length ? 0 : values(i));
+  for (let i = tree.length; i-- > 0;) {
+    const inside = tree[i].children;
+    if (inside.length) mean[i] = inside.reduce((sum, c) => sum + tree[c].area * mean[c], 0) / inside.reduce((sum, c) => sum + tree[c].area, 0);
+  }
+  return mean;
+}
+
 let picked = -1, threshold = data.epsilon, showLinks = false, at99 = 1, now = 0, chapter = 0, timer = null;
 const blue = '#0b5bd3', orange = '#d9730d';
 const facesOf = (tree, leaves, fill) => leaves.map(i => ({points: tree[i].points, node: i, fill: fill(i)}));
@@ -314,8 +324,10 @@ const chapters = [{
 }, {
   name: 'Light', steps: 3 * data.iterations.length, known: () => everything, tree: main,
   value(k) {
-    const step = data.iterations[Math.floor(k / 3)], next = data.iterations[Math.floor(k / 3) + 1];
-    return k % 3 === 0 ? i => step.gathered[i] : k % 3 === 1 ? i => step.arrived[i] : i => next ? next.sent[i] : data.emission[i] + data.reflectance[i] * step.arrived[i];
+    const step = data.iterations[Math.floor(k / 3)];
+    if (k % 3 < 2) return i => k % 3 ? step.arrived[i] : step.gathered[i];
+    const pulled = overLeaves(main, i => data.emission[i] + data.reflectance[i] * step.arrived[i]);
+    return i => pulled[i];
   },
   fillAt(k) { const v = this.value(k); return i => shade(v(i)); },
   ring: () => i => i === picked ? blue : '',
@@ -327,15 +339,16 @@ const chapters = [{
       'What inner nodes gathered is pushed down and added: each leaf now has the irradiance of all links above it.',
       'Each leaf radiates B = E + rho times its irradiance, and the area averages are pulled up, so that every node can send.'][k % 3];
     const rows = element('table'), head = element('tr');
-    for (const t of ['input face', 'sends', 'gathered', 'arrived']) head.append(element('th', t));
+    for (const t of ['patch', 'sent', 'own links', 'its leaves', 'B of them']) head.append(element('th', t));
+    const arrived = overLeaves(main, i => step.arrived[i]), radiosity = overLeaves(main, i => data.emission[i] + data.reflectance[i] * step.arrived[i]);
     rows.append(head);
     main.forEach((m, i) => {
       if (m.parent >= 0 && i !== picked) return;
       const row = element('tr');
-      for (const t of [m.name, short(step.sent[i]), short(step.gathered[i]), short(step.arrived[i])]) row.append(element('td', t));
+      for (const t of [m.name, ...[step.sent, step.gathered, arrived, radiosity].map(of => short(of[i]))]) row.append(element('td', t));
       rows.append(row);
     });
-    $('details').append(chart([{name: 'relative change of B', values: data.iterations.map(s => s.residual)}], n, 'by iteration'), element('div', 'W/m2; arrived: with what was pushed from above', ''), rows);
+    $('details').append(chart([{name: 'relative change of B', values: data.iterations.map(s => s.residual)}], n, 'by iteration'), element('div', 'W/m2: what the patch sent before, what its own links gathered, what arrived at its leaves with all that was pushed down, their radiosity then', 'small'), rows);
     return {faces: facesOf(main, main.leaves(everything), i => shade(value(i)))};
   }
 }, {

@@ -150,6 +150,11 @@ TEST_CASE("explain: every step of the page is drawn in a browser without an erro
     chapters.forEach((c, i) => { for (let k = 0; k < c.steps; k += 1 + Math.floor(c.steps / 12)) { open(i, k); pick(k % 5); drawn += last.faces.length > 0; } });
     document.documentElement.dataset.drawn = drawn;
     document.documentElement.dataset.coarse = atThreshold(1).links.length;
+    const largest = Math.max(...data.iterations.at(-1).sent);  // numbers of the page have four digits
+    document.documentElement.dataset.pulled = data.iterations.slice(1).every((next, n) => {
+      const pulled = overLeaves(main, i => data.emission[i] + data.reflectance[i] * data.iterations[n].arrived[i]);
+      return pulled.every((b, i) => Math.abs(b - next.sent[i]) <= 1e-3 * largest);
+    });
     document.documentElement.dataset.mine = atThreshold(data.epsilon).links.length === data.pairs.filter(p => p.is === 'link').length;
   </script>)");
   place.write("page.html", page);
@@ -163,4 +168,5 @@ TEST_CASE("explain: every step of the page is drawn in a browser without an erro
   CHECK(dom.find("data-drawn=\"") != std::string::npos);
   CHECK(dom.find("data-coarse=\"3\"") != std::string::npos);  // of six pairs three face each other
   CHECK(dom.find("data-mine=\"true\"") != std::string::npos);
+  CHECK(dom.find("data-pulled=\"true\"") != std::string::npos);  // what the page pulls up is what the program sends next
 }
