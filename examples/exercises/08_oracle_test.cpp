@@ -38,6 +38,6 @@ int main() {
   const radiosity::Audit& audit = outcome.solution->audit;
   const double error = audit.estimated_error.value_or(1.0);
   check(audit.links <= 20000, std::to_string(audit.links) + " links are too many: it splits what could be linked");
-  check(error <= 0.08, "estimated error " + std::to_string(100.0 * error) + " %: it links what is too near or too large");
+  check(error <= 0.08, "estimated error " + std::to_string(std::lround(100.0 * error)) + " %: it links what is too near or too large");
   return solved("exercise 8");
 }
