@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests exercise 8: by default as it stands here, else the file that EXERCISE names.
+#include <cmath>
+
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/polygon.hpp>
 
