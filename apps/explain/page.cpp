@@ -55,7 +55,7 @@ void write_comparison(JsonWriter& json, const Comparison& comparison) {
 
 std::string page(const Recording& r) {
   JsonWriter json;
-  json.open_object().fields("scene", r.scene, "epsilon", r.wanted.epsilon, "target", r.wanted.target, "closed", r.closed, "faint",
+  json.open_object().fields("scene", r.scene, "epsilon", r.wanted.epsilon, "target", r.wanted.target, "closure", r.closure, "faint",
                             r.too_faint, "born", packed(r.born), "levels", packed(r.levels), "emission", packed(r.emission), "reflectance",
                             packed(r.reflectance), "radiosity", packed(r.radiosity));
   json.key("nodes");
@@ -77,7 +77,7 @@ std::string page(const Recording& r) {
                 packed(arrives), "why", link.sentence);
   });
   json.key("iterations").list(r.iterations, [&](const Iteration& step) {
-    json.object("sent", packed(step.sent), "gathered", packed(step.gathered), "arrived", packed(step.arrived), "residual", step.residual);
+    json.object("sent", packed(step.sent), "gathered", packed(step.gathered), "arrived", packed(step.arrived), "mean", packed(step.mean), "residual", step.residual);
   });
   json.key("leaves").list(r.leaves, [&](const LeafLoop& leaf) {
     json.object("node", leaf.node, "corners", packed(leaf.corners), "levels", packed(leaf.levels), "t", packed(leaf.t_vertex));

@@ -38,7 +38,7 @@ function hierarchy(nodes, born) {
 }
 const main = hierarchy(data.nodes, numbers(data.born)), byLight = hierarchy(data.bfNodes);
 for (const name of ['emission', 'reflectance', 'radiosity', 'levels']) data[name] = numbers(data[name]);
-for (const step of data.iterations) for (const name of ['sent', 'gathered', 'arrived']) step[name] = numbers(step[name]);
+for (const step of data.iterations) for (const name of ['sent', 'gathered', 'arrived', 'mean']) step[name] = numbers(step[name]);
 for (const b of data.bf) b.radiosity = numbers(b.radiosity);
 for (const l of data.links) { l.rays = points(l.rays); l.arrives = numbers(l.arrives); }
 for (const l of data.leaves) { l.corners = points(l.corners); l.levels = numbers(l.levels); l.t = numbers(l.t); }
@@ -222,16 +222,6 @@ function chart(series, upTo, title) {
   return box;
 }
 
-// Means over the leaves of each node.
-function overLeaves(tree, values) {
-  const mean = tree.map((n, i) => n.children.length ? 0 : values(i));
-  for (let i = tree.length; i-- > 0;) {
-    const inside = tree[i].children;
-    if (inside.length) mean[i] = inside.reduce((sum, c) => sum + tree[c].area * mean[c], 0) / inside.reduce((sum, c) => sum + tree[c].area, 0);
-  }
-  return mean;
-}
-
 let picked = -1, threshold = data.epsilon, showLinks = false, at99 = 1, now = 0, chapter = 0, timer = null;
 const blue = '#0b5bd3', orange = '#d9730d';
 const facesOf = (tree, leaves, fill) => leaves.map(i => ({points: tree[i].points, node: i, fill: fill(i)}));
@@ -325,9 +315,7 @@ const chapters = [{
   name: 'Light', steps: 3 * data.iterations.length, known: () => everything, tree: main,
   value(k) {
     const step = data.iterations[Math.floor(k / 3)];
-    if (k % 3 < 2) return i => k % 3 ? step.arrived[i] : step.gathered[i];
-    const pulled = overLeaves(main, i => data.emission[i] + data.reflectance[i] * step.arrived[i]);
-    return i => pulled[i];
+    return k % 3 === 0 ? i => step.gathered[i] : k % 3 === 1 ? i => step.arrived[i] : i => data.emission[i] + data.reflectance[i] * step.mean[i];
   },
   fillAt(k) { const v = this.value(k); return i => shade(v(i)); },
   ring: () => i => i === picked ? blue : '',
@@ -336,16 +324,17 @@ const chapters = [{
     $('heading').textContent = `Iteration ${n + 1}: ${['gather', 'push', 'pull'][k % 3]}`;
     $('caption').textContent = [
       'Every node gathers over its own links: irradiance = sum of F B of the other ends. Faces show what their own node has gathered; boxes of the tree, what each level has.',
-      'What inner nodes gathered is pushed down and added: each leaf now has the irradiance of all links above it.',
+      'What inner nodes gathered is pushed down and added: each leaf now has the irradiance of all links above it.' +
+        (data.closure === null ? '' : ` The scene is closed: what leaves send and take is scaled so that their form factors sum to 1, by ${short(100 * data.closure)} % on average.`),
       'Each leaf radiates B = E + rho times its irradiance, and the area averages are pulled up, so that every node can send.'][k % 3];
     const rows = element('table'), head = element('tr');
     for (const t of ['patch', 'sent', 'own links', 'its leaves', 'B of them']) head.append(element('th', t));
-    const arrived = overLeaves(main, i => step.arrived[i]), radiosity = overLeaves(main, i => data.emission[i] + data.reflectance[i] * step.arrived[i]);
+    const radiosity = step.mean.map((irradiance, i) => data.emission[i] + data.reflectance[i] * irradiance);
     rows.append(head);
     main.forEach((m, i) => {
       if (m.parent >= 0 && i !== picked) return;
       const row = element('tr');
-      for (const t of [m.name, ...[step.sent, step.gathered, arrived, radiosity].map(of => short(of[i]))]) row.append(element('td', t));
+      for (const t of [m.name, ...[step.sent, step.gathered, step.mean, radiosity].map(of => short(of[i]))]) row.append(element('td', t));
       rows.append(row);
     });
     $('details').append(chart([{name: 'relative change of B', values: data.iterations.map(s => s.residual)}], n, 'by iteration'), element('div', 'W/m2: what the patch sent before, what its own links gathered, what arrived at its leaves with all that was pushed down, their radiosity then', 'small'), rows);

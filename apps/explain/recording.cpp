@@ -162,6 +162,10 @@ void record_iterations(Run& run, Recording& recording) {
       start += n == 0 ? area[i] * b[i] * b[i] : 0.0;
       b[i] = next;
     }
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+      step.mean.insert(step.mean.begin(), area[i] > 0.0 ? power[i] / area[i] : 0.0);
+      if (nodes[i].parent != radiosity::no_node) { power[nodes[i].parent] += power[i]; }
+    }
     step.residual = start > 0.0 ? std::sqrt(change / start) : 0.0;
     recording.iterations.push_back(std::move(step));
     if (recording.iterations.back().residual < 1e-4) { break; }
@@ -275,8 +279,9 @@ RecordResult record(const radiosity::Scene& scene, const std::string& name, cons
                    " can be looked at one by one, so choose a smaller scene");
   }
   if (!run.needs_links()) { return refused("there is nothing to explain: no surface shines, or none reflects, so no light is exchanged"); }
-  if (const auto failure = radiosity::stage::refine(run)) {
-    if (!too_many) { return {std::nullopt, true, failure->sentences}; }
+  const auto unrefined = radiosity::stage::refine(run);
+  if (unrefined && !too_many) { return {std::nullopt, true, unrefined->sentences}; }
+  if (too_many) {
     return refused("at epsilon " + number(wanted.epsilon) + " the oracle is asked about more than " + std::to_string(most_pairs) +
                    " pairs or there are more than " + std::to_string(most_nodes) +
                    " patches, more than one can look at; a larger --epsilon or --min-area asks about fewer");
@@ -305,7 +310,7 @@ RecordResult record(const radiosity::Scene& scene, const std::string& name, cons
   recording.too_faint = run.evaluated.blocked;
   record_iterations(run, recording);
   record_leaves(run, recording);
-  recording.closed = run.scene.plan.closed;
+  recording.closure = run.solution.audit.closure;
   System system{*run.transport, run.scene.exposure.area, {}, {}};
   for (const radiosity::Color& rho : run.scene.reflectance) { system.reflectance.push_back(rho[recording.channel]); }
   for (const radiosity::Color& e : run.scene.emission) { system.emission.push_back(e[recording.channel]); }

@@ -65,6 +65,7 @@ struct Iteration {
   std::vector<double> sent;      // B: pulled up to the inner nodes
   std::vector<double> gathered;  // irradiance over the node's own links
   std::vector<double> arrived;   // the same with what was pushed down from above
+  std::vector<double> mean;      // of the irradiance of the leaves below
   double residual = 0.0;
 };
 
@@ -115,7 +116,7 @@ struct Recording {
   std::vector<std::string> bf_names;
   std::vector<radiosity::Polygon> bf_contours;
   std::vector<BfGeneration> bf;
-  bool closed = false;
+  std::optional<double> closure;  // RMS correction that made the form factors of each patch sum to 1; nothing in an open scene
   Comparison as_is, at_99;  // the solvers on this scene, and with all that reflects at .99
 };
 

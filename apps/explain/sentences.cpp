@@ -88,14 +88,18 @@ std::string refinement(const Recording& r) {
 }
 
 std::string light(const Recording& r) {
-  std::string out = "\nGather, push, pull: mean radiosity that each input face sends, W/m2, and the irradiance that arrives\n";
+  std::string out = "\nGather, push, pull: mean radiosity that each input face sends, W/m2, and the mean irradiance that arrives\n";
   for (std::size_t n = 0; n < r.iterations.size(); ++n) {
     const Iteration& step = r.iterations[n];
     out += "iteration " + std::to_string(n) + ":";
     for (std::size_t i = 0; i < r.nodes.size() && r.nodes[i].parent == radiosity::no_node; ++i) {
-      out += "  " + r.names[i] + " " + number(step.sent[i]) + " <- " + number(step.arrived[i]);
+      out += "  " + r.names[i] + " " + number(step.sent[i]) + " <- " + number(step.mean[i]);
     }
     out += "  (change " + number(step.residual) + ")\n";
+  }
+  if (r.closure) {
+    out += "The scene is closed: what leaves send and take is scaled so that their form factors sum to 1, by " +
+           number(100.0 * *r.closure) + " % on average\n";
   }
   return out;
 }
@@ -121,7 +125,9 @@ std::string by_light(const Recording& r) {
     const BfGeneration& of = r.bf[g];
     out += "generation " + std::to_string(g) + ": " + std::to_string(of.leaves) + " leaves, " + std::to_string(of.links) +
            " links, estimated error " + formatted("%.3g %%", 100.0 * of.estimate) + "\n";
-    for (std::size_t k = 0; k < std::min<std::size_t>(3, of.choices.size()); ++k) { out += "  " + of.choices[k].sentence + "\n"; }
+    const std::size_t told = std::min<std::size_t>(of.choices.size() == 4 ? 4 : 3, of.choices.size());
+    for (std::size_t k = 0; k < told; ++k) { out += "  " + of.choices[k].sentence + "\n"; }
+    if (told < of.choices.size()) { out += "  and " + std::to_string(of.choices.size() - told) + " with smaller errors\n"; }
   }
   return out;
 }
