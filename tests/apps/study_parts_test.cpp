@@ -162,19 +162,17 @@ TEST_CASE("study: a run that was cut off stands in the table, marked, and is cre
 
 TEST_CASE("halflight study --part and --merge: what was measured in parts is what one run measures") {
   program::Place place;
-  place.write("plates.scene",
-              "material lamp reflectance 0 emission 1\nmaterial plate reflectance 0.5\n"
-              "polygon lower material lamp {\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n}\n"
-              "polygon upper material plate {\nvertex 0 0 1\nvertex 0 1 1\nvertex 1 1 1\nvertex 1 0 1\n}\n");
-  const std::string options = " --time-per-run 0.003 --paths 16 --dense 0 --memory 1M -q";  // so little that few runs are done
-  CHECK(place.run("study plates.scene -o parts --part 2/2" + options).code == 0);
+  // A furnace so white that paths would never end: its reference is exact and its pictures are not traced, which saves most of the time.
+  place.write("furnace.scene", "material wall reflectance 0.9995 emission 0.0005\nbox room from 0 0 0 to 1 1 1 inside material wall\n");
+  const std::string options = " --time-per-run 0.003 --paths 16 --dense 0 -q";
+  CHECK(place.run("study furnace.scene -o parts --part 2/2" + options).code == 0);
   CHECK(place.has("parts/part-2-of-2.study"));
   const program::Run early = place.run("study --merge parts -o whole");
   CHECK(early.code == 3);
   CHECK(early.err.find("of 2 parts these are missing: 1") != std::string::npos);
-  CHECK(place.run("study plates.scene -o parts --part 1/2" + options).code == 0);
+  CHECK(place.run("study furnace.scene -o parts --part 1/2" + options).code == 0);
   CHECK(place.run("study --merge parts -o whole").code == 0);
-  CHECK(place.run("study plates.scene -o one" + options).code == 0);
+  CHECK(place.run("study furnace.scene -o one" + options).code == 0);
   const json::Value whole = json::parse(place.read("whole/results.json")), one = json::parse(place.read("one/results.json"));
   const auto& methods = whole["scenes"][0]["methods"].array();
   REQUIRE(methods.size() == one["scenes"][0]["methods"].size());
@@ -190,9 +188,9 @@ TEST_CASE("halflight study --part and --merge: what was measured in parts is wha
       CHECK(a["errors"]["weighted"]["points"]["l2"].number() == b["errors"]["weighted"]["points"]["l2"].number());
     }
   }
-  CHECK(compared > 3);
+  CHECK(compared > 15);
   CHECK(place.run("study -o x").code == 2);
-  CHECK(place.run("study plates.scene -o x --part 3/2").code == 2);
+  CHECK(place.run("study furnace.scene -o x --part 3/2").code == 2);
 }
 
 TEST_CASE("study page: legends are whole, tick labels do not collide, tables stay within the page at 1200 px and on paper") {
