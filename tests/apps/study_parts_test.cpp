@@ -164,7 +164,7 @@ TEST_CASE("halflight study --part and --merge: what was measured in parts is wha
   program::Place place;
   // A furnace so white that paths would never end: its reference is exact and its pictures are not traced, which saves most of the time.
   place.write("furnace.scene", "material wall reflectance 0.9995 emission 0.0005\nbox room from 0 0 0 to 1 1 1 inside material wall\n");
-  const std::string options = " --time-per-run 0.003 --paths 16 --dense 0 -q";
+  const std::string options = " --time-per-run 0.01 --paths 16 --dense 0 -q";
   CHECK(place.run("study furnace.scene -o parts --part 2/2" + options).code == 0);
   CHECK(place.has("parts/part-2-of-2.study"));
   const program::Run early = place.run("study --merge parts -o whole");
@@ -188,7 +188,7 @@ TEST_CASE("halflight study --part and --merge: what was measured in parts is wha
       CHECK(a["errors"]["weighted"]["points"]["l2"].number() == b["errors"]["weighted"]["points"]["l2"].number());
     }
   }
-  CHECK(compared > 15);
+  CHECK(compared > 3);
   CHECK(place.run("study -o x").code == 2);
   CHECK(place.run("study furnace.scene -o x --part 3/2").code == 2);
 }
