@@ -1,14 +1,6 @@
-addEventListener('error', e => { document.documentElement.dataset.error = e.message; });
-const $ = id => document.getElementById(id);
 const story = data, frames = story.frames;
-let now = -1, timer = null, moving = 0;
+let now = -1, moving = 0;
 
-const element = (tag, text, kind) => {
-  const e = document.createElement(tag);
-  if (text !== undefined) e.textContent = text;
-  if (kind) e.className = kind;
-  return e;
-};
 // "0 2 1 0 0;1 ..." -> Map of name -> fields
 const table = (text, letters) => new Map(text.split(';').filter(Boolean).map(row => {
   const n = row.split(' ');
@@ -151,14 +143,7 @@ function show(i) {
   $('forth').disabled = $('last').disabled = i === frames.length - 1;
   if (!(i === 0 && !location.hash)) history.replaceState(null, '', '#step=' + i);
 }
-function play(on) {
-  clearInterval(timer);
-  timer = null;
-  if (on && now === frames.length - 1) show(0);
-  if (on) timer = setInterval(() => now < frames.length - 1 ? show(now + 1) : play(false), 1600);
-  $('play').textContent = on ? 'pause' : 'play';
-}
-const go = i => { play(false); show(i); };
+const {go} = stepper({count: () => frames.length, at: () => now, show, time: 1600, page: 1});
 
 document.title = story.title;
 $('title').textContent = story.title;
@@ -170,19 +155,7 @@ frames.forEach((f, i) => {
   $('script').append(e);
 });
 $('first').onclick = () => go(0);
-$('back').onclick = () => go(now - 1);
-$('forth').onclick = () => go(now + 1);
 $('last').onclick = () => go(frames.length - 1);
-$('play').onclick = () => play(!timer);
-$('slide').oninput = () => go(+$('slide').value);
-document.addEventListener('keydown', e => {
-  if (e.ctrlKey || e.altKey || e.metaKey) return;
-  const i = {ArrowRight: now + 1, ArrowLeft: now - 1, PageDown: now + 1, PageUp: now - 1, Home: 0, End: frames.length - 1}[e.key];
-  if (i !== undefined) go(i);
-  else if (e.key === ' ') play(!timer);
-  else return;
-  e.preventDefault();
-});
 for (const id of ['picture', 'solid', 'tables']) {
   $(id).addEventListener('pointerover', e => { if (!held) mark(pointed(e)); });
   $(id).addEventListener('pointerleave', () => { if (!held) mark(null); });

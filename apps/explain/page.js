@@ -1,11 +1,3 @@
-addEventListener('error', e => { document.documentElement.dataset.error = e.message; });
-const $ = id => document.getElementById(id);
-const element = (tag, text, kind) => {
-  const e = document.createElement(tag);
-  if (text !== undefined) e.textContent = text;
-  if (kind) e.className = kind;
-  return e;
-};
 const svg = (tag, attributes) => {
   const e = document.createElementNS('http://www.w3.org/2000/svg', tag);
   for (const [name, value] of Object.entries(attributes)) e.setAttribute(name, value);
@@ -222,7 +214,7 @@ function chart(series, upTo, title) {
   return box;
 }
 
-let picked = -1, threshold = data.epsilon, showLinks = false, at99 = 1, now = 0, chapter = 0, timer = null;
+let picked = -1, threshold = data.epsilon, showLinks = false, at99 = 1, now = 0, chapter = 0;
 const blue = '#0b5bd3', orange = '#d9730d';
 const facesOf = (tree, leaves, fill) => leaves.map(i => ({points: tree[i].points, node: i, fill: fill(i)}));
 const outline = (tree, i, edge) => ({points: tree[i].points, fill: 'rgba(255,255,255,.15)', edge, wide: true});
@@ -457,15 +449,8 @@ function redraw() {
   history.replaceState(null, '', `#${c.name.split(' ')[0].toLowerCase()}=${k}`);
 }
 let last = {faces: []};
-const go = k => { now = Math.max(0, Math.min(chapters[chapter].steps - 1, k)); redraw(); };
-function open(i, k = 0) { play(false); chapter = i; if (chapters[i].tree !== main) picked = -1; go(k); }
-function play(on) {
-  clearInterval(timer);
-  timer = null;
-  if (on && now >= chapters[chapter].steps - 1) go(0);
-  if (on) timer = setInterval(() => now < chapters[chapter].steps - 1 ? go(now + 1) : play(false), 700);
-  $('play').textContent = on ? 'pause' : 'play';
-}
+const {go} = stepper({count: () => chapters[chapter].steps, at: () => now, show: k => { now = k; redraw(); }, time: 700, page: 10});
+function open(i, k = 0) { chapter = i; if (chapters[i].tree !== main) picked = -1; go(k); }
 document.title = 'explain ' + data.scene;
 $('title').textContent = data.scene;
 chapters.forEach((c, i) => {
@@ -473,10 +458,6 @@ chapters.forEach((c, i) => {
   b.onclick = () => open(i);
   $('chapters').append(b);
 });
-$('back').onclick = () => { play(false); go(now - 1); };
-$('forth').onclick = () => { play(false); go(now + 1); };
-$('play').onclick = () => play(!timer);
-$('slide').oninput = () => { play(false); go(+$('slide').value); };
 const view = $('view');
 let drag = null, moved = 0;
 view.onpointerdown = e => { drag = [e.clientX, e.clientY]; moved = 0; view.setPointerCapture(e.pointerId); };
@@ -497,12 +478,6 @@ view.onpointerup = e => {
 };
 view.onwheel = e => { e.preventDefault(); eye.zoom *= Math.exp(-e.deltaY / 800); paint(view, last); };
 addEventListener('resize', () => paint(view, last));
-document.addEventListener('keydown', e => {
-  if (e.ctrlKey || e.altKey || e.metaKey || e.target.tagName === 'INPUT' && e.target.type === 'range' && e.target.id !== 'slide') return;
-  const step = {ArrowRight: 1, ArrowLeft: -1, PageDown: 10, PageUp: -10}[e.key];
-  if (step) { play(false); go(now + step); } else if (e.key === ' ') play(!timer); else return;
-  e.preventDefault();
-});
 const asked = /#([a-z-]+)=(\d+)/.exec(location.hash);
 open(asked ? Math.max(0, chapters.findIndex(c => c.name.toLowerCase().startsWith(asked[1]))) : 0, asked ? +asked[2] : 0);
 document.documentElement.dataset.ready = '1';

@@ -85,20 +85,16 @@ class Watch {
   Watch(Recording& recording, std::atomic<bool>& too_many) : recording_{recording}, too_many_{too_many} {}
 
   void take(const radiosity::Question& question, Decision decision) {
-    const std::size_t known = recording_.born.size();
-    if (question.hierarchy.size() > known) {  // a new generation
-      generation_ += known > 0 ? 1 : 0;
-      recording_.born.resize(question.hierarchy.size(), generation_);
-    } else if (by_ends_.contains(key(question.p, question.q))) {
-      return;
-    }
-    Pair pair{question.p, question.q, none, generation_, 0.0, decision, decision, {}};
+    if (by_ends_.contains(key(question.p, question.q))) { return; }
+    Pair pair{question.p, question.q, none, 0, 0.0, decision, decision, {}};
     pair.estimate = radiosity::form_factor_estimate(question.node_p(), question.node_q());
     if (decision >= radiosity::first_seeing) { pair.by_form_factor = radiosity::FOracle{}(question); }
     for (const auto& [a, b] : {std::pair{question.node_p().parent, question.q}, std::pair{question.p, question.node_q().parent}}) {
       const auto found = by_ends_.find(key(a, b));
       if (a != radiosity::no_node && b != radiosity::no_node && found != by_ends_.end()) { pair.parent = found->second; }
     }
+    if (pair.parent != none) { pair.generation = recording_.pairs[pair.parent].generation + 1; }
+    if (question.hierarchy.size() > recording_.born.size()) { recording_.born.resize(question.hierarchy.size(), pair.generation); }
     by_ends_.emplace(key(pair.p, pair.q), static_cast<std::uint32_t>(recording_.pairs.size()));
     recording_.pairs.push_back(std::move(pair));
     if (recording_.pairs.size() > most_pairs || question.hierarchy.size() > most_nodes) { too_many_ = true; }
@@ -110,7 +106,6 @@ class Watch {
   }
   Recording& recording_;
   std::atomic<bool>& too_many_;
-  std::uint32_t generation_ = 0;
   std::map<std::uint64_t, std::uint32_t> by_ends_;
 };
 

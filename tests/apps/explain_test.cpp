@@ -48,10 +48,11 @@ radiosity::Scene random_plates(unsigned seed) {
 }  // namespace
 
 TEST_CASE("explain: watching changes nothing, and the recorded numbers are those of the solution") {
-  const unsigned seed = std::random_device{}();
-  for (unsigned k = 0; k < 6; ++k) {
-    INFO("seed " << seed << " + " << k);
-    const radiosity::Scene scene = random_plates(seed + k);
+  const unsigned first = std::random_device{}();
+  for (unsigned k = 0; k < 7; ++k) {
+    const unsigned seed = k < 6 ? first + k : 1843135162u;  // a generation in which only patches that were split before are to be split
+    INFO("seed " << seed);
+    const radiosity::Scene scene = random_plates(seed);
     apps::explain::Wanted wanted;
     wanted.epsilon = 0.1;
     const Recording r = recorded(scene, wanted);
