@@ -16,12 +16,7 @@ ExitCode run(const std::string& folder) {
   std::filesystem::create_directories(folder, error);
   const auto path = [&](const std::string& file) { return (std::filesystem::path(folder) / file).string(); };
   if (const ExitCode code = check_outputs({path("index.html")}, {}); code != ExitCode::ok) { return code; }
-  std::string fault;
-  const std::vector<figures::Figure> all = figures::make(fault);
-  if (!fault.empty()) {
-    complain(fault);
-    return ExitCode::failure;
-  }
+  const std::vector<figures::Figure> all = figures::make();
   for (const figures::Figure& figure : all) {
     if (!save(path(figure.file), figure.svg)) { return ExitCode::failure; }
   }

@@ -29,11 +29,6 @@ constexpr std::array<Exercise, 12> exercises{{
 
 std::span<const Exercise> all() { return exercises; }
 
-std::string beginning(const Exercise& exercise) {
-  for (const auto& [name, text] : embedded::examples) {
-    if (name == "exercises/" + std::string(exercise.file)) { return std::string(text).substr(1); }  // behind the line end that the build puts first
-  }
-  return {};
-}
+std::string beginning(const Exercise& exercise) { return embedded::example(std::string("exercises/") + exercise.file); }
 
 }  // namespace apps::exercise

@@ -22,13 +22,6 @@
 namespace apps::figures {
 namespace {
 
-std::string source(const std::string& name) {
-  for (const auto& [file, text] : embedded::examples) {
-    if (name == file) { return std::string(text).substr(1); }
-  }
-  return {};
-}
-
 std::string svg(double width, double height, const std::string& body) {
   const std::string size = std::to_string(static_cast<int>(width)) + "' height='" + std::to_string(static_cast<int>(height));
   return "<svg xmlns='http://www.w3.org/2000/svg' width='" + size + "' viewBox='0 0 " + std::to_string(static_cast<int>(width)) + " " +
@@ -101,36 +94,30 @@ Pictures both_reconstructions(const std::string& scene, unsigned width, unsigned
   return {to_png(*draw(simple, view, exposure)), to_png(*draw(weighted, view, exposure))};
 }
 
-std::vector<Figure> make(std::string& fault) {
-  for (const auto& [file, text] : embedded::examples) {
-    const std::string name = file;
-    const bool sound = name.ends_with(".scene") ? parse_scene(std::string(text).substr(1)).file.has_value() : true;
-    if (!sound) { fault = name + " is no scene"; }
-  }
-  if (!fault.empty()) { return {}; }
-  const Pictures close = both_reconstructions(source("scenes/paper_figure.scene"), 240, 210, 0.02);
-  const Pictures room = both_reconstructions(source("scenes/room.scene"), 360, 270, 0.05);
+std::vector<Figure> make() {
+  const Pictures close = both_reconstructions(embedded::example("scenes/paper_figure.scene"), 240, 210, 0.02);
+  const Pictures room = both_reconstructions(embedded::example("scenes/room.scene"), 360, 270, 0.05);
   return {
       {"figure1.svg", "euler/010_cube.euler",
        "A cube, and the same cube in the plane: the bottom face is pulled wide open and everything else is spread within it. Vertices, edges "
        "and faces keep their names, and no two edges cross.",
-       last_step(source("euler/010_cube.euler"))},
+       last_step(embedded::example("euler/010_cube.euler"))},
       {"figure2.svg", "figures/2_winged_edge.euler",
        "The halves of one edge, red. Each runs on the side of its own face and knows its origin, its face, its twin, and the half-edges before "
        "and behind it along the face; so all neighbours are one step away.",
-       last_step(source("figures/2_winged_edge.euler"), true)},
+       last_step(embedded::example("figures/2_winged_edge.euler"), true)},
       {"figure3.svg", "figures/3_hierarchy.scene",
        "The hierarchy stands on the BRep. Nodes hold centre, normal and area; a leaf knows its face (dashed), and the faces know corners and "
        "neighbours. When a leaf is split, its face is split by Euler operators and the leaf becomes an inner node.",
-       diagram(hierarchy_over_faces(source("figures/3_hierarchy.scene")), "a tree over the faces of a mesh")},
+       diagram(hierarchy_over_faces(embedded::example("figures/3_hierarchy.scene")), "a tree over the faces of a mesh")},
       {"figure4.svg", "figures/3_hierarchy.scene",
        "Level tags. A vertex has the level of the split that made it; a face of level l has corners of level l or less. A vertex of higher level "
        "on its border is a T-vertex and serves as the anchor of the next split.",
-       diagram(level_tags(source("figures/3_hierarchy.scene")), "a mesh with the levels of its vertices and faces")},
+       diagram(level_tags(embedded::example("figures/3_hierarchy.scene")), "a mesh with the levels of its vertices and faces")},
       {"figure5.svg", "figures/5_weights.scene",
        "Weighted reconstruction at a vertex on the rim of a cylinder: for the colour of one half-edge every face around the vertex counts by "
        "max(0, N_e . N_l). On the top all normals agree, the side counts nothing, and the edge stays sharp.",
-       diagram(weights_at_a_rim(source("figures/5_weights.scene")), "weights of the faces around a vertex on a rim")},
+       diagram(weights_at_a_rim(embedded::example("figures/5_weights.scene")), "weights of the faces around a vertex on a rim")},
       {"figure6.svg", "scenes/paper_figure.scene",
        "A cylinder under a superquadric that shadows itself, reconstructed simply (left) and with weights (right): left the side's darkness "
        "bleeds over the rim into the top.",

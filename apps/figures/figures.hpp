@@ -17,8 +17,8 @@ struct Figure {
   std::string svg;
 };
 
-// All eight; a few seconds of CPU time, for figures 6 to 8 are rendered. A sentence in `fault` when a source is broken.
-[[nodiscard]] std::vector<Figure> make(std::string& fault);
+// All eight; a few seconds of CPU time, for figures 6 to 8 are rendered.
+[[nodiscard]] std::vector<Figure> make();
 
 [[nodiscard]] std::string page(const std::vector<Figure>& figures);
 
