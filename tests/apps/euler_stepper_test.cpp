@@ -23,7 +23,7 @@ namespace {
 
 using namespace apps::euler;
 
-Story story_of(const std::string& script) {
+Story told_story(const std::string& script) {
   const brep::ScriptResult parsed = brep::parse_script(script);
   REQUIRE(parsed.script);
   return tell(*parsed.script, "test");
@@ -65,7 +65,7 @@ TEST_CASE("stepper: no name covers another, in any step of any lesson") {
     INFO(entry.path().filename().string());
     std::string text = program::content(entry.path());
     static_cast<void>(take_coordinates(text));
-    const Story story = story_of(text);
+    const Story story = told_story(text);
     CHECK(covered(story) == 0);
     for (const Layout& layout : lay_out(story, 0.026)) {  // none is left out for want of room
       for (const Panel& panel : layout.panels) {
@@ -96,7 +96,7 @@ TEST_CASE("stepper: no name covers another in random solids of up to 24 edges") 
       }
     }
     INFO(script);
-    const Story story = story_of(script);
+    const Story story = told_story(script);
     const std::vector<Layout> layouts = lay_out(story, 0.026);
     int pairs = 0;
     for (const Panel& panel : layouts.back().panels) { pairs += covered(panel); }
@@ -105,7 +105,7 @@ TEST_CASE("stepper: no name covers another in random solids of up to 24 edges") 
 }
 
 TEST_CASE("stepper: every step is told in words, with the textbook's name") {
-  const Story story = story_of("h0 = make_segment\nmev h1 h1\nmef h3 h0\nrefused split_face h0 h1\nundo\nredo\nkef h4\n");
+  const Story story = told_story("h0 = make_segment\nmev h1 h1\nmef h3 h0\nrefused split_face h0 h1\nundo\nredo\nkef h4\n");
   const std::vector<std::string> expected = {
       "make_segment, in textbooks mvfs: v + 2, e + 1 and f + 1. New: the edge h0/h1, v0, v1 and f0.",
       "split_vertex, in textbooks mev: v + 1 and e + 1. New: the edge h2/h3 and v2.",
@@ -120,7 +120,7 @@ TEST_CASE("stepper: every step is told in words, with the textbook's name") {
     if (entry.path().extension() != ".euler") { continue; }
     std::string text = program::content(entry.path());
     static_cast<void>(take_coordinates(text));
-    for (const Frame& frame : story_of(text).frames) {
+    for (const Frame& frame : told_story(text).frames) {
       INFO(entry.path().filename().string() << ": " << frame.statement);
       CHECK((frame.statement.empty() || !frame.caption.empty() || !frame.told.empty() || !frame.outcome.sentence.empty()));
     }
@@ -128,12 +128,12 @@ TEST_CASE("stepper: every step is told in words, with the textbook's name") {
 }
 
 TEST_CASE("stepper: the walk around a face and a vertex") {
-  const Story story = story_of("h0 = make_segment\nh2 = split_vertex h1 h1\nh4 = split_face h3 h0\n");
+  const Story story = told_story("h0 = make_segment\nh2 = split_vertex h1 h1\nh4 = split_face h3 h0\n");
   const Records& r = story.frames.back().records;
   CHECK(walk(r, brep::Element(brep::FaceId{0})) == "f0: h0 (from v0) h2 (from v1) h4 (from v2); 3 edges");
   CHECK(walk(r, brep::Element(brep::VertexId{1})) == "v1: h1 (in f1) h2 (in f0); 2 edges leave");
   CHECK(walk(r, brep::Element(brep::FaceId{7})) == "f7 does not exist");
-  const Story damaged = story_of("h0 = make_segment\nh2 = split_vertex h1 h1\nh4 = split_face h3 h0\nraw next h0 h2\nraw next h4 h2\n");
+  const Story damaged = told_story("h0 = make_segment\nh2 = split_vertex h1 h1\nh4 = split_face h3 h0\nraw next h0 h2\nraw next h4 h2\n");
   CHECK(walk(damaged.frames.back().records, brep::Element(brep::FaceId{0})).find("does not come back") != std::string::npos);
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("stepper: coordinates of a script are read, keep the places of lines, 
   const brep::ScriptResult parsed = brep::parse_script(text);
   REQUIRE(parsed.errors.size() == 1);
   CHECK(parsed.errors[0].place.line == 4);
-  const Story story = story_of("make_segment\n");
+  const Story story = told_story("make_segment\n");
   CHECK(solid_view(story.frames[1], coordinates, 100.0).find("data-of='h0 h1'") != std::string::npos);
   CHECK(solid_view(story.frames[1], {}, 100.0).empty());
 }

@@ -78,7 +78,7 @@ TEST_CASE("study: parts that were written, read and merged are the whole, to the
     }
     return text;
   };
-  for (const std::size_t count : {40, 5, 4, 2, 1}) {  // 40: more parts than pairs
+  for (const std::size_t count : {40u, 5u, 4u, 2u, 1u}) {  // 40: more parts than pairs
     INFO(count << " parts");
     const Merged merged = merge(parts_of(whole, count));
     INFO(merged.fault);
@@ -230,7 +230,7 @@ TEST_CASE("study page: legends are whole, tick labels do not collide, tables sta
   };
   CHECK(faults(text, 1200).empty());
   CHECK(faults(text, 1000).empty());  // where a wide table is scrolled, and the page is not
-  std::string paper = text;           // A4 less its margins is 182 mm wide, 688 px, or across 273 mm, 1032 px
-  for (std::size_t at; (at = paper.find("@media print")) != paper.npos;) { paper.replace(at, 12, "@media all"); }
-  CHECK(faults(paper, 688).empty());
+  std::string printed = text;         // A4 less its margins is 182 mm wide, 688 px, or across 273 mm, 1032 px
+  for (std::size_t at; (at = printed.find("@media print")) != printed.npos;) { printed.replace(at, 12, "@media all"); }
+  CHECK(faults(printed, 688).empty());
 }
