@@ -100,7 +100,7 @@ std::string page(const Recording& r) {
   write_comparison(json, r.at_99);
   json.close().close();
   return to_text(HtmlDocument{"explain " + r.scene, embedded::explain_page_css, embedded::explain_page_html, json.text(),
-                              embedded::explain_page_js});
+                              std::string(embedded::explain_scene_js) + embedded::explain_page_js});
 }
 
 }  // namespace apps::explain
