@@ -21,7 +21,9 @@ static radiosity::SceneObject room(std::uint32_t material) {
   return walls;
 }
 
-static radiosity::SceneObject ball(std::uint32_t material) { return {"ball", raycast::Sphere::make({1.2, 1, 0.8}, 0.5).object, {}, {material}}; }
+static radiosity::SceneObject ball(std::uint32_t material) {
+  return {"ball", raycast::Sphere::make({1.2, 1, 0.8}, 0.5).object, {}, {material}};
+}
 
 int main() {
   radiosity::Scene furnace;

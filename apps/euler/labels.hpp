@@ -4,7 +4,8 @@
 // Places and sizes for the names in a panel.
 //
 // The room of a face is the radius of the largest circle in it; letters are small where there is little. Names of half-edges stand
-// beside the middle of their edge or, where another name is, elsewhere along it; no name covers another, and one that finds no room is not drawn (size 0). Names of faces where the way to all lines, vertices and other names is longest.
+// beside the middle of their edge or, where another name is, elsewhere along it; no name covers another, and one that finds no room is not
+// drawn (size 0). Names of faces stand where the way to all lines, vertices and other names is longest.
 
 #include <cmath>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A logarithmic axis: the range of its values, where each falls, and its ticks. As many are labelled as have room: 1 2 3 5 7 of each decade,
-// else 1 2 5, else decades, else every second one, third ... With room for three labels in two decades every axis has at least two.
+// A logarithmic axis: the range of its values, where each falls, and its ticks. As many are labelled as have room: 1 2 3 5 7 of each
+// decade, else 1 2 5, else decades, else every second one, third ... With room for three labels in two decades every axis has at least two.
 
 #include <algorithm>
 #include <cmath>

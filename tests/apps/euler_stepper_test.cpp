@@ -17,6 +17,7 @@
 #include "apps/euler/solid.hpp"
 #include "apps/euler/story.hpp"
 #include "apps/euler/svg.hpp"
+#include "browser.hpp"
 #include "program.hpp"
 
 namespace {
@@ -186,11 +187,10 @@ TEST_CASE("terminal: an unknown operator gets the nearest that is known; face an
 }
 
 TEST_CASE("stepper: every step of the page, and the walk of all that it shows, work in a browser") {
-  if (std::system("command -v chromium >/dev/null 2>&1") != 0) { SKIP_TEST("there is no chromium"); }
+  if (!browser::found()) { SKIP_TEST("there is no chromium"); }
   program::Place place;
   REQUIRE(place.run("euler '" HALFLIGHT_LESSONS "/040_through_hole.euler' -o page.html").code == 0);
-  std::string page = place.read("page.html");
-  page.insert(page.rfind("</body>"), R"(<script>
+  const std::string dom = browser::elements(place, place.read("page.html"), R"(
     let walks = 0, seen = 0;
     for (let i = 0; i < frames.length; ++i) {
       show(i);
@@ -202,12 +202,7 @@ TEST_CASE("stepper: every step of the page, and the walk of all that it shows, w
     document.documentElement.dataset.walks = walks > 1000;
     document.documentElement.dataset.seen = seen === frames.length;
     document.documentElement.dataset.solid = document.querySelectorAll('#solid .vertex').length;
-  </script>)");
-  place.write("page.html", page);
-  const std::string command = "cd '" + place.path().string() + "' && timeout 60 chromium --headless --no-sandbox --disable-gpu --user-data-dir='" +
-                              place.path().string() + "/profile' --window-size=1280,860 --dump-dom page.html >dom.html 2>/dev/null";
-  REQUIRE(std::system(command.c_str()) == 0);
-  const std::string dom = place.read("dom.html");
+  )", "1280,860");
   INFO(dom.substr(0, 300));
   CHECK(dom.find("data-error") == std::string::npos);
   CHECK(dom.find("data-walks=\"true\"") != std::string::npos);

@@ -14,6 +14,7 @@
 
 #include "apps/explain/recording.hpp"
 #include "apps/explain/sentences.hpp"
+#include "browser.hpp"
 #include "example_scenes.hpp"
 #include "program.hpp"
 
@@ -142,12 +143,11 @@ TEST_CASE("explain tells the story in the terminal and writes a page of its own"
 }
 
 TEST_CASE("explain: every step of the page is drawn in a browser without an error") {
-  if (std::system("command -v chromium >/dev/null 2>&1") != 0) { SKIP_TEST("there is no chromium"); }
+  if (!browser::found()) { SKIP_TEST("there is no chromium"); }
   program::Place place;
   const std::string scene = std::string("'") + HALFLIGHT_SCENES + "/three_plates.scene'";
   REQUIRE(place.run("explain " + scene + " --epsilon 0.2 -o page.html").code == 0);
-  std::string page = place.read("page.html");
-  page.insert(page.rfind("</body>"), R"(<script>
+  const std::string dom = browser::elements(place, place.read("page.html"), R"(
     let drawn = 0;
     chapters.forEach((c, i) => { for (let k = 0; k < c.steps; k += 1 + Math.floor(c.steps / 12)) { open(i, k); pick(k % 5); drawn += last.faces.length > 0; } });
     document.documentElement.dataset.drawn = drawn;
@@ -157,12 +157,7 @@ TEST_CASE("explain: every step of the page is drawn in a browser without an erro
     document.documentElement.dataset.pulled = data.iterations.slice(1).every((next, n) =>
       next.sent.every((b, i) => Math.abs(b - light.value(3 * n + 2)(i)) <= 1e-3 * largest));
     document.documentElement.dataset.mine = atThreshold(data.epsilon).links.length === data.pairs.filter(p => p.is === 'link').length;
-  </script>)");
-  place.write("page.html", page);
-  const std::string command = "cd '" + place.path().string() + "' && timeout 60 chromium --headless --no-sandbox --disable-gpu --user-data-dir='" +
-                              place.path().string() + "/profile' --dump-dom page.html >dom.html 2>/dev/null";
-  REQUIRE(std::system(command.c_str()) == 0);
-  const std::string dom = place.read("dom.html");
+  )", "1200,800");
   INFO(dom.substr(0, 400));
   CHECK(dom.find("data-ready=\"1\"") != std::string::npos);
   CHECK(dom.find("data-error") == std::string::npos);
