@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
   try {
     const std::vector<apps::Command> commands = {apps::render_command(), apps::info_command(),    apps::mesh_command(),
                                                  apps::check_command(),  apps::factors_command(), apps::stress_command(),
-                                                 apps::euler_command(),  apps::study_command()};
+                                                 apps::euler_command(),  apps::study_command(),   apps::explain_command(),
+                                                 apps::exercise_command(), apps::figures_command()};
     return static_cast<int>(apps::run_program(commands, argc, argv));
   } catch (const std::bad_alloc&) {
     apps::complain("out of memory; a larger --epsilon or --min-area needs less");

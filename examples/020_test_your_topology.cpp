@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Unit tests for your own topology code.
 //
-// Somebody writes an operator of their own: inset_face draws a smaller face inside a face and joins corner to corner. How can we
-// know that it is right? Not by looking at one picture: we say what must be true afterwards and let Catch2 ask. The
-// matchers of brep/testing.hpp know what a sound BRep is, count, and compare shapes; when a test fails they
-// print in sentences what is wrong and where.
+// Somebody writes an operator of their own: inset_face draws a smaller face inside a face and joins corner to corner. How can we know that it is
+// right? We say what must be true afterwards and let Catch2 ask. The matchers of brep/testing.hpp know what a sound BRep is, count, and
+// compare shapes; when a test fails they print in sentences what is wrong and where.
 
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
@@ -12,11 +11,11 @@
 #include <catch2/catch.hpp>
 #endif
 
+#include <vector>
+
 #include <brep/circulators.hpp>
 #include <brep/euler.hpp>
 #include <brep/testing.hpp>
-
-#include <vector>
 
 using namespace brep;
 
@@ -25,18 +24,16 @@ static FaceId inset_face(BRep<>& solid, FaceId face) {
   std::vector<HalfedgeId> corners, spurs;
   for (HalfedgeId h : halfedges_of(solid, face)) corners.push_back(h);
   for (HalfedgeId c : corners) spurs.push_back(*split_vertex(solid, c, c));
-
   // The first rim edge leaves the last tip; where it begins is where the last rim edge has to arrive.
   HalfedgeId rim;
   for (std::size_t i = 0; i < spurs.size(); ++i) {
-    const HalfedgeId tip = twin(spurs[i]), next_tip = i + 1 < spurs.size() ? twin(spurs[i + 1]) : rim;
-    const HalfedgeId h = *split_face(solid, tip, next_tip);
+    const HalfedgeId h = *split_face(solid, twin(spurs[i]), i + 1 < spurs.size() ? twin(spurs[i + 1]) : rim);
     if (i == 0) rim = h;
   }
   return solid.face(rim);
 }
 
-// The same with a mistake that is easily made: a record is written by hand, and one of the two links is forgotten.
+// A mistake that is easily made: a record is written by hand, and one of the two links is forgotten.
 static void turn_badly(BRep<>& solid, HalfedgeId h) { detail::Raw::at(solid, h).next = solid.next(solid.next(h)); }
 
 // A polygon with n corners and its back side: the smallest solid with an n-gon.
@@ -74,10 +71,8 @@ TEST_CASE("a broken solid is found out, and the report says where to look") {
   BRep<> solid = pillow(4);
   turn_badly(solid, HalfedgeId{0});
   const IsValid is_valid;
-  CHECK_FALSE(is_valid.match(solid));
-  // CHECK_THAT(solid, IsValid()) would print this:
-  CHECK(is_valid.toString() ==
-        "is valid\n"
+  CHECK_FALSE(is_valid.match(solid));  // CHECK_THAT(solid, IsValid()) would print this:
+  CHECK(is_valid.toString() == "is valid\n"
         "R3: next(h0) is h5, but prev(h5) is h3; usually one of the two links was not set\n"
         "R2: h0 ends at v2, but its next, h5, starts at v3; usually a vertex that was changed at a part of its half-edges\n"
         "R3: prev(h3) is h0, but next(h0) is h5; usually one of the two links was not set");

@@ -2,21 +2,17 @@
 // An object of your own: derive from raycast::Object, write four methods, and every part of the program takes it. This one is a lens, the
 // part that two balls of radius 1 have in common; its sheets are the two spherical caps.
 
-#include <brep/builder_input.hpp>
 #include <cstdio>
 
+#include <brep/builder_input.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/scene.hpp>
-#include <raycast/box.hpp>
 #include <raycast/circle.hpp>
 #include <raycast/object.hpp>
 #include <raycast/objects/disk.hpp>
 #include <raycast/objects/sphere.hpp>
-#include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
-#include <raycast/spans.hpp>
-#include <raycast/transform.hpp>
 
 class Lens final : public raycast::Object {
  public:
@@ -24,7 +20,6 @@ class Lens final : public raycast::Object {
 
   // 1. Where it is.
   raycast::Box bounds() const override { return {{-rim(), -rim(), offset_ - 1.0}, {rim(), rim(), 1.0 - offset_}}; }
-
   // 2. Where a line is inside: in both balls.
   void spans(const raycast::Segment& line, raycast::Spans& out) const override {
     raycast::Spans upper, lower;
@@ -36,22 +31,19 @@ class Lens final : public raycast::Object {
     if (lower[0].out.t < both.out.t) { both.out = {lower[0].out.t, 1}; }
     out.push(both);  // drops an empty span
   }
-
   // 3. A mesh that is no farther from it than the tolerance: rings of n points from pole to pole, the rim in the middle.
   void approximate(double tolerance, brep::Builder& out) const override {
     const std::uint32_t n = static_cast<std::uint32_t>(raycast::circle_points(0.5 * tolerance)), rim_row = n / 4, last = 2 * rim_row;
-    const std::uint32_t pole = out.vertex({0.0, 0.0, 1.0 - offset_});
-    for (std::uint32_t j = 1; j < last; ++j) {
+    std::uint32_t pole = 0;
+    for (std::uint32_t j = 0; j <= last; ++j) {
       const double angle = std::acos(offset_) * std::min(j, last - j) / rim_row, height = std::cos(angle) - offset_;
-      for (std::uint32_t i = 0; i < n; ++i) {
+      for (std::uint32_t i = 0; i < (j % last == 0 ? 1 : n); ++i) {
         const glm::dvec2 p = std::sin(angle) * raycast::circle_point(static_cast<int>(i), static_cast<int>(n));
-        out.vertex({p.x, p.y, j < rim_row ? height : -height});
+        const std::uint32_t vertex = out.vertex({p.x, p.y, j < rim_row ? height : -height});
+        if (j == 0) { pole = vertex; }
       }
     }
-    const std::uint32_t other_pole = out.vertex({0.0, 0.0, offset_ - 1.0});
-    const auto at = [&](std::uint32_t j, std::uint32_t i) {
-      return j == 0 ? pole : j == last ? other_pole : pole + 1 + (j - 1) * n + i % n;
-    };
+    const auto at = [&](std::uint32_t j, std::uint32_t i) { return j == 0 ? pole : pole + 1 + (j - 1) * n + (j == last ? 0 : i % n); };
     for (std::uint32_t j = 0; j < last; ++j) {
       for (std::uint32_t i = 0; i < n; ++i) {
         std::vector<std::uint32_t> face{at(j + 1, i), at(j + 1, i + 1), at(j, i + 1), at(j, i)};
@@ -60,11 +52,9 @@ class Lens final : public raycast::Object {
       }
     }
   }
-
   // 4. The nearest point of a sheet, and the normal there.
   raycast::SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override { return balls_[sheet]->project(0, p); }
-  // The rest has defaults.
-  bool convex() const override { return true; }
+  bool convex() const override { return true; }  // the rest has defaults
   std::uint32_t sheet_count() const override { return 2; }
   std::string_view sheet_name(std::uint32_t sheet) const override { return sheet == 0 ? "upper" : "lower"; }
 

@@ -60,6 +60,7 @@ struct Command {
   std::vector<Argument> arguments;  // their values go into options that `run` keeps alive
   std::function<ExitCode()> run;
   std::function<std::string()> missing = {};  // what the command cannot do without, where no single argument is required
+  std::string usage = {};                     // how it is used, below the arguments of its help
 };
 
 [[nodiscard]] Command render_command();
@@ -70,6 +71,9 @@ struct Command {
 [[nodiscard]] Command stress_command();
 [[nodiscard]] Command euler_command();
 [[nodiscard]] Command study_command();
+[[nodiscard]] Command explain_command();
+[[nodiscard]] Command exercise_command();
+[[nodiscard]] Command figures_command();
 
 // --- kinds of arguments; `target` must outlive the reading of the command line
 

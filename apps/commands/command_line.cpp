@@ -157,6 +157,7 @@ void describe(CLI::App& app, const Command& command) {
     for (const std::string& other : argument.excludes) { option->excludes(described.get_option(other)); }
     for (const std::string& other : argument.needs) { option->needs(described.get_option(other)); }
   }
+  if (!command.usage.empty()) { described.footer(command.usage + "\n" + app.get_footer()); }
   if (!command.missing) { return; }
   described.callback([missing = command.missing] {
     if (const std::string what = missing(); !what.empty()) { throw CLI::RequiredError(what); }

@@ -13,6 +13,7 @@
 #include "apps/commands/common.hpp"
 #include "apps/euler/html.hpp"
 #include "apps/euler/interactive.hpp"
+#include "apps/euler/solid.hpp"
 #include "apps/euler/story.hpp"
 #include "apps/euler/svg.hpp"
 
@@ -45,8 +46,9 @@ ExitCode run(const EulerOptions& options) {
   ExitCode code = check_outputs(options.outputs, options.interactive ? std::vector<std::string>{} : std::vector{options.script});
   if (code != ExitCode::ok) { return code; }
   if (options.interactive) { return euler::converse(options.outputs); }
-  const auto text = load_text(options.script, code);
+  auto text = load_text(options.script, code);
   if (!text) { return code; }
+  const euler::Coordinates coordinates = euler::take_coordinates(*text);
   const brep::ScriptResult parsed = brep::parse_script(*text);
   if (!parsed.script) {
     const auto sentence = wrong_kind(shown(options.script), *text, FileKind::script);
@@ -63,6 +65,7 @@ ExitCode run(const EulerOptions& options) {
       return ExitCode::failure;
     }
     story = euler::tell(*parsed.script, name);
+    story.coordinates = coordinates;
   }
   for (const std::string& output : options.outputs) {
     if (!save(output, ends_with(output, ".svg") ? euler::strip(story) : euler::page(story))) { return ExitCode::failure; }

@@ -20,6 +20,7 @@
 #include "apps/scene_file.hpp"
 #include "apps/study/measure.hpp"
 #include "apps/study/pages.hpp"
+#include "apps/study/parts.hpp"
 #include "apps/study/reference.hpp"
 #include "apps/text.hpp"
 #include "apps/version.hpp"
@@ -29,8 +30,9 @@ namespace apps {
 namespace {
 
 struct StudyOptions {
-  std::vector<std::string> scenes;
+  std::vector<std::string> scenes, merge;
   std::string folder;
+  std::optional<study::PartNumber> part;
   double seconds = 12.0;       // CPU time of one run
   std::uint64_t paths = 8192;  // a point of the reference
   std::uint32_t dense = 3000;  // leaves up to which the parts of an error are told apart
@@ -77,8 +79,8 @@ std::string title_of(const std::string& text) {
 }
 
 // One scene; false when there is nothing to show of it. `code` says why.
-bool study_scene(const std::string& path, const StudyOptions& options, const radiosity::Control& control, Progress& progress,
-                 study::SceneStudy& result, ExitCode& code) {
+bool study_scene(const std::string& path, const StudyOptions& options, const std::vector<study::MethodPlan>& methods,
+                 const radiosity::Control& control, Progress& progress, study::SceneStudy& result, ExitCode& code) {
   const auto text = load_text(path, code);
   const auto file = text ? load_scene(path, *text, code) : std::nullopt;
   if (!file) { return false; }
@@ -108,12 +110,69 @@ bool study_scene(const std::string& path, const StudyOptions& options, const rad
   measuring.dense_leaves = options.dense;
   measuring.finished = [&](const study::Method& method, const study::Run& run) {
     char line[160] = "";
-    std::snprintf(line, sizeof line, "  %-20s %-26s %8.3f s  %s", method.name.c_str(), run.setting.c_str(), run.cpu_seconds,
-                  run.refused.empty() ? percent(run.weighted_error.cells.l2).c_str() : run.refused.c_str());
+    const std::string outcome = !run.refused.empty() ? run.refused : "L2 of the leaves " + percent(run.leaves_error.cells.l2) +
+                                                                          (run.cut_off.empty() ? "" : ", " + run.cut_off + ": not credited");
+    std::snprintf(line, sizeof line, "  %-20s %-26s %8.3f s  %s", method.name.c_str(), run.setting.c_str(), run.cpu_seconds, outcome.c_str());
     progress.say(line);
   };
-  study::measure(file->scene, *truth, study::methods({options.threads, 1, options.memory}), measuring, control, result);
+  study::measure(file->scene, *truth, methods, measuring, control, result);
   return !result.methods.empty();
+}
+
+// The page and all tables. `inputs` are not overwritten.
+ExitCode write(const study::Study& study, const std::string& folder, const std::vector<std::string>& inputs) {
+  std::vector<std::string> files = study::page_files(study);
+  for (std::string& name : files) { name = (fs::path(folder) / name).string(); }
+  if (const ExitCode fault = check_outputs(files, inputs); fault != ExitCode::ok) { return fault; }
+  if (const auto fault = study::write_pages(study, folder)) {
+    complain(*fault);
+    return ExitCode::failure;
+  }
+  std::string text;
+  for (const std::string& file : files) { text += "written: " + file + "\n"; }
+  return print(text) ? ExitCode::ok : ExitCode::failure;
+}
+
+// Puts the parts together that lie in the folders.
+ExitCode merge(const StudyOptions& options) {
+  std::vector<std::string> paths;
+  for (const std::string& folder : options.merge) {
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator(folder, failed)) {
+      if (entry.path().extension() == ".study") { paths.push_back(entry.path().string()); }
+    }
+    if (failed) {
+      complain(folder + ": " + failed.message());
+      return ExitCode::failure;
+    }
+  }
+  std::sort(paths.begin(), paths.end());
+  std::vector<study::Part> parts;
+  for (const std::string& path : paths) {
+    ExitCode code = ExitCode::ok;
+    const auto bytes = load_text(path, code);
+    if (!bytes) { return code; }
+    auto part = study::read_part(*bytes);
+    if (!part) {
+      complain(path + " is damaged, or no part of a study");
+      return ExitCode::invalid_input;
+    }
+    parts.push_back(std::move(*part));
+  }
+  const study::Merged merged = study::merge(std::move(parts));
+  if (!merged.study) {
+    complain(merged.fault);
+    return ExitCode::invalid_input;
+  }
+  return write(*merged.study, options.folder, {});
+}
+
+// What the parts of one study must agree in.
+std::string asked(const StudyOptions& options) {
+  std::string text = version;
+  for (const std::string& scene : options.scenes) { text += "\n" + fs::path(scene).stem().string(); }
+  return text + "\n" + formatted("%.17g", options.seconds) + " " + std::to_string(options.paths) + " " + std::to_string(options.dense) + " " +
+         std::to_string(options.memory.value_or(0));
 }
 
 ExitCode run(const StudyOptions& given) {
@@ -129,6 +188,7 @@ ExitCode run(const StudyOptions& given) {
     complain("cannot make the folder " + options.folder);
     return ExitCode::failure;
   }
+  if (!options.merge.empty()) { return merge(options); }
   for (std::size_t i = 0; i < options.scenes.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (fs::path(options.scenes[i]).stem() == fs::path(options.scenes[k]).stem()) {
@@ -144,6 +204,7 @@ ExitCode run(const StudyOptions& given) {
   };
   // What every study writes; the names of its pictures are known when it is done.
   std::vector<std::string> names{"index.html", "results.csv", "results.json"};
+  if (options.part) { names = {study::part_file(*options.part)}; }
   for (const std::string& scene : options.scenes) { names.push_back(fs::path(scene).stem().string() + ".reference.json"); }
   if (const ExitCode fault = check_outputs(in_folder(names), options.scenes); fault != ExitCode::ok) { return fault; }
   Progress progress(options.quiet);
@@ -151,32 +212,40 @@ ExitCode run(const StudyOptions& given) {
   control.cancel = &watch_interrupts();
   control.progress = [&](std::string_view stage, double fraction) { progress.report(stage, fraction); };
 
-  study::Study study;
+  const std::vector<study::MethodPlan> methods = study::methods({options.threads, 1, options.memory});
+  study::Part part{options.part.value_or(study::PartNumber{}), asked(options), options.scenes.size(), methods.size(), {}, {}, {}};
+  study::Study& study = part.study;
   study.machine = machine();
   study.compiler = compiler();
   study.version = version;
   ExitCode code = ExitCode::ok;
-  for (const std::string& path : options.scenes) {
-    if (control.cancelled()) { break; }
+  for (std::size_t i = 0; i < options.scenes.size() && !control.cancelled(); ++i) {
+    std::vector<study::MethodPlan> plans;
+    std::vector<std::size_t> which;
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      if (!part.number.has(i * methods.size() + m)) { continue; }
+      plans.push_back(methods[m]);
+      which.push_back(m);
+    }
     study::SceneStudy scene;
-    if (study_scene(path, options, control, progress, scene, code)) { study.scenes.push_back(std::move(scene)); }
+    if (plans.empty() || !study_scene(options.scenes[i], options, plans, control, progress, scene, code)) { continue; }
+    study.scenes.push_back(std::move(scene));
+    part.scenes.push_back(i);
+    part.methods.push_back(std::move(which));
   }
   progress.done();
   if (control.cancelled()) {
     complain(study.scenes.empty() ? "interrupted; nothing was written" : "interrupted; what was finished is written");
     code = ExitCode::failure;
   }
-  if (study.scenes.empty()) { return code; }
-  const std::vector<std::string> files = in_folder(study::page_files(study));
-  if (const ExitCode fault = check_outputs(files, options.scenes); fault != ExitCode::ok) { return fault; }
-  if (const auto fault = study::write_pages(study, folder)) {
-    complain(*fault);
-    return ExitCode::failure;
+  if (options.part) {
+    if (code != ExitCode::ok) { return code; }  // half a part must not look like a whole one
+    const std::string path = (fs::path(folder) / study::part_file(part.number)).string();
+    return save(path, study::to_bytes(part)) && print("written: " + path + "\n") ? ExitCode::ok : ExitCode::failure;
   }
-  std::string text;
-  for (const std::string& file : files) { text += "written: " + file + "\n"; }
-  if (!print(text)) { return ExitCode::failure; }
-  return code;
+  if (study.scenes.empty()) { return code; }
+  const ExitCode written = write(study, folder, options.scenes);
+  return written == ExitCode::ok ? code : written;
 }
 
 }  // namespace
@@ -186,7 +255,7 @@ Command study_command() {
   return {
       "study",
       "error against time, memory and links for every method on each scene",
-      {texts("scenes", "SCENE", options->scenes, "the .scene files").must(),
+      {texts("scenes", "SCENE", options->scenes, "the .scene files"),
        text("-o,--output", "DIR", options->folder, "folder for tables, plots, pictures and the page; made when there is none").must(),
        above_zero("--time-per-run", options->seconds, 1e6, "CPU seconds after which a run is stopped")
            .by_default(formatted("%g", options->seconds)),
@@ -194,13 +263,25 @@ Command study_command() {
            .by_default(std::to_string(options->paths)),
        whole_number("--dense", options->dense, 0, 20'000, "leaves up to which a dense solution tells the parts of an error apart")
            .by_default(std::to_string(options->dense)),
+       parsed("--part", "I/N", options->part, study::parse_part, study::part_fault,
+              "measures the Ith of N parts of the work and writes part-I-of-N.study; N machines do so, then one merges")
+           .without({"--merge"}),
+       texts("--merge", "DIR", options->merge, "puts the parts in these folders together into one study").without({"scenes"}),
        flag("--quick", options->quick, "a first look: short runs, a noisy reference").without({"--time-per-run", "--paths"}),
        parsed(
            "--memory", "BYTES", options->memory, parse_memory, memory_fault,
            "most memory that one run may take, such as 500M or 2G; one that would need more is refused, or ends with the best that fits"),
        whole_number("--threads", options->threads, 0, most_threads, "0: as many as the machine has; results do not depend on it"),
        flag("-q,--quiet", options->quiet, "no narration on stderr")},
-      [options] { return run(*options); }};
+      [options] { return run(*options); },
+      [options] { return std::string(options->scenes.empty() && options->merge.empty() ? "SCENE, the .scene files" : ""); },
+      "Spread over machines, each pair of a scene and a method goes to one part; a part is one process, by GNU parallel:\n"
+      "  parallel -j 4 halflight study *.scene -o parts --threads 1 -q --part {}/16 ::: $(seq 16)\n"
+      "or by a Slurm array, its folder on a disk that all machines share:\n"
+      "  sbatch --array=1-16 --wrap 'halflight study *.scene -o parts --threads 1 -q --part $SLURM_ARRAY_TASK_ID/16'\n"
+      "and when all are done, one merges:\n"
+      "  halflight study --merge parts -o study\n"
+      "Figures are those of one machine, but for times: measure on machines of one kind, one part a core.\n"};
 }
 
 }  // namespace apps

@@ -7,10 +7,11 @@
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
 
-#include "apps/euler/html_page.hpp"
+#include "apps/euler/solid.hpp"
 #include "apps/euler/svg.hpp"
+#include "apps/html_document.hpp"
 #include "apps/json.hpp"
-#include "apps/markup.hpp"
+#include "embedded/euler.hpp"
 
 namespace apps::euler {
 namespace {
@@ -45,13 +46,13 @@ void write(JsonWriter& json, const Story& story, std::size_t i, const Layout& la
     if (e.letter != 0) { lit.push_back(to_string(e)); }
   }
   const std::array<long, 5> numbers{frame.drawn.v, frame.drawn.e, frame.drawn.f, frame.shells, frame.handles};
-  json.open_object().fields("statement", frame.statement, "headline", headline(frame), "caption", frame.caption, "refused", refused,
+  json.open_object().fields("statement", frame.statement, "headline", headline(frame), "caption", frame.caption, "told", frame.told, "refused", refused,
                             "expected", frame.outcome.as_written, "sentence", frame.outcome.sentence, "faults", faults);
   json.key("checks").list(frame.checks,
                           [&](const Check& check) { json.object("text", check.text, "met", check.met, "sentence", check.sentence); });
   json.fields("damaged", frame.damaged, "counts", numbers, "equation", equation(frame), "lit", lit, "halfedges",
               halfedge_rows(frame.records), "vertices", anchor_rows(frame.records.vertices), "faces", anchor_rows(frame.records.faces),
-              "panels", layout.panels.size(), "picture", drawing(story, i, layout, 790.0));
+              "panels", layout.panels.size(), "picture", drawing(story, i, layout, 790.0), "solid", solid_view(frame, story.coordinates, 240.0));
   json.close();
 }
 
@@ -63,17 +64,8 @@ std::string page(const Story& story) {
   json.open_object().fields("title", story.title, "introduction", story.introduction).key("frames").open_array();
   for (std::size_t i = 0; i < story.frames.size(); ++i) { write(json, story, i, layouts[i]); }
   json.close().close();
-  std::string data;  // no '<' in the data can end the script element
-  for (const char c : json.text()) {
-    if (c == '<') {
-      data += "\\u003c";
-    } else {
-      data += c;
-    }
-  }
-  return "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n<meta name='viewport' content='width=device-width'>\n<title>" +
-         escaped(story.title) + "</title>\n<style>" + page_style + drawing_style() + "\n</style>\n</head>\n<body>" + page_body +
-         "<script>\n'use strict';\nconst story = " + data + ";" + page_script + "</script>\n</body>\n</html>\n";
+  return to_text(HtmlDocument{story.title, embedded::euler_page_css + drawing_style(), embedded::euler_page_html, json.text(),
+                              embedded::euler_page_js});
 }
 
 }  // namespace apps::euler

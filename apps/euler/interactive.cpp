@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "apps/euler/interactive.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,15 +16,19 @@
 #include <brep/euler_script_parse.hpp>
 #include <brep/euler_script_run.hpp>
 #include <brep/euler_script_text.hpp>
+#include <brep/euler_script_words.hpp>
 #include <brep/euler_table.hpp>
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
 
+#include "apps/euler/caption.hpp"
 #include "apps/euler/html.hpp"
+#include "apps/euler/line_editor.hpp"
 #include "apps/euler/story.hpp"
 #include "apps/euler/svg.hpp"
 #include "apps/files.hpp"
 #include "apps/output_paths.hpp"
+#include "apps/scene_file/words.hpp"
 
 namespace apps::euler {
 namespace {
@@ -30,7 +36,32 @@ namespace {
 constexpr const char* more_help =
     "arguments    h7, a name that was given with =, next(x) prev(x) twin(x), anchor(f1), anchor(v3)\n"
     "others       undo, redo, expect v 8 e 12 f 6, raw next h3 h5 (damages a record; undo repairs it)\n"
-    "             show (all records), save FILE (the steps as a script), help, quit\n";
+    "             show (all records), face f1, vertex v2 (the walk around it), save FILE (the steps as a script), help, quit\n"
+    "keys         Tab completes, the arrows bring back earlier lines\n";
+
+// Words that a line may begin with.
+std::vector<std::string> commands() {
+  std::vector<std::string> words = {"undo", "redo", "raw", "expect", "refused", "set_anchor", "show", "face", "vertex", "save", "help", "quit"};
+  for (const brep::OperatorForm& row : brep::operator_forms) {
+    words.emplace_back(row.name);
+    for (const std::string_view word : row.textbook) {
+      if (!word.empty()) { words.emplace_back(word); }
+    }
+  }
+  return words;
+}
+
+// "; did you mean 'split_face'?" of a line that cannot be read because its operator is not known.
+std::string meant(const std::string& text) {
+  const std::vector<std::string> known = commands();
+  const std::size_t equals = text.find('=');
+  const std::size_t begin = text.find_first_not_of(" \t", equals == text.npos ? 0 : equals + 1);
+  if (begin == text.npos) { return {}; }
+  const std::string word = text.substr(begin, text.find_first_of(" \t(", begin) - begin);
+  if (std::find(known.begin(), known.end(), word) != known.end()) { return {}; }
+  const std::vector<std::string_view> views(known.begin(), known.end());
+  return scene_file::suggestion(word, views);
+}
 
 // The operators with their arguments, what must hold of these, and the textbook names, which are understood as well.
 std::string help() {
@@ -92,6 +123,8 @@ class Conversation {
       say(help());
     } else if (text == "show") {
       say(records_table(teller_.story().frames.back().records));
+    } else if (const auto element = asked_walk(text)) {
+      say(walk(teller_.story().frames.back().records, *element) + "\n");
     } else if (text == "save" || text.rfind("save ", 0) == 0) {
       save(text.substr(std::min<std::size_t>(5, text.size())));
     } else {
@@ -100,10 +133,30 @@ class Conversation {
     return true;
   }
   [[nodiscard]] ExitCode code() const { return code_; }
+  // What Tab may complete: commands, and all that is there.
+  [[nodiscard]] std::vector<std::string> words() const {
+    std::vector<std::string> words = commands();
+    for (const std::string_view function : brep::function_names) { words.emplace_back(function); }
+    for (const Frame& frame : teller_.story().frames) {
+      const std::size_t equals = frame.statement.find(" = ");
+      if (equals != frame.statement.npos) { words.push_back(frame.statement.substr(0, equals)); }
+    }
+    return words;
+  }
 
  private:
   static constexpr double smallest = 0.026;
 
+  // "face f1", "vertex v2".
+  [[nodiscard]] static std::optional<brep::Element> asked_walk(const std::string& text) {
+    for (const char* const word : {"face f", "vertex v"}) {
+      const std::string begin = word;
+      if (!text.starts_with(begin)) { continue; }
+      const brep::Element element = brep::detail::parse_handle(text.substr(begin.size() - 1));
+      if (element.letter != 0) { return element; }
+    }
+    return std::nullopt;
+  }
   static void say(const std::string& text) {
     std::fputs(text.c_str(), stdout);
     std::fflush(stdout);
@@ -130,7 +183,7 @@ class Conversation {
     const auto parsed = parser_.parse_line(text, number);
     if (parser_.errors().size() > errors) {
       const brep::ScriptError& e = parser_.errors().back();
-      return say("column " + std::to_string(e.place.column) + ": " + e.sentence + "\n");
+      return say("column " + std::to_string(e.place.column) + ": " + e.sentence + meant(text) + "\n");
     }
     if (!parsed) { return; }
     const std::size_t checks = teller_.story().frames.back().checks.size();
@@ -169,16 +222,14 @@ class Conversation {
 }  // namespace
 
 ExitCode converse(const std::vector<std::string>& outputs) {
-  const bool terminal = ::isatty(0) == 1;
+  const bool terminal = ::isatty(0) == 1 && ::isatty(1) == 1;
   Conversation conversation(outputs);
-  std::string line;
+  TerminalLines lines("> ", [&] { return conversation.words(); });
   if (terminal) { std::fputs("Euler operators; `help` lists them, `quit` ends.\n", stdout); }
   for (std::uint32_t number = 1;; ++number) {
-    if (terminal) {
-      std::fputs("> ", stdout);
-      std::fflush(stdout);
-    }
-    if (!std::getline(std::cin, line) || !conversation.take(line, number)) { break; }
+    std::string line;
+    std::optional<std::string> read = terminal ? lines.read() : std::getline(std::cin, line) ? std::optional(line) : std::nullopt;
+    if (!read || !conversation.take(*read, number)) { break; }
   }
   return conversation.code();
 }

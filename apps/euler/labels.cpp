@@ -22,6 +22,15 @@ double distance(const Point& p, const Point& a, const Point& b) {
 }
 double side(const Point& p, const Point& a, const Point& b) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
+// Shrinks while it covers another, down to what one can still read at a large scale; 0, not drawn, where even that finds no room.
+void shrink_until_free(const std::vector<NameBox>& taken, double smallest, std::size_t letters, const Point& at, double& size) {
+  const auto covered = [&] {
+    return std::any_of(taken.begin(), taken.end(), [box = name_box(at, letters, size)](const NameBox& other) { return cover(box, other); });
+  };
+  while (size > 0.2 * smallest && covered()) { size *= 0.85; }
+  if (covered()) { size = 0.0; }
+}
+
 // One face of the plane map, sampled. Where edges are cut open several faces of the shell meet in it; each run of darts with one
 // name on the walk owns the part that lies nearest to it.
 class Region {
@@ -155,24 +164,52 @@ void place_names(const PlanarMap& map, std::uint32_t outer, double smallest, Pan
   const double largest = std::max(smallest, 0.072);
   panel.text = std::clamp(wanted, smallest, largest);
   panel.gap = 0.36 * panel.text;
+  std::vector<NameBox> taken;
+  for (const VertexMark& v : panel.vertices) { taken.push_back(vertex_box(panel, v)); }
+  for (std::size_t i = 0; i < panel.strands.size(); ++i) {
+    Strand& s = panel.strands[i];
+    if (s.stub) { taken.push_back({s.curve.points.back(), {0.9 * panel.text, 0.65 * panel.text}}); }
+  }
   for (std::size_t i = 0; i < panel.strands.size(); ++i) {
     Strand& s = panel.strands[i];
     std::vector<Point> line = s.curve.flat(pieces);
     for (const std::uint32_t k : {0U, 1U}) {
       const std::uint32_t face = map.darts[2 * i + k].face;
       s.sizes[k] = face == outer ? panel.text : std::clamp(0.34 * rooms[face], 0.75 * smallest, panel.text);
-      const Spot middle = spot_on(line, 0.5 * length_of(line));
-      const Point out = middle.left();
-      // As far out as the size of the text asks for in this direction.
-      const double letters = static_cast<double>(std::to_string(s.halfedge ^ k).size() + 1);
-      const double reach = std::abs(out.x) * 0.28 * letters + std::abs(out.y) * 0.36;
-      s.names[k] = middle.at + (panel.gap + (0.16 + reach) * s.sizes[k]) * out;
+      const std::size_t letters = std::to_string(s.halfedge ^ k).size() + 1;
+      // Beside the middle; where that is taken, along the edge; where all is taken, smaller; where nothing helps, not at all (size 0).
+      for (const double size : {1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2}) {
+        bool found = false;
+        for (const double along : {0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82, 0.1, 0.9}) {
+          const Spot spot = spot_on(line, along * length_of(line));
+          const Point out = spot.left();
+          // As far out as the size of the text asks for in this direction.
+          const double reach = std::abs(out.x) * 0.28 * static_cast<double>(letters) + std::abs(out.y) * 0.36;
+          const Point at = spot.at + (panel.gap + (0.16 + reach) * size * s.sizes[k]) * out;
+          const NameBox box = name_box(at, letters, size * s.sizes[k]);
+          found = std::none_of(taken.begin(), taken.end(), [&](const NameBox& other) { return cover(box, other); });
+          if (found || along == 0.5) { s.names[k] = at; }
+          if (found) { break; }
+        }
+        if (found || size == 0.2) {
+          s.sizes[k] *= found ? size : 0.0;
+          break;
+        }
+      }
+      taken.push_back(name_box(s.names[k], letters, s.sizes[k]));
       std::reverse(line.begin(), line.end());
     }
   }
   for (std::uint32_t f = 0; f < map.faces.size(); ++f) {
     const bool small = f != outer && regions[f].whole();
+    const std::size_t before = panel.labels.size();
     regions[f].label(panel, small ? std::clamp(0.52 * rooms[f], smallest, 1.4 * panel.text) : 1.4 * panel.text);
+    for (std::size_t l = before; l < panel.labels.size(); ++l) {
+      FaceLabel& label = panel.labels[l];
+      const std::size_t letters = std::to_string(label.face).size() + 1;
+      shrink_until_free(taken, smallest, letters, label.at, label.size);
+      taken.push_back(name_box(label.at, letters, label.size));
+    }
   }
 }
 

@@ -7,6 +7,8 @@
 #include <brep/euler_script.hpp>
 #include <brep/euler_script_run.hpp>
 
+#include "apps/euler/caption.hpp"
+
 namespace apps::euler {
 
 Teller::Teller(Solid& solid, bool drawn) : solid_(solid), drawn_(drawn), runner_(solid) { remember(story_.frames.emplace_back()); }
@@ -53,8 +55,11 @@ void Teller::tell(const brep::Statement& s) {
   frame.outcome = runner_.run(s);
   if (s.command == brep::Command::raw && frame.outcome.as_written) { frame.edited = frame.arguments.front(); }
   if (!frame.outcome.as_written) { story_.errors.push_back({s.place, frame.outcome.sentence}); }
+  const Records before = story_.frames.back().records;
   story_.frames.push_back(std::move(frame));
   remember(story_.frames.back());
+  Frame& now = story_.frames.back();
+  if (drawn_) { now.told = told(s, now.outcome, before, now.records); }
 }
 
 Story tell(const brep::Script& script, const std::string& name, bool drawn) {

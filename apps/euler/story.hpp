@@ -4,8 +4,11 @@
 // A script that was run, moment by moment: what the pictures and the page show.
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include <brep/euler_script.hpp>
 #include <brep/euler_script_run.hpp>
@@ -25,6 +28,7 @@ struct Check {  // an `expect` behind a step
 struct Frame {
   std::string statement;  // empty for the start
   std::string caption;
+  std::string told;  // what the step did, in words (caption.hpp); of drawn stories
   std::uint32_t line = 0;
   brep::Outcome outcome;
   Records records;               // as they are, damaged ones too
@@ -40,6 +44,7 @@ struct Story {
   std::string title, introduction;
   std::vector<Frame> frames;              // the first is the start
   std::vector<brep::ScriptError> errors;  // statements that were not done as written
+  std::map<std::uint32_t, glm::dvec3> coordinates;  // of vertices, where the script has some (solid.hpp)
   std::size_t edges = 0;                  // of all frames together: what drawing it costs
 };
 

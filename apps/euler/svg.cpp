@@ -18,13 +18,7 @@
 #include "apps/text.hpp"
 
 namespace apps::euler {
-namespace {
 
-using Point = glm::dvec2;
-
-std::string number(double x) { return trimmed(x, 1); }
-
-// A pale colour of its own for each face: the golden angle keeps neighbours in number apart.
 std::string tint(std::uint32_t face) {
   const double hue = std::fmod(0.13 + 0.381966 * face, 1.0);
   const auto channel = [&](double shift) {
@@ -36,6 +30,12 @@ std::string tint(std::uint32_t face) {
   std::snprintf(text.data(), text.size(), "#%02x%02x%02x", channel(0.0), channel(2.0 / 3.0), channel(1.0 / 3.0));
   return text.data();
 }
+
+namespace {
+
+using Point = glm::dvec2;
+
+std::string number(double x) { return trimmed(x, 1); }
 
 std::string name(char letter, std::uint32_t index) { return letter + std::to_string(index); }
 
@@ -203,7 +203,7 @@ std::vector<TextLine> notes(const Frame& frame, std::size_t width) {
     add((check.met ? "\xe2\x9c\x93 " : "\xe2\x9c\x97 ") + check.text + (check.met ? "" : ": " + check.sentence),
         check.met ? "good" : "bad");
   }
-  add(frame.caption, "caption");
+  add(frame.caption.empty() ? frame.told : frame.caption, "caption");
   return lines;
 }
 

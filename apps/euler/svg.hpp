@@ -7,6 +7,7 @@
 // its left side beside the face that it names. The background of a panel is the outer face. A dashed edge is one
 // end of an edge that is cut open to lay a handle flat; the other end has the same name in its tip.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@
 #include "apps/euler/story.hpp"
 
 namespace apps::euler {
+
+// A pale colour of its own for each face: the golden angle keeps neighbours in number apart.
+[[nodiscard]] std::string tint(std::uint32_t face);
 
 // The layouts of all frames, one after the other.
 [[nodiscard]] std::vector<Layout> lay_out(const Story& story, double smallest);

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view csv_head =
     "scene,reference,noise,point_noise,method,setting,reconstruction,cpu_seconds,seconds_saved,peak_bytes,bytes,links,leaves,rays,"
     "cells_l1,cells_l2,cells_worst,points_l1,points_l2,points_worst,below_noise,"
-    "part_discretisation,part_links,part_solver,part_reconstruction,picture_l2,picture_low,picture_high,refused\n";
+    "part_discretisation,part_links,part_solver,part_reconstruction,picture_l2,picture_low,picture_high,cut_off,refused\n";
 
 constexpr auto csv_columns = static_cast<std::size_t>(1 + std::count(csv_head.begin(), csv_head.end(), ','));
 
@@ -84,6 +84,7 @@ std::string run_line(const SceneStudy& scene, const Method& method, const Run& r
   } else {
     line.empty(3);
   }
+  line.field(run.cut_off);
   line.field("");
   return line.end();
 }

@@ -55,7 +55,8 @@ void write(JsonWriter& json, const Run& run, const Reference& reference, bool pa
                         part->reconstruction)
          : inner.null();
   };
-  json.object("setting", run.setting, "refused", std::optional<std::string>(), "cpu_seconds", run.cpu_seconds, "seconds_saved",
+  json.object("setting", run.setting, "refused", std::optional<std::string>(), "cut_off",
+              run.cut_off.empty() ? std::optional<std::string>() : run.cut_off, "cpu_seconds", run.cpu_seconds, "seconds_saved",
               run.seconds_saved, "peak_bytes", run.peak_bytes, "bytes", run.bytes, "links", run.links, "leaves", run.leaves, "rays",
               run.rays, "pareto", pareto, "errors", errors, "picture", picture, "parts", parts);
 }

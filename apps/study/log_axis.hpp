@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A logarithmic axis: the range of its values, where each falls, and its ticks. Decades are labelled; in less than three decades also
-// 2 and 5, so that every axis has at least two labels.
+// A logarithmic axis: the range of its values, where each falls, and its ticks. As many are labelled as have room: 1 2 3 5 7 of each
+// decade, else 1 2 5, else decades, else every second one, third ... With room for three labels in two decades every axis has at least two.
 
 #include <algorithm>
 #include <cmath>
@@ -39,11 +39,13 @@ class LogAxis {
   [[nodiscard]] double low() const { return std::pow(10.0, low_); }
   [[nodiscard]] double high() const { return std::pow(10.0, high_); }
 
-  [[nodiscard]] std::vector<Tick> ticks() const {
+  // `room` is what a label needs, as a fraction of the axis.
+  [[nodiscard]] std::vector<Tick> ticks(double room) const {
     std::vector<Tick> result;
-    const bool few = high_ - low_ < 3.0;
-    const bool fewer = high_ - low_ < 1.0;
-    const int every = std::max(1, static_cast<int>(std::ceil((high_ - low_) / 8.0)));  // decades between labels
+    const double least = room * (high_ - low_);                                // between labels, in decades
+    const bool few = least <= std::log10(2.0);                                 // from 1 to 2 and from 5 to 10
+    const bool fewer = least <= std::log10(7.0 / 5.0) && high_ - low_ < 1.0;   // from 5 to 7
+    const int every = std::max(1, static_cast<int>(std::ceil(least - 1e-9)));  // decades
     for (int decade = static_cast<int>(std::floor(low_)); decade <= static_cast<int>(std::floor(high_)); ++decade) {
       for (int k = 1; k < 10; ++k) {
         const double value = k * std::pow(10.0, decade);

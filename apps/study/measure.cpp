@@ -75,6 +75,7 @@ Measured errors_of_run(const radiosity::Scene& scene, const TrueRadiosity& truth
   run.links = solution.audit.links;
   run.leaves = solution.audit.leaves;
   run.rays = solution.audit.rays;
+  run.cut_off = solution.audit.shortage;
   const std::vector<Color> leaves = values_at(scene, solution, solution.mesh, truth, &solution.radiosity);
   const std::vector<Color> weighted = values_at(scene, solution, solution.mesh, truth);
   const radiosity::Comparison& comparison = *solution.comparison;
@@ -133,7 +134,10 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
   for (int k = 0; k < 3; ++k) {
     const apps::PeakMeter meter;
     const RunLimit run_limit{options.cpu_seconds_per_run, control};
+    const double begin = cpu_seconds();
     radiosity::Outcome again = setting.run(scene, run_limit.control());
+    // The best so far names the time of its own round alone; what was spent is what counts.
+    if (again.solution && again.solution->audit.interrupted) { again.solution->audit.cpu_seconds = cpu_seconds() - begin; }
     if (!again.solution) {
       Measured none;
       none.run.setting = setting.text;
@@ -158,6 +162,7 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
   }
   left_out = solution.audit.left_out;
   Measured measured = errors_of_run(scene, truth, solution, setting.text, peak_bytes);
+  if (solution.audit.interrupted) { measured.run.cut_off = "stopped after " + seconds_text(options.cpu_seconds_per_run) + " s of CPU time"; }
   measured.run.picture_error = judge(solution, control);
   if (setting.without_shortcuts) {
     const RunLimit run_limit{options.cpu_seconds_per_run, control};
@@ -172,7 +177,7 @@ std::optional<ErrorPicture> picture_of(const TrueRadiosity& truth, const Method&
   const Measured* best = nullptr;
   const auto away = [](const Measured& m) { return std::abs(std::log(std::max(1e-12, m.run.weighted_error.cells.l2) / 0.01)); };
   for (const Measured& m : runs) {
-    if (m.run.refused.empty() && (best == nullptr || away(m) < away(*best))) { best = &m; }
+    if (m.run.refused.empty() && m.run.cut_off.empty() && (best == nullptr || away(m) < away(*best))) { best = &m; }
   }
   if (best == nullptr) { return std::nullopt; }
   ErrorPicture picture{method.name, best->run.setting, {}};
@@ -213,9 +218,9 @@ void measure(const radiosity::Scene& scene, const TrueRadiosity& truth, const st
     std::vector<radiosity::LeftOut> left_out;
     for (const Setting& setting : plan.settings) {
       Measured measured;
-      if (!runs.empty() && !runs.back().run.refused.empty()) {
+      if (!runs.empty() && !(runs.back().run.refused.empty() && runs.back().run.cut_off.empty())) {
         measured.run.setting = setting.text;
-        measured.run.refused = "not tried: a coarser setting has no result";
+        measured.run.refused = "not tried: a coarser setting was not done in its limits";
       } else {
         measured = run_once(scene, truth, judge, setting, options, control, left_out);
         if (control.cancelled()) { break; }

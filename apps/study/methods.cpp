@@ -156,8 +156,8 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
                              faces, set_target));
   all.push_back(hierarchical("BF, clusters", with_clusters, "target", targets, clusters, set_target));
   all.push_back(accuracy_target("BF, accuracy target",
-                                "BF-refinement until a path-traced audit of the picture witnesses the relative L2 error asked for; all "
-                                "rounds and audits count",
+                                "BF-refinement until a path-traced audit witnesses the relative L2 error asked for, which is that of the "
+                                "reconstructed radiosity over all surfaces; all rounds and audits count",
                                 faces));
   all.push_back(accuracy_target("BF, accuracy target, clusters", with_clusters, clusters));
   Options separate = common(study);

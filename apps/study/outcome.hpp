@@ -43,14 +43,17 @@ inline constexpr std::array<Stage, 3> stages = {Stage::leaves, Stage::simple, St
   return stage == Stage::leaves ? run.leaves_error : stage == Stage::simple ? run.simple_error : run.weighted_error;
 }
 
+// Is there a result, and is it what the setting asked for?
+[[nodiscard]] inline bool credited(const Run& run) { return run.refused.empty() && run.cut_off.empty(); }
+
 // By which methods are compared: relative L2 of the cell means, before reconstruction.
 [[nodiscard]] inline KnownError main_error(const Run& run, const Reference& reference) {
-  return run.refused.empty() ? known_error(run.leaves_error.cells.l2, reference.noise) : KnownError{};
+  return credited(run) ? known_error(run.leaves_error.cells.l2, reference.noise) : KnownError{};
 }
 
 enum class Cost { cpu_time, memory, links };
 [[nodiscard]] inline double cost_of(const Run& run, Cost cost) {
-  if (!run.refused.empty()) { return std::numeric_limits<double>::quiet_NaN(); }
+  if (!credited(run)) { return std::numeric_limits<double>::quiet_NaN(); }
   if (cost == Cost::memory && run.peak_bytes == 0) { return std::numeric_limits<double>::quiet_NaN(); }
   return cost == Cost::cpu_time ? run.cpu_seconds : static_cast<double>(cost == Cost::memory ? run.peak_bytes : run.links);
 }

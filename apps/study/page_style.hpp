@@ -35,6 +35,8 @@ caption{text-align:left;font:14.5px/1.45 Georgia,'Liberation Serif','DejaVu Seri
 th{font-weight:600;vertical-align:bottom;border-bottom:1px solid var(--ink)}
 th,td{padding:2px 6px;text-align:right}td{white-space:nowrap}
 th.name,td.name{text-align:left}
+td.name{white-space:normal}
+.wide table{font-size:12px}.wide th,.wide td{padding:2px 3px}
 tr.begins td{border-top:1px solid var(--faint)}
 tr.front td:nth-child(2)::after{content:' \2605'}
 tr.front td{background:var(--strong)}
@@ -60,7 +62,7 @@ td.remark{text-align:left;white-space:normal;font-style:italic;color:var(--pale)
  .wide{page:wide}
  figure svg{max-width:170mm}
  .scroll{overflow:visible}
- table{font-size:7pt}.summary table{font-size:8pt}th,td{padding:1px 4px}
+ table,.wide table{font-size:7pt}.summary table{font-size:7.5pt}th,td,.wide th,.wide td{padding:1px 3px}
  thead{display:table-header-group}tr{break-inside:avoid}
  caption{font-size:9.5pt}figcaption{font-size:9.5pt}.maps figcaption{font-size:8.5pt}
  tr.front td{background:none}

@@ -20,7 +20,10 @@ constexpr Tone pale_ink = 0x666666;
 constexpr const char* noise_note = "hollow: the error is at most this";
 
 void draw_axes(Drawing& drawing, const PlotFrame& frame, double text_size) {
-  for (const Tick& tick : LogAxis::between(frame.cost_low, frame.cost_high).ticks()) {
+  const LogAxis cost = LogAxis::between(frame.cost_low, frame.cost_high);
+  double widest = 0.0;
+  for (const Tick& tick : cost.ticks(0.0)) { widest = std::max(widest, text_width(short_number(tick.value), text_size)); }
+  for (const Tick& tick : cost.ticks((widest + 4.0) / frame.width)) {
     const double x = frame.at(tick.value, frame.error_low).x;
     if (tick.labelled) {
       drawing.add(line({x, frame.top}, {x, frame.bottom()}, 0.8, faint));
@@ -29,7 +32,7 @@ void draw_axes(Drawing& drawing, const PlotFrame& frame, double text_size) {
     }
     drawing.add(line({x, frame.bottom()}, {x, frame.bottom() - (tick.labelled ? 6.0 : 3.0)}, 1.0));
   }
-  for (const Tick& tick : LogAxis::between(frame.error_low, frame.error_high).ticks()) {
+  for (const Tick& tick : LogAxis::between(frame.error_low, frame.error_high).ticks(1.5 * text_size / frame.height)) {
     const double y = frame.at(frame.cost_low, tick.value).y;
     if (tick.labelled) {
       drawing.add(line({frame.left, y}, {frame.right(), y}, 0.8, faint));
@@ -153,7 +156,7 @@ double draw_legend(Drawing& drawing, glm::dvec2 at, const std::vector<Curve>& cu
 
 double legend_width(const std::vector<Curve>& curves) {
   double width = text_width(noise_note, 11.0);
-  for (const Curve& curve : curves) { width = std::max(width, text_width(curve.name, 12.0)); }
+  for (const Curve& curve : curves) { width = std::max({width, text_width(curve.name, 12.0), text_width(slope_text(curve), 11.0)}); }
   return 36.0 + width + 10.0;
 }
 
@@ -202,8 +205,8 @@ Drawing panels(const PlotText& text, const std::vector<Panel>& panels, double no
   std::vector<Curve> all;
   for (const Panel& panel : panels) { all.insert(all.end(), panel.curves.begin(), panel.curves.end()); }
   PlotFrame frame(all, noise);
-  frame.width = 196.0, frame.height = 146.0;
-  const double step_x = frame.width + 14.0;
+  frame.left = 64.0, frame.width = 196.0, frame.height = 146.0;
+  const double step_x = frame.width + 34.0;  // the last label of one and the first of the next
   const double step_y = frame.height + 48.0;
   const double rows = std::ceil(static_cast<double>(panels.size()) / static_cast<double>(columns));
   drawing.width = frame.left + step_x * columns;
@@ -219,7 +222,11 @@ Drawing panels(const PlotText& text, const std::vector<Panel>& panels, double no
       const auto* label = std::get_if<Label>(&item);
       if (column == 0 || label == nullptr || label->anchor != Anchor::end) { drawing.items.push_back(std::move(item)); }
     }
-    drawing.add(Label{.at = {frame.left, frame.top - 6.0}, .text = panels[i].title, .bold = true});
+    const double bold = 1.125 * text_width(panels[i].title, 12.0);
+    drawing.add(Label{.at = {frame.left, frame.top - 6.0},
+                      .text = panels[i].title,
+                      .size = 12.0 * std::min(1.0, (step_x - 6.0) / std::max(bold, 1.0)),
+                      .bold = true});
     draw_curves(drawing, frame, panels[i].curves, noise);
   }
   const double bottom = first_top + step_y * rows;

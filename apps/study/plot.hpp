@@ -39,7 +39,7 @@ class PlotFrame {
   [[nodiscard]] double right() const { return left + width; }
   [[nodiscard]] double bottom() const { return top + height; }
 
-  double left = 64.0, top = 34.0, width = 430.0, height = 300.0;
+  double left = 78.0, top = 34.0, width = 430.0, height = 300.0;
   double cost_low = 0.1, cost_high = 10.0, error_low = 0.001, error_high = 0.1;  // at the ends of the axes
 };
 

@@ -59,6 +59,7 @@ struct Run {
   std::optional<radiosity::ErrorEstimate> picture_error;  // of what the scene's camera sees of it (radiosity/audit/picture_error.hpp)
   std::optional<ErrorParts> parts;
   std::string refused;  // why there is no result; empty when there is one
+  std::string cut_off;  // what stopped the run before it was done: its result is the best until then, and no cost is credited with it
 };
 
 struct Method {

@@ -54,19 +54,20 @@ std::string element(const Image& image) {
 }  // namespace
 
 double text_width(std::string_view text, double size) {
-  // Of Helvetica, whose metrics Arial and Liberation Sans share, in thousandths of the size; from the space to '~'.
+  // The wider of Helvetica, whose metrics Arial and Liberation Sans share, and DejaVu Sans, in thousandths of the size; from the space to
+  // '~'. Which of them a reader has is not known here.
   static constexpr std::array<int, 95> advance = {
-      278, 278, 355, 556, 556, 889, 667, 191, 333,  333, 389, 584, 278, 333, 278, 278, 556, 556, 556, 556, 556, 556, 556, 556,
-      556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833, 722, 778,
-      667, 778, 722, 667, 611, 722, 667, 944, 667,  667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278, 556,
-      556, 222, 222, 500, 222, 833, 556, 556, 556,  556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584};
+      318, 401, 460, 838, 636, 950, 780, 275, 390,  390, 500, 838, 318, 361, 318, 337, 636, 636, 636, 636, 636, 636, 636, 636,
+      636, 636, 337, 337, 838, 838, 838, 556, 1015, 684, 686, 722, 770, 667, 611, 778, 752, 295, 500, 667, 557, 863, 748, 787,
+      667, 787, 722, 667, 611, 732, 684, 989, 685,  667, 685, 390, 337, 390, 838, 556, 500, 613, 635, 550, 635, 615, 352, 635,
+      634, 278, 278, 579, 278, 974, 634, 612, 635,  635, 411, 521, 392, 634, 592, 818, 592, 592, 525, 636, 337, 636, 838};
   double width = 0.0;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte >= ' ' && byte <= '~') {
       width += advance[byte - std::size_t{' '}];
     } else if (byte < 0x80 || byte >= 0xc0) {
-      width += 584;  // any other character is as wide as a sign of arithmetic
+      width += 838;  // any other character is as wide as a sign of arithmetic
     }
   }
   return 1e-3 * size * width;

@@ -16,7 +16,7 @@ namespace study {
 // The <svg> element, to stand in a page; `description` is what a screen reader says.
 [[nodiscard]] std::string to_svg(const Drawing& drawing, const std::string& description);
 
-// About how wide a line of UTF-8 text is when it is drawn.
+// How wide a line of UTF-8 text is at most when it is drawn, bold apart, which is up to an eighth wider.
 [[nodiscard]] double text_width(std::string_view text, double size);
 
 // A file of its own.

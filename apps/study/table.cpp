@@ -22,7 +22,7 @@ void each_run(const SceneStudy& scene, const Use& use) {
 std::string seconds(double x) { return figure(x); }
 
 TableRow first_cells(const Method& method, const Run& run, bool begins, bool strong) {
-  TableRow row{{begins ? method.name : "", run.setting}, strong, begins, ""};
+  TableRow row{{begins ? method.name : "", run.setting + (run.cut_off.empty() ? "" : " †")}, strong, begins, ""};
   if (!run.refused.empty()) { row.remark = "no result: " + run.refused; }
   return row;
 }

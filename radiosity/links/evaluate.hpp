@@ -78,9 +78,10 @@ class LinkEvaluator {
   [[nodiscard]] bool between_patches(const Link& link) const {
     return !scene_.hierarchy[link.p].is_cluster() && !scene_.hierarchy[link.q].is_cluster();
   }
-  // Casts the segments of a link between patches with exposed ends as if nothing were known of what can block them.
-  [[nodiscard]] RayCount segments(const Link& link) const {
-    return visibility(scene_, {}, end(link.p), end(link.q), patch_rounds, Random{seed_, key_of(link)}).rays;
+  // Casts the segments of a link between patches with exposed ends as if nothing were known of what can block them, and adds them to `seen`
+  // when that is given.
+  [[nodiscard]] VisibilityEstimate segments(const Link& link, std::vector<CastSegment>* seen = nullptr) const {
+    return visibility(scene_, {}, end(link.p), end(link.q), patch_rounds, Random{seed_, key_of(link)}, seen);
   }
 
  private:

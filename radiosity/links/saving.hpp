@@ -34,7 +34,7 @@ struct LinkCost {
   const auto seconds = [](std::clock_t from) { return static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC; };
   RayCount rays;
   const std::clock_t start = std::clock();
-  for (const Link& link : chosen) { rays += evaluator.segments(link); }
+  for (const Link& link : chosen) { rays += evaluator.segments(link).rays; }
   const double casting = seconds(start);
   const std::clock_t middle = std::clock();
   for (Link& link : chosen) { (void)evaluator(link, {}); }

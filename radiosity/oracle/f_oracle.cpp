@@ -34,14 +34,7 @@ HALFLIGHT_INLINE glm::dvec3 nearest_point(const Node& patch, const glm::dvec3& x
   return flat + q.radius * q.deviation + p.deviation * (glm::length(d) + q.radius);
 }
 
-// The larger of both disk estimates F_pq and F_qp. Where a patch crosses the other's horizon the light changes from some to none
-// across it, and the cosine of its highest point stands for that of its centre. Where the disks are closer than
-// their size, the point of the larger one that is nearest to the smaller is looked at as well: a small lamp just above a large
-// floor is far from its centre.
-//
-// Patches of regular meshes meet the conditions in here as equalities: a wall that stands on a floor has its lowest point in the floor's
-// plane, squares lie at simple multiples of their size. `even` keeps rounding from deciding, so that scale and place do not matter.
-[[nodiscard]] HALFLIGHT_INLINE double form_factor_estimate(const Node& p, const Node& q) {
+HALFLIGHT_INLINE double form_factor_estimate(const Node& p, const Node& q) {
   const glm::dvec3 d = q.centre - p.centre;
   const double r = glm::length(d);
   if (!(r > 0.0)) { return 1.0; }

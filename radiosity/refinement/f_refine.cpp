@@ -163,6 +163,14 @@ HALFLIGHT_INLINE void drop_dark_pairs(FRefinement& state, std::vector<Decision>&
   std::erase_if(state.result.inner, [&](std::uint32_t i) { return !sends[i]; });
 }
 
+HALFLIGHT_INLINE void tell(const FRefinement& state, const std::vector<Decision>& decisions) {
+  for (std::size_t i = 0; i < state.pairs.size(); ++i) {
+    const NodePair& pair = state.pairs[i];
+    state.scene.control.decided({state.scene.hierarchy, pair.p, pair.q, state.shown, state.fineness.epsilon, state.min_area, &state.stuck},
+                                decisions[i]);
+  }
+}
+
 // Splits the leaves that any pair asks for, in the order of their index. False, and nothing is split, when memory does not suffice.
 [[nodiscard]] HALFLIGHT_INLINE bool split_leaves(FRefinement& state, const std::vector<Decision>& decisions) {
   Hierarchy& hierarchy = state.scene.hierarchy;
@@ -265,6 +273,7 @@ HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& finen
     if (result.cancelled || !state.few_enough(result.linked.size() + state.pairs.size())) { break; }
     std::vector<Decision> decisions = detail::ask_oracles(state);
     if (result.generations == 0 && !scene.plan.closed && !scene.clustered()) { detail::drop_dark_pairs(state, decisions); }
+    if (scene.control.decided) { detail::tell(state, decisions); }
     if (!detail::split_leaves(state, decisions)) { break; }
     const std::optional<std::uint64_t> opened = detail::count_opened(state, decisions);
     if (!opened) { break; }

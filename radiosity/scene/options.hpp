@@ -110,14 +110,17 @@ struct Control {
   std::function<void(std::string_view stage, double fraction)> progress;
   // Called with the valid BReps of all objects after each generation of refinement.
   std::function<void(const std::vector<Surface>&)> after_generation;
-
   // Measures the error of the picture that will be made of a mesh, in the scene's coordinates and in W/m2, of a solution with this frame
   // (picture_error.hpp): an error target is then that of the picture. Nothing when it cannot.
   std::function<std::optional<PictureError>(const Mesh&, const Frame&, const AuditGoal&)> picture_error;
 
+  // Called in each generation of F-refinement with the pairs that were looked at and what became of each, in their order, before anything
+  // is split. Nothing is kept for it: a run that nobody watches pays nothing.
+  std::function<void(const Question&, Decision)> decided = {};
+
   [[nodiscard]] bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
   // The same, but nothing stops the run.
-  [[nodiscard]] Control unstoppable() const { return {nullptr, progress, after_generation, picture_error}; }
+  [[nodiscard]] Control unstoppable() const { return {nullptr, progress, after_generation, picture_error, decided}; }
   void report(std::string_view stage, double fraction) const {
     if (progress) { progress(stage, fraction); }
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -129,7 +130,8 @@ class CellCounts {
 }
 
 HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p,
-                                               const PatchEnd& q, std::uint32_t rounds, Random random) {
+                                               const PatchEnd& q, std::uint32_t rounds, Random random,
+                                               std::vector<CastSegment>* seen) {
   VisibilityEstimate estimate;
   estimate.proven = list.clear();
   if (scene.plan.shortcuts && estimate.proven) {
@@ -162,6 +164,7 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const ray
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
       if (!(weights[i] > 0.0)) { continue; }
       const bool arrives = (occluded >> i & 1u) == 0;
+      if (seen != nullptr) { seen->push_back({segments.at(i), arrives}); }
       total += weights[i];
       arrived += arrives ? weights[i] : 0.0;
       ++estimate.rays.cast;

@@ -9,9 +9,11 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
+#include <raycast/bundle.hpp>
 #include <raycast/object.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
@@ -84,11 +86,17 @@ struct VisibilityEstimate {
 
 inline constexpr std::uint32_t segments_per_round = 16;
 
+// A segment that was cast and carries light if nothing stops it.
+struct CastSegment {
+  raycast::Segment segment;
+  bool arrives = false;
+};
+
 // One round of 16 segments decides when they agree; else `rounds` rounds are averaged. So a patch of which the part p is hidden
 // passes for wholly visible with probability (1 - p)^16, and the fraction is too large by p (1 - p)^16 <= 0.022 on average.
-// The numbers drawn depend on `random` alone. `list` is that of the pair.
+// The numbers drawn depend on `random` alone. `list` is that of the pair. The segments are added to `seen` when that is given.
 [[nodiscard]] VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p, const PatchEnd& q,
-                                            std::uint32_t rounds, Random random);
+                                            std::uint32_t rounds, Random random, std::vector<CastSegment>* seen = nullptr);
 
 }  // namespace radiosity
 

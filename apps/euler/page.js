@@ -1,76 +1,6 @@
-// SPDX-License-Identifier: MIT
-#pragma once
+const story = data, frames = story.frames;
+let now = -1, moving = 0;
 
-// The fixed parts of the stepper's page: style, elements, and the script that steps. html.cpp puts the data between them.
-
-namespace apps::euler {
-
-inline constexpr const char* page_style = R"~(
-*{box-sizing:border-box}
-html,body{height:100%;margin:0}
-body{display:grid;grid-template:auto minmax(0,1fr) auto / minmax(210px,270px) minmax(320px,1fr) minmax(330px,400px);
- font:15px/1.45 'Segoe UI','DejaVu Sans',Verdana,sans-serif;color:#222;background:#fbfbf9}
-header{grid-column:1/4;padding:10px 20px 6px;border-bottom:1px solid #dcdcd6;display:flex;gap:18px;align-items:baseline}
-h1{font-size:20px;margin:0}
-header span{color:#777;font-size:13px}
-code,.mono,td,th,#script li{font-family:'DejaVu Sans Mono',Consolas,Menlo,monospace}
-#script{overflow:auto;margin:0;padding:8px 0;border-right:1px solid #dcdcd6;list-style:none;font-size:12px}
-#script li{padding:3px 12px 3px 38px;position:relative;cursor:pointer;white-space:pre-wrap}
-#script li::before{content:attr(data-n);position:absolute;left:0;width:30px;text-align:right;color:#aaa}
-#script li:hover{background:#eeeee8}
-#script li.now{background:#222;color:#fff}
-#script li.bad{color:#a8200a}#script li.bad.now{color:#ffb3a5}
-main{display:flex;flex-direction:column;min-width:0;min-height:0;padding:10px 16px 0}
-#head{display:flex;gap:14px;align-items:baseline;flex-wrap:wrap;min-height:28px}
-#operator{font-size:17px;font-weight:bold}
-#picture{flex:1;min-height:0;display:flex;justify-content:center;padding:6px 0}
-#picture svg{width:100%;height:100%}
-#numbers{display:flex;gap:26px;justify-content:center;font-size:16px;padding:2px 0 8px;flex-wrap:wrap}
-#numbers b{color:#888;font-weight:normal}
-#numbers .moved{background:#ffe3a8;border-radius:3px;padding:0 2px}
-aside{overflow:auto;border-left:1px solid #dcdcd6;padding:12px 16px;min-height:0}
-#caption{min-height:5em}
-#caption p{margin:0 0 .7em}
-.note{border-left:4px solid #c8310f;background:#fdf0ec;padding:6px 10px;margin:0 0 8px;color:#8c1c06;font-size:14px}
-.note.fine{border-color:#cf8a00;background:#fff7e4;color:#6d4a00}
-.note.good{border-color:#14702d;background:#eef8f0;color:#14572a}
-table{border-collapse:collapse;font-size:12.5px;margin:8px 0 14px}
-th{font-weight:normal;color:#888;text-align:right;padding:1px 8px;position:sticky;top:-12px;background:#fbfbf9}
-td{text-align:right;padding:1px 8px;border-top:1px solid #ecece6}
-td:first-child{color:#555;font-weight:bold}
-td.moved{background:#ffe3a8}tr.fresh td{background:#fde4de}
-tr.lit td{outline:1px solid #0b5bd3;outline-offset:-1px}
-#anchors{display:flex;gap:24px;align-items:flex-start}
-footer{grid-column:1/4;border-top:1px solid #dcdcd6;padding:8px 20px;display:flex;gap:8px;align-items:center}
-button{font:inherit;padding:4px 12px;border:1px solid #bbb;border-radius:6px;background:#fff;cursor:pointer;min-width:44px}
-button:hover{background:#f0f0ea}button:disabled{opacity:.4;cursor:default}
-input[type=range]{flex:1}
-footer span{color:#777;font-size:13px;min-width:7em;text-align:right}
-@media(max-width:1000px){body{display:block;overflow:auto}#script{max-height:9em;border:0}#picture svg{height:90vw}footer{position:sticky;bottom:0;background:#fbfbf9}}
-@media print{footer,#script{display:none}}
-)~";
-
-inline constexpr const char* page_body = R"~(
-<header><h1 id="title"></h1><span>next: &rarr; &nbsp; undo: &larr; &nbsp; play: space</span></header>
-<ol id="script"></ol>
-<main><div id="head"><span id="operator" class="mono"></span></div><div id="picture"></div><div id="numbers" class="mono"></div></main>
-<aside><div id="caption"></div><div id="notes"></div><div id="tables"></div></aside>
-<footer><button id="first" title="the start (Home)">|&#9664;</button><button id="back" title="undo this step (left arrow)">&#9664; undo</button>
-<button id="forth" title="the next step (right arrow)">next &#9654;</button><button id="last" title="the end (End)">&#9654;|</button>
-<button id="play" title="play (space)">play</button><input id="slide" type="range" min="0" value="0" aria-label="step"><span id="where"></span></footer>
-)~";
-
-inline constexpr const char* page_script = R"~(
-const $ = id => document.getElementById(id);
-const frames = story.frames;
-let now = -1, timer = null, moving = 0;
-
-const element = (tag, text, kind) => {
-  const e = document.createElement(tag);
-  if (text !== undefined) e.textContent = text;
-  if (kind) e.className = kind;
-  return e;
-};
 // "0 2 1 0 0;1 ..." -> Map of name -> fields
 const table = (text, letters) => new Map(text.split(';').filter(Boolean).map(row => {
   const n = row.split(' ');
@@ -84,12 +14,14 @@ for (const f of frames) {
 
 function records(title, columns, here, before, lit) {
   const t = element('table'), head = element('tr');
+  t.dataset.of = title;
   for (const c of [title, ...columns]) head.append(element('th', c));
   t.append(head);
   for (const [name, fields] of here) {
     const old = before && before.get(name), row = element('tr');
     if (before && !old) row.className = 'fresh';
     if (lit.includes(name)) row.classList.add('lit');
+    row.dataset.of = name;
     row.append(element('td', name));
     fields.forEach((x, i) => row.append(element('td', x, old && old[i] !== x ? 'moved' : '')));
     t.append(row);
@@ -126,6 +58,41 @@ function move(from, to) {
   requestAnimationFrame(draw);
 }
 
+// The walk of what is pointed at: around a face, from a vertex, or of a half-edge around its face.
+let held = null;
+function walkOf(name) {
+  const f = frames[now], edge = /^e(\d+)$/.exec(name);
+  if (edge) name = 'h' + 2 * edge[1];
+  const around = face => {
+    const all = [], first = f.f.get(face)[0];
+    for (let h = first; all.length <= f.h.size && f.h.has(h); h = f.h.get(h)[0]) { all.push(h); if (f.h.get(h)[0] === first) break; }
+    return all;
+  };
+  if (f.f.has(name)) return {names: [name, ...around(name)], text: name + ': ' + around(name).map(h => h + ' from ' + f.h.get(h)[2]).join(', ')};
+  if (f.v.has(name)) {
+    const out = [...f.h].filter(([, fields]) => fields[2] === name).map(([h]) => h);
+    return {names: [name, ...out], text: name + ': ' + out.map(h => h + ' in ' + f.h.get(h)[3]).join(', ')};
+  }
+  if (!f.h.has(name)) return null;
+  const [next, prev, vertex, face] = f.h.get(name), twin = 'h' + (+name.slice(1) ^ 1);
+  return {names: [name, ...around(face)], text: `${name}: from ${vertex}, in ${face}, next ${next}, prev ${prev}, twin ${twin}; ${face}: ${around(face).join(' ')}`};
+}
+function mark(name) {
+  const walk = name && !frames[now].damaged ? walkOf(name) : null, names = new Set(walk ? walk.names : []);
+  for (const e of document.querySelectorAll('#picture [data-k]')) {
+    const plain = e.dataset.k.replace(/^n(?=h)/, '').replace(/^(h\d+)s\d+$/, '$1').replace(/^l(\d+)(c\d+)?$/, 'f$1');
+    e.classList.toggle('walked', names.has(plain));
+  }
+  for (const e of document.querySelectorAll('#solid [data-of], #tables tr[data-of]')) e.classList.toggle('walked', e.dataset.of.split(' ').some(n => names.has(n)));
+  $('walk').textContent = walk ? walk.text : '';
+}
+const pointed = e => {
+  const of = e.target.closest && e.target.closest('[data-k],[data-of]');
+  if (!of) return null;
+  const name = of.dataset.k || of.dataset.of.split(' ')[0];
+  return name.replace(/^n(?=h)/, '').replace(/^(h\d+)s\d+$/, '$1').replace(/^l(\d+)(c\d+)?$/, 'f$1').replace(/^s(\d+)$/, 'h$1').replace(/^tip(\d+)$/, 'h$1');
+};
+
 function show(i) {
   i = Math.max(0, Math.min(frames.length - 1, i));
   if (i === now) return;
@@ -138,6 +105,8 @@ function show(i) {
   if (near && old && f.panels === frames[now].panels) move(old, svg);
   now = i;
 
+  held = null;
+  $('solid').innerHTML = f.solid ? '<svg viewBox="-120 -110 240 220">' + f.solid + '</svg>' : '';
   $('operator').textContent = f.headline || 'the start: nothing';
   $('numbers').replaceChildren();
   const counts = element('span');
@@ -154,11 +123,18 @@ function show(i) {
   if (f.damaged) $('notes').append(element('div', 'The picture shows the records before the damage; the table shows them as they are.', 'note fine'));
   $('caption').replaceChildren();
   for (const p of (i === 0 ? story.introduction + '\n\n' + f.caption : f.caption).split(/\n\n+/)) if (p.trim()) $('caption').append(element('p', p));
+  if (f.told) $('caption').append(element('p', f.told, 'told'));
   const anchors = element('div');
   anchors.id = 'anchors';
   anchors.append(records('vertex', ['anchor'], f.v, before && before.v, f.lit), records('face', ['anchor'], f.f, before && before.f, f.lit));
   $('tables').replaceChildren();
   if (f.h.size) $('tables').append(records('half-edge', ['next', 'prev', 'vertex', 'face'], f.h, before && before.h, f.lit), anchors);
+  mark(null);
+  const changed = $('tables').querySelector('.fresh, .moved');
+  if (changed) {  // in the middle of what scrolls; at the top is the caption, which comes first where both fit
+    const box = document.querySelector('aside'), at = changed.getBoundingClientRect().top - box.getBoundingClientRect().top + box.scrollTop;
+    box.scrollTop = at > box.clientHeight - 40 ? at - box.clientHeight / 2 : 0;
+  }
   [...$('script').children].forEach((e, k) => e.classList.toggle('now', k === i));
   $('script').children[i].scrollIntoView({block: 'nearest'});
   $('slide').value = i;
@@ -167,14 +143,7 @@ function show(i) {
   $('forth').disabled = $('last').disabled = i === frames.length - 1;
   if (!(i === 0 && !location.hash)) history.replaceState(null, '', '#step=' + i);
 }
-function play(on) {
-  clearInterval(timer);
-  timer = null;
-  if (on && now === frames.length - 1) show(0);
-  if (on) timer = setInterval(() => now < frames.length - 1 ? show(now + 1) : play(false), 1600);
-  $('play').textContent = on ? 'pause' : 'play';
-}
-const go = i => { play(false); show(i); };
+const {go} = stepper({count: () => frames.length, at: () => now, show, time: 1600, page: 1});
 
 document.title = story.title;
 $('title').textContent = story.title;
@@ -186,22 +155,12 @@ frames.forEach((f, i) => {
   $('script').append(e);
 });
 $('first').onclick = () => go(0);
-$('back').onclick = () => go(now - 1);
-$('forth').onclick = () => go(now + 1);
 $('last').onclick = () => go(frames.length - 1);
-$('play').onclick = () => play(!timer);
-$('slide').oninput = () => go(+$('slide').value);
-document.addEventListener('keydown', e => {
-  if (e.ctrlKey || e.altKey || e.metaKey) return;
-  const i = {ArrowRight: now + 1, ArrowLeft: now - 1, PageDown: now + 1, PageUp: now - 1, Home: 0, End: frames.length - 1}[e.key];
-  if (i !== undefined) go(i);
-  else if (e.key === ' ') play(!timer);
-  else return;
-  e.preventDefault();
-});
+for (const id of ['picture', 'solid', 'tables']) {
+  $(id).addEventListener('pointerover', e => { if (!held) mark(pointed(e)); });
+  $(id).addEventListener('pointerleave', () => { if (!held) mark(null); });
+  $(id).addEventListener('click', e => { const name = pointed(e); held = name && name !== held ? name : null; mark(held); });
+}
 const asked = () => { const m = /step=(\d+)/.exec(location.hash); return m ? +m[1] : 0; };
 addEventListener('hashchange', () => go(asked()));
 show(asked());
-)~";
-
-}  // namespace apps::euler

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "apps/exercise/scripts.hpp"
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include <brep/circulators.hpp>
+#include <brep/dual.hpp>
+#include <brep/euler_script_parse.hpp>
+#include <brep/isomorphism.hpp>
+#include <brep/validate.hpp>
+
+#include "apps/euler/story.hpp"
+#include "apps/exercise/exercises.hpp"
+
+namespace apps::exercise {
+namespace {
+
+using Fault = std::optional<std::string>;
+using euler::Solid;
+
+struct Moment {
+  long v = 0, e = 0, f = 0, shells = 0, handles = 0;
+  std::set<int> broken;  // rules of the validator
+};
+
+struct Played {
+  brep::Script script;
+  Solid solid;
+  std::vector<Moment> moments;  // after each statement that is no `expect`
+};
+
+std::string at(const brep::Place& place) { return "line " + std::to_string(place.line) + ": "; }
+
+Fault play(const std::string& text, Played& played) {
+  brep::ScriptResult parsed = brep::parse_script(text);
+  if (!parsed.script) { return at(parsed.errors.front().place) + parsed.errors.front().sentence; }
+  played.script = std::move(*parsed.script);
+  euler::Teller teller(played.solid, false);
+  for (const brep::Statement& statement : played.script.statements) {
+    teller.tell(statement);
+    if (!teller.story().errors.empty()) { return at(statement.place) + teller.story().errors.front().sentence; }
+    if (statement.command == brep::Command::expect) { continue; }
+    const euler::Frame& frame = teller.story().frames.back();
+    Moment moment{frame.drawn.v, frame.drawn.e, frame.drawn.f, frame.shells, frame.handles, {}};
+    for (const brep::Fault& fault : brep::validate(played.solid)) { moment.broken.insert(fault.rule); }
+    played.moments.push_back(std::move(moment));
+  }
+  if (played.moments.empty()) { return "there is no step yet"; }
+  return std::nullopt;
+}
+
+Fault one_shell(const Played& played) {
+  const Moment& end = played.moments.back();
+  if (!end.broken.empty()) { return "at the end the records are damaged"; }
+  if (end.shells != 1) { return "at the end there are " + std::to_string(end.shells) + " shells, not one"; }
+  return std::nullopt;
+}
+
+// The steps of the beginning must stand at the head of the script.
+Fault kept(const Played& played, std::size_t number) {
+  const brep::Script start = *brep::parse_script(beginning(all()[number - 1])).script;
+  for (std::size_t i = 0; i < start.statements.size(); ++i) {
+    const bool same = i < played.script.statements.size() && played.script.statements[i].text == start.statements[i].text;
+    if (!same) { return "step " + std::to_string(i + 1) + " is not that of the beginning, `" + start.statements[i].text + "`"; }
+  }
+  return std::nullopt;
+}
+
+Fault no_undo(const Played& played) {
+  for (const brep::Statement& s : played.script.statements) {
+    const bool undoes = s.command == brep::Command::undo || s.command == brep::Command::redo;
+    if (undoes) { return at(s.place) + "undo and redo are not allowed here"; }
+  }
+  return std::nullopt;
+}
+
+template <class... Checks>
+Fault first_of(const Checks&... checks) {
+  Fault fault;
+  static_cast<void>(((fault = checks()) || ...));
+  return fault;
+}
+
+}  // namespace
+
+Fault tetrahedron(const std::string& text) {
+  Played played;
+  return first_of([&] { return play(text, played); }, [&] { return one_shell(played); },
+                  [&]() -> Fault {
+                    for (const brep::FaceId f : brep::faces(played.solid)) {
+                      const std::size_t edges = brep::degree(played.solid, f);
+                      if (edges != 3) { return to_string(f) + " is no triangle: it has " + std::to_string(edges) + " edges"; }
+                    }
+                    for (const brep::VertexId v : brep::vertices(played.solid)) {
+                      const std::size_t edges = brep::degree(played.solid, v);
+                      if (edges != 3) { return std::to_string(edges) + " edges meet in " + to_string(v); }
+                    }
+                    const bool sphere = played.moments.back().handles == 0 && played.solid.vertex_count() == 4;
+                    return sphere ? Fault() : Fault("triangles alone, but not those of a tetrahedron");
+                  });
+}
+
+Fault torus(const std::string& text) {
+  Played played;
+  return first_of([&] { return play(text, played); }, [&] { return one_shell(played); },
+                  [&]() -> Fault {
+                    const Moment& end = played.moments.back();
+                    if (end.handles != 1) { return "it has " + std::to_string(end.handles) + " handles; a torus has one"; }
+                    if (end.v > 1 || end.f > 1) { return std::to_string(end.e) + " edges: a torus can do with fewer"; }
+                    return std::nullopt;
+                  });
+}
+
+Fault holes(const std::string& text) {
+  Played played;
+  return first_of([&] { return play(text, played); }, [&] { return kept(played, 3); }, [&] { return one_shell(played); },
+                  [&]() -> Fault {
+                    const auto pothole = [](const Moment& m) { return m.v == 16 && m.e == 25 && m.f == 11 && m.shells == 1 && m.handles == 0; };
+                    if (std::none_of(played.moments.begin(), played.moments.end(), pothole)) {
+                      return "no step shows the pothole: a square rim tied to the border of the lid, four walls and a floor";
+                    }
+                    const long handles = played.moments.back().handles;
+                    if (handles != 1) { return "at the end there are " + std::to_string(handles) + " handles: nothing leads through the cube once"; }
+                    std::size_t large = 0;
+                    for (const brep::FaceId f : brep::faces(played.solid)) { large += brep::degree(played.solid, f) > 4 ? 1 : 0; }
+                    if (large > 1) { return std::to_string(large) + " faces have more than four edges"; }
+                    for (const brep::VertexId v : brep::vertices(played.solid)) {
+                      if (brep::degree(played.solid, v) < 3) { return "fewer than three edges meet in " + to_string(v); }
+                    }
+                    return std::nullopt;
+                  });
+}
+
+Fault dual_of_prism(const std::string& text) {
+  constexpr const char* prism =
+      "h0 = make_segment\nh2 = split_vertex h1 h1\nh4 = split_face h3 h0\nh6 = split_vertex h1 h1\nh8 = split_vertex h3 h3\n"
+      "h10 = split_vertex h5 h5\nh12 = split_face h7 h11\nh14 = split_face h11 h9\nh16 = split_face h9 h12\n";
+  Played played;
+  return first_of([&] { return play(text, played); }, [&] { return one_shell(played); },
+                  [&]() -> Fault {
+                    Played of;
+                    static_cast<void>(play(prism, of));
+                    if (brep::find_isomorphism(of.solid, played.solid)) { return "this is the prism itself"; }
+                    const auto dual = brep::dual(of.solid);
+                    const auto same = [&](brep::Orientation way) { return brep::find_isomorphism(dual.brep, played.solid, way).has_value(); };
+                    if (same(brep::Orientation::kept) || same(brep::Orientation::reversed)) { return std::nullopt; }
+                    return "this is not the dual of the prism: count the faces of the prism, and the edges that meet in each of its vertices";
+                  });
+}
+
+Fault inverse(const std::string& text) {
+  Played played;
+  return first_of([&] { return play(text, played); }, [&] { return kept(played, 5); }, [&] { return no_undo(played); },
+                  [&] { return one_shell(played); },
+                  [&]() -> Fault {
+                    const brep::Script start = *brep::parse_script(beginning(all()[4])).script;
+                    Solid triangle;
+                    brep::ScriptRunner<Solid> runner(triangle);
+                    for (std::size_t i = 0; i < 3; ++i) { static_cast<void>(runner.run(start.statements[i])); }
+                    const std::string difference = brep::difference(played.solid, triangle);
+                    if (difference.empty()) { return std::nullopt; }
+                    return "this is not the triangle: " + difference.substr(0, difference.find('\n'));
+                  });
+}
+
+Fault break_and_mend(const std::string& text) {
+  Played played;
+  return first_of([&] { return play(text, played); }, [&] { return kept(played, 6); }, [&] { return no_undo(played); },
+                  [&]() -> Fault {
+                    std::size_t most = 0;
+                    for (const Moment& moment : played.moments) { most = std::max(most, moment.broken.size()); }
+                    if (most < 3) { return "at most " + std::to_string(most) + " different rules were broken at one moment"; }
+                    if (!played.moments.back().broken.empty()) {
+                      return "at the end R" + std::to_string(*played.moments.back().broken.begin()) + " is still broken";
+                    }
+                    const bool asked = played.script.statements.back().command == brep::Command::expect;
+                    return asked ? Fault() : Fault("the script does not ask the validator at the end (`expect valid`)");
+                  });
+}
+
+}  // namespace apps::exercise

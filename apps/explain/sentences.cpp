@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "apps/explain/sentences.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include <radiosity/oracle/f_oracle.hpp>
+
+#include "apps/text.hpp"
+
+namespace apps::explain {
+
+using radiosity::Decision;
+
+std::string number(double x) { return formatted("%.3g", x); }
+
+std::string sentence_of(const Recording& recording, const Pair& pair) {
+  const radiosity::Node &p = recording.nodes[pair.p], &q = recording.nodes[pair.q];
+  const std::string of_p = recording.names[pair.p], of_q = recording.names[pair.q];
+  switch (pair.decision) {
+    case Decision::drop:
+      return radiosity::face_away(p, q) ? "face away from each other: no link"
+                                        : "neither shines, and no light that is reflected reaches one of them: no link";
+    case Decision::convex:
+      return "lie in one plane or on one convex solid and cannot see each other: no link";
+    case Decision::hide:
+      return "one object hides each from the other, or one is buried: no link";
+    default:
+      break;
+  }
+  const double epsilon = recording.wanted.epsilon;
+  const std::string estimate = "disk estimate F = " + number(pair.estimate) + " (" + number(p.area) + " and " + number(q.area) +
+                               " m2, centres " + number(glm::length(q.centre - p.centre)) + " m apart)";
+  const bool above = pair.estimate > epsilon;
+  const std::string compared = estimate + (above ? " > " : " <= ") + number(epsilon);
+  if (pair.decision == Decision::link) {
+    return compared + (above ? ", but neither is larger than the least area: link" : ": link");
+  }
+  const std::string split = pair.decision == Decision::split_p ? of_p : of_q;
+  if (pair.by_form_factor == Decision::link) {
+    return compared + ", but the light of the lamp varies too much over " + split + ": split " + split;
+  }
+  const bool equal = std::abs(p.area - q.area) <= 1e-6 * std::max(p.area, q.area);
+  return compared + ": split " + split + (equal ? "" : ", the larger");
+}
+
+std::string sentence_of(const Recording& recording, const LinkRecord& link) {
+  const double area_p = recording.nodes[link.p].area, area_q = recording.nodes[link.q].area;
+  const auto arrived = std::count_if(link.rays.begin(), link.rays.end(), [](const Ray& ray) { return ray.arrives; });
+  const std::string rays = link.proven ? "nothing can stand between, so no ray was needed"
+                                       : std::to_string(arrived) + " of " + std::to_string(link.rays.size()) +
+                                             " rays arrive, visibility " + number(link.visibility);
+  return "F = " + number(link.exchange / area_p) + " one way and " + number(link.exchange / area_q) + " the other; " + rays;
+}
+
+std::string sentence_of(const Recording& recording, const BfChoice& choice) {
+  const auto& names = recording.bf_names;
+  const std::string sum = number(static_cast<double>(choice.error_p) + static_cast<double>(choice.error_q));
+  const std::string split = choice.decision == Decision::split_p ? names[choice.p] : names[choice.q];
+  if (choice.p == choice.q) {
+    return names[choice.p] + ": squared error " + sum + " within the leaf, its links will do" +
+           (choice.decision == Decision::link ? "; it cannot be split any more" : ": split it");
+  }
+  return names[choice.p] + " - " + names[choice.q] + ": squared error " + sum + ", of which splitting the first mends " +
+         number(static_cast<double>(choice.error_p)) + ", the second " + number(static_cast<double>(choice.error_q)) +
+         (choice.decision == Decision::link ? "; neither can be split any more" : ": split " + split);
+}
+
+namespace {
+
+std::string refinement(const Recording& r) {
+  std::string out = "\nRefinement by form factor (paper 4.4), threshold " + number(r.wanted.epsilon) + "\n";
+  std::size_t links = 0, generation = none;
+  for (const Pair& pair : r.pairs) {
+    if (pair.generation != generation) {
+      generation = pair.generation;
+      out += "generation " + std::to_string(generation) + ":\n";
+    }
+    links += pair.decision == Decision::link ? 1 : 0;
+    out += "  " + r.names[pair.p] + " - " + r.names[pair.q] + ": " + pair.sentence + "\n";
+  }
+  const auto leaves = static_cast<std::size_t>(
+      std::count_if(r.nodes.begin(), r.nodes.end(), [](const radiosity::Node& node) { return node.leaf(); }));
+  return out + std::to_string(r.pairs.size()) + " questions, " + std::to_string(links) + " links among n = " + std::to_string(leaves) +
+         " leaves, where a matrix has n^2 = " + std::to_string(leaves * leaves) + " entries\n";
+}
+
+std::string light(const Recording& r) {
+  std::string out = "\nGather, push, pull: mean radiosity that each input face sends, W/m2, and the mean irradiance that arrives\n";
+  for (std::size_t n = 0; n < r.iterations.size(); ++n) {
+    const Iteration& step = r.iterations[n];
+    out += "iteration " + std::to_string(n) + ":";
+    for (std::size_t i = 0; i < r.nodes.size() && r.nodes[i].parent == radiosity::no_node; ++i) {
+      out += "  " + r.names[i] + " " + number(step.sent[i]) + " <- " + number(step.mean[i]);
+    }
+    out += "  (change " + number(step.residual) + ")\n";
+  }
+  if (r.closure) {
+    out += "The scene is closed: what leaves send and take is scaled so that their form factors sum to 1, by " +
+           number(100.0 * *r.closure) + " % on average\n";
+  }
+  return out;
+}
+
+std::string t_vertices(const Recording& r) {
+  std::size_t found = 0, faces = 0;
+  std::string first;
+  for (const LeafLoop& leaf : r.leaves) {
+    const auto here = static_cast<std::size_t>(std::count(leaf.t_vertex.begin(), leaf.t_vertex.end(), true));
+    if (here > 0 && faces++ == 0) { first = r.names[leaf.node]; }
+    found += here;
+  }
+  const std::string head = "\nT-vertices: ";
+  if (found == 0) { return head + "none, neighbours are of one level\n"; }
+  return head + std::to_string(found) + " on " + std::to_string(faces) + " leaves, first on " + first +
+         "; each has a level above that of the leaf and is connected to the nearest corner: " + std::to_string(r.leaves.size()) +
+         " leaves become " + std::to_string(r.mesh.size()) + " faces\n";
+}
+
+std::string by_light(const Recording& r) {
+  std::string out = "\nRefinement by the light that links carry (BF), target " + number(r.wanted.target) + "\n";
+  for (std::size_t g = 0; g < r.bf.size(); ++g) {
+    const BfGeneration& of = r.bf[g];
+    out += "generation " + std::to_string(g) + ": " + std::to_string(of.leaves) + " leaves, " + std::to_string(of.links) +
+           " links, estimated error " + formatted("%.3g %%", 100.0 * of.estimate) + "\n";
+    const std::size_t told = std::min<std::size_t>(of.choices.size() == 4 ? 4 : 3, of.choices.size());
+    for (std::size_t k = 0; k < told; ++k) { out += "  " + of.choices[k].sentence + "\n"; }
+    if (told < of.choices.size()) { out += "  and " + std::to_string(of.choices.size() - told) + " with smaller errors\n"; }
+  }
+  return out;
+}
+
+std::string solvers(const char* title, const Comparison& comparison) {
+  std::string out = std::string("\n") + title + ": residual after 1, 2, 4, 8, 16 passes over the links\n";
+  for (const Method& method : comparison.methods) {
+    out += "  " + method.name + std::string(24 - method.name.size(), ' ');
+    for (std::size_t n = 1; n <= 16 && n < method.residual.size(); n *= 2) { out += " " + formatted("%-9.2g", method.residual[n]); }
+    out.erase(out.find_last_not_of(' ') + 1);
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string story(const Recording& r) {
+  std::string out = r.scene + ": " + std::to_string(r.nodes.size()) + " patches";
+  out += std::string(", told in the ") + (r.channel == 0 ? "red" : r.channel == 1 ? "green" : "blue") + " channel\n" + refinement(r);
+  out += "\nLinks: " + std::to_string(r.links.size()) + ", and " + std::to_string(r.too_faint) + " pairs between which nothing arrives\n";
+  for (const LinkRecord& link : r.links) {
+    out += "  " + r.names[link.p] + " - " + r.names[link.q] + ": " + link.sentence + "\n";
+  }
+  return out + light(r) + t_vertices(r) + by_light(r) + solvers("Solvers", r.as_is) + solvers("Solvers, all that reflects at .99", r.at_99);
+}
+
+}  // namespace apps::explain
