@@ -13,7 +13,12 @@
 
 namespace apps {
 
-enum class PictureMethod { mesh, raycast };  // what is drawn: the mesh, or the true objects
+// What is drawn: the mesh; the true objects with its colours, or in light gathered for the picture.
+enum class PictureMethod { mesh, raycast, gather };
+inline constexpr const char* name(PictureMethod method) {
+  constexpr const char* names[] = {"mesh", "raycast", "gather"};
+  return names[static_cast<int>(method)];
+}
 
 struct PictureReport {
   std::string camera;

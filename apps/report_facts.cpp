@@ -114,7 +114,7 @@ void add_settings(Facts& facts, const Report& report) {
   facts.add("picture.camera", report.picture->camera);
   facts.add("picture.width", report.picture->width, "1");
   facts.add("picture.height", report.picture->height, "1");
-  facts.add("picture.method", std::string(report.picture->method == PictureMethod::mesh ? "mesh" : "raycast"));
+  facts.add("picture.method", std::string(name(report.picture->method)));
 }
 
 // A list of what `write` writes of each.

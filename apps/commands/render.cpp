@@ -215,7 +215,7 @@ std::vector<Argument> arguments(RenderOptions& options) {
       text("--camera", "TEXT", options.camera, "camera of the scene (default: the first; without any, an automatic view)"),
       parsed("--size", "WxH", options.size, parse_size, size_fault, "picture size in pixels (default: the camera's, else 800x600)"),
       one_of<PictureMethod, PictureMethod>(
-          "--method", options.method, {{"mesh", PictureMethod::mesh}, {"raycast", PictureMethod::raycast}},
+          "--method", options.method, {{"mesh", PictureMethod::mesh}, {"raycast", PictureMethod::raycast}, {"gather", PictureMethod::gather}},
           "what the picture shows: mesh, the triangles of the solution, or raycast, the objects themselves with smooth outlines"),
       above_zero("--exposure", options.exposure, std::numeric_limits<double>::max(),
                  "factor from radiance to picture (default: automatic)"),

@@ -7,6 +7,7 @@
 
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/audit/picture_error.hpp>
+#include <radiosity/picture/final_gather.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
@@ -18,6 +19,7 @@
 #include <radiosity/support/memory.hpp>
 
 #include "apps/audited_picture.hpp"
+#include "apps/gather_picture.hpp"
 #include "apps/memory.hpp"
 #include "apps/ply.hpp"
 #include "apps/png.hpp"
@@ -56,6 +58,10 @@ bool has_picture(const RenderOptions& options) {
 std::optional<Picture> Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Control& control) const {
   const double by = exposure(mesh);
   if (options_.method == PictureMethod::mesh) { return apps::draw(mesh, view_, by, 4, control.cancel); }
+  if (options_.method == PictureMethod::gather) {
+    const radiosity::FinalGather light{file_.scene, mesh, frame};
+    return apps::draw(light, view_, by, options_.solver.threads, control);
+  }
   const radiosity::Lookup lookup(file_.scene, mesh, frame);
   return apps::draw(lookup, view_, by, options_.solver.threads, 4, control);
 }

@@ -46,7 +46,7 @@ namespace detail {
 // Heights below this count as none, in a scene of size 1 to 2: a thousandth of what a picture or a leaf could tell, far above rounding.
 inline constexpr double direct_slack = 1e-9;
 // How far facets may be off a curved surface, to the object's diameter.
-inline constexpr double facet_tolerance = 0.001;
+inline constexpr double facet_tolerance = 0.002;
 inline constexpr unsigned lamp_samples = 256, first_samples = 64;
 
 // A rectangle around points of a plane with this normal.
@@ -97,28 +97,21 @@ inline constexpr unsigned lamp_samples = 256, first_samples = 64;
 }
 
 [[nodiscard]] HALFLIGHT_INLINE double area_of(const Facets& facets) {
-  return std::accumulate(facets.facets.begin(), facets.facets.end(), 0.0,
-                         [](double sum, const Facets::Facet& f) { return sum + f.area; });
+  return std::accumulate(facets.facets.begin(), facets.facets.end(), 0.0, [](double sum, const Facets::Facet& f) { return sum + f.area; });
 }
 
 }  // namespace detail
 
-HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& objects, const Surface& surface, std::uint32_t sheet,
-                                                          const Color& exitance) {
+HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const Surface& surface, std::uint32_t sheet, const Color& exitance) {
   const raycast::PlacedObject& object = *surface.object;
   Lamp lamp;
   lamp.surface = surface.first_surface + sheet;
-  for (std::uint32_t o = 0; o < objects.size(); ++o) {
-    if (&objects.object(o) == surface.object) { lamp.object = o; }
-  }
   lamp.exitance = exitance;
-  lamp.facets =
-      object.exact() ? facets_of(surface, sheet) : facets_of(object, detail::facet_tolerance * object.bounds().diameter(), sheet);
+  lamp.facets = object.exact() ? facets_of(surface, sheet) : facets_of(object, detail::facet_tolerance * object.bounds().diameter(), sheet);
   if (lamp.facets.empty()) { return lamp; }
   const Facets::Facet& first = lamp.facets.facets[0];
-  lamp.flat = object.flat() && std::all_of(lamp.facets.facets.begin(), lamp.facets.facets.end(), [&](const Facets::Facet& f) {
-                return glm::dot(f.normal, first.normal) > 1.0 - 1e-12;
-              });
+  lamp.flat = object.flat() && std::all_of(lamp.facets.facets.begin(), lamp.facets.facets.end(),
+                                           [&](const Facets::Facet& f) { return glm::dot(f.normal, first.normal) > 1.0 - 1e-12; });
   raycast::Box box;
   double true_area = 0.0;
   for (const Facets::Facet& facet : lamp.facets.facets) {
@@ -145,7 +138,7 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
                                           const std::vector<Color>& emission, const LampLimits& limits)
     : objects_{&objects}, is_lamp_(emission.size(), false), bodies_(objects.size()) {
   struct Candidate {
-    std::uint32_t surface = 0;  // of `surfaces`
+    std::uint32_t object = 0;
     std::uint32_t sheet = 0;
     double strength = 0.0, area = 0.0;
   };
@@ -163,15 +156,15 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       if (!is_black(e) && area[sheet] > 0.0) { candidates.push_back({s, sheet, std::max({e.x, e.y, e.z}), area[sheet]}); }
     }
   }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
   double taken = 0.0;
   for (const Candidate& c : candidates) {
     taken += c.area;
     if (lamps_.size() == limits.most || taken > limits.most_area * total) { break; }
-    const Surface& surface = surfaces[c.surface];
-    Lamp lamp = make_lamp(objects, surface, c.sheet, emission[surface.first_surface + c.sheet]);
+    const Surface& surface = surfaces[c.object];
+    Lamp lamp = make_lamp(surface, c.sheet, emission[surface.first_surface + c.sheet]);
     if (lamp.facets.empty()) { continue; }
+    lamp.object = c.object;
     is_lamp_[lamp.surface] = true;
     lamps_.push_back(std::move(lamp));
   }
@@ -191,6 +184,16 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       body.facets = facets_of(object, detail::facet_tolerance * object.bounds().diameter());
     }
     facets += body.facets.facets.size();
+  }
+  for (Lamp& lamp : lamps_) {
+    lamp.behind.assign(objects.size(), false);
+    const Facets::Facet& plane = lamp.facets.facets[0];
+    for (std::uint32_t o = 0; o < objects.size() && lamp.flat; ++o) {
+      lamp.behind[o] = std::any_of(bodies_[o].facets.facets.begin(), bodies_[o].facets.facets.end(), [&](const Facets::Facet& f) {
+        return std::any_of(f.contour.begin(), f.contour.end(),
+                           [&](const glm::dvec3& p) { return plane.height(p) < -detail::direct_slack; });
+      });
+    }
   }
 }
 
@@ -230,7 +233,6 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
   if (!reach.list.rooms_clear()) { candidates.insert(candidates.end(), light_->rooms_.begin(), light_->rooms_.end()); }
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-  const Facets::Facet& plane = lamp.facets.facets[0];
   constexpr double slack = detail::direct_slack;
   // With a bulge the contour says too little, and all candidates are taken.
   std::vector<Shaft> shaft;
@@ -241,10 +243,7 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
     const DirectLight::Body& body = light_->bodies_[o];
     if (body.convex && o == owner_) { continue; }
     if (body.facets.empty()) { return false; }
-    const bool before_lamp = std::all_of(body.facets.facets.begin(), body.facets.facets.end(), [&](const Facets::Facet& f) {
-      return std::all_of(f.contour.begin(), f.contour.end(), [&](const glm::dvec3& p) { return plane.height(p) >= -slack; });
-    });
-    if (body.convex && body.closed && before_lamp) {
+    if (body.convex && body.closed && !lamp.behind[o]) {
       if (shaft.empty() || !shaft[0].misses(objects.object(o).bounds())) {
         Reach::Outline outline{&body.facets, 0, {}};
         const auto& facets = body.facets.facets;
@@ -281,7 +280,8 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
   return true;
 }
 
-HALFLIGHT_INLINE double LitRegion::clear(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n) {
+HALFLIGHT_INLINE double LitRegion::unhidden(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
+  const DirectLight::Lamp& lamp = this->lamp(k);
   const double height = glm::dot(n, lamp.centre - x);
   if (height <= -lamp.radius) { return 0.0; }
   return lamp.correction * radiosity::form_factor(lamp.facets, x, n, height >= lamp.radius, facing_);
@@ -304,7 +304,8 @@ HALFLIGHT_INLINE void LitRegion::make_cone(const Reach::Outline& outline, const 
     const double ahead = std::max(glm::dot(d, axis), detail::direct_slack);
     projected_.push_back({glm::dot(d, s) / ahead, glm::dot(d, t) / ahead, &corner});
   }
-  std::sort(projected_.begin(), projected_.end(), [](const Projected& a, const Projected& b) { return a.s != b.s ? a.s < b.s : a.t < b.t; });
+  std::sort(projected_.begin(), projected_.end(),
+            [](const Projected& a, const Projected& b) { return a.s != b.s ? a.s < b.s : a.t < b.t; });
   const auto turns_right = [](const Projected& a, const Projected& b, const Projected& c) {
     return !((b.s - a.s) * (c.t - a.t) - (b.t - a.t) * (c.s - a.s) > 0.0);
   };
@@ -373,13 +374,12 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
   return all > 0.0 ? seen / all : 0.0;
 }
 
-HALFLIGHT_INLINE double LitRegion::form_factor(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
+HALFLIGHT_INLINE double LitRegion::visible(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
   Reach& reach = reaches_[k];
-  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
-  if (reach.between == Between::bodies) { return cut(reach, x, n); }
-  const double unhidden = clear(lamp, x, n);
-  if (reach.between == Between::nothing || !(unhidden > 0.0)) { return unhidden; }
-  return unhidden * seen_share(reach, x, n);
+  if (reach.between == Between::nothing) { return 1.0; }
+  if (reach.between == Between::anything) { return seen_share(reach, x, n); }
+  const double all = unhidden(k, x, n);
+  return all > 0.0 ? std::min(1.0, cut(reach, x, n) / all) : 0.0;
 }
 
 }  // namespace radiosity

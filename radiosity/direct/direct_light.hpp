@@ -8,7 +8,7 @@
 //                 between. It is made once and asked for each of its points.
 //
 // Without anything in between, the form factor from a point to a lamp is the contour integral over the lamp's outline (facets.hpp): exact
-// for flat lamps; a curved one is a polyhedron of the same area, its outline off by at most 0.1 % of its diameter.
+// for flat lamps; a curved one is a polyhedron of the same area, its outline off by at most 0.2 % of its diameter.
 // What stands between a flat lamp and a region, in the order of what it costs:
 //   nothing             proven by the occluder lists of the scene (raycast/shaft.hpp) or by the shaft of both (polygon_shaft.hpp)
 //   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point
@@ -44,7 +44,7 @@ struct LampLimits {
 class DirectLight {
  public:
   DirectLight() = default;
-  // `surfaces`: the unrefined boundaries of the objects of the scene, needed no more after this; `emission`: exitance of each input surface.
+  // `surfaces`: the unrefined boundaries of the objects of the scene, one each, needed no more after this; `emission`: exitance of each input surface.
   DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const std::vector<Color>& emission,
               const LampLimits& limits = {});
 
@@ -55,13 +55,14 @@ class DirectLight {
     std::uint32_t surface = 0, object = 0;  // of the input
     Color exitance{0.0};
     Facets facets;
-    bool flat = false;                  // all facets lie in one plane
-    double correction = 1.0;            // area of the true surface over that of the facets
-    glm::dvec3 centre{0.0};             // of a sphere around it
+    bool flat = false;        // all facets lie in one plane
+    double correction = 1.0;  // area of the true surface over that of the facets
+    glm::dvec3 centre{0.0};   // of a sphere around it
     double radius = 0.0;
     std::array<glm::dvec3, 4> corners;  // of a rectangle around it, in its plane; of a curved one, around a point of it
     double bulge = 0.0;                 // how far it leaves the rectangle
     std::vector<Sample> samples;        // even over its area, the first ones too
+    std::vector<bool> behind;           // by object: some of it lies behind the plane of the flat lamp
     [[nodiscard]] raycast::PatchShape shape() const { return {corners, object, bulge}; }
   };
   [[nodiscard]] const std::vector<Lamp>& lamps() const { return lamps_; }
@@ -76,7 +77,7 @@ class DirectLight {
     bool convex = false;  // by its outline
     bool closed = false;  // by those faces alone that show their front
   };
-  [[nodiscard]] static Lamp make_lamp(const raycast::Scene& objects, const Surface& surface, std::uint32_t sheet, const Color& exitance);
+  [[nodiscard]] static Lamp make_lamp(const Surface& surface, std::uint32_t sheet, const Color& exitance);
 
   const raycast::Scene* objects_ = nullptr;
   std::vector<Lamp> lamps_;
@@ -95,7 +96,13 @@ class LitRegion {
   [[nodiscard]] std::size_t size() const { return reaches_.size(); }
   [[nodiscard]] const DirectLight::Lamp& lamp(std::size_t k) const { return light_->lamps_[reaches_[k].lamp]; }
   // Of one of them, with what stands between, from the point x of the region with unit normal n.
-  [[nodiscard]] double form_factor(std::size_t k, const glm::dvec3& x, const glm::dvec3& n);
+  [[nodiscard]] double form_factor(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
+    return reaches_[k].between == Between::nothing ? unhidden(k, x, n) : unhidden(k, x, n) * visible(k, x, n);
+  }
+  // The same in two factors: the form factor if nothing stood between, and the share of it that is not hidden. The second is what takes time.
+  [[nodiscard]] double unhidden(std::size_t k, const glm::dvec3& x, const glm::dvec3& n);
+  [[nodiscard]] double visible(std::size_t k, const glm::dvec3& x, const glm::dvec3& n);
+  [[nodiscard]] bool may_be_hidden(std::size_t k) const { return reaches_[k].between != Between::nothing; }
   // From all lamps, W/m2.
   [[nodiscard]] Color irradiance(const glm::dvec3& x, const glm::dvec3& n) {
     Color sum{0.0};
@@ -121,7 +128,6 @@ class LitRegion {
   };
 
   [[nodiscard]] bool take_bodies(Reach& reach, const raycast::PatchShape& shape) const;
-  [[nodiscard]] double clear(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n);
   // The cone from x over a convex body; empty when x lies on the body's surface.
   void make_cone(const Reach::Outline& outline, const glm::dvec3& x);
   [[nodiscard]] double cut(const Reach& reach, const glm::dvec3& x, const glm::dvec3& n);

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Light at a point of the true surface, better than the mesh of the solution has it: direct light by itself (radiosity/direct), indirect
+// light by one more gathering of the solution, along rays (Reichert 1992; final gather). So the mesh is only looked at from afar, where
+// what it smears over a leaf is averaged out; edges of shadows and what lies in a corner do not depend on the size of its leaves.
+//
+// What shines and is no lamp of DirectLight is found by the rays.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/object.hpp>
+#include <raycast/scene.hpp>
+
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+
+namespace radiosity {
+
+class FinalGather {
+ public:
+  // `mesh` is a solution of the scene, in the scene's coordinates; `frame` that of the solution. All inputs may go after this.
+  FinalGather(const Scene& scene, const Mesh& mesh, const Frame& frame);
+  FinalGather(const FinalGather&) = delete;
+  FinalGather& operator=(const FinalGather&) = delete;
+
+  [[nodiscard]] const raycast::Scene& objects() const { return lookup_.objects(); }
+  [[nodiscard]] const Frame& frame() const { return lookup_.frame(); }
+  [[nodiscard]] const DirectLight& direct() const { return direct_; }
+  [[nodiscard]] const Material& material(std::uint32_t surface) const { return materials_[surface]; }  // of an input surface
+
+  // A point that is seen, in the frame.
+  struct Place {
+    raycast::SurfacePoint point;
+    std::uint32_t object = 0, surface = 0;
+  };
+  // Where one looks from. From the air the first front that is met cannot be buried, which saves to ask.
+  struct Eye {
+    glm::dvec3 position{0.0};  // in the frame
+    bool in_air = false;
+  };
+  [[nodiscard]] Eye eye(const glm::dvec3& in_scene) const;
+  // What is seen in up to sixteen directions: the first surface that shows its front and is not buried; backs are looked through
+  // (lookup.hpp).
+  [[nodiscard]] std::array<std::optional<Place>, 16> seen16(const Eye& eye, std::span<const glm::dvec3> directions) const;
+
+  struct Indirect {
+    Color irradiance{0.0};  // W/m2
+    double noise = 0.0;     // standard error of the channel where it is largest
+    double nearness = 0.0;  // 1 / harmonic mean distance of what is seen, in the frame
+    std::uint32_t rays = 0;
+  };
+  // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, multiples of 64, or more, until the noise is at
+  // most `noise`, or by `most`. `key` names the point: it fixes the rays.
+  [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t least, std::uint32_t most, double noise, std::uint64_t key) const;
+
+ private:
+  Lookup lookup_;
+  std::vector<Material> materials_;  // of the input surfaces
+  DirectLight direct_;
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/picture/final_gather.cpp>
+#endif
