@@ -255,11 +255,9 @@ bool Painter::gather() {
   return true;
 }
 
-// Where a surface fills a block, most shadows are found by a few pixels of it: the corners, and one in each row and column.
-bool is_scout(const Fragment& f) {
-  const std::uint32_t u = f.x % side, v = f.y % side;
-  return (u == 0 || u == side - 1) && (v == 0 || v == side - 1) ? true : u == (3 * v + 1) % side;
-}
+// Where a surface fills a block, shadows are found by every second to third of its pixels in either direction.
+constexpr std::array<std::uint32_t, 4> lattice{0, 2, 5, 7};
+constexpr std::array<std::uint32_t, side> cell_of{0, 0, 0, 1, 1, 1, 2, 2};  // of a coordinate: between lattice[c] and lattice[c + 1]
 
 // Adds the light of lamp k of the region to the fragments `own`, all of one surface.
 void add_lamp(radiosity::LitRegion& region, std::size_t k, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
@@ -279,21 +277,34 @@ void add_lamp(radiosity::LitRegion& region, std::size_t k, std::span<const std::
     for (const std::uint32_t i : own) { add(i, visible(i)); }
     return;
   }
-  // The share of each pixel of the block that is known; below 0: not yet.
-  std::array<double, side * side> share;
-  share.fill(-1.0);
-  const auto at = [&](std::uint32_t i) -> double& { return share[fragments[i].y % side * side + fragments[i].x % side]; };
+  std::array<std::array<double, side>, side> share{};
+  std::array<std::array<std::uint32_t, side>, side> fragment{};
+  for (const std::uint32_t i : own) { fragment[fragments[i].y % side][fragments[i].x % side] = i; }
   double least = 1.0, most = 0.0;
-  for (const std::uint32_t i : own) {
-    if (!is_scout(fragments[i])) { continue; }
-    at(i) = visible(i);
-    least = std::min(least, at(i));
-    most = std::max(most, at(i));
+  for (const std::uint32_t v : lattice) {
+    for (const std::uint32_t u : lattice) {
+      share[v][u] = visible(fragment[v][u]);
+      least = std::min(least, share[v][u]);
+      most = std::max(most, share[v][u]);
+    }
   }
   constexpr double surely = 1e-6;
   if (least >= 1.0 - surely) { return all(1.0); }
   if (most <= surely) { return; }
-  for (const std::uint32_t i : own) { add(i, at(i) >= 0.0 ? at(i) : visible(i)); }
+  // Between four pixels that agree the share is interpolated.
+  constexpr double agree = 0.06;
+  for (std::uint32_t v = 0; v < side; ++v) {
+    for (std::uint32_t u = 0; u < side; ++u) {
+      const std::uint32_t u0 = lattice[cell_of[u]], u1 = lattice[cell_of[u] + 1], v0 = lattice[cell_of[v]], v1 = lattice[cell_of[v] + 1];
+      if ((u == u0 || u == u1) && (v == v0 || v == v1)) { continue; }
+      const double a = share[v0][u0], b = share[v0][u1], c = share[v1][u0], d = share[v1][u1];
+      const double s = static_cast<double>(u - u0) / (u1 - u0), t = static_cast<double>(v - v0) / (v1 - v0);
+      share[v][u] = std::max({a, b, c, d}) - std::min({a, b, c, d}) <= agree
+                        ? (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d)
+                        : visible(fragment[v][u]);
+    }
+  }
+  for (const std::uint32_t i : own) { add(i, share[fragments[i].y % side][fragments[i].x % side]); }
 }
 
 void Painter::light_block(std::size_t block, double exposure, Picture& picture) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -24,6 +25,7 @@
 #include <raycast/bundle.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
+#include <raycast/objects/mesh.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
@@ -45,8 +47,9 @@ namespace detail {
 
 // Heights below this count as none, in a scene of size 1 to 2: a thousandth of what a picture or a leaf could tell, far above rounding.
 inline constexpr double direct_slack = 1e-9;
-// How far facets may be off a curved surface, to the object's diameter.
+// How far facets may be off a curved surface, to the object's diameter; and those of a mesh that stands in for an object.
 inline constexpr double facet_tolerance = 0.002;
+inline constexpr double stand_in_tolerance = 0.0004;
 inline constexpr unsigned lamp_samples = 256, first_samples = 64;
 
 // A rectangle around points of a plane with this normal.
@@ -94,6 +97,22 @@ inline constexpr unsigned lamp_samples = 256, first_samples = 64;
     samples.push_back({t.a + root * (1.0 - u[1]) * (t.b - t.a) + root * u[1] * (t.c - t.a), t.normal});
   }
   return samples;
+}
+
+// A curved object as a mesh of triangles; nothing when they make none.
+[[nodiscard]] HALFLIGHT_INLINE std::shared_ptr<const raycast::Mesh> mesh_of_facets(const raycast::PlacedObject& object, double tolerance) {
+  brep::Builder builder;
+  object.approximate(tolerance, builder);
+  std::vector<glm::dvec3> positions;
+  for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) { positions.push_back(builder.position(v)); }
+  std::vector<std::vector<std::uint32_t>> triangles;
+  for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
+    const std::span<const std::uint32_t> c = builder.corners(f);
+    if (builder.sheet(f) == brep::no_sheet) { continue; }
+    if (c.size() > 4) { triangles.emplace_back(c.begin(), c.end()); }
+    for (std::size_t i = 1; i + 1 < c.size() && c.size() <= 4; ++i) { triangles.push_back({c[0], c[i], c[i + 1]}); }
+  }
+  return raycast::Mesh::make(positions, triangles).object;
 }
 
 [[nodiscard]] HALFLIGHT_INLINE double area_of(const Facets& facets) {
@@ -169,22 +188,7 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
     lamps_.push_back(std::move(lamp));
   }
   if (lamps_.empty()) { return; }
-  constexpr std::size_t most_facets = 100'000, most_of_one = 4096;
-  std::size_t facets = 0;
-  for (std::uint32_t o = 0; o < objects.size() && facets < most_facets; ++o) {
-    const raycast::PlacedObject& object = objects.object(o);
-    Body& body = bodies_[o];
-    if (object.inside()) { rooms_.push_back(o); }
-    const Surface& surface = surfaces[o];
-    body.closed = object.solid();
-    body.convex = object.convex() && !object.inside();
-    if (object.exact() && radiating_faces(surface) <= most_of_one) {
-      body.facets = facets_of(surface);
-    } else if (body.convex) {
-      body.facets = facets_of(object, detail::facet_tolerance * object.bounds().diameter());
-    }
-    facets += body.facets.facets.size();
-  }
+  take_bodies(surfaces);
   for (Lamp& lamp : lamps_) {
     lamp.behind.assign(objects.size(), false);
     const Facets::Facet& plane = lamp.facets.facets[0];
@@ -197,6 +201,39 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
   }
 }
 
+HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfaces) {
+  constexpr std::size_t most_facets = 200'000, most_of_one = 4096;
+  std::size_t facets = 0;
+  std::vector<raycast::PlacedObject> objects;
+  bool any_stand_in = false;
+  for (std::uint32_t o = 0; o < objects_->size(); ++o) {
+    const raycast::PlacedObject& object = objects_->object(o);
+    Body& body = bodies_[o];
+    objects.push_back(object);
+    if (object.inside()) { rooms_.push_back(o); }
+    if (facets > most_facets) { continue; }
+    body.closed = object.solid();
+    body.convex = object.convex() && !object.inside();
+    const double tolerance = detail::facet_tolerance * object.bounds().diameter();
+    if (object.exact()) {
+      if (radiating_faces(surfaces[o]) <= most_of_one) { body.facets = facets_of(surfaces[o]); }
+    } else if (body.convex) {
+      body.facets = facets_of(object, tolerance);
+    } else if (!object.inside()) {
+      if (auto mesh = detail::mesh_of_facets(object, detail::stand_in_tolerance * object.bounds().diameter())) {
+        objects.back() = raycast::PlacedObject{std::move(mesh)};
+        body.stand_in = any_stand_in = true;
+        facets += objects.back().sheet_count();
+      }
+    }
+    facets += body.facets.facets.size();
+  }
+  if (any_stand_in) {
+    with_stand_ins_ = std::make_shared<raycast::Scene>(std::move(objects));
+    objects_ = with_stand_ins_.get();
+  }
+}
+
 HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal)
     : light_{&light}, owner_{shape.owner} {
   raycast::Box box;
@@ -204,6 +241,13 @@ HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::P
   centre_ = box.centre();
   for (const glm::dvec3& p : shape.contour) { radius_ = std::max(radius_, glm::length(p - centre_)); }
   radius_ += shape.bulge;
+  // A point of a surface for which a mesh stands in lies beside that mesh, so it is lifted above it and owned by nothing.
+  raycast::PatchShape from = shape;
+  if (owner_ != raycast::no_object && light.bodies_[owner_].stand_in) {
+    lift_ = 1.5 * detail::stand_in_tolerance * light.objects_->object(owner_).bounds().diameter();
+    from.owner = raycast::no_object;
+    from.bulge += lift_;
+  }
   const bool planar = normal != glm::dvec3{0.0};
   for (std::uint32_t k = 0; k < light.lamps_.size(); ++k) {
     const DirectLight::Lamp& lamp = light.lamps_[k];
@@ -211,7 +255,7 @@ HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::P
     if (lamp.flat && lamp.facets.facets[0].height(centre_) <= -radius_) { continue; }
     Reach reach;
     reach.lamp = k;
-    reach.list = light.objects_->occluders(shape, lamp.shape());
+    reach.list = light.objects_->occluders(from, lamp.shape());
     if (reach.list.blocked()) { continue; }
     if (!reach.list.clear()) {
       reach.between = Between::anything;
@@ -269,7 +313,8 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
       }
       continue;
     }
-    if (!objects.object(o).exact() && body.closed) { return false; }
+    if (!body.convex && !objects.object(o).exact()) { return false; }
+    if (body.convex && body.closed && !objects.object(o).exact()) { return false; }
     for (const Facets::Facet& facet : body.facets.facets) {
       if (body.closed && facet.height(centre_) <= slack - radius_) { continue; }  // its back, behind its fronts
       if (misses(facet.contour)) { continue; }
@@ -349,6 +394,8 @@ HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, 
 
 HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  const glm::dvec3 from = x + lift_ * n;
+  const std::uint32_t source = lift_ > 0.0 ? raycast::no_object : owner_;
   double all = 0.0;
   double seen = 0.0;
   for (unsigned first = 0; first < detail::lamp_samples; first += 16) {
@@ -361,7 +408,7 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
       if (!(glm::dot(n, d) > 0.0) || !(cosines > 0.0)) { continue; }
       const double r2 = glm::dot(d, d);
       weight[k] = cosines / (r2 * r2);
-      segments.set(k, {x, d}, owner_, lamp.object);
+      segments.set(k, {from, sample.position - from}, source, lamp.object);
     }
     rays_ += static_cast<unsigned>(std::popcount(segments.lanes));
     const std::uint32_t blocked = segments.lanes != 0 ? light_->objects_->occluded16(segments, reach.list, reach.hint) : 0;

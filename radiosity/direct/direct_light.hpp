@@ -13,12 +13,14 @@
 //   nothing             proven by the occluder lists of the scene (raycast/shaft.hpp) or by the shaft of both (polygon_shaft.hpp)
 //   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point
 //   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighed so
-//                       that only what is hidden is sampled, and they stop at 64 when these agree
+//                       that only what is hidden is sampled, and they stop at 64 when these agree. Curved objects that are not convex are
+//                       met as meshes within 0.04 % of their diameter
 // Curved lamps are always asked by segments where something may stand between. Nothing here is random: the result depends on the region and
 // the point alone.
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -74,12 +76,15 @@ class DirectLight {
   // How an object is taken out of a lamp.
   struct Body {
     Facets facets;
-    bool convex = false;  // by its outline
-    bool closed = false;  // by those faces alone that show their front
+    bool convex = false;    // by its outline
+    bool closed = false;    // by those faces alone that show their front
+    bool stand_in = false;  // by segments that meet a mesh in its place, which is faster than the object
   };
+  void take_bodies(const std::vector<Surface>& surfaces);
   [[nodiscard]] static Lamp make_lamp(const Surface& surface, std::uint32_t sheet, const Color& exitance);
 
   const raycast::Scene* objects_ = nullptr;
+  std::shared_ptr<const raycast::Scene> with_stand_ins_;  // what objects_ points to, when there are some
   std::vector<Lamp> lamps_;
   std::vector<bool> is_lamp_;  // by input surface
   std::vector<Body> bodies_;   // by object; without facets: asked by segments
@@ -137,6 +142,7 @@ class LitRegion {
   std::uint32_t owner_;
   glm::dvec3 centre_{0.0};
   double radius_ = 0.0;
+  double lift_ = 0.0;
   std::vector<Reach> reaches_;
   std::vector<char> facing_;
   std::vector<HalfSpace> cone_;
