@@ -99,20 +99,25 @@ inline constexpr unsigned lamp_samples = 256, first_samples = 64;
   return samples;
 }
 
-// A curved object as a mesh of triangles; nothing when they make none.
-[[nodiscard]] HALFLIGHT_INLINE std::shared_ptr<const raycast::Mesh> mesh_of_facets(const raycast::PlacedObject& object, double tolerance) {
+// A curved object as two meshes of triangles that are open, so that each crossing of a segment decides by itself; none when they make none.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<std::shared_ptr<const raycast::Mesh>> open_meshes(const raycast::PlacedObject& object,
+                                                                                             double tolerance) {
   brep::Builder builder;
   object.approximate(tolerance, builder);
   std::vector<glm::dvec3> positions;
   for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) { positions.push_back(builder.position(v)); }
-  std::vector<std::vector<std::uint32_t>> triangles;
+  std::vector<std::vector<std::uint32_t>> faces;
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
     const std::span<const std::uint32_t> c = builder.corners(f);
     if (builder.sheet(f) == brep::no_sheet) { continue; }
-    if (c.size() > 4) { triangles.emplace_back(c.begin(), c.end()); }
-    for (std::size_t i = 1; i + 1 < c.size() && c.size() <= 4; ++i) { triangles.push_back({c[0], c[i], c[i + 1]}); }
+    if (c.size() > 4) { faces.emplace_back(c.begin(), c.end()); }
+    for (std::size_t i = 1; i + 1 < c.size() && c.size() <= 4; ++i) { faces.push_back({c[0], c[i], c[i + 1]}); }
   }
-  return raycast::Mesh::make(positions, triangles).object;
+  const auto middle = faces.begin() + static_cast<std::ptrdiff_t>(faces.size() / 2);
+  const auto first = raycast::Mesh::make(positions, {faces.begin(), middle});
+  const auto second = raycast::Mesh::make(positions, {middle, faces.end()});
+  if (!first || !second) { return {}; }
+  return {first.object, second.object};
 }
 
 [[nodiscard]] HALFLIGHT_INLINE double area_of(const Facets& facets) {
@@ -192,7 +197,7 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
   for (Lamp& lamp : lamps_) {
     lamp.behind.assign(objects.size(), false);
     const Facets::Facet& plane = lamp.facets.facets[0];
-    for (std::uint32_t o = 0; o < objects.size() && lamp.flat; ++o) {
+    for (std::uint32_t o = 0; o < bodies_.size() && lamp.flat; ++o) {
       lamp.behind[o] = std::any_of(bodies_[o].facets.facets.begin(), bodies_[o].facets.facets.end(), [&](const Facets::Facet& f) {
         return std::any_of(f.contour.begin(), f.contour.end(),
                            [&](const glm::dvec3& p) { return plane.height(p) < -detail::direct_slack; });
@@ -204,8 +209,7 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
 HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfaces) {
   constexpr std::size_t most_facets = 200'000, most_of_one = 4096;
   std::size_t facets = 0;
-  std::vector<raycast::PlacedObject> objects;
-  bool any_stand_in = false;
+  std::vector<raycast::PlacedObject> objects, second_halves;
   for (std::uint32_t o = 0; o < objects_->size(); ++o) {
     const raycast::PlacedObject& object = objects_->object(o);
     Body& body = bodies_[o];
@@ -214,24 +218,28 @@ HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfa
     if (facets > most_facets) { continue; }
     body.closed = object.solid();
     body.convex = object.convex() && !object.inside();
-    const double tolerance = detail::facet_tolerance * object.bounds().diameter();
-    if (object.exact()) {
+    body.exact = object.exact();
+    body.bounds = object.bounds();
+    if (body.exact) {
       if (radiating_faces(surfaces[o]) <= most_of_one) { body.facets = facets_of(surfaces[o]); }
     } else if (body.convex) {
-      body.facets = facets_of(object, tolerance);
-    } else if (!object.inside()) {
-      if (auto mesh = detail::mesh_of_facets(object, detail::stand_in_tolerance * object.bounds().diameter())) {
-        objects.back() = raycast::PlacedObject{std::move(mesh)};
-        body.stand_in = any_stand_in = true;
-        facets += objects.back().sheet_count();
-      }
+      body.facets = facets_of(object, detail::facet_tolerance * object.bounds().diameter());
     }
     facets += body.facets.facets.size();
+    if (body.exact || object.inside() || (body.convex && object.object().nearest())) { continue; }
+    const double tolerance = detail::stand_in_tolerance * object.bounds().diameter();
+    const auto halves = detail::open_meshes(object, tolerance);
+    if (halves.empty()) { continue; }
+    objects.back() = raycast::PlacedObject{halves[0]};
+    second_halves.emplace_back(halves[1]);
+    whole_.push_back(o);
+    body.lift = 1.5 * tolerance;
+    facets += halves[0]->sheet_count() + halves[1]->sheet_count();
   }
-  if (any_stand_in) {
-    with_stand_ins_ = std::make_shared<raycast::Scene>(std::move(objects));
-    objects_ = with_stand_ins_.get();
-  }
+  if (whole_.empty()) { return; }
+  objects.insert(objects.end(), second_halves.begin(), second_halves.end());
+  with_stand_ins_ = std::make_shared<raycast::Scene>(std::move(objects));
+  objects_ = with_stand_ins_.get();
 }
 
 HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal)
@@ -243,8 +251,8 @@ HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::P
   radius_ += shape.bulge;
   // A point of a surface for which a mesh stands in lies beside that mesh, so it is lifted above it and owned by nothing.
   raycast::PatchShape from = shape;
-  if (owner_ != raycast::no_object && light.bodies_[owner_].stand_in) {
-    lift_ = 1.5 * detail::stand_in_tolerance * light.objects_->object(owner_).bounds().diameter();
+  lift_ = owner_ != raycast::no_object && !light.bodies_.empty() ? light.bodies_[owner_].lift : 0.0;
+  if (lift_ > 0.0) {
     from.owner = raycast::no_object;
     from.bulge += lift_;
   }
@@ -273,7 +281,7 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
   const raycast::Scene& objects = *light_->objects_;
   std::vector<std::uint32_t> candidates;
   if (!reach.list.known()) { return false; }
-  for (const std::uint32_t s : reach.list.shapes()) { candidates.push_back(objects.object_of(s)); }
+  for (const std::uint32_t s : reach.list.shapes()) { candidates.push_back(light_->whole(objects.object_of(s))); }
   if (!reach.list.rooms_clear()) { candidates.insert(candidates.end(), light_->rooms_.begin(), light_->rooms_.end()); }
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
@@ -288,7 +296,7 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
     if (body.convex && o == owner_) { continue; }
     if (body.facets.empty()) { return false; }
     if (body.convex && body.closed && !lamp.behind[o]) {
-      if (shaft.empty() || !shaft[0].misses(objects.object(o).bounds())) {
+      if (shaft.empty() || !shaft[0].misses(body.bounds)) {
         Reach::Outline outline{&body.facets, 0, {}};
         const auto& facets = body.facets.facets;
         for (std::uint32_t f = 1; f < facets.size(); ++f) {
@@ -313,8 +321,8 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
       }
       continue;
     }
-    if (!body.convex && !objects.object(o).exact()) { return false; }
-    if (body.convex && body.closed && !objects.object(o).exact()) { return false; }
+    if (!body.convex && !body.exact) { return false; }
+    if (body.convex && body.closed && !body.exact) { return false; }
     for (const Facets::Facet& facet : body.facets.facets) {
       if (body.closed && facet.height(centre_) <= slack - radius_) { continue; }  // its back, behind its fronts
       if (misses(facet.contour)) { continue; }

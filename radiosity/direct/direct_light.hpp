@@ -13,8 +13,8 @@
 //   nothing             proven by the occluder lists of the scene (raycast/shaft.hpp) or by the shaft of both (polygon_shaft.hpp)
 //   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point
 //   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighed so
-//                       that only what is hidden is sampled, and they stop at 64 when these agree. Curved objects that are not convex are
-//                       met as meshes within 0.04 % of their diameter
+//                       that only what is hidden is sampled, and they stop at 64 when these agree. In place of curved objects that are slow or not convex
+//                       segments meet meshes within 0.04 % of their diameter
 // Curved lamps are always asked by segments where something may stand between. Nothing here is random: the result depends on the region and
 // the point alone.
 
@@ -26,6 +26,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <raycast/box.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 
@@ -76,15 +77,20 @@ class DirectLight {
   // How an object is taken out of a lamp.
   struct Body {
     Facets facets;
-    bool convex = false;    // by its outline
-    bool closed = false;    // by those faces alone that show their front
-    bool stand_in = false;  // by segments that meet a mesh in its place, which is faster than the object
+    bool convex = false;  // by its outline
+    bool closed = false;  // by those faces alone that show their front
+    bool exact = false;   // its facets are it
+    raycast::Box bounds;
+    double lift = 0.0;  // above 0: meshes stand in for it where segments are asked, and points on it are lifted above them by so much
   };
   void take_bodies(const std::vector<Surface>& surfaces);
   [[nodiscard]] static Lamp make_lamp(const Surface& surface, std::uint32_t sheet, const Color& exitance);
 
   const raycast::Scene* objects_ = nullptr;
-  std::shared_ptr<const raycast::Scene> with_stand_ins_;  // what objects_ points to, when there are some
+  // Where meshes stand in for curved objects, objects_ points to this: the first half of each in its place, the others behind all objects.
+  std::shared_ptr<const raycast::Scene> with_stand_ins_;
+  std::vector<std::uint32_t> whole_;  // of those the objects that they are halves of
+  [[nodiscard]] std::uint32_t whole(std::uint32_t o) const { return o < bodies_.size() ? o : whole_[o - bodies_.size()]; }
   std::vector<Lamp> lamps_;
   std::vector<bool> is_lamp_;  // by input surface
   std::vector<Body> bodies_;   // by object; without facets: asked by segments
