@@ -47,6 +47,8 @@ namespace detail {
 
 // Heights below this count as none, in a scene of size 1 to 2: a thousandth of what a picture or a leaf could tell, far above rounding.
 inline constexpr double direct_slack = 1e-9;
+// How far segments stay off the surfaces at their ends, in a scene of size 1 to 2: more than single precision's error.
+inline constexpr double off_surface = 1e-5;
 // How far facets may be off a curved surface, to the object's diameter; and those of a mesh that stands in for an object.
 inline constexpr double facet_tolerance = 0.002;
 inline constexpr double stand_in_tolerance = 0.0004;
@@ -251,7 +253,7 @@ HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::P
   radius_ += shape.bulge;
   // A point of a surface for which a mesh stands in lies beside that mesh, so it is lifted above it and owned by nothing.
   raycast::PatchShape from = shape;
-  lift_ = owner_ != raycast::no_object && !light.bodies_.empty() ? light.bodies_[owner_].lift : 0.0;
+  lift_ = owner_ != raycast::no_object ? light.lift(owner_) : 0.0;
   if (lift_ > 0.0) {
     from.owner = raycast::no_object;
     from.bulge += lift_;
@@ -402,8 +404,12 @@ HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, 
 
 HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
-  const glm::dvec3 from = x + lift_ * n;
-  const std::uint32_t source = lift_ > 0.0 ? raycast::no_object : owner_;
+  // Away from flat surfaces on which they begin and end, segments need no owners, and single precision decides about nearly all.
+  const glm::dvec3 from = x + std::max(lift_, detail::off_surface) * n;
+  const bool curved = owner_ != raycast::no_object && !light_->objects_->object(owner_).flat();  // and convex, or a mesh would stand in
+  const std::uint32_t source = curved ? owner_ : raycast::no_object;
+  const double to_lift = lamp.flat ? detail::off_surface : 0.0;
+  const std::uint32_t target = lamp.flat ? raycast::no_object : lamp.object;
   double all = 0.0;
   double seen = 0.0;
   for (unsigned first = 0; first < detail::lamp_samples; first += 16) {
@@ -416,7 +422,7 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
       if (!(glm::dot(n, d) > 0.0) || !(cosines > 0.0)) { continue; }
       const double r2 = glm::dot(d, d);
       weight[k] = cosines / (r2 * r2);
-      segments.set(k, {from, sample.position - from}, source, lamp.object);
+      segments.set(k, {from, sample.position + to_lift * sample.normal - from}, source, target);
     }
     rays_ += static_cast<unsigned>(std::popcount(segments.lanes));
     const std::uint32_t blocked = segments.lanes != 0 ? light_->objects_->occluded16(segments, reach.list, reach.hint) : 0;

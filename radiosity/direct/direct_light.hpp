@@ -72,6 +72,12 @@ class DirectLight {
   // Is this input surface among the lamps? What else emits is left to whoever asks.
   [[nodiscard]] bool is_lamp(std::uint32_t surface) const { return surface < is_lamp_.size() && is_lamp_[surface]; }
 
+  // What segments meet: the scene, in which open meshes stand in for curved objects that are slow to meet; two for each, the second ones
+  // behind all objects. The object that such a mesh belongs to, and how far points on it are lifted to be above its meshes; 0: none stand in.
+  [[nodiscard]] const raycast::Scene& objects() const { return *objects_; }
+  [[nodiscard]] std::uint32_t whole(std::uint32_t o) const { return o < bodies_.size() ? o : whole_[o - bodies_.size()]; }
+  [[nodiscard]] double lift(std::uint32_t o) const { return bodies_[o].lift; }
+
  private:
   friend class LitRegion;
   // How an object is taken out of a lamp.
@@ -87,10 +93,9 @@ class DirectLight {
   [[nodiscard]] static Lamp make_lamp(const Surface& surface, std::uint32_t sheet, const Color& exitance);
 
   const raycast::Scene* objects_ = nullptr;
-  // Where meshes stand in for curved objects, objects_ points to this: the first half of each in its place, the others behind all objects.
+  // Where meshes stand in, objects_ points to this.
   std::shared_ptr<const raycast::Scene> with_stand_ins_;
   std::vector<std::uint32_t> whole_;  // of those the objects that they are halves of
-  [[nodiscard]] std::uint32_t whole(std::uint32_t o) const { return o < bodies_.size() ? o : whole_[o - bodies_.size()]; }
   std::vector<Lamp> lamps_;
   std::vector<bool> is_lamp_;  // by input surface
   std::vector<Body> bodies_;   // by object; without facets: asked by segments

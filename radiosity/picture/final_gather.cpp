@@ -21,6 +21,7 @@
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
@@ -50,6 +51,26 @@ HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, 
   direct_ = DirectLight{objects(), boundaries, emission};
 }
 
+HALFLIGHT_INLINE FinalGather::Met FinalGather::met(const raycast::Hit& hit, const raycast::Segment& ray) const {
+  const glm::dvec3 at = ray.at(hit.t);
+  const std::uint32_t o = direct_.whole(hit.object);
+  const raycast::PlacedObject& object = objects().object(o);
+  if (!(direct_.lift(o) > 0.0)) { return {object.project(hit.sheet, at), o, hit.sheet}; }
+  // A mesh that stands in does not know the sheets of its object: it is the nearest that faces the same way.
+  const glm::dvec3 normal = direct_.objects().object(hit.object).project(hit.sheet, at).normal;
+  Met best{object.project(0, at), o, 0};
+  double best_distance = glm::dot(best.point.normal, normal) > 0.0 ? glm::length(best.point.position - at) : raycast::infinity;
+  for (std::uint32_t s = 1; s < object.sheet_count(); ++s) {
+    const raycast::SurfacePoint point = object.project(s, at);
+    const double distance = glm::length(point.position - at);
+    if (distance < best_distance && glm::dot(point.normal, normal) > 0.0) {
+      best = {point, o, s};
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
 HALFLIGHT_INLINE FinalGather::Eye FinalGather::eye(const glm::dvec3& in_scene) const {
   Eye eye{(in_scene - frame().centre) * frame().scale, true};
   for (std::uint32_t o = 0; o < objects().size() && eye.in_air; ++o) {
@@ -69,19 +90,19 @@ HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::
   for (unsigned i = 0; i < directions.size(); ++i) { rays.set(i, {eye.position, directions[i]}, raycast::no_object, raycast::no_object); }
   constexpr int most = 10'000;  // surfaces passed: only backs and buried ones are, so this ends what rounding might not
   for (int passed = 0; passed < most && rays.lanes != 0; ++passed) {
-    const raycast::Hits16 hits = objects().closest16(rays);
+    const raycast::Hits16 hits = direct_.objects().closest16(rays);
     rays.lanes &= hits.met;
     for (std::uint32_t rest = rays.lanes; rest != 0; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       const raycast::Hit& hit = hits.hit[i];
       const raycast::Segment ray = rays.at(i);
-      const raycast::SurfacePoint point = objects().object(hit.object).project(hit.sheet, ray.at(hit.t));
+      const Met found = met(hit, ray);
       const bool from_air = eye.in_air && passed == 0;
-      if (hit.front && (from_air || !objects().covered(point.position, point.normal, hit.object))) {
-        result[i] = Place{point, hit.object, lookup_.surface(hit.object, hit.sheet)};
+      if (hit.front && (from_air || !objects().covered(found.point.position, found.point.normal, found.object))) {
+        result[i] = Place{found.point, found.object, lookup_.surface(found.object, found.sheet)};
         rays.lanes &= ~(1u << i);
       } else {
-        rays.set(i, {point.position, ray.direction}, hit.object, raycast::no_object);
+        rays.set(i, {ray.at(hit.t), ray.direction}, hit.object, raycast::no_object);
       }
     }
   }
@@ -92,6 +113,9 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
                                                              std::uint64_t key) const {
   const Sobol4 sequence{1, key};
   const double reach = objects().diameter();
+  const double lift = direct_.lift(place.object);
+  const glm::dvec3 from = place.point.position + lift * place.point.normal;
+  const std::uint32_t owner = lift > 0.0 ? raycast::no_object : place.object;
   Indirect result;
   std::array<Color, 4> part;  // means of four parts of the rays, whose spread is their noise
   part.fill(Color{0.0});
@@ -101,23 +125,23 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
     raycast::Segments16 rays;
     for (unsigned k = 0; k < 16; ++k) {
       const std::array<double, 4> u = sequence(result.rays + k);
-      rays.set(k, {place.point.position, reach * cosine_direction(place.point.normal, u[0], u[1])}, place.object, raycast::no_object);
+      rays.set(k, {from, reach * cosine_direction(place.point.normal, u[0], u[1])}, owner, raycast::no_object);
     }
-    const raycast::Hits16 hits = objects().closest16(rays);
+    const raycast::Hits16 hits = direct_.objects().closest16(rays);
     Color of_these{0.0};
     for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
       const auto k = static_cast<unsigned>(std::countr_zero(rest));
       const raycast::Hit& hit = hits.hit[k];
       nearness += 1.0 / std::max(hit.t * reach, 1e-6);
       if (!hit.front) { continue; }
-      const std::uint32_t surface = lookup_.surface(hit.object, hit.sheet);
+      const Met found = met(hit, rays.at(k));
+      const std::uint32_t surface = lookup_.surface(found.object, found.sheet);
       const Color lamp = direct_.is_lamp(surface) ? materials_[surface].emission : Color{0.0};
       if (is_black(materials_[surface].reflectance)) {
-        if (is_black(lamp)) { of_these += materials_[surface].emission; }
+        of_these += materials_[surface].emission - lamp;
         continue;
       }
-      const raycast::SurfacePoint met = objects().object(hit.object).project(hit.sheet, rays.at(k).at(hit.t));
-      if (const std::optional<Color> light = lookup_.at(hit.object, hit.sheet, met)) { of_these += *light - lamp; }
+      if (const std::optional<Color> light = lookup_.at(found.object, found.sheet, found.point)) { of_these += *light - lamp; }
     }
     sum += of_these;
     part[result.rays / 16 % 4] += of_these;

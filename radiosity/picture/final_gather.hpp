@@ -15,7 +15,9 @@
 
 #include <glm/vec3.hpp>
 
+#include <raycast/bundle.hpp>
 #include <raycast/object.hpp>
+#include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
@@ -65,6 +67,13 @@ class FinalGather {
   [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t least, std::uint32_t most, double noise, std::uint64_t key) const;
 
  private:
+  // What a ray has met.
+  struct Met {
+    raycast::SurfacePoint point;
+    std::uint32_t object = 0, sheet = 0;
+  };
+  [[nodiscard]] Met met(const raycast::Hit& hit, const raycast::Segment& ray) const;
+
   Lookup lookup_;
   std::vector<Material> materials_;  // of the input surfaces
   DirectLight direct_;
