@@ -15,6 +15,7 @@
 #include <glm/vec2.hpp>
 
 #include <raycast/shaft.hpp>
+#include <raycast/tolerances.hpp>
 
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
@@ -127,9 +128,21 @@ void Painter::add_fragments(std::uint32_t x, std::uint32_t y, std::span<const st
     }
   }
   for (auto f = out.begin() + first; f != out.end(); ++f) {
-    f->place.point.position /= f->share;
+    const glm::dvec3 middle = f->place.point.position / static_cast<double>(f->share);
     f->place.point.normal = glm::normalize(f->place.point.normal);
+    f->place.point.position = middle;
     f->share /= static_cast<float>(seen.size());
+    if (light_.objects().object(f->place.object).flat()) { continue; }
+    // The middle of points of a curved surface lies off it: the nearest of them is on it.
+    double nearest = raycast::infinity;
+    for (const auto& place : seen) {
+      if (!place || place->surface != f->place.surface || !(glm::dot(place->point.normal, f->place.point.normal) > 0.5)) { continue; }
+      const double distance = glm::length(place->point.position - middle);
+      if (distance < nearest) {
+        nearest = distance;
+        f->place.point.position = place->point.position;
+      }
+    }
   }
 }
 
@@ -194,7 +207,8 @@ IndirectPoint Painter::gather_at(const Fragment& fragment) const {
                       hi = std::getenv("HI") ? std::atof(std::getenv("HI")) : 40.0;
   static const unsigned rays = std::getenv("RAYS") ? unsigned(std::atoi(std::getenv("RAYS"))) : 128;
   const std::uint64_t key = radiosity::scramble(std::size_t{fragment.y} * view_.size.width + fragment.x) ^ fragment.place.surface;
-  const auto found = light_.indirect(fragment.place, rays, rays, 0.0, key);
+  static const double noise = std::getenv("NOISE") ? std::atof(std::getenv("NOISE")) : 0.0;
+  const auto found = light_.indirect(fragment.place, rays, noise > 0 ? 1024 : rays, noise, key);
   IndirectPoint point;
   point.position = fragment.place.point.position;
   point.normal = fragment.place.point.normal;
