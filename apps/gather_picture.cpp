@@ -32,7 +32,12 @@ struct Fragment {
   std::uint32_t x = 0, y = 0;
   float share = 0.0f;  // of the pixel
   radiosity::FinalGather::Place place;
+  glm::dvec3 positions{0.0}, normals{0.0};  // sums over its rays
 };
+
+// Points of indirect light, by measurement: rays of each; radius of its ball by the harmonic mean distance of what it sees, and in pixels.
+constexpr std::uint32_t gathering_rays = 256;
+constexpr double part_of_distance = 0.25, least_pixels = 2.0, most_pixels = 20.0;
 
 constexpr std::uint32_t side = 8;                                                // of a block of pixels
 constexpr std::uint32_t no_surface = 0xffffffff, several_surfaces = 0xfffffffe;  // in place of the number of a surface
@@ -91,6 +96,7 @@ class Painter {
 
   void add_fragments(std::uint32_t x, std::uint32_t y, std::span<const std::optional<radiosity::FinalGather::Place>> seen,
                      std::vector<Fragment>& out) const;
+  [[nodiscard]] bool one_piece(const radiosity::FinalGather::Place& a, const radiosity::FinalGather::Place& b) const;
   void glance(std::size_t block);
   void look_closer(std::size_t block);
   void light_block(std::size_t block, double exposure, Picture& picture);
@@ -116,34 +122,41 @@ void Painter::add_fragments(std::uint32_t x, std::uint32_t y, std::span<const st
   const auto first = static_cast<std::ptrdiff_t>(out.size());
   for (const auto& place : seen) {
     if (!place) { continue; }
-    const auto same = std::find_if(out.begin() + first, out.end(), [&](const Fragment& f) {
-      return f.place.surface == place->surface && glm::dot(f.place.point.normal, place->point.normal) > 0.5 * f.share;
-    });
+    const auto same = std::find_if(out.begin() + first, out.end(), [&](const Fragment& f) { return one_piece(f.place, *place); });
     if (same == out.end()) {
-      out.push_back({x, y, 1.0f, *place});
+      out.push_back({x, y, 1.0f, *place, place->point.position, place->point.normal});
     } else {
       same->share += 1.0f;
-      same->place.point.position += place->point.position;
-      same->place.point.normal += place->point.normal;
+      same->positions += place->point.position;
+      same->normals += place->point.normal;
     }
   }
   for (auto f = out.begin() + first; f != out.end(); ++f) {
-    const glm::dvec3 middle = f->place.point.position / static_cast<double>(f->share);
-    f->place.point.normal = glm::normalize(f->place.point.normal);
-    f->place.point.position = middle;
+    const glm::dvec3 middle = f->positions / static_cast<double>(f->share);
     f->share /= static_cast<float>(seen.size());
-    if (light_.objects().object(f->place.object).flat()) { continue; }
+    if (light_.objects().object(f->place.object).flat()) {
+      f->place.point = {middle, glm::normalize(f->normals)};
+      continue;
+    }
     // The middle of points of a curved surface lies off it: the nearest of them is on it.
     double nearest = raycast::infinity;
+    const radiosity::FinalGather::Place of_piece = f->place;
     for (const auto& place : seen) {
-      if (!place || place->surface != f->place.surface || !(glm::dot(place->point.normal, f->place.point.normal) > 0.5)) { continue; }
+      if (!place || !one_piece(of_piece, *place)) { continue; }
       const double distance = glm::length(place->point.position - middle);
       if (distance < nearest) {
         nearest = distance;
-        f->place.point.position = place->point.position;
+        f->place.point = place->point;
       }
     }
   }
+}
+
+// Seen through one pixel, do these two belong together? Not where one part of a surface hides another, or on two sides of a crease.
+bool Painter::one_piece(const radiosity::FinalGather::Place& a, const radiosity::FinalGather::Place& b) const {
+  if (a.surface != b.surface || !(glm::dot(a.point.normal, b.point.normal) > 0.97)) { return false; }
+  constexpr double apart = 4.0;  // pixels
+  return std::abs(glm::dot(a.point.normal, b.point.position - a.point.position)) < apart * pixel_size(a.point.position);
 }
 
 void Painter::glance(std::size_t block) {
@@ -151,14 +164,14 @@ void Painter::glance(std::size_t block) {
   std::array<std::pair<std::uint32_t, std::uint32_t>, 4> pixels{};
   unsigned waiting = 0;
   const auto look = [&] {
-    const auto seen = light_.seen16(eye_, std::span(directions.data(), 4 * waiting));
+    const auto seen = light_.seen16(eye_, std::span(directions.data(), 4 * waiting), false);
     for (unsigned k = 0; k < waiting; ++k) {
       const auto [x, y] = pixels[k];
       const auto own = std::span(seen).subspan(4 * k, 4);
       std::uint32_t& surface = surface_of(x, y);
       surface = own[0] ? own[0]->surface : no_surface;
       for (const auto& place : own) {
-        if ((place ? place->surface : no_surface) != surface) { surface = several_surfaces; }
+        if (place.has_value() != own[0].has_value() || (place && !one_piece(*own[0], *place))) { surface = several_surfaces; }
       }
       add_fragments(x, y, own, blocks_[block]);
     }
@@ -196,19 +209,14 @@ void Painter::look_closer(std::size_t block) {
     changed = true;
     std::array<glm::dvec3, 16> directions{};
     for (unsigned k = 0; k < 16; ++k) { directions[k] = view_.direction(x + sixteen_[k].x, y + sixteen_[k].y); }
-    add_fragments(x, y, light_.seen16(eye_, directions), result);
+    add_fragments(x, y, light_.seen16(eye_, directions, true), result);
   });
   if (changed) { blocks_[block] = std::move(result); }
 }
 
 IndirectPoint Painter::gather_at(const Fragment& fragment) const {
-  static const double kappa = std::getenv("KAPPA") ? std::atof(std::getenv("KAPPA")) : 0.5;
-  static const double lo = std::getenv("LO") ? std::atof(std::getenv("LO")) : 3.0,
-                      hi = std::getenv("HI") ? std::atof(std::getenv("HI")) : 40.0;
-  static const unsigned rays = std::getenv("RAYS") ? unsigned(std::atoi(std::getenv("RAYS"))) : 128;
   const std::uint64_t key = radiosity::scramble(std::size_t{fragment.y} * view_.size.width + fragment.x) ^ fragment.place.surface;
-  static const double noise = std::getenv("NOISE") ? std::atof(std::getenv("NOISE")) : 0.0;
-  const auto found = light_.indirect(fragment.place, rays, noise > 0 ? 1024 : rays, noise, key);
+  const auto found = light_.indirect(fragment.place, gathering_rays, key);
   IndirectPoint point;
   point.position = fragment.place.point.position;
   point.normal = fragment.place.point.normal;
@@ -217,9 +225,10 @@ IndirectPoint Painter::gather_at(const Fragment& fragment) const {
   point.y = fragment.y;
   const double size = pixel_size(point.position);
   const double facing = std::abs(glm::dot(point.normal, glm::normalize(point.position - eye_.position)));
-  const double allowed = found.nearness > 0.0 ? kappa / found.nearness : 1e9;
-  point.radius = std::clamp(allowed, lo * size / std::max(facing, 0.2), hi * size / std::max(facing, 0.2));
-  point.pixels = std::min(point.radius / size, 1.5 * hi);
+  const double footprint = size / std::max(facing, 0.2);  // of a pixel; where it is slanted, at most five times as long
+  const double allowed = found.nearness > 0.0 ? part_of_distance / found.nearness : raycast::infinity;
+  point.radius = std::clamp(allowed, least_pixels * footprint, most_pixels * footprint);
+  point.pixels = point.radius / size;
   point.gathered = found.irradiance;
   return point;
 }
@@ -263,7 +272,6 @@ bool Painter::gather() {
       control_.report("picture", done + 0.06 * static_cast<double>(first + count) / static_cast<double>(all.size()));
     }
     for (const IndirectPoint& point : found) { points_.add(point); }
-    if (std::getenv("VERBOSE")) { std::fprintf(stderr, "stride %u: %zu points\n", stride, points_.size()); }
   }
   radiosity::parallel_for(points_.size(), threads_, [&](std::size_t i) { points_.fit(i); });
   return true;

@@ -6,7 +6,7 @@
 //
 // Each point holds the light that was gathered there, and is good for a ball around it: of the radius that its distances allow, but not
 // below some pixels, nor beyond some more. Points are looked for in tiles of the picture. The light of a point and how it changes are taken
-// from all points around (weighted least squares, to a little beyond its ball), which also takes out most of the noise of the rays; a pixel blends the points whose
+// from all points in its ball (weighted least squares), which also takes out most of the noise of the rays; a pixel blends the points whose
 // balls hold it, with weights that fall to 0 towards their borders.
 
 #include <cstddef>
@@ -50,19 +50,14 @@ class IndirectPoints {
                                                    std::uint32_t object) const;
 
  private:
-  static constexpr std::uint32_t tile = 8, wide_tile = 32;  // pixels
-  // Points by the tiles in which their balls, so many times as large, may show.
-  struct Tiles {
-    std::uint32_t side = 1, columns = 0, rows = 0;
-    std::vector<std::vector<std::uint32_t>> points;
-    void resize(std::uint32_t width, std::uint32_t height);
-    void add(const IndirectPoint& point, double times, std::uint32_t index);
-    [[nodiscard]] const std::vector<std::uint32_t>& at(std::uint32_t x, std::uint32_t y) const {
-      return points[std::size_t{y / side} * columns + x / side];
-    }
-  };
+  static constexpr std::uint32_t tile = 8;  // pixels
+  [[nodiscard]] const std::vector<std::uint32_t>& near(std::uint32_t x, std::uint32_t y) const {
+    return tiles_[std::size_t{y / tile} * columns_ + x / tile];
+  }
+
+  std::uint32_t columns_, rows_;
   std::vector<IndirectPoint> points_;
-  Tiles tiles_{tile, 0, 0, {}}, wide_{wide_tile, 0, 0, {}};  // for pixels; for the fit
+  std::vector<std::vector<std::uint32_t>> tiles_;  // points whose balls may show in the tile
 };
 
 }  // namespace apps

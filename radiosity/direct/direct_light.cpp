@@ -185,11 +185,14 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
   double taken = 0.0;
   for (const Candidate& c : candidates) {
-    taken += c.area;
-    if (lamps_.size() == limits.most || taken > limits.most_area * total) { break; }
+    if (lamps_.size() == limits.most) { break; }
     const Surface& surface = surfaces[c.object];
     Lamp lamp = make_lamp(surface, c.sheet, emission[surface.first_surface + c.sheet]);
     if (lamp.facets.empty()) { continue; }
+    if (!lamp.flat) {
+      taken += c.area;
+      if (taken > limits.most_curved * total) { continue; }
+    }
     lamp.object = c.object;
     is_lamp_[lamp.surface] = true;
     lamps_.push_back(std::move(lamp));

@@ -38,10 +38,10 @@
 namespace radiosity {
 
 struct LampLimits {
-  // The strongest sheets are taken until there would be more than this, by number, or by share of the scene's area: what shines all around
-  // a point is not met better one by one.
+  // The strongest sheets are taken, up to this number; curved ones up to this share of the scene's area: what shines all around a point
+  // is not met better one by one.
   std::uint32_t most = 64;
-  double most_area = 0.1;
+  double most_curved = 0.1;
 };
 
 class DirectLight {

@@ -84,19 +84,21 @@ HALFLIGHT_INLINE FinalGather::Eye FinalGather::eye(const glm::dvec3& in_scene) c
 }
 
 HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::seen16(const Eye& eye,
-                                                                                       std::span<const glm::dvec3> directions) const {
+                                                                                       std::span<const glm::dvec3> directions,
+                                                                                       bool outlines) const {
+  const raycast::Scene& scene = outlines ? objects() : direct_.objects();
   std::array<std::optional<Place>, 16> result;
   raycast::Segments16 rays;
   for (unsigned i = 0; i < directions.size(); ++i) { rays.set(i, {eye.position, directions[i]}, raycast::no_object, raycast::no_object); }
   constexpr int most = 10'000;  // surfaces passed: only backs and buried ones are, so this ends what rounding might not
   for (int passed = 0; passed < most && rays.lanes != 0; ++passed) {
-    const raycast::Hits16 hits = direct_.objects().closest16(rays);
+    const raycast::Hits16 hits = scene.closest16(rays);
     rays.lanes &= hits.met;
     for (std::uint32_t rest = rays.lanes; rest != 0; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       const raycast::Hit& hit = hits.hit[i];
       const raycast::Segment ray = rays.at(i);
-      const Met found = met(hit, ray);
+      const Met found = outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
       const bool from_air = eye.in_air && passed == 0;
       if (hit.front && (from_air || !objects().covered(found.point.position, found.point.normal, found.object))) {
         result[i] = Place{found.point, found.object, lookup_.surface(found.object, found.sheet)};
@@ -109,56 +111,37 @@ HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::
   return result;
 }
 
-HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most, double noise,
-                                                             std::uint64_t key) const {
+HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t rays, std::uint64_t key) const {
   const Sobol4 sequence{1, key};
   const double reach = objects().diameter();
   const double lift = direct_.lift(place.object);
   const glm::dvec3 from = place.point.position + lift * place.point.normal;
   const std::uint32_t owner = lift > 0.0 ? raycast::no_object : place.object;
-  Indirect result;
-  std::array<Color, 4> part;  // means of four parts of the rays, whose spread is their noise
-  part.fill(Color{0.0});
   Color sum{0.0};
   double nearness = 0.0;
-  while (result.rays < most) {
-    raycast::Segments16 rays;
+  for (std::uint32_t first = 0; first < rays; first += 16) {
+    raycast::Segments16 segments;
     for (unsigned k = 0; k < 16; ++k) {
-      const std::array<double, 4> u = sequence(result.rays + k);
-      rays.set(k, {from, reach * cosine_direction(place.point.normal, u[0], u[1])}, owner, raycast::no_object);
+      const std::array<double, 4> u = sequence(first + k);
+      segments.set(k, {from, reach * cosine_direction(place.point.normal, u[0], u[1])}, owner, raycast::no_object);
     }
-    const raycast::Hits16 hits = direct_.objects().closest16(rays);
-    Color of_these{0.0};
+    const raycast::Hits16 hits = direct_.objects().closest16(segments);
     for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
       const auto k = static_cast<unsigned>(std::countr_zero(rest));
       const raycast::Hit& hit = hits.hit[k];
       nearness += 1.0 / std::max(hit.t * reach, 1e-6);
       if (!hit.front) { continue; }
-      const Met found = met(hit, rays.at(k));
+      const Met found = met(hit, segments.at(k));
       const std::uint32_t surface = lookup_.surface(found.object, found.sheet);
       const Color lamp = direct_.is_lamp(surface) ? materials_[surface].emission : Color{0.0};
       if (is_black(materials_[surface].reflectance)) {
-        of_these += materials_[surface].emission - lamp;
+        sum += materials_[surface].emission - lamp;
         continue;
       }
-      if (const std::optional<Color> light = lookup_.at(found.object, found.sheet, found.point)) { of_these += *light - lamp; }
+      if (const std::optional<Color> light = lookup_.at(found.object, found.sheet, found.point)) { sum += *light - lamp; }
     }
-    sum += of_these;
-    part[result.rays / 16 % 4] += of_these;
-    result.rays += 16;
-    if (result.rays % 64 != 0) { continue; }
-    const Color mean = sum / static_cast<double>(result.rays);
-    Color variance{0.0};
-    for (const Color& p : part) {
-      const Color off = 4.0 * p / static_cast<double>(result.rays) - mean;
-      variance += off * off / 12.0;
-    }
-    result.noise = std::sqrt(std::max({variance.x, variance.y, variance.z}));
-    if (result.rays >= least && result.noise <= noise) { break; }
   }
-  result.irradiance = sum / static_cast<double>(result.rays);
-  result.nearness = nearness / static_cast<double>(result.rays);
-  return result;
+  return {sum / static_cast<double>(rays), nearness / static_cast<double>(rays)};
 }
 
 }  // namespace radiosity

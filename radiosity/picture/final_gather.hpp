@@ -53,18 +53,16 @@ class FinalGather {
   };
   [[nodiscard]] Eye eye(const glm::dvec3& in_scene) const;
   // What is seen in up to sixteen directions: the first surface that shows its front and is not buried; backs are looked through
-  // (lookup.hpp).
-  [[nodiscard]] std::array<std::optional<Place>, 16> seen16(const Eye& eye, std::span<const glm::dvec3> directions) const;
+  // (lookup.hpp). `outlines`: where those are as they are, not as those of meshes that stand in for slow objects.
+  [[nodiscard]] std::array<std::optional<Place>, 16> seen16(const Eye& eye, std::span<const glm::dvec3> directions, bool outlines) const;
 
   struct Indirect {
     Color irradiance{0.0};  // W/m2
-    double noise = 0.0;     // standard error of the channel where it is largest
     double nearness = 0.0;  // 1 / harmonic mean distance of what is seen, in the frame
-    std::uint32_t rays = 0;
   };
-  // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, multiples of 64, or more, until the noise is at
-  // most `noise`, or by `most`. `key` names the point: it fixes the rays.
-  [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t least, std::uint32_t most, double noise, std::uint64_t key) const;
+  // Light that comes to a point by reflection, or from what is no lamp: by so many rays, a multiple of 16. `key` names the point: it fixes
+  // the rays.
+  [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t rays, std::uint64_t key) const;
 
  private:
   // What a ray has met.
