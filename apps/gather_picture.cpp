@@ -68,8 +68,8 @@ class Painter {
     return each_block(0.0, 0.15, [&](std::size_t b) { glance(b); }) && each_block(0.15, 0.3, [&](std::size_t b) { look_closer(b); });
   }
   [[nodiscard]] bool gather();
-  [[nodiscard]] bool light_up(double exposure, Picture& picture) {
-    return each_block(0.7, 1.0, [&](std::size_t b) { light_block(b, exposure, picture); });
+  [[nodiscard]] bool light_up(const Tone& tone, Picture& picture) {
+    return each_block(0.7, 1.0, [&](std::size_t b) { light_block(b, tone, picture); });
   }
 
  private:
@@ -99,7 +99,7 @@ class Painter {
   [[nodiscard]] bool one_piece(const radiosity::FinalGather::Place& a, const radiosity::FinalGather::Place& b) const;
   void glance(std::size_t block);
   void look_closer(std::size_t block);
-  void light_block(std::size_t block, double exposure, Picture& picture);
+  void light_block(std::size_t block, const Tone& tone, Picture& picture);
   [[nodiscard]] double pixel_size(const glm::dvec3& p) const { return pixel_angle_ * glm::length(p - eye_.position); }
   [[nodiscard]] IndirectPoint gather_at(const Fragment& fragment) const;
 
@@ -329,7 +329,7 @@ void add_lamp(radiosity::LitRegion& region, std::size_t k, std::span<const std::
   for (const std::uint32_t i : own) { add(i, share[fragments[i].y % side][fragments[i].x % side]); }
 }
 
-void Painter::light_block(std::size_t block, double exposure, Picture& picture) {
+void Painter::light_block(std::size_t block, const Tone& tone, Picture& picture) {
   std::vector<Fragment>& fragments = blocks_[block];
   std::vector<std::uint32_t> order(fragments.size());
   std::vector<Color> irradiance(fragments.size(), Color{0.0});
@@ -370,26 +370,20 @@ void Painter::light_block(std::size_t block, double exposure, Picture& picture) 
     for (; next != fragments.end() && next->x == x && next->y == y; ++next) {
       const radiosity::Material& material = light_.material(next->place.surface);
       const Color b = material.emission + material.reflectance * irradiance[static_cast<std::size_t>(next - fragments.begin())];
-      sum += static_cast<double>(next->share) * shown(b, exposure);
+      sum += static_cast<double>(next->share) * tone(b);
       all += static_cast<double>(next->share) * b;
     }
-    const std::size_t pixel = std::size_t{y} * view_.size.width + x;
-    const Rgb8 rgb = to_rgb8(sum);
-    std::copy(rgb.begin(), rgb.end(), picture.rgb.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
-    picture.radiosity[pixel] = glm::vec3(all);
+    picture.set(std::size_t{y} * view_.size.width + x, sum, all);
   });
 }
 
 }  // namespace
 
-std::optional<Picture> draw(const radiosity::FinalGather& light, const View& view, double exposure, unsigned threads,
+std::optional<Picture> draw(const radiosity::FinalGather& light, const View& view, const Tone& tone, unsigned threads,
                             const radiosity::Control& control) {
-  Picture picture{view.size.width, view.size.height, {}, {}};
-  const std::size_t count = std::size_t{picture.width} * picture.height;
-  picture.rgb.resize(3 * count);
-  picture.radiosity.resize(count);
+  Picture picture{view.size.width, view.size.height};
   Painter painter{light, view, threads, control};
-  if (!painter.look() || !painter.gather() || !painter.light_up(exposure, picture)) { return std::nullopt; }
+  if (!painter.look() || !painter.gather() || !painter.light_up(tone, picture)) { return std::nullopt; }
   return picture;
 }
 

@@ -32,7 +32,7 @@ class Vertices {
 
 }  // namespace
 
-std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, double exposure) {
+std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, const Tone& tone) {
   Vertices vertices;
   std::string vertex_bytes;
   std::string face_bytes;
@@ -40,7 +40,7 @@ std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::Inp
     face_bytes += static_cast<char>(face.corner_count);
     for (std::uint32_t k = 0; k < face.corner_count; ++k) {
       const radiosity::MeshCorner& corner = mesh.corners[face.first_corner + k];
-      const Rgb8 rgb = to_rgb8(shown(corner.radiosity, exposure));
+      const Rgb8 rgb = to_rgb8(tone(corner.radiosity));
       const std::uint32_t before = vertices.size();
       put(face_bytes, vertices.index(corner.vertex, rgb));
       if (vertices.size() == before) { continue; }

@@ -15,8 +15,10 @@
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/scene.hpp>
 
+#include "apps/color.hpp"
+
 namespace apps {
 
-[[nodiscard]] std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, double exposure);
+[[nodiscard]] std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, const Tone& tone);
 
 }  // namespace apps

@@ -21,7 +21,7 @@ constexpr std::uint32_t nothing = 0x7fffffff, several = 0x7ffffffe;  // in place
 
 // What is known of a pixel from some of its samples.
 struct Glance {
-  Rgb8 rgb{};
+  radiosity::Color shown{0.0};      // mean
   radiosity::Color radiosity{0.0};  // mean
   std::uint32_t surface = several;  // that all samples have met
   bool even = true;                 // their colours differ by at most four of 255 levels
@@ -29,8 +29,7 @@ struct Glance {
 
 class Sampler {
  public:
-  Sampler(const radiosity::Lookup& lookup, const View& view, double exposure, unsigned samples)
-      : lookup_{lookup}, view_{view}, exposure_{exposure} {
+  Sampler(const radiosity::Lookup& lookup, const View& view, const Tone& tone, unsigned samples) : lookup_{lookup}, view_{view}, tone_{tone} {
     for (unsigned s = 0; s < samples * samples; ++s) {
       const unsigned x = s % samples, y = s / samples;
       const glm::dvec2 at{(x + 0.5) / samples, (y + 0.5) / samples};
@@ -62,7 +61,7 @@ class Sampler {
         Glance& glance = out[(done + k) / at.size()];
         const std::size_t sample = (done + k) % at.size();
         const radiosity::Color light = seen[k] ? seen[k]->radiosity : radiosity::Color(0.0);
-        const radiosity::Color color = shown(light, exposure_);
+        const radiosity::Color color = tone_(light);
         const std::uint32_t surface = seen[k] ? seen[k]->surface : nothing;
         const Rgb8 rgb = closer ? Rgb8{} : to_rgb8(color);
         if (sample == 0) { glance.surface = surface, sum = radiosity = radiosity::Color(0.0), least = most = rgb; }
@@ -75,7 +74,7 @@ class Sampler {
         }
         if (surface != glance.surface) { glance.surface = several; }
         if (sample + 1 == at.size()) {
-          glance.rgb = to_rgb8(sum / static_cast<double>(at.size()));
+          glance.shown = sum / static_cast<double>(at.size());
           glance.radiosity = radiosity / static_cast<double>(at.size());
         }
       }
@@ -85,24 +84,19 @@ class Sampler {
  private:
   const radiosity::Lookup& lookup_;
   const View& view_;
-  double exposure_;
+  Tone tone_;
   std::vector<glm::dvec2> few_, all_;
 };
 
 }  // namespace
 
-std::optional<Picture> draw(const radiosity::Lookup& lookup, const View& view, double exposure, unsigned threads, unsigned samples,
+std::optional<Picture> draw(const radiosity::Lookup& lookup, const View& view, const Tone& tone, unsigned threads, unsigned samples,
                             const radiosity::Control& control) {
-  Picture picture{view.size.width, view.size.height, {}, {}};
+  Picture picture{view.size.width, view.size.height};
   const std::size_t width = view.size.width, height = view.size.height, count = width * height;
-  picture.rgb.resize(3 * count);
-  picture.radiosity.resize(count);
-  const Sampler sampler(lookup, view, exposure, samples);
+  const Sampler sampler(lookup, view, tone, samples);
   std::vector<std::uint32_t> surfaces(count);  // of which the first bit: a close look is needed anyway
-  const auto paint = [&](std::size_t pixel, const Glance& glance) {
-    std::copy(glance.rgb.begin(), glance.rgb.end(), picture.rgb.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
-    picture.radiosity[pixel] = glm::vec3(glance.radiosity);
-  };
+  const auto paint = [&](std::size_t pixel, const Glance& glance) { picture.set(pixel, glance.shown, glance.radiosity); };
   constexpr std::size_t group = 4;  // pixels
   const auto glance_at = [&](std::size_t first) {
     std::array<Glance, group> glances;

@@ -20,7 +20,7 @@
 namespace apps {
 
 // Where there is no object the picture is black. Reports the stage "picture". Nothing when control.cancel became true.
-[[nodiscard]] std::optional<Picture> draw(const radiosity::Lookup& lookup, const View& view, double exposure, unsigned threads = 0,
+[[nodiscard]] std::optional<Picture> draw(const radiosity::Lookup& lookup, const View& view, const Tone& tone, unsigned threads = 0,
                                           unsigned samples = 4, const radiosity::Control& control = {});
 
 }  // namespace apps

@@ -11,6 +11,8 @@
 #include <radiosity/result/audit.hpp>
 #include <radiosity/scene/options.hpp>
 
+#include "apps/color.hpp"
+
 namespace apps {
 
 // What is drawn: the mesh; the true objects with its colours, or in light gathered for the picture.
@@ -33,6 +35,7 @@ struct Report {
   radiosity::Audit audit;
   double exposure = 1.0;
   bool automatic_exposure = true;
+  ToneCurve tone = ToneCurve::linear;
   std::optional<PictureReport> picture;
   std::optional<radiosity::StageTime> picture_time;  // drawing and encoding; not part of the total
   std::vector<std::string> files;                    // what was written

@@ -22,6 +22,7 @@
 #include "apps/commands/render_outputs.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/memory.hpp"
+#include "apps/picture_file.hpp"
 #include "apps/progress.hpp"
 #include "apps/text.hpp"
 
@@ -44,6 +45,10 @@ std::string size_fault(const std::string& text) {
   return "expected WIDTHxHEIGHT, each 1 to " + std::to_string(max_picture_side) + ", found '" + text + "'";
 }
 
+std::string exposure_fault(const std::string& text) {
+  return "expected a number above 0, or stops such as 1ev or -0.5ev, found '" + text + "'";
+}
+
 std::optional<Camera> choose_camera(const SceneFile& file, const std::string& name) {
   if (name.empty()) { return file.cameras.empty() ? automatic_camera(file.scene) : file.cameras.front(); }
   std::string known;
@@ -64,8 +69,8 @@ std::vector<std::string> all_outputs(const RenderOptions& options) {
 // Outputs that cannot become files are refused before any work.
 ExitCode check(const RenderOptions& options) {
   for (const std::string& path : options.outputs) {
-    if (!render_format(path)) {
-      complain("--output " + path + ": expected a name that ends with .png or .ply");
+    if (!picture_format(path) && !is_mesh(path)) {
+      complain("--output " + path + ": expected a name that ends with .png, .hdr, .pfm or .ply");
       return ExitCode::usage;
     }
   }
@@ -94,7 +99,7 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
 std::optional<std::uint64_t> memory_left(const RenderOptions& options, const Camera& camera) {
   const std::uint64_t held = resident_memory().value_or(0);
   const PictureSize size = options.size.value_or(camera.size.value_or(PictureSize{}));
-  constexpr std::uint64_t band = 20'000'000, pixel = 20;  // of samples; of colours and their coded form
+  constexpr std::uint64_t band = 20'000'000, pixel = 60;  // of samples; of colours and their coded form
   const std::uint64_t picture = has_picture(options) ? band + pixel * size.width * size.height : 0;
   if (held + picture >= *options.memory) {
     complain("--memory allows " + radiosity::memory_text(*options.memory) + ", but the program and the scene hold " +
@@ -141,9 +146,10 @@ ExitCode run(const RenderOptions& options) {
   if (settings.error && options.error_of.value_or(has_picture(options) ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
     control.picture_error = [&](const radiosity::Mesh& mesh, const radiosity::Frame& frame,
                                 const radiosity::AuditGoal& goal) -> std::optional<radiosity::PictureError> {
-      const auto picture = artist.draw(mesh, frame, control);
+      const Tone tone = artist.tone(mesh);
+      const auto picture = artist.draw(mesh, frame, tone, control);
       if (!picture) { return std::nullopt; }
-      return artist.audit(*picture, artist.exposure(mesh), goal, control);
+      return artist.audit(*picture, tone, goal, control);
     };
   }
   const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
@@ -157,8 +163,6 @@ ExitCode run(const RenderOptions& options) {
   report.options = settings;
   report.audit = solution.audit;
   leave_out_others(report.audit.stages);
-  report.automatic_exposure = !options.exposure;
-  report.exposure = artist.exposure(solution.mesh);
   const auto outputs = encode(options, *file, *camera, artist, solution, control, report);
   progress.done();
   if (!outputs) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
@@ -193,7 +197,7 @@ std::vector<Argument> arguments(RenderOptions& options) {
   return {
       scene_argument(options.scene),
       texts("-o,--output", "FILE", options.outputs,
-            "what to write: a picture (.png) or a mesh (.ply); repeat for more; without, the report alone", Argument::Values::repeated),
+            "what to write: a picture (.png; .hdr, .pfm: radiance) or a mesh (.ply); repeat for more; without, the report alone", Argument::Values::repeated),
       above_zero("--error", solver.error, 1.0, "refine until the measured relative L2 error is at most this"),
       one_of<std::optional<ErrorOf>, ErrorOf>(
           "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},
@@ -217,8 +221,10 @@ std::vector<Argument> arguments(RenderOptions& options) {
       one_of<PictureMethod, PictureMethod>(
           "--method", options.method, {{"mesh", PictureMethod::mesh}, {"raycast", PictureMethod::raycast}, {"gather", PictureMethod::gather}},
           "what the picture shows: mesh, the triangles of the solution, or raycast, the objects themselves with smooth outlines"),
-      above_zero("--exposure", options.exposure, std::numeric_limits<double>::max(),
-                 "factor from radiance to picture (default: automatic)"),
+      parsed("--exposure", "NUMBER", options.exposure, Exposure::parse, exposure_fault,
+             "factor from radiance to picture, or stops from the automatic one, such as 1ev or -0.5ev (default: automatic)"),
+      one_of<ToneCurve, ToneCurve>("--tone", options.tone, {{"linear", ToneCurve::linear}, {"filmic", ToneCurve::filmic}},
+                                   "linear: brightness proportional to light; filmic: bright tones are compressed as on film"),
       whole_number("--threads", solver.threads, 1, most_threads, "threads (default: all); results do not depend on it"),
       whole_number("--seed", solver.seed, 0, std::numeric_limits<std::uint64_t>::max(), "seed of all random choices"),
       whole_number("--audit", solver.audit_points, 0, 100'000'000, "points at which the error is measured; 0: none"),

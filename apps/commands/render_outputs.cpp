@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "apps/commands/render_outputs.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <ctime>
+#include <map>
+#include <system_error>
 #include <utility>
 
 #include <radiosity/audit/audit_effort.hpp>
@@ -21,8 +26,8 @@
 #include "apps/audited_picture.hpp"
 #include "apps/gather_picture.hpp"
 #include "apps/memory.hpp"
+#include "apps/picture_file.hpp"
 #include "apps/ply.hpp"
-#include "apps/png.hpp"
 #include "apps/raycast_picture.hpp"
 
 namespace apps {
@@ -42,50 +47,66 @@ class Stopwatch {
 
 }  // namespace
 
-std::optional<RenderFormat> render_format(const std::string& path) {
-  if (path.size() > 4 && path.ends_with(".png")) { return RenderFormat::png; }
-  if (path.size() > 4 && path.ends_with(".ply")) { return RenderFormat::ply; }
-  return std::nullopt;
+std::optional<Exposure> Exposure::parse(std::string_view text) {
+  const bool stops = text.ends_with("ev") || text.ends_with("EV");
+  if (stops) { text.remove_suffix(2); }
+  if (stops && text.starts_with('+')) { text.remove_prefix(1); }
+  double value = 0.0;
+  const auto [rest, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || rest != text.data() + text.size() || !std::isfinite(value)) { return std::nullopt; }
+  if (stops) { return std::abs(value) <= 64.0 ? std::optional(Exposure{std::exp2(value), true}) : std::nullopt; }
+  return value > 0.0 ? std::optional(Exposure{value, false}) : std::nullopt;
 }
+
+bool is_mesh(const std::string& path) { return path.size() > 4 && path.ends_with(".ply"); }
 
 bool has_picture(const RenderOptions& options) {
-  for (const std::string& output : options.outputs) {
-    if (render_format(output) == RenderFormat::png) { return true; }
-  }
-  return false;
+  return std::any_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) { return picture_format(path).has_value(); });
 }
 
-std::optional<Picture> Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Control& control) const {
-  const double by = exposure(mesh);
-  if (options_.method == PictureMethod::mesh) { return apps::draw(mesh, view_, by, 4, control.cancel); }
+Tone Artist::tone(const radiosity::Mesh& mesh) const {
+  const bool automatic = !options_.exposure || options_.exposure->of_automatic;
+  const double factor = options_.exposure ? options_.exposure->factor : 1.0;
+  return {automatic ? factor * automatic_exposure(mesh, file_.scene, view_) : factor, options_.tone};
+}
+
+std::optional<Picture> Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const Tone& tone,
+                                    const radiosity::Control& control) const {
+  if (options_.method == PictureMethod::mesh) { return apps::draw(mesh, view_, tone, 4, control.cancel); }
   if (options_.method == PictureMethod::gather) {
     const radiosity::FinalGather light{file_.scene, mesh, frame};
-    return apps::draw(light, view_, by, options_.solver.threads, control);
+    return apps::draw(light, view_, tone, options_.solver.threads, control);
   }
   const radiosity::Lookup lookup(file_.scene, mesh, frame);
-  return apps::draw(lookup, view_, by, options_.solver.threads, 4, control);
+  return apps::draw(lookup, view_, tone, options_.solver.threads, 4, control);
 }
 
-std::optional<radiosity::PictureError> Artist::audit(const Picture& picture, double exposure, const radiosity::AuditGoal& goal,
+std::optional<radiosity::PictureError> Artist::audit(const Picture& picture, const Tone& tone, const radiosity::AuditGoal& goal,
                                                      const radiosity::Control& control) {
   if (!asked_) {
     audit_ = radiosity::PictureAudit::make(file_.scene);
     asked_ = true;
   }
   if (!audit_) { return std::nullopt; }
-  return audit_->measure(audited(picture, view_, exposure), goal, options_.solver.threads, options_.solver.seed, control);
+  return audit_->measure(audited(picture, view_, tone), goal, options_.solver.threads, options_.solver.seed, control);
 }
 
 std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
                                                 const radiosity::Solution& solution, const radiosity::Control& control, Report& report) {
   if (control.cancelled()) { return std::nullopt; }
   std::vector<RenderOutput> outputs;
-  std::string png;
+  const Tone tone = artist.tone(solution.mesh);
+  report.exposure = tone.exposure;
+  report.tone = tone.curve;
+  report.automatic_exposure = !options.exposure || options.exposure->of_automatic;
+  std::map<PictureFormat, std::string> pictures;
   if (has_picture(options)) {
     const Stopwatch watch;
-    const auto picture = artist.draw(solution.mesh, solution.frame, control);
+    const auto picture = artist.draw(solution.mesh, solution.frame, tone, control);
     if (!picture) { return std::nullopt; }
-    png = to_png(*picture);
+    for (const std::string& path : options.outputs) {
+      if (const auto format = picture_format(path); format && pictures[*format].empty()) { pictures[*format] = to_bytes(*picture, *format, tone); }
+    }
     report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
     std::vector<radiosity::StageTime> stages{watch.stop("picture")};
     leave_out_others(stages);
@@ -93,7 +114,7 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
     if (!report.audit.picture_error && options.solver.audit_points > 0) {
       const Stopwatch audit_watch;
       report.audit.picture_error =
-          artist.audit(*picture, report.exposure, radiosity::goal_to_know(report.audit, options.solver.audit_points), control);
+          artist.audit(*picture, tone, radiosity::goal_to_know(report.audit, options.solver.audit_points), control);
       stages = {audit_watch.stop("picture audit")};
       leave_out_others(stages);
       report.audit.stages.push_back(stages.front());
@@ -101,8 +122,8 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
     }
   }
   for (const std::string& path : options.outputs) {
-    const bool is_png = render_format(path) == RenderFormat::png;
-    outputs.push_back({path, is_png ? png : to_ply(solution.mesh, radiosity::surfaces(file.scene), report.exposure)});
+    const auto format = picture_format(path);
+    outputs.push_back({path, format ? pictures[*format] : to_ply(solution.mesh, radiosity::surfaces(file.scene), tone)});
     report.files.push_back(path);
   }
   if (!options.json.empty()) {

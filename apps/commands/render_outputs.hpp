@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <radiosity/audit/picture_error.hpp>
@@ -20,13 +21,23 @@ namespace apps {
 
 enum class ErrorOf { picture, surfaces };
 
+// As it was asked for.
+struct Exposure {
+  double factor = 1.0;
+  bool of_automatic = false;  // times the automatic one
+
+  // A factor above 0, or stops (powers of two) from the automatic exposure, such as 1ev or -0.5ev.
+  [[nodiscard]] static std::optional<Exposure> parse(std::string_view text);
+};
+
 struct RenderOptions {
   std::string scene;
-  std::vector<std::string> outputs;  // *.png, *.ply
+  std::vector<std::string> outputs;  // pictures and meshes, by their endings
   std::string json;                  // empty: none
   std::string camera;                // empty: the first of the file, or the automatic one
   std::optional<PictureSize> size;
-  std::optional<double> exposure;
+  std::optional<Exposure> exposure;
+  ToneCurve tone = ToneCurve::linear;
   PictureMethod method = PictureMethod::mesh;
   bool quiet = false;
   std::optional<ErrorOf> error_of;      // default: of the picture when there is one
@@ -34,11 +45,8 @@ struct RenderOptions {
   radiosity::Options solver;
 };
 
-enum class RenderFormat { png, ply };
-
 // By the ending of the name.
-[[nodiscard]] std::optional<RenderFormat> render_format(const std::string& path);
-
+[[nodiscard]] bool is_mesh(const std::string& path);
 [[nodiscard]] bool has_picture(const RenderOptions& options);
 
 // Draws a solution as it will be shown, and audits what it has drawn.
@@ -47,14 +55,12 @@ class Artist {
   Artist(const RenderOptions& options, const SceneFile& file, const Camera& camera)
       : options_{options}, file_{file}, view_{make_view(camera, options.size.value_or(camera.size.value_or(PictureSize{})))} {}
 
-  [[nodiscard]] double exposure(const radiosity::Mesh& mesh) const {
-    return options_.exposure ? *options_.exposure : automatic_exposure(mesh, file_.scene);
-  }
+  [[nodiscard]] Tone tone(const radiosity::Mesh& mesh) const;
   [[nodiscard]] PictureSize size() const { return view_.size; }
   // Nothing when interrupted.
-  [[nodiscard]] std::optional<Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame,
+  [[nodiscard]] std::optional<Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const Tone& tone,
                                             const radiosity::Control& control) const;
-  [[nodiscard]] std::optional<radiosity::PictureError> audit(const Picture& picture, double exposure, const radiosity::AuditGoal& goal,
+  [[nodiscard]] std::optional<radiosity::PictureError> audit(const Picture& picture, const Tone& tone, const radiosity::AuditGoal& goal,
                                                              const radiosity::Control& control);
 
  private:
