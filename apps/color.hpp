@@ -26,7 +26,7 @@ using Rgb8 = std::array<std::uint8_t, 3>;
 }
 
 // linear: brightness is proportional to light up to 1. filmic: dark tones get more contrast, bright ones approach 1 slowly, as on film;
-// 0.8 stays 0.8 (Narkowicz 2015, a fit of the ACES reference curve).
+// 0.8 is shown as 0.75 (Narkowicz 2015, a fit of the ACES reference curve).
 enum class ToneCurve { linear, filmic };
 inline constexpr const char* name(ToneCurve curve) { return curve == ToneCurve::linear ? "linear" : "filmic"; }
 

@@ -36,8 +36,8 @@ struct Fragment {
 };
 
 // Points of indirect light, by measurement: rays of each; radius of its ball by the harmonic mean distance of what it sees, and in pixels.
-constexpr std::uint32_t gathering_rays = 256;
-constexpr double part_of_distance = 0.25, least_pixels = 2.0, most_pixels = 20.0;
+constexpr std::uint32_t gathering_rays = 384;
+constexpr double part_of_distance = 0.2, least_pixels = 2.0, most_pixels = 20.0;
 
 constexpr std::uint32_t side = 8;                                                // of a block of pixels
 constexpr std::uint32_t no_surface = 0xffffffff, several_surfaces = 0xfffffffe;  // in place of the number of a surface

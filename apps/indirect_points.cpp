@@ -76,7 +76,7 @@ void IndirectPoints::fit(std::size_t i) {
   // About the weighted mean; what holds the slopes down where points are few or in line is small beside the ball.
   const double mu = u1 / w, mv = v1 / w;
   const radiosity::Color mean = e / w;
-  const double hold = 0.02 * w;
+  const double hold = 0.001 * w;
   const double a = uu - w * mu * mu + hold, b = uv - w * mu * mv, c = vv - w * mv * mv + hold;
   const radiosity::Color ru = eu - e * mu, rv = ev - e * mv;
   const double determinant = a * c - b * b;

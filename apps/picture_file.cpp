@@ -41,18 +41,6 @@ double threshold(std::uint32_t x, std::uint32_t y) {
   return 0.001 + 0.998 * fraction(52.9829189 * fraction(0.06711056 * x + 0.00583715 * y));
 }
 
-std::vector<std::uint8_t> dithered(const Picture& picture) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(3 * picture.shown.size());
-  for (std::size_t i = 0; i < picture.shown.size(); ++i) {
-    const double raise = threshold(static_cast<std::uint32_t>(i % picture.width), static_cast<std::uint32_t>(i / picture.width));
-    for (int c = 0; c < 3; ++c) {
-      bytes.push_back(static_cast<std::uint8_t>(std::floor(255.0 * srgb_encode(double{picture.shown[i][c]}) + raise)));
-    }
-  }
-  return bytes;
-}
-
 // ISO 3309, as PNG has it; bit by bit, for a few bytes.
 std::uint32_t crc32(std::string_view bytes) {
   std::uint32_t crc = 0xffffffff;
@@ -123,6 +111,18 @@ std::optional<PictureFormat> picture_format(const std::string& path) {
   if (path.ends_with(".hdr")) { return PictureFormat::hdr; }
   if (path.ends_with(".pfm")) { return PictureFormat::pfm; }
   return std::nullopt;
+}
+
+std::vector<std::uint8_t> dithered(const Picture& picture) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(3 * picture.shown.size());
+  for (std::size_t i = 0; i < picture.shown.size(); ++i) {
+    const double raise = threshold(static_cast<std::uint32_t>(i % picture.width), static_cast<std::uint32_t>(i / picture.width));
+    for (int c = 0; c < 3; ++c) {
+      bytes.push_back(static_cast<std::uint8_t>(std::floor(255.0 * srgb_encode(double{picture.shown[i][c]}) + raise)));
+    }
+  }
+  return bytes;
 }
 
 std::string to_png(const Picture& picture, const Tone& tone) {

@@ -9,8 +9,10 @@
 //   .hdr  radiance, W/m2/sr, linear, without exposure: Radiance RGBE (Ward 1991); exact to 1 % of the largest channel.
 //   .pfm  the same in single precision: portable float map, little-endian, rows from the bottom. The format has no place for comments.
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/color.hpp"
 #include "apps/picture.hpp"
@@ -21,6 +23,9 @@ enum class PictureFormat { png, hdr, pfm };
 
 // By the ending of the name.
 [[nodiscard]] std::optional<PictureFormat> picture_format(const std::string& path);
+
+// What a PNG shows: 3 bytes a pixel, rows from the top.
+[[nodiscard]] std::vector<std::uint8_t> dithered(const Picture& picture);
 
 // Empty when memory ran out. `tone` is that of the picture; it says nothing about radiance.
 [[nodiscard]] std::string to_bytes(const Picture& picture, PictureFormat format, const Tone& tone);

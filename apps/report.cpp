@@ -137,7 +137,7 @@ class Text {
     if (report_.options.reconstruction != radiosity::Reconstruction::none) {
       say("exposure, tone", "{exposure}" + std::string(report_.automatic_exposure ? " (automatic)" : "") + ", {tone}");
     }
-    constexpr const char* shows[] = {"of the mesh", "of the objects (raycast)", "of the objects, in gathered light"};
+    constexpr const char* shows[] = {"of the mesh", "of the objects, in gathered light"};
     const auto method = static_cast<std::size_t>(report_.picture ? report_.picture->method : PictureMethod::mesh);
     say("picture", std::string("{picture.width} x {picture.height}, ") + shows[method] + ", camera {picture.camera}");
   }

@@ -15,10 +15,10 @@
 
 namespace apps {
 
-// What is drawn: the mesh; the true objects with its colours, or in light gathered for the picture.
-enum class PictureMethod { mesh, raycast, gather };
+// What is drawn: the mesh, or the true objects in light gathered for the picture.
+enum class PictureMethod { mesh, gather };
 inline constexpr const char* name(PictureMethod method) {
-  constexpr const char* names[] = {"mesh", "raycast", "gather"};
+  constexpr const char* names[] = {"mesh", "gather"};
   return names[static_cast<int>(method)];
 }
 

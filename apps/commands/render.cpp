@@ -132,8 +132,7 @@ ExitCode run(const RenderOptions& options) {
   const auto camera = choose_camera(*file, options.camera);
   if (!camera) { return ExitCode::usage; }
 
-  radiosity::Options settings = options.solver;
-  if (options.outputs.empty()) { settings.reconstruction = radiosity::Reconstruction::none; }
+  radiosity::Options settings = solver_options(options);
   if (options.memory) {
     settings.memory = memory_left(options, *camera);
     if (!settings.memory) { return ExitCode::failure; }
@@ -210,17 +209,23 @@ std::vector<Argument> arguments(RenderOptions& options) {
       bf(above_zero("--time", solver.time, 1e6,
                     "BF-refinement, what promises most first, for this many seconds; the audit and the picture come on top"))
           .without({"--error", "--target"}),
-      above_zero("--epsilon", solver.epsilon, 1.0, "largest form factor of a link (default " + formatted("%g", solver.epsilon) + ")")
+      above_zero("--epsilon", options.epsilon, 1.0,
+                 "largest form factor of a link (default " + formatted("%g", solver.epsilon) + "; of a picture by gather alone " +
+                     formatted("%g", gathered_epsilon) + ")")
           .without(ends),
-      above_zero("--min-area", solver.min_area, 1.0, "smallest patch, relative to the area of the scene").without(ends),
+      above_zero("--min-area", options.min_area, 1.0,
+                 "smallest patch, relative to the area of the scene (default " + formatted("%g", solver.min_area) +
+                     "; of a picture by gather alone " + formatted("%g", gathered_min_area) + ")")
+          .without(ends),
       above_zero("--light-epsilon", solver.light_epsilon, 1.0,
                  "share of the error that the light of a lamp may cause by varying over one patch (default: a quarter of epsilon)")
           .without(ends),
       text("--camera", "TEXT", options.camera, "camera of the scene (default: the first; without any, an automatic view)"),
       parsed("--size", "WxH", options.size, parse_size, size_fault, "picture size in pixels (default: the camera's, else 800x600)"),
       one_of<PictureMethod, PictureMethod>(
-          "--method", options.method, {{"mesh", PictureMethod::mesh}, {"raycast", PictureMethod::raycast}, {"gather", PictureMethod::gather}},
-          "what the picture shows: mesh, the triangles of the solution, or raycast, the objects themselves with smooth outlines"),
+          "--method", options.method, {{"mesh", PictureMethod::mesh}, {"gather", PictureMethod::gather}},
+          "gather: the objects, in direct light found for each pixel and indirect light gathered from the solution (default); mesh: the "
+          "triangles of the solution"),
       parsed("--exposure", "NUMBER", options.exposure, Exposure::parse, exposure_fault,
              "factor from radiance to picture, or stops from the automatic one, such as 1ev or -0.5ev (default: automatic)"),
       one_of<ToneCurve, ToneCurve>("--tone", options.tone, {{"linear", ToneCurve::linear}, {"filmic", ToneCurve::filmic}},

@@ -13,7 +13,6 @@
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/audit/picture_error.hpp>
 #include <radiosity/picture/final_gather.hpp>
-#include <radiosity/picture/lookup.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
@@ -28,7 +27,6 @@
 #include "apps/memory.hpp"
 #include "apps/picture_file.hpp"
 #include "apps/ply.hpp"
-#include "apps/raycast_picture.hpp"
 
 namespace apps {
 namespace {
@@ -50,7 +48,7 @@ class Stopwatch {
 std::optional<Exposure> Exposure::parse(std::string_view text) {
   const bool stops = text.ends_with("ev") || text.ends_with("EV");
   if (stops) { text.remove_suffix(2); }
-  if (stops && text.starts_with('+')) { text.remove_prefix(1); }
+  if (stops && text.starts_with('+') && !text.starts_with("+-")) { text.remove_prefix(1); }
   double value = 0.0;
   const auto [rest, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (code != std::errc() || rest != text.data() + text.size() || !std::isfinite(value)) { return std::nullopt; }
@@ -64,6 +62,20 @@ bool has_picture(const RenderOptions& options) {
   return std::any_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) { return picture_format(path).has_value(); });
 }
 
+radiosity::Options solver_options(const RenderOptions& options) {
+  radiosity::Options solver = options.solver;
+  const bool mesh_is_seen =
+      options.method != PictureMethod::gather || std::any_of(options.outputs.begin(), options.outputs.end(), is_mesh);
+  if (has_picture(options) && !mesh_is_seen) {
+    solver.epsilon = gathered_epsilon;
+    solver.min_area = gathered_min_area;
+  }
+  solver.epsilon = options.epsilon.value_or(solver.epsilon);
+  solver.min_area = options.min_area.value_or(solver.min_area);
+  if (options.outputs.empty()) { solver.reconstruction = radiosity::Reconstruction::none; }
+  return solver;
+}
+
 Tone Artist::tone(const radiosity::Mesh& mesh) const {
   const bool automatic = !options_.exposure || options_.exposure->of_automatic;
   const double factor = options_.exposure ? options_.exposure->factor : 1.0;
@@ -73,12 +85,8 @@ Tone Artist::tone(const radiosity::Mesh& mesh) const {
 std::optional<Picture> Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const Tone& tone,
                                     const radiosity::Control& control) const {
   if (options_.method == PictureMethod::mesh) { return apps::draw(mesh, view_, tone, 4, control.cancel); }
-  if (options_.method == PictureMethod::gather) {
-    const radiosity::FinalGather light{file_.scene, mesh, frame};
-    return apps::draw(light, view_, tone, options_.solver.threads, control);
-  }
-  const radiosity::Lookup lookup(file_.scene, mesh, frame);
-  return apps::draw(lookup, view_, tone, options_.solver.threads, 4, control);
+  const radiosity::FinalGather light{file_.scene, mesh, frame};
+  return apps::draw(light, view_, tone, options_.solver.threads, control);
 }
 
 std::optional<radiosity::PictureError> Artist::audit(const Picture& picture, const Tone& tone, const radiosity::AuditGoal& goal,

@@ -19,6 +19,9 @@
 
 namespace apps {
 
+// By measurement: what a picture in gathered light needs of the solution.
+inline constexpr double gathered_epsilon = 0.01, gathered_min_area = 2e-4;
+
 enum class ErrorOf { picture, surfaces };
 
 // As it was asked for.
@@ -38,7 +41,8 @@ struct RenderOptions {
   std::optional<PictureSize> size;
   std::optional<Exposure> exposure;
   ToneCurve tone = ToneCurve::linear;
-  PictureMethod method = PictureMethod::mesh;
+  PictureMethod method = PictureMethod::gather;
+  std::optional<double> epsilon, min_area;  // default: what suits the outputs
   bool quiet = false;
   std::optional<ErrorOf> error_of;      // default: of the picture when there is one
   std::optional<std::uint64_t> memory;  // bytes that the process may hold
@@ -48,6 +52,10 @@ struct RenderOptions {
 // By the ending of the name.
 [[nodiscard]] bool is_mesh(const std::string& path);
 [[nodiscard]] bool has_picture(const RenderOptions& options);
+
+// The solution's settings as they are asked for. What is seen in gathered light alone is solved coarser: direct light is found anew,
+// and what the mesh smears is averaged over all that a point sees, so that time does more for the picture than for the mesh.
+[[nodiscard]] radiosity::Options solver_options(const RenderOptions& options);
 
 // Draws a solution as it will be shown, and audits what it has drawn.
 class Artist {
