@@ -22,7 +22,6 @@
 #include "apps/commands/render_outputs.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/memory.hpp"
-#include "apps/picture_file.hpp"
 #include "apps/progress.hpp"
 #include "apps/text.hpp"
 
@@ -69,7 +68,7 @@ std::vector<std::string> all_outputs(const RenderOptions& options) {
 // Outputs that cannot become files are refused before any work.
 ExitCode check(const RenderOptions& options) {
   for (const std::string& path : options.outputs) {
-    if (!picture_format(path) && !is_mesh(path)) {
+    if (!render_format(path)) {
       complain("--output " + path + ": expected a name that ends with .png, .hdr, .pfm or .ply");
       return ExitCode::usage;
     }

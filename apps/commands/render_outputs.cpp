@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <map>
 #include <system_error>
 #include <utility>
 
@@ -25,8 +24,9 @@
 #include "apps/audited_picture.hpp"
 #include "apps/gather_picture.hpp"
 #include "apps/memory.hpp"
-#include "apps/picture_file.hpp"
 #include "apps/ply.hpp"
+#include "apps/png.hpp"
+#include "apps/radiance_file.hpp"
 
 namespace apps {
 namespace {
@@ -43,6 +43,11 @@ class Stopwatch {
   std::clock_t cpu_ = std::clock();
 };
 
+bool is_picture(const std::string& path) {
+  const auto format = render_format(path);
+  return format && *format != RenderFormat::ply;
+}
+
 }  // namespace
 
 std::optional<Exposure> Exposure::parse(std::string_view text) {
@@ -56,16 +61,21 @@ std::optional<Exposure> Exposure::parse(std::string_view text) {
   return value > 0.0 ? std::optional(Exposure{value, false}) : std::nullopt;
 }
 
-bool is_mesh(const std::string& path) { return path.size() > 4 && path.ends_with(".ply"); }
-
-bool has_picture(const RenderOptions& options) {
-  return std::any_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) { return picture_format(path).has_value(); });
+std::optional<RenderFormat> render_format(const std::string& path) {
+  if (path.size() <= 4) { return std::nullopt; }
+  if (path.ends_with(".png")) { return RenderFormat::png; }
+  if (path.ends_with(".hdr")) { return RenderFormat::hdr; }
+  if (path.ends_with(".pfm")) { return RenderFormat::pfm; }
+  if (path.ends_with(".ply")) { return RenderFormat::ply; }
+  return std::nullopt;
 }
+
+bool has_picture(const RenderOptions& options) { return std::any_of(options.outputs.begin(), options.outputs.end(), is_picture); }
 
 radiosity::Options solver_options(const RenderOptions& options) {
   radiosity::Options solver = options.solver;
   const bool mesh_is_seen =
-      options.method != PictureMethod::gather || std::any_of(options.outputs.begin(), options.outputs.end(), is_mesh);
+      options.method != PictureMethod::gather || !std::all_of(options.outputs.begin(), options.outputs.end(), is_picture);
   if (has_picture(options) && !mesh_is_seen) {
     solver.epsilon = gathered_epsilon;
     solver.min_area = gathered_min_area;
@@ -107,13 +117,16 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
   report.exposure = tone.exposure;
   report.tone = tone.curve;
   report.automatic_exposure = !options.exposure || options.exposure->of_automatic;
-  std::map<PictureFormat, std::string> pictures;
+  std::string png, hdr, pfm;
   if (has_picture(options)) {
     const Stopwatch watch;
     const auto picture = artist.draw(solution.mesh, solution.frame, tone, control);
     if (!picture) { return std::nullopt; }
     for (const std::string& path : options.outputs) {
-      if (const auto format = picture_format(path); format && pictures[*format].empty()) { pictures[*format] = to_bytes(*picture, *format, tone); }
+      const auto format = render_format(path);
+      if (format == RenderFormat::png && png.empty()) { png = to_png(*picture, tone); }
+      if (format == RenderFormat::hdr && hdr.empty()) { hdr = to_hdr(*picture); }
+      if (format == RenderFormat::pfm && pfm.empty()) { pfm = to_pfm(*picture); }
     }
     report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
     std::vector<radiosity::StageTime> stages{watch.stop("picture")};
@@ -130,8 +143,13 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
     }
   }
   for (const std::string& path : options.outputs) {
-    const auto format = picture_format(path);
-    outputs.push_back({path, format ? pictures[*format] : to_ply(solution.mesh, radiosity::surfaces(file.scene), tone)});
+    outputs.push_back({path, {}});
+    switch (*render_format(path)) {
+      case RenderFormat::png: outputs.back().bytes = png; break;
+      case RenderFormat::hdr: outputs.back().bytes = hdr; break;
+      case RenderFormat::pfm: outputs.back().bytes = pfm; break;
+      case RenderFormat::ply: outputs.back().bytes = to_ply(solution.mesh, radiosity::surfaces(file.scene), tone); break;
+    }
     report.files.push_back(path);
   }
   if (!options.json.empty()) {

@@ -49,8 +49,11 @@ struct RenderOptions {
   radiosity::Options solver;
 };
 
+enum class RenderFormat { png, hdr, pfm, ply };
+
 // By the ending of the name.
-[[nodiscard]] bool is_mesh(const std::string& path);
+[[nodiscard]] std::optional<RenderFormat> render_format(const std::string& path);
+
 [[nodiscard]] bool has_picture(const RenderOptions& options);
 
 // The solution's settings as they are asked for. What is seen in gathered light alone is solved coarser: direct light is found anew,

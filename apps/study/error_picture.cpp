@@ -14,7 +14,7 @@
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
 
-#include "apps/picture_file.hpp"
+#include "apps/png.hpp"
 #include "apps/study/numbers.hpp"
 
 namespace study {

@@ -6,7 +6,7 @@
 #include <radiosity/support/left_out.hpp>
 
 #include "apps/markup.hpp"
-#include "apps/picture_file.hpp"
+#include "apps/png.hpp"
 #include "apps/study/base64.hpp"
 #include "apps/study/error_picture.hpp"
 #include "apps/study/figures.hpp"

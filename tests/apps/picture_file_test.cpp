@@ -14,7 +14,8 @@
 
 #include "apps/commands/render_outputs.hpp"
 #include "apps/picture.hpp"
-#include "apps/picture_file.hpp"
+#include "apps/png.hpp"
+#include "apps/radiance_file.hpp"
 
 namespace {
 
@@ -65,7 +66,7 @@ TEST_CASE("a PNG has its signature, its size and its exposure, chunk by chunk") 
 
 TEST_CASE("a PFM holds the radiance in single precision, rows from the bottom") {
   const apps::Picture picture = any_picture(1);
-  const std::string pfm = apps::to_bytes(picture, apps::PictureFormat::pfm, {});
+  const std::string pfm = apps::to_pfm(picture);
   const std::string header = "PF\n37 11\n-1.0\n";
   REQUIRE(pfm.substr(0, header.size()) == header);
   REQUIRE(pfm.size() == header.size() + 37 * 11 * 12);
@@ -84,7 +85,7 @@ TEST_CASE("an HDR holds the radiance to half a 128th of its largest channel, and
   CAPTURE(seed);
   apps::Picture picture = any_picture(seed);
   picture.set(5, Color{0.0}, Color{0.0});
-  const std::string hdr = apps::to_bytes(picture, apps::PictureFormat::hdr, {});
+  const std::string hdr = apps::to_hdr(picture);
   const std::string size = "\n\n-Y 11 +X 37\n";
   CHECK(hdr.substr(0, 11) == "#?RADIANCE\n");
   CHECK(hdr.find("W/m2/sr") < hdr.find(size));

@@ -182,16 +182,20 @@ TEST_CASE("direct light: shadows are those of segments, whatever stands between"
   }
 }
 
-TEST_CASE("direct light: the strongest lamps are taken, within the limits", "[direct]") {
+TEST_CASE("direct light: the strongest lamps are taken, within the limits; flat ones however large", "[direct]") {
   Scene scene = floor_under_lamp(0.2);
-  scene.materials.push_back({"dim", Color{0.5}, Color{0.1}});
-  scene.objects[0].material = {2};
+  scene.objects.push_back(scenes::object("ball", raycast::Sphere::make({0, 0, 0.5}, 0.2).object, 1));
   const auto prepared = std::move(*radiosity::prepare(scene).prepared);
-  const std::vector<Color> emission{Color{0.1}, Color{1.0}};
-  const radiosity::DirectLight by_area{prepared.objects, prepared.surfaces, emission};  // the floor is far more than a tenth
-  REQUIRE(by_area.lamps().size() == 1);
-  CHECK(by_area.is_lamp(1));
-  CHECK_FALSE(by_area.is_lamp(0));
-  CHECK(radiosity::DirectLight(prepared.objects, prepared.surfaces, emission, {64, 1.0}).lamps().size() == 2);
-  CHECK(radiosity::DirectLight(prepared.objects, prepared.surfaces, emission, {1, 1.0}).lamps().size() == 1);
+  const std::vector<Color> emission{Color{0.1}, Color{1.0}, Color{2.0}};  // of the floor, the square, the ball
+  const auto lamps = [&](const radiosity::LampLimits& limits) {
+    return radiosity::DirectLight{prepared.objects, prepared.surfaces, emission, limits};
+  };
+  const radiosity::DirectLight flat = lamps({64, 0.01});  // the ball is a tenth of the scene's area
+  REQUIRE(flat.lamps().size() == 2);
+  CHECK(flat.is_lamp(0));
+  CHECK(flat.is_lamp(1));
+  CHECK_FALSE(flat.is_lamp(2));
+  CHECK(lamps({64, 1.0}).lamps().size() == 3);
+  REQUIRE(lamps({1, 1.0}).lamps().size() == 1);
+  CHECK(lamps({1, 1.0}).is_lamp(2));
 }

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "apps/picture_file.hpp"
+#include "apps/png.hpp"
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <numbers>
 #include <string_view>
-#include <vector>
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
@@ -30,10 +25,6 @@
 
 namespace apps {
 namespace {
-
-void append(void* out, void* data, int size) {
-  static_cast<std::string*>(out)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-}
 
 // A threshold between 0 and 1 for the pixel. It keeps off both ends, so that values that are a level, but for rounding, stay that level.
 double threshold(std::uint32_t x, std::uint32_t y) {
@@ -63,55 +54,7 @@ std::string text_chunk(std::string_view key, std::string_view text) {
   return big_endian(static_cast<std::uint32_t>(body.size() - 4)) + body + big_endian(crc32(body));
 }
 
-std::vector<float> radiance(const Picture& picture) {
-  std::vector<float> values;
-  values.reserve(3 * picture.radiosity.size());
-  for (const glm::vec3& b : picture.radiosity) {
-    for (int c = 0; c < 3; ++c) { values.push_back(static_cast<float>(double{b[c]} * std::numbers::inv_pi)); }
-  }
-  return values;
-}
-
-// Not compressed. Mantissas are scaled so that the largest is 128 or more, and no pixel looks like the beginning of a compressed row.
-std::string to_hdr(const Picture& picture) {
-  std::string bytes = "#?RADIANCE\n# linear radiance, W/m2/sr\nFORMAT=32-bit_rle_rgbe\n\n-Y ";
-  bytes += std::to_string(picture.height) + " +X " + std::to_string(picture.width) + "\n";
-  const std::vector<float> values = radiance(picture);
-  for (std::size_t i = 0; i < values.size(); i += 3) {
-    int exponent = 0;
-    const float largest = std::max({values[i], values[i + 1], values[i + 2]});
-    std::frexp(largest, &exponent);
-    const bool black = !(largest > 0.0f) || exponent < -127;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float mantissa = black ? 0.0f : std::ldexp(std::max(values[i + c], 0.0f), 8 - exponent);
-      bytes += static_cast<char>(static_cast<std::uint8_t>(std::min(mantissa, 255.0f)));
-    }
-    bytes += static_cast<char>(static_cast<std::uint8_t>(black ? 0 : std::min(exponent + 128, 255)));
-  }
-  return bytes;
-}
-
-std::string to_pfm(const Picture& picture) {
-  static_assert(std::endian::native == std::endian::little, "the scale below says little-endian");
-  const std::vector<float> values = radiance(picture);
-  std::string bytes = "PF\n";
-  bytes += std::to_string(picture.width) + " " + std::to_string(picture.height) + "\n-1.0\n";
-  const std::size_t row = 3 * std::size_t{picture.width};
-  for (std::size_t y = picture.height; y-- > 0;) {
-    bytes.append(reinterpret_cast<const char*>(values.data() + y * row), row * sizeof(float));
-  }
-  return bytes;
-}
-
 }  // namespace
-
-std::optional<PictureFormat> picture_format(const std::string& path) {
-  if (path.size() <= 4) { return std::nullopt; }
-  if (path.ends_with(".png")) { return PictureFormat::png; }
-  if (path.ends_with(".hdr")) { return PictureFormat::hdr; }
-  if (path.ends_with(".pfm")) { return PictureFormat::pfm; }
-  return std::nullopt;
-}
 
 std::vector<std::uint8_t> dithered(const Picture& picture) {
   std::vector<std::uint8_t> bytes;
@@ -127,19 +70,13 @@ std::vector<std::uint8_t> dithered(const Picture& picture) {
 
 std::string to_png(const Picture& picture, const Tone& tone) {
   std::string bytes;
+  const auto append = [](void* out, void* data, int size) {
+    static_cast<std::string*>(out)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+  };
   const int width = static_cast<int>(picture.width), height = static_cast<int>(picture.height);
   if (stbi_write_png_to_func(append, &bytes, width, height, 3, dithered(picture).data(), 3 * width) == 0) { return {}; }
   constexpr std::size_t header = 8 + 25;  // the signature, and the chunk that comes first
   return bytes.insert(header, text_chunk("Exposure", formatted("%.6g", tone.exposure) + " per W/m2/sr, tone " + name(tone.curve)));
-}
-
-std::string to_bytes(const Picture& picture, PictureFormat format, const Tone& tone) {
-  switch (format) {
-    case PictureFormat::hdr: return to_hdr(picture);
-    case PictureFormat::pfm: return to_pfm(picture);
-    case PictureFormat::png: break;
-  }
-  return to_png(picture, tone);
 }
 
 }  // namespace apps
