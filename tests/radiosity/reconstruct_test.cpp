@@ -18,9 +18,13 @@
 #include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/picture/reconstruct.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 #include <radiosity/visibility/prepare.hpp>
@@ -144,5 +148,61 @@ TEST_CASE("a buried leaf beside an exposed one takes the light of its neighbours
     CAPTURE(name(kind));
     for_corners(reconstructed(scene, kind, light),
                 [&](const radiosity::SurfaceBRep& brep, brep::HalfedgeId h) { CHECK(brep.data(h).radiosity.x == test::Approx(1.0)); });
+  }
+}
+
+// A square lamp lies in a square ceiling, both facing down, anywhere: over the edge, too. Each place of their plane is then shown by one face.
+// Points within 1e-6 of an edge belong to two.
+TEST_CASE("of surfaces that lie on each other the mesh has one") {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    CAPTURE(seed);
+    radiosity::Random random{seed, 0};
+    const glm::dvec3 centre{1.2 * random.uniform() - 0.6, 1.2 * random.uniform() - 0.6, 1.0};
+    const double r = 0.1 + 0.3 * random.uniform();
+    radiosity::Scene scene{{{"grey", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}}}, {}};
+    scene.objects = {scenes::square("ceiling", {0, 0, 1}, 1.0, false), scenes::square("floor", {0, 0, 0}, 1.0, true),
+                     scenes::square("lamp", centre, r, false, 1)};
+    radiosity::Options options;
+    options.epsilon = 0.05;
+    options.min_area = 1e-3;
+    options.audit_points = 0;
+    const auto outcome = radiosity::solve(scene, options);
+    REQUIRE(outcome.solution);
+    const radiosity::Mesh& mesh = outcome.solution->mesh;
+    for (int k = 0; k < 300; ++k) {
+      const glm::dvec2 p{2.4 * random.uniform() - 1.2, 2.4 * random.uniform() - 1.2};
+      int faces = 0;
+      double nearest = 1.0;
+      for (const radiosity::MeshFace& face : mesh.faces) {
+        if (face.surface == 1) { continue; }
+        double least = 1.0;  // distance from an edge, inwards; faces are clockwise seen from above
+        for (std::uint32_t c = 0; c < face.corner_count; ++c) {
+          const glm::dvec2 a{mesh.positions[mesh.corners[face.first_corner + c].vertex]};
+          const glm::dvec2 b{mesh.positions[mesh.corners[face.first_corner + (c + 1) % face.corner_count].vertex]};
+          const glm::dvec2 d = glm::normalize(b - a);
+          least = std::min(least, d.y * (p.x - a.x) - d.x * (p.y - a.y));
+        }
+        nearest = std::min(nearest, std::abs(least));
+        faces += least > 0.0 ? 1 : 0;
+      }
+      const auto within = [&](const glm::dvec3& c, double half) { return std::max(std::abs(p.x - c.x), std::abs(p.y - c.y)) < half; };
+      if (nearest > 1e-6) { CHECK(faces == (within({0, 0, 0}, 1.0) || within(centre, r) ? 1 : 0)); }
+    }
+  }
+}
+
+TEST_CASE("corners of the mesh have the normals of the true surface, each side of a crease its own") {
+  const auto outcome = radiosity::solve(lone(raycast::Cylinder::make({1, 2, 3}, {1, 2, 5}, 0.5).object), {});
+  REQUIRE(outcome.solution);
+  const radiosity::Mesh& mesh = outcome.solution->mesh;
+  REQUIRE_FALSE(mesh.faces.empty());
+  for (const radiosity::MeshFace& face : mesh.faces) {
+    for (std::uint32_t c = 0; c < face.corner_count; ++c) {
+      const radiosity::MeshCorner& corner = mesh.corners[face.first_corner + c];
+      const glm::dvec3 p = mesh.positions[corner.vertex] - glm::dvec3{1, 2, 3};
+      const glm::dvec3 n{corner.normal};
+      const bool side = std::abs(n.z) < 0.5;
+      CHECK(glm::length(n - (side ? glm::normalize(glm::dvec3{p.x, p.y, 0.0}) : glm::dvec3{0, 0, p.z > 1.0 ? 1.0 : -1.0})) < 1e-6);
+    }
   }
 }
