@@ -35,8 +35,9 @@ struct Fragment {
   glm::dvec3 positions{0.0}, normals{0.0};  // sums over its rays
 };
 
-// Points of indirect light, by measurement: rays of each; radius of its ball by the harmonic mean distance of what it sees, and in pixels.
-constexpr std::uint32_t gathering_rays = 384;
+// Points of indirect light, by measurement: rays of each, and the share of its light at which they are enough; radius of its ball by the harmonic mean distance of what it sees, and in pixels.
+constexpr std::uint32_t least_rays = 256, most_rays = 1024;
+constexpr double ray_error = 0.03;
 constexpr double part_of_distance = 0.2, least_pixels = 2.0, most_pixels = 20.0;
 
 constexpr std::uint32_t side = 8;                                                // of a block of pixels
@@ -216,7 +217,7 @@ void Painter::look_closer(std::size_t block) {
 
 IndirectPoint Painter::gather_at(const Fragment& fragment) const {
   const std::uint64_t key = radiosity::scramble(std::size_t{fragment.y} * view_.size.width + fragment.x) ^ fragment.place.surface;
-  const auto found = light_.indirect(fragment.place, gathering_rays, key);
+  const auto found = light_.indirect(fragment.place, least_rays, most_rays, ray_error, key);
   IndirectPoint point;
   point.position = fragment.place.point.position;
   point.normal = fragment.place.point.normal;

@@ -111,21 +111,31 @@ HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::
   return result;
 }
 
-HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t rays, std::uint64_t key) const {
+HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most,
+                                                             double error, std::uint64_t key) const {
   const Sobol4 sequence{1, key};
   const double reach = objects().diameter();
   const double lift = direct_.lift(place.object);
   const glm::dvec3 from = place.point.position + lift * place.point.normal;
   const std::uint32_t owner = lift > 0.0 ? raycast::no_object : place.object;
   Color sum{0.0};
+  std::array<double, 4> part{};  // of the rays, by fours of sixteen: their spread is the standard error
   double nearness = 0.0;
-  for (std::uint32_t first = 0; first < rays; first += 16) {
+  std::uint32_t rays = 0;
+  const auto exact_enough = [&] {
+    double squares = 0.0;
+    const double mean = (part[0] + part[1] + part[2] + part[3]) / 4.0;
+    for (const double p : part) { squares += (p - mean) * (p - mean) / 12.0; }
+    return squares <= error * error * mean * mean;
+  };
+  for (; rays < least || (rays < most && (rays % 64 != 0 || !exact_enough())); rays += 16) {
     raycast::Segments16 segments;
     for (unsigned k = 0; k < 16; ++k) {
-      const std::array<double, 4> u = sequence(first + k);
+      const std::array<double, 4> u = sequence(rays + k);
       segments.set(k, {from, reach * cosine_direction(place.point.normal, u[0], u[1])}, owner, raycast::no_object);
     }
     const raycast::Hits16 hits = direct_.objects().closest16(segments);
+    const Color before = sum;
     for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
       const auto k = static_cast<unsigned>(std::countr_zero(rest));
       const raycast::Hit& hit = hits.hit[k];
@@ -140,6 +150,8 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
       }
       if (const std::optional<Color> light = lookup_.at(found.object, found.sheet, found.point)) { sum += *light - lamp; }
     }
+    const Color added = sum - before;
+    part[rays / 16 % 4] += added.x + added.y + added.z;
   }
   return {sum / static_cast<double>(rays), nearness / static_cast<double>(rays)};
 }

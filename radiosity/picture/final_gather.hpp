@@ -60,9 +60,9 @@ class FinalGather {
     Color irradiance{0.0};  // W/m2
     double nearness = 0.0;  // 1 / harmonic mean distance of what is seen, in the frame
   };
-  // Light that comes to a point by reflection, or from what is no lamp: by so many rays, a multiple of 16. `key` names the point: it fixes
-  // the rays.
-  [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t rays, std::uint64_t key) const;
+  // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a multiple of 64, or as many more, up to `most`, as it
+  // takes for the standard error to fall to this share of the light. `key` names the point: it fixes the rays.
+  [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error, std::uint64_t key) const;
 
  private:
   // What a ray has met.

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -97,6 +98,30 @@ TEST_CASE("direct light does not depend on the mesh: under a square lamp it is L
   const double x = 0.3, q = x / std::sqrt(1.0 + x * x);
   const double factor = 4.0 / pi * q * std::atan(q);
   CHECK(double{gathered(solved, view).radiosity[50 * 101 + 50].x} == test::Approx(0.8 * 5.0 * factor).epsilon(2e-4));
+}
+
+// The standard error is told by four parts, so it is itself known to a half; over 64 families of rays the true spread is below twice what was
+// asked for, with the first 64 rays, which may agree by chance, among them.
+TEST_CASE("indirect light is gathered until its standard error is what was asked for") {
+  const SolvedFile solved = solve(example_text("room"), 0.05);
+  const radiosity::FinalGather light{solved.file.scene, solved.solution.mesh, solved.solution.frame};
+  const apps::View view = apps::make_view(solved.file.cameras.front(), {4, 4});
+  const auto eye = light.eye(view.eye);
+  for (const double at : {0.7, 1.6, 3.3}) {
+    const std::array<glm::dvec3, 1> direction{view.direction(at, 2.5)};
+    const auto place = light.seen16(eye, direction, true)[0];
+    REQUIRE(place);
+    for (const double error : {0.1, 0.03}) {
+      double sum = 0.0, squares = 0.0;
+      for (std::uint64_t key = 0; key < 64; ++key) {
+        const double value = light.indirect(*place, 64, 1 << 16, error, key).irradiance.x;
+        sum += value / 64;
+        squares += value * value / 64;
+      }
+      CAPTURE(at, error);
+      CHECK(std::sqrt(squares - sum * sum) < 2.0 * error * sum);
+    }
+  }
 }
 
 // A sphere of radius r at distance d is the cone of half-angle asin(r/d) about the direction of its centre. A pixel is
