@@ -12,13 +12,13 @@
 namespace apps {
 
 // `picture` must outlive the result.
-[[nodiscard]] inline radiosity::ShownPicture audited(const Picture& picture, const View& view, double exposure) {
+[[nodiscard]] inline radiosity::ShownPicture audited(const Picture& picture, const View& view, const Tone& tone) {
   return {picture.width, picture.height,
           [view](double x, double y) {
             return raycast::Segment{view.eye, view.direction(x, y)};
           },
           [&picture](std::uint32_t x, std::uint32_t y) { return radiosity::Color(picture.radiosity[std::size_t{y} * picture.width + x]); },
-          [exposure](double radiosity) { return 255.0 * srgb_encode(shown(radiosity::Color(radiosity), exposure).x); }};
+          [tone](double radiosity) { return 255.0 * srgb_encode(tone(radiosity)); }};
 }
 
 }  // namespace apps

@@ -258,14 +258,12 @@ radiosity::Color color_at(const Triangle& triangle, const glm::dvec3& ray) {
 
 }  // namespace
 
-std::optional<Picture> draw(const radiosity::Mesh& mesh, const View& view, double exposure, unsigned samples,
+std::optional<Picture> draw(const radiosity::Mesh& mesh, const View& view, const Tone& tone, unsigned samples,
                             const std::atomic<bool>* cancel) {
   const std::int64_t n = samples;
   const std::int64_t width = view.size.width * n;
   const Drawing drawing = project(mesh, view, n);
-  Picture picture{view.size.width, view.size.height, {}, {}};
-  picture.rgb.reserve(3 * std::size_t{picture.width} * picture.height);
-  picture.radiosity.reserve(std::size_t{picture.width} * picture.height);
+  Picture picture{view.size.width, view.size.height};
   // Bands keep memory small: about a million samples each.
   const auto band_pixels = std::clamp<std::int64_t>((1 << 20) / (width * n), 1, view.size.height);
   for (std::int64_t top = 0; top < view.size.height; top += band_pixels) {
@@ -283,43 +281,44 @@ std::optional<Picture> draw(const radiosity::Mesh& mesh, const View& view, doubl
           if (index == 0xffffffff) { continue; }
           const radiosity::Color color = color_at(drawing.triangles[index], band.ray(sx, sy));
           radiosity += color;
-          sum += shown(color, exposure);
+          sum += tone(color);
         }
-        picture.radiosity.emplace_back(radiosity / static_cast<double>(n * n));
-        for (const std::uint8_t byte : to_rgb8(sum / static_cast<double>(n * n))) { picture.rgb.push_back(byte); }
+        const auto all = static_cast<double>(n * n);
+        picture.set(static_cast<std::size_t>(y * view.size.width + x), sum / all, radiosity / all);
       }
     }
   }
   return picture;
 }
 
-double automatic_exposure(const radiosity::Mesh& mesh, const radiosity::Scene& scene) {
+double automatic_exposure(const radiosity::Mesh& mesh, const radiosity::Scene& scene, const View& view) {
   const std::vector<radiosity::InputSurface> surfaces = radiosity::surfaces(scene);
-  std::vector<std::pair<double, double>> reflected;  // value, area
-  double total = 0.0;
+  View small = view;  // some ten thousand samples know the percentile to less than what one sees
+  const std::uint32_t shrink = std::max(1u, std::max(view.size.width, view.size.height) / 256);
+  small.size = {std::max(1u, view.size.width / shrink), std::max(1u, view.size.height / shrink)};
+  const Drawing drawing = project(mesh, small, 1);
+  Band band(small.size.width, 0, small.size.height, small);
+  for (const Piece& piece : drawing.pieces) { band.draw(drawing, piece); }
+  std::vector<double> reflected;
   double emitted = 0.0;
-  for (const radiosity::MeshFace& face : mesh.faces) {
-    double area = 0.0;
-    const auto position = [&](std::uint32_t k) { return mesh.positions[mesh.corners[face.first_corner + k].vertex]; };
-    for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
-      area += 0.5 * glm::length(glm::cross(position(k) - position(0), position(k + 1) - position(0)));
+  for (std::int64_t y = 0; y < small.size.height; ++y) {
+    for (std::int64_t x = 0; x < small.size.width; ++x) {
+      const std::uint32_t index = band.at(x, y).triangle;
+      if (index == 0xffffffff) { continue; }
+      const Triangle& triangle = drawing.triangles[index];
+      const radiosity::Material& material = scene.materials[surfaces[triangle.surface].material];
+      emitted = std::max({emitted, material.emission.x, material.emission.y, material.emission.z});
+      if (radiosity::is_black(material.reflectance)) { continue; }
+      const radiosity::Color radiosity = color_at(triangle, band.ray(x, y));
+      const double value = luminance(radiosity - material.emission);
+      // Rounding of B - E at a lamp is not light; nor does a lamp's reflected light tell how bright the scene is.
+      if (value > 1e-9 * luminance(radiosity) && radiosity::is_black(material.emission)) { reflected.push_back(value); }
     }
-    const radiosity::Color& emission = scene.materials[surfaces[face.surface].material].emission;
-    const radiosity::Color rest = face.radiosity - emission;
-    const double value = std::max({rest.x, rest.y, rest.z});
-    emitted = std::max({emitted, emission.x, emission.y, emission.z});
-    // Rounding of B - E at a lamp that reflects nothing is not light.
-    if (!(value > 1e-9 * std::max({face.radiosity.x, face.radiosity.y, face.radiosity.z}))) { continue; }
-    reflected.emplace_back(value, area);
-    total += area;
   }
-  std::sort(reflected.begin(), reflected.end());
-  double below = 0.0;
-  for (const auto& [value, area] : reflected) {
-    below += area;
-    if (below >= 0.98 * total) { return 0.65 * std::numbers::pi / value; }
-  }
-  return emitted > 0.0 ? std::numbers::pi / emitted : 1.0;
+  if (reflected.empty()) { return emitted > 0.0 ? std::numbers::pi / emitted : 1.0; }
+  const auto place = reflected.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(reflected.size() - 1));
+  std::nth_element(reflected.begin(), place, reflected.end());
+  return 0.8 * std::numbers::pi / *place;
 }
 
 }  // namespace apps

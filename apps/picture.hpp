@@ -31,22 +31,26 @@ namespace apps {
 struct Picture {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::vector<std::uint8_t> rgb;     // 3 bytes a pixel, rows from the top
+  std::vector<glm::vec3> shown;      // linear values from 0 to 1, rows from the top
   std::vector<glm::vec3> radiosity;  // mean over each pixel, W/m2: the same before exposure and clamping
 
-  [[nodiscard]] Rgb8 pixel(std::uint32_t x, std::uint32_t y) const {
-    const std::size_t at = 3 * (std::size_t{y} * width + x);
-    return {rgb[at], rgb[at + 1], rgb[at + 2]};
+  Picture(std::uint32_t width_, std::uint32_t height_)
+      : width{width_}, height{height_}, shown(std::size_t{width_} * height_), radiosity(std::size_t{width_} * height_) {}
+
+  void set(std::size_t pixel, const radiosity::Color& shown_, const radiosity::Color& radiosity_) {
+    shown[pixel] = glm::vec3(shown_);
+    radiosity[pixel] = glm::vec3(radiosity_);
   }
+  [[nodiscard]] Rgb8 pixel(std::uint32_t x, std::uint32_t y) const { return to_rgb8(radiosity::Color(shown[std::size_t{y} * width + x])); }
 };
 
 // Draws the mesh; where there is none the picture is black. Nothing when `cancel` became true.
-[[nodiscard]] std::optional<Picture> draw(const radiosity::Mesh& mesh, const View& view, double exposure, unsigned samples = 4,
+[[nodiscard]] std::optional<Picture> draw(const radiosity::Mesh& mesh, const View& view, const Tone& tone, unsigned samples = 4,
                                           const std::atomic<bool>* cancel = nullptr);
 
-// The exposure that shows the 98th percentile (by area) of the reflected radiosity, largest channel, as 0.65 in linear
-// light: lit walls are bright, and there is room above for what lies close to a lamp. Where nothing reflects, the
-// brightest emission becomes 1; where nothing shines, 1. Depends on the solution alone, not on the view.
-[[nodiscard]] double automatic_exposure(const radiosity::Mesh& mesh, const radiosity::Scene& scene);
+// The exposure that shows the 98th percentile of the luminance of what the view sees as 0.8 in linear light: lit walls are bright, and
+// there is room above for what lies close to a lamp. Light that is emitted does not count. Where nothing is seen to reflect light, the
+// brightest emission that is seen becomes 1; where nothing shines, 1. The light is that of the mesh, so that all methods agree.
+[[nodiscard]] double automatic_exposure(const radiosity::Mesh& mesh, const radiosity::Scene& scene, const View& view);
 
 }  // namespace apps

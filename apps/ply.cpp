@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "apps/ply.hpp"
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
+#include <map>
 
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -14,25 +16,23 @@
 namespace apps {
 namespace {
 
-// Gives each pair of mesh vertex and colour its own number, in the order of first use.
+// Gives what differs in mesh vertex, colour or normal its own number, in the order of first use. Normals are told apart to 1 / 1000.
 class Vertices {
  public:
-  std::uint32_t index(std::uint32_t vertex, const Rgb8& rgb) {
-    const std::uint64_t color = (std::uint64_t{rgb[0]} << 16) | (std::uint64_t{rgb[1]} << 8) | rgb[2];
-    const auto [entry, is_new] = index_.emplace((std::uint64_t{vertex} << 24) | color, size_);
-    if (is_new) { ++size_; }
-    return entry->second;
+  std::uint32_t index(std::uint32_t vertex, const Rgb8& rgb, const glm::vec3& normal) {
+    std::array<std::uint32_t, 5> key{vertex, std::uint32_t{rgb[0]} << 16 | std::uint32_t{rgb[1]} << 8 | rgb[2], 0, 0, 0};
+    for (int c = 0; c < 3; ++c) { key[2 + static_cast<std::size_t>(c)] = static_cast<std::uint32_t>(std::lround(1000.0f * normal[c]) + 2000); }
+    return index_.emplace(key, static_cast<std::uint32_t>(index_.size())).first->second;
   }
-  [[nodiscard]] std::uint32_t size() const { return size_; }
+  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(index_.size()); }
 
  private:
-  std::unordered_map<std::uint64_t, std::uint32_t> index_;
-  std::uint32_t size_ = 0;
+  std::map<std::array<std::uint32_t, 5>, std::uint32_t> index_;
 };
 
 }  // namespace
 
-std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, double exposure) {
+std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, const Tone& tone) {
   Vertices vertices;
   std::string vertex_bytes;
   std::string face_bytes;
@@ -40,12 +40,13 @@ std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::Inp
     face_bytes += static_cast<char>(face.corner_count);
     for (std::uint32_t k = 0; k < face.corner_count; ++k) {
       const radiosity::MeshCorner& corner = mesh.corners[face.first_corner + k];
-      const Rgb8 rgb = to_rgb8(shown(corner.radiosity, exposure));
+      const Rgb8 rgb = to_rgb8(tone(corner.radiosity));
       const std::uint32_t before = vertices.size();
-      put(face_bytes, vertices.index(corner.vertex, rgb));
+      put(face_bytes, vertices.index(corner.vertex, rgb, corner.normal));
       if (vertices.size() == before) { continue; }
       const glm::dvec3& position = mesh.positions[corner.vertex];
       for (int c = 0; c < 3; ++c) { put(vertex_bytes, static_cast<float>(position[c])); }
+      for (int c = 0; c < 3; ++c) { put(vertex_bytes, corner.normal[c]); }
       for (const std::uint8_t byte : rgb) { put(vertex_bytes, byte); }
     }
     for (int c = 0; c < 3; ++c) { put(face_bytes, static_cast<float>(face.radiosity[c])); }
@@ -54,7 +55,7 @@ std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::Inp
   std::vector<std::string> comments = {"halflight: radiosity in W/m2, vertex colours sRGB"};
   for (std::size_t i = 0; i < surfaces.size(); ++i) { comments.push_back("surface " + std::to_string(i) + " " + surfaces[i].name); }
   return ply_header(comments,
-                    {{"vertex", vertices.size(), {"float x", "float y", "float z", "uchar red", "uchar green", "uchar blue"}},
+                    {{"vertex", vertices.size(), {"float x", "float y", "float z", "float nx", "float ny", "float nz", "uchar red", "uchar green", "uchar blue"}},
                      {"face",
                       mesh.faces.size(),
                       {"list uchar int vertex_indices", "float radiosity_r", "float radiosity_g", "float radiosity_b", "int surface"}}}) +

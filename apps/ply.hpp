@@ -3,8 +3,8 @@
 
 // The solution as a binary little-endian PLY file (Turk 1994) that mesh viewers show as it is.
 //
-//   vertex  float x y z, uchar red green blue: half-edge colours under the exposure, sRGB. A vertex is doubled only
-//           where the faces around it show it in different bytes.
+//   vertex  float x y z, float nx ny nz: of the true surface, uchar red green blue: half-edge colours under the exposure, sRGB.
+//           A vertex is doubled only where the faces around it differ in normal, as at a crease, or in these bytes.
 //   face    list uchar int vertex_indices (3 or 4, counter-clockwise from the bright side),
 //           float radiosity_r radiosity_g radiosity_b: of the leaf, W/m2, linear and without exposure,
 //           int surface: number of the input surface; comment lines give the names: "comment surface 0 floor".
@@ -15,8 +15,10 @@
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/scene.hpp>
 
+#include "apps/color.hpp"
+
 namespace apps {
 
-[[nodiscard]] std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, double exposure);
+[[nodiscard]] std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, const Tone& tone);
 
 }  // namespace apps

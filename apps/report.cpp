@@ -135,11 +135,11 @@ class Text {
     }
     say("channels, threads, seed", "{settings.channels}, {settings.threads}, {settings.seed}");
     if (report_.options.reconstruction != radiosity::Reconstruction::none) {
-      say("exposure", "{exposure}", report_.automatic_exposure ? " (automatic)" : "");
+      say("exposure, tone", "{exposure}" + std::string(report_.automatic_exposure ? " (automatic)" : "") + ", {tone}");
     }
-    const bool mesh = report_.picture && report_.picture->method == PictureMethod::mesh;
-    say("picture",
-        std::string("{picture.width} x {picture.height}, of the ") + (mesh ? "mesh" : "objects (raycast)") + ", camera {picture.camera}");
+    constexpr const char* shows[] = {"of the mesh", "of the objects, in gathered light"};
+    const auto method = static_cast<std::size_t>(report_.picture ? report_.picture->method : PictureMethod::mesh);
+    say("picture", std::string("{picture.width} x {picture.height}, ") + shows[method] + ", camera {picture.camera}");
   }
 
   void lists() {

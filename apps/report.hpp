@@ -11,9 +11,16 @@
 #include <radiosity/result/audit.hpp>
 #include <radiosity/scene/options.hpp>
 
+#include "apps/color.hpp"
+
 namespace apps {
 
-enum class PictureMethod { mesh, raycast };  // what is drawn: the mesh, or the true objects
+// What is drawn: the mesh, or the true objects in light gathered for the picture.
+enum class PictureMethod { mesh, gather };
+inline constexpr const char* name(PictureMethod method) {
+  constexpr const char* names[] = {"mesh", "gather"};
+  return names[static_cast<int>(method)];
+}
 
 struct PictureReport {
   std::string camera;
@@ -28,6 +35,7 @@ struct Report {
   radiosity::Audit audit;
   double exposure = 1.0;
   bool automatic_exposure = true;
+  ToneCurve tone = ToneCurve::linear;
   std::optional<PictureReport> picture;
   std::optional<radiosity::StageTime> picture_time;  // drawing and encoding; not part of the total
   std::vector<std::string> files;                    // what was written

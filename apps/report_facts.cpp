@@ -101,6 +101,7 @@ void add_settings(Facts& facts, const Report& report) {
   const radiosity::Audit& audit = report.audit;
   facts.add("exposure", report.exposure, "%.5g");
   facts.add("exposure_automatic", report.automatic_exposure);
+  facts.add("tone", std::string(name(report.tone)));
   facts.add("settings.epsilon", audit.epsilon, "%.3g");
   facts.add("settings.min_area", audit.min_area, "%.3g");
   facts.add("settings.light_epsilon", audit.light_epsilon, "%.3g");
@@ -114,7 +115,7 @@ void add_settings(Facts& facts, const Report& report) {
   facts.add("picture.camera", report.picture->camera);
   facts.add("picture.width", report.picture->width, "1");
   facts.add("picture.height", report.picture->height, "1");
-  facts.add("picture.method", std::string(report.picture->method == PictureMethod::mesh ? "mesh" : "raycast"));
+  facts.add("picture.method", std::string(name(report.picture->method)));
 }
 
 // A list of what `write` writes of each.

@@ -44,6 +44,10 @@ std::string size_fault(const std::string& text) {
   return "expected WIDTHxHEIGHT, each 1 to " + std::to_string(max_picture_side) + ", found '" + text + "'";
 }
 
+std::string exposure_fault(const std::string& text) {
+  return "expected a number above 0, or stops such as 1ev or -0.5ev, found '" + text + "'";
+}
+
 std::optional<Camera> choose_camera(const SceneFile& file, const std::string& name) {
   if (name.empty()) { return file.cameras.empty() ? automatic_camera(file.scene) : file.cameras.front(); }
   std::string known;
@@ -65,7 +69,7 @@ std::vector<std::string> all_outputs(const RenderOptions& options) {
 ExitCode check(const RenderOptions& options) {
   for (const std::string& path : options.outputs) {
     if (!render_format(path)) {
-      complain("--output " + path + ": expected a name that ends with .png or .ply");
+      complain("--output " + path + ": expected a name that ends with .png, .hdr, .pfm or .ply");
       return ExitCode::usage;
     }
   }
@@ -94,7 +98,7 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
 std::optional<std::uint64_t> memory_left(const RenderOptions& options, const Camera& camera) {
   const std::uint64_t held = resident_memory().value_or(0);
   const PictureSize size = options.size.value_or(camera.size.value_or(PictureSize{}));
-  constexpr std::uint64_t band = 20'000'000, pixel = 20;  // of samples; of colours and their coded form
+  constexpr std::uint64_t band = 20'000'000, pixel = 60;  // of samples; of colours and their coded form
   const std::uint64_t picture = has_picture(options) ? band + pixel * size.width * size.height : 0;
   if (held + picture >= *options.memory) {
     complain("--memory allows " + radiosity::memory_text(*options.memory) + ", but the program and the scene hold " +
@@ -127,8 +131,7 @@ ExitCode run(const RenderOptions& options) {
   const auto camera = choose_camera(*file, options.camera);
   if (!camera) { return ExitCode::usage; }
 
-  radiosity::Options settings = options.solver;
-  if (options.outputs.empty()) { settings.reconstruction = radiosity::Reconstruction::none; }
+  radiosity::Options settings = solver_options(options);
   if (options.memory) {
     settings.memory = memory_left(options, *camera);
     if (!settings.memory) { return ExitCode::failure; }
@@ -141,9 +144,10 @@ ExitCode run(const RenderOptions& options) {
   if (settings.error && options.error_of.value_or(has_picture(options) ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
     control.picture_error = [&](const radiosity::Mesh& mesh, const radiosity::Frame& frame,
                                 const radiosity::AuditGoal& goal) -> std::optional<radiosity::PictureError> {
-      const auto picture = artist.draw(mesh, frame, control);
+      const Tone tone = artist.tone(mesh);
+      const auto picture = artist.draw(mesh, frame, tone, control);
       if (!picture) { return std::nullopt; }
-      return artist.audit(*picture, artist.exposure(mesh), goal, control);
+      return artist.audit(*picture, tone, goal, control);
     };
   }
   const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
@@ -157,8 +161,6 @@ ExitCode run(const RenderOptions& options) {
   report.options = settings;
   report.audit = solution.audit;
   leave_out_others(report.audit.stages);
-  report.automatic_exposure = !options.exposure;
-  report.exposure = artist.exposure(solution.mesh);
   const auto outputs = encode(options, *file, *camera, artist, solution, control, report);
   progress.done();
   if (!outputs) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
@@ -193,7 +195,7 @@ std::vector<Argument> arguments(RenderOptions& options) {
   return {
       scene_argument(options.scene),
       texts("-o,--output", "FILE", options.outputs,
-            "what to write: a picture (.png) or a mesh (.ply); repeat for more; without, the report alone", Argument::Values::repeated),
+            "what to write: a picture (.png; .hdr, .pfm: radiance) or a mesh (.ply); repeat for more; without, the report alone", Argument::Values::repeated),
       above_zero("--error", solver.error, 1.0, "refine until the measured relative L2 error is at most this"),
       one_of<std::optional<ErrorOf>, ErrorOf>(
           "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},
@@ -206,19 +208,27 @@ std::vector<Argument> arguments(RenderOptions& options) {
       bf(above_zero("--time", solver.time, 1e6,
                     "BF-refinement, what promises most first, for this many seconds; the audit and the picture come on top"))
           .without({"--error", "--target"}),
-      above_zero("--epsilon", solver.epsilon, 1.0, "largest form factor of a link (default " + formatted("%g", solver.epsilon) + ")")
+      above_zero("--epsilon", options.epsilon, 1.0,
+                 "largest form factor of a link (default " + formatted("%g", solver.epsilon) + "; of a picture by gather alone " +
+                     formatted("%g", gathered_epsilon) + ")")
           .without(ends),
-      above_zero("--min-area", solver.min_area, 1.0, "smallest patch, relative to the area of the scene").without(ends),
+      above_zero("--min-area", options.min_area, 1.0,
+                 "smallest patch, relative to the area of the scene (default " + formatted("%g", solver.min_area) +
+                     "; of a picture by gather alone " + formatted("%g", gathered_min_area) + ")")
+          .without(ends),
       above_zero("--light-epsilon", solver.light_epsilon, 1.0,
                  "share of the error that the light of a lamp may cause by varying over one patch (default: a quarter of epsilon)")
           .without(ends),
       text("--camera", "TEXT", options.camera, "camera of the scene (default: the first; without any, an automatic view)"),
       parsed("--size", "WxH", options.size, parse_size, size_fault, "picture size in pixels (default: the camera's, else 800x600)"),
       one_of<PictureMethod, PictureMethod>(
-          "--method", options.method, {{"mesh", PictureMethod::mesh}, {"raycast", PictureMethod::raycast}},
-          "what the picture shows: mesh, the triangles of the solution, or raycast, the objects themselves with smooth outlines"),
-      above_zero("--exposure", options.exposure, std::numeric_limits<double>::max(),
-                 "factor from radiance to picture (default: automatic)"),
+          "--method", options.method, {{"mesh", PictureMethod::mesh}, {"gather", PictureMethod::gather}},
+          "gather: the objects, in direct light found for each pixel and indirect light gathered from the solution (default); mesh: the "
+          "triangles of the solution"),
+      parsed("--exposure", "NUMBER", options.exposure, Exposure::parse, exposure_fault,
+             "factor from radiance to picture, or stops from the automatic one, such as 1ev or -0.5ev (default: automatic)"),
+      one_of<ToneCurve, ToneCurve>("--tone", options.tone, {{"linear", ToneCurve::linear}, {"filmic", ToneCurve::filmic}},
+                                   "linear: brightness proportional to light; filmic: bright tones are compressed as on film"),
       whole_number("--threads", solver.threads, 1, most_threads, "threads (default: all); results do not depend on it"),
       whole_number("--seed", solver.seed, 0, std::numeric_limits<std::uint64_t>::max(), "seed of all random choices"),
       whole_number("--audit", solver.audit_points, 0, 100'000'000, "points at which the error is measured; 0: none"),

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "apps/commands/render_outputs.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <ctime>
+#include <system_error>
 #include <utility>
 
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/audit/picture_error.hpp>
-#include <radiosity/picture/lookup.hpp>
+#include <radiosity/picture/final_gather.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
@@ -18,10 +22,11 @@
 #include <radiosity/support/memory.hpp>
 
 #include "apps/audited_picture.hpp"
+#include "apps/gather_picture.hpp"
 #include "apps/memory.hpp"
 #include "apps/ply.hpp"
 #include "apps/png.hpp"
-#include "apps/raycast_picture.hpp"
+#include "apps/radiance_file.hpp"
 
 namespace apps {
 namespace {
@@ -38,48 +43,91 @@ class Stopwatch {
   std::clock_t cpu_ = std::clock();
 };
 
+bool is_picture(const std::string& path) {
+  const auto format = render_format(path);
+  return format && *format != RenderFormat::ply;
+}
+
 }  // namespace
 
+std::optional<Exposure> Exposure::parse(std::string_view text) {
+  const bool stops = text.ends_with("ev") || text.ends_with("EV");
+  if (stops) { text.remove_suffix(2); }
+  if (stops && text.starts_with('+') && !text.starts_with("+-")) { text.remove_prefix(1); }
+  double value = 0.0;
+  const auto [rest, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || rest != text.data() + text.size() || !std::isfinite(value)) { return std::nullopt; }
+  if (stops) { return std::abs(value) <= 64.0 ? std::optional(Exposure{std::exp2(value), true}) : std::nullopt; }
+  return value > 0.0 ? std::optional(Exposure{value, false}) : std::nullopt;
+}
+
 std::optional<RenderFormat> render_format(const std::string& path) {
-  if (path.size() > 4 && path.ends_with(".png")) { return RenderFormat::png; }
-  if (path.size() > 4 && path.ends_with(".ply")) { return RenderFormat::ply; }
+  if (path.size() <= 4) { return std::nullopt; }
+  if (path.ends_with(".png")) { return RenderFormat::png; }
+  if (path.ends_with(".hdr")) { return RenderFormat::hdr; }
+  if (path.ends_with(".pfm")) { return RenderFormat::pfm; }
+  if (path.ends_with(".ply")) { return RenderFormat::ply; }
   return std::nullopt;
 }
 
-bool has_picture(const RenderOptions& options) {
-  for (const std::string& output : options.outputs) {
-    if (render_format(output) == RenderFormat::png) { return true; }
+bool has_picture(const RenderOptions& options) { return std::any_of(options.outputs.begin(), options.outputs.end(), is_picture); }
+
+radiosity::Options solver_options(const RenderOptions& options) {
+  radiosity::Options solver = options.solver;
+  const bool mesh_is_seen =
+      options.method != PictureMethod::gather || !std::all_of(options.outputs.begin(), options.outputs.end(), is_picture);
+  if (has_picture(options) && !mesh_is_seen) {
+    solver.epsilon = gathered_epsilon;
+    solver.min_area = gathered_min_area;
   }
-  return false;
+  solver.epsilon = options.epsilon.value_or(solver.epsilon);
+  solver.min_area = options.min_area.value_or(solver.min_area);
+  if (options.outputs.empty()) { solver.reconstruction = radiosity::Reconstruction::none; }
+  return solver;
 }
 
-std::optional<Picture> Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Control& control) const {
-  const double by = exposure(mesh);
-  if (options_.method == PictureMethod::mesh) { return apps::draw(mesh, view_, by, 4, control.cancel); }
-  const radiosity::Lookup lookup(file_.scene, mesh, frame);
-  return apps::draw(lookup, view_, by, options_.solver.threads, 4, control);
+Tone Artist::tone(const radiosity::Mesh& mesh) const {
+  const bool automatic = !options_.exposure || options_.exposure->of_automatic;
+  const double factor = options_.exposure ? options_.exposure->factor : 1.0;
+  return {automatic ? factor * automatic_exposure(mesh, file_.scene, view_) : factor, options_.tone};
 }
 
-std::optional<radiosity::PictureError> Artist::audit(const Picture& picture, double exposure, const radiosity::AuditGoal& goal,
+std::optional<Picture> Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const Tone& tone,
+                                    const radiosity::Control& control) const {
+  if (options_.method == PictureMethod::mesh) { return apps::draw(mesh, view_, tone, 4, control.cancel); }
+  const radiosity::FinalGather light{file_.scene, mesh, frame};
+  return apps::draw(light, view_, tone, options_.solver.threads, control);
+}
+
+std::optional<radiosity::PictureError> Artist::audit(const Picture& picture, const Tone& tone, const radiosity::AuditGoal& goal,
                                                      const radiosity::Control& control) {
   if (!asked_) {
     audit_ = radiosity::PictureAudit::make(file_.scene);
     asked_ = true;
   }
   if (!audit_) { return std::nullopt; }
-  return audit_->measure(audited(picture, view_, exposure), goal, options_.solver.threads, options_.solver.seed, control);
+  return audit_->measure(audited(picture, view_, tone), goal, options_.solver.threads, options_.solver.seed, control);
 }
 
 std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
                                                 const radiosity::Solution& solution, const radiosity::Control& control, Report& report) {
   if (control.cancelled()) { return std::nullopt; }
   std::vector<RenderOutput> outputs;
-  std::string png;
+  const Tone tone = artist.tone(solution.mesh);
+  report.exposure = tone.exposure;
+  report.tone = tone.curve;
+  report.automatic_exposure = !options.exposure || options.exposure->of_automatic;
+  std::string png, hdr, pfm;
   if (has_picture(options)) {
     const Stopwatch watch;
-    const auto picture = artist.draw(solution.mesh, solution.frame, control);
+    const auto picture = artist.draw(solution.mesh, solution.frame, tone, control);
     if (!picture) { return std::nullopt; }
-    png = to_png(*picture);
+    for (const std::string& path : options.outputs) {
+      const auto format = render_format(path);
+      if (format == RenderFormat::png && png.empty()) { png = to_png(*picture, tone); }
+      if (format == RenderFormat::hdr && hdr.empty()) { hdr = to_hdr(*picture); }
+      if (format == RenderFormat::pfm && pfm.empty()) { pfm = to_pfm(*picture); }
+    }
     report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
     std::vector<radiosity::StageTime> stages{watch.stop("picture")};
     leave_out_others(stages);
@@ -87,7 +135,7 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
     if (!report.audit.picture_error && options.solver.audit_points > 0) {
       const Stopwatch audit_watch;
       report.audit.picture_error =
-          artist.audit(*picture, report.exposure, radiosity::goal_to_know(report.audit, options.solver.audit_points), control);
+          artist.audit(*picture, tone, radiosity::goal_to_know(report.audit, options.solver.audit_points), control);
       stages = {audit_watch.stop("picture audit")};
       leave_out_others(stages);
       report.audit.stages.push_back(stages.front());
@@ -95,8 +143,13 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
     }
   }
   for (const std::string& path : options.outputs) {
-    const bool is_png = render_format(path) == RenderFormat::png;
-    outputs.push_back({path, is_png ? png : to_ply(solution.mesh, radiosity::surfaces(file.scene), report.exposure)});
+    outputs.push_back({path, {}});
+    switch (*render_format(path)) {
+      case RenderFormat::png: outputs.back().bytes = png; break;
+      case RenderFormat::hdr: outputs.back().bytes = hdr; break;
+      case RenderFormat::pfm: outputs.back().bytes = pfm; break;
+      case RenderFormat::ply: outputs.back().bytes = to_ply(solution.mesh, radiosity::surfaces(file.scene), tone); break;
+    }
     report.files.push_back(path);
   }
   if (!options.json.empty()) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <radiosity/audit/picture_error.hpp>
@@ -18,28 +19,46 @@
 
 namespace apps {
 
+// By measurement: what a picture in gathered light needs of the solution.
+inline constexpr double gathered_epsilon = 0.01, gathered_min_area = 2e-4;
+
 enum class ErrorOf { picture, surfaces };
+
+// As it was asked for.
+struct Exposure {
+  double factor = 1.0;
+  bool of_automatic = false;  // times the automatic one
+
+  // A factor above 0, or stops (powers of two) from the automatic exposure, such as 1ev or -0.5ev.
+  [[nodiscard]] static std::optional<Exposure> parse(std::string_view text);
+};
 
 struct RenderOptions {
   std::string scene;
-  std::vector<std::string> outputs;  // *.png, *.ply
+  std::vector<std::string> outputs;  // pictures and meshes, by their endings
   std::string json;                  // empty: none
   std::string camera;                // empty: the first of the file, or the automatic one
   std::optional<PictureSize> size;
-  std::optional<double> exposure;
-  PictureMethod method = PictureMethod::mesh;
+  std::optional<Exposure> exposure;
+  ToneCurve tone = ToneCurve::linear;
+  PictureMethod method = PictureMethod::gather;
+  std::optional<double> epsilon, min_area;  // default: what suits the outputs
   bool quiet = false;
   std::optional<ErrorOf> error_of;      // default: of the picture when there is one
   std::optional<std::uint64_t> memory;  // bytes that the process may hold
   radiosity::Options solver;
 };
 
-enum class RenderFormat { png, ply };
+enum class RenderFormat { png, hdr, pfm, ply };
 
 // By the ending of the name.
 [[nodiscard]] std::optional<RenderFormat> render_format(const std::string& path);
 
 [[nodiscard]] bool has_picture(const RenderOptions& options);
+
+// The solution's settings as they are asked for. What is seen in gathered light alone is solved coarser: direct light is found anew,
+// and what the mesh smears is averaged over all that a point sees, so that time does more for the picture than for the mesh.
+[[nodiscard]] radiosity::Options solver_options(const RenderOptions& options);
 
 // Draws a solution as it will be shown, and audits what it has drawn.
 class Artist {
@@ -47,14 +66,12 @@ class Artist {
   Artist(const RenderOptions& options, const SceneFile& file, const Camera& camera)
       : options_{options}, file_{file}, view_{make_view(camera, options.size.value_or(camera.size.value_or(PictureSize{})))} {}
 
-  [[nodiscard]] double exposure(const radiosity::Mesh& mesh) const {
-    return options_.exposure ? *options_.exposure : automatic_exposure(mesh, file_.scene);
-  }
+  [[nodiscard]] Tone tone(const radiosity::Mesh& mesh) const;
   [[nodiscard]] PictureSize size() const { return view_.size; }
   // Nothing when interrupted.
-  [[nodiscard]] std::optional<Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame,
+  [[nodiscard]] std::optional<Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const Tone& tone,
                                             const radiosity::Control& control) const;
-  [[nodiscard]] std::optional<radiosity::PictureError> audit(const Picture& picture, double exposure, const radiosity::AuditGoal& goal,
+  [[nodiscard]] std::optional<radiosity::PictureError> audit(const Picture& picture, const Tone& tone, const radiosity::AuditGoal& goal,
                                                              const radiosity::Control& control);
 
  private:

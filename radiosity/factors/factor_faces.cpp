@@ -2,7 +2,6 @@
 #include <radiosity/factors/factor_faces.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,59 +10,16 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/box.hpp>
 #include <raycast/inline.hpp>
 
 #include <radiosity/exchange/exchange.hpp>
 #include <radiosity/factors/factor_integral.hpp>
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/visibility/polygon_shaft.hpp>
 #include <radiosity/visibility/shadow.hpp>
 
 namespace radiosity {
-
-HALFLIGHT_INLINE Shaft::Shaft(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double slack) : slack_{slack} {
-  for (const glm::dvec3& x : p) { box_.extend(x); }
-  for (const glm::dvec3& x : q) { box_.extend(x); }
-  support(p, q);
-  support(q, p);
-}
-
-HALFLIGHT_INLINE bool Shaft::misses(std::span<const glm::dvec3> corners) const {
-  raycast::Box box;
-  for (const glm::dvec3& x : corners) { box.extend(x); }
-  for (int k = 0; k < 3; ++k) {
-    if (box.hi[k] <= box_.lo[k] + slack_ || box.lo[k] >= box_.hi[k] - slack_) {
-      // Touching: of a flat shaft along an axis this says nothing, the planes decide.
-      if (box_.hi[k] - box_.lo[k] > 4.0 * slack_) { return true; }
-    }
-  }
-  return std::any_of(planes_.begin(), planes_.end(), [&](const HalfSpace& plane) {
-    return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& x) { return plane.height(x) <= slack_; });
-  });
-}
-
-HALFLIGHT_INLINE bool Shaft::misses(const raycast::Box& box) const {
-  std::array<glm::dvec3, 8> corners{};
-  for (std::size_t c = 0; c < 8; ++c) {
-    corners[c] = {c & 1 ? box.hi.x : box.lo.x, c & 2 ? box.hi.y : box.lo.y, c & 4 ? box.hi.z : box.lo.z};
-  }
-  return misses(std::span<const glm::dvec3>{corners});
-}
-
-HALFLIGHT_INLINE void Shaft::support(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q) {
-  offer({p[0], glm::normalize(vector_area(p))}, p, q);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const glm::dvec3 edge = p[i + 1 < p.size() ? i + 1 : 0] - p[i];
-    for (const glm::dvec3& corner : q) {
-      const glm::dvec3 normal = glm::cross(edge, corner - p[i]);
-      const double length = glm::length(normal);
-      if (!(length > 0.0)) { continue; }
-      offer({p[i], normal / length}, p, q);
-      offer({p[i], -normal / length}, p, q);
-    }
-  }
-}
 
 namespace detail {
 

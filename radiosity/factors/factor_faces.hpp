@@ -5,41 +5,17 @@
 // of both); where nothing does, the exchange is that of exchange.hpp. Where one of them hides all, it is 0. Else the exact factor from a
 // point to what it sees of the other face (shadow.hpp) is integrated over the smaller one (factor_integral.hpp).
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
-#include <raycast/box.hpp>
-
 #include <radiosity/factors/factor_integral.hpp>
+#include <radiosity/visibility/polygon_shaft.hpp>
 #include <radiosity/visibility/shadow.hpp>
 
 namespace radiosity {
-
-// The shaft between two convex polygons that lie above each other's horizon: its planes have both on their inner side.
-class Shaft {
- public:
-  Shaft(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double slack);
-
-  // Is it certain that a convex body with these corners and bounds stands in no segment between the two, except by touching it?
-  [[nodiscard]] bool misses(std::span<const glm::dvec3> corners) const;
-  [[nodiscard]] bool misses(const raycast::Box& box) const;
-
- private:
-  // Planes through an edge of `p` that have all of both on one side, the plane of `p` among them.
-  void support(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q);
-  void offer(const HalfSpace& plane, std::span<const glm::dvec3> p, std::span<const glm::dvec3> q) {
-    const auto inside = [&](const glm::dvec3& x) { return plane.height(x) >= -0.25 * slack_; };
-    if (std::all_of(p.begin(), p.end(), inside) && std::all_of(q.begin(), q.end(), inside)) { planes_.push_back(plane); }
-  }
-
-  double slack_;
-  raycast::Box box_;
-  std::vector<HalfSpace> planes_;
-};
 
 namespace detail {
 

@@ -44,6 +44,13 @@ class Lookup {
     return at(object, sheet, {point, objects_.object(object).project(sheet, point).normal});
   }
 
+  // At a place of the sheet of which the normal is known.
+  [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const;
+
+  [[nodiscard]] const raycast::Scene& objects() const { return objects_; }  // in the frame
+  [[nodiscard]] const Frame& frame() const { return frame_; }
+  [[nodiscard]] std::uint32_t surface(std::uint32_t object, std::uint32_t sheet) const { return first_sheet_[object] + sheet; }
+
   // What is seen from `eye` in `direction` (of any length), in the scene's coordinates: the first surface that shows its front and is
   // not buried under another object. Nothing where the ray meets none. Backs do not hide what lies behind them, so one looks into a
   // room from outside, and out of a solid.
@@ -70,8 +77,6 @@ class Lookup {
     raycast::Bvh tree;  // over the triangles
   };
 
-  // At a place of the sheet of which the normal is known.
-  [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const;
   // Where a ray has met something: nothing at a back, and where another object covers the place.
   [[nodiscard]] std::optional<Color> shade(const raycast::Hit& hit, const raycast::SurfacePoint& place) const {
     if (!hit.front || objects_.covered(place.position, place.normal, hit.object)) { return std::nullopt; }

@@ -18,8 +18,10 @@
 #include <brep/refine.hpp>
 #include <brep/t_vertices.hpp>
 
+#include <raycast/box.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
+#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
@@ -113,13 +115,42 @@ HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32
   return false;
 }
 
+// Does a face of a flat object lie on another flat object that faces the same way, corner by corner? There is then nothing of it to be seen:
+// not even slivers, as of a face that a curved object stands on.
+[[nodiscard]] HALFLIGHT_INLINE bool lies_under(const Surface& own, brep::FaceId f, const std::vector<Surface>& surfaces) {
+  if (!own.object->flat()) { return false; }
+  Polygon corners;
+  raycast::Box box;
+  for (const brep::HalfedgeId h : brep::corners(own.brep, f)) {
+    corners.push_back(own.brep.data(own.brep.vertex(h)).position);
+    box.extend(corners.back());
+  }
+  const glm::dvec3 normal = glm::normalize(vector_area(corners));
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& other) {
+    if (other.object == own.object || !other.object->flat()) { return false; }
+    const raycast::Box bounds = other.object->bounds();
+    const double touch = 256.0 * raycast::unit_roundoff * bounds.magnitude() +
+                         raycast::tol_contact * std::min(bounds.diameter(), own.object->bounds().diameter());
+    const raycast::Box grown = bounds.grown(touch);
+    if (!grown.contains(box.lo) || !grown.contains(box.hi)) { return false; }
+    for (std::uint32_t s = 0; s < other.object->sheet_count(); ++s) {
+      const bool on = std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& p) {
+        const raycast::SurfacePoint foot = other.object->project(s, p);
+        return glm::length(foot.position - p) <= touch && glm::dot(foot.normal, normal) > 0.999;
+      });
+      if (on) { return true; }
+    }
+    return false;
+  });
+}
+
 // Adds a face whose half-edges have their colours. `position`: which of the mesh each vertex has, by its index.
-HALFLIGHT_INLINE void add_face(const Surface& surface, brep::FaceId f, const std::vector<std::uint32_t>& position, const LeafLight& light,
-                               Mesh& mesh) {
+HALFLIGHT_INLINE void add_face(const std::vector<Surface>& surfaces, const Surface& surface, brep::FaceId f,
+                               const std::vector<std::uint32_t>& position, const LeafLight& light, Mesh& mesh) {
   const SurfaceBRep& brep = surface.brep;
   const std::uint32_t node = brep.data(f).node;
   const bool buried = !(light.exposure.area[node] > 0.0);
-  if (buried && !touches_exposed(brep, f, light.exposure)) { return; }
+  if (buried && (!touches_exposed(brep, f, light.exposure) || lies_under(surface, f, surfaces))) { return; }
   // Four corners at most; T-vertex elimination leaves no others, the rest would be cut as a fan. Separate polygons keep their
   // T-vertices, and a leaf is shaded from its own corners.
   std::vector<brep::HalfedgeId> loop;
@@ -132,7 +163,8 @@ HALFLIGHT_INLINE void add_face(const Surface& surface, brep::FaceId f, const std
     const auto first = static_cast<std::uint32_t>(mesh.corners.size());
     Color mean{0.0};
     for (const std::size_t k : corners) {
-      mesh.corners.push_back({position[brep.vertex(loop[k]).index], brep.data(loop[k]).radiosity});
+      const SurfaceHalfedge& corner = brep.data(loop[k]);
+      mesh.corners.push_back({position[brep.vertex(loop[k]).index], corner.radiosity, glm::vec3(corner.normal)});
       mean += brep.data(loop[k]).radiosity / static_cast<double>(corners.size());
     }
     mesh.faces.push_back({first, static_cast<std::uint32_t>(corners.size()), light.hierarchy[node].surface, node,
@@ -162,7 +194,7 @@ HALFLIGHT_INLINE Mesh reconstruct(std::vector<Surface>& surfaces, const LeafLigh
       const std::uint32_t leaf = brep.data(f).node;
       if (leaf == no_node) { continue; }
       detail::colour_face(brep, f, leaf, light, kind);
-      detail::add_face(surface, f, position, light, mesh);
+      detail::add_face(surfaces, surface, f, position, light, mesh);
     }
   }
   return mesh;

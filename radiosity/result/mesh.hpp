@@ -17,6 +17,7 @@ namespace radiosity {
 struct MeshCorner {
   std::uint32_t vertex = 0;  // the half-edge's origin
   Color radiosity{0.0};      // W/m2, as seen from this face
+  glm::vec3 normal{0.0f};    // of the true surface there, as seen from this face
 };
 
 struct MeshFace {

@@ -68,30 +68,43 @@ HALFLIGHT_INLINE void cut_away(std::vector<Piece>& pieces, std::span<const HalfS
 
 }  // namespace detail
 
-HALFLIGHT_INLINE double ShadowedTarget::form_factor(const glm::dvec3& x, const glm::dvec3& n) {
-  const HalfSpace horizon{x, n};
-  const HalfSpace before{target_[0], m_};
-  detail::part(target_, horizon, first_, second_);
+HALFLIGHT_INLINE void ShadowedTarget::look(const glm::dvec3& x, const glm::dvec3& n) {
+  horizon_ = {x, n};
+  detail::part(target_, horizon_, first_, second_);
   pieces_.clear();
   if (!first_.empty()) { pieces_.push_back(first_); }
-  for (const Blocker& blocker : blockers_) {
-    if (pieces_.empty()) { return 0.0; }
-    const double height = glm::dot(blocker.normal, x - blocker.contour[0]);
-    if (std::abs(height) <= slack_) { continue; }  // seen edge on
-    detail::part(blocker.contour, horizon, first_, second_);
-    shade_ = first_;
-    detail::part(shade_, before, first_, second_);
-    if (first_.empty() || flat(first_, horizon) || flat(first_, before)) { continue; }
-    planes_.clear();
-    for (std::size_t i = 0; i < first_.size(); ++i) {
-      const glm::dvec3 across = glm::cross(first_[i] - x, first_[i + 1 < first_.size() ? i + 1 : 0] - x);
-      if (glm::dot(across, across) > 0.0) { planes_.push_back({x, height > 0.0 ? -across : across}); }
-    }
-    detail::cut_away(pieces_, planes_);
+}
+
+HALFLIGHT_INLINE void ShadowedTarget::hide(const Blocker& blocker) {
+  const glm::dvec3& x = horizon_.point;
+  const HalfSpace before{target_[0], m_};
+  const double height = glm::dot(blocker.normal, x - blocker.contour[0]);
+  if (std::abs(height) <= slack_) { return; }  // seen edge on
+  detail::part(blocker.contour, horizon_, first_, second_);
+  shade_ = first_;
+  detail::part(shade_, before, first_, second_);
+  if (first_.empty() || flat(first_, horizon_) || flat(first_, before)) { return; }
+  planes_.clear();
+  for (std::size_t i = 0; i < first_.size(); ++i) {
+    const glm::dvec3 across = glm::cross(first_[i] - x, first_[i + 1 < first_.size() ? i + 1 : 0] - x);
+    if (glm::dot(across, across) > 0.0) { planes_.push_back({x, height > 0.0 ? -across : across}); }
   }
+  hide(planes_);
+}
+
+HALFLIGHT_INLINE double ShadowedTarget::form_factor() const {
   double sum = 0.0;
-  for (const Piece& piece : pieces_) { sum += point_to_polygon(x, n, piece); }
+  for (const Piece& piece : pieces_) { sum += point_to_polygon(horizon_.point, horizon_.normal, piece); }
   return sum;
+}
+
+HALFLIGHT_INLINE double ShadowedTarget::form_factor(const glm::dvec3& x, const glm::dvec3& n) {
+  look(x, n);
+  for (const Blocker& blocker : blockers_) {
+    if (hidden()) { return 0.0; }
+    hide(blocker);
+  }
+  return form_factor();
 }
 
 }  // namespace radiosity

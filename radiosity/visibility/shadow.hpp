@@ -67,6 +67,15 @@ class ShadowedTarget {
   // F from x, unit normal n, to what x sees of the target.
   [[nodiscard]] double form_factor(const glm::dvec3& x, const glm::dvec3& n);
 
+  // The same in steps, for blockers of other kinds. Looks from x at all of the target that is above the horizon,
+  void look(const glm::dvec3& x, const glm::dvec3& n);
+  // takes away what a polygon hides, or what lies within all of these planes through x,
+  void hide(const Blocker& blocker);
+  void hide(std::span<const HalfSpace> cone) { detail::cut_away(pieces_, cone); }
+  [[nodiscard]] bool hidden() const { return pieces_.empty(); }
+  // and gives the form factor of what is left.
+  [[nodiscard]] double form_factor() const;
+
  private:
   [[nodiscard]] bool flat(const Piece& polygon, const HalfSpace& plane) const {
     return std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return plane.height(p) <= slack_; });
@@ -76,6 +85,7 @@ class ShadowedTarget {
   glm::dvec3 m_;
   std::span<const Blocker> blockers_;
   double slack_;
+  HalfSpace horizon_;
   std::vector<Piece> pieces_;
   std::vector<HalfSpace> planes_;
   Piece first_, second_, shade_;

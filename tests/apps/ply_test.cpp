@@ -21,6 +21,7 @@ using std::numbers::pi;
 
 struct PlyVertex {
   float position[3];
+  float normal[3];
   unsigned char rgb[3];
 };
 struct PlyFace {
@@ -52,6 +53,7 @@ Ply read(const std::string& bytes) {
   ply.vertices.resize(count("element vertex "));
   for (PlyVertex& v : ply.vertices) {
     take(v.position, 12);
+    take(v.normal, 12);
     take(v.rgb, 3);
   }
   ply.faces.resize(count("element face "));
@@ -108,6 +110,17 @@ TEST_CASE("a PLY file reads back: positions, colours, raw radiosity, surfaces") 
   CHECK(corner.position[1] == 1.0F);
   CHECK(int{corner.rgb[0]} == 243);           // linear 0.9
   CHECK(int{ply.vertices[0].rgb[1]} == 188);  // linear 0.5
+}
+
+TEST_CASE("a vertex at a crease is doubled, with a normal for each side") {
+  radiosity::Mesh mesh = two_faces(Color(0.5 * pi));
+  for (std::size_t c = 0; c < 8; ++c) { mesh.corners[c].normal = c < 4 ? glm::vec3{0, 0, 1} : glm::vec3{0, 0.6f, 0.8f}; }
+  const Ply ply = read(apps::to_ply(mesh, named_surfaces(), 1.0));
+  CHECK(ply.header.find("property float nz\n") != std::string::npos);
+  CHECK(ply.vertices.size() == 8);
+  for (std::size_t f = 0; f < 2; ++f) {
+    for (const std::int32_t v : ply.faces[f].vertices) { CHECK(ply.vertices[static_cast<std::size_t>(v)].normal[1] == (f == 0 ? 0.0F : 0.6F)); }
+  }
 }
 
 TEST_CASE("triangles and an empty mesh are written, too") {

@@ -36,19 +36,19 @@ TEST_CASE("render writes its files and the report, exit code 0") {
   CHECK(report["surfaces"].size() == 2);
 }
 
-TEST_CASE("render draws the objects when asked to, and says so") {
+TEST_CASE("render gathers light for a picture, and draws the mesh when asked to; the report says so") {
   const Place place;
   const std::string arguments = "render " + scene("two_plates") + " -o a.png --json a.json --size 64x48 --audit 0 --epsilon 0.05";
-  const Run mesh = place.run(arguments);
+  const Run mesh = place.run(arguments + " --method mesh");
   REQUIRE(mesh.code == 0);
   CHECK(json::parse(place.read("a.json"))["picture"]["method"].string() == "mesh");
-  const Run run = place.run(arguments + " --method raycast");
+  const Run run = place.run(arguments);
   INFO(run.err);
   REQUIRE(run.code == 0);
   CHECK(place.read("a.png").substr(1, 3) == "PNG");
-  CHECK(run.out.find("raycast") != std::string::npos);
+  CHECK(run.out.find("gathered light") != std::string::npos);
   const json::Value report = json::parse(place.read("a.json"));
-  CHECK(report["picture"]["method"].string() == "raycast");
+  CHECK(report["picture"]["method"].string() == "gather");
   CHECK(report["wall_seconds"]["picture"].number() > 0.0);
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+
 #include "catch.hpp"
 #include "radiosity/scenes.hpp"
 
@@ -18,9 +20,13 @@
 #include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/picture/reconstruct.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 #include <radiosity/visibility/prepare.hpp>
@@ -144,5 +150,54 @@ TEST_CASE("a buried leaf beside an exposed one takes the light of its neighbours
     CAPTURE(name(kind));
     for_corners(reconstructed(scene, kind, light),
                 [&](const radiosity::SurfaceBRep& brep, brep::HalfedgeId h) { CHECK(brep.data(h).radiosity.x == test::Approx(1.0)); });
+  }
+}
+
+// A square lamp lies in a square ceiling, both facing down, anywhere: over the edge, too. No face of the ceiling lies wholly under it, where two
+// faces in one plane would fight for each pixel. (Faces that reach under the lamp from beside it are whole.)
+TEST_CASE("the mesh has no face that lies wholly under one of the same plane") {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    CAPTURE(seed);
+    radiosity::Random random{seed, 0};
+    const glm::dvec3 centre{1.2 * random.uniform() - 0.6, 1.2 * random.uniform() - 0.6, 1.0};
+    const double r = 0.1 + 0.3 * random.uniform();
+    radiosity::Scene scene{{{"grey", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}}}, {}};
+    scene.objects = {scenes::square("ceiling", {0, 0, 1}, 1.0, false), scenes::square("floor", {0, 0, 0}, 1.0, true),
+                     scenes::square("lamp", centre, r, false, 1)};
+    radiosity::Options options;
+    options.epsilon = 0.02;
+    options.min_area = 1e-4;
+    options.audit_points = 0;
+    const auto outcome = radiosity::solve(scene, options);
+    REQUIRE(outcome.solution);
+    const radiosity::Mesh& mesh = outcome.solution->mesh;
+    std::size_t of_ceiling = 0;
+    for (const radiosity::MeshFace& face : mesh.faces) {
+      if (face.surface != 0) { continue; }
+      ++of_ceiling;
+      bool under = true;
+      for (std::uint32_t c = face.first_corner; c < face.first_corner + face.corner_count; ++c) {
+        const glm::dvec3 d = glm::abs(mesh.positions[mesh.corners[c].vertex] - centre);
+        under = under && std::max(d.x, d.y) <= r * (1.0 + 1e-9);
+      }
+      CHECK_FALSE(under);
+    }
+    CHECK(of_ceiling > 16);
+  }
+}
+
+TEST_CASE("corners of the mesh have the normals of the true surface, each side of a crease its own") {
+  const auto outcome = radiosity::solve(lone(raycast::Cylinder::make({1, 2, 3}, {0, 0, 2}, 0.5).object), {});
+  REQUIRE(outcome.solution);
+  const radiosity::Mesh& mesh = outcome.solution->mesh;
+  REQUIRE_FALSE(mesh.faces.empty());
+  for (const radiosity::MeshFace& face : mesh.faces) {
+    for (std::uint32_t c = 0; c < face.corner_count; ++c) {
+      const radiosity::MeshCorner& corner = mesh.corners[face.first_corner + c];
+      const glm::dvec3 p = mesh.positions[corner.vertex] - glm::dvec3{1, 2, 3};
+      const glm::dvec3 n{corner.normal};
+      const bool side = std::abs(n.z) < 0.5;
+      CHECK(glm::length(n - (side ? glm::normalize(glm::dvec3{p.x, p.y, 0.0}) : glm::dvec3{0, 0, p.z > 1.0 ? 1.0 : -1.0})) < 1e-6);
+    }
   }
 }

@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: MIT
+#include "apps/gather_picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <raycast/shaft.hpp>
+#include <raycast/tolerances.hpp>
+
+#include <radiosity/support/parallel.hpp>
+#include <radiosity/support/random.hpp>
+
+#include "apps/indirect_points.hpp"
+
+namespace apps {
+namespace {
+
+using radiosity::Color;
+
+// What the rays of one pixel meet of one surface, facing one way.
+struct Fragment {
+  std::uint32_t x = 0, y = 0;
+  float share = 0.0f;  // of the pixel
+  radiosity::FinalGather::Place place;
+  glm::dvec3 positions{0.0}, normals{0.0};  // sums over its rays
+};
+
+// Points of indirect light, by measurement: rays of each, and the share of its light at which they are enough; radius of its ball by the harmonic mean distance of what it sees, and in pixels.
+constexpr std::uint32_t least_rays = 256, most_rays = 1024;
+constexpr double ray_error = 0.03;
+constexpr double part_of_distance = 0.2, least_pixels = 2.0, most_pixels = 20.0;
+
+constexpr std::uint32_t side = 8;                                                // of a block of pixels
+constexpr std::uint32_t no_surface = 0xffffffff, several_surfaces = 0xfffffffe;  // in place of the number of a surface
+
+class Painter {
+ public:
+  Painter(const radiosity::FinalGather& light, const View& view, unsigned threads, const radiosity::Control& control)
+      : light_{light},
+        view_{view},
+        threads_{radiosity::thread_count(threads)},
+        control_{control},
+        columns_{(view.size.width + side - 1) / side},
+        rows_{(view.size.height + side - 1) / side},
+        eye_{light.eye(view.eye)},
+        pixel_angle_{2.0 * view.half_width / view.size.width},
+        points_{view.size.width, view.size.height},
+        blocks_(std::size_t{columns_} * rows_),
+        surfaces_(std::size_t{view.size.width} * view.size.height, no_surface) {
+    for (unsigned k = 0; k < 16; ++k) {
+      const unsigned reversed = (k & 1) << 3 | (k & 2) << 1 | (k & 4) >> 1 | (k & 8) >> 3;
+      sixteen_[k] = {(k + 0.5) / 16, (reversed + 0.5) / 16};
+    }
+    four_ = {glm::dvec2{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}};
+  }
+
+  // False when cancelled.
+  [[nodiscard]] bool look() {
+    return each_block(0.0, 0.15, [&](std::size_t b) { glance(b); }) && each_block(0.15, 0.3, [&](std::size_t b) { look_closer(b); });
+  }
+  [[nodiscard]] bool gather();
+  [[nodiscard]] bool light_up(const Tone& tone, Picture& picture) {
+    return each_block(0.7, 1.0, [&](std::size_t b) { light_block(b, tone, picture); });
+  }
+
+ private:
+  template <class Body>
+  bool each_block(double from, double to, const Body& body) {
+    constexpr std::size_t batch = 512;  // between two looks at the cancel flag
+    for (std::size_t first = 0; first < blocks_.size(); first += batch) {
+      if (control_.cancelled()) { return false; }
+      const std::size_t count = std::min(batch, blocks_.size() - first);
+      radiosity::parallel_for(
+          count, threads_, [&](std::size_t i) { body(first + i); }, 4);
+      control_.report("picture", from + (to - from) * static_cast<double>(first + count) / static_cast<double>(blocks_.size()));
+    }
+    return true;
+  }
+  template <class Body>
+  void each_pixel(std::size_t block, const Body& body) const {
+    const auto x0 = static_cast<std::uint32_t>(block % columns_) * side, y0 = static_cast<std::uint32_t>(block / columns_) * side;
+    for (std::uint32_t y = y0; y < std::min(y0 + side, view_.size.height); ++y) {
+      for (std::uint32_t x = x0; x < std::min(x0 + side, view_.size.width); ++x) { body(x, y); }
+    }
+  }
+  [[nodiscard]] std::uint32_t& surface_of(std::uint32_t x, std::uint32_t y) { return surfaces_[std::size_t{y} * view_.size.width + x]; }
+
+  void add_fragments(std::uint32_t x, std::uint32_t y, std::span<const std::optional<radiosity::FinalGather::Place>> seen,
+                     std::vector<Fragment>& out) const;
+  [[nodiscard]] bool one_piece(const radiosity::FinalGather::Place& a, const radiosity::FinalGather::Place& b) const;
+  void glance(std::size_t block);
+  void look_closer(std::size_t block);
+  void light_block(std::size_t block, const Tone& tone, Picture& picture);
+  [[nodiscard]] double pixel_size(const glm::dvec3& p) const { return pixel_angle_ * glm::length(p - eye_.position); }
+  [[nodiscard]] IndirectPoint gather_at(const Fragment& fragment) const;
+
+  const radiosity::FinalGather& light_;
+  const View& view_;
+  unsigned threads_;
+  const radiosity::Control& control_;
+  std::uint32_t columns_, rows_;
+  radiosity::FinalGather::Eye eye_;
+  double pixel_angle_;
+  IndirectPoints points_;
+  std::vector<std::vector<Fragment>> blocks_;
+  std::vector<std::uint32_t> surfaces_;  // that all rays of a pixel meet
+  std::array<glm::dvec2, 16> sixteen_{};
+  std::array<glm::dvec2, 4> four_{};
+};
+
+void Painter::add_fragments(std::uint32_t x, std::uint32_t y, std::span<const std::optional<radiosity::FinalGather::Place>> seen,
+                            std::vector<Fragment>& out) const {
+  const auto first = static_cast<std::ptrdiff_t>(out.size());
+  for (const auto& place : seen) {
+    if (!place) { continue; }
+    const auto same = std::find_if(out.begin() + first, out.end(), [&](const Fragment& f) { return one_piece(f.place, *place); });
+    if (same == out.end()) {
+      out.push_back({x, y, 1.0f, *place, place->point.position, place->point.normal});
+    } else {
+      same->share += 1.0f;
+      same->positions += place->point.position;
+      same->normals += place->point.normal;
+    }
+  }
+  for (auto f = out.begin() + first; f != out.end(); ++f) {
+    const glm::dvec3 middle = f->positions / static_cast<double>(f->share);
+    f->share /= static_cast<float>(seen.size());
+    if (light_.objects().object(f->place.object).flat()) {
+      f->place.point = {middle, glm::normalize(f->normals)};
+      continue;
+    }
+    // The middle of points of a curved surface lies off it: the nearest of them is on it.
+    double nearest = raycast::infinity;
+    const radiosity::FinalGather::Place of_piece = f->place;
+    for (const auto& place : seen) {
+      if (!place || !one_piece(of_piece, *place)) { continue; }
+      const double distance = glm::length(place->point.position - middle);
+      if (distance < nearest) {
+        nearest = distance;
+        f->place.point = place->point;
+      }
+    }
+  }
+}
+
+// Seen through one pixel, do these two belong together? Not where one part of a surface hides another, or on two sides of a crease.
+bool Painter::one_piece(const radiosity::FinalGather::Place& a, const radiosity::FinalGather::Place& b) const {
+  if (a.surface != b.surface || !(glm::dot(a.point.normal, b.point.normal) > 0.97)) { return false; }
+  constexpr double apart = 4.0;  // pixels
+  return std::abs(glm::dot(a.point.normal, b.point.position - a.point.position)) < apart * pixel_size(a.point.position);
+}
+
+void Painter::glance(std::size_t block) {
+  std::array<glm::dvec3, 16> directions{};
+  std::array<std::pair<std::uint32_t, std::uint32_t>, 4> pixels{};
+  unsigned waiting = 0;
+  const auto look = [&] {
+    const auto seen = light_.seen16(eye_, std::span(directions.data(), 4 * waiting), false);
+    for (unsigned k = 0; k < waiting; ++k) {
+      const auto [x, y] = pixels[k];
+      const auto own = std::span(seen).subspan(4 * k, 4);
+      std::uint32_t& surface = surface_of(x, y);
+      surface = own[0] ? own[0]->surface : no_surface;
+      for (const auto& place : own) {
+        if (place.has_value() != own[0].has_value() || (place && !one_piece(*own[0], *place))) { surface = several_surfaces; }
+      }
+      add_fragments(x, y, own, blocks_[block]);
+    }
+    waiting = 0;
+  };
+  each_pixel(block, [&](std::uint32_t x, std::uint32_t y) {
+    for (unsigned k = 0; k < 4; ++k) { directions[4 * waiting + k] = view_.direction(x + four_[k].x, y + four_[k].y); }
+    pixels[waiting++] = {x, y};
+    if (waiting == 4) { look(); }
+  });
+  if (waiting > 0) { look(); }
+}
+
+void Painter::look_closer(std::size_t block) {
+  const auto needs_more = [&](std::uint32_t x, std::uint32_t y) {
+    const std::uint32_t own = surface_of(x, y);
+    if (own == several_surfaces) { return true; }
+    for (std::uint32_t v = y > 0 ? y - 1 : 0; v < std::min(y + 2, view_.size.height); ++v) {
+      for (std::uint32_t u = x > 0 ? x - 1 : 0; u < std::min(x + 2, view_.size.width); ++u) {
+        if (surface_of(u, v) != own) { return true; }
+      }
+    }
+    return false;
+  };
+  std::vector<Fragment> result;
+  auto next = blocks_[block].begin();
+  bool changed = false;
+  each_pixel(block, [&](std::uint32_t x, std::uint32_t y) {
+    const auto first = next;
+    while (next != blocks_[block].end() && next->x == x && next->y == y) { ++next; }
+    if (!needs_more(x, y)) {
+      result.insert(result.end(), first, next);
+      return;
+    }
+    changed = true;
+    std::array<glm::dvec3, 16> directions{};
+    for (unsigned k = 0; k < 16; ++k) { directions[k] = view_.direction(x + sixteen_[k].x, y + sixteen_[k].y); }
+    add_fragments(x, y, light_.seen16(eye_, directions, true), result);
+  });
+  if (changed) { blocks_[block] = std::move(result); }
+}
+
+IndirectPoint Painter::gather_at(const Fragment& fragment) const {
+  const std::uint64_t key = radiosity::scramble(std::size_t{fragment.y} * view_.size.width + fragment.x) ^ fragment.place.surface;
+  const auto found = light_.indirect(fragment.place, least_rays, most_rays, ray_error, key);
+  IndirectPoint point;
+  point.position = fragment.place.point.position;
+  point.normal = fragment.place.point.normal;
+  point.object = fragment.place.object;
+  point.x = fragment.x;
+  point.y = fragment.y;
+  const double size = pixel_size(point.position);
+  const double facing = std::abs(glm::dot(point.normal, glm::normalize(point.position - eye_.position)));
+  const double footprint = size / std::max(facing, 0.2);  // of a pixel; where it is slanted, at most five times as long
+  const double allowed = found.nearness > 0.0 ? part_of_distance / found.nearness : raycast::infinity;
+  point.radius = std::clamp(allowed, least_pixels * footprint, most_pixels * footprint);
+  point.pixels = point.radius / size;
+  point.gathered = found.irradiance;
+  return point;
+}
+
+bool Painter::gather() {
+  std::vector<std::vector<std::uint32_t>> wanted(blocks_.size());  // fragments, by block
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
+  std::vector<IndirectPoint> found;
+  double done = 0.3;
+  for (std::uint32_t stride = 16; stride > 0; stride /= 2, done += 0.07) {
+    const auto ask = [&](std::size_t b) {
+      wanted[b].clear();
+      for (std::uint32_t i = 0; i < blocks_[b].size(); ++i) {
+        const Fragment& f = blocks_[b][i];
+        if (f.x % stride != 0 || f.y % stride != 0) { continue; }
+        const auto& p = f.place.point;
+        if (radiosity::is_black(light_.material(f.place.surface).reflectance)) { continue; }
+        if (points_.covered(f.x, f.y, p.position, p.normal, f.place.object)) { continue; }
+        // Not two points for neighbours; at least the smallest balls do not depend on what is seen from them.
+        const double apart = 2.0 * pixel_size(p.position);
+        const bool near = std::any_of(wanted[b].begin(), wanted[b].end(), [&](std::uint32_t k) {
+          const auto& other = blocks_[b][k].place;
+          return other.object == f.place.object && glm::dot(other.point.normal, p.normal) > 0.95 &&
+                 glm::length(other.point.position - p.position) < apart;
+        });
+        if (!near) { wanted[b].push_back(i); }
+      }
+    };
+    if (!each_block(done, done + 0.01, ask)) { return false; }
+    all.clear();
+    for (std::uint32_t b = 0; b < wanted.size(); ++b) {
+      for (const std::uint32_t i : wanted[b]) { all.emplace_back(b, i); }
+    }
+    found.resize(all.size());
+    constexpr std::size_t batch = 1024;
+    for (std::size_t first = 0; first < all.size(); first += batch) {
+      if (control_.cancelled()) { return false; }
+      const std::size_t count = std::min(batch, all.size() - first);
+      radiosity::parallel_for(
+          count, threads_, [&](std::size_t k) { found[first + k] = gather_at(blocks_[all[first + k].first][all[first + k].second]); }, 8);
+      control_.report("picture", done + 0.06 * static_cast<double>(first + count) / static_cast<double>(all.size()));
+    }
+    for (const IndirectPoint& point : found) { points_.add(point); }
+  }
+  radiosity::parallel_for(points_.size(), threads_, [&](std::size_t i) { points_.fit(i); });
+  return true;
+}
+
+// Where a surface fills a block, shadows are found by every second to third of its pixels in either direction.
+constexpr std::array<std::uint32_t, 4> lattice{0, 2, 5, 7};
+constexpr std::array<std::uint32_t, side> cell_of{0, 0, 0, 1, 1, 1, 2, 2};  // of a coordinate: between lattice[c] and lattice[c + 1]
+
+// Adds the light of lamp k of the region to the fragments `own`, all of one surface.
+void add_lamp(radiosity::LitRegion& region, std::size_t k, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
+              std::vector<Color>& irradiance) {
+  const auto point = [&](std::uint32_t i) { return fragments[i].place.point; };
+  const auto add = [&](std::uint32_t i, double visible) {
+    if (visible > 0.0) { irradiance[i] += region.lamp(k).exitance * (visible * region.unhidden(k, point(i).position, point(i).normal)); }
+  };
+  const auto visible = [&](std::uint32_t i) { return region.visible(k, point(i).position, point(i).normal); };
+  const auto all = [&](double share) {
+    for (const std::uint32_t i : own) { add(i, share); }
+  };
+  if (!region.may_be_hidden(k)) { return all(1.0); }
+  const bool filled =
+      own.size() == side * side && std::all_of(own.begin(), own.end(), [&](std::uint32_t i) { return fragments[i].share == 1.0f; });
+  if (!filled) {
+    for (const std::uint32_t i : own) { add(i, visible(i)); }
+    return;
+  }
+  std::array<std::array<double, side>, side> share{};
+  std::array<std::array<std::uint32_t, side>, side> fragment{};
+  for (const std::uint32_t i : own) { fragment[fragments[i].y % side][fragments[i].x % side] = i; }
+  double least = 1.0, most = 0.0;
+  for (const std::uint32_t v : lattice) {
+    for (const std::uint32_t u : lattice) {
+      share[v][u] = visible(fragment[v][u]);
+      least = std::min(least, share[v][u]);
+      most = std::max(most, share[v][u]);
+    }
+  }
+  constexpr double surely = 1e-6;
+  if (least >= 1.0 - surely) { return all(1.0); }
+  if (most <= surely) { return; }
+  // Between four pixels that agree the share is interpolated.
+  constexpr double agree = 0.06;
+  for (std::uint32_t v = 0; v < side; ++v) {
+    for (std::uint32_t u = 0; u < side; ++u) {
+      const std::uint32_t u0 = lattice[cell_of[u]], u1 = lattice[cell_of[u] + 1], v0 = lattice[cell_of[v]], v1 = lattice[cell_of[v] + 1];
+      if ((u == u0 || u == u1) && (v == v0 || v == v1)) { continue; }
+      const double a = share[v0][u0], b = share[v0][u1], c = share[v1][u0], d = share[v1][u1];
+      const double s = static_cast<double>(u - u0) / (u1 - u0), t = static_cast<double>(v - v0) / (v1 - v0);
+      share[v][u] = std::max({a, b, c, d}) - std::min({a, b, c, d}) <= agree
+                        ? (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d)
+                        : visible(fragment[v][u]);
+    }
+  }
+  for (const std::uint32_t i : own) { add(i, share[fragments[i].y % side][fragments[i].x % side]); }
+}
+
+void Painter::light_block(std::size_t block, const Tone& tone, Picture& picture) {
+  std::vector<Fragment>& fragments = blocks_[block];
+  std::vector<std::uint32_t> order(fragments.size());
+  std::vector<Color> irradiance(fragments.size(), Color{0.0});
+  for (std::uint32_t i = 0; i < order.size(); ++i) { order[i] = i; }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return fragments[a].place.surface < fragments[b].place.surface; });
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    const radiosity::FinalGather::Place& first = fragments[order[begin]].place;
+    while (end < order.size() && fragments[order[end]].place.surface == first.surface) { ++end; }
+    if (radiosity::is_black(light_.material(first.surface).reflectance)) { continue; }
+    const auto own = std::span(order).subspan(begin, end - begin);
+    glm::dvec3 n{0.0};
+    for (const std::uint32_t i : own) { n += fragments[i].place.point.normal; }
+    const bool flat = light_.objects().object(first.object).flat();
+    n = flat ? first.point.normal : glm::length(n) > 0.0 ? glm::normalize(n) : first.point.normal;
+    const auto [s, t] = radiosity::orthonormal(n);
+    glm::dvec3 lo{0.0}, hi{0.0};
+    for (const std::uint32_t i : own) {
+      const glm::dvec3 d = fragments[i].place.point.position - first.point.position;
+      const glm::dvec3 at{glm::dot(d, s), glm::dot(d, t), glm::dot(d, n)};
+      lo = glm::min(lo, at);
+      hi = glm::max(hi, at);
+    }
+    const auto corner = [&](double u, double v) { return first.point.position + u * s + v * t; };
+    const std::array<glm::dvec3, 4> contour{corner(lo.x, lo.y), corner(hi.x, lo.y), corner(hi.x, hi.y), corner(lo.x, hi.y)};
+    const double bulge = flat ? 0.0 : std::max(hi.z, -lo.z);
+    radiosity::LitRegion region{light_.direct(), {contour, first.object, bulge}, flat ? n : glm::dvec3{0.0}};
+    for (std::size_t k = 0; k < region.size(); ++k) { add_lamp(region, k, own, fragments, irradiance); }
+    for (const std::uint32_t i : own) {
+      const Fragment& f = fragments[i];
+      const auto& p = f.place.point;
+      if (const auto indirect = points_.at(f.x, f.y, p.position, p.normal, f.place.object)) { irradiance[i] += *indirect; }
+    }
+  }
+  auto next = fragments.begin();
+  each_pixel(block, [&](std::uint32_t x, std::uint32_t y) {
+    Color sum{0.0}, all{0.0};
+    for (; next != fragments.end() && next->x == x && next->y == y; ++next) {
+      const radiosity::Material& material = light_.material(next->place.surface);
+      const Color b = material.emission + material.reflectance * irradiance[static_cast<std::size_t>(next - fragments.begin())];
+      sum += static_cast<double>(next->share) * tone(b);
+      all += static_cast<double>(next->share) * b;
+    }
+    picture.set(std::size_t{y} * view_.size.width + x, sum, all);
+  });
+}
+
+}  // namespace
+
+std::optional<Picture> draw(const radiosity::FinalGather& light, const View& view, const Tone& tone, unsigned threads,
+                            const radiosity::Control& control) {
+  Picture picture{view.size.width, view.size.height};
+  Painter painter{light, view, threads, control};
+  if (!painter.look() || !painter.gather() || !painter.light_up(tone, picture)) { return std::nullopt; }
+  return picture;
+}
+
+}  // namespace apps

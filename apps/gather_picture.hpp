@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The picture of the true objects in light that is gathered for it (radiosity/picture/final_gather.hpp): direct light in every pixel,
+// indirect light at points that lie apart (indirect_points.hpp).
+//
+// A pixel is looked at by 4 rays, one in each row and column of a grid; by 16, again one in each row and column, where these or those of its
+// neighbours meet several surfaces. What they meet of one surface becomes one fragment of the pixel, which is lit once. Exposure and clamping
+// are those of the mesh picture (picture.hpp). The result does not depend on the number of threads.
+
+#include <optional>
+
+#include <radiosity/picture/final_gather.hpp>
+#include <radiosity/scene/options.hpp>
+
+#include "apps/picture.hpp"
+#include "apps/view.hpp"
+
+namespace apps {
+
+// Where there is no object the picture is black. Reports the stage "picture". Nothing when control.cancel became true.
+[[nodiscard]] std::optional<Picture> draw(const radiosity::FinalGather& light, const View& view, const Tone& tone, unsigned threads = 0,
+                                          const radiosity::Control& control = {});
+
+}  // namespace apps

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/direct/facets.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/brep.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+
+#include <raycast/inline.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// Collects facets whose corners are known by number, and finds which of them share an edge.
+class FacetCollector {
+ public:
+  void add(std::span<const std::uint32_t> numbers, Polygon contour) {
+    const glm::dvec3 area = vector_area(contour);
+    const double length = glm::length(area);
+    if (!(length > 0.0)) { return; }
+    const glm::dvec3 normal = area / length;
+    const auto index = static_cast<std::uint32_t>(facets_.facets.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const std::size_t next = i + 1 < numbers.size() ? i + 1 : 0;
+      const auto other = open_.find({numbers[next], numbers[i]});
+      if (other != open_.end()) {
+        facets_.edges[other->second].right = index;
+        open_.erase(other);
+      } else {
+        open_.insert_or_assign({numbers[i], numbers[next]}, facets_.edges.size());
+        facets_.edges.push_back({contour[i], contour[next], index, Facets::none});
+      }
+    }
+    facets_.facets.push_back({std::move(contour), normal, 0.0, length});
+    Facets::Facet& facet = facets_.facets.back();
+    for (const glm::dvec3& p : facet.contour) { facet.offset += glm::dot(normal, p) / static_cast<double>(facet.contour.size()); }
+  }
+  [[nodiscard]] Facets take() { return std::move(facets_); }
+
+ private:
+  Facets facets_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> open_;  // edges that still miss their other facet
+};
+
+}  // namespace detail
+
+HALFLIGHT_INLINE Facets facets_of(const Surface& surface, std::uint32_t sheet) {
+  detail::FacetCollector collector;
+  std::vector<std::uint32_t> numbers;
+  for (const brep::FaceId f : brep::faces(surface.brep)) {
+    const std::uint32_t own = surface.brep.data(f).sheet;
+    if (own == brep::no_sheet || (sheet != Facets::none && own != sheet)) { continue; }
+    Polygon contour;
+    numbers.clear();
+    for (const brep::HalfedgeId h : brep::halfedges_of(surface.brep, f)) {
+      const brep::VertexId v = surface.brep.vertex(h);
+      numbers.push_back(v.index);
+      contour.push_back(surface.brep.data(v).position);
+    }
+    collector.add(numbers, std::move(contour));
+  }
+  return collector.take();
+}
+
+HALFLIGHT_INLINE Facets facets_of(const raycast::PlacedObject& object, double tolerance, std::uint32_t sheet) {
+  brep::Builder builder;
+  object.approximate(tolerance, builder);
+  detail::FacetCollector collector;
+  for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
+    if (builder.sheet(f) == brep::no_sheet || (sheet != Facets::none && builder.sheet(f) != sheet)) { continue; }
+    const std::span<const std::uint32_t> corners = builder.corners(f);
+    const auto add = [&](std::span<const std::uint32_t> numbers) {
+      Polygon contour;
+      for (const std::uint32_t v : numbers) { contour.push_back(builder.position(v)); }
+      collector.add(numbers, std::move(contour));
+    };
+    if (corners.size() != 4) {  // a cap of many corners is planar
+      add(corners);
+      continue;
+    }
+    for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
+      const std::uint32_t triangle[3] = {corners[0], corners[i], corners[i + 1]};
+      add(triangle);
+    }
+  }
+  return collector.take();
+}
+
+HALFLIGHT_INLINE double contour_term(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 to_a = a - x;
+  const glm::dvec3 to_b = b - x;
+  const glm::dvec3 cross = glm::cross(to_b, to_a);
+  const double sine = glm::length(cross);
+  return sine > 0.0 ? glm::dot(n, cross) / sine * std::atan2(sine, glm::dot(to_a, to_b)) : 0.0;
+}
+
+HALFLIGHT_INLINE double form_factor(const Facets& facets, const glm::dvec3& x, const glm::dvec3& n, bool above_horizon,
+                                    std::vector<char>& facing) {
+  double sum = 0.0;
+  if (!above_horizon) {
+    Polygon above;
+    for (const Facets::Facet& facet : facets.facets) {
+      if (!(facet.height(x) > 0.0)) { continue; }
+      above.clear();
+      clip_to_horizon(facet.contour, x, n, above);
+      if (above.size() >= 3) { sum += point_to_polygon(x, n, above); }
+    }
+    return sum;
+  }
+  facing.resize(facets.facets.size());
+  for (std::size_t i = 0; i < facets.facets.size(); ++i) { facing[i] = facets.facets[i].height(x) > 0.0; }
+  for (const Facets::Edge& edge : facets.edges) {
+    const bool left = facing[edge.left] != 0;
+    const bool right = edge.right != Facets::none && facing[edge.right] != 0;
+    if (left != right) { sum += left ? contour_term(x, n, edge.a, edge.b) : contour_term(x, n, edge.b, edge.a); }
+  }
+  return std::max(0.0, sum / (2.0 * std::numbers::pi));
+}
+
+}  // namespace radiosity

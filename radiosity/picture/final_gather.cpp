@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/picture/final_gather.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/bundle.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/spans.hpp>
+#include <raycast/tolerances.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/support/sobol.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, const Frame& frame) : lookup_{scene, mesh, frame} {
+  std::vector<Color> emission;
+  for (const InputSurface& input : surfaces(scene)) {
+    materials_.push_back(scene.materials[input.material]);
+    emission.push_back(materials_.back().emission);
+  }
+  std::vector<Surface> boundaries;
+  for (std::uint32_t o = 0; o < objects().size(); ++o) {
+    SurfaceResult made = make_surface(objects().object(o), lookup_.surface(o, 0));
+    if (!made.surface) { return; }  // no solution of this scene
+    boundaries.push_back(std::move(*made.surface));
+  }
+  direct_ = DirectLight{objects(), boundaries, emission};
+}
+
+HALFLIGHT_INLINE FinalGather::Met FinalGather::met(const raycast::Hit& hit, const raycast::Segment& ray) const {
+  const glm::dvec3 at = ray.at(hit.t);
+  const std::uint32_t o = direct_.whole(hit.object);
+  const raycast::PlacedObject& object = objects().object(o);
+  if (!(direct_.lift(o) > 0.0)) { return {object.project(hit.sheet, at), o, hit.sheet}; }
+  // A mesh that stands in does not know the sheets of its object: it is the nearest that faces the same way.
+  const glm::dvec3 normal = direct_.objects().object(hit.object).project(hit.sheet, at).normal;
+  Met best{object.project(0, at), o, 0};
+  double best_distance = glm::dot(best.point.normal, normal) > 0.0 ? glm::length(best.point.position - at) : raycast::infinity;
+  for (std::uint32_t s = 1; s < object.sheet_count(); ++s) {
+    const raycast::SurfacePoint point = object.project(s, at);
+    const double distance = glm::length(point.position - at);
+    if (distance < best_distance && glm::dot(point.normal, normal) > 0.0) {
+      best = {point, o, s};
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+HALFLIGHT_INLINE FinalGather::Eye FinalGather::eye(const glm::dvec3& in_scene) const {
+  Eye eye{(in_scene - frame().centre) * frame().scale, true};
+  for (std::uint32_t o = 0; o < objects().size() && eye.in_air; ++o) {
+    const raycast::PlacedObject& object = objects().object(o);
+    if (!object.solid() || (!object.inside() && !object.bounds().contains(eye.position))) { continue; }
+    raycast::Spans spans;
+    object.spans({eye.position, {1.0, 0.0, 0.0}}, spans);
+    for (const raycast::Span& span : spans) { eye.in_air = eye.in_air && !(span.in.t <= 0.0 && span.out.t >= 0.0); }
+  }
+  return eye;
+}
+
+HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::seen16(const Eye& eye,
+                                                                                       std::span<const glm::dvec3> directions,
+                                                                                       bool outlines) const {
+  const raycast::Scene& scene = outlines ? objects() : direct_.objects();
+  std::array<std::optional<Place>, 16> result;
+  raycast::Segments16 rays;
+  for (unsigned i = 0; i < directions.size(); ++i) { rays.set(i, {eye.position, directions[i]}, raycast::no_object, raycast::no_object); }
+  constexpr int most = 10'000;  // surfaces passed: only backs and buried ones are, so this ends what rounding might not
+  for (int passed = 0; passed < most && rays.lanes != 0; ++passed) {
+    const raycast::Hits16 hits = scene.closest16(rays);
+    rays.lanes &= hits.met;
+    for (std::uint32_t rest = rays.lanes; rest != 0; rest &= rest - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(rest));
+      const raycast::Hit& hit = hits.hit[i];
+      const raycast::Segment ray = rays.at(i);
+      const Met found = outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
+      const bool from_air = eye.in_air && passed == 0;
+      if (hit.front && (from_air || !objects().covered(found.point.position, found.point.normal, found.object))) {
+        result[i] = Place{found.point, found.object, lookup_.surface(found.object, found.sheet)};
+        rays.lanes &= ~(1u << i);
+      } else {
+        rays.set(i, {ray.at(hit.t), ray.direction}, hit.object, raycast::no_object);
+      }
+    }
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most,
+                                                             double error, std::uint64_t key) const {
+  const Sobol4 sequence{1, key};
+  const double reach = objects().diameter();
+  const double lift = direct_.lift(place.object);
+  const glm::dvec3 from = place.point.position + lift * place.point.normal;
+  const std::uint32_t owner = lift > 0.0 ? raycast::no_object : place.object;
+  Color sum{0.0};
+  std::array<double, 4> part{};  // of the rays, by fours of sixteen: their spread is the standard error
+  double nearness = 0.0;
+  std::uint32_t rays = 0;
+  const auto exact_enough = [&] {
+    double squares = 0.0;
+    const double mean = (part[0] + part[1] + part[2] + part[3]) / 4.0;
+    for (const double p : part) { squares += (p - mean) * (p - mean) / 12.0; }
+    return squares <= error * error * mean * mean;
+  };
+  for (; rays < least || (rays < most && (rays % 64 != 0 || !exact_enough())); rays += 16) {
+    raycast::Segments16 segments;
+    for (unsigned k = 0; k < 16; ++k) {
+      const std::array<double, 4> u = sequence(rays + k);
+      segments.set(k, {from, reach * cosine_direction(place.point.normal, u[0], u[1])}, owner, raycast::no_object);
+    }
+    const raycast::Hits16 hits = direct_.objects().closest16(segments);
+    const Color before = sum;
+    for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
+      const auto k = static_cast<unsigned>(std::countr_zero(rest));
+      const raycast::Hit& hit = hits.hit[k];
+      nearness += 1.0 / std::max(hit.t * reach, 1e-6);
+      if (!hit.front) { continue; }
+      const Met found = met(hit, segments.at(k));
+      const std::uint32_t surface = lookup_.surface(found.object, found.sheet);
+      const Color lamp = direct_.is_lamp(surface) ? materials_[surface].emission : Color{0.0};
+      if (is_black(materials_[surface].reflectance)) {
+        sum += materials_[surface].emission - lamp;
+        continue;
+      }
+      if (const std::optional<Color> light = lookup_.at(found.object, found.sheet, found.point)) { sum += *light - lamp; }
+    }
+    const Color added = sum - before;
+    part[rays / 16 % 4] += added.x + added.y + added.z;
+  }
+  return {sum / static_cast<double>(rays), nearness / static_cast<double>(rays)};
+}
+
+}  // namespace radiosity

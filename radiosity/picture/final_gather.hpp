@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Light at a point of the true surface, better than the mesh of the solution has it: direct light by itself (radiosity/direct), indirect
+// light by one more gathering of the solution, along rays (Reichert 1992; final gather). So the mesh is only looked at from afar, where
+// what it smears over a leaf is averaged out; edges of shadows and what lies in a corner do not depend on the size of its leaves.
+//
+// What shines and is no lamp of DirectLight is found by the rays.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/bundle.hpp>
+#include <raycast/object.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/scene.hpp>
+
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+
+namespace radiosity {
+
+class FinalGather {
+ public:
+  // `mesh` is a solution of the scene, in the scene's coordinates; `frame` that of the solution. All inputs may go after this.
+  FinalGather(const Scene& scene, const Mesh& mesh, const Frame& frame);
+  FinalGather(const FinalGather&) = delete;
+  FinalGather& operator=(const FinalGather&) = delete;
+
+  [[nodiscard]] const raycast::Scene& objects() const { return lookup_.objects(); }
+  [[nodiscard]] const Frame& frame() const { return lookup_.frame(); }
+  [[nodiscard]] const DirectLight& direct() const { return direct_; }
+  [[nodiscard]] const Material& material(std::uint32_t surface) const { return materials_[surface]; }  // of an input surface
+
+  // A point that is seen, in the frame.
+  struct Place {
+    raycast::SurfacePoint point;
+    std::uint32_t object = 0, surface = 0;
+  };
+  // Where one looks from. From the air the first front that is met cannot be buried, which saves to ask.
+  struct Eye {
+    glm::dvec3 position{0.0};  // in the frame
+    bool in_air = false;
+  };
+  [[nodiscard]] Eye eye(const glm::dvec3& in_scene) const;
+  // What is seen in up to sixteen directions: the first surface that shows its front and is not buried; backs are looked through
+  // (lookup.hpp). `outlines`: where those are as they are, not as those of meshes that stand in for slow objects.
+  [[nodiscard]] std::array<std::optional<Place>, 16> seen16(const Eye& eye, std::span<const glm::dvec3> directions, bool outlines) const;
+
+  struct Indirect {
+    Color irradiance{0.0};  // W/m2
+    double nearness = 0.0;  // 1 / harmonic mean distance of what is seen, in the frame
+  };
+  // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a multiple of 64, or as many more, up to `most`, as it
+  // takes for the standard error to fall to this share of the light. `key` names the point: it fixes the rays.
+  [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error, std::uint64_t key) const;
+
+ private:
+  // What a ray has met.
+  struct Met {
+    raycast::SurfacePoint point;
+    std::uint32_t object = 0, sheet = 0;
+  };
+  [[nodiscard]] Met met(const raycast::Hit& hit, const raycast::Segment& ray) const;
+
+  Lookup lookup_;
+  std::vector<Material> materials_;  // of the input surfaces
+  DirectLight direct_;
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/picture/final_gather.cpp>
+#endif
