@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// From faces to objects. A closed shell becomes a solid. One that looks inwards, or that holds a lamp or an eye, is seen from inside: a room,
+// where everything else lies in it, or else a surface, for beyond its walls a room is solid. What is open becomes, of each group, one
+// surface; where it has two sides its back is a surface of its own at the same place.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <radiosity/intake/topology.hpp>
+#include <radiosity/intake/working.hpp>
+
+namespace radiosity::intake {
+
+[[nodiscard]] std::vector<SceneObject> make_objects(Working& mesh, const Topology& topology, const PolygonView& input,
+                                                    std::span<const Material> materials, const IntakeOptions& options);
+
+}  // namespace radiosity::intake
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/intake/objects.cpp>
+#endif
