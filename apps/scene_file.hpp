@@ -56,6 +56,7 @@ struct SceneFile {
   radiosity::Scene scene;
   std::vector<ObjectOrigin> origins;  // one per scene.objects
   std::vector<Camera> cameras;
+  std::vector<std::string> notes;  // of files of other formats: what was changed or taken otherwise
 };
 
 struct SceneResult : ErrorReport {

@@ -19,6 +19,7 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
+#include "apps/commands/model_arguments.hpp"
 #include "apps/commands/render_outputs.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/memory.hpp"
@@ -122,7 +123,7 @@ ExitCode run(const RenderOptions& options) {
   }
   if (const ExitCode code = check(options); code != ExitCode::ok) { return code; }
   ExitCode code = ExitCode::ok;
-  const auto file = load_scene(options.scene, code);
+  const auto file = load_scene(options.scene, code, options.model);
   if (!file) { return code; }
   const auto camera = choose_camera(*file, options.camera);
   if (!camera) { return ExitCode::usage; }
@@ -154,6 +155,7 @@ ExitCode run(const RenderOptions& options) {
   const radiosity::Solution& solution = *outcome.solution;
   Report report;
   report.scene = options.scene;
+  report.taken_in = file->notes;
   report.options = settings;
   report.audit = solution.audit;
   leave_out_others(report.audit.stages);
@@ -247,7 +249,8 @@ std::vector<Argument> arguments(RenderOptions& options) {
 
 Command render_command() {
   const auto options = std::make_shared<RenderOptions>();
-  return {"render", "solve a scene; write a picture or a mesh and the report", arguments(*options), [options] { return run(*options); }};
+  return {"render", "solve a scene; write a picture or a mesh and the report", with_model_arguments(arguments(*options), options->model),
+          [options] { return run(*options); }};
 }
 
 }  // namespace apps

@@ -12,6 +12,7 @@
 #include <radiosity/radiosity.hpp>
 #include <radiosity/scene/options.hpp>
 
+#include "apps/intake/to_scene.hpp"
 #include "apps/picture.hpp"
 #include "apps/report.hpp"
 #include "apps/scene_file.hpp"
@@ -22,6 +23,7 @@ enum class ErrorOf { picture, surfaces };
 
 struct RenderOptions {
   std::string scene;
+  ModelOptions model;
   std::vector<std::string> outputs;  // *.png, *.ply
   std::string json;                  // empty: none
   std::string camera;                // empty: the first of the file, or the automatic one

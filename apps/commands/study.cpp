@@ -14,6 +14,7 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
+#include "apps/commands/model_arguments.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/memory.hpp"
 #include "apps/progress.hpp"
@@ -29,6 +30,7 @@ namespace apps {
 namespace {
 
 struct StudyOptions {
+  ModelOptions model;
   std::vector<std::string> scenes;
   std::string folder;
   double seconds = 12.0;       // CPU time of one run
@@ -80,7 +82,7 @@ std::string title_of(const std::string& text) {
 bool study_scene(const std::string& path, const StudyOptions& options, const radiosity::Control& control, Progress& progress,
                  study::SceneStudy& result, ExitCode& code) {
   const auto text = load_text(path, code);
-  const auto file = text ? load_scene(path, *text, code) : std::nullopt;
+  const auto file = text ? load_scene(path, *text, code, options.model) : std::nullopt;
   if (!file) { return false; }
   result.scene = fs::path(path).stem().string();
   result.title = title_of(*text);
@@ -91,8 +93,10 @@ bool study_scene(const std::string& path, const StudyOptions& options, const rad
   reference.threads = options.threads;
   const std::string name = result.scene + ".reference.json";
   const std::vector<std::string> caches{(fs::path(path).parent_path() / name).string(), (fs::path(options.folder) / name).string()};
+  // A file of another program and what the command line says about it are the scene together.
+  const std::string known = file->notes.empty() ? *text : *text + options.model.key();
   std::string fault;
-  const auto truth = study::make_reference(file->scene, *text, caches, reference, control, fault);
+  const auto truth = study::make_reference(file->scene, known, caches, reference, control, fault);
   if (!truth) {
     complain(path + ": " + fault);
     code = control.cancelled() ? ExitCode::failure : ExitCode::invalid_input;
@@ -186,7 +190,8 @@ Command study_command() {
   return {
       "study",
       "error against time, memory and links for every method on each scene",
-      {texts("scenes", "SCENE", options->scenes, "the .scene files").must(),
+      with_model_arguments(
+      {texts("scenes", "SCENE", options->scenes, "the scenes: .scene files, or " + model_endings()).must(),
        text("-o,--output", "DIR", options->folder, "folder for tables, plots, pictures and the page; made when there is none").must(),
        above_zero("--time-per-run", options->seconds, 1e6, "CPU seconds after which a run is stopped")
            .by_default(formatted("%g", options->seconds)),
@@ -200,6 +205,7 @@ Command study_command() {
            "most memory that one run may take, such as 500M or 2G; one that would need more is refused, or ends with the best that fits"),
        whole_number("--threads", options->threads, 0, most_threads, "0: as many as the machine has; results do not depend on it"),
        flag("-q,--quiet", options->quiet, "no narration on stderr")},
+      options->model),
       [options] { return run(*options); }};
 }
 

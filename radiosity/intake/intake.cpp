@@ -32,7 +32,7 @@ struct Wording {
 inline constexpr std::array<Wording, static_cast<std::size_t>(ChangeKind::merged) + 1> wordings{{
     {"1 polygon has a corner that is not finite or does not exist: left out",
      "# polygons have corners that are not finite or do not exist: left out"},
-    {"1 vertex lay within @ of another one: made one", "# vertices lay within @ of another one: made one"},
+    {"1 vertex lay on another one, @ beside it: made one", "# vertices lay on others, beside them by up to @: made one"},
     {"1 polygon has no area: left out", "# polygons have no area: left out"},
     {"1 polygon is only @ wide: left out", "# polygons are at most @ wide: left out"},
     {"1 polygon lies on another one: left out", "# polygons lie on others: left out"},
@@ -64,7 +64,7 @@ inline std::string replaced(std::string text, char mark, const std::string& by) 
 HALFLIGHT_INLINE std::string length_text(double metres) {
   constexpr std::array<std::pair<double, const char*>, 5> units{{{1e3, " km"}, {1.0, " m"}, {1e-3, " mm"}, {1e-6, " um"}, {0.0, " nm"}}};
   for (const auto& [unit, name] : units) {
-    if (!(metres >= unit)) { continue; }
+    if (!(metres >= unit) || metres == 0.0) { continue; }
     const double value = metres / (unit > 0.0 ? unit : 1e-9);
     const double step = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-3))) - 1.0);  // two digits
     const double rounded = std::round(value / step) * step;
@@ -73,7 +73,7 @@ HALFLIGHT_INLINE std::string length_text(double metres) {
     if (text.back() == '.') { text.pop_back(); }
     return text + name;
   }
-  return "0 m";
+  return "0 mm";
 }
 
 HALFLIGHT_INLINE std::string sentence(const Change& change) {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "apps/intake/model.hpp"
+#include "apps/mesh_file.hpp"
+#include "apps/scene_file/words.hpp"
+
+namespace apps {
+namespace intake {
+
+extern const ModelFormat obj, ply, off;
+
+}  // namespace intake
+
+std::span<const ModelFormat* const> model_formats() {
+  static constexpr std::array formats{&intake::obj, &intake::ply, &intake::off};
+  return formats;
+}
+
+std::string model_endings() {
+  std::vector<std::string_view> endings;
+  for (const ModelFormat* const format : model_formats()) { endings.push_back(format->ending); }
+  return scene_file::list_of(endings);
+}
+
+const ModelFormat* model_format(std::string_view path, std::string_view bytes) {
+  for (const ModelFormat* const format : model_formats()) {
+    if (path == "-" ? format->begins(bytes) : has_ending(path, format->ending)) { return format; }
+  }
+  return nullptr;
+}
+
+std::vector<std::string> Notes::take() const {
+  std::vector<std::pair<std::size_t, std::string>> sorted;
+  for (const auto& [sentence, entry] : entries_) {
+    std::string text = sentence;
+    if (entry.count > 1) { text += ", " + std::to_string(entry.count) + " times"; }
+    if (!entry.place.empty()) { text += (entry.count > 1 ? ", first " : ", ") + entry.place; }
+    sorted.emplace_back(entry.number, std::move(text));
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::string> sentences;
+  for (auto& [number, text] : sorted) { sentences.push_back(std::move(text)); }
+  return sentences;
+}
+
+}  // namespace apps
