@@ -3,6 +3,8 @@
 #include <array>
 #include <cctype>
 
+#include <glm/geometric.hpp>
+
 #include "apps/intake/model.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/scene_file/words.hpp"
@@ -10,12 +12,12 @@
 namespace apps {
 namespace intake {
 
-extern const ModelFormat obj, ply, off;
+extern const ModelFormat obj, ply, off, gltf, glb;
 
 }  // namespace intake
 
 std::span<const ModelFormat* const> model_formats() {
-  static constexpr std::array formats{&intake::obj, &intake::ply, &intake::off};
+  static constexpr std::array formats{&intake::obj, &intake::gltf, &intake::glb, &intake::ply, &intake::off};
   return formats;
 }
 
@@ -30,6 +32,13 @@ const ModelFormat* model_format(std::string_view path, std::string_view bytes) {
     if (path == "-" ? format->begins(bytes) : has_ending(path, format->ending)) { return format; }
   }
   return nullptr;
+}
+
+bool usable(const Camera& camera) {
+  const auto in_reach = [](const glm::dvec3& v) { return glm::length(v) <= max_number; };  // false for NaN
+  const double sine = glm::length(glm::cross(camera.forward, camera.up));
+  return in_reach(camera.eye) && in_reach(camera.forward) && in_reach(camera.up) &&
+         sine > 1e-9 * glm::length(camera.forward) * glm::length(camera.up) && camera.field_of_view >= 0.001 && camera.field_of_view <= 179.0;
 }
 
 std::vector<std::string> Notes::take() const {

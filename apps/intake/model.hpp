@@ -75,6 +75,9 @@ class Notes {
   std::map<std::string, Entry> entries_;
 };
 
+// Does it look somewhere, with its up beside its view, and through a lens that a picture can have? Others must not get into a model.
+[[nodiscard]] bool usable(const Camera& camera);
+
 // A file beside the one that is read, by its name there: its bytes, or nothing and a sentence such as "cannot be opened: ...".
 using SideFile = std::function<std::optional<std::string>(const std::string& name, std::string& fault)>;
 
