@@ -89,6 +89,7 @@ HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Materi
   intake::drop_degenerate(mesh);
   intake::drop_duplicates(mesh);
   intake::close_t_joints(mesh);
+  intake::drop_duplicates(mesh);  // those that had no joint
   intake::split_faulty(mesh, false);
   intake::orient(mesh);
   if (options.merge) { intake::merge_coplanar(mesh, intake::topology_of(mesh, false)); }

@@ -20,15 +20,16 @@
 namespace radiosity::intake {
 namespace detail {
 
-struct BorderEdge {
+struct Side {
   std::uint32_t group, low, high;  // its vertices
   std::uint32_t face, corner;      // it begins at this corner
 
   [[nodiscard]] auto key() const { return std::tie(group, low, high); }
 };
 
-inline std::vector<BorderEdge> border_edges(const Working& mesh) {
-  std::vector<BorderEdge> edges;
+// The sides of all faces, those of an edge after each other.
+inline std::vector<Side> sides_of(const Working& mesh) {
+  std::vector<Side> edges;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     const std::vector<std::uint32_t>& corners = mesh.faces[f].corners;
     for (std::uint32_t i = 0; i < corners.size(); ++i) {
@@ -36,15 +37,10 @@ inline std::vector<BorderEdge> border_edges(const Working& mesh) {
       edges.push_back({mesh.faces[f].group, low, high, f, i});
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const BorderEdge& a, const BorderEdge& b) {
+  std::sort(edges.begin(), edges.end(), [](const Side& a, const Side& b) {
     return std::tuple(a.key(), a.face, a.corner) < std::tuple(b.key(), b.face, b.corner);
   });
-  std::vector<BorderEdge> borders;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const bool alone = (i == 0 || edges[i - 1].key() != edges[i].key()) && (i + 1 == edges.size() || edges[i + 1].key() != edges[i].key());
-    if (alone) { borders.push_back(edges[i]); }
-  }
-  return borders;
+  return edges;
 }
 
 struct Joint {
@@ -56,9 +52,11 @@ struct Joint {
 }  // namespace detail
 
 HALFLIGHT_INLINE void close_t_joints(Working& mesh) {
-  const std::vector<detail::BorderEdge> edges = detail::border_edges(mesh);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;  // group, vertex
-  for (const detail::BorderEdge& e : edges) {
+  const std::vector<detail::Side> edges = detail::sides_of(mesh);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;  // group, vertex: of edges with one face
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const detail::Side& e = edges[i];
+    if ((i > 0 && edges[i - 1].key() == e.key()) || (i + 1 < edges.size() && edges[i + 1].key() == e.key())) { continue; }
     ends.emplace_back(e.group, e.low);
     ends.emplace_back(e.group, e.high);
   }
@@ -70,7 +68,7 @@ HALFLIGHT_INLINE void close_t_joints(Working& mesh) {
   const raycast::Bvh bvh(boxes);
 
   std::vector<detail::Joint> joints;
-  for (const detail::BorderEdge& e : edges) {
+  for (const detail::Side& e : edges) {
     const std::vector<std::uint32_t>& corners = mesh.faces[e.face].corners;
     const std::uint32_t from = corners[e.corner], to = corners[e.corner + 1 < corners.size() ? e.corner + 1 : 0];
     const glm::dvec3 a = mesh.positions[from], along = mesh.positions[to] - a;

@@ -9,7 +9,7 @@
 //      |       |/            |       |/
 //      *-------*             *-------*
 //
-// Only edges with a face on one side, and the vertices of such edges, are looked at, each group by itself.
+// Only the vertices of edges with a face on one side are looked at, each group by itself.
 
 #include <radiosity/intake/working.hpp>
 
