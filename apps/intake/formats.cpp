@@ -12,12 +12,12 @@
 namespace apps {
 namespace intake {
 
-extern const ModelFormat obj, ply, off, gltf, glb;
+extern const ModelFormat obj, ply, off, gltf, glb, wrl;
 
 }  // namespace intake
 
 std::span<const ModelFormat* const> model_formats() {
-  static constexpr std::array formats{&intake::obj, &intake::gltf, &intake::glb, &intake::ply, &intake::off};
+  static constexpr std::array formats{&intake::obj, &intake::gltf, &intake::glb, &intake::ply, &intake::off, &intake::wrl};
   return formats;
 }
 

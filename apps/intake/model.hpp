@@ -36,6 +36,12 @@ struct ModelMaterial {
   bool two_sided = false;          // the file says that its surfaces are seen from both sides
 };
 
+// A light without a surface, which becomes a small lamp. `intensity`: of an ordinary one 1 1 1.
+struct ModelLight {
+  glm::dvec3 position{0.0};
+  radiosity::Color intensity{0.0};
+};
+
 struct Model {
   std::vector<glm::dvec3> positions;
   std::vector<std::uint32_t> corners, first_corner{0};
@@ -46,6 +52,7 @@ struct Model {
   std::vector<radiosity::SceneObject> objects;  // analytic ones; their materials are among the model's
   std::vector<ObjectOrigin> origins;            // one per object
   std::vector<Camera> cameras;
+  std::vector<ModelLight> lights;
   std::vector<std::string> notes;  // sentences about what was passed over or taken otherwise
 
   [[nodiscard]] std::size_t polygons() const { return first_corner.size() - 1; }

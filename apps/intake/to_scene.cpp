@@ -15,6 +15,7 @@
 #include <raycast/box.hpp>
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/polygon.hpp>
+#include <raycast/objects/sphere.hpp>
 #include <raycast/transform.hpp>
 
 #include "apps/bounds.hpp"
@@ -32,6 +33,8 @@ glm::dmat3 to_metres(UpAxis up, double metres) {
   if (up == UpAxis::x) { turn = {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}; }
   return metres * turn;
 }
+
+std::string counted(std::size_t count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
 
 class SceneMaker {
  public:
@@ -55,6 +58,7 @@ class SceneMaker {
       faults.push_back("the scene has more than " + std::to_string(max_objects) + " objects");
       return std::nullopt;
     }
+    add_lights();
     rename();
     if (!shines() && !add_studio(faults)) { return std::nullopt; }
     return std::move(file_);
@@ -70,6 +74,7 @@ class SceneMaker {
       camera.up = linear * camera.up;
     }
     file_.cameras = std::move(model_.cameras);
+    for (ModelLight& light : model_.lights) { light.position = linear * light.position; }
   }
 
   void note(std::string sentence) { file_.notes.push_back(std::move(sentence)); }
@@ -95,13 +100,21 @@ class SceneMaker {
     }
   }
 
+  // Of the materials, each once.
+  [[nodiscard]] std::vector<std::string_view> names() const {
+    std::vector<std::string_view> list;
+    for (const radiosity::Material& material : file_.scene.materials) {
+      if (list.size() < 1000 && std::find(list.begin(), list.end(), material.name) == list.end()) { list.push_back(material.name); }
+    }
+    return list;
+  }
+
   // A lamp that is no material of the file is an error: it would be missed in silence.
   bool take_lamps(std::vector<std::string>& faults) {
     for (const Lamp& lamp : options_.lamps) {
-      std::vector<std::string_view> known;
+      const std::vector<std::string_view> known = names();
       bool found = false;
       for (radiosity::Material& material : file_.scene.materials) {
-        known.push_back(material.name);
         if (material.name != lamp.material) { continue; }
         found = true;
         material.emission = radiosity::Color(lamp.exitance);
@@ -119,6 +132,7 @@ class SceneMaker {
     options.two_sided = options_.two_sided;
     options.merge = options_.merge;
     for (const Camera& camera : file_.cameras) { options.eyes.push_back(camera.eye); }
+    for (const ModelLight& light : model_.lights) { options.eyes.push_back(light.position); }
     const radiosity::PolygonView view{model_.positions, model_.corners, model_.first_corner, model_.material,
                                       model_.group,     model_.groups,  two_sided_};
     radiosity::Intake intake = radiosity::take_in(view, file_.scene.materials, options);
@@ -127,10 +141,25 @@ class SceneMaker {
       const std::uint32_t line = vertex || change.first >= model_.line.size() ? 0 : model_.line[change.first];
       note(radiosity::sentence(change) + (line > 0 ? (change.count > 1 ? ", first at line " : ", at line ") + std::to_string(line) : ""));
     }
-    note(std::to_string(intake.polygons) + " polygons became " + std::to_string(intake.faces) + (intake.faces == 1 ? " face of " : " faces of ") +
-         std::to_string(intake.objects.size()) + (intake.objects.size() == 1 ? " object" : " objects"));
+    note(counted(intake.polygons, "polygon") + " became " + counted(intake.faces, "face") + " of " + counted(intake.objects.size(), "object"));
     file_.scene.objects = std::move(intake.objects);
     file_.origins.assign(file_.scene.objects.size(), {"mesh", {}});
+  }
+
+  // A sphere of a hundredth of the scene's size. One of intensity 1 brings 100 W/m2 to what is half that size away.
+  void add_lights() {
+    if (model_.lights.empty()) { return; }
+    const double size = scene_bounds(file_.scene).diameter(), radius = 0.01 * size;
+    for (const ModelLight& light : model_.lights) {
+      raycast::Made<raycast::Sphere> sphere = raycast::Sphere::make(light.position, radius);
+      if (!sphere || radiosity::is_black(light.intensity)) { continue; }
+      const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());
+      file_.scene.materials.push_back({"light", radiosity::Color(0.0), 100.0 * 2500.0 * light.intensity});
+      file_.scene.objects.push_back({"light", std::move(sphere.object), {}, {material}});
+      file_.origins.push_back({"light", {}});
+    }
+    note(std::to_string(model_.lights.size()) + (model_.lights.size() == 1 ? " light has no surface: a lamp" : " lights have no surface: lamps") + " of " +
+         radiosity::length_text(2.0 * radius) + " across");
   }
 
   // Names that are there already get a number.
@@ -155,8 +184,7 @@ class SceneMaker {
   // Who only wants to see a model gets a studio around it: floor, walls, and a lamp in the ceiling. In a closed room its light would not
   // arrive.
   bool add_studio(std::vector<std::string>& faults) {
-    std::vector<std::string_view> known;
-    for (const radiosity::Material& material : file_.scene.materials) { known.push_back(material.name); }
+    const std::vector<std::string_view> known = names();
     const std::string advice = "--lamp MATERIAL, one of " + scene_file::list_of(known);
     if (std::any_of(file_.scene.objects.begin(), file_.scene.objects.end(), [](const auto& o) { return o.placement.inside; })) {
       faults.push_back("nothing shines in this closed room; say which material does: " + advice);
