@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,14 +58,18 @@ struct SceneFile {
   std::vector<ObjectOrigin> origins;  // one per scene.objects
   std::vector<Camera> cameras;
   std::vector<std::string> notes;  // of files of other formats: what was changed or taken otherwise
+  std::string beside;              // all bytes of the files beside this one that were read
 };
+
+// A file beside the one that is read, by its name there: its bytes, or nothing and a sentence such as "cannot be opened: ...".
+using SideFile = std::function<std::optional<std::string>(const std::string& name, std::string& fault)>;
 
 struct SceneResult : ErrorReport {
   std::optional<SceneFile> file;  // nothing when there are errors
 };
 
-// The scene that `text` describes.
-[[nodiscard]] SceneResult parse_scene(std::string_view text);
+// The scene that `text` describes. Without `side_file` no mesh can be in a file of its own.
+[[nodiscard]] SceneResult parse_scene(std::string_view text, const SideFile& side_file = {});
 
 // The whole file, "-" for the standard input, or nothing and a sentence in `fault` (missing, a directory, unreadable, too large).
 [[nodiscard]] std::optional<std::string> read_text(const std::string& path, std::string& fault);

@@ -37,16 +37,19 @@ std::optional<std::string> load_text(const std::string& path, ExitCode& code) {
 
 namespace {
 
-// Files that a model names lie beside it, or where their whole path says.
-SideFile beside(const std::string& path) {
-  return [folder = std::filesystem::path(path).parent_path()](const std::string& name, std::string& fault) {
-    return read_text((folder / name).string(), fault);
+// Files that another one names lie beside it, or where their whole path says. All their bytes are collected in `read`.
+SideFile beside(const std::string& path, std::string& read) {
+  return [folder = std::filesystem::path(path).parent_path(), &read](const std::string& name, std::string& fault) {
+    auto bytes = read_text((folder / name).string(), fault);
+    if (bytes) { read += *bytes; }
+    return bytes;
   };
 }
 
 std::optional<SceneFile> load_model(const std::string& path, const std::string& bytes, const ModelFormat& format, const ModelOptions& options,
                                     ExitCode& code) {
-  ModelResult result = format.read(bytes, beside(path));
+  std::string read;
+  ModelResult result = format.read(bytes, beside(path, read));
   code = ExitCode::invalid_input;
   if (!result.model) {
     const FileGuess guess = guess_kind(bytes);
@@ -55,8 +58,9 @@ std::optional<SceneFile> load_model(const std::string& path, const std::string& 
     return std::nullopt;
   }
   std::vector<std::string> faults;
-  auto file = to_scene(std::move(*result.model), format.up, options, path, faults);
+  auto file = to_scene(std::move(*result.model), format.up, options, faults);
   if (file) {
+    file->beside = std::move(read);
     code = ExitCode::ok;
   } else {
     complain_of(shown(path), faults);
@@ -79,13 +83,15 @@ std::optional<SceneFile> load_scene(const std::string& path, const std::string& 
     code = ExitCode::usage;
     return std::nullopt;
   }
-  SceneResult result = parse_scene(text);
+  std::string read;
+  SceneResult result = parse_scene(text, beside(path, read));
   if (!result.file) {
     const auto sentence = wrong_kind(shown(path), text, FileKind::scene);
     sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, shown(path)).c_str(), stderr));
     code = ExitCode::invalid_input;
     return std::nullopt;
   }
+  result.file->beside = std::move(read);
   return std::move(result.file);
 }
 

@@ -10,7 +10,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -84,9 +83,6 @@ class Notes {
 
 // Does it look somewhere, with its up beside its view, and through a lens that a picture can have? Others must not get into a model.
 [[nodiscard]] bool usable(const Camera& camera);
-
-// A file beside the one that is read, by its name there: its bytes, or nothing and a sentence such as "cannot be opened: ...".
-using SideFile = std::function<std::optional<std::string>(const std::string& name, std::string& fault)>;
 
 struct ModelResult : ErrorReport {
   std::optional<Model> model;  // nothing when there are errors

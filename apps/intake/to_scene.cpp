@@ -38,13 +38,23 @@ std::string counted(std::size_t count, const std::string& what) { return std::to
 
 class SceneMaker {
  public:
-  SceneMaker(Model model, const ModelOptions& options, const std::string& name) : model_(std::move(model)), options_(options), name_(name) {}
+  SceneMaker(Model model, const ModelOptions& options) : model_(std::move(model)), options_(options) {}
 
-  std::optional<SceneFile> run(UpAxis up, std::vector<std::string>& faults) {
+  std::optional<SceneFile> scene(UpAxis up, std::vector<std::string>& faults) {
     place(to_metres(options_.up.value_or(up), options_.metres));
+    if (!part(faults) || (!shines() && !add_studio(faults))) { return std::nullopt; }
+    return std::move(file_);
+  }
+  std::optional<SceneFile> part_alone(std::vector<std::string>& faults) {
+    model_.cameras.clear();
+    return part(faults) ? std::optional(std::move(file_)) : std::nullopt;
+  }
+
+ private:
+  bool part(std::vector<std::string>& faults) {
     file_.notes = std::move(model_.notes);
     take_materials();
-    if (!take_lamps(faults)) { return std::nullopt; }
+    if (!take_lamps(faults)) { return false; }
     take_polygons();
     for (std::size_t i = 0; i < model_.objects.size(); ++i) {
       file_.scene.objects.push_back(std::move(model_.objects[i]));
@@ -52,19 +62,17 @@ class SceneMaker {
     }
     if (file_.scene.objects.empty()) {
       faults.emplace_back("nothing in this file has a surface");
-      return std::nullopt;
+      return false;
     }
     if (file_.scene.objects.size() > max_objects) {
       faults.push_back("the scene has more than " + std::to_string(max_objects) + " objects");
-      return std::nullopt;
+      return false;
     }
     add_lights();
     rename();
-    if (!shines() && !add_studio(faults)) { return std::nullopt; }
-    return std::move(file_);
+    return true;
   }
 
- private:
   void place(const glm::dmat3& linear) {
     for (glm::dvec3& p : model_.positions) { p = linear * p; }
     for (radiosity::SceneObject& object : model_.objects) { object.placement = raycast::compose({linear, glm::dvec3(0.0), false}, object.placement); }
@@ -216,7 +224,6 @@ class SceneMaker {
 
   Model model_;
   const ModelOptions& options_;
-  const std::string& name_;
   SceneFile file_;
   std::vector<std::uint8_t> two_sided_;
 };
@@ -254,9 +261,13 @@ std::optional<double> parse_unit(std::string_view text) {
   return positive(text, false);
 }
 
-std::optional<SceneFile> to_scene(Model model, UpAxis up, const ModelOptions& options, const std::string& name,
-                                  std::vector<std::string>& faults) {
-  return SceneMaker(std::move(model), options, name).run(up, faults);
+std::optional<SceneFile> to_scene(Model model, UpAxis up, const ModelOptions& options, std::vector<std::string>& faults) {
+  return SceneMaker(std::move(model), options).scene(up, faults);
+}
+
+std::optional<SceneFile> to_part(Model model, std::vector<std::string>& faults) {
+  const ModelOptions options;
+  return SceneMaker(std::move(model), options).part_alone(faults);
 }
 
 }  // namespace apps

@@ -43,8 +43,10 @@ struct ModelOptions {
 // "mm", "cm", "m", "km", "in", "ft" or a number: metres.
 [[nodiscard]] std::optional<double> parse_unit(std::string_view text);
 
-// The scene, or nothing and sentences that say why there is none. `name` is that of the file.
-[[nodiscard]] std::optional<SceneFile> to_scene(Model model, UpAxis up, const ModelOptions& options, const std::string& name,
-                                                std::vector<std::string>& faults);
+// The scene, or nothing and sentences that say why there is none.
+[[nodiscard]] std::optional<SceneFile> to_scene(Model model, UpAxis up, const ModelOptions& options, std::vector<std::string>& faults);
+
+// The objects and materials alone, in the file's own coordinates: without cameras and without a lamp that it does not have.
+[[nodiscard]] std::optional<SceneFile> to_part(Model model, std::vector<std::string>& faults);
 
 }  // namespace apps
