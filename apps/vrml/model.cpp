@@ -146,6 +146,7 @@ class ModelMaker final : public Visitor {
   // An analytic solid; `parts`: of each of its sheets, which part of the node it is.
   template <class MadeObject>
   void add(MadeObject made, const char* kind, const std::vector<std::size_t>& parts, const Node& node, const State& state) {
+    if (model.objects.size() > max_objects) { return; }  // more than a scene may have: refused later
     raycast::Placement placement{glm::dmat3(state.transform), glm::dvec3(state.transform[3]), false};
     if (!made.object || raycast::check(*made.object, placement)) {
       return notes_.add("shapes without size, or flattened by their transform, are left out", at(node));
