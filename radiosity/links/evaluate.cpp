@@ -46,6 +46,11 @@ inline constexpr std::uint32_t cluster_rounds = 4;
 HALFLIGHT_INLINE LinkEvaluator::LinkEvaluator(const SceneView& scene, const Exposure& exposure, const ShownAreas& shown, std::uint64_t seed)
     : scene_{scene}, exposure_{&exposure}, sampler_{scene, &exposure, shown}, seed_{seed} {}
 
+HALFLIGHT_INLINE void set_gradients(Link& link, const Variations& light) {
+  link.shape_p = EndShape::of_patch(glm::vec3{light.p.slope});
+  link.shape_q = EndShape::of_patch(glm::vec3{light.q.slope});
+}
+
 HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation,
                                                     Doubt* doubt) const {
   const Patch& p = scene_.patches[link.p];
@@ -83,8 +88,7 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
   Variations light_varies;
   if (variation != nullptr || !node_p.leaf() || !node_q.leaf()) {
     light_varies = variations(p, q);
-    link.shape_p = EndShape::of_patch(glm::vec3{light_varies.p.slope});
-    link.shape_q = EndShape::of_patch(glm::vec3{light_varies.q.slope});
+    set_gradients(link, light_varies);
     if (variation != nullptr && seen.fraction > 0.0) {
       *variation = {variation_at(light_varies.p, seen.spread_p / seen.fraction),
                     variation_at(light_varies.q, seen.spread_q / seen.fraction),

@@ -58,6 +58,9 @@ using MeasuredLinks = std::vector<MeasuredLink>;
 
 [[nodiscard]] inline const Link& link_of(const MeasuredLink& measured) { return measured.link; }
 
+// The shapes of a link between patches, from how the light varies over them.
+void set_gradients(Link& link, const Variations& light);
+
 // Segments, in rounds of 16, for each link between patches that is partly blocked. Where a light shines, the light oracle has split until
 // the shadow within a patch matters little; what 64 segments add to that is an eighth of it.
 inline constexpr std::uint32_t patch_rounds = 4;

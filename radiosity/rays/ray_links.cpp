@@ -24,7 +24,7 @@ namespace radiosity {
 
 namespace detail {
 
-// The largest radius of an ancestor, relative to the length of a ray that is counted for it and to the distance of what its leaves see.
+// The largest radius of an ancestor, relative to the length of a ray that is counted for it and to the distance of what is seen from it.
 inline constexpr double most_pooled = 0.4;
 
 // One ray, counted for two nodes.
@@ -39,7 +39,7 @@ class Pooling {
  public:
   Pooling(const DiscreteScene& scene, const StoredRays& rays) : hierarchy_{&scene.hierarchy}, nearness_(scene.hierarchy.size(), 0.0) {
     const Hierarchy& hierarchy = *hierarchy_;
-    std::vector<double> area(hierarchy.size(), 0.0);  // of the leaves below that cast rays
+    std::vector<double> area(hierarchy.size(), 0.0);  // of the nodes below that cast rays
     for (std::size_t i = hierarchy.size(); i-- > 0;) {
       if (rays.count(i) > 0) {
         area[i] = scene.exposure.area[i];
@@ -53,9 +53,9 @@ class Pooling {
     }
   }
 
-  [[nodiscard]] std::uint32_t node(std::uint32_t leaf, double length) const {
+  [[nodiscard]] std::uint32_t node(std::uint32_t caster, double length) const {
     const Hierarchy& hierarchy = *hierarchy_;
-    std::uint32_t i = leaf;
+    std::uint32_t i = caster;
     for (std::uint32_t up = hierarchy[i].parent; up != no_node && !hierarchy[up].is_cluster(); up = hierarchy[i].parent) {
       if (hierarchy[up].radius > most_pooled * length || hierarchy[up].radius * nearness_[up] > most_pooled) { break; }
       i = up;
@@ -65,10 +65,10 @@ class Pooling {
 
  private:
   const Hierarchy* hierarchy_;
-  std::vector<double> nearness_;  // 1 / harmonic mean distance of what the leaves of each node see
+  std::vector<double> nearness_;  // 1 / harmonic mean distance of what is seen from each node
 };
 
-// All rays between leaves of which neither shines.
+// All rays between nodes that cast some.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<RayPart> parts_of(const DiscreteScene& scene, const StoredRays& rays, RayLinks& result) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const Pooling pooling{scene, rays};
@@ -77,17 +77,18 @@ class Pooling {
   for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
     std::size_t carried = 0;
     for (const StoredRay& ray : rays.of(i)) {
-      if (ray.to == no_node || !(result.density[ray.to] > 0.0)) { continue; }
+      const std::uint32_t to = ray.to == no_node ? no_node : result.caster[ray.to];
+      if (to == no_node || !(result.density[to] > 0.0)) { continue; }
       ++carried;
-      if (ray.to == i) { continue; }  // a hollow leaf sees itself: what it sees of others stands for that as well
+      if (to == i) { continue; }  // a hollow patch sees itself: what it sees of others stands for that as well
       const auto length = static_cast<double>(ray.length);
       std::uint32_t p = pooling.node(i, length);
-      std::uint32_t q = pooling.node(ray.to, length);
+      std::uint32_t q = pooling.node(to, length);
       if (p == q) {  // of a hollow patch that sees itself; then its parts do
         p = i;
-        q = ray.to;
+        q = to;
       }
-      const auto exchange = static_cast<float>(1.0 / (result.density[i] + result.density[ray.to]));
+      const auto exchange = static_cast<float>(1.0 / (result.density[i] + result.density[to]));
       if (!(exchange > 0.0f)) { continue; }  // too little for a float
       const glm::vec3 at_p{glm::dvec3{ray.start} + hierarchy[i].centre - scene.exposure.centroid[p]};
       const glm::vec3 at_q{glm::dvec3{ray.end} + hierarchy[ray.to].centre - scene.exposure.centroid[q]};
@@ -98,34 +99,22 @@ class Pooling {
   return parts;
 }
 
-// Of each node: the rays of its leaves.
-[[nodiscard]] HALFLIGHT_INLINE std::vector<double> rays_below(const Hierarchy& hierarchy, const StoredRays& rays) {
-  std::vector<double> below(hierarchy.size(), 0.0);
+// Of each node: the rays that start on it, by its exposed area.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<double> densities(const DiscreteScene& scene, const StoredRays& rays) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const std::vector<double>& area = scene.exposure.area;
+  std::vector<double> density(hierarchy.size(), 0.0);
   for (std::size_t i = hierarchy.size(); i-- > 0;) {  // children before parents
-    below[i] += static_cast<double>(rays.count(i));
-    if (hierarchy[i].parent != no_node) { below[hierarchy[i].parent] += below[i]; }
+    density[i] += static_cast<double>(rays.count(i));
+    if (hierarchy[i].parent != no_node) { density[hierarchy[i].parent] += density[i]; }
   }
-  return below;
-}
-
-// The variance of the share s of n rays is s (1 - s) / n; that of the row sum, which pools the rays of the spaced node in both directions,
-// some s / 2m, m the rays of that node. Each counts by the inverse of its variance.
-[[nodiscard]] HALFLIGHT_INLINE std::vector<double> trust_in(const Hierarchy& hierarchy, const std::vector<double>& rays,
-                                                            const std::vector<double>& share, const std::vector<std::uint32_t>& spaced) {
-  std::vector<double> pooled(hierarchy.size(), 0.0);
-  for (const std::uint32_t i : spaced) { pooled[i] = rays[i]; }
-  std::vector<double> trust(hierarchy.size(), 0.0);
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
-    const Node& node = hierarchy[i];
-    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { pooled[c] = std::max(pooled[c], pooled[i]); }
-    if (rays[i] > 0.0 && node.leaf()) { trust[i] = rays[i] / (rays[i] + 2.0 * (1.0 - share[i]) * pooled[i]); }
-  }
-  return trust;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) { density[i] = area[i] > 0.0 ? density[i] / area[i] : 0.0; }
+  return density;
 }
 
 // The link of parts that are all of the same pair.
-[[nodiscard]] HALFLIGHT_INLINE Link pooled_link(const DiscreteScene& scene, const std::vector<RayPart>& parts,
-                                                std::span<const std::uint32_t> of) {
+[[nodiscard]] HALFLIGHT_INLINE Link pooled_link(const DiscreteScene& scene, const std::vector<std::uint32_t>& caster,
+                                                const std::vector<RayPart>& parts, std::span<const std::uint32_t> of) {
   const std::uint32_t p = parts[of.front()].p;
   const std::uint32_t q = parts[of.front()].q;
   double sum = 0.0;
@@ -138,48 +127,48 @@ class Pooling {
     moment_q += exchange * glm::dvec3{parts[k].at_q};
   }
   Link link{p, q, static_cast<float>(sum), {}, {}};
-  if (!scene.hierarchy[p].leaf()) { link.shape_p = EndShape::of_patch(glm::vec3{scene.patches[p].inverse_inertia * (moment_p / sum)}); }
-  if (!scene.hierarchy[q].leaf()) { link.shape_q = EndShape::of_patch(glm::vec3{scene.patches[q].inverse_inertia * (moment_q / sum)}); }
+  const auto gradient = [&](std::uint32_t i, const glm::dvec3& moment) {  // none within a node that casts: its rays are few for one
+    return caster[i] == no_node ? EndShape::of_patch(glm::vec3{scene.patches[i].inverse_inertia * (moment / sum)}) : EndShape{};
+  };
+  link.shape_p = gradient(p, moment_p);
+  link.shape_q = gradient(q, moment_q);
   return link;
 }
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, const std::vector<std::uint32_t>& spaced, double mean) {
-  const Hierarchy& hierarchy = scene.hierarchy;
+HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, const std::vector<Caster>& casters, double mean) {
   const std::vector<double>& area = scene.exposure.area;
   double all = 0.0;
-  double roots = 0.0;
-  for (const std::uint32_t i : spaced) {
-    all += area[i];
-    roots += std::sqrt(area[i]);
+  double weighted = 0.0;
+  for (const Caster& caster : casters) {
+    all += area[caster.node];
+    weighted += caster.weight * std::sqrt(area[caster.node]);
   }
-  std::vector<double> wanted(hierarchy.size(), 0.0);
-  for (const std::uint32_t i : spaced) { wanted[i] = all > 0.0 ? mean * std::sqrt(area[i]) * roots / all : 0.0; }
-  std::vector<std::uint32_t> counts(hierarchy.size(), 0);
-  constexpr double least = 32.0;                        // fewer tell too little of what is near a leaf
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
-    const Node& node = hierarchy[i];
-    if (!(wanted[i] > 0.0)) { continue; }
-    if (node.leaf()) { counts[i] = static_cast<std::uint32_t>(std::max(least, std::round(wanted[i]))); }
-    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { wanted[c] = wanted[i] * area[c] / area[i]; }
+  constexpr double least = 32.0;  // fewer tell too little of what is near a node
+  std::vector<std::uint32_t> counts(scene.hierarchy.size(), 0);
+  for (const Caster& caster : casters) {
+    if (!(area[caster.node] > 0.0)) { continue; }
+    const double wanted = mean * caster.weight * std::sqrt(area[caster.node]) * weighted / all;
+    counts[caster.node] = static_cast<std::uint32_t>(std::clamp(std::round(wanted), least, 1e6));
   }
   return counts;
 }
 
 HALFLIGHT_INLINE double rays_per_node(double epsilon) { return std::clamp(12.8 / std::sqrt(epsilon), 16.0, 65536.0); }
 
-HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays, const std::vector<std::uint32_t>& spaced) {
+HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays, const std::vector<Caster>& casters) {
   const Hierarchy& hierarchy = scene.hierarchy;
-  const std::vector<double>& area = scene.exposure.area;
   RayLinks result;
   result.rays = rays.size();
   result.share.assign(hierarchy.size(), 0.0);
-  result.density.assign(hierarchy.size(), 0.0);
-  const std::vector<double> below = detail::rays_below(hierarchy, rays);
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) { result.density[i] = area[i] > 0.0 ? below[i] / area[i] : 0.0; }
+  result.density = detail::densities(scene, rays);
+  result.caster.assign(hierarchy.size(), no_node);
+  for (const Caster& caster : casters) { result.caster[caster.node] = caster.node; }
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
+    if (result.caster[i] == no_node && hierarchy[i].parent != no_node) { result.caster[i] = result.caster[hierarchy[i].parent]; }
+  }
   const std::vector<detail::RayPart> parts = detail::parts_of(scene, rays, result);
-  result.trust = detail::trust_in(hierarchy, below, result.share, spaced);
   // Parts by p, then by q.
   std::vector<std::size_t> first(hierarchy.size() + 1, 0);
   for (const detail::RayPart& part : parts) { ++first[part.p + 1]; }
@@ -193,10 +182,28 @@ HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const Store
               [&](std::uint32_t a, std::uint32_t b) { return parts[a].q != parts[b].q ? parts[a].q < parts[b].q : a < b; });
     for (std::size_t begin = 0, end = 0; begin < of_p.size(); begin = end) {
       while (end < of_p.size() && parts[of_p[end]].q == parts[of_p[begin]].q) { ++end; }
-      result.links.push_back(detail::pooled_link(scene, parts, of_p.subspan(begin, end - begin)));
+      result.links.push_back(detail::pooled_link(scene, result.caster, parts, of_p.subspan(begin, end - begin)));
     }
   }
   return result;
+}
+
+HALFLIGHT_INLINE std::vector<double> RayLinks::row_sums(const DiscreteScene& scene, const std::vector<double>& computed) const {
+  const std::vector<double>& area = scene.exposure.area;
+  const auto counts = [&](std::size_t i) { return scene.hierarchy[i].leaf() && caster[i] != no_node; };
+  std::vector<double> mean(computed.size(), 0.0);  // of the leaves of each node that casts
+  for (std::size_t i = 0; i < computed.size(); ++i) {
+    if (counts(i)) { mean[caster[i]] += area[i] / area[caster[i]] * computed[i]; }
+  }
+  std::vector<double> rows(computed.size(), 0.0);
+  for (std::size_t i = 0; i < computed.size(); ++i) {
+    if (!counts(i) || !(mean[caster[i]] > 0.0)) { continue; }
+    // The variance of the share s of n rays is s (1 - s) / n; that of the computed mean, which counts rays in both directions, some s / 2n.
+    // Each counts by the inverse of its variance.
+    const double trust = 1.0 / (3.0 - 2.0 * share[caster[i]]);
+    rows[i] = computed[i] * (1.0 + trust * (share[caster[i]] / mean[caster[i]] - 1.0));
+  }
+  return rows;
 }
 
 HALFLIGHT_INLINE double RayLinks::noise(const DiscreteScene& scene, const Links& made, const std::vector<Color>& radiosity) const {

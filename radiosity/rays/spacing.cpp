@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/rays/spacing.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <raycast/inline.hpp>
 
-#include <radiosity/hierarchy/buried.hpp>
+#include <radiosity/exchange/exchange.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/links/evaluate.hpp>
 #include <radiosity/rays/leaf_locator.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
@@ -18,46 +22,156 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE SpacingResult split_by_distance(DiscreteScene& scene, double tolerance, double min_area) {
-  SpacingResult result;
-  Hierarchy& hierarchy = scene.hierarchy;
-  const std::vector<bool> buried = buried_nodes(scene.surfaces, hierarchy);  // of the input faces
-  double all = 0.0;
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) { all += is_input_face(hierarchy, i) && !buried[i] ? hierarchy[i].area : 0.0; }
-  for (std::size_t first_new = 0; first_new < hierarchy.size();) {
-    const std::size_t end = hierarchy.size();
-    const auto wants = [&](std::size_t i, double nearness) {
-      return hierarchy[i].radius * nearness * std::sqrt(hierarchy[i].area / all) > tolerance;
-    };
-    scene.patches.extend(scene.threads);
-    std::vector<std::uint32_t> counts(end, 0);
-    for (std::size_t i = first_new; i < end; ++i) {
-      const Node& node = hierarchy[i];
-      const bool shows = i >= buried.size() || !buried[i];
-      counts[i] = shows && node.leaf() && is_black(scene.emission[node.surface]) && node.area > min_area * all ? 16 : 0;
-    }
-    const StoredRays rays = cast_rays(scene, LeafLocator{hierarchy, scene.patches, scene.inputs.size()}, counts);
-    result.rays += rays.size();
-    result.cancelled = scene.control.cancelled();
-    if (result.cancelled) { return result; }
-    std::vector<std::uint32_t> split;
-    std::uint64_t nodes = end;
-    for (std::uint32_t i = static_cast<std::uint32_t>(first_new); i < end; ++i) {
-      if (counts[i] == 0 || !wants(i, rays.nearness(i, 0.1 * hierarchy[i].radius))) { continue; }
-      split.push_back(i);
-      nodes += hierarchy[i].corners;
-    }
-    if (!scene.budget.allows({nodes})) {
-      result.too_large = scene.budget.peak({nodes});
-      return result;
-    }
-    for (const std::uint32_t i : split) { static_cast<void>(subdivide(scene.surfaces, hierarchy, i, scene.meshing)); }
-    first_new = end;
-    ++result.generations;
-    if (scene.control.after_generation) { scene.control.after_generation(scene.surfaces); }
+namespace detail {
+
+// What each node reflects of the light that comes straight from the lamps: its brightest channel. Lamps count as dark.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<double> reflected_once(const DiscreteScene& scene, const Links& of_lamps) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  std::vector<Color> irradiance(hierarchy.size(), Color{0.0});
+  const auto shine = [&](std::uint32_t from, std::uint32_t to, double exchange) {
+    if (scene.exposure.area[to] > 0.0) { irradiance[to] += exchange / scene.exposure.area[to] * scene.emission[hierarchy[from].surface]; }
+  };
+  for (const Link& link : of_lamps) {
+    shine(link.p, link.q, static_cast<double>(link.exchange));
+    shine(link.q, link.p, static_cast<double>(link.exchange));
   }
-  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
-    if (hierarchy[i].leaf() && is_black(scene.emission[hierarchy[i].surface])) { result.spaced.push_back(i); }
+  std::vector<double> brightness(hierarchy.size(), 0.0);
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
+    if (hierarchy[i].parent != no_node) { irradiance[i] += irradiance[hierarchy[i].parent]; }
+    const Color reflected = scene.reflectance[hierarchy[i].surface] * irradiance[i];
+    const bool shines = !is_black(scene.emission[hierarchy[i].surface]);
+    brightness[i] = shines ? 0.0 : std::max({reflected.x, reflected.y, reflected.z});
+  }
+  return brightness;
+}
+
+// Over the exposed leaves.
+[[nodiscard]] HALFLIGHT_INLINE double root_mean_square(const DiscreteScene& scene, const std::vector<double>& of) {
+  double square = 0.0;
+  double area = 0.0;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (!scene.hierarchy[i].leaf()) { continue; }
+    square += scene.exposure.area[i] * of[i] * of[i];
+    area += scene.exposure.area[i];
+  }
+  return area > 0.0 ? std::sqrt(square / area) : 0.0;
+}
+
+// Splits nodes for light that comes from everywhere.
+class Spacing {
+ public:
+  Spacing(DiscreteScene& scene, const Links& of_lamps, double tolerance, double min_area)
+      : scene_{scene}, links_{of_lamps.size()}, tolerance_{tolerance}, brightness_{reflected_once(scene, of_lamps)} {
+    root_mean_square_ = root_mean_square(scene, brightness_);
+    for (std::uint32_t i = 0; i < scene.hierarchy.size(); ++i) {
+      if (!is_input_face(scene.hierarchy, i)) { continue; }
+      area_ += scene.exposure.area[i];
+      if (is_black(scene.emission[scene.hierarchy[i].surface])) { open_.push_back(i); }
+    }
+    least_area_ = min_area * area_;
+  }
+
+  [[nodiscard]] bool dark() const { return !(root_mean_square_ > 0.0); }
+
+  // One generation; false when no node is open.
+  [[nodiscard]] bool step(SpacingResult& result) {
+    std::erase_if(open_, [&](std::uint32_t i) { return !(scene_.exposure.area[i] > 0.0); });
+    if (open_.empty()) { return false; }
+    const StoredRays rays = cast(result);
+    if (result.cancelled) { return false; }
+    std::vector<std::uint32_t> wanting;
+    std::uint64_t nodes = scene_.hierarchy.size();
+    for (const std::uint32_t i : open_) {
+      const Node& node = scene_.hierarchy[i];
+      const Weights weight = weights(i, rays);
+      const double varies = node.radius * rays.nearness(i, 0.1 * node.radius);
+      const bool fine = varies * weight.mean * std::sqrt(node.area / area_) <= tolerance_;
+      if (fine || (node.leaf() && !(node.area > least_area_))) {
+        result.casters.push_back({i, weight.scatter});
+      } else {
+        wanting.push_back(i);
+        nodes += node.leaf() ? node.corners : 0;
+      }
+    }
+    const MemoryBudget::Counts needed{nodes, links_};
+    if (!scene_.budget.allows(needed)) {
+      result.too_large = scene_.budget.peak(needed);
+      return false;
+    }
+    descend(wanting, result);
+    ++result.generations;
+    if (scene_.control.after_generation) { scene_.control.after_generation(scene_.surfaces); }
+    return true;
+  }
+
+ private:
+  // 16 rays from each open node.
+  [[nodiscard]] StoredRays cast(SpacingResult& result) const {
+    std::vector<std::uint32_t> counts(scene_.hierarchy.size(), 0);
+    for (const std::uint32_t i : open_) { counts[i] = 16; }
+    StoredRays rays = cast_rays(scene_, LeafLocator{scene_.hierarchy, scene_.patches, scene_.inputs.size()}, counts);
+    result.rays += rays.size();
+    result.cancelled = scene_.control.cancelled();
+    return rays;
+  }
+
+  // What a node reflects of what it sees, relative to the scene: the mean over its rays, which says how much the light may vary over the
+  // node, and their RMS, which says how much they scatter. What is seen has reflected the light of lamps once; light that was reflected
+  // more often is more even, and stands as a quarter of all where everything is lit alike.
+  struct Weights {
+    double mean = 0.0, scatter = 0.0;
+  };
+  [[nodiscard]] Weights weights(std::uint32_t i, const StoredRays& rays) const {
+    double sum = 0.0;
+    double square = 0.0;
+    for (const StoredRay& ray : rays.of(i)) {
+      const double brightness = ray.to != no_node ? brightness_[ray.to] / root_mean_square_ : 0.0;
+      sum += brightness;
+      square += brightness * brightness;
+    }
+    const auto count = static_cast<double>(rays.count(i));
+    const Color& reflectance = scene_.reflectance[scene_.hierarchy[i].surface];
+    const double most = std::max({reflectance.x, reflectance.y, reflectance.z});
+    return {most * (1.5 * sum / count + 0.5), most * (1.5 * std::sqrt(square / count) + 0.5)};
+  }
+
+  // Opens the children of nodes, and casts from those leaves that the BRep refuses to split.
+  void descend(const std::vector<std::uint32_t>& nodes, SpacingResult& result) {
+    open_.clear();
+    Hierarchy& hierarchy = scene_.hierarchy;
+    for (const std::uint32_t i : nodes) {
+      if (hierarchy[i].leaf() && !subdivide(scene_.surfaces, hierarchy, i, scene_.meshing)) {
+        result.casters.push_back({i, 1.0});
+        continue;
+      }
+      for (std::uint32_t k = 0; k < hierarchy[i].child_count; ++k) { open_.push_back(hierarchy[i].first_child + k); }
+    }
+    for (std::size_t i = brightness_.size(); i < hierarchy.size(); ++i) { brightness_.push_back(brightness_[hierarchy[i].parent]); }
+    scene_.expose();
+  }
+
+  DiscreteScene& scene_;
+  std::uint64_t links_;
+  double tolerance_;
+  std::vector<double> brightness_;  // of each node
+  double root_mean_square_ = 0.0;   // of that, over the scene
+  double area_ = 0.0, least_area_ = 0.0;
+  std::vector<std::uint32_t> open_;
+};
+
+}  // namespace detail
+
+HALFLIGHT_INLINE SpacingResult space_casters(DiscreteScene& scene, Links& of_lamps, double tolerance, double min_area) {
+  SpacingResult result;
+  const std::size_t before = scene.hierarchy.size();
+  std::vector<bool> was_leaf(before);
+  for (std::size_t i = 0; i < before; ++i) { was_leaf[i] = scene.hierarchy[i].leaf(); }
+  detail::Spacing spacing{scene, of_lamps, tolerance, min_area};
+  if (spacing.dark()) { return result; }
+  while (spacing.step(result)) {}
+  const auto split = [&](std::uint32_t i) { return was_leaf[i] && !scene.hierarchy[i].leaf(); };
+  for (Link& link : of_lamps) {
+    if (split(link.p) || split(link.q)) { set_gradients(link, variations(scene.patches[link.p], scene.patches[link.q])); }
   }
   return result;
 }

@@ -1,29 +1,38 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How large a leaf may be for light that comes from everywhere: over a leaf of radius r that sees things at the harmonic mean distance R,
-// such light changes by some r / R of itself (Ward, Rubinstein and Clear 1988), so corners and contacts want small leaves, and the
-// middle of a wall large ones.
+// How large a patch may be for light that comes from everywhere, and how much that light matters there: over a node of radius r that sees
+// things at the harmonic mean distance R, such light changes by some r / R of itself (Ward, Rubinstein and Clear 1988). So corners and
+// contacts want small nodes, and the middle of a wall large ones; and where what is seen is dark, neither matters.
 
 #include <cstdint>
 #include <vector>
 
+#include <radiosity/hierarchy/links.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 
 namespace radiosity {
 
+// A node from which rays are cast. No other lies above or below it.
+struct Caster {
+  std::uint32_t node = 0;
+  double weight =
+      0.0;  // how much the light of its rays scatters, reflected, relative to the RMS of what reflects the light of lamps; rough
+};
+
 struct SpacingResult {
-  std::vector<std::uint32_t> spaced;  // the leaves when it was done, but for lamps
+  std::vector<Caster> casters;
   std::uint32_t generations = 0;
   std::uint64_t rays = 0;
   bool cancelled = false;
   std::uint64_t too_large = 0;  // bytes that would be needed, at least, when that is more than the budget allows
 };
 
-// Splits leaves of more than `min_area` (relative to the area of all input faces that are not buried) until, for each, r / R times the
-// root of its share of that area is at most `tolerance`: what each leaf adds to the L2 error is then about the same. Lamps are left as they
-// are. R is found by 16 rays.
-[[nodiscard]] SpacingResult split_by_distance(DiscreteScene& scene, double tolerance, double min_area);
+// Descends from the input faces, and splits leaves of more than `min_area` (relative to the exposed area of all input faces), until for
+// each node r / R times the light that it reflects, relative to the scene, times the root of its share of that area is at most
+// `tolerance`: what each adds to the L2 error is then about the same. R and that light are found by 16 rays. Lamps are left as they are,
+// and what is buried. `of_lamps`: evaluated links that carry the light of all lamps; an end that was a leaf and is split gets its gradient.
+[[nodiscard]] SpacingResult space_casters(DiscreteScene& scene, Links& of_lamps, double tolerance, double min_area);
 
 }  // namespace radiosity
 

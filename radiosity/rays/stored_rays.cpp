@@ -56,50 +56,68 @@ namespace detail {
   return keys;
 }
 
-// One leaf as the rays see it that start there.
+// One node as the rays see it that start there.
 struct RayOrigins {
-  RayOrigins(const DiscreteScene& scene, std::size_t leaf, std::uint64_t key)
-      : node{scene.hierarchy[leaf]},
-        patch{scene.patches[leaf]},
-        object{scene.objects.object(node.object)},
-        sheet{node.surface - scene.surfaces[node.object].first_surface},
-        exposed{leaf < scene.exposure.area.size() ? scene.exposure.points(leaf) : nullptr},
-        numbers{scene.seed, key, 0x72617973ull} {}
+  RayOrigins(const DiscreteScene& of, std::uint32_t start, std::uint64_t key)
+      : scene{of},
+        node{start},
+        object{of.objects.object(of.hierarchy[start].object)},
+        sheet{of.hierarchy[start].surface - of.surfaces[of.hierarchy[start].object].first_surface},
+        numbers{of.seed, key, 0x72617973ull} {}
 
-  // Where a ray starts, and the normal there; u: coordinates of an even sequence.
+  // Where a ray starts, and the normal there; u: coordinates of an even sequence. The first chooses among the leaves below, by what is
+  // exposed of them.
   [[nodiscard]] raycast::SurfacePoint start(const std::array<double, 4>& u) {
-    const auto cell = static_cast<std::uint32_t>(u[1] * 4.0) * 4 + static_cast<std::uint32_t>(u[0] * 4.0);
-    const glm::dvec3 x = exposed != nullptr ? exposed->draw(patch, cell, numbers) : sample(patch, u[0], u[1]);
+    std::uint32_t i = node;
+    double across = u[0];
+    while (!scene.hierarchy[i].leaf()) { i = child_for(i, across); }
+    const Patch& patch = scene.patches[i];
+    const auto cell = static_cast<std::uint32_t>(u[1] * 4.0) * 4 + static_cast<std::uint32_t>(across * 4.0);
+    const ExposedPoints* exposed = i < scene.exposure.area.size() ? scene.exposure.points(i) : nullptr;
+    const glm::dvec3 x = exposed != nullptr ? exposed->draw(patch, cell, numbers) : sample(patch, across, u[1]);
     return object.flat() ? raycast::SurfacePoint{x, patch.normal} : object.project(sheet, x);
   }
 
-  const Node& node;
-  const Patch& patch;
+  // The child in whose share of the exposed area u lies; u becomes its place within the share.
+  [[nodiscard]] std::uint32_t child_for(std::uint32_t i, double& u) const {
+    const Node& parent = scene.hierarchy[i];
+    double left = u * scene.exposure.area[i];
+    std::uint32_t c = parent.first_child;
+    for (const std::uint32_t last = c + parent.child_count - 1; c < last && left >= scene.exposure.area[c]; ++c) {
+      left -= scene.exposure.area[c];
+    }
+    u = std::clamp(left / scene.exposure.area[c], 0.0, 1.0 - 1e-12);
+    return c;
+  }
+
+  const DiscreteScene& scene;
+  std::uint32_t node;
   const raycast::PlacedObject& object;
   std::uint32_t sheet;
-  const ExposedPoints* exposed;
-  Random numbers;  // where a part of the leaf is buried
+  Random numbers;  // where a part of a leaf is buried
 };
 
-// `key` of the leaf.
-HALFLIGHT_INLINE void cast_from_leaf(const DiscreteScene& scene, const LeafLocator& locator, std::size_t leaf, std::uint64_t key,
-                                     std::span<StoredRay> rays) {
-  RayOrigins origins{scene, leaf, key};
+// `key` of the node.
+HALFLIGHT_INLINE void cast_from(const DiscreteScene& scene, const LeafLocator& locator, std::uint32_t node, std::uint64_t key,
+                                std::span<StoredRay> rays) {
+  RayOrigins origins{scene, node, key};
   const Sobol4 sequence{scene.seed, key};
   const double reach = scene.objects.diameter();
-  const bool exposure_known = leaf < scene.exposure.area.size();
+  const glm::dvec3 centre = scene.hierarchy[node].centre;
+  const std::uint32_t object = scene.hierarchy[node].object;
+  const bool exposure_known = node < scene.exposure.area.size();
   for (std::size_t first = 0; first < rays.size(); first += 16) {
     raycast::Segments16 segments;
     const auto count = static_cast<unsigned>(std::min<std::size_t>(16, rays.size() - first));
     for (unsigned k = 0; k < count; ++k) {
       const std::array<double, 4> u = sequence(static_cast<std::uint32_t>(first) + k);
       const raycast::SurfacePoint start = origins.start(u);
-      rays[first + k].start = start.position - origins.node.centre;
-      if (!exposure_known && scene.objects.covered(start.position, start.normal, origins.node.object)) {
+      rays[first + k].start = start.position - centre;
+      if (!exposure_known && scene.objects.covered(start.position, start.normal, object)) {
         rays[first + k].length = -1.0f;
         continue;
       }
-      segments.set(k, {start.position, reach * cosine_direction(start.normal, u[2], u[3])}, origins.node.object, raycast::no_object);
+      segments.set(k, {start.position, reach * cosine_direction(start.normal, u[2], u[3])}, object, raycast::no_object);
     }
     const raycast::Hits16 hits = scene.objects.closest16(segments);
     for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
@@ -122,13 +140,14 @@ HALFLIGHT_INLINE void cast_from_leaf(const DiscreteScene& scene, const LeafLocat
 HALFLIGHT_INLINE StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts) {
   StoredRays rays{counts};
   const std::vector<std::uint64_t> keys = detail::keys_of(scene.hierarchy);
-  constexpr std::size_t batch = 1 << 12;  // leaves between two looks at the cancel flag
+  constexpr std::size_t batch = 1 << 12;  // nodes between two looks at the cancel flag
   for (std::size_t first = 0; first < counts.size() && !scene.control.cancelled(); first += batch) {
     const std::size_t last = std::min(first + batch, counts.size());
     parallel_for(
         last - first, scene.threads,
         [&](std::size_t k) {
-          if (counts[first + k] > 0) { detail::cast_from_leaf(scene, locator, first + k, keys[first + k], rays.of(first + k)); }
+          const auto i = static_cast<std::uint32_t>(first + k);
+          if (counts[i] > 0) { detail::cast_from(scene, locator, i, keys[i], rays.of(i)); }
         },
         16);
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Rays that leave the leaves of the hierarchy, kept with the leaf that each of them meets.
+// Rays that leave nodes of the hierarchy, kept with the leaf that each of them meets.
 //
-// They start at points even over a leaf, in directions of density cos / pi, so the share of them that meets another leaf estimates the form
+// They start at points even over a node, in directions of density cos / pi, so the share of them that meets a leaf estimates the form
 // factor to it, with all that stands between (Malley 1988). Start and end lie on the true surfaces, not on the patches.
 
 #include <cstddef>
@@ -48,8 +48,8 @@ class StoredRays {
 // 400 million rays are 60 GB when links are made of them; a run that asks for more is refused rather than left to exhaust the memory.
 inline constexpr std::uint64_t ray_limit = 400'000'000;
 
-// Casts counts[i] rays from leaf i, from what is exposed of it: where that is not known yet, rays whose start is buried are left out. Ends
-// early, with rays missing, when the scene's control says so.
+// Casts counts[i] rays from node i, from what is exposed of its leaves: where that is not known yet, rays whose start is buried are left
+// out, and only leaves may cast. Ends early, with rays missing, when the scene's control says so.
 [[nodiscard]] StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts);
 
 }  // namespace radiosity

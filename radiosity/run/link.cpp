@@ -14,6 +14,7 @@
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/rays/leaf_locator.hpp>
 #include <radiosity/rays/ray_links.hpp>
+#include <radiosity/rays/spacing.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/outcome.hpp>
@@ -27,8 +28,15 @@ namespace radiosity {
 namespace detail {
 
 [[nodiscard]] HALFLIGHT_INLINE std::optional<Failure> link_by_rays(Run& run) {
-  const DiscreteScene& scene = run.scene;
-  const std::vector<std::uint32_t> counts = ray_counts(scene, run.spacing.spaced, rays_per_node(run.options.epsilon));
+  DiscreteScene& scene = run.scene;
+  const SpacingResult spacing = space_casters(scene, run.solution.links, run.options.epsilon, run.options.min_area);
+  run.rays_of_spacing = spacing.rays;
+  if (spacing.cancelled) { return cancelled(); }
+  if (spacing.too_large > 0) {
+    return Failure{Failure::Kind::out_of_memory,
+                   {too_much_memory(spacing.too_large, scene.budget.allowed, "a larger epsilon or min_area needs less")}};
+  }
+  const std::vector<std::uint32_t> counts = ray_counts(scene, spacing.casters, rays_per_node(run.options.epsilon));
   const std::uint64_t rays = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   if (rays > ray_limit) {
     return Failure{Failure::Kind::invalid_options,
@@ -42,7 +50,7 @@ namespace detail {
   }
   const StoredRays stored = cast_rays(scene, LeafLocator{scene.hierarchy, scene.patches, scene.inputs.size()}, counts);
   if (scene.control.cancelled()) { return cancelled(); }
-  run.ray_links = make_ray_links(scene, stored, run.spacing.spaced);
+  run.ray_links = make_ray_links(scene, stored, spacing.casters);
   return std::nullopt;
 }
 

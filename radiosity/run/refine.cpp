@@ -10,7 +10,6 @@
 #include <raycast/inline.hpp>
 
 #include <radiosity/geometry/direction_lattice.hpp>
-#include <radiosity/rays/spacing.hpp>
 #include <radiosity/refinement/bf_refine.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/f_refine.hpp>
@@ -66,14 +65,9 @@ HALFLIGHT_INLINE std::optional<Failure> refine(detail::Run& run) {
   if (run.bf_refined()) {
     detail::refine_by_solutions(run);
   } else if (run.f_refined()) {
-    if (run.rays.cast) { run.spacing = split_by_distance(run.scene, options.epsilon, options.min_area); }
-    run.refined.cancelled = run.spacing.cancelled;
-    run.refined.too_large = run.spacing.too_large;
-    if (!run.refined.cancelled && run.refined.too_large == 0) {
-      Fineness fineness{options.epsilon, options.min_area, audit.light_epsilon};
-      if (options.oracle) { fineness.oracle = options.oracle; }
-      run.refined = radiosity::refine(run.scene, fineness, run.rays.cast ? Linked::lamps : Linked::all);
-    }
+    Fineness fineness{options.epsilon, options.min_area, audit.light_epsilon};
+    if (options.oracle) { fineness.oracle = options.oracle; }
+    run.refined = radiosity::refine(run.scene, fineness, run.rays.cast ? Linked::lamps : Linked::all);
   } else if (!budget.allows({run.scene.hierarchy.size()})) {
     run.refined.too_large = budget.peak({run.scene.hierarchy.size()});
   }

@@ -12,7 +12,6 @@
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/rays/ray_choice.hpp>
 #include <radiosity/rays/ray_links.hpp>
-#include <radiosity/rays/spacing.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/f_refine.hpp>
@@ -54,7 +53,7 @@ struct Run {
   ClusterChoice clusters;
   RayChoice rays;
   RefineResult refined;
-  SpacingResult spacing;
+  std::uint64_t rays_of_spacing = 0;
   RayLinks ray_links;  // their links go into the solution
   EvaluateResult evaluated;
   double unseen = 0.0;  // part of the estimated error

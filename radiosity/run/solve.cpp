@@ -30,8 +30,8 @@ namespace radiosity {
 
 namespace detail {
 
-// The links of stored rays: their row sums are in a closed scene what the links of the lamps leave of 1, else what the rays of each leaf
-// tell beside those of others. Returns the row sums before that.
+// The links of stored rays: their row sums are in a closed scene what the links of the lamps leave of 1, else what the rays of each
+// node tell beside those of others. Returns the row sums before that.
 HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run) {
   const bool closed = run.scene.plan.closed;
   const RayLinks& made = run.ray_links;
@@ -40,10 +40,8 @@ HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run) {
   run.transport->add_sampled(run.solution.ray_links);
   const std::vector<double> computed = run.transport->row_sums();
   std::vector<double> wanted(computed.size(), 0.0);
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const double of_rays = computed[i] - of_lamps[i];
-    wanted[i] = closed ? std::max(0.0, 1.0 - of_lamps[i]) : of_rays + made.trust[i] * (made.share[i] - of_rays);
-  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) { wanted[i] = closed ? std::max(0.0, 1.0 - of_lamps[i]) : computed[i] - of_lamps[i]; }
+  if (!closed) { wanted = made.row_sums(run.scene, wanted); }
   run.solution.audit.ray_correction = run.transport->scale_sampled(wanted);
   return computed;
 }

@@ -43,7 +43,7 @@ HALFLIGHT_INLINE std::optional<Failure> summarise(detail::Run& run) {
   audit.proportion = summarise_proportions(hierarchy, scene.patches);
   RayCount rays = run.refined.rays;
   rays += run.evaluated.rays;
-  audit.rays = rays.cast + run.spacing.rays + run.ray_links.rays;
+  audit.rays = rays.cast + run.rays_of_spacing + run.ray_links.rays;
   audit.rays_avoided = rays.avoided + run.refined.pairs_hidden * segments_per_round;
   audit.pairs_clear = run.evaluated.proven_clear;
   audit.pairs_hidden = run.refined.pairs_hidden;

@@ -17,6 +17,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/link_schedule.hpp>
+#include <radiosity/solver/balance.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/visibility/exposure.hpp>
 
@@ -157,39 +158,29 @@ HALFLIGHT_INLINE double Transport::root_mean_square(const std::vector<double>& s
 
 HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& wanted) {
   Part& part = parts_.back();
+  std::vector<double> power(wanted);
+  for (std::size_t i = 0; i < power.size(); ++i) { power[i] *= exposure_->area[i]; }
   // Row sums that no scale brings about, of a patch that sees little else than one other, would drive scales towards 0 and infinity.
-  constexpr double most = 4.0;
-  for (int round = 0; round < 100; ++round) {
-    const std::vector<double> rows = row_sums(part);
-    double worst = 0.0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (!(rows[i] > 0.0) || !(wanted[i] > 0.0)) { continue; }
-      worst = std::max(worst, std::abs(rows[i] / wanted[i] - 1.0));
-      part.scale[i] = std::clamp(part.scale[i] * std::sqrt(wanted[i] / rows[i]), 1.0 / most, most);
-    }
-    if (worst < 1e-6) { break; }
-  }
+  part.scale = balance(
+      [&](const std::vector<double>& x, std::vector<double>& y) {
+        y.assign(x.size(), 0.0);
+        apply(part, x, y);
+      },
+      power, {.most = 4.0, .tolerance = 1e-6});
   return root_mean_square(part.scale);
 }
 
 HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tolerance) {
-  const std::vector<Part> before = parts_;
-  std::vector<double> scale(hierarchy_->size(), 1.0);
-  for (int round = 0; round < 400; ++round) {
-    const std::vector<double> rows = row_sums();
-    double worst = 0.0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (!(rows[i] > 0.0)) { continue; }
-      worst = std::max(worst, std::abs(rows[i] - 1.0));
-      scale[i] /= std::sqrt(rows[i]);
-      for (Part& part : parts_) { part.scale[i] /= std::sqrt(rows[i]); }
-    }
-    if (worst < tolerance) { break; }
-  }
+  std::vector<double> power(hierarchy_->size(), 0.0);
+  for (std::size_t i = 0; i < power.size(); ++i) { power[i] = (*hierarchy_)[i].leaf() ? exposure_->area[i] : 0.0; }
+  const std::vector<double> scale =
+      balance([&](const std::vector<double>& x, std::vector<double>& y) { apply(x, y); }, power, {.tolerance = tolerance});
   const double rms = root_mean_square(scale);
-  if (rms <= limit) { return rms; }
-  parts_ = before;
-  return std::nullopt;
+  if (!(rms <= limit)) { return std::nullopt; }
+  for (Part& part : parts_) {
+    for (std::size_t i = 0; i < scale.size(); ++i) { part.scale[i] *= scale[i]; }
+  }
+  return rms;
 }
 
 HALFLIGHT_INLINE void Transport::gather_into_cluster(std::size_t i) {

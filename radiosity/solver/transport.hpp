@@ -39,7 +39,7 @@ class Transport {
 
   // Adds links that were sampled, between patches, once. They must outlive the operator, which arranges them.
   void add_sampled(Links& links);
-  // Makes their row sums those of `rows`, one a node, read at the leaves: within 1e-6, or as near as 100 rounds of symmetric scaling come.
+  // Makes their row sums those of `rows`, one a node, read at the leaves, within 1e-6 (balance.hpp), with D between 1/4 and 4.
   // Returns the area-weighted RMS of D - 1.
   double scale_sampled(const std::vector<double>& rows);
 
@@ -73,8 +73,8 @@ class Transport {
   // What each leaf sees of the scene: the sum of its form factors. 1 in a closed scene. Inner nodes hold 0.
   [[nodiscard]] std::vector<double> row_sums();
 
-  // Closes a scene that is proven closed: finds D with all row sums 1, within the tolerance (symmetric scaling, van Leersum 1989), so that
-  // what quadrature and sampled visibility got wrong in the rows does not grow by rho / (1 - rho) in the solution.
+  // Closes a scene that is proven closed: finds D with all row sums 1, within the tolerance (symmetric scaling, van Leersum 1989; see
+  // balance.hpp), so that what quadrature and sampled visibility got wrong in the rows does not grow by rho / (1 - rho) in the solution.
   // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS of D - 1, or nothing, and no D, when that
   // is beyond `limit`: then something other than quadrature and sampling is wrong.
   std::optional<double> close(double limit, double tolerance = 1e-12);

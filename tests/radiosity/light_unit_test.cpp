@@ -24,7 +24,7 @@ using scenes::solved;
 
 namespace {
 
-radiosity::Options coarse() {
+radiosity::Options few_links() {
   radiosity::Options options;
   options.epsilon = 0.1;
   options.audit_points = 40;
@@ -74,10 +74,10 @@ TEST_CASE("emission times 2^k, k from -1000 to 1000: the same bits times 2^k, an
   std::mt19937 random(seed);
   std::uniform_int_distribution<int> exponents(-1000, 1000);
   const Scene scene = scenes::room_with_box();
-  radiosity::Options bf = coarse();
+  radiosity::Options bf = few_links();
   bf.refinement = radiosity::Refinement::a_posteriori;
   bf.target = 0.2;
-  for (const radiosity::Options& options : {coarse(), bf}) {
+  for (const radiosity::Options& options : {few_links(), bf}) {
     const Solution one = solved(scene, options);
     REQUIRE(one.audit.leaf_error);
     for (const int k : {-1000, exponents(random), -531, exponents(random), 1000}) {
@@ -102,7 +102,7 @@ TEST_CASE("a channel that is faint beside the others has the same relative bits,
   for (radiosity::Material& m : faint.materials) { m.emission.z = std::ldexp(m.emission.z, k); }
   for (const auto solver :
        {radiosity::Solver::conjugate_gradients, radiosity::Solver::jacobi, radiosity::Solver::gauss_seidel, radiosity::Solver::southwell}) {
-    radiosity::Options options = coarse();
+    radiosity::Options options = few_links();
     options.audit_points = 0;
     options.solver = solver;
     const Solution grey = solved(scene, options);
@@ -121,11 +121,11 @@ TEST_CASE("a channel that is faint beside the others has the same relative bits,
 TEST_CASE("light beyond the largest number is refused, not infinite; the largest emission without it is solved") {
   Scene scene = scenes::room_with_box();
   for (radiosity::Material& m : scene.materials) { m.emission *= 3e307; }
-  const Solution strong = solved(scene, coarse());
+  const Solution strong = solved(scene, few_links());
   for (const Color& b : strong.radiosity) { CHECK((std::isfinite(b.x) && b.x >= 0.0)); }
   const double most = std::numeric_limits<double>::max();
   for (radiosity::Material& m : scene.materials) { m = {m.name, Color{0.9}, m.emission.x > 0.0 ? Color{most} : Color{0.0}}; }
-  const radiosity::Outcome refused = radiosity::solve(scene, coarse());
+  const radiosity::Outcome refused = radiosity::solve(scene, few_links());
   REQUIRE_FALSE(refused.solution);
   CHECK(refused.failure.sentences.at(0).find("stronger than a number can hold") != std::string::npos);
 }

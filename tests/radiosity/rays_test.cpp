@@ -61,12 +61,15 @@ void split_at_random(DiscreteScene& scene, std::mt19937_64& random, int splits) 
   }
 }
 
-radiosity::Scene closed_room(std::vector<radiosity::SceneObject> things) {
+radiosity::Scene closed_room(std::vector<radiosity::SceneObject> things, double lamp_height = 1.0, double emission = 5.0) {
   radiosity::Scene scene;
-  scene.materials = {{"white", radiosity::Color{0.7}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{5.0}}};
+  scene.materials = {{"white", radiosity::Color{0.7}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{emission}}};
   scene.objects = {
       scenes::object("room", scenes::box({0, 0, 0}, {1, 1, 1}), 0, true),
-      scenes::object("lamp", scenes::polygon({{0.35, 0.35, 1.0}, {0.35, 0.65, 1.0}, {0.65, 0.65, 1.0}, {0.65, 0.35, 1.0}}), 1)};
+      scenes::object(
+          "lamp",
+          scenes::polygon({{0.35, 0.35, lamp_height}, {0.35, 0.65, lamp_height}, {0.65, 0.65, lamp_height}, {0.65, 0.35, lamp_height}}),
+          1)};
   for (radiosity::SceneObject& thing : things) { scene.objects.push_back(std::move(thing)); }
   return scene;
 }
@@ -79,10 +82,17 @@ std::vector<std::uint32_t> leaves_of(const DiscreteScene& scene) {
   return leaves;
 }
 
+// All leaves cast, as if they saw the same light.
+std::vector<radiosity::Caster> casters_of(const DiscreteScene& scene) {
+  std::vector<radiosity::Caster> casters;
+  for (const std::uint32_t i : leaves_of(scene)) { casters.push_back({i, 1.0}); }
+  return casters;
+}
+
 radiosity::RayLinks links_of(DiscreteScene& scene, const std::vector<std::uint32_t>& counts) {
   scene.expose();
   const radiosity::LeafLocator locator{scene.hierarchy, scene.patches, scene.inputs.size()};
-  return radiosity::make_ray_links(scene, radiosity::cast_rays(scene, locator, counts), leaves_of(scene));
+  return radiosity::make_ray_links(scene, radiosity::cast_rays(scene, locator, counts), casters_of(scene));
 }
 
 }  // namespace
@@ -171,6 +181,42 @@ TEST_CASE("links of rays between the walls of a cube are its form factors, withi
   }
 }
 
+TEST_CASE("casters cover once what does not shine and is exposed; where less light is seen they are fewer") {
+  // Lamps that reach all, a corner, and nothing but each other's back.
+  const auto casters_by = [](double lamp_height, double emission) {
+    const radiosity::Scene scene =
+        closed_room({scenes::object("box", scenes::box({0.05, 0.05, 0.0}, {0.25, 0.25, 0.4}))}, lamp_height, emission);
+    const auto discrete = roots_of(scene);
+    discrete->expose();
+    radiosity::Links lamps;
+    for (std::uint32_t i = 0; i < discrete->hierarchy.size(); ++i) {
+      for (std::uint32_t j = i + 1; j < discrete->hierarchy.size(); ++j) {
+        const auto shines = [&](std::uint32_t k) { return !radiosity::is_black(discrete->emission[discrete->hierarchy[k].surface]); };
+        radiosity::Link link{i, j};
+        if (!shines(i) && !shines(j)) { continue; }
+        discrete->evaluator(link, {});
+        if (link.exchange > 0.0f) { lamps.push_back(link); }
+      }
+    }
+    const radiosity::SpacingResult spacing = radiosity::space_casters(*discrete, lamps, 0.02, 1e-4);
+    REQUIRE(discrete->exposure.area.size() == discrete->hierarchy.size());
+    std::vector<std::uint32_t> above(discrete->hierarchy.size(), 0);
+    for (const radiosity::Caster& caster : spacing.casters) { ++above[caster.node]; }
+    for (std::size_t i = 0; i < above.size(); ++i) {
+      const radiosity::Node& node = discrete->hierarchy[i];
+      if (node.parent != radiosity::no_node) { above[i] += above[node.parent]; }
+      const bool casts = radiosity::is_black(discrete->emission[node.surface]) && discrete->exposure.area[i] > 0.0 && emission > 0.0;
+      if (node.leaf()) { CHECK(above[i] == (casts ? 1u : 0u)); }
+    }
+    return spacing.casters.size();
+  };
+  const std::size_t bright = casters_by(1.0, 1.0);
+  CHECK(bright > 50);
+  CHECK(casters_by(1.0, 1000.0) == bright);  // the unit of light does not matter
+  CHECK(casters_by(1.0, 0.0) == 0);
+  CHECK(casters_by(0.1, 1.0) < bright);  // low over the floor: most of the room is dark
+}
+
 TEST_CASE("rays do not depend on the number of threads") {
   const radiosity::Scene scene = scenes::many(150, scenes::Things::boxes);
   Options options;
@@ -221,7 +267,7 @@ TEST_CASE("the noise of rays is what they tell: solutions by other rays differ b
       REQUIRE(radiosity::subdivide(discrete->surfaces, discrete->hierarchy, i, discrete->meshing));
     }
     discrete->expose();
-    std::vector<std::uint32_t> counts = radiosity::ray_counts(*discrete, leaves_of(*discrete), 64.0);
+    std::vector<std::uint32_t> counts = radiosity::ray_counts(*discrete, casters_of(*discrete), 64.0);
     for (std::size_t i = 0; i < counts.size(); ++i) {
       if (!radiosity::is_black(discrete->emission[discrete->hierarchy[i].surface])) { counts[i] = 0; }
     }

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/solver/balance.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <raycast/inline.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// D S D of the D so far.
+struct Scaled {
+  void operator()(const std::vector<double>& x, std::vector<double>& y) {
+    scratch.resize(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) { scratch[i] = scale[i] * x[i]; }
+    (*apply)(scratch, y);
+    for (std::size_t i = 0; i < x.size(); ++i) { y[i] *= scale[i]; }
+    ++products;
+  }
+  [[nodiscard]] bool exhausted() const { return products >= 400; }
+
+  const SymmetricOperator* apply;
+  std::vector<double> scale;
+  std::vector<double> scratch{};
+  int products = 0;
+};
+
+// Solves (diag(rows) + S) x = r, in the rows that are free, until the residual is `part` of that of x = 0.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<double> newton_step(Scaled& matrix, const std::vector<double>& rows,
+                                                               const std::vector<bool>& free, std::vector<double> r, double part) {
+  const std::size_t n = rows.size();
+  std::vector<double> x(n, 0.0);
+  std::vector<double> step(n, 0.0);
+  std::vector<double> image;
+  const auto square_of = [&] {  // in the norm of the preconditioner diag(rows)
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) { sum += free[i] ? r[i] * r[i] / rows[i] : 0.0; }
+    return sum;
+  };
+  double square = square_of();
+  const double wanted = part * part * square;
+  for (double along = 0.0; square > wanted && !matrix.exhausted();) {
+    for (std::size_t i = 0; i < n; ++i) { step[i] = free[i] ? r[i] / rows[i] + along * step[i] : 0.0; }
+    matrix(step, image);
+    double curvature = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      image[i] = free[i] ? image[i] + rows[i] * step[i] : 0.0;
+      curvature += step[i] * image[i];
+    }
+    if (!(curvature > 0.0)) { break; }
+    for (std::size_t i = 0; i < n; ++i) {
+      x[i] += square / curvature * step[i];
+      r[i] -= square / curvature * image[i];
+    }
+    const double next = square_of();
+    along = next / square;
+    square = next;
+  }
+  return x;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE std::vector<double> balance(const SymmetricOperator& apply, const std::vector<double>& t, const Balance& goal) {
+  const std::size_t n = t.size();
+  detail::Scaled matrix{&apply, std::vector<double>(n, 1.0)};
+  const std::vector<double> ones(n, 1.0);
+  std::vector<double> rows;
+  std::vector<double> missing(n, 0.0);
+  std::vector<bool> free(n, false);
+  const auto limit = [&](double scale) { return goal.most > 0.0 ? std::clamp(scale, 1.0 / goal.most, goal.most) : scale; };
+  for (bool first = true; !matrix.exhausted(); first = false) {
+    matrix(ones, rows);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      missing[i] = t[i] - rows[i];
+      const double scale = matrix.scale[i];
+      free[i] = rows[i] > 0.0 && t[i] > 0.0 && (missing[i] == 0.0 || limit(missing[i] > 0.0 ? 2.0 * scale : 0.5 * scale) != scale);
+      if (free[i]) { worst = std::max(worst, std::abs(missing[i]) / t[i]); }
+    }
+    if (worst < goal.tolerance) { break; }
+    // Far from the goal the linear step may lead anywhere: one step of the plain iteration comes before it.
+    std::vector<double> step;
+    if (!first) { step = detail::newton_step(matrix, rows, free, missing, std::min(0.1, worst)); }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!free[i]) { continue; }
+      matrix.scale[i] = limit(matrix.scale[i] * (first ? std::sqrt(t[i] / rows[i]) : std::clamp(1.0 + step[i], 0.5, 2.0)));
+    }
+  }
+  return matrix.scale;
+}
+
+}  // namespace radiosity

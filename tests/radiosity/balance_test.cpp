@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+
+// Laws of symmetric scaling: the row sums are met, the scale is the one that the plain iteration finds, few products suffice whatever the
+// eigenvalues are, and a goal that no scale meets ends.
+
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include <radiosity/solver/balance.hpp>
+
+#include "../catch.hpp"
+
+namespace {
+
+// A symmetric matrix, row by row.
+struct Matrix {
+  explicit Matrix(std::size_t size) : n{size}, entry(size * size, 0.0) {}
+  double& at(std::size_t i, std::size_t j) { return entry[i * n + j]; }
+
+  void operator()(const std::vector<double>& x, std::vector<double>& y) {
+    ++products;
+    y.assign(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) { y[i] += entry[i * n + j] * x[j]; }
+    }
+  }
+  [[nodiscard]] double worst(const std::vector<double>& scale, const std::vector<double>& t) {
+    std::vector<double> rows;
+    (*this)(scale, rows);
+    double most = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (t[i] > 0.0) { most = std::max(most, std::abs(scale[i] * rows[i] / t[i] - 1.0)); }
+    }
+    return most;
+  }
+
+  std::size_t n;
+  std::vector<double> entry;
+  int products = 0;
+};
+
+std::vector<double> balanced(Matrix& matrix, const std::vector<double>& t, const radiosity::Balance& goal) {
+  matrix.products = 0;
+  return radiosity::balance([&](const std::vector<double>& x, std::vector<double>& y) { matrix(x, y); }, t, goal);
+}
+
+}  // namespace
+
+TEST_CASE("row sums are met, by the scale of the plain iteration") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  std::uniform_real_distribution<> unit;
+  for (int round = 0; round < 50; ++round) {
+    Matrix matrix{2 + random() % 30};
+    std::vector<double> t(matrix.n);
+    for (std::size_t i = 0; i < matrix.n; ++i) {
+      t[i] = 0.1 + unit(random);
+      for (std::size_t j = 0; j < i; ++j) { matrix.at(i, j) = matrix.at(j, i) = unit(random) < 0.3 ? unit(random) : 0.0; }
+      matrix.at(i, i) = 0.2 + unit(random);  // so that a scale exists
+    }
+    const std::vector<double> scale = balanced(matrix, t, {.tolerance = 1e-12});
+    CHECK(matrix.products < 150);
+    CHECK(matrix.worst(scale, t) < 2e-12);
+    std::vector<double> plain(matrix.n, 1.0);
+    std::vector<double> rows;
+    for (int step = 0; step < 20000 && matrix.worst(plain, t) > 1e-12; ++step) {
+      matrix(plain, rows);
+      for (std::size_t i = 0; i < matrix.n; ++i) { plain[i] *= std::sqrt(t[i] / (plain[i] * rows[i])); }
+    }
+    for (std::size_t i = 0; i < matrix.n; ++i) { CHECK(scale[i] == test::Approx(plain[i]).epsilon(1e-8)); }
+  }
+}
+
+TEST_CASE("two sides that light hardly anything but each other are balanced in few products") {
+  for (const double within : {1e-1, 1e-3, 1e-6}) {
+    Matrix matrix{20};
+    for (std::size_t i = 0; i < 20; ++i) {
+      for (std::size_t j = 0; j < 20; ++j) { matrix.at(i, j) = (i < 10) == (j < 10) ? within : 1.0 + 0.1 * std::cos(static_cast<double>(i * j)); }
+    }
+    const std::vector<double> t(20, 1.0);
+    const std::vector<double> scale = balanced(matrix, t, {.tolerance = 1e-10});
+    CHECK(matrix.products < 100);  // the plain iteration: some 10 / within
+    CHECK(matrix.worst(scale, t) < 2e-10);
+  }
+}
+
+TEST_CASE("a goal that no scale meets ends, with scales within their limits") {
+  Matrix matrix{2};
+  matrix.at(0, 1) = matrix.at(1, 0) = 1.0;  // both rows sum up to the same power
+  for (const double scale : balanced(matrix, {1.0, 2.0}, {.most = 4.0, .tolerance = 1e-12})) {
+    CHECK(scale >= 0.25);
+    CHECK(scale <= 4.0);
+  }
+  CHECK(matrix.products <= 401);
+}
+
+TEST_CASE("rows that want nothing, or receive nothing, keep their scale") {
+  Matrix matrix{3};
+  matrix.at(0, 0) = 4.0;
+  matrix.at(1, 1) = 1.0;
+  const std::vector<double> scale = balanced(matrix, {1.0, 0.0, 1.0}, {.tolerance = 1e-12});
+  CHECK(scale[0] == test::Approx(0.5));
+  CHECK(scale[1] == 1.0);
+  CHECK(scale[2] == 1.0);
+}
