@@ -89,6 +89,7 @@ HALFLIGHT_INLINE void drop_duplicates(Working& mesh) {
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
     if (keys[i].first != keys[i + 1].first) { continue; }
     gone[keys[i].second] = true;
+    mesh.faces[keys[i + 1].second].stand_for(mesh.faces[keys[i].second]);
     mesh.changed(ChangeKind::duplicate, mesh.faces[keys[i].second].polygon);
   }
   std::erase_if(mesh.faces, [&](const Face& face) { return gone[static_cast<std::size_t>(&face - mesh.faces.data())]; });
@@ -120,7 +121,7 @@ HALFLIGHT_INLINE void split_faulty(Working& mesh, bool strict) {
       mesh.changed(flat ? ChangeKind::crossing : ChangeKind::not_planar, face.polygon, flat ? 0.0 : slack);
     }
     for (const auto& [a, b, c] : ears(outline)) {
-      Face triangle{{face.corners[a], face.corners[b], face.corners[c]}, face.material, face.group, face.polygon, face.turned, face.mixed};
+      Face triangle{{face.corners[a], face.corners[b], face.corners[c]}, face.material, face.group, face.polygon, face.turned, face.mixed, face.more};
       if (!raycast::polygon_fault(mesh.outline(triangle))) { faces.push_back(std::move(triangle)); }
     }
   }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -79,6 +80,12 @@ HALFLIGHT_INLINE std::string length_text(double metres) {
 HALFLIGHT_INLINE std::string sentence(const Change& change) {
   const intake::detail::Wording& wording = intake::detail::wordings[static_cast<std::size_t>(change.kind)];
   std::string text = change.count == 1 ? wording.one : wording.several;
+  if (!(change.size > 0.0)) {  // exactly there
+    for (const std::string_view beside : {", @ beside it", ", beside it by @", ", beside them by up to @"}) {
+      const std::size_t at = text.find(beside);
+      if (at != std::string::npos) { text.erase(at, beside.size()); }
+    }
+  }
   text = intake::detail::replaced(std::move(text), '#', std::to_string(change.count));
   return intake::detail::replaced(std::move(text), '@', length_text(change.size));
 }
@@ -97,7 +104,9 @@ HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Materi
   intake::split_faulty(mesh, true);
   const intake::Topology topology = intake::topology_of(mesh, true);
   Intake result;
-  result.objects = intake::make_objects(mesh, topology, input, materials, options);
+  intake::MadeObjects made = intake::make_objects(mesh, topology, input, materials, options);
+  result.objects = std::move(made.objects);
+  result.parts = intake::parts_of(mesh, made.sheets, input.count());
   result.polygons = input.count();
   for (const SceneObject& object : result.objects) { result.faces += object.shape->sheet_count(); }
   for (const Change& change : mesh.changes) {

@@ -88,8 +88,25 @@ struct Change {
 // 0.0018 as "1.8 mm"
 [[nodiscard]] std::string length_text(double metres);
 
+// Where a polygon of the input went: it lies on this sheet of an object, alone, together with others, or with a part of it.
+struct PolygonPart {
+  std::uint32_t object = 0, sheet = 0;
+  bool back = false;  // the sheet shows the side from which the polygon's corners run clockwise
+};
+
+// Of every polygon its parts. One that was left out has none; one with two sides has them on either.
+struct PolygonParts {
+  std::vector<std::uint32_t> first{0};  // of polygon p: first[p] to first[p + 1] - 1
+  std::vector<PolygonPart> all;
+
+  [[nodiscard]] std::span<const PolygonPart> of(std::size_t polygon) const {
+    return std::span(all).subspan(first[polygon], first[polygon + 1] - first[polygon]);
+  }
+};
+
 struct Intake {
   std::vector<SceneObject> objects;  // empty when nothing had an area
+  PolygonParts parts;
   std::vector<Change> changes;       // in the order of ChangeKind, those that occurred
   std::size_t polygons = 0;          // of the input
   std::size_t faces = 0;             // of the objects; two for a polygon with two sides

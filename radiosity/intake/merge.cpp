@@ -103,10 +103,11 @@ class Merger {
   }
 
   void keep(std::vector<std::uint32_t> outline, const std::vector<std::uint32_t>& parts) {
-    Merged merged{mesh_.faces[parts[0]], parts};
+    const std::uint32_t first = *std::min_element(parts.begin(), parts.end());  // faces are in the order of their polygons
+    Merged merged{mesh_.faces[first], parts};
     merged.face.corners = std::move(outline);
     for (const std::uint32_t f : parts) {
-      merged.face.polygon = std::min(merged.face.polygon, mesh_.faces[f].polygon);
+      if (f != first) { merged.face.stand_for(mesh_.faces[f]); }
       gone_[f] = true;
     }
     merged_.push_back(std::move(merged));

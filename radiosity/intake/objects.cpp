@@ -47,7 +47,7 @@ class ObjectMaker {
     find_components();
   }
 
-  std::vector<SceneObject> run() {
+  MadeObjects run() {
     find_roles();
     struct Group {
       std::vector<const Component*> closed;
@@ -79,7 +79,7 @@ class ObjectMaker {
         objects_[i].name = objects_.size() == first + 1 ? name : name + "." + std::to_string(i - first + 1);
       }
     }
-    return std::move(objects_);
+    return {std::move(objects_), std::move(sheets_)};
   }
 
  private:
@@ -214,6 +214,7 @@ class ObjectMaker {
     raycast::Placement placement;
     placement.inside = role == Role::room;
     if (raycast::Made<raycast::Mesh> made = raycast::Mesh::make(positions, corners)) {
+      for (std::uint32_t sheet = 0; sheet < faces.size(); ++sheet) { came_from(faces[sheet], sheet, back); }
       if (std::all_of(material.begin(), material.end(), [&](auto m) { return m == material[0]; })) { material.resize(1); }
       objects_.push_back({{}, std::move(made.object), placement, std::move(material)});
       return;
@@ -225,8 +226,15 @@ class ObjectMaker {
       raycast::Made<raycast::Polygon> made = raycast::Polygon::make(std::move(outline));
       const std::uint32_t polygon = mesh_.faces[faces[i]].polygon;
       mesh_.changed(made ? ChangeKind::loose : ChangeKind::unusable, polygon);
-      if (made) { objects_.push_back({{}, std::move(made.object), {}, {material[i]}}); }
+      if (!made) { continue; }
+      came_from(faces[i], 0, back);
+      objects_.push_back({{}, std::move(made.object), {}, {material[i]}});
     }
+  }
+
+  // Of the object that is added next.
+  void came_from(std::uint32_t face, std::uint32_t sheet, bool back) {
+    sheets_.push_back({{static_cast<std::uint32_t>(objects_.size()), sheet, back != is_turned(face)}, face});
   }
 
   Working& mesh_;
@@ -239,13 +247,36 @@ class ObjectMaker {
   raycast::Box bounds_;
   std::vector<std::uint32_t> local_;  // of a vertex, in the object that is made
   std::vector<SceneObject> objects_;
+  std::vector<SheetOrigin> sheets_;
 };
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::vector<SceneObject> make_objects(Working& mesh, const Topology& topology, const PolygonView& input,
-                                                       std::span<const Material> materials, const IntakeOptions& options) {
+HALFLIGHT_INLINE MadeObjects make_objects(Working& mesh, const Topology& topology, const PolygonView& input,
+                                          std::span<const Material> materials, const IntakeOptions& options) {
   return detail::ObjectMaker(mesh, topology, input, materials, options).run();
+}
+
+HALFLIGHT_INLINE PolygonParts parts_of(const Working& mesh, std::span<const SheetOrigin> sheets, std::size_t polygons) {
+  std::vector<std::pair<std::uint32_t, PolygonPart>> list;  // polygon and part
+  for (const SheetOrigin& sheet : sheets) {
+    const Face& face = mesh.faces[sheet.face];
+    const auto add = [&](const Source& source) {
+      list.push_back({source.polygon, sheet.part});
+      list.back().second.back = sheet.part.back != source.turned;
+    };
+    add({face.polygon, face.turned});
+    for (const Source& source : face.more) { add(source); }
+  }
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  PolygonParts result;
+  result.first.assign(polygons + 1, 0);
+  for (const auto& [polygon, part] : list) {
+    ++result.first[polygon + 1];
+    result.all.push_back(part);
+  }
+  for (std::size_t p = 0; p < polygons; ++p) { result.first[p + 1] += result.first[p]; }
+  return result;
 }
 
 }  // namespace radiosity::intake

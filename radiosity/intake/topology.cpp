@@ -74,6 +74,7 @@ inline bool back_to_back(const Face& a, const Face& b) {
 inline void turn(Face& face) {
   std::reverse(face.corners.begin(), face.corners.end());
   face.turned = !face.turned;
+  for (Source& source : face.more) { source.turned = !source.turned; }
 }
 
 // Union-find with path halving.

@@ -19,12 +19,24 @@ namespace radiosity::intake {
 
 inline constexpr std::uint32_t none = 0xffffffff;
 
+// A polygon of the input that a face stands for.
+struct Source {
+  std::uint32_t polygon = 0;
+  bool turned = false;  // against the input
+};
+
 struct Face {
   std::vector<std::uint32_t> corners;  // indices into Working::positions
   std::uint32_t material = 0, group = 0;
   std::uint32_t polygon = 0;  // of the input
   bool turned = false;        // against the input
   bool mixed = false;         // belongs to a surface of which it is not known which side was meant to be seen
+  std::vector<Source> more = {};  // besides `polygon`: its duplicates, and those that were merged
+
+  void stand_for(const Face& other) {
+    more.push_back({other.polygon, other.turned});
+    more.insert(more.end(), other.more.begin(), other.more.end());
+  }
 };
 
 struct Working {
