@@ -13,6 +13,7 @@
 #include <raycast/inline.hpp>
 
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/out_of_memory.hpp>
 #include <radiosity/scene/scene.hpp>
 
 namespace radiosity {
@@ -23,21 +24,20 @@ inline BakeOutcome refused(std::vector<std::string> sentences, Failure::Kind kin
   return {std::nullopt, {kind, std::move(sentences)}};
 }
 
-}  // namespace baking::detail
-
-HALFLIGHT_INLINE BakeOutcome bake(const PolygonView& mesh, std::span<const Material> materials, const BakeOptions& options,
-                                  const Control& control) {
+// bake(), but memory may run out.
+inline BakeOutcome bake_within_memory(const PolygonView& mesh, std::span<const Material> materials, const BakeOptions& options,
+                                      const Control& control) {
   std::vector<std::string> sentences;
   for (const Material& material : materials) {
     if (auto sentence = fault(material)) { sentences.push_back(std::move(*sentence)); }
   }
-  if (!sentences.empty()) { return baking::detail::refused(std::move(sentences)); }
+  if (!sentences.empty()) { return refused(std::move(sentences)); }
   Scene scene{{materials.begin(), materials.end()}, {}};
   Intake intake = take_in(mesh, materials, options.intake);
   if (intake.objects.empty()) {
     sentences.emplace_back("there is no polygon with an area");
     for (const Change& change : intake.changes) { sentences.push_back(sentence(change) + ", first number " + std::to_string(change.first)); }
-    return baking::detail::refused(std::move(sentences));
+    return refused(std::move(sentences));
   }
   scene.objects = std::move(intake.objects);
   Options settings = options.solve;
@@ -52,6 +52,13 @@ HALFLIGHT_INLINE BakeOutcome bake(const PolygonView& mesh, std::span<const Mater
   baked.changes = std::move(intake.changes);
   baked.faces = intake.faces;
   return result;
+}
+
+}  // namespace baking::detail
+
+HALFLIGHT_INLINE BakeOutcome bake(const PolygonView& mesh, std::span<const Material> materials, const BakeOptions& options,
+                                  const Control& control) {
+  return radiosity::detail::unless_out_of_memory([&] { return baking::detail::bake_within_memory(mesh, materials, options, control); });
 }
 
 HALFLIGHT_INLINE BakeOutcome bake(const MeshView& mesh, const BakeOptions& options, const Control& control) {
