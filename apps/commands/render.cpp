@@ -21,6 +21,7 @@
 #include "apps/commands/common.hpp"
 #include "apps/commands/model_arguments.hpp"
 #include "apps/commands/render_outputs.hpp"
+#include "apps/intake/model.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/memory.hpp"
 #include "apps/progress.hpp"
@@ -66,7 +67,7 @@ std::vector<std::string> all_outputs(const RenderOptions& options) {
 ExitCode check(const RenderOptions& options) {
   for (const std::string& path : options.outputs) {
     if (!render_format(path)) {
-      complain("--output " + path + ": expected a name that ends with .png or .ply");
+      complain("--output " + path + ": expected a name that ends with " + render_endings());
       return ExitCode::usage;
     }
   }
@@ -125,6 +126,10 @@ ExitCode run(const RenderOptions& options) {
   ExitCode code = ExitCode::ok;
   const auto file = load_scene(options.scene, code, options.model);
   if (!file) { return code; }
+  if (options.onto_input && !file->given) {
+    complain("--onto-input: " + options.scene + " gives no polygons; only files of other programs (" + model_endings() + ") do");
+    return ExitCode::usage;
+  }
   const auto camera = choose_camera(*file, options.camera);
   if (!camera) { return ExitCode::usage; }
 
@@ -195,7 +200,11 @@ std::vector<Argument> arguments(RenderOptions& options) {
   return {
       scene_argument(options.scene),
       texts("-o,--output", "FILE", options.outputs,
-            "what to write: a picture (.png) or a mesh (.ply); repeat for more; without, the report alone", Argument::Values::repeated),
+            "what to write: a picture (.png), a mesh with its light (.ply, .glb, .obj) or a page that shows it (.html); repeat for more; without, "
+            "the report alone",
+            Argument::Values::repeated),
+      flag("--onto-input", options.onto_input,
+           "with .glb and .obj: the polygons and vertices of the input file in its own order, each vertex with its light"),
       above_zero("--error", solver.error, 1.0, "refine until the measured relative L2 error is at most this"),
       one_of<std::optional<ErrorOf>, ErrorOf>(
           "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},

@@ -18,10 +18,14 @@
 #include <radiosity/support/memory.hpp>
 
 #include "apps/audited_picture.hpp"
+#include "apps/export/export_mesh.hpp"
+#include "apps/export/viewer.hpp"
 #include "apps/memory.hpp"
+#include "apps/mesh_file.hpp"
 #include "apps/ply.hpp"
 #include "apps/png.hpp"
 #include "apps/raycast_picture.hpp"
+#include "apps/text.hpp"
 
 namespace apps {
 namespace {
@@ -38,13 +42,23 @@ class Stopwatch {
   std::clock_t cpu_ = std::clock();
 };
 
+// The line below the title of a page: how large and how wrong the solution is.
+std::string summary(const radiosity::Solution& solution) {
+  const radiosity::Audit& audit = solution.audit;
+  const std::string size = std::to_string(audit.leaves) + " patches of " + std::to_string(audit.polygons) + " input faces";
+  return size + (audit.surface_error ? ", error " + percent(audit.surface_error->relative_l2) + " of the reflected light" : "");
+}
+
 }  // namespace
 
 std::optional<RenderFormat> render_format(const std::string& path) {
   if (path.size() > 4 && path.ends_with(".png")) { return RenderFormat::png; }
   if (path.size() > 4 && path.ends_with(".ply")) { return RenderFormat::ply; }
-  return std::nullopt;
+  if (has_ending(path, ".html")) { return RenderFormat::html; }
+  return export_format(path) != nullptr ? std::optional(RenderFormat::exported) : std::nullopt;
 }
+
+std::string render_endings() { return ".png, .ply, .glb, .obj or .html"; }
 
 bool has_picture(const RenderOptions& options) {
   for (const std::string& output : options.outputs) {
@@ -94,9 +108,20 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
       report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, its error not measured
     }
   }
+  std::optional<ExportMesh> exported;
   for (const std::string& path : options.outputs) {
-    const bool is_png = render_format(path) == RenderFormat::png;
-    outputs.push_back({path, is_png ? png : to_ply(solution.mesh, radiosity::surfaces(file.scene), report.exposure)});
+    outputs.push_back({path, {}});
+    switch (*render_format(path)) {
+      case RenderFormat::png: outputs.back().bytes = png; break;
+      case RenderFormat::ply: outputs.back().bytes = to_ply(solution.mesh, radiosity::surfaces(file.scene), report.exposure); break;
+      case RenderFormat::html:
+        outputs.back().bytes = viewer_page(file, solution, camera, report.exposure, options.scene, summary(solution));
+        break;
+      case RenderFormat::exported:
+        if (!exported) { exported = options.onto_input ? given_mesh(file, solution) : solution_mesh(file, solution); }
+        if (exported) { outputs.back().bytes = export_format(path)->write(*exported, report.exposure); }
+        break;
+    }
     report.files.push_back(path);
   }
   if (!options.json.empty()) {

@@ -24,7 +24,8 @@ enum class ErrorOf { picture, surfaces };
 struct RenderOptions {
   std::string scene;
   ModelOptions model;
-  std::vector<std::string> outputs;  // *.png, *.ply
+  std::vector<std::string> outputs;  // *.png, *.ply, and those of apps/export
+  bool onto_input = false;           // exported: the user's polygons, not those of the solution
   std::string json;                  // empty: none
   std::string camera;                // empty: the first of the file, or the automatic one
   std::optional<PictureSize> size;
@@ -36,10 +37,13 @@ struct RenderOptions {
   radiosity::Options solver;
 };
 
-enum class RenderFormat { png, ply };
+enum class RenderFormat { png, ply, html, exported };
 
 // By the ending of the name.
 [[nodiscard]] std::optional<RenderFormat> render_format(const std::string& path);
+
+// ".png, .ply, ... or .html"
+[[nodiscard]] std::string render_endings();
 
 [[nodiscard]] bool has_picture(const RenderOptions& options);
 

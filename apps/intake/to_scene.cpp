@@ -41,6 +41,8 @@ class SceneMaker {
   SceneMaker(Model model, const ModelOptions& options) : model_(std::move(model)), options_(options) {}
 
   std::optional<SceneFile> scene(UpAxis up, std::vector<std::string>& faults) {
+    given_positions_ = model_.positions;
+    given_z_up_ = options_.up.value_or(up) == UpAxis::z;
     place(to_metres(options_.up.value_or(up), options_.metres));
     if (!part(faults) || (!shines() && !add_studio(faults))) { return std::nullopt; }
     return std::move(file_);
@@ -151,6 +153,11 @@ class SceneMaker {
     }
     note(counted(intake.polygons, "polygon") + " became " + counted(intake.faces, "face") + " of " + counted(intake.objects.size(), "object"));
     file_.scene.objects = std::move(intake.objects);
+    if (!given_positions_.empty()) {
+      file_.given = std::make_shared<GivenPolygons>(
+          GivenPolygons{std::move(given_positions_), std::move(model_.positions), std::move(model_.corners), std::move(model_.first_corner),
+                        std::move(intake.parts), 0, given_z_up_});
+    }
     file_.origins.assign(file_.scene.objects.size(), {"mesh", {}});
   }
 
@@ -215,6 +222,7 @@ class SceneMaker {
     // Before the model, so that what lies on the floor covers it.
     auto& objects = file_.scene.objects;
     objects.insert(objects.begin(), {"studio", raycast::BoxObject::make(middle - reach, middle + reach + top).object, inside, {material}});
+    if (file_.given) { file_.given->first_object = 1; }
     objects.push_back({"studio lamp", raycast::Polygon::make(std::move(lamp)).object, {}, {material + 1}});
     file_.origins.insert(file_.origins.begin(), {"box", {}});
     file_.origins.push_back({"polygon", {}});
@@ -226,6 +234,8 @@ class SceneMaker {
   const ModelOptions& options_;
   SceneFile file_;
   std::vector<std::uint8_t> two_sided_;
+  std::vector<glm::dvec3> given_positions_;  // before they were placed
+  bool given_z_up_ = false;
 };
 
 std::optional<double> positive(std::string_view text, bool zero) {
