@@ -81,7 +81,7 @@ const surface = program(
   'return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, vec3(lessThanEqual(c, vec3(0.0031308)))); }' +
   'void main() { result = gl_FrontFacing ? vec4(encode(color * exposure), 1.0) : vec4(0.07, 0.07, 0.08, 1.0); }');
 const border = program('in vec3 position; uniform mat4 view; void main() { gl_Position = view * vec4(position, 1.0); gl_Position.z -= 1e-4 * gl_Position.w; }',
-  'out vec4 result; void main() { result = vec4(1.0, 0.85, 0.2, 1.0); }');
+  'out vec4 result; void main() { result = vec4(1.0, 0.85, 0.2, 0.6); }');
 
 const half = (() => {  // table of the 65536 half floats
   const table = new Float32Array(65536);
@@ -208,10 +208,12 @@ function draw() {
   gl.bindVertexArray(surfaces);
   gl.drawArrays(gl.TRIANGLES, 0, count);
   if ($('borders').value !== 'none') {
+    gl.enable(gl.BLEND); gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.useProgram(border);
     gl.uniformMatrix4fv(gl.getUniformLocation(border, 'view'), false, view);
     gl.bindVertexArray(lines);
     gl.drawArrays(gl.LINES, 0, lineCount);
+    gl.disable(gl.BLEND);
   }
   const pixel = new Uint8Array(4 * canvas.width * canvas.height);
   if (window.halflightTest) {  // what a test may ask: the mean of the picture
