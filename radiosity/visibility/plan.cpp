@@ -26,6 +26,7 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/visibility/enclosure.hpp>
 
 namespace radiosity {
 
@@ -41,48 +42,6 @@ HALFLIGHT_INLINE bool on_the_hull(const Extremes& scene, const SurfaceBRep& own)
     if (!(glm::length(area) > 0.0)) { return false; }
     const glm::dvec3 normal = glm::normalize(area);
     if (scene.any_above(polygon[0], normal, 1e-9) && scene.any_above(polygon[0], -normal, 1e-9)) { return false; }
-  }
-  return true;
-}
-
-// How much of a convex polygon a convex polygon in the same plane covers, both counter-clockwise about `normal`.
-HALFLIGHT_INLINE double covered_area(Polygon polygon, const Polygon& cover, const glm::dvec3& normal) {
-  Polygon part;
-  for (std::size_t i = 0; i < cover.size() && polygon.size() > 2; ++i) {
-    const glm::dvec3 inwards = glm::cross(normal, cover[(i + 1) % cover.size()] - cover[i]);
-    const double length = glm::length(inwards);
-    if (!(length > 0.0)) { continue; }
-    part.clear();
-    clip_to_horizon(polygon, cover[i], inwards / length, part);
-    std::swap(polygon, part);
-  }
-  return polygon.size() > 2 ? std::max(0.0, glm::dot(normal, vector_area(polygon))) : 0.0;
-}
-
-// Does a flat surface lie on the walls of a room and face into it, so that its black back is never seen? The walls in its plane must cover
-// it, not their planes alone: a lamp may lie in the plane of a wall and outside the room. Slack: 1e-9 of the scene, off the plane and
-// as a strip along the borders.
-HALFLIGHT_INLINE bool lies_on_room(const Surface& surface, const Surface& room) {
-  if (!room.object->flat()) { return false; }
-  for (const brep::FaceId f : brep::faces(surface.brep)) {
-    if (surface.brep.data(f).sheet == brep::no_sheet) { continue; }
-    const Polygon polygon = corner_polygon(surface.brep, f);
-    const glm::dvec3 area = vector_area(polygon);
-    const double whole = glm::length(area);
-    if (!(whole > 0.0)) { return false; }
-    double border = 0.0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) { border += glm::length(polygon[(i + 1) % polygon.size()] - polygon[i]); }
-    double covered = 0.0;
-    for (const brep::FaceId w : brep::faces(room.brep)) {
-      const Polygon wall = corner_polygon(room.brep, w);
-      const glm::dvec3 wall_area = vector_area(wall);
-      if (!(glm::dot(wall_area, area) > 0.999 * glm::length(wall_area) * whole)) { continue; }
-      const glm::dvec3 normal = glm::normalize(wall_area);
-      const bool in_plane =
-          std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return std::abs(glm::dot(normal, p - wall[0])) <= 1e-9; });
-      if (in_plane) { covered += covered_area(polygon, wall, normal); }
-    }
-    if (covered < whole - 1e-9 * border) { return false; }
   }
   return true;
 }
@@ -131,8 +90,9 @@ HALFLIGHT_INLINE void look_at_materials(const Scene& scene, Plan& plan) {
     holes = holes || !object.solid();
     ++plan.occluders;
   }
-  plan.closed = room != nullptr && !holes &&
-                std::all_of(sheets.begin(), sheets.end(), [&](std::uint32_t o) { return lies_on_room(surfaces[o], *room); });
+  const auto on_room = [&](std::uint32_t o) { return room->object->flat() && lies_on(surfaces[o], {room}); };
+  plan.closed =
+      room != nullptr ? !holes && std::all_of(sheets.begin(), sheets.end(), on_room) : sheets_at_all && enclosed_by_sheets(surfaces);
   return rooms_clear;
 }
 

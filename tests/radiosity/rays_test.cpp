@@ -296,8 +296,8 @@ TEST_CASE("the noise of rays is what they tell: solutions by other rays differ b
   std::vector<std::vector<std::pair<double, double>>> all;
   for (int seed = 1; seed <= seeds; ++seed) { all.push_back(arrived(static_cast<std::uint64_t>(seed), told)); }
   std::size_t compared = 0;
-  for (int a = 0; a < seeds; ++a) {
-    for (int b = 0; b < a; ++b) {
+  for (std::size_t a = 0; a < seeds; ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
       REQUIRE(all[a].size() == all[b].size());
       ++compared;
       for (std::size_t i = 0; i < all[a].size(); ++i) { squares += all[a][i].first * std::pow(all[a][i].second - all[b][i].second, 2.0); }
