@@ -38,6 +38,7 @@ class Writer {
       hi = v == 0 ? p : glm::max(hi, p);
     }
     centre_ = 0.5 * lo + 0.5 * hi;
+    if (hi != lo) { size_ = glm::length(hi - lo); }
   }
 
   std::string file() {
@@ -155,7 +156,7 @@ class Writer {
         const PictureSize size = camera.size.value_or(PictureSize{});
         const double aspect = static_cast<double>(size.width) / size.height, half = std::tan(camera.field_of_view * std::acos(-1.0) / 360.0);
         json.object("name", camera.name, "type", "perspective", "perspective", [&](JsonWriter& perspective) {
-          perspective.object("aspectRatio", aspect, "yfov", 2.0 * std::atan(half / aspect), "znear", 0.01);
+          perspective.object("aspectRatio", aspect, "yfov", 2.0 * std::atan(half / aspect), "znear", 5e-3 * size_);
         });
       });
     }
@@ -189,6 +190,7 @@ class Writer {
   const ExportMesh& mesh_;
   double exposure_;
   glm::dvec3 centre_{0.0};
+  double size_ = 1.0;
   std::vector<Part> parts_;
   std::size_t indices_ = 0;
   std::string binary_;
