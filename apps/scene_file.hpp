@@ -59,7 +59,7 @@ struct ObjectOrigin {
 struct GivenPolygons {
   std::vector<glm::dvec3> positions, placed;  // in the file; in the scene
   std::vector<std::uint32_t> corners, first_corner;
-  radiosity::PolygonParts parts;   // of the objects from this one on:
+  radiosity::PolygonParts parts;  // of the objects from this one on:
   std::uint32_t first_object = 0;
   bool z_up = false;  // in the file
 };
@@ -68,8 +68,8 @@ struct SceneFile {
   radiosity::Scene scene;
   std::vector<ObjectOrigin> origins;  // one per scene.objects
   std::vector<Camera> cameras;
-  std::vector<std::string> notes;  // of files of other formats: what was changed or taken otherwise
-  std::string beside;              // all bytes of the files beside this one that were read
+  std::vector<std::string> notes;        // of files of other formats: what was changed or taken otherwise
+  std::string beside;                    // all bytes of the files beside this one that were read
   std::shared_ptr<GivenPolygons> given;  // of files of other formats; null: none
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A small path tracer whose paths end at their second surface: there it takes the light that was baked. What the eye sees at once, the
-// first surface with its direct light and shadows, is traced; what is seen by way of another surface is looked up. `example_150_second_bounce
-// FILE.ppm` writes the picture; without a file it compares with paths that go on until they die.
+// first surface with its direct light and shadows, is traced; what is seen by way of another surface is looked up.
+// `example_150_second_bounce FILE.ppm` writes the picture; without a file it compares with paths that go on until they die.
 
 #include <algorithm>
 #include <array>
@@ -26,9 +26,10 @@ using radiosity::Color;
 struct World {
   std::vector<float> positions;
   std::vector<std::uint32_t> indices, material;
-  std::vector<radiosity::Material> materials{
-      {"white", Color(0.75), Color(0.0)}, {"red", {0.7, 0.15, 0.1}, Color(0.0)}, {"blue", {0.15, 0.2, 0.7}, Color(0.0)},
-      {"lamp", Color(0.0), Color(40.0)}};
+  std::vector<radiosity::Material> materials{{"white", Color(0.75), Color(0.0)},
+                                             {"red", {0.7, 0.15, 0.1}, Color(0.0)},
+                                             {"blue", {0.15, 0.2, 0.7}, Color(0.0)},
+                                             {"lamp", Color(0.0), Color(40.0)}};
 
   void quad(const std::array<dvec3, 4>& p, std::uint32_t m) {
     const auto first = static_cast<std::uint32_t>(positions.size() / 3);

@@ -46,8 +46,8 @@ SideFile beside(const std::string& path, std::string& read) {
   };
 }
 
-std::optional<SceneFile> load_model(const std::string& path, const std::string& bytes, const ModelFormat& format, const ModelOptions& options,
-                                    ExitCode& code) {
+std::optional<SceneFile> load_model(const std::string& path, const std::string& bytes, const ModelFormat& format,
+                                    const ModelOptions& options, ExitCode& code) {
   std::string read;
   ModelResult result = format.read(bytes, beside(path, read));
   code = ExitCode::invalid_input;

@@ -246,9 +246,9 @@ ExitCode run(const FactorsOptions& options) {
 
 Command factors_command() {
   const auto options = std::make_shared<FactorsOptions>();
-  return {"factors",
-          "the form factors between the surfaces of a scene, each with its error",
-          with_model_arguments(
+  return {
+      "factors", "the form factors between the surfaces of a scene, each with its error",
+      with_model_arguments(
           {scene_argument(options->scene),
            text("--csv", "FILE", options->csv, "write the matrix: one line a surface, its factors, then their errors"),
            text("--json", "FILE", options->json, "write the matrix, its errors and how each was found"),
@@ -257,7 +257,7 @@ Command factors_command() {
            above_zero("--error", options->error, 1.0, "wanted error of each factor").by_default(formatted("%g", options->error)),
            whole_number("--threads", options->threads, 0, most_threads, "0: as many as the machine has; results do not depend on it")},
           options->model),
-          [options] { return run(*options); }};
+      [options] { return run(*options); }};
 }
 
 }  // namespace apps

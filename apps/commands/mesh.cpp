@@ -198,13 +198,11 @@ Command mesh_command() {
   const auto options = std::make_shared<MeshOptions>();
   Argument json = text("--json", "[FILE]", options->json, "the numbers as JSON: into FILE, or in place of the text");
   json.values = Argument::Values::optional;
-  return {
-      "mesh",
-      "the polygons of each object: counts, genus, area, volume, and a mesh file",
-      with_model_arguments(
-          {scene_argument(options->scene), text("-o,--output", "FILE", options->output, "where to write the mesh: " + mesh_endings()), json},
-          options->model),
-      [options] { return run(*options); }};
+  return {"mesh", "the polygons of each object: counts, genus, area, volume, and a mesh file",
+          with_model_arguments({scene_argument(options->scene),
+                                text("-o,--output", "FILE", options->output, "where to write the mesh: " + mesh_endings()), json},
+                               options->model),
+          [options] { return run(*options); }};
 }
 
 }  // namespace apps

@@ -200,7 +200,8 @@ std::vector<Argument> arguments(RenderOptions& options) {
   return {
       scene_argument(options.scene),
       texts("-o,--output", "FILE", options.outputs,
-            "what to write: a picture (.png), a mesh with its light (.ply, .glb, .obj) or a page that shows it (.html); repeat for more; without, "
+            "what to write: a picture (.png), a mesh with its light (.ply, .glb, .obj) or a page that shows it (.html); repeat for more; "
+            "without, "
             "the report alone",
             Argument::Values::repeated),
       flag("--onto-input", options.onto_input,

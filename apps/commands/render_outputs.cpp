@@ -112,8 +112,12 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
   for (const std::string& path : options.outputs) {
     outputs.push_back({path, {}});
     switch (*render_format(path)) {
-      case RenderFormat::png: outputs.back().bytes = png; break;
-      case RenderFormat::ply: outputs.back().bytes = to_ply(solution.mesh, radiosity::surfaces(file.scene), report.exposure); break;
+      case RenderFormat::png:
+        outputs.back().bytes = png;
+        break;
+      case RenderFormat::ply:
+        outputs.back().bytes = to_ply(solution.mesh, radiosity::surfaces(file.scene), report.exposure);
+        break;
       case RenderFormat::html:
         outputs.back().bytes = viewer_page(file, solution, camera, report.exposure, options.scene, summary(solution));
         break;

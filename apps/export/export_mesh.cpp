@@ -32,8 +32,8 @@ glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
 
 // Plane pieces that lie in the plane of a leaf and cover it, or a part of it, such as a lamp in a ceiling: where both have the same depth,
 // viewers show now the one and now the other.
-std::vector<bool> covering(const radiosity::Mesh& mesh, const radiosity::Solution& solution, const std::vector<radiosity::InputSurface>& inputs,
-                           const std::vector<raycast::PlacedObject>& objects) {
+std::vector<bool> covering(const radiosity::Mesh& mesh, const radiosity::Solution& solution,
+                           const std::vector<radiosity::InputSurface>& inputs, const std::vector<raycast::PlacedObject>& objects) {
   std::vector<std::uint32_t> pieces;
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
     if (objects[i].flat() && !objects[i].solid() && objects[i].sheet_count() == 1) { pieces.push_back(i); }
@@ -103,7 +103,8 @@ ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solut
       const ExportVertex vertex{outline[k], normal, corner.radiosity};
       std::uint32_t v = newest[corner.vertex];
       while (v != none && v >= out.groups.back().first_vertex &&
-             (out.vertices[v].position != vertex.position || out.vertices[v].normal != vertex.normal || out.vertices[v].radiosity != vertex.radiosity)) {
+             (out.vertices[v].position != vertex.position || out.vertices[v].normal != vertex.normal ||
+              out.vertices[v].radiosity != vertex.radiosity)) {
         v = next[v];
       }
       if (v == none || v < out.groups.back().first_vertex) {
@@ -131,7 +132,8 @@ std::optional<ExportMesh> given_mesh(const SceneFile& file, const radiosity::Sol
   std::vector<glm::dvec3> normals(given.positions.size(), glm::dvec3(0.0));
   std::vector<glm::dvec3> outline;
   for (std::size_t f = 0; f + 1 < given.first_corner.size(); ++f) {
-    const std::span<const std::uint32_t> face = std::span(given.corners).subspan(given.first_corner[f], given.first_corner[f + 1] - given.first_corner[f]);
+    const std::span<const std::uint32_t> face =
+        std::span(given.corners).subspan(given.first_corner[f], given.first_corner[f + 1] - given.first_corner[f]);
     if (std::any_of(face.begin(), face.end(), [&](std::uint32_t v) { return v >= normals.size(); })) { continue; }
     outline.clear();
     for (const std::uint32_t v : face) { outline.push_back(given.positions[v]); }

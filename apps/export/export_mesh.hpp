@@ -52,8 +52,8 @@ struct ExportMesh {
 // covered leaves have lie a little behind their places, lamps in the plane of a ceiling a little before theirs.
 [[nodiscard]] ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution);
 
-// The user's polygons and vertices, all of them, in the order of the file; a vertex has the mean of its corners. Nothing when the scene came
-// from no file of polygons.
+// The user's polygons and vertices, all of them, in the order of the file; a vertex has the mean of its corners. Nothing when the scene
+// came from no file of polygons.
 [[nodiscard]] std::optional<ExportMesh> given_mesh(const SceneFile& file, const radiosity::Solution& solution);
 
 struct ExportFormat {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // GLB (glTF 2.0, binary). COLOR_0 is what a screen shows: linear, exposed, clamped to [0, 1], on an unlit material. _RADIOSITY holds the
-// light itself in W/m2. Positions are floats about the scene's centre, which is the translation of their nodes, so that a scene far from the
-// origin loses nothing; a node above turns z, which is up with us, to y.
+// light itself in W/m2. Positions are floats about the scene's centre, which is the translation of their nodes, so that a scene far from
+// the origin loses nothing; a node above turns z, which is up with us, to y.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -97,8 +97,8 @@ class Writer {
 
   void accessors(JsonWriter& json, const Part& part) const {
     for (int view = 0; view < 4; ++view) {
-      json.open_object().fields("bufferView", view, "byteOffset", std::size_t{12} * part.first_vertex, "componentType", 5126, "count", part.vertices,
-                                "type", "VEC3");
+      json.open_object().fields("bufferView", view, "byteOffset", std::size_t{12} * part.first_vertex, "componentType", 5126, "count",
+                                part.vertices, "type", "VEC3");
       if (view == 0) {
         glm::vec3 lo(mesh_.vertices[part.first_vertex].position - centre_), hi = lo;
         for (std::uint32_t v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
@@ -119,7 +119,8 @@ class Writer {
 
   // Looks along its -z, with its y up.
   static std::array<double, 16> camera_matrix(const Camera& camera) {
-    const glm::dvec3 back = -glm::normalize(camera.forward), right = glm::normalize(glm::cross(camera.up, back)), up = glm::cross(back, right);
+    const glm::dvec3 back = -glm::normalize(camera.forward), right = glm::normalize(glm::cross(camera.up, back)),
+                     up = glm::cross(back, right);
     const glm::dvec3& e = camera.eye;
     return {right.x, right.y, right.z, 0, up.x, up.y, up.z, 0, back.x, back.y, back.z, 0, e.x, e.y, e.z, 1};
   }
@@ -145,7 +146,9 @@ class Writer {
       json.close();
     }
     json.close();
-    for (std::size_t i = 0; i < parts; ++i) { json.object("name", mesh_.groups[parts_[i].group].name, "mesh", i, "translation", numbers(centre_)); }
+    for (std::size_t i = 0; i < parts; ++i) {
+      json.object("name", mesh_.groups[parts_[i].group].name, "mesh", i, "translation", numbers(centre_));
+    }
     for (std::size_t i = 0; i < cameras; ++i) {
       json.object("name", mesh_.cameras[i].name, "camera", i, "matrix", camera_matrix(mesh_.cameras[i]));
     }
@@ -154,7 +157,8 @@ class Writer {
     if (cameras > 0) {
       json.key("cameras").list(mesh_.cameras, [&](const Camera& camera) {
         const PictureSize size = camera.size.value_or(PictureSize{});
-        const double aspect = static_cast<double>(size.width) / size.height, half = std::tan(camera.field_of_view * std::acos(-1.0) / 360.0);
+        const double aspect = static_cast<double>(size.width) / size.height,
+                     half = std::tan(camera.field_of_view * std::acos(-1.0) / 360.0);
         json.object("name", camera.name, "type", "perspective", "perspective", [&](JsonWriter& perspective) {
           perspective.object("aspectRatio", aspect, "yfov", 2.0 * std::atan(half / aspect), "znear", 5e-3 * size_);
         });

@@ -93,13 +93,13 @@ std::string viewer_page(const SceneFile& file, const radiosity::Solution& soluti
     if (c.name != camera.name) { add(c); }
   }
   json.close();
-  json.fields("metres", size, "positions", study::base64(arrays.positions), "cornerVertex", study::base64(arrays.corner_vertex), "cornerLight",
-              study::base64(arrays.corner_light), "faceSize", study::base64(arrays.face_size), "faceNode", study::base64(arrays.face_node), "faceSeen", study::base64(arrays.face_seen), "parent",
-              study::base64(arrays.parent));
+  json.fields("metres", size, "positions", study::base64(arrays.positions), "cornerVertex", study::base64(arrays.corner_vertex),
+              "cornerLight", study::base64(arrays.corner_light), "faceSize", study::base64(arrays.face_size), "faceNode",
+              study::base64(arrays.face_node), "faceSeen", study::base64(arrays.face_seen), "parent", study::base64(arrays.parent));
   json.close();
   return std::string("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>") + escaped(title) +
-         "</title>\n<meta name=\"viewport\" content=\"width=device-width\">\n<style>" + viewer_style + "</style></head>\n<body>" + viewer_body +
-         "<script id=\"data\" type=\"application/json\">" + script_safe(json.text()) + "</script>\n<script>" + viewer_script +
+         "</title>\n<meta name=\"viewport\" content=\"width=device-width\">\n<style>" + viewer_style + "</style></head>\n<body>" +
+         viewer_body + "<script id=\"data\" type=\"application/json\">" + script_safe(json.text()) + "</script>\n<script>" + viewer_script +
          "</script></body></html>\n";
 }
 

@@ -27,7 +27,8 @@ inline constexpr const char* viewer_body = R"~(
 <label>exposure<input id="exposure" type="range" min="-6" max="6" step="0.1" value="0"><output id="exposureText"></output></label>
 <label>show<select id="show"><option value="light">light</option><option value="flat">light of each leaf</option>
 <option value="patches">patches</option></select><span></span></label>
-<label>borders<select id="borders"><option value="none">none</option><option value="level">of the level</option></select><span></span></label>
+<label>borders<select id="borders"><option value="none">none</option><option value="level">of the level</option></select>
+<span></span></label>
 <label>level<input id="level" type="range" min="0" max="1" step="1" value="1"><output id="levelText"></output></label>
 <label>backs<select id="backs"><option value="hide">see through</option><option value="show">dark</option></select><span></span></label>
 <details><summary>keys</summary>drag: turn around the scene; right button or shift: move it; wheel: nearer.
@@ -42,7 +43,8 @@ const data = JSON.parse($('data').textContent);
 const bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer;
 const positions = new Float32Array(bytes(data.positions)), cornerVertex = new Uint32Array(bytes(data.cornerVertex));
 const cornerLight = new Uint16Array(bytes(data.cornerLight)), faceSize = new Uint8Array(bytes(data.faceSize));
-const faceSeen = new Uint8Array(bytes(data.faceSeen)), faceNode = new Uint32Array(bytes(data.faceNode)), parent = new Uint32Array(bytes(data.parent));
+const faceSeen = new Uint8Array(bytes(data.faceSeen));
+const faceNode = new Uint32Array(bytes(data.faceNode)), parent = new Uint32Array(bytes(data.parent));
 const faces = faceSize.length;
 $('title').textContent = data.title; $('sentence').textContent = data.sentence;
 
@@ -80,7 +82,8 @@ const surface = program(
   'in vec3 color; uniform float exposure; out vec4 result; vec3 encode(vec3 c) { c = clamp(c, 0.0, 1.0);' +
   'return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, vec3(lessThanEqual(c, vec3(0.0031308)))); }' +
   'void main() { result = gl_FrontFacing ? vec4(encode(color * exposure), 1.0) : vec4(0.07, 0.07, 0.08, 1.0); }');
-const border = program('in vec3 position; uniform mat4 view; void main() { gl_Position = view * vec4(position, 1.0); gl_Position.z -= 1e-4 * gl_Position.w; }',
+const border = program(
+  'in vec3 position; uniform mat4 view; void main() { gl_Position = view * vec4(position, 1.0); gl_Position.z -= 1e-4 * gl_Position.w; }',
   'out vec4 result; void main() { result = vec4(1.0, 0.85, 0.2, 0.6); }');
 
 const half = (() => {  // table of the 65536 half floats
@@ -141,7 +144,8 @@ function chooseLevel(level) {
     let h = Math.imul(node + 1, 2654435761) >>> 0;
     h = Math.imul(h ^ h >>> 15, 2246822519) >>> 0;
     for (let k = 0; k < 3 * (faceSize[f] - 2); ++k, out += 4) {
-      patchColor[out] = 40 + (h & 127); patchColor[out + 1] = 40 + (h >> 8 & 127); patchColor[out + 2] = 40 + (h >> 16 & 127); patchColor[out + 3] = 255 * faceSeen[f];
+      patchColor[out] = 40 + (h & 127); patchColor[out + 1] = 40 + (h >> 8 & 127); patchColor[out + 2] = 40 + (h >> 16 & 127);
+      patchColor[out + 3] = 255 * faceSeen[f];
     }
   }
   gl.bindBuffer(gl.ARRAY_BUFFER, patchBuffer);
@@ -183,7 +187,8 @@ function matrix() {
   const right = unit(cross(forward, up)), above = cross(right, forward), aspect = canvas.width / canvas.height;
   const near = walking ? 1e-3 : Math.max(1e-3, 0.3 * (Math.hypot(...eye) - 0.6)), far = Math.hypot(...eye) + 2;
   // The camera's picture is in view as a whole.
-  const x = 1 / Math.tan(fov / 2) * Math.min(1, picture / aspect), y = x * aspect, a = (far + near) / (near - far), b = 2 * far * near / (near - far);
+  const x = 1 / Math.tan(fov / 2) * Math.min(1, picture / aspect), y = x * aspect;
+  const a = (far + near) / (near - far), b = 2 * far * near / (near - far);
   const m = [right.map(v => v * x), above.map(v => v * y), forward];
   const row = k => [...m[k], -dot(m[k], eye)];
   const r = row(0), u = row(1), d = row(2);
@@ -227,7 +232,7 @@ function draw() {
 }
 function redraw() { if (!wanted) { wanted = true; requestAnimationFrame(draw); } }
 
-data.cameras.forEach((c, i) => { const o = document.createElement('option'); o.value = i; o.textContent = c.name || 'camera ' + (i + 1); $('camera').append(o); });
+data.cameras.forEach((c, i) => $('camera').append(new Option(c.name || 'camera ' + (i + 1), i)));
 $('level').max = deepest; $('level').value = deepest;
 function texts() {
   const e = +$('exposure').value;
@@ -261,7 +266,11 @@ canvas.onpointermove = e => {
   }
   redraw();
 };
-canvas.addEventListener('wheel', e => { e.preventDefault(); eye = add(eye, forward, -0.0008 * e.deltaY * Math.max(0.2, Math.hypot(...eye))); redraw(); }, {passive: false});
+canvas.addEventListener('wheel', e => {
+  e.preventDefault();
+  eye = add(eye, forward, -0.0008 * e.deltaY * Math.max(0.2, Math.hypot(...eye)));
+  redraw();
+}, {passive: false});
 const keys = new Set();
 let last = 0;
 function walk(now) {

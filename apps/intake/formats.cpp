@@ -38,7 +38,8 @@ bool usable(const Camera& camera) {
   const auto in_reach = [](const glm::dvec3& v) { return glm::length(v) <= max_number; };  // false for NaN
   const double sine = glm::length(glm::cross(camera.forward, camera.up));
   return in_reach(camera.eye) && in_reach(camera.forward) && in_reach(camera.up) &&
-         sine > 1e-9 * glm::length(camera.forward) * glm::length(camera.up) && camera.field_of_view >= 0.001 && camera.field_of_view <= 179.0;
+         sine > 1e-9 * glm::length(camera.forward) * glm::length(camera.up) && camera.field_of_view >= 0.001 &&
+         camera.field_of_view <= 179.0;
 }
 
 std::vector<std::string> Notes::take() const {

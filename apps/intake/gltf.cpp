@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, materials, cameras. The base colour is the
-// reflectance, the emissive colour (times KHR_materials_emissive_strength) a radiance L, so that the exitance is pi L. Textures, skins, morphs
-// and compressed meshes are passed over with a word; what a file marks as required and is none of these is refused by its geometry alone.
+// reflectance, the emissive colour (times KHR_materials_emissive_strength) a radiance L, so that the exitance is pi L. Textures, skins,
+// morphs and compressed meshes are passed over with a word; what a file marks as required and is none of these is refused by its geometry
+// alone.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -25,7 +26,8 @@ constexpr std::size_t nowhere = ~std::size_t{0};
 class GltfReader {
  public:
   // `text_begin`: where the text stands in a GLB; nothing in a text file.
-  GltfReader(std::string_view text, std::optional<std::string_view> binary, std::optional<std::size_t> text_begin, const SideFile& side_file)
+  GltfReader(std::string_view text, std::optional<std::string_view> binary, std::optional<std::size_t> text_begin,
+             const SideFile& side_file)
       : text_(text), text_begin_(text_begin), binary_(binary), side_file_(side_file) {}
 
   ModelResult run() {
@@ -85,7 +87,9 @@ class GltfReader {
       const JsonValue& base = glossy ? glossy : given["pbrMetallicRoughness"];
       const auto color = array<3>(base[glossy ? "diffuseFactor" : "baseColorFactor"]).value_or(std::array{1.0, 1.0, 1.0});
       const bool picture = static_cast<bool>(base[glossy ? "diffuseTexture" : "baseColorTexture"]);
-      if (picture) { notes_.add("textures are not read: the base colour factor stands for the picture", "in " + mesh_file::shown(material.name)); }
+      if (picture) {
+        notes_.add("textures are not read: the base colour factor stands for the picture", "in " + mesh_file::shown(material.name));
+      }
       // A factor of 1 1 1 under a picture says nothing about the picture.
       if (!picture || color != std::array{1.0, 1.0, 1.0}) {
         if (base || given["emissiveFactor"]) { material.reflectance = radiosity::Color(color[0], color[1], color[2]); }
@@ -99,7 +103,9 @@ class GltfReader {
       if (given["emissiveTexture"] && !radiosity::is_black(material.emission)) {
         notes_.add("textures are not read: the emissive factor stands for the picture", "in " + mesh_file::shown(material.name));
       }
-      if (extensions["KHR_materials_unlit"]) { notes_.add("unlit materials are taken as paint of their colour", "in " + mesh_file::shown(material.name)); }
+      if (extensions["KHR_materials_unlit"]) {
+        notes_.add("unlit materials are taken as paint of their colour", "in " + mesh_file::shown(material.name));
+      }
       if (extensions["KHR_materials_transmission"] || given["alphaMode"].string() == "BLEND") {
         notes_.add("materials that let light through are taken as opaque", "in " + mesh_file::shown(material.name));
       }
@@ -136,7 +142,9 @@ class GltfReader {
     std::vector<bool> met(nodes.items().size(), false);
     const auto push = [&](const JsonValue& index, const glm::dmat4& parent) {
       const auto node = index.index();
-      if (!node || *node >= met.size()) { return error(index.offset(), "there is no such node; the file has " + std::to_string(met.size())); }
+      if (!node || *node >= met.size()) {
+        return error(index.offset(), "there is no such node; the file has " + std::to_string(met.size()));
+      }
       if (met[*node]) { return notes_.add("nodes that stand in several places are used once", "node " + std::to_string(*node)); }
       met[*node] = true;
       open.push_back({*node, parent});
@@ -190,7 +198,9 @@ class GltfReader {
     const std::size_t mode = primitive["mode"] ? primitive["mode"].index().value_or(nowhere) : 4;
     if (mode < 4 || mode > 6) { return pass_over("points and lines have no surface: left out", place); }
     for (const char* const packed : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
-      if (primitive["extensions"][packed]) { return pass_over("meshes compressed by " + std::string(packed) + " are not read: left out", place); }
+      if (primitive["extensions"][packed]) {
+        return pass_over("meshes compressed by " + std::string(packed) + " are not read: left out", place);
+      }
     }
     if (primitive["targets"]) { notes_.add("morph targets are not read: meshes stand as they are drawn", place); }
     std::string fault;
@@ -199,7 +209,9 @@ class GltfReader {
     if (!fault.empty() && fault.find("sparse") != std::string::npos) { return pass_over(fault + ": left out", place); }
     if (!fault.empty()) { return error(primitive.offset(), fault); }
     const auto material = primitive["material"].index();
-    if (primitive["material"] && (!material || *material >= default_material_)) { return error(primitive["material"].offset(), "there is no such material"); }
+    if (primitive["material"] && (!material || *material >= default_material_)) {
+      return error(primitive["material"].offset(), "there is no such material");
+    }
     const auto first = static_cast<std::uint32_t>(model_.positions.size());
     const std::size_t vertices = positions->size() / 3, count = given ? given->size() : vertices;
     if (model_.positions.size() + vertices > 3 * most_polygons || model_.polygons() + count > most_polygons) {
@@ -211,17 +223,22 @@ class GltfReader {
     const auto vertex = [&](std::size_t i) { return given ? (*given)[i] : static_cast<double>(i); };
     for (std::size_t i = 0; i < count; ++i) {
       if (!(vertex(i) >= 0.0 && vertex(i) < static_cast<double>(vertices))) {
-        return error(primitive.offset(), "an index names vertex " + std::to_string(static_cast<std::int64_t>(vertex(i))) + " of " + std::to_string(vertices));
+        return error(primitive.offset(),
+                     "an index names vertex " + std::to_string(static_cast<std::int64_t>(vertex(i))) + " of " + std::to_string(vertices));
       }
     }
-    if (!material && model_.materials.size() == default_material_) { model_.materials.push_back({"default", {}, radiosity::Color(0.0), false}); }
+    if (!material && model_.materials.size() == default_material_) {
+      model_.materials.push_back({"default", {}, radiosity::Color(0.0), false});
+    }
     const bool mirrored = glm::determinant(glm::dmat3(matrix)) < 0.0;
     const std::size_t step = mode == 4 ? 3 : 1;
     for (std::size_t i = 0; i + 2 < count; i += step) {
       const bool odd = mode == 5 && i % 2 == 1;
       const std::size_t a = mode == 6 ? 0 : i, b = odd ? i + 2 : i + 1, c = odd ? i + 1 : i + 2;
       std::array<std::uint32_t, 3> corners{};
-      for (std::size_t k = 0; k < 3; ++k) { corners[k] = first + static_cast<std::uint32_t>(vertex(k == 0 ? a : (k == 1) != mirrored ? b : c)); }
+      for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = first + static_cast<std::uint32_t>(vertex(k == 0 ? a : (k == 1) != mirrored ? b : c));
+      }
       model_.polygon(corners, static_cast<std::uint32_t>(material.value_or(default_material_)), group);
     }
   }
@@ -237,14 +254,18 @@ class GltfReader {
     const JsonValue& lens = given["perspective"];
     const std::string& own = given["name"].string();
     Camera camera;
-    camera.name = !own.empty() ? own : !node["name"].string().empty() ? node["name"].string() : "camera" + std::to_string(model_.cameras.size());
+    camera.name = !own.empty()                     ? own
+                  : !node["name"].string().empty() ? node["name"].string()
+                                                   : "camera" + std::to_string(model_.cameras.size());
     if (!lens) { return notes_.add("cameras without perspective are passed over", mesh_file::shown(camera.name)); }
     camera.eye = glm::dvec3(matrix[3]);
     camera.forward = -glm::dvec3(matrix[2]);
     camera.up = glm::dvec3(matrix[1]);
     const double aspect = lens["aspectRatio"].number(4.0 / 3.0);
     camera.field_of_view = 2.0 * std::atan(aspect * std::tan(0.5 * lens["yfov"].number(0.7))) * 180.0 / std::numbers::pi;
-    if (lens["aspectRatio"] && aspect > 0.05 && aspect < 20.0) { camera.size = PictureSize{static_cast<std::uint32_t>(std::lround(600.0 * aspect)), 600}; }
+    if (lens["aspectRatio"] && aspect > 0.05 && aspect < 20.0) {
+      camera.size = PictureSize{static_cast<std::uint32_t>(std::lround(600.0 * aspect)), 600};
+    }
     if (usable(camera)) { return model_.cameras.push_back(std::move(camera)); }
     notes_.add("cameras that see nothing are passed over", mesh_file::shown(camera.name));
   }
@@ -262,7 +283,9 @@ class GltfReader {
   Errors errors_;
 };
 
-ModelResult read_gltf(std::string_view bytes, const SideFile& side_file) { return GltfReader(bytes, std::nullopt, std::nullopt, side_file).run(); }
+ModelResult read_gltf(std::string_view bytes, const SideFile& side_file) {
+  return GltfReader(bytes, std::nullopt, std::nullopt, side_file).run();
+}
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;

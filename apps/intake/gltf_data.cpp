@@ -72,8 +72,8 @@ std::optional<std::string> file_of_uri(std::string_view uri) {
   for (std::size_t i = 0; i < uri.size(); ++i) {
     unsigned code = 0;
     const std::string_view digits = uri.substr(i + 1 < uri.size() ? i + 1 : uri.size(), 2);
-    if (uri[i] == '%' && digits.size() == 2 &&
-        std::from_chars(digits.data(), digits.data() + 2, code, 16).ptr == digits.data() + 2 && code != 0) {
+    if (uri[i] == '%' && digits.size() == 2 && std::from_chars(digits.data(), digits.data() + 2, code, 16).ptr == digits.data() + 2 &&
+        code != 0) {
       name += static_cast<char>(static_cast<unsigned char>(code));
       i += 2;
     } else {
@@ -145,12 +145,16 @@ std::optional<std::vector<double>> GltfData::numbers(const JsonValue& accessor_i
   const std::size_t begin = or_zero(view["byteOffset"]), length = or_zero(view["byteLength"]), first = or_zero(accessor["byteOffset"]);
   if (begin > bytes->size() || length > bytes->size() - begin) { return fail(who + ": its view reaches beyond its buffer"); }
   // All are below 2^32, so nothing overflows.
-  if (*count > 0 && (stride < element || first + (*count - 1) * stride + element > length)) { return fail(who + " reaches beyond its view"); }
+  if (*count > 0 && (stride < element || first + (*count - 1) * stride + element > length)) {
+    return fail(who + " reaches beyond its view");
+  }
   std::vector<double> result;
   result.reserve(*count * components);
   for (std::size_t i = 0; i < *count; ++i) {
     const char* const at = bytes->data() + begin + first + i * stride;
-    for (std::size_t k = 0; k < components; ++k) { result.push_back(number_at(at + k * type->size, *type, accessor["normalized"].boolean())); }
+    for (std::size_t k = 0; k < components; ++k) {
+      result.push_back(number_at(at + k * type->size, *type, accessor["normalized"].boolean()));
+    }
   }
   return result;
 }

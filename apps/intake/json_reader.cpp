@@ -65,7 +65,8 @@ class JsonParser {
       default:
         break;
     }
-    for (const auto& [word, kind, value] : {std::tuple("true", Kind::boolean, 1.0), {"false", Kind::boolean, 0.0}, {"null", Kind::null, 0.0}}) {
+    for (const auto& [word, kind, value] :
+         {std::tuple("true", Kind::boolean, 1.0), {"false", Kind::boolean, 0.0}, {"null", Kind::null, 0.0}}) {
       const std::string_view name = word;
       if (text_.substr(at_, name.size()) != name) { continue; }
       at_ += name.size();
@@ -75,7 +76,9 @@ class JsonParser {
     }
     const char* const begin = text_.data() + at_;
     const auto [end, code] = std::from_chars(begin, text_.data() + text_.size(), out.number_);
-    if (end == begin || std::string_view("-0123456789").find(*begin) == std::string_view::npos) { return fail("expected a value, found " + here()); }
+    if (end == begin || std::string_view("-0123456789").find(*begin) == std::string_view::npos) {
+      return fail("expected a value, found " + here());
+    }
     if (code != std::errc() || !std::isfinite(out.number_)) { return fail("the number " + here() + " is beyond what a number can hold"); }
     out.kind_ = Kind::number;
     at_ += static_cast<std::size_t>(end - begin);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Reads JSON (RFC 8259) into a tree of values. Strings are kept as UTF-8; what is wrong is told with its place. At most 64 levels deep, so that
-// recursion is bounded. Asking a value for what it is not gives nothing, so readers need no checks of their own.
+// Reads JSON (RFC 8259) into a tree of values. Strings are kept as UTF-8; what is wrong is told with its place. At most 64 levels deep, so
+// that recursion is bounded. Asking a value for what it is not gives nothing, so readers need no checks of their own.
 
 #include <cstddef>
 #include <cstdint>

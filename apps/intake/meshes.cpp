@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The formats of polygon meshes (mesh_file.hpp) as scenes: PLY and OFF are geometry alone, OBJ has groups, and materials in files of its own
-// (obj_materials.hpp).
+// The formats of polygon meshes (mesh_file.hpp) as scenes: PLY and OFF are geometry alone, OBJ has groups, and materials in files of its
+// own (obj_materials.hpp).
 #include <brep/builder_input.hpp>
 
 #include "apps/file_kind.hpp"

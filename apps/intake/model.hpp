@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Scenes in the formats of other programs. Each format has a reader that fills a Model: polygons, materials, cameras and analytic objects as
-// the file has them, unjudged. to_scene.hpp makes a scene of it: polygons go through the intake (radiosity/intake/intake.hpp), which repairs
-// and counts. A reader refuses what cannot be read, with file, line, column and what to do; what it passes over it notes.
+// Scenes in the formats of other programs. Each format has a reader that fills a Model: polygons, materials, cameras and analytic objects
+// as the file has them, unjudged. to_scene.hpp makes a scene of it: polygons go through the intake (radiosity/intake/intake.hpp), which
+// repairs and counts. A reader refuses what cannot be read, with file, line, column and what to do; what it passes over it notes.
 //
 // No input makes a reader throw, crash, recurse deeply or run without end. Files beside the first one are asked for by a function, so that
 // tests and fuzz targets need no file system.
@@ -55,7 +55,8 @@ struct Model {
   std::vector<std::string> notes;  // sentences about what was passed over or taken otherwise
 
   [[nodiscard]] std::size_t polygons() const { return first_corner.size() - 1; }
-  void polygon(std::span<const std::uint32_t> its_corners, std::uint32_t its_material, std::uint32_t its_group, std::uint32_t its_line = 0) {
+  void polygon(std::span<const std::uint32_t> its_corners, std::uint32_t its_material, std::uint32_t its_group,
+               std::uint32_t its_line = 0) {
     corners.insert(corners.end(), its_corners.begin(), its_corners.end());
     first_corner.push_back(static_cast<std::uint32_t>(corners.size()));
     material.push_back(its_material);
@@ -92,10 +93,10 @@ enum class UpAxis : unsigned char { x, y, z };
 
 // A format: one file of this folder defines it, one line of formats.cpp lists it.
 struct ModelFormat {
-  std::string_view ending;                   // of the name, in small letters: ".gltf"
-  std::string_view name;                     // "glTF"
-  UpAxis up;                                 // what files of this format mean by up
-  bool (*begins)(std::string_view bytes);    // does a file of this format begin so? For files without a name
+  std::string_view ending;                 // of the name, in small letters: ".gltf"
+  std::string_view name;                   // "glTF"
+  UpAxis up;                               // what files of this format mean by up
+  bool (*begins)(std::string_view bytes);  // does a file of this format begin so? For files without a name
   ModelResult (*read)(std::string_view bytes, const SideFile& side_file);
 };
 

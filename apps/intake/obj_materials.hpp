@@ -2,7 +2,8 @@
 #pragma once
 
 // MTL, the materials of OBJ files: Kd is the reflectance; Ke, the radiance that a surface sends out, becomes its exitance pi Ke. Textures
-// are passed over: Kd stands for them. Nothing in such a file is an error: what cannot be read is noted, and the material keeps what it has.
+// are passed over: Kd stands for them. Nothing in such a file is an error: what cannot be read is noted, and the material keeps what it
+// has.
 
 #include <string>
 #include <vector>

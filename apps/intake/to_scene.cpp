@@ -77,7 +77,9 @@ class SceneMaker {
 
   void place(const glm::dmat3& linear) {
     for (glm::dvec3& p : model_.positions) { p = linear * p; }
-    for (radiosity::SceneObject& object : model_.objects) { object.placement = raycast::compose({linear, glm::dvec3(0.0), false}, object.placement); }
+    for (radiosity::SceneObject& object : model_.objects) {
+      object.placement = raycast::compose({linear, glm::dvec3(0.0), false}, object.placement);
+    }
     for (Camera& camera : model_.cameras) {
       camera.eye = linear * camera.eye;
       camera.forward = linear * camera.forward;
@@ -151,12 +153,13 @@ class SceneMaker {
       const std::uint32_t line = vertex || change.first >= model_.line.size() ? 0 : model_.line[change.first];
       note(radiosity::sentence(change) + (line > 0 ? (change.count > 1 ? ", first at line " : ", at line ") + std::to_string(line) : ""));
     }
-    note(counted(intake.polygons, "polygon") + " became " + counted(intake.faces, "face") + " of " + counted(intake.objects.size(), "object"));
+    note(counted(intake.polygons, "polygon") + " became " + counted(intake.faces, "face") + " of " +
+         counted(intake.objects.size(), "object"));
     file_.scene.objects = std::move(intake.objects);
     if (!given_positions_.empty()) {
-      file_.given = std::make_shared<GivenPolygons>(
-          GivenPolygons{std::move(given_positions_), std::move(model_.positions), std::move(model_.corners), std::move(model_.first_corner),
-                        std::move(intake.parts), 0, given_z_up_});
+      file_.given =
+          std::make_shared<GivenPolygons>(GivenPolygons{std::move(given_positions_), std::move(model_.positions), std::move(model_.corners),
+                                                        std::move(model_.first_corner), std::move(intake.parts), 0, given_z_up_});
     }
     file_.origins.assign(file_.scene.objects.size(), {"mesh", {}});
   }
@@ -173,7 +176,8 @@ class SceneMaker {
       file_.scene.objects.push_back({"light", std::move(sphere.object), {}, {material}});
       file_.origins.push_back({"light", {}});
     }
-    note(std::to_string(model_.lights.size()) + (model_.lights.size() == 1 ? " light has no surface: a lamp" : " lights have no surface: lamps") + " of " +
+    note(std::to_string(model_.lights.size()) +
+         (model_.lights.size() == 1 ? " light has no surface: a lamp" : " lights have no surface: lamps") + " of " +
          radiosity::length_text(2.0 * radius) + " across");
   }
 
@@ -248,7 +252,8 @@ std::optional<double> positive(std::string_view text, bool zero) {
 }  // namespace
 
 std::string ModelOptions::key() const {
-  std::string text = formatted("%.17g", reflectance) + formatted(" %.17g", metres) + (two_sided ? " two-sided" : "") + (merge ? "" : " as given");
+  std::string text =
+      formatted("%.17g", reflectance) + formatted(" %.17g", metres) + (two_sided ? " two-sided" : "") + (merge ? "" : " as given");
   if (up) { text += " up " + std::to_string(static_cast<int>(*up)); }
   for (const Lamp& lamp : lamps) { text += " lamp " + lamp.material + formatted("=%.17g", lamp.exitance); }
   return text;

@@ -16,8 +16,8 @@
 
 namespace apps {
 
-// Polygons of other programs reflect at most this: white paint of a file often has reflectance 1, which no surface has, and a closed room of
-// it would never get rid of its light.
+// Polygons of other programs reflect at most this: white paint of a file often has reflectance 1, which no surface has, and a closed room
+// of it would never get rid of its light.
 inline constexpr double most_reflectance = 0.95;
 
 struct Lamp {

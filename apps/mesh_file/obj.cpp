@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Wavefront OBJ: v and f lines. A corner is v, v/vt, v//vn or v/vt/vn; a negative number counts back from the last vertex. A face belongs to
-// the object (o), the group (g) and the material (usemtl) that were named last.
+// Wavefront OBJ: v and f lines. A corner is v, v/vt, v//vn or v/vt/vn; a negative number counts back from the last vertex. A face belongs
+// to the object (o), the group (g) and the material (usemtl) that were named last.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -16,8 +16,8 @@ namespace apps::mesh_file {
 namespace {
 
 // Statements that say nothing about the shape of the faces.
-constexpr std::array<std::string_view, 15> silent{"vt",    "vn",       "vp",       "s",   "mg",         "usemap",    "maplib", "bevel",
-                                                  "lod",   "c_interp", "d_interp", "ctech", "shadow_obj", "trace_obj", "stech"};
+constexpr std::array<std::string_view, 15> silent{"vt",  "vn",       "vp",       "s",     "mg",         "usemap",    "maplib", "bevel",
+                                                  "lod", "c_interp", "d_interp", "ctech", "shadow_obj", "trace_obj", "stech"};
 // Points, lines, curves and free-form surfaces: they are geometry, and are not read.
 constexpr std::array<std::string_view, 21> unread{"p",    "l",    "curv", "curv2", "surf", "cstype", "deg", "bmat", "step", "parm", "trim",
                                                   "hole", "scrv", "sp",   "end",   "con",  "bzp",    "cdc", "cdp",  "res",  "call"};

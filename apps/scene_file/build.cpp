@@ -170,7 +170,8 @@ Made Builder::make_from_file(const ObjectSyntax& object) {
   }
   const ModelFormat* const format = model_format(file.text, *bytes);
   if (format == nullptr) {
-    errors_.add(file.place, "the file " + in_quotes(file.text) + " is of no known format; expected a name that ends with " + model_endings());
+    errors_.add(file.place,
+                "the file " + in_quotes(file.text) + " is of no known format; expected a name that ends with " + model_endings());
     return made;
   }
   ModelResult read = format->read(*bytes, side_file_);

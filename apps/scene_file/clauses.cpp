@@ -163,9 +163,13 @@ void Parser::sheet_clause(ObjectSyntax& out) {
 
 void Parser::file_clause(ObjectSyntax& out) {
   std::string_view name = token_.text;
-  if (!at(Token::Kind::word) && !at(Token::Kind::number)) { return error(token_.place, "expected the name of a file, found " + describe(token_)); }
+  if (!at(Token::Kind::word) && !at(Token::Kind::number)) {
+    return error(token_.place, "expected the name of a file, found " + describe(token_));
+  }
   if (name[0] == '"') {
-    if (name.size() < 3 || name.back() != '"') { error(token_.place, "expected the name of a file in double quotes, found " + describe(token_)); }
+    if (name.size() < 3 || name.back() != '"') {
+      error(token_.place, "expected the name of a file in double quotes, found " + describe(token_));
+    }
     name = name.substr(1, name.rfind('"') - 1);
   }
   out.file = {std::string(name), token_.place};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // VRML 1.0 as a scene: a visitor that makes objects of the shapes. Cube, Sphere, Cylinder and Cone stay what they are, analytic solids with
-// their placement; face sets become polygons. The diffuse colour is the reflectance, the emissive colour a radiance L: the exitance is pi L.
+// their placement; face sets become polygons. The diffuse colour is the reflectance, the emissive colour a radiance L: the exitance is pi
+// L.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -131,7 +132,9 @@ class ModelMaker final : public Visitor {
       return glm::max(glm::dvec3(c[0], c[1], c[2]), glm::dvec3(0.0));
     };
     ModelMaterial made;
-    made.name = state.material == nullptr ? "default" : state.material->name.empty() ? "material" + std::to_string(model.materials.size()) : state.material->name;
+    made.name = state.material == nullptr      ? "default"
+                : state.material->name.empty() ? "material" + std::to_string(model.materials.size())
+                                               : state.material->name;
     if (all > 1) { made.name += "." + std::to_string(index); }
     made.reflectance = color("diffuseColor", glm::dvec3(0.8));
     made.emission = std::numbers::pi * color("emissiveColor", glm::dvec3(0.0));
@@ -242,12 +245,15 @@ class ModelMaker final : public Visitor {
       const double number = i < index.numbers.size() ? index.numbers[i] : -1.0;
       if (number >= 0.0) {
         if (!(number < count) || number != std::floor(number)) {
-          return errors_.add(index.places[i], "there is no vertex " + mesh_file::shown(std::to_string(static_cast<std::int64_t>(std::min(number, 1e15)))) +
-                                                  "; the coordinates have " + std::to_string(static_cast<std::int64_t>(count)) + ", counted from 0");
+          return errors_.add(index.places[i],
+                             "there is no vertex " + mesh_file::shown(std::to_string(static_cast<std::int64_t>(std::min(number, 1e15)))) +
+                                 "; the coordinates have " + std::to_string(static_cast<std::int64_t>(count)) + ", counted from 0");
         }
         const auto v = static_cast<std::uint32_t>(number);
         const auto [known, is_new] = vertices.emplace(v, static_cast<std::uint32_t>(model.positions.size()));
-        if (is_new) { model.positions.push_back(point(state, {points->numbers[3 * v], points->numbers[3 * v + 1], points->numbers[3 * v + 2]})); }
+        if (is_new) {
+          model.positions.push_back(point(state, {points->numbers[3 * v], points->numbers[3 * v + 1], points->numbers[3 * v + 2]}));
+        }
         corners.push_back(known->second);
         continue;
       }
@@ -266,7 +272,9 @@ class ModelMaker final : public Visitor {
   std::size_t material_of(const Node& node, const State& state, std::size_t face, std::size_t corner) {
     const auto listed = [&](std::size_t i) {
       const Field* const list = node.find("materialIndex");
-      return list != nullptr && i < list->numbers.size() && list->numbers[i] >= 0.0 ? static_cast<std::size_t>(std::min(list->numbers[i], 1e9)) : i;
+      return list != nullptr && i < list->numbers.size() && list->numbers[i] >= 0.0
+                 ? static_cast<std::size_t>(std::min(list->numbers[i], 1e9))
+                 : i;
     };
     switch (state.binding) {
       case Binding::per_part:
@@ -297,7 +305,8 @@ ModelResult read_vrml(std::string_view bytes, const SideFile& side_file) {
   const auto root = parse(bytes, errors, notes);
   ModelMaker maker(side_file, errors, notes);
   if (root != nullptr && !traverse(root, maker)) {
-    errors.add(root->place, "uses of uses make more than " + std::to_string(most_visits) + " nodes of this file, or a way through it is longer than " + std::to_string(deepest));
+    errors.add(root->place, "uses of uses make more than " + std::to_string(most_visits) +
+                                " nodes of this file, or a way through it is longer than " + std::to_string(deepest));
   }
   maker.model.notes = notes.take();
   const bool sound = errors.count() == 0;

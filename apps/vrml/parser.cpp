@@ -41,7 +41,9 @@ class Tokens {
     } else if (marks.find(text_[i_]) != marks.npos) {
       token_ = text_.substr(i_++, 1);
     } else {
-      while (i_ < text_.size() && !is_blank(text_[i_]) && text_[i_] != '"' && text_[i_] != '#' && marks.find(text_[i_]) == marks.npos) { ++i_; }
+      while (i_ < text_.size() && !is_blank(text_[i_]) && text_[i_] != '"' && text_[i_] != '#' && marks.find(text_[i_]) == marks.npos) {
+        ++i_;
+      }
       token_ = text_.substr(begin, i_ - begin);
     }
   }
@@ -154,7 +156,9 @@ class Parser {
     const NodeType* type = node_type(node.type);
     FieldTypes own;  // that the node itself declares
     while (ok() && !tokens_.is("}")) {
-      if (tokens_.at_end()) { return fail("expected '}' to close the node " + node.type + " that begins at " + at(node.place) + ", " + found()); }
+      if (tokens_.at_end()) {
+        return fail("expected '}' to close the node " + node.type + " that begins at " + at(node.place) + ", " + found());
+      }
       if (!tokens_.is_word()) { return fail("expected a field or a node in " + node.type + ", " + found()); }
       const std::string_view word = tokens_.token();
       const auto declared = own.find(word);
@@ -177,7 +181,8 @@ class Parser {
         out = {tokens_.place(), {}, {}, {}};
         value(*field, word, out);
       } else if (type == nullptr && own.empty()) {
-        notes_.add("nodes of the type " + mesh_file::shown(node.type) + " are not known: passed over", "at line " + std::to_string(node.place.line));
+        notes_.add("nodes of the type " + mesh_file::shown(node.type) + " are not known: passed over",
+                   "at line " + std::to_string(node.place.line));
         return skip_body(node.place);
       } else if ((type != nullptr && type->group) || type == nullptr || node_type(word) != nullptr || word == "DEF" || word == "USE") {
         if (auto child = read(depth + 1)) { node.children.push_back(std::move(child)); }
@@ -246,7 +251,9 @@ class Parser {
   void single(const FieldType& type, std::string_view field, Field& out) {
     switch (type.kind) {
       case FieldType::Kind::strings:
-        if (!tokens_.is_string() && !tokens_.is_word()) { return fail("expected a string in quotes for '" + std::string(field) + "', " + found()); }
+        if (!tokens_.is_string() && !tokens_.is_word()) {
+          return fail("expected a string in quotes for '" + std::string(field) + "', " + found());
+        }
         out.words.push_back(unquoted(tokens_.token()));
         return tokens_.next();
       case FieldType::Kind::words:
@@ -320,8 +327,9 @@ std::string_view Node::word(std::string_view field, std::string_view otherwise) 
 std::shared_ptr<const Node> parse(std::string_view text, Errors& errors, Notes& notes) {
   constexpr std::string_view header = "#VRML V1.0 ascii";
   if (!text.starts_with(header)) {
-    errors.add({1, 1}, text.starts_with("#VRML V2.0") ? "this is VRML 2.0 (VRML97), which is not read; expected the first line '#VRML V1.0 ascii'"
-                                                     : "expected '#VRML V1.0 ascii' as the first line");
+    errors.add({1, 1}, text.starts_with("#VRML V2.0")
+                           ? "this is VRML 2.0 (VRML97), which is not read; expected the first line '#VRML V1.0 ascii'"
+                           : "expected '#VRML V1.0 ascii' as the first line");
     return nullptr;
   }
   return Parser(text, errors, notes).run();

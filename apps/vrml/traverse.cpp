@@ -42,7 +42,7 @@ std::optional<glm::dmat4> transform_of(const Node& node) {
 }
 
 Binding binding_of(std::string_view word) {
-  constexpr std::array<std::string_view, 7> words{"OVERALL",  "PER_PART",         "PER_PART_INDEXED", "PER_FACE",
+  constexpr std::array<std::string_view, 7> words{"OVERALL",          "PER_PART",   "PER_PART_INDEXED",  "PER_FACE",
                                                   "PER_FACE_INDEXED", "PER_VERTEX", "PER_VERTEX_INDEXED"};
   const auto found = std::find(words.begin(), words.end(), word);
   return found == words.end() ? Binding::overall : static_cast<Binding>(found - words.begin());

@@ -36,7 +36,9 @@ inline BakeOutcome bake_within_memory(const PolygonView& mesh, std::span<const M
   Intake intake = take_in(mesh, materials, options.intake);
   if (intake.objects.empty()) {
     sentences.emplace_back("there is no polygon with an area");
-    for (const Change& change : intake.changes) { sentences.push_back(sentence(change) + ", first number " + std::to_string(change.first)); }
+    for (const Change& change : intake.changes) {
+      sentences.push_back(sentence(change) + ", first number " + std::to_string(change.first));
+    }
     return refused(std::move(sentences));
   }
   scene.objects = std::move(intake.objects);
@@ -64,11 +66,13 @@ HALFLIGHT_INLINE BakeOutcome bake(const PolygonView& mesh, std::span<const Mater
 HALFLIGHT_INLINE BakeOutcome bake(const MeshView& mesh, const BakeOptions& options, const Control& control) {
   const std::size_t triangles = mesh.indices.size() / 3;
   if (mesh.stride < 3 || mesh.indices.size() % 3 != 0) {
-    return baking::detail::refused({mesh.stride < 3 ? "the stride of the positions is " + std::to_string(mesh.stride) + "; a vertex has three numbers"
-                                                  : "there are " + std::to_string(mesh.indices.size()) + " indices; a triangle has three"});
+    return baking::detail::refused({mesh.stride < 3
+                                        ? "the stride of the positions is " + std::to_string(mesh.stride) + "; a vertex has three numbers"
+                                        : "there are " + std::to_string(mesh.indices.size()) + " indices; a triangle has three"});
   }
   if (!mesh.material.empty() && mesh.material.size() != triangles) {
-    return baking::detail::refused({"there are " + std::to_string(triangles) + " triangles, and materials of " + std::to_string(mesh.material.size())});
+    return baking::detail::refused(
+        {"there are " + std::to_string(triangles) + " triangles, and materials of " + std::to_string(mesh.material.size())});
   }
   std::vector<glm::dvec3> positions;
   for (std::size_t i = 0; i + 2 < mesh.positions.size(); i += mesh.stride) {

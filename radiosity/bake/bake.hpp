@@ -10,7 +10,8 @@
 //
 // Units: positions in metres; only the ratios of lengths matter to the light. Reflectances and colours are linear, three channels, no sRGB.
 // Emission and radiosity are exitances in W/m2, over all directions of the side that is seen; the radiance of a surface is B / pi, the
-// irradiance that it receives is (B - E) / reflectance. Counter-clockwise corners are seen from the front. Which side is up does not matter.
+// irradiance that it receives is (B - E) / reflectance. Counter-clockwise corners are seen from the front. Which side is up does not
+// matter.
 //
 // The input is repaired and merged as intake.hpp tells, and nothing of it is kept. What was changed comes back as sentences. Nothing is
 // printed or thrown; the result does not depend on the number of threads.

@@ -40,7 +40,9 @@ HALFLIGHT_INLINE BakedLight::BakedLight(const Scene& scene, const Solution& solu
       const MeshCorner& corner = mesh.corners[face.first_corner + k];
       corners_.push_back({mesh.positions[corner.vertex], corner.radiosity});
     }
-    for (std::uint32_t k = 2; k < face.corner_count; ++k) { sheets_[face.surface - first].triangles.push_back({begin, begin + k - 1, begin + k}); }
+    for (std::uint32_t k = 2; k < face.corner_count; ++k) {
+      sheets_[face.surface - first].triangles.push_back({begin, begin + k - 1, begin + k});
+    }
   }
   for (Sheet& sheet : sheets_) {
     std::vector<raycast::Box> boxes;
@@ -109,9 +111,7 @@ struct Mean {
 };
 
 struct ByCoordinates {
-  bool operator()(const glm::dvec3& a, const glm::dvec3& b) const {
-    return std::lexicographical_compare(&a.x, &a.x + 3, &b.x, &b.x + 3);
-  }
+  bool operator()(const glm::dvec3& a, const glm::dvec3& b) const { return std::lexicographical_compare(&a.x, &a.x + 3, &b.x, &b.x + 3); }
 };
 
 }  // namespace baking::detail

@@ -104,11 +104,14 @@ constexpr std::array<Figure, 14> figures{{
     {"without", [](const radiosity::Baked& b) { return number(b.colors.without); }},
 }};
 
-halflight_status copy(halflight_job* job, const std::vector<radiosity::Color> radiosity::BakedColors::*colors, float* rgb, std::size_t count) {
+halflight_status copy(halflight_job* job, const std::vector<radiosity::Color> radiosity::BakedColors::*colors, float* rgb,
+                      std::size_t count) {
   if (job == nullptr || rgb == nullptr) { return refuse(job, "there is no buffer for the colours"); }
   if (!job->baked) { return refuse(job, "there are no colours before halflight_run", HALFLIGHT_NOT_RUN); }
   const std::vector<radiosity::Color>& list = job->baked->colors.*colors;
-  if (count < list.size()) { return refuse(job, "there are " + std::to_string(list.size()) + " colours, and room for " + std::to_string(count)); }
+  if (count < list.size()) {
+    return refuse(job, "there are " + std::to_string(list.size()) + " colours, and room for " + std::to_string(count));
+  }
   for (const radiosity::Color& color : list) {
     for (int k = 0; k < 3; ++k) { *rgb++ = static_cast<float>(color[k]); }
   }
@@ -127,7 +130,9 @@ void halflight_destroy(halflight_job* job) { delete job; }
 
 halflight_status halflight_set_positions(halflight_job* job, const float* xyz, size_t count, size_t stride) {
   if (job == nullptr || (xyz == nullptr && count > 0)) { return refuse(job, "there are no positions"); }
-  if (stride < 3 || stride > 1'000'000) { return refuse(job, "the stride of the positions is " + std::to_string(stride) + "; a vertex has three numbers"); }
+  if (stride < 3 || stride > 1'000'000) {
+    return refuse(job, "the stride of the positions is " + std::to_string(stride) + "; a vertex has three numbers");
+  }
   if (count > std::numeric_limits<std::uint32_t>::max()) { return refuse(job, "there are more vertices than indices can count"); }
   job->positions = {xyz, count == 0 ? 0 : (count - 1) * stride + 3};
   job->stride = static_cast<std::uint32_t>(stride);
@@ -144,7 +149,8 @@ halflight_status halflight_set_triangles(halflight_job* job, const uint32_t* ind
 
 int halflight_add_material(halflight_job* job, const char* name, const double reflectance[3], const double emission[3]) {
   if (job == nullptr || reflectance == nullptr) { return -refuse(job, "a material needs a reflectance"); }
-  radiosity::Material material{name == nullptr ? "material" : name, {reflectance[0], reflectance[1], reflectance[2]}, radiosity::Color(0.0)};
+  radiosity::Material material{
+      name == nullptr ? "material" : name, {reflectance[0], reflectance[1], reflectance[2]}, radiosity::Color(0.0)};
   if (emission != nullptr) { material.emission = {emission[0], emission[1], emission[2]}; }
   if (auto sentence = radiosity::fault(material)) { return -refuse(job, std::move(*sentence)); }
   job->materials.push_back(std::move(material));
@@ -183,14 +189,17 @@ halflight_status halflight_run(halflight_job* job) {
   }
   job->baked.reset();
   job->changes.clear();
-  radiosity::BakeOutcome outcome = radiosity::bake({job->positions, job->indices, job->materials, job->material, job->stride}, job->options, control);
+  radiosity::BakeOutcome outcome =
+      radiosity::bake({job->positions, job->indices, job->materials, job->material, job->stride}, job->options, control);
   if (!outcome.baked) {
     std::string message;
     for (const std::string& sentence : outcome.failure.sentences) { message += (message.empty() ? "" : "\n") + sentence; }
     using Kind = radiosity::Failure::Kind;
     const Kind kind = outcome.failure.kind;
     return refuse(job, std::move(message),
-                  kind == Kind::cancelled ? HALFLIGHT_CANCELLED : kind == Kind::out_of_memory ? HALFLIGHT_OUT_OF_MEMORY : HALFLIGHT_INVALID);
+                  kind == Kind::cancelled       ? HALFLIGHT_CANCELLED
+                  : kind == Kind::out_of_memory ? HALFLIGHT_OUT_OF_MEMORY
+                                                : HALFLIGHT_INVALID);
   }
   job->baked = std::move(outcome.baked);
   for (const radiosity::Change& change : job->baked->changes) { job->changes.push_back(radiosity::sentence(change)); }

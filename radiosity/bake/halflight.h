@@ -34,11 +34,11 @@ typedef struct halflight_job halflight_job;
 
 typedef enum halflight_status {
   HALFLIGHT_OK = 0,
-  HALFLIGHT_INVALID = 1,       /* an argument, an option, or the scene: halflight_message says what */
-  HALFLIGHT_CANCELLED = 2,     /* before there was a solution */
+  HALFLIGHT_INVALID = 1,   /* an argument, an option, or the scene: halflight_message says what */
+  HALFLIGHT_CANCELLED = 2, /* before there was a solution */
   HALFLIGHT_OUT_OF_MEMORY = 3,
-  HALFLIGHT_NOT_RUN = 4,       /* there is no result to read yet */
-  HALFLIGHT_NOTHING = 5        /* no light, option, figure or change of this name or number */
+  HALFLIGHT_NOT_RUN = 4, /* there is no result to read yet */
+  HALFLIGHT_NOTHING = 5  /* no light, option, figure or change of this name or number */
 } halflight_status;
 
 /* "0.1.0" */
@@ -51,7 +51,8 @@ HALFLIGHT_API void halflight_destroy(halflight_job* job);
 /* `count` vertices of x y z, `stride` floats from one to the next. The caller keeps the buffer, unchanged, until halflight_run returns. */
 HALFLIGHT_API halflight_status halflight_set_positions(halflight_job* job, const float* xyz, size_t count, size_t stride);
 /* Three indices a triangle, and of each triangle its material, or null: all have material 0. Kept by the caller, as above. */
-HALFLIGHT_API halflight_status halflight_set_triangles(halflight_job* job, const uint32_t* indices, size_t triangles, const uint32_t* material);
+HALFLIGHT_API halflight_status halflight_set_triangles(halflight_job* job, const uint32_t* indices, size_t triangles,
+                                                       const uint32_t* material);
 /* Returns the number of the material, from 0 on, or a negative one: -(halflight_status). `emission` may be null: it does not shine. */
 HALFLIGHT_API int halflight_add_material(halflight_job* job, const char* name, const double reflectance[3], const double emission[3]);
 
@@ -66,7 +67,8 @@ HALFLIGHT_API int halflight_add_material(halflight_job* job, const char* name, c
  *     two_sided, merge    1 or 0: surfaces reflect on both sides; coplanar triangles are merged  0, 1 */
 HALFLIGHT_API halflight_status halflight_set_number(halflight_job* job, const char* option, double value);
 
-/* Called now and then while a job runs, from the thread that runs it; another value than 0 stops the run, which keeps the best that it has. */
+/* Called now and then while a job runs, from the thread that runs it; another value than 0 stops the run, which keeps the best that it
+ * has. */
 typedef int (*halflight_progress)(void* user, const char* stage, double fraction);
 HALFLIGHT_API halflight_status halflight_set_progress(halflight_job* job, halflight_progress callback, void* user);
 

@@ -110,7 +110,8 @@ HALFLIGHT_INLINE void split_faulty(Working& mesh, bool strict) {
   faces.reserve(mesh.faces.size());
   for (Face& face : mesh.faces) {
     const std::span<const glm::dvec3> outline = mesh.outline(face);
-    const bool sound = strict ? outline.size() <= detail::most_corners && !raycast::polygon_fault(outline) : nearly_sound(outline, mesh.tolerance);
+    const bool sound =
+        strict ? outline.size() <= detail::most_corners && !raycast::polygon_fault(outline) : nearly_sound(outline, mesh.tolerance);
     if (sound) {
       faces.push_back(std::move(face));
       continue;
@@ -121,7 +122,8 @@ HALFLIGHT_INLINE void split_faulty(Working& mesh, bool strict) {
       mesh.changed(flat ? ChangeKind::crossing : ChangeKind::not_planar, face.polygon, flat ? 0.0 : slack);
     }
     for (const auto& [a, b, c] : ears(outline)) {
-      Face triangle{{face.corners[a], face.corners[b], face.corners[c]}, face.material, face.group, face.polygon, face.turned, face.mixed, face.more};
+      Face triangle{
+          {face.corners[a], face.corners[b], face.corners[c]}, face.material, face.group, face.polygon, face.turned, face.mixed, face.more};
       if (!raycast::polygon_fault(mesh.outline(triangle))) { faces.push_back(std::move(triangle)); }
     }
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Every face for itself: what it takes until each is a planar simple polygon with an area (raycast::polygon_fault finds nothing), and no two
-// faces are the same. A face is nearly planar when its corners leave its plane by at most the tolerance of welding and a ten-thousandth of its
-// extent: that is the rounding of six digits, or of single precision. It becomes planar by moving vertices, the others by cuts.
+// Every face for itself: what it takes until each is a planar simple polygon with an area (raycast::polygon_fault finds nothing), and no
+// two faces are the same. A face is nearly planar when its corners leave its plane by at most the tolerance of welding and a ten-thousandth
+// of its extent: that is the rounding of six digits, or of single precision. It becomes planar by moving vertices, the others by cuts.
 
 #include <span>
 

@@ -37,10 +37,10 @@ namespace radiosity {
 struct PolygonView {
   std::span<const glm::dvec3> positions;
   std::span<const std::uint32_t> corners;
-  std::span<const std::uint32_t> first_corner;  // one more than there are polygons
-  std::span<const std::uint32_t> material;      // of each polygon: an index into the scene's materials
-  std::span<const std::uint32_t> group = {};    // of each polygon: an index into names; empty: all are in one
-  std::span<const std::string> names = {};      // of the groups
+  std::span<const std::uint32_t> first_corner;   // one more than there are polygons
+  std::span<const std::uint32_t> material;       // of each polygon: an index into the scene's materials
+  std::span<const std::uint32_t> group = {};     // of each polygon: an index into names; empty: all are in one
+  std::span<const std::string> names = {};       // of the groups
   std::span<const std::uint8_t> two_sided = {};  // of each material: do its surfaces reflect on both sides? Empty: none does
 
   [[nodiscard]] std::size_t count() const { return first_corner.empty() ? 0 : first_corner.size() - 1; }
@@ -56,23 +56,23 @@ struct IntakeOptions {
 };
 
 enum class ChangeKind : unsigned char {
-  unusable,      // polygons whose corners do not exist or are not finite: left out
-  welded,        // vertices that lay within the tolerance of another one: made one; size: the largest distance
-  no_area,       // polygons without area: left out
-  sliver,        // polygons narrower than the tolerance: left out; size: the largest width
-  duplicate,     // polygons that lay on another one, facing the same way: left out
-  not_planar,    // polygons cut into triangles; size: the largest distance of a corner from its plane
-  crossing,      // polygons that crossed or touched themselves, or had too many corners: cut into triangles
-  flattened,     // vertices that were moved into the planes of their polygons; size: the largest distance
-  t_joint,       // vertices on the edge of another polygon: made corners of it; size: the largest distance from the edge
-  nonmanifold,   // edges of more than two faces: cut
-  turned,        // polygons that looked another way than their neighbours: turned
-  moebius,       // edges across which faces cannot be turned alike: cut
-  loose,         // polygons that fit to none of their neighbours: surfaces of their own
-  inside_out,    // closed shells with nothing in them that looked inwards: turned
-  room,          // closed shells around a lamp or an eye that looked outwards: turned, as rooms
-  both_sides,    // surfaces of mixed orientation: made to reflect on both sides
-  merged         // polygons that became part of a larger one; size: none
+  unusable,     // polygons whose corners do not exist or are not finite: left out
+  welded,       // vertices that lay within the tolerance of another one: made one; size: the largest distance
+  no_area,      // polygons without area: left out
+  sliver,       // polygons narrower than the tolerance: left out; size: the largest width
+  duplicate,    // polygons that lay on another one, facing the same way: left out
+  not_planar,   // polygons cut into triangles; size: the largest distance of a corner from its plane
+  crossing,     // polygons that crossed or touched themselves, or had too many corners: cut into triangles
+  flattened,    // vertices that were moved into the planes of their polygons; size: the largest distance
+  t_joint,      // vertices on the edge of another polygon: made corners of it; size: the largest distance from the edge
+  nonmanifold,  // edges of more than two faces: cut
+  turned,       // polygons that looked another way than their neighbours: turned
+  moebius,      // edges across which faces cannot be turned alike: cut
+  loose,        // polygons that fit to none of their neighbours: surfaces of their own
+  inside_out,   // closed shells with nothing in them that looked inwards: turned
+  room,         // closed shells around a lamp or an eye that looked outwards: turned, as rooms
+  both_sides,   // surfaces of mixed orientation: made to reflect on both sides
+  merged        // polygons that became part of a larger one; size: none
 };
 
 struct Change {
@@ -107,9 +107,9 @@ struct PolygonParts {
 struct Intake {
   std::vector<SceneObject> objects;  // empty when nothing had an area
   PolygonParts parts;
-  std::vector<Change> changes;       // in the order of ChangeKind, those that occurred
-  std::size_t polygons = 0;          // of the input
-  std::size_t faces = 0;             // of the objects; two for a polygon with two sides
+  std::vector<Change> changes;  // in the order of ChangeKind, those that occurred
+  std::size_t polygons = 0;     // of the input
+  std::size_t faces = 0;        // of the objects; two for a polygon with two sides
 };
 
 // `materials` are those of the scene, which must be sound. A polygon whose material does not exist is unusable.

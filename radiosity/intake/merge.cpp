@@ -72,10 +72,11 @@ class Merger {
       const Face& face = mesh_.faces[f];
       if (face.material != first.material || face.mixed != first.mixed) { return false; }
       const glm::dvec3& normal = planes_[f].normal;
-      if (!(glm::dot(normal, plane.normal) > 0.0 && glm::length(glm::cross(normal, plane.normal)) < raycast::tol_plane_angle)) { return false; }
-      return std::all_of(face.corners.begin(), face.corners.end(), [&](std::uint32_t v) {
-        return std::abs(glm::dot(mesh_.positions[v] - plane.point, plane.normal)) <= height;
-      });
+      if (!(glm::dot(normal, plane.normal) > 0.0 && glm::length(glm::cross(normal, plane.normal)) < raycast::tol_plane_angle)) {
+        return false;
+      }
+      return std::all_of(face.corners.begin(), face.corners.end(),
+                         [&](std::uint32_t v) { return std::abs(glm::dot(mesh_.positions[v] - plane.point, plane.normal)) <= height; });
     };
     faces_.assign(1, seed);
     region_[seed] = seed;
@@ -242,16 +243,19 @@ class Merger {
         Seen& vertex = seen[face.corners[i]];
         const auto [before, after] = beside(face.corners, i);
         const auto [low, high] = std::minmax(before, after);
-        const glm::dvec3 u = mesh.positions[face.corners[i]] - mesh.positions[before], w = mesh.positions[after] - mesh.positions[face.corners[i]];
+        const glm::dvec3 u = mesh.positions[face.corners[i]] - mesh.positions[before],
+                         w = mesh.positions[after] - mesh.positions[face.corners[i]];
         const double sine = glm::length(glm::cross(u, w)) / (glm::length(u) * glm::length(w));
-        const bool straight = glm::dot(u, w) > 0.0 && sine <= tol_straight && sine * std::min(glm::length(u), glm::length(w)) <= mesh.tolerance;
+        const bool straight =
+            glm::dot(u, w) > 0.0 && sine <= tol_straight && sine * std::min(glm::length(u), glm::length(w)) <= mesh.tolerance;
         vertex.straight = vertex.straight && straight && (vertex.faces == 0 || (vertex.low == low && vertex.high == high));
         vertex.low = low, vertex.high = high;
         ++vertex.faces;
       }
     }
     for (Face& face : mesh.faces) {
-      const auto bent = std::count_if(face.corners.begin(), face.corners.end(), [&](auto v) { return !seen[v].straight || seen[v].faces > 2; });
+      const auto bent =
+          std::count_if(face.corners.begin(), face.corners.end(), [&](auto v) { return !seen[v].straight || seen[v].faces > 2; });
       if (bent < 3) {  // the last of a face that would vanish
         for (const std::uint32_t v : face.corners) { seen[v].straight = false; }
       }

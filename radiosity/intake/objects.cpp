@@ -127,7 +127,9 @@ class ObjectMaker {
   [[nodiscard]] Component* innermost(std::span<const glm::dvec3> points, const Component* but) {
     Component* best = nullptr;
     for (Component& shell : components_) {
-      if (shell.role == Role::surface || &shell == but || (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume))) { continue; }
+      if (shell.role == Role::surface || &shell == but || (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume))) {
+        continue;
+      }
       if (std::all_of(points.begin(), points.end(), [&](const glm::dvec3& p) { return holds(shell, p); })) { best = &shell; }
     }
     return best;

@@ -37,9 +37,8 @@ inline std::vector<Side> sides_of(const Working& mesh) {
       edges.push_back({mesh.faces[f].group, low, high, f, i});
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Side& a, const Side& b) {
-    return std::tuple(a.key(), a.face, a.corner) < std::tuple(b.key(), b.face, b.corner);
-  });
+  std::sort(edges.begin(), edges.end(),
+            [](const Side& a, const Side& b) { return std::tuple(a.key(), a.face, a.corner) < std::tuple(b.key(), b.face, b.corner); });
   return edges;
 }
 

@@ -19,8 +19,8 @@
 namespace radiosity::intake {
 namespace detail {
 
-// Points in cells of a grid. A cell is much wider than the tolerance, so a point looks into its own cell, and into a neighbour only where it
-// lies near the border.
+// Points in cells of a grid. A cell is much wider than the tolerance, so a point looks into its own cell, and into a neighbour only where
+// it lies near the border.
 class PointGrid {
  public:
   PointGrid(const raycast::Box& bounds, double tolerance, std::vector<glm::dvec3>& points)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the steps of the intake hand on to each other: positions, faces that know from which polygon of the input they come, and the changes.
+// What the steps of the intake hand on to each other: positions, faces that know from which polygon of the input they come, and the
+// changes.
 
 #include <algorithm>
 #include <array>
@@ -28,9 +29,9 @@ struct Source {
 struct Face {
   std::vector<std::uint32_t> corners;  // indices into Working::positions
   std::uint32_t material = 0, group = 0;
-  std::uint32_t polygon = 0;  // of the input
-  bool turned = false;        // against the input
-  bool mixed = false;         // belongs to a surface of which it is not known which side was meant to be seen
+  std::uint32_t polygon = 0;      // of the input
+  bool turned = false;            // against the input
+  bool mixed = false;             // belongs to a surface of which it is not known which side was meant to be seen
   std::vector<Source> more = {};  // besides `polygon`: its duplicates, and those that were merged
 
   void stand_for(const Face& other) {

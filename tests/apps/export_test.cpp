@@ -147,7 +147,9 @@ TEST_CASE("export: the mesh has the true normals, and a place one vertex for eac
     // Vertices of the ball lie on it; what is covered none of it is.
     const glm::dvec3 out = glm::normalize(vertex.position - glm::dvec3(1000.6, 1.4, 0.5));
     CHECK(glm::length(out - vertex.normal) < 1e-9);
-    CHECK(known.insert({vertex.position.x, vertex.position.y, vertex.position.z, vertex.radiosity.x, vertex.radiosity.y, vertex.radiosity.z}).second);
+    CHECK(
+        known.insert({vertex.position.x, vertex.position.y, vertex.position.z, vertex.radiosity.x, vertex.radiosity.y, vertex.radiosity.z})
+            .second);
   }
   for (std::uint32_t f = 0; f < mesh.groups[1].first_face; ++f) {  // the room is seen from inside
     for (const std::uint32_t v : mesh.face(f)) {
@@ -197,7 +199,8 @@ TEST_CASE("export: the light goes back onto the vertices of the user's file, in 
       faces << '\n';
     }
     obj << faces.str();
-    const apps::SceneFile file = models::scene("a.obj", obj.str(), {{"m.mtl", "newmtl oven\nKd 0.5 0.5 0.5\nKe 0.31830988618 0.31830988618 0.31830988618\n"}});
+    const apps::SceneFile file =
+        models::scene("a.obj", obj.str(), {{"m.mtl", "newmtl oven\nKd 0.5 0.5 0.5\nKe 0.31830988618 0.31830988618 0.31830988618\n"}});
     const radiosity::Solution solution = solved(file.scene);
     const auto given = apps::given_mesh(file, solution);
     REQUIRE(given);
@@ -267,14 +270,16 @@ TEST_CASE("export: the page holds everything itself, and no name in it can break
 TEST_CASE("export: a browser draws the page", "[chromium]") {
   if (std::system("command -v chromium >/dev/null 2>&1") != 0) { SKIP_TEST("there is no chromium"); }
   const program::Place place;
-  place.write("a.scene", "camera inside eye 0.4 0.2 0.3 look 0 1 0 fov 90\nmaterial m reflectance 0.5 emission 0.5\n"
-                         "box b from 0 0 0 to 1 1 1 inside material m\n");
+  place.write("a.scene",
+              "camera inside eye 0.4 0.2 0.3 look 0 1 0 fov 90\nmaterial m reflectance 0.5 emission 0.5\n"
+              "box b from 0 0 0 to 1 1 1 inside material m\n");
   // Radiosity 1 times exposure over pi is a half, which is 188 of 255 in sRGB.
   REQUIRE(place.run("render a.scene -o a.html --quiet --audit 0 --epsilon 0.1 --threads 1 --exposure 1.5707963267948966").code == 0);
   const std::string path = place.path().string();
-  const std::string command = "timeout 60 chromium --headless --no-sandbox --disable-gpu --use-gl=angle --use-angle=swiftshader "
-                              "--enable-unsafe-swiftshader --user-data-dir=" + path + "/profile --window-size=300,200 --dump-dom 'file://" + path +
-                              "/a.html#test' >" + path + "/dom 2>" + path + "/log";
+  const std::string command =
+      "timeout 60 chromium --headless --no-sandbox --disable-gpu --use-gl=angle --use-angle=swiftshader "
+      "--enable-unsafe-swiftshader --user-data-dir=" +
+      path + "/profile --window-size=300,200 --dump-dom 'file://" + path + "/a.html#test' >" + path + "/dom 2>" + path + "/log";
   REQUIRE(std::system(command.c_str()) == 0);
   const std::string dom = place.read("dom"), key = "data-mean=\"";
   const std::size_t at = dom.find(key);

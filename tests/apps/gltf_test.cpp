@@ -50,7 +50,9 @@ struct Sample {
       if (index_type == 5123) { put(binary, static_cast<std::uint16_t>(i)); }
       if (index_type == 5125) { put(binary, i); }
     }
-    views = "[{\"buffer\": 0, \"byteLength\": 48}, {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": " + std::to_string(binary.size() - 48) + "}]";
+    views =
+        "[{\"buffer\": 0, \"byteLength\": 48}, {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": " + std::to_string(binary.size() - 48) +
+        "}]";
     accessors = "[{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}, {\"bufferView\": 1, \"componentType\": " +
                 std::to_string(index_type) + ", \"count\": 6, \"type\": \"SCALAR\"}]";
     primitive = "{\"attributes\": {\"POSITION\": 0}, \"indices\": 1}";
@@ -58,7 +60,8 @@ struct Sample {
   [[nodiscard]] std::string text(const std::string& uri) const {
     return "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}], \"nodes\": " + nodes +
            ", \"meshes\": [{\"primitives\": [" + primitive + "]}], \"buffers\": [{" + (uri.empty() ? "" : "\"uri\": \"" + uri + "\", ") +
-           "\"byteLength\": " + std::to_string(binary.size()) + "}], \"bufferViews\": " + views + ", \"accessors\": " + accessors + more + "}";
+           "\"byteLength\": " + std::to_string(binary.size()) + "}], \"bufferViews\": " + views + ", \"accessors\": " + accessors + more +
+           "}";
   }
   [[nodiscard]] std::string embedded() const { return text("data:application/octet-stream;base64," + base64(binary)); }
   [[nodiscard]] std::string glb() const {
@@ -135,14 +138,18 @@ TEST_CASE("glTF: nodes place what is below them") {
 
 TEST_CASE("glTF: materials and cameras") {
   Sample sample;
-  sample.primitive = "{\"attributes\": {\"POSITION\": 0}, \"material\": 0, \"mode\": 5}, {\"attributes\": {\"POSITION\": 0}, \"material\": 1, \"mode\": 6},"
-                     "{\"attributes\": {\"POSITION\": 0}, \"mode\": 1}, {\"attributes\": {\"POSITION\": 0}, \"extensions\": "
-                     "{\"KHR_draco_mesh_compression\": {}}}, {\"attributes\": {\"POSITION\": 0}}";
+  sample.primitive =
+      "{\"attributes\": {\"POSITION\": 0}, \"material\": 0, \"mode\": 5}, {\"attributes\": {\"POSITION\": 0}, \"material\": 1, \"mode\": "
+      "6},"
+      "{\"attributes\": {\"POSITION\": 0}, \"mode\": 1}, {\"attributes\": {\"POSITION\": 0}, \"extensions\": "
+      "{\"KHR_draco_mesh_compression\": {}}}, {\"attributes\": {\"POSITION\": 0}}";
   sample.nodes = "[{\"mesh\": 0, \"camera\": 0, \"translation\": [0, 0, 5], \"name\": \"eye\", \"children\": [1]}, {\"camera\": 1}]";
-  sample.more = ", \"materials\": [{\"name\": \"red\", \"doubleSided\": true, \"pbrMetallicRoughness\": {\"baseColorFactor\": [0.5, 0.25, 0.125, 1]}},"
-                "{\"emissiveFactor\": [1, 0.5, 0], \"extensions\": {\"KHR_materials_emissive_strength\": {\"emissiveStrength\": 10}}, "
-                "\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 0}}}], \"cameras\": [{\"type\": \"perspective\", \"perspective\": "
-                "{\"yfov\": 1, \"aspectRatio\": 2}}, {\"type\": \"orthographic\", \"orthographic\": {}}]";
+  sample.more =
+      ", \"materials\": [{\"name\": \"red\", \"doubleSided\": true, \"pbrMetallicRoughness\": {\"baseColorFactor\": [0.5, 0.25, 0.125, "
+      "1]}},"
+      "{\"emissiveFactor\": [1, 0.5, 0], \"extensions\": {\"KHR_materials_emissive_strength\": {\"emissiveStrength\": 10}}, "
+      "\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 0}}}], \"cameras\": [{\"type\": \"perspective\", \"perspective\": "
+      "{\"yfov\": 1, \"aspectRatio\": 2}}, {\"type\": \"orthographic\", \"orthographic\": {}}]";
   const apps::Model model = read("a.gltf", sample.embedded());
   REQUIRE(model.materials.size() == 3);
   CHECK(model.materials[0].reflectance == radiosity::Color(0.5, 0.25, 0.125));
@@ -158,7 +165,8 @@ TEST_CASE("glTF: materials and cameras") {
   CHECK(model.cameras[0].eye == glm::dvec3(0, 0, 5));
   CHECK(model.cameras[0].forward == glm::dvec3(0, 0, -1));
   CHECK(model.cameras[0].field_of_view == Approx(2.0 * std::atan(2.0 * std::tan(0.5)) * 180.0 / std::numbers::pi));
-  for (const char* part : {"textures are not read", "points and lines have no surface", "KHR_draco_mesh_compression", "without perspective"}) {
+  for (const char* part :
+       {"textures are not read", "points and lines have no surface", "KHR_draco_mesh_compression", "without perspective"}) {
     CHECK(noted(model.notes, part));
   }
 }
@@ -170,10 +178,12 @@ TEST_CASE("glTF: what is wrong is told with its place") {
     return models::error("a.gltf", sample.embedded());
   };
   const std::pair<std::string, const char*> cases[] = {
-      {broken([](Sample& s) { s.accessors = "[{\"bufferView\": 0, \"componentType\": 5126, \"count\": 5, \"type\": \"VEC3\"}]"; }), "accessor 0 reaches beyond its view"},
+      {broken([](Sample& s) { s.accessors = "[{\"bufferView\": 0, \"componentType\": 5126, \"count\": 5, \"type\": \"VEC3\"}]"; }),
+       "accessor 0 reaches beyond its view"},
       {broken([](Sample& s) { s.views = "[{\"buffer\": 0, \"byteLength\": 480}]"; }), "its view reaches beyond its buffer"},
       {broken([](Sample& s) { s.views = "[{\"buffer\": 3, \"byteLength\": 48}]"; }), "there is no buffer 3"},
-      {broken([](Sample& s) { s.accessors.replace(s.accessors.find("\"count\": 6"), 10, "\"count\": 6, \"byteOffset\": 2"); }), "accessor 1 reaches beyond its view"},
+      {broken([](Sample& s) { s.accessors.replace(s.accessors.find("\"count\": 6"), 10, "\"count\": 6, \"byteOffset\": 2"); }),
+       "accessor 1 reaches beyond its view"},
       {broken([](Sample& s) { s.binary[48] = 9; }), "an index names vertex 9 of 4"},
       {broken([](Sample& s) { s.primitive = "{\"attributes\": {}}"; }), "there is no such accessor"},
       {broken([](Sample& s) { s.primitive = "{\"attributes\": {\"POSITION\": 1}}"; }), "accessor 1 is not of the type VEC3"},
@@ -215,7 +225,8 @@ TEST_CASE("glTF: files that were cut or changed are read or refused") {
 
 TEST_CASE("JSON: values, marks in strings, and what is wrong") {
   apps::JsonFault fault;
-  const auto value = apps::parse_json("\xef\xbb\xbf {\"a\": [1, -2.5e1, true, null, \"\\u00e9\\ud83d\\ude00\\n\"], \"b\": {\"c\": 3}} ", fault);
+  const auto value =
+      apps::parse_json("\xef\xbb\xbf {\"a\": [1, -2.5e1, true, null, \"\\u00e9\\ud83d\\ude00\\n\"], \"b\": {\"c\": 3}} ", fault);
   REQUIRE(value);
   CHECK((*value)["a"][1].number() == -25.0);
   CHECK((*value)["a"][2].boolean());
@@ -224,9 +235,11 @@ TEST_CASE("JSON: values, marks in strings, and what is wrong") {
   CHECK_FALSE((*value)["a"][1].index());
   CHECK_FALSE((*value)["nothing"]["below"][7]);
   const std::tuple<const char*, std::size_t, const char*> wrong[] = {
-      {"", 0, "found the end of the file"}, {"[1", 2, "expected ',' or ']'"},  {"{\"a\" 1}", 5, "expected ':'"},
-      {"{a: 1}", 1, "a key in quotes"},     {"[1] 2", 4, "the end of the file"}, {"\"a", 2, "is not closed"},
-      {"\"\\x\"", 2, "means nothing"},      {"[1e999]", 1, "beyond"},           {"[tru]", 1, "expected a value"},
+      {"", 0, "found the end of the file"}, {"[1", 2, "expected ',' or ']'"},
+      {"{\"a\" 1}", 5, "expected ':'"},     {"{a: 1}", 1, "a key in quotes"},
+      {"[1] 2", 4, "the end of the file"},  {"\"a", 2, "is not closed"},
+      {"\"\\x\"", 2, "means nothing"},      {"[1e999]", 1, "beyond"},
+      {"[tru]", 1, "expected a value"},
   };
   for (const auto& [text, offset, sentence] : wrong) {
     CAPTURE(text, fault.sentence);

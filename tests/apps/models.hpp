@@ -50,7 +50,8 @@ inline std::string error(const std::string& name, const std::string& bytes, cons
   return text.substr(0, text.find('\n'));
 }
 
-inline apps::SceneFile scene(const std::string& name, const std::string& bytes, const Files& files = {}, const apps::ModelOptions& options = {}) {
+inline apps::SceneFile scene(const std::string& name, const std::string& bytes, const Files& files = {},
+                             const apps::ModelOptions& options = {}) {
   std::vector<std::string> faults;
   auto file = apps::to_scene(read(name, bytes, files), format(name).up, options, faults);
   for (const std::string& fault : faults) { UNSCOPED_INFO(fault); }

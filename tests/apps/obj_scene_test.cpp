@@ -15,12 +15,13 @@ using models::read;
 using models::scene;
 
 TEST_CASE("OBJ: faces know their group and their material, materials their colours") {
-  const apps::Model model = read("a.obj",
-                                 "mtllib one.mtl two.mtl\nmtllib my own.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-                                 "f 1 2 3\no table\ng leg\nusemtl red paint\nf -4 -3 -1\ng top\nusemtl glow\nf 2 3 4\no chair\nusemtl nobody\nf 1 3 4\n",
-                                 {{"one.mtl", "newmtl  red  paint\nKd 0.5 0.25 0.125 # a comment\nnewmtl other\nKd 1 1 1\n"},
-                                  {"two.mtl", "newmtl glow\nKd 0.2\nKe 1 2 3\nmap_Kd a b.png\nd 0.5\n"},
-                                  {"my own.mtl", "newmtl default\nKd x y z\nKd 0.5 -1 0\n"}});
+  const apps::Model model =
+      read("a.obj",
+           "mtllib one.mtl two.mtl\nmtllib my own.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+           "f 1 2 3\no table\ng leg\nusemtl red paint\nf -4 -3 -1\ng top\nusemtl glow\nf 2 3 4\no chair\nusemtl nobody\nf 1 3 4\n",
+           {{"one.mtl", "newmtl  red  paint\nKd 0.5 0.25 0.125 # a comment\nnewmtl other\nKd 1 1 1\n"},
+            {"two.mtl", "newmtl glow\nKd 0.2\nKe 1 2 3\nmap_Kd a b.png\nd 0.5\n"},
+            {"my own.mtl", "newmtl default\nKd x y z\nKd 0.5 -1 0\n"}});
   REQUIRE(model.polygons() == 4);
   CHECK(model.groups == std::vector<std::string>{"mesh", "table.leg", "table.top", "chair"});
   CHECK(model.group == std::vector<std::uint32_t>{0, 1, 2, 3});
@@ -97,9 +98,10 @@ TEST_CASE("a model without a lamp stands in a studio; what is closed around it c
   CHECK(file.cameras.size() == 1);
   CHECK(noted(file.notes, "nothing shines in this file"));
 
-  const std::string room = "#VRML V1.0 ascii\nGroup { PerspectiveCamera { position 0 0 0.5 }\nCoordinate3 { point [ -1 -1 -1, 1 -1 -1, 1 1 -1, -1 1 -1, "
-                           "-1 -1 1, 1 -1 1, 1 1 1, -1 1 1 ] }\nIndexedFaceSet { coordIndex [ 0 1 2 3 -1 4 7 6 5 -1 0 4 5 1 -1 1 5 6 2 -1 2 6 7 3 "
-                           "-1 3 7 4 0 -1 ] } }";
+  const std::string room =
+      "#VRML V1.0 ascii\nGroup { PerspectiveCamera { position 0 0 0.5 }\nCoordinate3 { point [ -1 -1 -1, 1 -1 -1, 1 1 -1, -1 1 -1, "
+      "-1 -1 1, 1 -1 1, 1 1 1, -1 1 1 ] }\nIndexedFaceSet { coordIndex [ 0 1 2 3 -1 4 7 6 5 -1 0 4 5 1 -1 1 5 6 2 -1 2 6 7 3 "
+      "-1 3 7 4 0 -1 ] } }";
   std::vector<std::string> faults;
   CHECK_FALSE(apps::to_scene(read("a.wrl", room), apps::UpAxis::y, {}, faults));
   REQUIRE(faults.size() == 1);
@@ -107,13 +109,16 @@ TEST_CASE("a model without a lamp stands in a studio; what is closed around it c
 }
 
 TEST_CASE("a mesh of a scene may be a file of another program; groups use it in many places") {
-  const models::Files files{{"my room.obj", models::room_obj}, {"room.mtl", "newmtl wall\nKd 0.25\n"}, {"bad.obj", "v 0 0\n"}, {"x.txt", "?"}};
+  const models::Files files{
+      {"my room.obj", models::room_obj}, {"room.mtl", "newmtl wall\nKd 0.25\n"}, {"bad.obj", "v 0 0\n"}, {"x.txt", "?"}};
   const std::string head = "material m reflectance 0.5 emission 1\nsphere s center 0 0 0 radius 1 material m\n";
   const auto parse = [&](const std::string& text) { return apps::parse_scene(head + text, models::beside(files)); };
-  const auto result = parse("define g { mesh a file \"my room.obj\" scale 2 }\nuse g as one move 10 0 0\nuse g as two\nmesh b file bad.obj material m\n");
+  const auto result =
+      parse("define g { mesh a file \"my room.obj\" scale 2 }\nuse g as one move 10 0 0\nuse g as two\nmesh b file bad.obj material m\n");
   CHECK_FALSE(result.file);
   CHECK(apps::to_text(result, "s") == "s:6:13: error: bad.obj:1:6: expected a coordinate, found the end of the line; a vertex has three\n");
-  const auto good = parse("define g { mesh a file \"my room.obj\" scale 2 }\nuse g as one move 10 0 0\nuse g as two\nmesh b file \"my room.obj\" material m\n");
+  const auto good = parse(
+      "define g { mesh a file \"my room.obj\" scale 2 }\nuse g as one move 10 0 0\nuse g as two\nmesh b file \"my room.obj\" material m\n");
   INFO(apps::to_text(good, "s"));
   REQUIRE(good.file);
   const auto& objects = good.file->scene.objects;
@@ -146,7 +151,8 @@ TEST_CASE("the program takes files of other programs wherever it takes scenes, a
   const program::Run info = place.run("info room.obj");
   INFO(info.err);
   CHECK(info.code == 0);
-  CHECK(info.out.find("taken in:\n  1 material has no reflectance: 0.5 (--reflectance)\n  1 material reflects more than 0.95") != std::string::npos);
+  CHECK(info.out.find("taken in:\n  1 material has no reflectance: 0.5 (--reflectance)\n  1 material reflects more than 0.95") !=
+        std::string::npos);
   CHECK(info.out.find("7 polygons became 7 faces of 2 objects") != std::string::npos);
   const program::Run render = place.run("render room.obj --audit 0 --json - --quiet --epsilon 0.1 --threads 1");
   CHECK(render.code == 0);
@@ -161,6 +167,7 @@ TEST_CASE("the program takes files of other programs wherever it takes scenes, a
   place.write("a.scene", "material m reflectance 0.5\n");
   CHECK(place.run("info a.scene --lamp m").err.find("in a .scene the material says it") != std::string::npos);
   place.write("b.txt", models::room_obj);
-  CHECK(place.run("info b.txt").err == "halflight: b.txt is a polygon mesh (Wavefront OBJ), not a scene; give it a name that ends with the right "
-                                       "letters (.obj, .ply or .off), and it is read as a scene\n");
+  CHECK(place.run("info b.txt").err ==
+        "halflight: b.txt is a polygon mesh (Wavefront OBJ), not a scene; give it a name that ends with the right "
+        "letters (.obj, .ply or .off), and it is read as a scene\n");
 }

@@ -19,7 +19,9 @@ using models::noted;
 
 namespace {
 
-apps::Model read(const std::string& body, const models::Files& files = {}) { return models::read("a.wrl", "#VRML V1.0 ascii\n" + body, files); }
+apps::Model read(const std::string& body, const models::Files& files = {}) {
+  return models::read("a.wrl", "#VRML V1.0 ascii\n" + body, files);
+}
 std::string error(const std::string& body) { return models::error("a.wrl", "#VRML V1.0 ascii\n" + body); }
 
 const std::string triangle = "Coordinate3 { point [ 1 0 0, 0 1 0, 0 0 1 ] } IndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] }";
@@ -106,16 +108,20 @@ TEST_CASE("VRML: what a Separator changes stays in it; a Group passes it on") {
   CHECK(of("LOD { range [ 1 ] " + red + go + "}") == List{"sphere:red@0"});
   CHECK(of("DEF g Group { " + go + " Cube { } } " + red + " USE g") == List{"box:default@1", "box:red@2", "sphere:red@2"});
   CHECK(of("Unknown { a [ 1 2 { 3 } ] b \"}\" } " + go) == List{"sphere:default@1"});
-  CHECK(of("Own { fields [ SFFloat a, MFString isA ] a 3 isA [ \"None\" \"Translation\" ] translation 2 0 0 }") == List{"sphere:default@2"});
+  CHECK(of("Own { fields [ SFFloat a, MFString isA ] a 3 isA [ \"None\" \"Translation\" ] translation 2 0 0 }") ==
+        List{"sphere:default@2"});
   CHECK(of("WWWInline { name \"a.wrl\" }") == List{"sphere:default@0"});
-  const apps::Model inlined = read("Group { WWWInline { name \"b.wrl\" } Translation { translation 3 0 0 } WWWInline { name \"b.wrl\" } Sphere { } }",
-                                   {{"b.wrl", "#VRML V1.0 ascii\nGroup { Translation { translation 1 0 0 } Cube { } }"}});
+  const apps::Model inlined =
+      read("Group { WWWInline { name \"b.wrl\" } Translation { translation 3 0 0 } WWWInline { name \"b.wrl\" } Sphere { } }",
+           {{"b.wrl", "#VRML V1.0 ascii\nGroup { Translation { translation 1 0 0 } Cube { } }"}});
   CHECK(shapes(inlined) == List{"box:default@1", "box:default@4", "sphere:default@3"});
 }
 
 TEST_CASE("VRML: cubes, cylinders and cones stay analytic; their parts have the materials of the binding") {
-  const std::string materials = "Material { diffuseColor [ 0.1 0 0, 0.2 0 0, 0.3 0 0, 0.4 0 0, 0.5 0 0, 0.6 0 0 ] } MaterialBinding { value PER_PART }";
-  const apps::Model model = read("Group { " + materials + " Cube { width 1 height 2 depth 3 } Cylinder { radius 0.5 height 4 } Cone { } Sphere { radius 2 } }");
+  const std::string materials =
+      "Material { diffuseColor [ 0.1 0 0, 0.2 0 0, 0.3 0 0, 0.4 0 0, 0.5 0 0, 0.6 0 0 ] } MaterialBinding { value PER_PART }";
+  const apps::Model model =
+      read("Group { " + materials + " Cube { width 1 height 2 depth 3 } Cylinder { radius 0.5 height 4 } Cone { } Sphere { radius 2 } }");
   REQUIRE(model.objects.size() == 4);
   CHECK(bounds(model, 0).hi == glm::dvec3(0.5, 1, 1.5));
   CHECK(glm::length(bounds(model, 1).hi - glm::dvec3(0.5, 2, 0.5)) < 1e-9);
@@ -128,8 +134,9 @@ TEST_CASE("VRML: cubes, cylinders and cones stay analytic; their parts have the 
     return -1.0;
   };
   // Cube: front, back, left, right, top, bottom. Cylinder: sides, top, bottom. Cone: sides, bottom.
-  const std::tuple<std::size_t, const char*, double> parts[] = {{0, "z1", 0.1}, {0, "z0", 0.2}, {0, "x0", 0.3}, {0, "x1", 0.4}, {0, "y1", 0.5}, {0, "y0", 0.6},
-                                                                {1, "side", 0.1}, {1, "top", 0.2}, {1, "bottom", 0.3}, {2, "side", 0.1}, {2, "bottom", 0.2}};
+  const std::tuple<std::size_t, const char*, double> parts[] = {{0, "z1", 0.1},     {0, "z0", 0.2},   {0, "x0", 0.3},    {0, "x1", 0.4},
+                                                                {0, "y1", 0.5},     {0, "y0", 0.6},   {1, "side", 0.1},  {1, "top", 0.2},
+                                                                {1, "bottom", 0.3}, {2, "side", 0.1}, {2, "bottom", 0.2}};
   for (const auto& [object, sheet, value] : parts) {
     CAPTURE(object, sheet);
     CHECK(red(object, sheet) == value);
@@ -142,9 +149,11 @@ TEST_CASE("VRML: cubes, cylinders and cones stay analytic; their parts have the 
 }
 
 TEST_CASE("VRML: face sets with every binding, orders and hints") {
-  const std::string points = "Coordinate3 { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0 ] }", colors = "Material { diffuseColor [ 0.1 0 0, 0.2 0 0, 0.3 0 0 ] }";
+  const std::string points = "Coordinate3 { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0 ] }",
+                    colors = "Material { diffuseColor [ 0.1 0 0, 0.2 0 0, 0.3 0 0 ] }";
   const auto reds = [&](const std::string& binding, const std::string& more) {
-    const apps::Model model = read("Group { " + points + colors + "MaterialBinding { value " + binding + " } IndexedFaceSet { coordIndex [ 0 1 2 -1, 0 2 3 -1 ] " + more + "} }");
+    const apps::Model model = read("Group { " + points + colors + "MaterialBinding { value " + binding +
+                                   " } IndexedFaceSet { coordIndex [ 0 1 2 -1, 0 2 3 -1 ] " + more + "} }");
     std::vector<double> list;
     for (std::size_t p = 0; p < model.polygons(); ++p) { list.push_back(model.materials[model.material[p]].reflectance->x); }
     return list;
@@ -158,7 +167,9 @@ TEST_CASE("VRML: face sets with every binding, orders and hints") {
   CHECK(reds("PER_VERTEX", "") == List{0.1, 0.1});  // the fourth corner begins again
   CHECK(reds("PER_VERTEX_INDEXED", "materialIndex [ 2 0 0 -1 1 0 0 -1 ]") == List{0.3, 0.2});
 
-  const auto hinted = [&](const std::string& hints) { return read("Group { " + points + "ShapeHints { " + hints + " } IndexedFaceSet { coordIndex [ 0 1 2 3 ] } }"); };
+  const auto hinted = [&](const std::string& hints) {
+    return read("Group { " + points + "ShapeHints { " + hints + " } IndexedFaceSet { coordIndex [ 0 1 2 3 ] } }");
+  };
   CHECK(models::corner(hinted("vertexOrdering CLOCKWISE"), 0, 0) == glm::dvec3(0, 1, 0));
   CHECK(models::corner(hinted("vertexOrdering COUNTERCLOCKWISE"), 0, 0) == glm::dvec3(0, 0, 0));
   CHECK(hinted("").materials[0].two_sided);
@@ -168,7 +179,8 @@ TEST_CASE("VRML: face sets with every binding, orders and hints") {
 
 TEST_CASE("VRML: cameras, also those to choose from; lights become small lamps") {
   const std::string body =
-      "Group { DEF Cameras Switch { whichChild 0 DEF front PerspectiveCamera { position 0 0 5 } DEF right PerspectiveCamera { position 5 0 0 "
+      "Group { DEF Cameras Switch { whichChild 0 DEF front PerspectiveCamera { position 0 0 5 } DEF right PerspectiveCamera { position 5 0 "
+      "0 "
       "orientation 0 1 0 1.5707963267948966 heightAngle 1 } } PointLight { location 0 3 0 intensity 0.5 } SpotLight { on FALSE } "
       "DirectionalLight { } Sphere { } }";
   const apps::Model model = read(body);
@@ -206,7 +218,8 @@ TEST_CASE("VRML: what is wrong is told with its place") {
     CAPTURE(text, sentence);
     CHECK(text.find(sentence) != std::string::npos);
   }
-  CHECK(noted(read("Group { Sphere { raduis 3 } }").notes, "a Sphere has no field 'raduis'; did you mean 'radius'?: passed over, at line 2"));
+  CHECK(
+      noted(read("Group { Sphere { raduis 3 } }").notes, "a Sphere has no field 'raduis'; did you mean 'radius'?: passed over, at line 2"));
   // Ends of lines of every kind are counted alike.
   CHECK(models::error("a.wrl", "#VRML V1.0 ascii\r\rGroup {\r  x }").substr(0, 5) == ":4:5:");
   CHECK(models::error("a.wrl", "#VRML V1.0 ascii\r\n\r\nGroup {\r\n  Cube { width x }").substr(0, 6) == ":4:16:");
@@ -221,18 +234,23 @@ TEST_CASE("VRML: no nesting and no use of uses makes it crash or run without end
     uses += "DEF a" + std::to_string(i) + " Group { " + last + last + "}\n";
   }
   CHECK(error(uses + "}").find("uses of uses make more than") != std::string::npos);
-  CHECK(models::error("a.wrl", "#VRML V1.0 ascii\nWWWInline { name \"a.wrl\" }", {{"a.wrl", "#VRML V1.0 ascii\nWWWInline { name \"a.wrl\" }"}})
+  CHECK(models::error("a.wrl", "#VRML V1.0 ascii\nWWWInline { name \"a.wrl\" }",
+                      {{"a.wrl", "#VRML V1.0 ascii\nWWWInline { name \"a.wrl\" }"}})
             .find("a way through it is longer than") != std::string::npos);
 
   const unsigned seed = 9;
   CAPTURE(seed);
   std::mt19937 random(seed);
-  const std::string whole = "#VRML V1.0 ascii\nSeparator { DEF m Material { diffuseColor [ 1 0 0, 0 1 0 ] } fields [ SFFloat a ] isA \"Group\" " + triangle +
-                            "ShapeHints { vertexOrdering CLOCKWISE } Cylinder { parts (SIDES|TOP) } USE m Texture2 { image 2 1 1 0xFF 7 } Switch { whichChild 0 Cone { } } }";
+  const std::string whole =
+      "#VRML V1.0 ascii\nSeparator { DEF m Material { diffuseColor [ 1 0 0, 0 1 0 ] } fields [ SFFloat a ] isA \"Group\" " + triangle +
+      "ShapeHints { vertexOrdering CLOCKWISE } Cylinder { parts (SIDES|TOP) } USE m Texture2 { image 2 1 1 0xFF 7 } Switch { whichChild 0 "
+      "Cone { } } }";
   for (std::size_t length = 0; length < whole.size(); ++length) { static_cast<void>(models::result("a.wrl", whole.substr(0, length))); }
   for (int i = 0; i < 1000; ++i) {
     std::string changed = whole;
-    for (int k = 0; k < 3; ++k) { changed[random() % changed.size()] = k == 0 ? "{}[](),\"#|-0 "[random() % 13] : static_cast<char>(random()); }
+    for (int k = 0; k < 3; ++k) {
+      changed[random() % changed.size()] = k == 0 ? "{}[](),\"#|-0 "[random() % 13] : static_cast<char>(random());
+    }
     static_cast<void>(models::result("a.wrl", changed));
   }
 }

@@ -164,7 +164,8 @@ TEST_CASE("bake: between corners the light is that of the solution, on the side 
   // The lamp shines on both sides, but the ceiling, close behind it, sends more back than the room.
   const std::size_t lamp = soup.count() - 1;
   const glm::dvec3 middle{2.0, 1.5, 2.4};
-  const auto front = outcome.baked->light.radiosity(lamp, middle), back = outcome.baked->light.radiosity(lamp, middle, radiosity::FaceSide::back);
+  const auto front = outcome.baked->light.radiosity(lamp, middle),
+             back = outcome.baked->light.radiosity(lamp, middle, radiosity::FaceSide::back);
   REQUIRE(front);
   REQUIRE(back);
   CHECK(front->x == 10.0);  // it reflects nothing
