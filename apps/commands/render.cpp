@@ -71,6 +71,11 @@ ExitCode check(const RenderOptions& options) {
       return ExitCode::usage;
     }
   }
+  const auto takes = [](const std::string& path) { return render_format(path) == RenderFormat::exported; };
+  if (options.onto_input && std::none_of(options.outputs.begin(), options.outputs.end(), takes)) {
+    complain("--onto-input is about outputs that end with .glb or .obj; there is none");
+    return ExitCode::usage;
+  }
   return check_outputs(all_outputs(options), {options.scene});
 }
 

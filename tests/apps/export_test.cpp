@@ -237,6 +237,9 @@ TEST_CASE("export: render writes what the names end with, and says what it canno
   CHECK(run.code == 2);
   CHECK(run.err.find("a.scene gives no polygons") != std::string::npos);
   CHECK_FALSE(place.has("b.glb"));
+  run = place.run("render room.obj -o b.png --onto-input" + quick);
+  CHECK(run.code == 2);
+  CHECK(run.err.find("there is none") != std::string::npos);
   CHECK(place.run("render room.obj --lamp wall -o b.obj --onto-input" + quick).code == 0);
   CHECK(lines_of(place.read("b.obj"), "v ").size() == 8);
   CHECK(lines_of(place.read("b.obj"), "f ").size() == 6);
