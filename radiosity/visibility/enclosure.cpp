@@ -50,7 +50,7 @@ HALFLIGHT_INLINE void add_fronts(const Surface& surface, std::uint32_t object, s
   for (const brep::FaceId f : brep::faces(surface.brep)) {
     if (surface.brep.data(f).sheet == brep::no_sheet) { continue; }
     Polygon contour = corner_polygon(surface.brep, f);
-    const glm::dvec3 area = vector_area(contour);
+    const glm::dvec3 area = brep::vector_area(contour);
     const double length = glm::length(area);
     if (length > 0.0) { faces.push_back({std::move(contour), area / length, object}); }
   }
@@ -249,7 +249,7 @@ class EdgeSum {
     clip_to_horizon(polygon, cover[i], inwards / length, part);
     std::swap(polygon, part);
   }
-  return polygon.size() > 2 ? std::max(0.0, glm::dot(normal, vector_area(polygon))) : 0.0;
+  return polygon.size() > 2 ? std::max(0.0, glm::dot(normal, brep::vector_area(polygon))) : 0.0;
 }
 
 }  // namespace detail
@@ -260,7 +260,7 @@ HALFLIGHT_INLINE bool lies_on(const Surface& surface, const std::vector<const Su
   for (const brep::FaceId f : brep::faces(surface.brep)) {
     if (surface.brep.data(f).sheet == brep::no_sheet) { continue; }
     const Polygon polygon = corner_polygon(surface.brep, f);
-    const glm::dvec3 area = vector_area(polygon);
+    const glm::dvec3 area = brep::vector_area(polygon);
     const double whole = glm::length(area);
     if (!(whole > 0.0)) { return false; }
     double border = 0.0;
