@@ -11,8 +11,10 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <radiosity/bake/bake.hpp>
+#include <radiosity/bake/lightmap.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/scene/scene.hpp>
 
@@ -197,4 +199,93 @@ TEST_CASE("bake: what cannot be solved is refused with a sentence; polygons that
   for (const radiosity::Color& b : outcome.baked->colors.corner) { CHECK(b.x == 1.0); }  // alone in the world
   CHECK(outcome.baked->colors.vertex[0].x == 1.0);
   CHECK(outcome.baked->colors.vertex[3].x == 0.0);  // without a triangle
+}
+
+namespace {
+
+// As a graphics card reads a texture: bilinear, between the middles of texels.
+glm::dvec3 sample(const radiosity::Lightmap& map, const glm::dvec2& at) {
+  const glm::dvec2 place = at * glm::dvec2(map.width, map.height) - 0.5;
+  glm::dvec3 sum(0.0);
+  for (int k = 0; k < 4; ++k) {
+    const double x = std::floor(place.x) + k % 2, y = std::floor(place.y) + k / 2;
+    REQUIRE((x >= 0.0 && y >= 0.0 && x < map.width && y < map.height));
+    const double weight = (1.0 - std::abs(place.x - x)) * (1.0 - std::abs(place.y - y));
+    sum += weight * glm::dvec3(map.texels[static_cast<std::size_t>(y) * map.width + static_cast<std::size_t>(x)]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+// Where the light is the same everywhere on a polygon and differs from polygon to polygon, any texel of a neighbour in the atlas would show.
+TEST_CASE("lightmap: no polygon reaches into another one, wherever it is sampled; its texels fit") {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+    Soup soup;
+    soup.materials.clear();
+    for (std::uint32_t i = 0; i < 40; ++i) {  // black lamps far from each other: B = E
+      soup.materials.push_back({"lamp", glm::dvec3(0.0), glm::dvec3(1.0 + i)});
+      const glm::dvec3 a(number(-1, 1), number(-1, 1), number(-1, 1)), u(number(-1, 1), number(-1, 1), number(-1, 1));
+      const glm::dvec3 v = number(0.05, 1.0) * glm::normalize(glm::cross(u, glm::dvec3(number(-1, 1), 1.0, number(-1, 1)))),
+                       far(10.0 * i, 0.0, 0.0);
+      if (i % 2 == 0) {
+        soup.polygon({far + a, far + a + u, far + a + u + v, far + a + v}, i);
+      } else {
+        soup.polygon({far + a, far + a + u, far + a + 0.3 * u + v}, i);
+      }
+    }
+    soup.polygon({{0, 0, 0}, {0, 0, 0}, {1, 1, 1}}, 0);
+    const radiosity::BakeOutcome outcome = radiosity::bake(soup.view(), soup.materials, quick());
+    REQUIRE(outcome.baked);
+    for (const std::uint32_t most : {8192U, 128U}) {
+      const radiosity::Lightmap map = radiosity::make_lightmap(outcome.baked->light, soup.view(), 0.02, most);
+      CHECK((map.width <= most && map.height <= most));
+      CHECK(map.texels.size() == std::size_t{map.width} * map.height);
+      CHECK((most == 128) == (map.texel > 0.02));
+      CHECK(map.has_texels.back() == 0);
+      for (std::size_t p = 0; p + 1 < soup.count(); ++p) {
+        REQUIRE(map.has_texels[p] == 1);
+        for (int k = 0; k < 20; ++k) {  // anywhere on the polygon, its corners among others
+          glm::dvec2 at(0.0);
+          double weights = 0.0;
+          for (std::uint32_t c = soup.first[p]; c < soup.first[p + 1]; ++c) {
+            const double weight =
+                k < 4 ? (c - soup.first[p] == static_cast<std::uint32_t>(k) % (soup.first[p + 1] - soup.first[p]) ? 1.0 : 0.0)
+                      : number(0.0, 1.0);
+            at += weight * glm::dvec2(map.coordinates[c]);
+            weights += weight;
+          }
+          // Coordinates are floats: 2^-24 of the atlas, at most 8192 texels, is less than a thousandth of a texel, and the ring is one wide.
+          CHECK(sample(map, at / weights).x == Approx(1.0 + static_cast<double>(p)).epsilon(1e-6));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("lightmap: with fine texels it is the light itself") {
+  const Soup soup = room();
+  const radiosity::BakeOutcome outcome = radiosity::bake(soup.view(), soup.materials, quick());
+  REQUIRE(outcome.baked);
+  const radiosity::Lightmap map = radiosity::make_lightmap(outcome.baked->light, soup.view(), 0.02);
+  double square = 0.0, reference = 0.0;
+  for (std::size_t p = 0; p < soup.count(); ++p) {
+    if (map.has_texels[p] == 0) { continue; }
+    const std::uint32_t c = soup.first[p];
+    for (const auto& [a, b] : {std::pair(0.2, 0.3), {0.5, 0.25}, {0.1, 0.1}, {0.7, 0.2}}) {
+      const auto mix = [&](const auto& x, const auto& y, const auto& z) { return (1.0 - a - b) * x + a * y + b * z; };
+      const std::vector<glm::dvec3> points = soup.outline(p);
+      const auto light = outcome.baked->light.radiosity(p, mix(points[0], points[1], points[2]));
+      const glm::dvec2 at = mix(glm::dvec2(map.coordinates[c]), glm::dvec2(map.coordinates[c + 1]), glm::dvec2(map.coordinates[c + 2]));
+      REQUIRE(light);
+      const double difference = sample(map, at).x - light->x;
+      square += difference * difference;
+      reference += light->x * light->x;
+    }
+  }
+  // The light is linear on each triangle of the solution, some 0.2 wide; only at its kinks, in a tenth of the texels, the two differ.
+  CHECK(std::sqrt(square / reference) < 0.005);
 }
