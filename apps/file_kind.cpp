@@ -9,6 +9,7 @@
 #include <brep/euler_script.hpp>
 #include <brep/euler_table.hpp>
 
+#include "apps/intake/model.hpp"
 #include "apps/scene_file/grammar.hpp"
 #include "apps/scene_file/words.hpp"
 #include "apps/utf8.hpp"
@@ -111,13 +112,12 @@ std::string name_of(FileKind kind, const MeshFormat* format) {
 
 // What to do with it instead.
 std::string advice(const std::string& path, FileKind found, FileKind wanted) {
-  constexpr const char* of_scenes = "a scene is text that names materials and objects (examples/scenes/README.md)";
+  const std::string of_scenes =
+      "a scene is text that names materials and objects (examples/scenes/README.md), or a file of another program: " + model_endings();
   const bool mesh_wanted = wanted == FileKind::mesh;
   if (found == FileKind::mesh && mesh_wanted) { return "give it a name that ends with the right letters"; }
   if (found == FileKind::mesh && wanted == FileKind::scene) {
-    return "`halflight check " + path +
-           "` examines it; to light it, write its vertices and faces into a `mesh` statement of a scene "
-           "(examples/scenes/README.md)";
+    return "give it a name that ends with the right letters (" + mesh_endings() + "), and it is read as a scene";
   }
   if (found == FileKind::mesh) { return "`halflight check " + path + "` examines it"; }
   if (found == FileKind::stl) { return "convert it to " + mesh_endings() + ", which `halflight check` reads"; }
@@ -127,7 +127,7 @@ std::string advice(const std::string& path, FileKind found, FileKind wanted) {
            (mesh_wanted ? ", `halflight mesh " + path + " -o OUT.obj` writes its polygons" : "");
   }
   if (mesh_wanted) { return "expected a polygon mesh: " + mesh_endings(); }
-  return wanted == FileKind::scene ? of_scenes : "a script is text with one operator a line (examples/euler)";
+  return wanted == FileKind::scene ? of_scenes : std::string("a script is text with one operator a line (examples/euler)");
 }
 
 }  // namespace

@@ -25,6 +25,10 @@ struct Mesh {
   brep::Builder builder;
   std::vector<std::uint32_t> vertex_line, face_line;  // where each stands in the file; empty for binary files
   std::vector<std::string> notes;                     // what was passed over and may matter
+
+  // What formats with materials and groups say of each face: empty where a file has none. Libraries are files with materials.
+  std::vector<std::uint32_t> face_material, face_group;
+  std::vector<std::string> materials, groups, libraries;
 };
 
 struct MeshResult : ErrorReport {
@@ -60,6 +64,7 @@ struct MeshFormat {
 
 // By the ending of the name, in any case; null when no format has it.
 [[nodiscard]] const MeshFormat* mesh_format(std::string_view path);
+[[nodiscard]] bool has_ending(std::string_view path, std::string_view ending);
 
 [[nodiscard]] MeshResult read_mesh(std::string_view bytes, const MeshFormat& format);
 

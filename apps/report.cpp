@@ -28,6 +28,8 @@ class Text {
 
   std::string write() {
     out_ = report_.scene + "\n";
+    if (!report_.taken_in.empty()) { out_ += "taken in\n"; }
+    for (const std::string& sentence : report_.taken_in) { out_ += "  " + sentence + "\n"; }
     errors();
     times();
     sizes();

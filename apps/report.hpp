@@ -30,7 +30,8 @@ struct PictureReport {
 };
 
 struct Report {
-  std::string scene;  // the file's name as it was given
+  std::string scene;                  // the file's name as it was given
+  std::vector<std::string> taken_in;  // what was changed in a file of another program
   radiosity::Options options;
   radiosity::Audit audit;
   double exposure = 1.0;

@@ -127,6 +127,7 @@ void add_list(Facts& facts, const char* path, const std::vector<Item>& items, co
 void add_lists(Facts& facts, const Report& report) {
   const radiosity::Audit& audit = report.audit;
   const auto sentence = [](JsonWriter& json, const std::string& text) { json.value(text); };
+  add_list(facts, "taken_in", report.taken_in, sentence);
   add_list(facts, "warnings", audit.warnings, sentence);
   if (audit.stray) {
     facts.add("stray_rays.escaping", audit.stray->escaping, "%");

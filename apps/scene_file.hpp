@@ -12,6 +12,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +21,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <radiosity/intake/intake.hpp>
 #include <radiosity/scene/scene.hpp>
 
 #include "apps/input_errors.hpp"
@@ -52,18 +55,33 @@ struct ObjectOrigin {
   Place place;
 };
 
+// The polygons of a file of another program as they stand in it, so that their light can go back to them.
+struct GivenPolygons {
+  std::vector<glm::dvec3> positions, placed;  // in the file; in the scene
+  std::vector<std::uint32_t> corners, first_corner;
+  radiosity::PolygonParts parts;  // of the objects from this one on:
+  std::uint32_t first_object = 0;
+  bool z_up = false;  // in the file
+};
+
 struct SceneFile {
   radiosity::Scene scene;
   std::vector<ObjectOrigin> origins;  // one per scene.objects
   std::vector<Camera> cameras;
+  std::vector<std::string> notes;        // of files of other formats: what was changed or taken otherwise
+  std::string beside;                    // all bytes of the files beside this one that were read
+  std::shared_ptr<GivenPolygons> given;  // of files of other formats; null: none
 };
+
+// A file beside the one that is read, by its name there: its bytes, or nothing and a sentence such as "cannot be opened: ...".
+using SideFile = std::function<std::optional<std::string>(const std::string& name, std::string& fault)>;
 
 struct SceneResult : ErrorReport {
   std::optional<SceneFile> file;  // nothing when there are errors
 };
 
-// The scene that `text` describes.
-[[nodiscard]] SceneResult parse_scene(std::string_view text);
+// The scene that `text` describes. Without `side_file` no mesh can be in a file of its own.
+[[nodiscard]] SceneResult parse_scene(std::string_view text, const SideFile& side_file = {});
 
 // The whole file, "-" for the standard input, or nothing and a sentence in `fault` (missing, a directory, unreadable, too large).
 [[nodiscard]] std::optional<std::string> read_text(const std::string& path, std::string& fault);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "apps/exit_code.hpp"
+#include "apps/intake/model.hpp"
 #include "apps/scene_file/words.hpp"
 #include "apps/text.hpp"
 
@@ -103,7 +104,9 @@ template <class Target>
   return {std::move(names), std::move(value), std::move(description), take, values};
 }
 
-[[nodiscard]] inline Argument scene_argument(std::string& target) { return text("scene", "SCENE", target, "the .scene file").must(); }
+[[nodiscard]] inline Argument scene_argument(std::string& target) {
+  return text("scene", "SCENE", target, "the scene: a .scene file, or " + model_endings()).must();
+}
 
 // A number in (0, most]; NaN is refused, too.
 template <class Target>

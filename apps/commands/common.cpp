@@ -5,11 +5,13 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include "apps/files.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/output_paths.hpp"
+#include "apps/text.hpp"
 
 namespace apps {
 
@@ -33,19 +35,63 @@ std::optional<std::string> load_text(const std::string& path, ExitCode& code) {
   return text;
 }
 
-std::optional<SceneFile> load_scene(const std::string& path, ExitCode& code) {
-  const auto text = load_text(path, code);
-  return text ? load_scene(path, *text, code) : std::nullopt;
+namespace {
+
+// Files that another one names lie beside it, or where their whole path says. All their bytes are collected in `read`.
+SideFile beside(const std::string& path, std::string& read) {
+  return [folder = std::filesystem::path(path).parent_path(), &read](const std::string& name, std::string& fault) {
+    auto bytes = read_text((folder / name).string(), fault);
+    if (bytes) { read += *bytes; }
+    return bytes;
+  };
 }
 
-std::optional<SceneFile> load_scene(const std::string& path, const std::string& text, ExitCode& code) {
-  SceneResult result = parse_scene(text);
+std::optional<SceneFile> load_model(const std::string& path, const std::string& bytes, const ModelFormat& format,
+                                    const ModelOptions& options, ExitCode& code) {
+  std::string read;
+  ModelResult result = format.read(bytes, beside(path, read));
+  code = ExitCode::invalid_input;
+  if (!result.model) {
+    const FileGuess guess = guess_kind(bytes);
+    const auto sentence = guess.kind == FileKind::empty ? wrong_kind(shown(path), bytes, FileKind::scene) : std::nullopt;
+    sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, shown(path)).c_str(), stderr));
+    return std::nullopt;
+  }
+  std::vector<std::string> faults;
+  auto file = to_scene(std::move(*result.model), format.up, options, faults);
+  if (file) {
+    file->beside = std::move(read);
+    code = ExitCode::ok;
+  } else {
+    complain_of(shown(path), faults);
+  }
+  return file;
+}
+
+}  // namespace
+
+std::optional<SceneFile> load_scene(const std::string& path, ExitCode& code, const ModelOptions& options) {
+  const auto text = load_text(path, code);
+  return text ? load_scene(path, *text, code, options) : std::nullopt;
+}
+
+std::optional<SceneFile> load_scene(const std::string& path, const std::string& text, ExitCode& code, const ModelOptions& options) {
+  if (const ModelFormat* const format = model_format(path, text)) { return load_model(path, text, *format, options, code); }
+  if (!options.lamps.empty()) {
+    complain("--lamp is about files of other programs; in a .scene the material says it: material " + options.lamps[0].material +
+             " reflectance 0.5 emission " + shortest(options.lamps[0].exitance));
+    code = ExitCode::usage;
+    return std::nullopt;
+  }
+  std::string read;
+  SceneResult result = parse_scene(text, beside(path, read));
   if (!result.file) {
     const auto sentence = wrong_kind(shown(path), text, FileKind::scene);
     sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, shown(path)).c_str(), stderr));
     code = ExitCode::invalid_input;
     return std::nullopt;
   }
+  result.file->beside = std::move(read);
   return std::move(result.file);
 }
 

@@ -18,6 +18,7 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
+#include "apps/commands/model_arguments.hpp"
 #include "apps/json.hpp"
 #include "apps/text.hpp"
 
@@ -25,6 +26,7 @@ namespace apps {
 namespace {
 
 struct FactorsOptions {
+  ModelOptions model;
   std::string scene, csv, json, total_exchange;
   double error = 1e-3;
   unsigned threads = 0;
@@ -206,7 +208,7 @@ ExitCode run(const FactorsOptions& options) {
   const std::vector<std::string> outputs{options.csv, options.total_exchange, options.json};
   ExitCode code = check_outputs(outputs, {options.scene});
   if (code != ExitCode::ok) { return code; }
-  const auto file = load_scene(options.scene, code);
+  const auto file = load_scene(options.scene, code, options.model);
   if (!file) { return code; }
   const auto wall = std::chrono::steady_clock::now();
   const std::clock_t cpu = std::clock();
@@ -244,8 +246,9 @@ ExitCode run(const FactorsOptions& options) {
 
 Command factors_command() {
   const auto options = std::make_shared<FactorsOptions>();
-  return {"factors",
-          "the form factors between the surfaces of a scene, each with its error",
+  return {
+      "factors", "the form factors between the surfaces of a scene, each with its error",
+      with_model_arguments(
           {scene_argument(options->scene),
            text("--csv", "FILE", options->csv, "write the matrix: one line a surface, its factors, then their errors"),
            text("--json", "FILE", options->json, "write the matrix, its errors and how each was found"),
@@ -253,7 +256,8 @@ Command factors_command() {
                 "write the total exchange factors, reflections included (script F; emissivity = 1 - reflectance); --json gets them, too"),
            above_zero("--error", options->error, 1.0, "wanted error of each factor").by_default(formatted("%g", options->error)),
            whole_number("--threads", options->threads, 0, most_threads, "0: as many as the machine has; results do not depend on it")},
-          [options] { return run(*options); }};
+          options->model),
+      [options] { return run(*options); }};
 }
 
 }  // namespace apps

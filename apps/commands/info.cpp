@@ -21,6 +21,7 @@
 #include "apps/bounds.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
+#include "apps/commands/model_arguments.hpp"
 #include "apps/text.hpp"
 
 namespace apps {
@@ -28,6 +29,7 @@ namespace {
 
 struct InfoOptions {
   std::string scene;
+  ModelOptions model;
 };
 
 std::string color(const radiosity::Color& c) { return radiosity::is_grey(c) ? formatted("%.6g", c.x) : triple(c); }
@@ -109,15 +111,21 @@ std::string plan(const radiosity::Scene& scene, const radiosity::Prepared& prepa
   return out;
 }
 
+std::string notes(const SceneFile& file) {
+  std::string out = file.notes.empty() ? "" : "taken in:\n";
+  for (const std::string& note : file.notes) { out += "  " + note + "\n"; }
+  return out;
+}
+
 std::string summary(const SceneFile& file, const radiosity::Prepared& prepared, const std::string& name) {
   const raycast::Box bounds = scene_bounds(file.scene);
-  return name + "\n" + "bounds: " + triple(bounds.lo) + "  to  " + triple(bounds.hi) + "\n" + materials(file.scene) +
+  return name + "\n" + "bounds: " + triple(bounds.lo) + "  to  " + triple(bounds.hi) + "\n" + notes(file) + materials(file.scene) +
          objects(file, prepared) + cameras(file) + plan(file.scene, prepared);
 }
 
 ExitCode run(const InfoOptions& options) {
   ExitCode code = ExitCode::ok;
-  const auto file = load_scene(options.scene, code);
+  const auto file = load_scene(options.scene, code, options.model);
   if (!file) { return code; }
   const radiosity::PrepareResult preparation = radiosity::prepare(file->scene);
   if (!preparation.prepared) {
@@ -131,7 +139,8 @@ ExitCode run(const InfoOptions& options) {
 
 Command info_command() {
   const auto options = std::make_shared<InfoOptions>();
-  return {"info", "say what is in a scene without solving it", {scene_argument(options->scene)}, [options] { return run(*options); }};
+  return {"info", "say what is in a scene without solving it", with_model_arguments({scene_argument(options->scene)}, options->model),
+          [options] { return run(*options); }};
 }
 
 }  // namespace apps

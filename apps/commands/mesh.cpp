@@ -25,6 +25,7 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
+#include "apps/commands/model_arguments.hpp"
 #include "apps/json.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/text.hpp"
@@ -34,6 +35,7 @@ namespace apps {
 namespace {
 
 struct MeshOptions {
+  ModelOptions model;
   std::string scene;
   std::string output;               // empty: none
   std::optional<std::string> json;  // empty: standard output, in place of the text
@@ -175,7 +177,7 @@ std::string to_json(const SceneFile& file, const SceneMesh& mesh, const MeshOpti
 ExitCode run(const MeshOptions& options) {
   ExitCode code = check_mesh_output(options.output, {options.json.value_or("")}, options.scene);
   if (code != ExitCode::ok) { return code; }
-  const auto file = load_scene(options.scene, code);
+  const auto file = load_scene(options.scene, code, options.model);
   if (!file) { return code; }
   const auto mesh = make_mesh(*file, options.scene);
   if (!mesh) { return ExitCode::invalid_input; }
@@ -196,11 +198,11 @@ Command mesh_command() {
   const auto options = std::make_shared<MeshOptions>();
   Argument json = text("--json", "[FILE]", options->json, "the numbers as JSON: into FILE, or in place of the text");
   json.values = Argument::Values::optional;
-  return {
-      "mesh",
-      "the polygons of each object: counts, genus, area, volume, and a mesh file",
-      {scene_argument(options->scene), text("-o,--output", "FILE", options->output, "where to write the mesh: " + mesh_endings()), json},
-      [options] { return run(*options); }};
+  return {"mesh", "the polygons of each object: counts, genus, area, volume, and a mesh file",
+          with_model_arguments({scene_argument(options->scene),
+                                text("-o,--output", "FILE", options->output, "where to write the mesh: " + mesh_endings()), json},
+                               options->model),
+          [options] { return run(*options); }};
 }
 
 }  // namespace apps

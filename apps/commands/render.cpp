@@ -19,7 +19,9 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
+#include "apps/commands/model_arguments.hpp"
 #include "apps/commands/render_outputs.hpp"
+#include "apps/intake/model.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/memory.hpp"
 #include "apps/progress.hpp"
@@ -69,9 +71,14 @@ std::vector<std::string> all_outputs(const RenderOptions& options) {
 ExitCode check(const RenderOptions& options) {
   for (const std::string& path : options.outputs) {
     if (!render_format(path)) {
-      complain("--output " + path + ": expected a name that ends with .png, .hdr, .pfm or .ply");
+      complain("--output " + path + ": expected a name that ends with " + render_endings());
       return ExitCode::usage;
     }
+  }
+  const auto takes = [](const std::string& path) { return render_format(path) == RenderFormat::exported; };
+  if (options.onto_input && std::none_of(options.outputs.begin(), options.outputs.end(), takes)) {
+    complain("--onto-input is about outputs that end with .glb or .obj; there is none");
+    return ExitCode::usage;
   }
   return check_outputs(all_outputs(options), {options.scene});
 }
@@ -126,8 +133,12 @@ ExitCode run(const RenderOptions& options) {
   }
   if (const ExitCode code = check(options); code != ExitCode::ok) { return code; }
   ExitCode code = ExitCode::ok;
-  const auto file = load_scene(options.scene, code);
+  const auto file = load_scene(options.scene, code, options.model);
   if (!file) { return code; }
+  if (options.onto_input && !file->given) {
+    complain("--onto-input: " + options.scene + " gives no polygons; only files of other programs (" + model_endings() + ") do");
+    return ExitCode::usage;
+  }
   const auto camera = choose_camera(*file, options.camera);
   if (!camera) { return ExitCode::usage; }
 
@@ -158,6 +169,7 @@ ExitCode run(const RenderOptions& options) {
   const radiosity::Solution& solution = *outcome.solution;
   Report report;
   report.scene = options.scene;
+  report.taken_in = file->notes;
   report.options = settings;
   report.audit = solution.audit;
   leave_out_others(report.audit.stages);
@@ -195,7 +207,12 @@ std::vector<Argument> arguments(RenderOptions& options) {
   return {
       scene_argument(options.scene),
       texts("-o,--output", "FILE", options.outputs,
-            "what to write: a picture (.png; .hdr, .pfm: radiance) or a mesh (.ply); repeat for more; without, the report alone", Argument::Values::repeated),
+            "what to write: a picture (.png; .hdr, .pfm: radiance), a mesh with its light (.ply, .glb, .obj) or a page that shows it "
+            "(.html); "
+            "repeat for more; without, the report alone",
+            Argument::Values::repeated),
+      flag("--onto-input", options.onto_input,
+           "with .glb and .obj: the polygons and vertices of the input file in its own order, each vertex with its light"),
       above_zero("--error", solver.error, 1.0, "refine until the measured relative L2 error is at most this"),
       one_of<std::optional<ErrorOf>, ErrorOf>(
           "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},
@@ -257,7 +274,8 @@ std::vector<Argument> arguments(RenderOptions& options) {
 
 Command render_command() {
   const auto options = std::make_shared<RenderOptions>();
-  return {"render", "solve a scene; write a picture or a mesh and the report", arguments(*options), [options] { return run(*options); }};
+  return {"render", "solve a scene; write a picture or a mesh and the report", with_model_arguments(arguments(*options), options->model),
+          [options] { return run(*options); }};
 }
 
 }  // namespace apps

@@ -22,11 +22,15 @@
 #include <radiosity/support/memory.hpp>
 
 #include "apps/audited_picture.hpp"
+#include "apps/export/export_mesh.hpp"
+#include "apps/export/viewer.hpp"
 #include "apps/gather_picture.hpp"
 #include "apps/memory.hpp"
+#include "apps/mesh_file.hpp"
 #include "apps/ply.hpp"
 #include "apps/png.hpp"
 #include "apps/radiance_file.hpp"
+#include "apps/text.hpp"
 
 namespace apps {
 namespace {
@@ -45,7 +49,14 @@ class Stopwatch {
 
 bool is_picture(const std::string& path) {
   const auto format = render_format(path);
-  return format && *format != RenderFormat::ply;
+  return format == RenderFormat::png || format == RenderFormat::hdr || format == RenderFormat::pfm;
+}
+
+// The line below the title of a page: how large and how wrong the solution is.
+std::string summary(const radiosity::Solution& solution) {
+  const radiosity::Audit& audit = solution.audit;
+  const std::string size = std::to_string(audit.leaves) + " patches of " + std::to_string(audit.polygons) + " input faces";
+  return size + (audit.surface_error ? ", error " + percent(audit.surface_error->relative_l2) + " of the reflected light" : "");
 }
 
 }  // namespace
@@ -62,13 +73,15 @@ std::optional<Exposure> Exposure::parse(std::string_view text) {
 }
 
 std::optional<RenderFormat> render_format(const std::string& path) {
-  if (path.size() <= 4) { return std::nullopt; }
-  if (path.ends_with(".png")) { return RenderFormat::png; }
-  if (path.ends_with(".hdr")) { return RenderFormat::hdr; }
-  if (path.ends_with(".pfm")) { return RenderFormat::pfm; }
-  if (path.ends_with(".ply")) { return RenderFormat::ply; }
-  return std::nullopt;
+  if (has_ending(path, ".png")) { return RenderFormat::png; }
+  if (has_ending(path, ".hdr")) { return RenderFormat::hdr; }
+  if (has_ending(path, ".pfm")) { return RenderFormat::pfm; }
+  if (has_ending(path, ".ply")) { return RenderFormat::ply; }
+  if (has_ending(path, ".html")) { return RenderFormat::html; }
+  return export_format(path) != nullptr ? std::optional(RenderFormat::exported) : std::nullopt;
 }
+
+std::string render_endings() { return ".png, .hdr, .pfm, .ply, .glb, .obj or .html"; }
 
 bool has_picture(const RenderOptions& options) { return std::any_of(options.outputs.begin(), options.outputs.end(), is_picture); }
 
@@ -142,13 +155,29 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
       report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, its error not measured
     }
   }
+  std::optional<ExportMesh> exported;
   for (const std::string& path : options.outputs) {
     outputs.push_back({path, {}});
     switch (*render_format(path)) {
-      case RenderFormat::png: outputs.back().bytes = png; break;
-      case RenderFormat::hdr: outputs.back().bytes = hdr; break;
-      case RenderFormat::pfm: outputs.back().bytes = pfm; break;
-      case RenderFormat::ply: outputs.back().bytes = to_ply(solution.mesh, radiosity::surfaces(file.scene), tone); break;
+      case RenderFormat::png:
+        outputs.back().bytes = png;
+        break;
+      case RenderFormat::hdr:
+        outputs.back().bytes = hdr;
+        break;
+      case RenderFormat::pfm:
+        outputs.back().bytes = pfm;
+        break;
+      case RenderFormat::ply:
+        outputs.back().bytes = to_ply(solution.mesh, radiosity::surfaces(file.scene), tone);
+        break;
+      case RenderFormat::html:
+        outputs.back().bytes = viewer_page(file, solution, camera, tone.exposure, options.scene, summary(solution));
+        break;
+      case RenderFormat::exported:
+        if (!exported) { exported = options.onto_input ? given_mesh(file, solution) : solution_mesh(file, solution); }
+        if (exported) { outputs.back().bytes = export_format(path)->write(*exported, tone.exposure); }
+        break;
     }
     report.files.push_back(path);
   }

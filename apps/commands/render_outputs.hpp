@@ -13,6 +13,7 @@
 #include <radiosity/radiosity.hpp>
 #include <radiosity/scene/options.hpp>
 
+#include "apps/intake/to_scene.hpp"
 #include "apps/picture.hpp"
 #include "apps/report.hpp"
 #include "apps/scene_file.hpp"
@@ -35,7 +36,9 @@ struct Exposure {
 
 struct RenderOptions {
   std::string scene;
+  ModelOptions model;
   std::vector<std::string> outputs;  // pictures and meshes, by their endings
+  bool onto_input = false;           // exported: the user's polygons, not those of the solution
   std::string json;                  // empty: none
   std::string camera;                // empty: the first of the file, or the automatic one
   std::optional<PictureSize> size;
@@ -49,10 +52,13 @@ struct RenderOptions {
   radiosity::Options solver;
 };
 
-enum class RenderFormat { png, hdr, pfm, ply };
+enum class RenderFormat { png, hdr, pfm, ply, html, exported };
 
 // By the ending of the name.
 [[nodiscard]] std::optional<RenderFormat> render_format(const std::string& path);
+
+// ".png, .ply, ... or .html"
+[[nodiscard]] std::string render_endings();
 
 [[nodiscard]] bool has_picture(const RenderOptions& options);
 

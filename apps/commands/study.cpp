@@ -14,6 +14,7 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
+#include "apps/commands/model_arguments.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/memory.hpp"
 #include "apps/progress.hpp"
@@ -30,6 +31,7 @@ namespace apps {
 namespace {
 
 struct StudyOptions {
+  ModelOptions model;
   std::vector<std::string> scenes, merge;
   std::string folder;
   std::optional<study::PartNumber> part;
@@ -82,7 +84,7 @@ std::string title_of(const std::string& text) {
 bool study_scene(const std::string& path, const StudyOptions& options, const std::vector<study::MethodPlan>& methods,
                  const radiosity::Control& control, Progress& progress, study::SceneStudy& result, ExitCode& code) {
   const auto text = load_text(path, code);
-  const auto file = text ? load_scene(path, *text, code) : std::nullopt;
+  const auto file = text ? load_scene(path, *text, code, options.model) : std::nullopt;
   if (!file) { return false; }
   result.scene = fs::path(path).stem().string();
   result.title = title_of(*text);
@@ -93,8 +95,10 @@ bool study_scene(const std::string& path, const StudyOptions& options, const std
   reference.threads = options.threads;
   const std::string name = result.scene + ".reference.json";
   const std::vector<std::string> caches{(fs::path(path).parent_path() / name).string(), (fs::path(options.folder) / name).string()};
+  // A file of another program, those beside it, and what the command line says about them, are the scene together.
+  const std::string known = file->notes.empty() ? *text : *text + options.model.key() + file->beside;
   std::string fault;
-  const auto truth = study::make_reference(file->scene, *text, caches, reference, control, fault);
+  const auto truth = study::make_reference(file->scene, known, caches, reference, control, fault);
   if (!truth) {
     complain(path + ": " + fault);
     code = control.cancelled() ? ExitCode::failure : ExitCode::invalid_input;
@@ -110,9 +114,11 @@ bool study_scene(const std::string& path, const StudyOptions& options, const std
   measuring.dense_leaves = options.dense;
   measuring.finished = [&](const study::Method& method, const study::Run& run) {
     char line[160] = "";
-    const std::string outcome = !run.refused.empty() ? run.refused : "L2 of the leaves " + percent(run.leaves_error.cells.l2) +
-                                                                          (run.cut_off.empty() ? "" : ", " + run.cut_off + ": not credited");
-    std::snprintf(line, sizeof line, "  %-20s %-26s %8.3f s  %s", method.name.c_str(), run.setting.c_str(), run.cpu_seconds, outcome.c_str());
+    const std::string outcome = !run.refused.empty() ? run.refused
+                                                     : "L2 of the leaves " + percent(run.leaves_error.cells.l2) +
+                                                           (run.cut_off.empty() ? "" : ", " + run.cut_off + ": not credited");
+    std::snprintf(line, sizeof line, "  %-20s %-26s %8.3f s  %s", method.name.c_str(), run.setting.c_str(), run.cpu_seconds,
+                  outcome.c_str());
     progress.say(line);
   };
   study::measure(file->scene, *truth, methods, measuring, control, result);
@@ -171,8 +177,8 @@ ExitCode merge(const StudyOptions& options) {
 std::string asked(const StudyOptions& options) {
   std::string text = version;
   for (const std::string& scene : options.scenes) { text += "\n" + fs::path(scene).stem().string(); }
-  return text + "\n" + formatted("%.17g", options.seconds) + " " + std::to_string(options.paths) + " " + std::to_string(options.dense) + " " +
-         std::to_string(options.memory.value_or(0));
+  return text + "\n" + formatted("%.17g", options.seconds) + " " + std::to_string(options.paths) + " " + std::to_string(options.dense) +
+         " " + std::to_string(options.memory.value_or(0));
 }
 
 ExitCode run(const StudyOptions& given) {
@@ -255,26 +261,28 @@ Command study_command() {
   return {
       "study",
       "error against time, memory and links for every method on each scene",
-      {texts("scenes", "SCENE", options->scenes, "the .scene files"),
-       text("-o,--output", "DIR", options->folder, "folder for tables, plots, pictures and the page; made when there is none").must(),
-       above_zero("--time-per-run", options->seconds, 1e6, "CPU seconds after which a run is stopped")
-           .by_default(formatted("%g", options->seconds)),
-       whole_number("--paths", options->paths, 8, 100'000'000, "paths at each point of a path-traced reference")
-           .by_default(std::to_string(options->paths)),
-       whole_number("--dense", options->dense, 0, 20'000, "leaves up to which a dense solution tells the parts of an error apart")
-           .by_default(std::to_string(options->dense)),
-       parsed("--part", "I/N", options->part, study::parse_part, study::part_fault,
-              "measures the Ith of N parts of the work and writes part-I-of-N.study; N machines do so, then one merges")
-           .without({"--merge"}),
-       texts("--merge", "DIR", options->merge, "puts the parts in these folders together into one study").without({"scenes"}),
-       flag("--quick", options->quick, "a first look: short runs, a noisy reference").without({"--time-per-run", "--paths"}),
-       parsed(
-           "--memory", "BYTES", options->memory, parse_memory, memory_fault,
-           "most memory that one run may take, such as 500M or 2G; one that would need more is refused, or ends with the best that fits"),
-       whole_number("--threads", options->threads, 0, most_threads, "0: as many as the machine has; results do not depend on it"),
-       flag("-q,--quiet", options->quiet, "no narration on stderr")},
+      with_model_arguments(
+          {texts("scenes", "SCENE", options->scenes, "the scenes: .scene files, or " + model_endings()),
+           text("-o,--output", "DIR", options->folder, "folder for tables, plots, pictures and the page; made when there is none").must(),
+           above_zero("--time-per-run", options->seconds, 1e6, "CPU seconds after which a run is stopped")
+               .by_default(formatted("%g", options->seconds)),
+           whole_number("--paths", options->paths, 8, 100'000'000, "paths at each point of a path-traced reference")
+               .by_default(std::to_string(options->paths)),
+           whole_number("--dense", options->dense, 0, 20'000, "leaves up to which a dense solution tells the parts of an error apart")
+               .by_default(std::to_string(options->dense)),
+           parsed("--part", "I/N", options->part, study::parse_part, study::part_fault,
+                  "measures the Ith of N parts of the work and writes part-I-of-N.study; N machines do so, then one merges")
+               .without({"--merge"}),
+           texts("--merge", "DIR", options->merge, "puts the parts in these folders together into one study").without({"scenes"}),
+           flag("--quick", options->quick, "a first look: short runs, a noisy reference").without({"--time-per-run", "--paths"}),
+           parsed("--memory", "BYTES", options->memory, parse_memory, memory_fault,
+                  "most memory that one run may take, such as 500M or 2G; one that would need more is refused, or ends with the best that "
+                  "fits"),
+           whole_number("--threads", options->threads, 0, most_threads, "0: as many as the machine has; results do not depend on it"),
+           flag("-q,--quiet", options->quiet, "no narration on stderr")},
+          options->model),
       [options] { return run(*options); },
-      [options] { return std::string(options->scenes.empty() && options->merge.empty() ? "SCENE, the .scene files" : ""); },
+      [options] { return std::string(options->scenes.empty() && options->merge.empty() ? "SCENE, the scenes" : ""); },
       "Spread over machines, each pair of a scene and a method goes to one part; a part is one process, by GNU parallel:\n"
       "  parallel -j 4 halflight study *.scene -o parts --threads 1 -q --part {}/16 ::: $(seq 16)\n"
       "or by a Slurm array, its folder on a disk that all machines share:\n"

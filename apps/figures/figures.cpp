@@ -90,8 +90,8 @@ Pictures both_reconstructions(const std::string& scene, unsigned width, unsigned
   radiosity::detail::to_scene(weighted, run.scene.frame);
   radiosity::detail::to_scene(simple, run.scene.frame);
   const View view = make_view(file.cameras.empty() ? automatic_camera(file.scene) : file.cameras.front(), {width, height});
-  const double exposure = automatic_exposure(weighted, file.scene);
-  return {to_png(*draw(simple, view, exposure)), to_png(*draw(weighted, view, exposure))};
+  const Tone tone{automatic_exposure(weighted, file.scene, view), ToneCurve::linear};
+  return {to_png(*draw(simple, view, tone), tone), to_png(*draw(weighted, view, tone), tone)};
 }
 
 std::vector<Figure> make() {

@@ -28,12 +28,16 @@ std::string mesh_endings() {
   return scene_file::list_of(endings);
 }
 
+bool has_ending(std::string_view path, std::string_view ending) {
+  if (path.size() <= ending.size()) { return false; }
+  const std::string_view end = path.substr(path.size() - ending.size());
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  return std::equal(end.begin(), end.end(), ending.begin(), same);
+}
+
 const MeshFormat* mesh_format(std::string_view path) {
   for (const MeshFormat* const format : mesh_formats()) {
-    if (path.size() <= format->ending.size()) { continue; }
-    const std::string_view end = path.substr(path.size() - format->ending.size());
-    const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-    if (std::equal(end.begin(), end.end(), format->ending.begin(), same)) { return format; }
+    if (has_ending(path, format->ending)) { return format; }
   }
   return nullptr;
 }

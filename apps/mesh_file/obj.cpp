@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Wavefront OBJ: v and f lines. A corner is v, v/vt, v//vn or v/vt/vn; a negative number counts back from the last vertex.
+// Wavefront OBJ: v and f lines. A corner is v, v/vt, v//vn or v/vt/vn; a negative number counts back from the last vertex. A face belongs
+// to the object (o), the group (g) and the material (usemtl) that were named last.
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
+#include <optional>
+#include <unordered_map>
 
 #include <brep/builder_input.hpp>
 
@@ -13,9 +16,8 @@ namespace apps::mesh_file {
 namespace {
 
 // Statements that say nothing about the shape of the faces.
-constexpr std::array<std::string_view, 19> silent{"vt",     "vn",         "vp",        "g",      "o",     "s",        "mg",
-                                                  "usemtl", "mtllib",     "usemap",    "maplib", "bevel", "c_interp", "d_interp",
-                                                  "lod",    "shadow_obj", "trace_obj", "ctech",  "stech"};
+constexpr std::array<std::string_view, 15> silent{"vt",  "vn",       "vp",       "s",     "mg",         "usemap",    "maplib", "bevel",
+                                                  "lod", "c_interp", "d_interp", "ctech", "shadow_obj", "trace_obj", "stech"};
 // Points, lines, curves and free-form surfaces: they are geometry, and are not read.
 constexpr std::array<std::string_view, 21> unread{"p",    "l",    "curv", "curv2", "surf", "cstype", "deg", "bmat", "step", "parm", "trim",
                                                   "hole", "scrv", "sp",   "end",   "con",  "bzp",    "cdc", "cdp",  "res",  "call"};
@@ -60,6 +62,14 @@ class ObjReader {
       vertex();
     } else if (word == "f" || word == "fo") {
       face();
+    } else if (word == "g" || word == "o") {
+      (word == "o" ? object_ : group_) = lines_.rest();
+      if (word == "o") { group_.clear(); }
+      group_number_.reset();
+    } else if (word == "usemtl") {
+      material_ = number_of(lines_.rest(), out_.mesh.materials, material_numbers_);
+    } else if (word == "mtllib") {
+      libraries();
     } else if (contains(unread, word)) {
       ++unread_[word];
     } else if (!contains(silent, word)) {
@@ -108,6 +118,10 @@ class ObjReader {
     }
     out_.mesh.builder.face(corners_, 0);
     out_.mesh.face_line.push_back(lines_.line());
+    if (!group_number_) { group_number_ = number_of(group_name(), out_.mesh.groups, group_numbers_); }
+    if (!material_) { material_ = number_of("default", out_.mesh.materials, material_numbers_); }
+    out_.mesh.face_group.push_back(*group_number_);
+    out_.mesh.face_material.push_back(*material_);
   }
 
   // The first number of a corner; texture and normal must be numbers, too, if they are there.
@@ -121,8 +135,38 @@ class ObjReader {
     return number;
   }
 
+  using Numbers = std::unordered_map<std::string, std::uint32_t>;
+
+  static std::uint32_t number_of(const std::string& name, std::vector<std::string>& names, Numbers& numbers) {
+    const auto [found, is_new] = numbers.emplace(name, static_cast<std::uint32_t>(names.size()));
+    if (is_new) { names.push_back(name); }
+    return found->second;
+  }
+  [[nodiscard]] std::string group_name() const {
+    if (object_.empty() || group_.empty()) { return object_.empty() && group_.empty() ? "mesh" : object_ + group_; }
+    return object_ == group_ ? object_ : object_ + "." + group_;
+  }
+  // Several files may stand on one line; a single name may have blanks.
+  void libraries() {
+    std::vector<std::string>& list = out_.mesh.libraries;
+    std::vector<std::string> named;
+    const auto& words = lines_.words();
+    const bool several = std::count_if(words.begin(), words.end(), [](auto word) { return word.ends_with(".mtl"); }) > 1;
+    if (several) {
+      named.assign(words.begin() + 1, words.end());
+    } else if (words.size() > 1) {
+      named.push_back(lines_.rest());
+    }
+    for (std::string& name : named) {
+      if (list.size() < 100 && std::find(list.begin(), list.end(), name) == list.end()) { list.push_back(std::move(name)); }
+    }
+  }
+
   Lines lines_;
   Output& out_;
+  std::string object_, group_;
+  std::optional<std::uint32_t> group_number_, material_;
+  Numbers group_numbers_, material_numbers_;
   std::vector<std::uint32_t> corners_;
   std::vector<ForwardReference> forward_;
   std::map<std::string_view, std::size_t> unread_;

@@ -67,6 +67,12 @@ void Lines::cut(std::string_view line) {
   }
 }
 
+std::string Lines::rest() const {
+  std::string text;
+  for (std::size_t i = 1; i < words_.size(); ++i) { text.append(i > 1 ? " " : "").append(words_[i]); }
+  return text;
+}
+
 Place Lines::place(std::size_t word) const {
   if (starts_.empty()) { return {}; }  // an empty text
   const char* const at = word < words_.size() ? words_[word].data() : end_;

@@ -41,6 +41,7 @@ class Lines {
   // Goes to the next line that has words; false at the end.
   bool next();
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
+  [[nodiscard]] std::string rest() const;  // the words behind the first, with one blank between them: a name may have blanks
   [[nodiscard]] std::uint32_t line() const { return first_line_; }
   [[nodiscard]] Place place(std::size_t word) const;               // of a word; of the line's end for the number of words
   [[nodiscard]] Place place_in_text(std::string_view word) const;  // of a word of an earlier line; reads the text from its start

@@ -16,6 +16,7 @@
 #include <raycast/transform.hpp>
 
 #include "apps/bounds.hpp"
+#include "apps/intake/to_scene.hpp"
 #include "apps/scene_file/csg.hpp"
 #include "apps/scene_file/groups.hpp"
 #include "apps/scene_file/words.hpp"
@@ -27,13 +28,15 @@ namespace {
 struct Made {
   std::shared_ptr<const raycast::Object> shape;
   std::vector<std::uint32_t> material;
+  std::vector<radiosity::SceneObject> parts = {};  // of a mesh from a file, in place of one shape
 };
 
 using SheetNames = std::unordered_map<std::string_view, std::uint32_t>;
 
 class Builder {
  public:
-  Builder(const SceneSyntax& syntax, Errors& errors) : syntax_(syntax), errors_(errors), groups_(syntax, errors) {}
+  Builder(const SceneSyntax& syntax, const SideFile& side_file, Errors& errors)
+      : syntax_(syntax), side_file_(side_file), errors_(errors), groups_(syntax, errors) {}
   SceneFile build();
 
  private:
@@ -44,13 +47,16 @@ class Builder {
   std::optional<std::uint32_t> material_index(const Name& name);
   std::vector<std::uint32_t> sheet_materials(const ObjectSyntax& object, const raycast::Object& shape, const Name* around = nullptr);
   Made make(const ObjectSyntax& object);
+  Made make_from_file(const ObjectSyntax& object);
   void operand_materials(const ObjectSyntax& object, const Name* around, const CsgShape& csg, std::size_t& leaf,
                          std::vector<std::uint32_t>& out);
   std::uint32_t sheet_index(const Name& sheet, const raycast::Object& shape, const SheetNames& names);
   void place();
   void place(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at);
+  void place(radiosity::SceneObject placed, const ObjectSyntax& object, Place at);
 
   const SceneSyntax& syntax_;
+  const SideFile& side_file_;
   Errors& errors_;
   const Groups groups_;
   SceneFile file_;
@@ -128,8 +134,8 @@ void Builder::make(const std::vector<Item>& items) {
   for (const Item& item : items) {
     const auto* object = std::get_if<ObjectSyntax>(&item);
     if (object == nullptr || !object->sound || errors_.full()) { continue; }
-    Made made = make(*object);
-    if (made.shape == nullptr) { continue; }
+    Made made = object->file ? make_from_file(*object) : make(*object);
+    if (made.shape == nullptr && made.parts.empty()) { continue; }
     if (object->inside && !made.shape->solid()) {
       errors_.add(*object->inside, "'inside' needs a closed solid; " + in_quotes(object->name.text) + " has no inside");
     }
@@ -149,6 +155,49 @@ Made Builder::make(const ObjectSyntax& object) {
   Made made{csg.whole, {}};
   std::size_t leaf = 0;
   operand_materials(whole, nullptr, csg, leaf, made.material);
+  return made;
+}
+
+// The objects of a file of another program, in its own coordinates. Its materials are added to the scene's, under the name of the mesh.
+Made Builder::make_from_file(const ObjectSyntax& object) {
+  Made made;
+  const Name& file = *object.file;
+  std::string fault = "cannot be read from here";
+  const auto bytes = side_file_ ? side_file_(file.text, fault) : std::nullopt;
+  if (!bytes) {
+    errors_.add(file.place, "the file " + in_quotes(file.text) + " " + fault);
+    return made;
+  }
+  const ModelFormat* const format = model_format(file.text, *bytes);
+  if (format == nullptr) {
+    errors_.add(file.place,
+                "the file " + in_quotes(file.text) + " is of no known format; expected a name that ends with " + model_endings());
+    return made;
+  }
+  ModelResult read = format->read(*bytes, side_file_);
+  for (const InputError& error : read.errors) {
+    const std::string at = error.place.line > 0 ? to_string(error.place) : "byte " + std::to_string(error.place.column);
+    errors_.add(file.place, file.text + ":" + at + ": " + error.sentence);
+  }
+  if (!read.model) { return made; }
+  std::vector<std::string> faults;
+  auto part = to_part(std::move(*read.model), faults);
+  for (const std::string& sentence : faults) { errors_.add(file.place, file.text + ": " + sentence); }
+  if (!part) { return made; }
+  for (const std::string& note : part->notes) { file_.notes.push_back(object.name.text + ": " + note); }
+  const auto first = static_cast<std::uint32_t>(file_.scene.materials.size());
+  const auto whole = object.material ? material_index(*object.material) : std::nullopt;
+  if (!object.material) {
+    for (radiosity::Material& material : part->scene.materials) {
+      material.name = object.name.text + "." + material.name;
+      file_.scene.materials.push_back(std::move(material));
+    }
+  }
+  for (radiosity::SceneObject& its : part->scene.objects) {
+    for (std::uint32_t& m : its.material) { m = object.material ? whole.value_or(0) : first + m; }
+    if (object.material) { its.material.resize(1); }
+  }
+  made.parts = std::move(part->scene.objects);
   return made;
 }
 
@@ -265,22 +314,35 @@ void Builder::place() {
 void Builder::place(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at) {
   const Made& made = made_.at(&object);
   raycast::Placement placement = raycast::compose(outer, object.placement);
+  const std::string name = prefix + object.name.text;
+  for (const radiosity::SceneObject& part : made.parts) {
+    place({name + "." + part.name, part.shape, raycast::compose(placement, part.placement), part.material}, object, at);
+  }
+  if (!made.parts.empty()) { return; }
   placement.inside = object.inside.has_value();
-  std::string name = prefix + object.name.text;
-  if (const auto sentence = raycast::check(placement)) {
+  place({name, made.shape, placement, made.material}, object, at);
+}
+
+void Builder::place(radiosity::SceneObject placed, const ObjectSyntax& object, Place at) {
+  const std::string& name = placed.name;
+  if (file_.scene.objects.size() >= max_objects) {
+    if (!errors_.just_reported(at)) { errors_.add(at, "the scene grows beyond " + std::to_string(max_objects) + " objects here"); }
+    return;
+  }
+  if (const auto sentence = raycast::check(placed.placement)) {
     errors_.add(at, in_quotes(name) + ": " + std::string(*sentence));
     return;
   }
-  if (!(placed_bounds(*made.shape, placement).magnitude() <= max_number)) {
+  if (!(placed_bounds(*placed.shape, placed.placement).magnitude() <= max_number)) {
     errors_.add(at, in_quotes(name) + " reaches beyond 1e30 after its placement");
     return;
   }
-  file_.scene.objects.push_back({std::move(name), made.shape, placement, made.material});
+  file_.scene.objects.push_back(std::move(placed));
   file_.origins.push_back({object.kind->word, object.name.place});
 }
 
 }  // namespace
 
-SceneFile build(const SceneSyntax& syntax, Errors& errors) { return Builder(syntax, errors).build(); }
+SceneFile build(const SceneSyntax& syntax, const SideFile& side_file, Errors& errors) { return Builder(syntax, side_file, errors).build(); }
 
 }  // namespace apps::scene_file

@@ -9,6 +9,6 @@
 namespace apps::scene_file {
 
 // The scene of the statements. Its worth is nothing when errors were added.
-[[nodiscard]] SceneFile build(const SceneSyntax& syntax, Errors& errors);
+[[nodiscard]] SceneFile build(const SceneSyntax& syntax, const SideFile& side_file, Errors& errors);
 
 }  // namespace apps::scene_file

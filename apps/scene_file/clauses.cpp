@@ -161,6 +161,21 @@ void Parser::sheet_clause(ObjectSyntax& out) {
   if (name("material", syntax.material)) { out.sheets.push_back(std::move(syntax)); }
 }
 
+void Parser::file_clause(ObjectSyntax& out) {
+  std::string_view name = token_.text;
+  if (!at(Token::Kind::word) && !at(Token::Kind::number)) {
+    return error(token_.place, "expected the name of a file, found " + describe(token_));
+  }
+  if (name[0] == '"') {
+    if (name.size() < 3 || name.back() != '"') {
+      error(token_.place, "expected the name of a file in double quotes, found " + describe(token_));
+    }
+    name = name.substr(1, name.rfind('"') - 1);
+  }
+  out.file = {std::string(name), token_.place};
+  next();
+}
+
 void Parser::face_clause(const Token& keyword, ObjectSyntax& out) {
   FaceSyntax face{static_cast<std::uint32_t>(out.corners.size()), 0, keyword.place};
   while (at(Token::Kind::number)) {
@@ -196,7 +211,9 @@ void Parser::object_clause(const Token& keyword, ObjectSyntax& out) {
   for (const Clause& clause : out.kind->clauses) {
     if (clause.word == word) { return own_clause(keyword, clause.form, out); }
   }
-  if (word == "sheet") {
+  if (word == "file") {
+    file_clause(out);
+  } else if (word == "sheet") {
     sheet_clause(out);
   } else if (word == "inside") {
     out.inside = keyword.place;

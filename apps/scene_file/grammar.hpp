@@ -33,8 +33,9 @@ struct Clause {
 
 struct ObjectKind {
   std::string_view word;
-  std::vector<Clause> clauses;  // its own; those that all kinds have come on top: material, sheet, move, rotate, scale, inside
-  bool solid = true;            // encloses something, so that it can be seen from inside and be an operand
+  std::vector<Clause>
+      clauses;        // its own; those that all kinds have come on top: material, sheet, move, rotate, scale, inside; of a mesh file
+  bool solid = true;  // encloses something, so that it can be seen from inside and be an operand
   // The object in its own coordinates, or null after an error at the clause that is to blame where one can be named (the vertex that lies
   // farthest off a polygon's plane, the face of a mesh, the second corner of a flat box). The statement is sound. Unions, intersections
   // and differences have none: make_csg() makes them.

@@ -71,6 +71,11 @@ Token Lexer::next() {
   }
   const std::size_t begin = at_;
   const Place place = place_;
+  if (c == '"') {  // up to the closing mark, or the end of the line
+    do { advance(); } while (!at_end() && text_[at_] != '"' && !ends_line(text_[at_]));
+    if (!at_end() && text_[at_] == '"') { advance(); }
+    return {Token::Kind::word, text_.substr(begin, at_ - begin), place};
+  }
   while (!at_end() && !ends_token(text_[at_])) { advance(); }
   if (at_ == begin) { return {Token::Kind::end_of_file, {}, place}; }
   return {begins_number(c) ? Token::Kind::number : Token::Kind::word, text_.substr(begin, at_ - begin), place};

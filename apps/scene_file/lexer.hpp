@@ -5,7 +5,8 @@
 // lines end with LF, CR LF or CR. Text is UTF-8; a byte that cannot be text (NUL and other control characters,
 // broken UTF-8) is reported once, and the text ends there: what follows would be noise.
 //
-// A token that begins with a digit, sign or point is a number for the parser to read; any other one is a word.
+// A token that begins with a digit, sign or point is a number for the parser to read; any other one is a word. What stands in double quotes
+// is one word, blanks and all.
 
 #include <string>
 #include <string_view>

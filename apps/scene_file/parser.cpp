@@ -193,6 +193,12 @@ void Parser::require_clauses(const ObjectSyntax& object, bool operand) {
     if (!given) { error(object.name.place, std::string(kind.word) + " " + in_quotes(object.name.text) + " has no " + what); }
   };
   if (is_csg(kind)) { return require(!object.operands.empty(), "operands; expected solids between '{' and '}'"); }
+  if (object.file) {
+    require(object.vertices.empty() && object.faces.empty(), "need of 'vertex' and 'face' beside its file");
+    require(object.sheets.empty(), "sheets beside its file, which says the materials; 'material' stands for all of them");
+    require(!object.inside, "'inside' beside its file: a closed shell around a lamp is a room by itself");
+    return require(!operand, "place among operands: what is in its file need not be a solid");
+  }
   for (const Clause& clause : kind.clauses) {
     const bool given = clause.form == Form::vertex ? !object.vertices.empty()
                        : clause.form == Form::face ? !object.faces.empty()

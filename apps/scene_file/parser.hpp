@@ -44,6 +44,7 @@ class Parser {
   void operand_use(ObjectSyntax& out);
   void require_clauses(const ObjectSyntax& object, bool operand);
   void sheet_clause(ObjectSyntax& out);
+  void file_clause(ObjectSyntax& out);
   void face_clause(const Token& keyword, ObjectSyntax& out);
   void own_clause(const Token& keyword, Form form, ObjectSyntax& out);
   bool placement_clause(const Token& keyword, raycast::Placement& out);

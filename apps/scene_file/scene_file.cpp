@@ -14,11 +14,11 @@
 
 namespace apps {
 
-SceneResult parse_scene(std::string_view text) {
+SceneResult parse_scene(std::string_view text, const SideFile& side_file) {
   Errors errors;
   const scene_file::SceneSyntax syntax = scene_file::Parser(text, errors).scene();
   SceneResult result;
-  SceneFile file = scene_file::build(syntax, errors);
+  SceneFile file = scene_file::build(syntax, side_file, errors);
   static_cast<ErrorReport&>(result) = errors.take();
   if (result.errors.empty()) { result.file = std::move(file); }
   return result;

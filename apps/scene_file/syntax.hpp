@@ -71,6 +71,7 @@ struct ObjectSyntax {
   std::vector<SheetSyntax> sheets;
   raycast::Placement placement;
   std::optional<Place> inside;
+  std::optional<Name> file;  // of a mesh that another file holds
   std::vector<Given> given;  // the clauses of its own kind, as the table of the grammar names them, but for vertices and faces
   std::vector<PlacedVertex> vertices;
   std::vector<std::uint32_t> corners;

@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: the input is read as a scene and as a mesh of every format. Nothing crashes; what is refused says why and where; a
-// mesh that is read and written reads back the same.
+// libFuzzer target: the input is read as a scene, as a mesh and as a model of every format. Nothing crashes; what is refused says why and
+// where; a mesh that is read and written reads back the same; what the intake makes of a model is a sound scene.
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "apps/intake/model.hpp"
+#include "apps/intake/to_scene.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/scene_file.hpp"
 
 #include <brep/builder_input.hpp>
+#include <radiosity/scene/scene.hpp>
 
 namespace {
 
@@ -36,6 +43,17 @@ void read_as_mesh(std::string_view text, const apps::MeshFormat& format) {
   }
 }
 
+void read_as_model(std::string_view text, const apps::ModelFormat& format) {
+  // Files beside it are the file itself.
+  apps::ModelResult result = format.read(text, [&](const std::string&, std::string&) { return std::optional(std::string(text)); });
+  require(result.model.has_value() == result.errors.empty(), "either a model or errors");
+  if (!result.model || result.model->polygons() > 500 || result.model->objects.size() > 100) return;
+  std::vector<std::string> faults;
+  const auto file = apps::to_scene(std::move(*result.model), format.up, {}, faults);
+  require(file.has_value() == faults.empty(), "either a scene or faults");
+  require(!file || radiosity::faults(file->scene).empty(), "what was taken in is sound");
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -43,5 +61,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const apps::SceneResult scene = apps::parse_scene(text);
   require(scene.file.has_value() == scene.errors.empty(), "either a scene or errors");
   for (const apps::MeshFormat* const format : apps::mesh_formats()) read_as_mesh(text, *format);
+  for (const apps::ModelFormat* const format : apps::model_formats()) read_as_model(text, *format);
   return 0;
 }

@@ -20,6 +20,9 @@ endfunction()
 file(REMOVE_RECURSE ${FOLDER})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/prefix --component library)
 build(find_package -DCMAKE_PREFIX_PATH=${FOLDER}/prefix)
+message(STATUS "unit tests against the installed package")
+run(${CMAKE_COMMAND} --build ${FOLDER}/find_package --target own_mesh_test)
+run(${FOLDER}/find_package/own_mesh_test)
 run(${COMPILER} -std=c++20 -fsyntax-only -DHALFLIGHT_HEADER_ONLY -I${FOLDER}/prefix/include/halflight ${PROGRAM})  # all sources are there
 build(add_subdirectory -DHALFLIGHT_FOLDER=${HALFLIGHT})
 

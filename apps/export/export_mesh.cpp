@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "apps/export/export_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <brep/polygon.hpp>
+#include <radiosity/bake/baked_light.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <raycast/box.hpp>
+#include <raycast/object.hpp>
+#include <raycast/transform.hpp>
+
+#include "apps/bounds.hpp"
+
+namespace apps {
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t most_groups = 2000;  // more names than that help nobody, and viewers slow down
+
+glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
+  const double length = glm::length(v);
+  return length > 0.0 ? v / length : otherwise;
+}
+
+// Plane pieces that lie in the plane of a leaf and cover it, or a part of it, such as a lamp in a ceiling: where both have the same depth,
+// viewers show now the one and now the other.
+std::vector<bool> covering(const radiosity::Mesh& mesh, const radiosity::Solution& solution,
+                           const std::vector<radiosity::InputSurface>& inputs, const std::vector<raycast::PlacedObject>& objects) {
+  std::vector<std::uint32_t> pieces;
+  for (std::uint32_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].flat() && !objects[i].solid() && objects[i].sheet_count() == 1) { pieces.push_back(i); }
+  }
+  std::vector<bool> result(objects.size(), false);
+  for (const radiosity::MeshFace& face : mesh.faces) {
+    if (!is_covered(solution, face.node)) { continue; }
+    raycast::Box leaf;
+    for (std::uint32_t k = 0; k < face.corner_count; ++k) { leaf.extend(mesh.positions[mesh.corners[face.first_corner + k].vertex]); }
+    const radiosity::InputSurface& input = inputs[face.surface];
+    const glm::dvec3 normal = objects[input.object].project(input.sheet, leaf.centre()).normal;
+    for (const std::uint32_t i : pieces) {
+      const double near = 1e-6 * leaf.diameter();
+      const raycast::Box& box = objects[i].bounds();
+      const bool apart = glm::any(glm::greaterThan(leaf.lo, box.hi + near)) || glm::any(glm::greaterThan(box.lo, leaf.hi + near));
+      if (result[i] || i == input.object || apart) { continue; }
+      const raycast::SurfacePoint at = objects[i].project(0, leaf.centre());
+      const double height = std::abs(glm::dot(at.position - leaf.centre(), at.normal));
+      result[i] = glm::dot(at.normal, normal) > 0.999999 && height <= near;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+bool is_covered(const radiosity::Solution& solution, std::uint32_t node) {
+  return solution.area[node] < (1.0 - 1e-9) * solution.hierarchy[node].area;
+}
+
+ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution) {
+  const radiosity::Mesh& mesh = solution.mesh;
+  const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
+  std::vector<raycast::PlacedObject> objects;
+  for (const radiosity::SceneObject& object : file.scene.objects) { objects.emplace_back(object.shape, object.placement); }
+
+  const double behind = 1e-4 * scene_bounds(file.scene).diameter();
+  const std::vector<bool> before = covering(mesh, solution, inputs, objects);
+  std::vector<bool> fixed(mesh.positions.size(), false);  // corners of leaves that are not covered: no gap may open
+  for (const radiosity::MeshFace& face : mesh.faces) {
+    for (std::uint32_t k = 0; k < face.corner_count && !is_covered(solution, face.node); ++k) {
+      fixed[mesh.corners[face.first_corner + k].vertex] = true;
+    }
+  }
+  ExportMesh out;
+  out.cameras = file.cameras;
+  std::vector<std::uint32_t> newest(mesh.positions.size(), none), next;  // of a place: its vertices, those of the group first
+  std::uint32_t object = none;
+  for (const radiosity::MeshFace& face : mesh.faces) {
+    const radiosity::InputSurface& input = inputs[face.surface];
+    if (input.object != object && (out.groups.empty() || file.scene.objects.size() <= most_groups)) {
+      const bool one = file.scene.objects.size() > most_groups;
+      out.groups.push_back(
+          {one ? "scene" : file.scene.objects[input.object].name, out.faces(), static_cast<std::uint32_t>(out.vertices.size())});
+    }
+    object = input.object;
+    std::vector<glm::dvec3> outline;
+    for (std::uint32_t k = 0; k < face.corner_count; ++k) { outline.push_back(mesh.positions[mesh.corners[face.first_corner + k].vertex]); }
+    const glm::dvec3 flat = unit(brep::vector_area(outline), {0, 0, 1});
+    for (std::uint32_t k = 0; k < face.corner_count; ++k) {
+      if (!fixed[mesh.corners[face.first_corner + k].vertex]) { outline[k] -= behind * flat; }
+      if (before[object]) { outline[k] += behind * flat; }
+    }
+    for (std::uint32_t k = 0; k < face.corner_count; ++k) {
+      const radiosity::MeshCorner& corner = mesh.corners[face.first_corner + k];
+      const glm::dvec3 normal = unit(objects[input.object].project(input.sheet, outline[k]).normal, flat);
+      const ExportVertex vertex{outline[k], normal, corner.radiosity};
+      std::uint32_t v = newest[corner.vertex];
+      while (v != none && v >= out.groups.back().first_vertex &&
+             (out.vertices[v].position != vertex.position || out.vertices[v].normal != vertex.normal ||
+              out.vertices[v].radiosity != vertex.radiosity)) {
+        v = next[v];
+      }
+      if (v == none || v < out.groups.back().first_vertex) {
+        v = static_cast<std::uint32_t>(out.vertices.size());
+        out.vertices.push_back(vertex);
+        next.push_back(std::exchange(newest[corner.vertex], v));
+      }
+      out.corners.push_back(v);
+    }
+    out.first_corner.push_back(static_cast<std::uint32_t>(out.corners.size()));
+  }
+  return out;
+}
+
+std::optional<ExportMesh> given_mesh(const SceneFile& file, const radiosity::Solution& solution) {
+  if (!file.given) { return std::nullopt; }
+  const GivenPolygons& given = *file.given;
+  const radiosity::BakedLight light(file.scene, solution, given.parts, given.first_object);
+  const std::vector<std::uint32_t> material(given.first_corner.size() - 1, 0);
+  const radiosity::PolygonView view{given.placed, given.corners, given.first_corner, material};
+  const radiosity::BakedColors colors = radiosity::baked_colors(light, view);
+  ExportMesh out;
+  out.z_up = given.z_up;
+  out.groups.push_back({"mesh", 0, 0});
+  std::vector<glm::dvec3> normals(given.positions.size(), glm::dvec3(0.0));
+  std::vector<glm::dvec3> outline;
+  for (std::size_t f = 0; f + 1 < given.first_corner.size(); ++f) {
+    const std::span<const std::uint32_t> face =
+        std::span(given.corners).subspan(given.first_corner[f], given.first_corner[f + 1] - given.first_corner[f]);
+    if (std::any_of(face.begin(), face.end(), [&](std::uint32_t v) { return v >= normals.size(); })) { continue; }
+    outline.clear();
+    for (const std::uint32_t v : face) { outline.push_back(given.positions[v]); }
+    const glm::dvec3 normal = outline.size() < 3 ? glm::dvec3(0.0) : brep::vector_area(outline);
+    for (const std::uint32_t v : face) { normals[v] += normal; }
+    out.corners.insert(out.corners.end(), face.begin(), face.end());
+    out.first_corner.push_back(static_cast<std::uint32_t>(out.corners.size()));
+  }
+  for (std::size_t v = 0; v < given.positions.size(); ++v) {
+    out.vertices.push_back({given.positions[v], unit(normals[v], {0, 0, 1}), colors.vertex[v]});
+  }
+  return out;
+}
+
+}  // namespace apps

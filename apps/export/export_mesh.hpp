@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What files for other programs are written from: vertices with a normal and a radiosity, polygons, groups. It is made of the solution, or
+// of the polygons that the user's file gave, in that file's own order and coordinates. Formats: formats.cpp, a file and a line for each.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/material.hpp>
+
+#include "apps/scene_file.hpp"
+
+namespace apps {
+
+struct ExportVertex {
+  glm::dvec3 position{0.0};
+  glm::dvec3 normal{0.0, 0.0, 1.0};  // of length 1, on the side that is lit
+  radiosity::Color radiosity{0.0};   // W/m2
+};
+
+struct ExportGroup {
+  std::string name;
+  std::uint32_t first_face = 0, first_vertex = 0;  // up to those of the next one; its faces use its vertices alone
+};
+
+struct ExportMesh {
+  std::vector<ExportVertex> vertices;
+  std::vector<std::uint32_t> corners, first_corner{0};  // of face f: first_corner[f] to first_corner[f + 1] - 1
+  std::vector<ExportGroup> groups;
+  bool z_up = true;
+  std::vector<Camera> cameras;
+
+  [[nodiscard]] std::uint32_t faces() const { return static_cast<std::uint32_t>(first_corner.size() - 1); }
+  [[nodiscard]] std::span<const std::uint32_t> face(std::uint32_t f) const {
+    return std::span(corners).subspan(first_corner[f], first_corner[f + 1] - first_corner[f]);
+  }
+};
+
+// Does another object cover the leaf, or a part of it? Where both lie in one plane the leaf must not show through.
+[[nodiscard]] bool is_covered(const radiosity::Solution& solution, std::uint32_t node);
+
+// The solution: a group an object, a face a leaf, a vertex for each normal and colour that a place has. Corners that only
+// covered leaves have lie a little behind their places, lamps in the plane of a ceiling a little before theirs.
+[[nodiscard]] ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution);
+
+// The user's polygons and vertices, all of them, in the order of the file; a vertex has the mean of its corners. Nothing when the scene
+// came from no file of polygons.
+[[nodiscard]] std::optional<ExportMesh> given_mesh(const SceneFile& file, const radiosity::Solution& solution);
+
+struct ExportFormat {
+  std::string_view ending;
+  std::string (*write)(const ExportMesh& mesh, double exposure);
+};
+
+// By the ending of the name; null when none has it.
+[[nodiscard]] const ExportFormat* export_format(std::string_view path);
+
+}  // namespace apps

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// GLB (glTF 2.0, binary). COLOR_0 is what a screen shows: linear, exposed, clamped to [0, 1], on an unlit material. _RADIOSITY holds the
+// light itself in W/m2. Positions are floats about the scene's centre, which is the translation of their nodes, so that a scene far from
+// the origin loses nothing; a node above turns z, which is up with us, to y.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <radiosity/intake/ears.hpp>
+
+#include "apps/color.hpp"
+#include "apps/export/export_mesh.hpp"
+#include "apps/json.hpp"
+#include "apps/version.hpp"
+
+namespace apps::exported {
+namespace {
+
+void put(std::string& bytes, std::uint32_t value) {
+  for (unsigned k = 0; k < 4; ++k) { bytes += static_cast<char>(value >> (8 * k) & 0xffU); }
+}
+void put(std::string& bytes, const glm::vec3& value) {
+  for (int k = 0; k < 3; ++k) { put(bytes, std::bit_cast<std::uint32_t>(value[k])); }
+}
+
+class Writer {
+ public:
+  Writer(const ExportMesh& mesh, double exposure) : mesh_(mesh), exposure_(exposure) {
+    glm::dvec3 lo(0.0), hi(0.0);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      const glm::dvec3& p = mesh.vertices[v].position;
+      lo = v == 0 ? p : glm::min(lo, p);
+      hi = v == 0 ? p : glm::max(hi, p);
+    }
+    centre_ = 0.5 * lo + 0.5 * hi;
+    if (hi != lo) { size_ = glm::length(hi - lo); }
+  }
+
+  std::string file() {
+    for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(v.position - centre_)); }
+    for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(v.normal)); }
+    for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(shown(v.radiosity, exposure_))); }
+    for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(v.radiosity)); }
+    for (std::size_t g = 0; g < mesh_.groups.size(); ++g) { add_indices(g); }
+    std::string json = description();
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    std::string bytes = "glTF";
+    put(bytes, 2);
+    put(bytes, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + binary_.size()));
+    put(bytes, static_cast<std::uint32_t>(json.size()));
+    bytes += "JSON" + json;
+    put(bytes, static_cast<std::uint32_t>(binary_.size()));
+    return bytes + std::string("BIN\0", 4) + binary_;
+  }
+
+ private:
+  struct Part {
+    std::size_t group = 0;
+    std::uint32_t first_vertex = 0, vertices = 0;
+    std::size_t first_index = 0, indices = 0;
+  };
+
+  void add_indices(std::size_t g) {
+    const ExportGroup& group = mesh_.groups[g];
+    const bool last = g + 1 == mesh_.groups.size();
+    const std::uint32_t end_face = last ? mesh_.faces() : mesh_.groups[g + 1].first_face;
+    const auto end_vertex = last ? static_cast<std::uint32_t>(mesh_.vertices.size()) : mesh_.groups[g + 1].first_vertex;
+    Part part{g, group.first_vertex, end_vertex - group.first_vertex, indices_, 0};
+    for (std::uint32_t f = group.first_face; f < end_face; ++f) {
+      const std::span<const std::uint32_t> face = mesh_.face(f);
+      const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
+        for (const std::size_t k : {a, b, c}) { put(binary_, face[k] - group.first_vertex); }
+        part.indices += 3;
+      };
+      if (face.size() <= 4) {  // shading splits a quadrilateral so (radiosity/result/mesh.hpp)
+        for (std::size_t k = 2; k < face.size(); ++k) { triangle(0, k - 1, k); }
+        continue;
+      }
+      std::vector<glm::dvec3> outline;
+      for (const std::uint32_t v : face) { outline.push_back(mesh_.vertices[v].position); }
+      for (const auto& [a, b, c] : radiosity::intake::ears(outline)) { triangle(a, b, c); }
+    }
+    indices_ += part.indices;
+    if (part.indices > 0) { parts_.push_back(part); }
+  }
+
+  void view(JsonWriter& json, std::size_t offset, std::size_t length, int target, bool vertices) const {
+    json.open_object().fields("buffer", 0, "byteOffset", offset, "byteLength", length);
+    if (vertices) { json.fields("byteStride", 12); }
+    json.fields("target", target).close();
+  }
+
+  void accessors(JsonWriter& json, const Part& part) const {
+    for (int view = 0; view < 4; ++view) {
+      json.open_object().fields("bufferView", view, "byteOffset", std::size_t{12} * part.first_vertex, "componentType", 5126, "count",
+                                part.vertices, "type", "VEC3");
+      if (view == 0) {
+        glm::vec3 lo(mesh_.vertices[part.first_vertex].position - centre_), hi = lo;
+        for (std::uint32_t v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
+          lo = glm::min(lo, glm::vec3(mesh_.vertices[v].position - centre_));
+          hi = glm::max(hi, glm::vec3(mesh_.vertices[v].position - centre_));
+        }
+        json.fields("min", numbers(lo), "max", numbers(hi));
+      }
+      json.close();
+    }
+    json.object("bufferView", 4, "byteOffset", 4 * part.first_index, "componentType", 5125, "count", part.indices, "type", "SCALAR");
+  }
+
+  template <class Vector>
+  static std::array<double, 3> numbers(const Vector& v) {
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+  }
+
+  // Looks along its -z, with its y up.
+  static std::array<double, 16> camera_matrix(const Camera& camera) {
+    const glm::dvec3 back = -glm::normalize(camera.forward), right = glm::normalize(glm::cross(camera.up, back)),
+                     up = glm::cross(back, right);
+    const glm::dvec3& e = camera.eye;
+    return {right.x, right.y, right.z, 0, up.x, up.y, up.z, 0, back.x, back.y, back.z, 0, e.x, e.y, e.z, 1};
+  }
+
+  std::string description() {
+    const std::size_t vertices = mesh_.vertices.size(), parts = parts_.size(), cameras = mesh_.cameras.size();
+    JsonWriter json;
+    json.open_object();
+    json.key("asset").object("version", "2.0", "generator", std::string("halflight ") + version, "extras", [&](JsonWriter& extras) {
+      extras.object("exposure", exposure_, "COLOR_0", "radiosity / pi * exposure, linear, clamped to [0, 1]", "_RADIOSITY", "W/m2");
+    });
+    json.key("extensionsUsed").open_array().string("KHR_materials_unlit").close();
+    json.fields("scene", 0);
+    json.key("scenes").open_array().open_object();
+    json.key("nodes").open_array().value(0).close().close().close();
+
+    json.key("nodes").open_array().open_object();  // the root, then parts, then cameras
+    json.fields("name", "halflight");
+    if (mesh_.z_up) { json.fields("rotation", std::array<double, 4>{-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}); }
+    if (parts + cameras > 0) {
+      json.key("children").open_array();
+      for (std::size_t i = 1; i <= parts + cameras; ++i) { json.value(i); }
+      json.close();
+    }
+    json.close();
+    for (std::size_t i = 0; i < parts; ++i) {
+      json.object("name", mesh_.groups[parts_[i].group].name, "mesh", i, "translation", numbers(centre_));
+    }
+    for (std::size_t i = 0; i < cameras; ++i) {
+      json.object("name", mesh_.cameras[i].name, "camera", i, "matrix", camera_matrix(mesh_.cameras[i]));
+    }
+    json.close();
+
+    if (cameras > 0) {
+      json.key("cameras").list(mesh_.cameras, [&](const Camera& camera) {
+        const PictureSize size = camera.size.value_or(PictureSize{});
+        const double aspect = static_cast<double>(size.width) / size.height,
+                     half = std::tan(camera.field_of_view * std::acos(-1.0) / 360.0);
+        json.object("name", camera.name, "type", "perspective", "perspective", [&](JsonWriter& perspective) {
+          perspective.object("aspectRatio", aspect, "yfov", 2.0 * std::atan(half / aspect), "znear", 5e-3 * size_);
+        });
+      });
+    }
+    if (parts > 0) {
+      json.key("materials").open_array().open_object();
+      json.fields("name", "baked light");
+      json.key("pbrMetallicRoughness").object("metallicFactor", 0, "roughnessFactor", 1);
+      json.key("extensions").object("KHR_materials_unlit", [](JsonWriter& unlit) { unlit.object(); });
+      json.close().close();
+      json.key("meshes").open_array();
+      for (std::size_t i = 0; i < parts; ++i) {
+        json.open_object().fields("name", mesh_.groups[parts_[i].group].name);
+        json.key("primitives").open_array().open_object();
+        json.key("attributes").object("POSITION", 5 * i, "NORMAL", 5 * i + 1, "COLOR_0", 5 * i + 2, "_RADIOSITY", 5 * i + 3);
+        json.fields("indices", 5 * i + 4, "material", 0).close().close().close();
+      }
+      json.close();
+      json.key("accessors").open_array();
+      for (const Part& part : parts_) { accessors(json, part); }
+      json.close();
+      json.key("bufferViews").open_array();
+      for (std::size_t k = 0; k < 4; ++k) { view(json, 12 * vertices * k, 12 * vertices, 34962, true); }
+      view(json, 48 * vertices, 4 * indices_, 34963, false);
+      json.close();
+      json.key("buffers").open_array().object("byteLength", binary_.size()).close();
+    }
+    json.close();
+    return json.text();
+  }
+
+  const ExportMesh& mesh_;
+  double exposure_;
+  glm::dvec3 centre_{0.0};
+  double size_ = 1.0;
+  std::vector<Part> parts_;
+  std::size_t indices_ = 0;
+  std::string binary_;
+};
+
+std::string write_glb(const ExportMesh& mesh, double exposure) { return Writer(mesh, exposure).file(); }
+
+}  // namespace
+
+extern const ExportFormat glb;
+constinit const ExportFormat glb{".glb", write_glb};
+
+}  // namespace apps::exported

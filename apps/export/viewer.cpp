@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "apps/export/viewer.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/result/mesh.hpp>
+
+#include "apps/export/export_mesh.hpp"
+#include "apps/export/viewer_page.hpp"
+#include "apps/json.hpp"
+#include "apps/markup.hpp"
+#include "apps/study/base64.hpp"
+
+namespace apps {
+namespace {
+
+template <class Number>
+void put(std::string& bytes, Number value) {
+  for (unsigned k = 0; k < sizeof(Number); ++k) { bytes += static_cast<char>(value >> (8 * k) & 0xffU); }
+}
+
+// The arrays that the script decodes, little-endian. Radiance times exposure as half floats: a screen shows no more.
+struct Arrays {
+  std::string positions;             // three floats a place, about the centre, in units of the size
+  std::string corner_vertex;         // 32 bits
+  std::string corner_light;          // three halves
+  std::string face_size, face_node;  // 8 and 32 bits: corners; number below of the leaf
+  std::string face_seen;             // 8 bits: 0 when another object covers it, or a part of it
+  std::string parent;                // 32 bits a node: its parent, or its own number on an input face
+};
+
+std::array<double, 3> numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+std::string script_safe(std::string json) {  // nothing ends the script element early
+  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) { json.replace(at, 1, "\\u003c"); }
+  return json;
+}
+
+}  // namespace
+
+std::string viewer_page(const SceneFile& file, const radiosity::Solution& solution, const Camera& camera, double exposure,
+                        const std::string& title, const std::string& sentence) {
+  const radiosity::Mesh& mesh = solution.mesh;
+  glm::dvec3 lo(0.0), hi(0.0);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    lo = i == 0 ? mesh.positions[i] : glm::min(lo, mesh.positions[i]);
+    hi = i == 0 ? mesh.positions[i] : glm::max(hi, mesh.positions[i]);
+  }
+  const glm::dvec3 centre = 0.5 * lo + 0.5 * hi;
+  const double size = std::max(glm::length(hi - lo), 1e-300);
+
+  Arrays arrays;
+  for (const glm::dvec3& p : mesh.positions) {
+    for (int k = 0; k < 3; ++k) { put(arrays.positions, std::bit_cast<std::uint32_t>(static_cast<float>((p[k] - centre[k]) / size))); }
+  }
+  for (const radiosity::MeshFace& face : mesh.faces) {
+    put(arrays.face_size, static_cast<std::uint8_t>(face.corner_count));
+    put(arrays.face_node, face.node);
+    put(arrays.face_seen, static_cast<std::uint8_t>(is_covered(solution, face.node) ? 0 : 1));
+    for (std::uint32_t c = face.first_corner; c < face.first_corner + face.corner_count; ++c) {
+      put(arrays.corner_vertex, mesh.corners[c].vertex);
+      for (int k = 0; k < 3; ++k) {
+        const double light = mesh.corners[c].radiosity[k] * exposure / std::acos(-1.0);
+        put(arrays.corner_light, glm::packHalf1x16(static_cast<float>(std::clamp(light, 0.0, 65504.0))));
+      }
+    }
+  }
+  for (std::uint32_t i = 0; i < solution.hierarchy.size(); ++i) {
+    const bool top = solution.hierarchy[i].is_cluster() || radiosity::is_input_face(solution.hierarchy, i);
+    put(arrays.parent, top ? i : solution.hierarchy[i].parent);
+  }
+
+  JsonWriter json;
+  json.open_object();
+  json.fields("title", title, "sentence", sentence);
+  json.key("cameras").open_array();
+  const auto add = [&](const Camera& c) {
+    const PictureSize picture = c.size.value_or(PictureSize{});
+    json.object("name", c.name, "eye", numbers((c.eye - centre) / size), "forward", numbers(glm::normalize(c.forward)), "up",
+                numbers(glm::normalize(c.up)), "fov", c.field_of_view, "aspect", static_cast<double>(picture.width) / picture.height);
+  };
+  add(camera);
+  for (const Camera& c : file.cameras) {
+    if (c.name != camera.name) { add(c); }
+  }
+  json.close();
+  json.fields("metres", size, "positions", study::base64(arrays.positions), "cornerVertex", study::base64(arrays.corner_vertex),
+              "cornerLight", study::base64(arrays.corner_light), "faceSize", study::base64(arrays.face_size), "faceNode",
+              study::base64(arrays.face_node), "faceSeen", study::base64(arrays.face_seen), "parent", study::base64(arrays.parent));
+  json.close();
+  return std::string("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>") + escaped(title) +
+         "</title>\n<meta name=\"viewport\" content=\"width=device-width\">\n<style>" + viewer_style + "</style></head>\n<body>" +
+         viewer_body + "<script id=\"data\" type=\"application/json\">" + script_safe(json.text()) + "</script>\n<script>" + viewer_script +
+         "</script></body></html>\n";
+}
+
+}  // namespace apps

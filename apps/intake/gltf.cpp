@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: MIT
+// glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, materials, cameras. The base colour is the
+// reflectance, the emissive colour (times KHR_materials_emissive_strength) a radiance L, so that the exitance is pi L. Textures, skins,
+// morphs and compressed meshes are passed over with a word; what a file marks as required and is none of these is refused by its geometry
+// alone.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "apps/intake/gltf_data.hpp"
+#include "apps/intake/json_reader.hpp"
+#include "apps/intake/model.hpp"
+#include "apps/mesh_file/reading.hpp"
+
+namespace apps::intake {
+namespace {
+
+constexpr std::size_t most_polygons = 20'000'000;  // of all uses of all meshes
+constexpr std::size_t nowhere = ~std::size_t{0};
+
+class GltfReader {
+ public:
+  // `text_begin`: where the text stands in a GLB; nothing in a text file.
+  GltfReader(std::string_view text, std::optional<std::string_view> binary, std::optional<std::size_t> text_begin,
+             const SideFile& side_file)
+      : text_(text), text_begin_(text_begin), binary_(binary), side_file_(side_file) {}
+
+  ModelResult run() {
+    JsonFault fault;
+    const auto root = parse_json(text_, fault);
+    if (!root) {
+      error(fault.offset, fault.sentence);
+      return take();
+    }
+    root_ = &*root;
+    if (!(*root)["asset"] || !(*root)["asset"]["version"].string().starts_with("2.")) {
+      error(root->offset(), "expected glTF 2.0, whose 'asset' has the version 2.0");
+      return take();
+    }
+    GltfData data(*root, binary_, side_file_);
+    data_ = &data;
+    materials();
+    nodes();
+    if (errors_.count() == 0 && model_.polygons() == 0) { error(root->offset(), "the scene of this file has no triangles" + why_); }
+    model_.notes = notes_.take();
+    return take();
+  }
+
+ private:
+  void error(std::size_t offset, std::string sentence) {
+    if (text_begin_) { return errors_.add({0, static_cast<std::uint32_t>(*text_begin_ + offset + 1)}, std::move(sentence)); }
+    offset = std::min(offset, text_.size());
+    const std::string_view before = text_.substr(0, offset);
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t last = before.rfind('\n');
+    errors_.add({static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(last == before.npos ? offset + 1 : offset - last)},
+                std::move(sentence));
+  }
+  ModelResult take() {
+    const bool sound = errors_.count() == 0;
+    return {errors_.take(), sound ? std::optional(std::move(model_)) : std::nullopt};
+  }
+
+  // The first `count` numbers of an array; nothing when there are fewer.
+  template <std::size_t count>
+  static std::optional<std::array<double, count>> array(const JsonValue& value) {
+    std::array<double, count> out{};
+    if (value.items().size() < count) { return std::nullopt; }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (value[i].kind() != JsonValue::Kind::number) { return std::nullopt; }
+      out[i] = value[i].number();
+    }
+    return out;
+  }
+
+  void materials() {
+    for (const JsonValue& given : (*root_)["materials"].items()) {
+      ModelMaterial material;
+      material.name = given["name"].string();
+      if (material.name.empty()) { material.name = "material" + std::to_string(model_.materials.size()); }
+      const JsonValue &extensions = given["extensions"], &glossy = extensions["KHR_materials_pbrSpecularGlossiness"];
+      const JsonValue& base = glossy ? glossy : given["pbrMetallicRoughness"];
+      const auto color = array<3>(base[glossy ? "diffuseFactor" : "baseColorFactor"]).value_or(std::array{1.0, 1.0, 1.0});
+      const bool picture = static_cast<bool>(base[glossy ? "diffuseTexture" : "baseColorTexture"]);
+      if (picture) {
+        notes_.add("textures are not read: the base colour factor stands for the picture", "in " + mesh_file::shown(material.name));
+      }
+      // A factor of 1 1 1 under a picture says nothing about the picture.
+      if (!picture || color != std::array{1.0, 1.0, 1.0}) {
+        if (base || given["emissiveFactor"]) { material.reflectance = radiosity::Color(color[0], color[1], color[2]); }
+      }
+      const auto emissive = array<3>(given["emissiveFactor"]).value_or(std::array{0.0, 0.0, 0.0});
+      const double strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"].number(1.0);
+      for (int i = 0; i < 3; ++i) {
+        material.emission[i] = std::max(0.0, std::numbers::pi * strength * emissive[static_cast<std::size_t>(i)]);
+        if (!std::isfinite(material.emission[i])) { material.emission[i] = 0.0; }
+      }
+      if (given["emissiveTexture"] && !radiosity::is_black(material.emission)) {
+        notes_.add("textures are not read: the emissive factor stands for the picture", "in " + mesh_file::shown(material.name));
+      }
+      if (extensions["KHR_materials_unlit"]) {
+        notes_.add("unlit materials are taken as paint of their colour", "in " + mesh_file::shown(material.name));
+      }
+      if (extensions["KHR_materials_transmission"] || given["alphaMode"].string() == "BLEND") {
+        notes_.add("materials that let light through are taken as opaque", "in " + mesh_file::shown(material.name));
+      }
+      material.two_sided = given["doubleSided"].boolean();
+      model_.materials.push_back(std::move(material));
+    }
+    default_material_ = static_cast<std::uint32_t>(model_.materials.size());
+  }
+
+  static glm::dmat4 transform(const JsonValue& node) {
+    if (const auto m = array<16>(node["matrix"])) {
+      glm::dmat4 matrix(1.0);
+      for (int i = 0; i < 16; ++i) { matrix[i / 4][i % 4] = (*m)[static_cast<std::size_t>(i)]; }
+      return matrix;
+    }
+    const auto t = array<3>(node["translation"]).value_or(std::array{0.0, 0.0, 0.0});
+    const auto r = array<4>(node["rotation"]).value_or(std::array{0.0, 0.0, 0.0, 1.0});
+    const auto s = array<3>(node["scale"]).value_or(std::array{1.0, 1.0, 1.0});
+    const glm::dmat3 linear = glm::mat3_cast(glm::dquat(r[3], r[0], r[1], r[2]));
+    glm::dmat4 matrix(1.0);
+    for (int c = 0; c < 3; ++c) { matrix[c] = glm::dvec4(linear[c] * s[static_cast<std::size_t>(c)], 0.0); }
+    matrix[3] = glm::dvec4(t[0], t[1], t[2], 1.0);
+    return matrix;
+  }
+
+  // The nodes of the scene, or, where none is named, all that are nobody's child. Each node has one parent, so it is met once.
+  void nodes() {
+    const JsonValue &nodes = (*root_)["nodes"], &scenes = (*root_)["scenes"];
+    struct Open {
+      std::size_t node;
+      glm::dmat4 parent;
+    };
+    std::vector<Open> open;
+    std::vector<bool> met(nodes.items().size(), false);
+    const auto push = [&](const JsonValue& index, const glm::dmat4& parent) {
+      const auto node = index.index();
+      if (!node || *node >= met.size()) {
+        return error(index.offset(), "there is no such node; the file has " + std::to_string(met.size()));
+      }
+      if (met[*node]) { return notes_.add("nodes that stand in several places are used once", "node " + std::to_string(*node)); }
+      met[*node] = true;
+      open.push_back({*node, parent});
+    };
+    const JsonValue& scene = scenes[(*root_)["scene"].index().value_or(0)];
+    if (scene) {
+      for (std::size_t i = scene["nodes"].items().size(); i-- > 0;) { push(scene["nodes"][i], glm::dmat4(1.0)); }
+    } else {
+      std::vector<bool> child(met.size(), false);
+      for (const JsonValue& node : nodes.items()) {
+        for (const JsonValue& index : node["children"].items()) {
+          if (const auto i = index.index(); i && *i < child.size()) { child[*i] = true; }
+        }
+      }
+      for (std::size_t i = met.size(); i-- > 0;) {
+        if (child[i]) { continue; }
+        met[i] = true;
+        open.push_back({i, glm::dmat4(1.0)});
+      }
+    }
+    while (!open.empty() && !errors_.full()) {
+      const auto [index, parent] = open.back();
+      open.pop_back();
+      const JsonValue& node = nodes[index];
+      const glm::dmat4 matrix = parent * transform(node);
+      if (node["mesh"]) { mesh(node, matrix, index); }
+      if (node["camera"]) { camera(node, matrix); }
+      if (node["skin"]) { notes_.add("skins are not read: meshes stand as they are drawn", "node " + std::to_string(index)); }
+      if (node["extensions"]["KHR_lights_punctual"]) {
+        notes_.add("lights without a surface are left out; a lamp is a material that shines", "node " + std::to_string(index));
+      }
+      for (std::size_t i = node["children"].items().size(); i-- > 0;) { push(node["children"][i], matrix); }
+    }
+  }
+
+  void mesh(const JsonValue& node, const glm::dmat4& matrix, std::size_t index) {
+    const JsonValue& mesh = (*root_)["meshes"][node["mesh"].index().value_or(nowhere)];
+    if (!mesh) { return error(node["mesh"].offset(), "there is no such mesh"); }
+    std::string name = !node["name"].string().empty() ? node["name"].string() : mesh["name"].string();
+    if (name.empty()) { name = "node" + std::to_string(index); }
+    const auto group = static_cast<std::uint32_t>(model_.groups.size());
+    model_.groups.push_back(std::move(name));
+    for (const JsonValue& primitive : mesh["primitives"].items()) {
+      if (errors_.full() || model_.polygons() > most_polygons) { return; }
+      triangles(primitive, matrix, group);
+    }
+  }
+
+  void triangles(const JsonValue& primitive, const glm::dmat4& matrix, std::uint32_t group) {
+    const std::string place = "in " + mesh_file::shown(model_.groups[group]);
+    const std::size_t mode = primitive["mode"] ? primitive["mode"].index().value_or(nowhere) : 4;
+    if (mode < 4 || mode > 6) { return pass_over("points and lines have no surface: left out", place); }
+    for (const char* const packed : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
+      if (primitive["extensions"][packed]) {
+        return pass_over("meshes compressed by " + std::string(packed) + " are not read: left out", place);
+      }
+    }
+    if (primitive["targets"]) { notes_.add("morph targets are not read: meshes stand as they are drawn", place); }
+    std::string fault;
+    const auto positions = data_->numbers(primitive["attributes"]["POSITION"], 3, fault);
+    const auto given = positions && primitive["indices"] ? data_->numbers(primitive["indices"], 1, fault) : std::nullopt;
+    if (!fault.empty() && fault.find("sparse") != std::string::npos) { return pass_over(fault + ": left out", place); }
+    if (!fault.empty()) { return error(primitive.offset(), fault); }
+    const auto material = primitive["material"].index();
+    if (primitive["material"] && (!material || *material >= default_material_)) {
+      return error(primitive["material"].offset(), "there is no such material");
+    }
+    const auto first = static_cast<std::uint32_t>(model_.positions.size());
+    const std::size_t vertices = positions->size() / 3, count = given ? given->size() : vertices;
+    if (model_.positions.size() + vertices > 3 * most_polygons || model_.polygons() + count > most_polygons) {
+      return error(primitive.offset(), "the scene has more than " + std::to_string(most_polygons) + " triangles");
+    }
+    for (std::size_t v = 0; v < vertices; ++v) {
+      model_.positions.emplace_back(matrix * glm::dvec4((*positions)[3 * v], (*positions)[3 * v + 1], (*positions)[3 * v + 2], 1.0));
+    }
+    const auto vertex = [&](std::size_t i) { return given ? (*given)[i] : static_cast<double>(i); };
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(vertex(i) >= 0.0 && vertex(i) < static_cast<double>(vertices))) {
+        return error(primitive.offset(),
+                     "an index names vertex " + std::to_string(static_cast<std::int64_t>(vertex(i))) + " of " + std::to_string(vertices));
+      }
+    }
+    if (!material && model_.materials.size() == default_material_) {
+      model_.materials.push_back({"default", {}, radiosity::Color(0.0), false});
+    }
+    const bool mirrored = glm::determinant(glm::dmat3(matrix)) < 0.0;
+    const std::size_t step = mode == 4 ? 3 : 1;
+    for (std::size_t i = 0; i + 2 < count; i += step) {
+      const bool odd = mode == 5 && i % 2 == 1;
+      const std::size_t a = mode == 6 ? 0 : i, b = odd ? i + 2 : i + 1, c = odd ? i + 1 : i + 2;
+      std::array<std::uint32_t, 3> corners{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = first + static_cast<std::uint32_t>(vertex(k == 0 ? a : (k == 1) != mirrored ? b : c));
+      }
+      model_.polygon(corners, static_cast<std::uint32_t>(material.value_or(default_material_)), group);
+    }
+  }
+
+  void pass_over(const std::string& sentence, const std::string& place) {
+    notes_.add(sentence, place);
+    why_ = "; " + sentence;
+  }
+
+  void camera(const JsonValue& node, const glm::dmat4& matrix) {
+    const JsonValue& given = (*root_)["cameras"][node["camera"].index().value_or(nowhere)];
+    if (!given) { return error(node["camera"].offset(), "there is no such camera"); }
+    const JsonValue& lens = given["perspective"];
+    const std::string& own = given["name"].string();
+    Camera camera;
+    camera.name = !own.empty()                     ? own
+                  : !node["name"].string().empty() ? node["name"].string()
+                                                   : "camera" + std::to_string(model_.cameras.size());
+    if (!lens) { return notes_.add("cameras without perspective are passed over", mesh_file::shown(camera.name)); }
+    camera.eye = glm::dvec3(matrix[3]);
+    camera.forward = -glm::dvec3(matrix[2]);
+    camera.up = glm::dvec3(matrix[1]);
+    const double aspect = lens["aspectRatio"].number(4.0 / 3.0);
+    camera.field_of_view = 2.0 * std::atan(aspect * std::tan(0.5 * lens["yfov"].number(0.7))) * 180.0 / std::numbers::pi;
+    if (lens["aspectRatio"] && aspect > 0.05 && aspect < 20.0) {
+      camera.size = PictureSize{static_cast<std::uint32_t>(std::lround(600.0 * aspect)), 600};
+    }
+    if (usable(camera)) { return model_.cameras.push_back(std::move(camera)); }
+    notes_.add("cameras that see nothing are passed over", mesh_file::shown(camera.name));
+  }
+
+  std::string_view text_;
+  std::optional<std::size_t> text_begin_;
+  std::optional<std::string_view> binary_;
+  const SideFile& side_file_;
+  const JsonValue* root_ = nullptr;
+  GltfData* data_ = nullptr;
+  std::uint32_t default_material_ = 0;
+  std::string why_;
+  Model model_;
+  Notes notes_;
+  Errors errors_;
+};
+
+ModelResult read_gltf(std::string_view bytes, const SideFile& side_file) {
+  return GltfReader(bytes, std::nullopt, std::nullopt, side_file).run();
+}
+
+std::uint32_t word_at(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 4; i-- > 0;) { value = value << 8U | static_cast<unsigned char>(bytes[at + i]); }
+  return value;
+}
+
+// A header of twelve bytes, then chunks: the text first, the bytes second.
+ModelResult read_glb(std::string_view bytes, const SideFile& side_file) {
+  const auto refuse = [](std::size_t at, const std::string& sentence) {
+    Errors errors;
+    errors.add({0, static_cast<std::uint32_t>(at + 1)}, sentence);
+    return ModelResult{errors.take(), std::nullopt};
+  };
+  constexpr std::uint32_t json = 0x4e4f534a, bin = 0x004e4942;
+  if (!bytes.starts_with("glTF")) { return refuse(0, "expected a binary glTF file, which begins with the letters glTF"); }
+  if (bytes.size() < 20) { return refuse(bytes.size(), "the file ends within its header"); }
+  if (word_at(bytes, 4) != 2) { return refuse(4, "expected version 2 of glTF, found version " + std::to_string(word_at(bytes, 4))); }
+  const std::size_t length = word_at(bytes, 12);
+  if (word_at(bytes, 16) != json) { return refuse(16, "expected the text (JSON) as the first chunk"); }
+  if (length > bytes.size() - 20) { return refuse(12, "the file ends within its text; it has " + std::to_string(bytes.size()) + " bytes"); }
+  std::optional<std::string_view> binary;
+  const std::size_t next = 20 + (length + 3) / 4 * 4;
+  if (next + 8 <= bytes.size() && word_at(bytes, next + 4) == bin) {
+    if (word_at(bytes, next) > bytes.size() - next - 8) {
+      return refuse(next, "the file ends within its binary chunk; it has " + std::to_string(bytes.size()) + " bytes");
+    }
+    binary = bytes.substr(next + 8, word_at(bytes, next));
+  }
+  return GltfReader(bytes.substr(20, length), binary, 20, side_file).run();
+}
+
+bool begins_gltf(std::string_view bytes) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  return first != bytes.npos && bytes[first] == '{' && bytes.substr(0, 1 << 16).find("\"asset\"") != bytes.npos;
+}
+bool begins_glb(std::string_view bytes) { return bytes.starts_with("glTF"); }
+
+}  // namespace
+
+extern const ModelFormat gltf, glb;
+constinit const ModelFormat gltf{".gltf", "glTF", UpAxis::y, begins_gltf, read_gltf};
+constinit const ModelFormat glb{".glb", "binary glTF", UpAxis::y, begins_glb, read_glb};
+
+}  // namespace apps::intake

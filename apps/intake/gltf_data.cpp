@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "apps/intake/gltf_data.hpp"
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+namespace apps::intake {
+namespace {
+
+constexpr std::size_t most_zeros = 1'000'000;  // elements of an accessor without bytes
+
+std::optional<std::string> from_base64(std::string_view text) {
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3);
+  std::uint32_t bits = 0;
+  int count = 0;
+  while (!text.empty() && text.back() == '=') { text.remove_suffix(1); }
+  for (const char c : text) {
+    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::size_t value = letters.find(c);
+    if (value == std::string_view::npos) { return std::nullopt; }
+    bits = bits << 6U | static_cast<std::uint32_t>(value);
+    if ((count += 6) < 8) { continue; }
+    count -= 8;
+    bytes += static_cast<char>(static_cast<unsigned char>(bits >> static_cast<unsigned>(count) & 0xffU));
+  }
+  return bytes;
+}
+
+struct ComponentType {
+  std::size_t size;
+  bool is_signed, is_float;
+};
+
+std::optional<ComponentType> component_type(const JsonValue& value) {
+  switch (static_cast<int>(value.number())) {
+    case 5120:
+      return ComponentType{1, true, false};
+    case 5121:
+      return ComponentType{1, false, false};
+    case 5122:
+      return ComponentType{2, true, false};
+    case 5123:
+      return ComponentType{2, false, false};
+    case 5125:
+      return ComponentType{4, false, false};
+    case 5126:
+      return ComponentType{4, true, true};
+    default:
+      return std::nullopt;
+  }
+}
+
+double number_at(const char* bytes, const ComponentType& type, bool normalized) {
+  std::uint32_t bits = 0;
+  for (std::size_t i = type.size; i-- > 0;) { bits = bits << 8U | static_cast<unsigned char>(bytes[i]); }
+  if (type.is_float) { return static_cast<double>(std::bit_cast<float>(bits)); }
+  const unsigned width = static_cast<unsigned>(8 * type.size);
+  double value = bits;
+  if (type.is_signed && (bits >> (width - 1) & 1U) != 0) { value -= std::ldexp(1.0, static_cast<int>(width)); }
+  return normalized ? value / (std::ldexp(1.0, static_cast<int>(type.is_signed ? width - 1 : width)) - 1.0) : value;
+}
+
+}  // namespace
+
+std::optional<std::string> file_of_uri(std::string_view uri) {
+  if (uri.empty() || uri.find(':') != std::string_view::npos) { return std::nullopt; }
+  std::string name;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned code = 0;
+    const std::string_view digits = uri.substr(i + 1 < uri.size() ? i + 1 : uri.size(), 2);
+    if (uri[i] == '%' && digits.size() == 2 && std::from_chars(digits.data(), digits.data() + 2, code, 16).ptr == digits.data() + 2 &&
+        code != 0) {
+      name += static_cast<char>(static_cast<unsigned char>(code));
+      i += 2;
+    } else {
+      name += uri[i];
+    }
+  }
+  return name;
+}
+
+std::optional<std::string_view> GltfData::buffer(std::size_t index, std::string& fault) {
+  const JsonValue& buffers = root_["buffers"];
+  if (index >= buffers.items().size()) {
+    fault = "there is no buffer " + std::to_string(index);
+    return std::nullopt;
+  }
+  const JsonValue& uri = buffers[index]["uri"];
+  if (!uri) {
+    if (index == 0 && binary_) { return binary_; }
+    fault = "buffer " + std::to_string(index) + " has no 'uri', and there is no binary chunk";
+    return std::nullopt;
+  }
+  loaded_.resize(buffers.items().size());
+  if (!loaded_[index]) {
+    const std::string_view text = uri.string();
+    if (text.starts_with("data:")) {
+      const std::size_t comma = text.find(";base64,");
+      if (comma != std::string_view::npos) { loaded_[index] = from_base64(text.substr(comma + 8)); }
+      fault = "the data of buffer " + std::to_string(index) + " are not base64";
+    } else if (const auto name = file_of_uri(text)) {
+      std::string reason;
+      loaded_[index] = side_file_(*name, reason);
+      fault = "the file '" + *name + "' " + reason;
+    } else {
+      fault = "buffer " + std::to_string(index) + " is not in this file nor beside it";
+    }
+  }
+  if (!loaded_[index]) { return std::nullopt; }
+  fault.clear();
+  return std::string_view(*loaded_[index]);
+}
+
+std::optional<std::vector<double>> GltfData::numbers(const JsonValue& accessor_index, std::size_t components, std::string& fault) {
+  const auto fail = [&](std::string sentence) {
+    fault = std::move(sentence);
+    return std::nullopt;
+  };
+  const auto index = accessor_index.index();
+  const JsonValue& accessor = root_["accessors"][index.value_or(~std::size_t{0})];
+  if (!accessor) { return fail("there is no such accessor"); }
+  const std::string who = "accessor " + std::to_string(*index);
+  if (accessor["sparse"]) { return fail(who + " is sparse, which is not read"); }
+  const auto type = component_type(accessor["componentType"]);
+  constexpr std::array<std::string_view, 4> names{"SCALAR", "VEC2", "VEC3", "VEC4"};
+  if (!type || accessor["type"].string() != names[components - 1]) {
+    return fail(who + " is not of the type " + std::string(names[components - 1]) + " that stands here");
+  }
+  const auto count = accessor["count"].index();
+  if (!count) { return fail(who + " has no count"); }
+  if (!accessor["bufferView"]) {
+    if (*count > most_zeros) { return fail(who + " has no bytes"); }
+    return std::vector<double>(*count * components, 0.0);
+  }
+  const JsonValue& view = root_["bufferViews"][accessor["bufferView"].index().value_or(~std::size_t{0})];
+  if (!view) { return fail(who + " names a view that does not exist"); }
+  const auto bytes = buffer(view["buffer"].index().value_or(~std::size_t{0}), fault);
+  if (!bytes) { return std::nullopt; }
+  const auto or_zero = [](const JsonValue& value) { return value.index().value_or(0); };
+  const std::size_t element = type->size * components, stride = view["byteStride"] ? or_zero(view["byteStride"]) : element;
+  const std::size_t begin = or_zero(view["byteOffset"]), length = or_zero(view["byteLength"]), first = or_zero(accessor["byteOffset"]);
+  if (begin > bytes->size() || length > bytes->size() - begin) { return fail(who + ": its view reaches beyond its buffer"); }
+  // All are below 2^32, so nothing overflows.
+  if (*count > 0 && (stride < element || first + (*count - 1) * stride + element > length)) {
+    return fail(who + " reaches beyond its view");
+  }
+  std::vector<double> result;
+  result.reserve(*count * components);
+  for (std::size_t i = 0; i < *count; ++i) {
+    const char* const at = bytes->data() + begin + first + i * stride;
+    for (std::size_t k = 0; k < components; ++k) {
+      result.push_back(number_at(at + k * type->size, *type, accessor["normalized"].boolean()));
+    }
+  }
+  return result;
+}
+
+}  // namespace apps::intake

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The numbers of a glTF file: buffers (the binary chunk of a GLB, data in the text itself, files beside it) and the accessors that say what
+// stands where in them. Whatever reaches beyond a buffer is an error; nothing is made larger than the bytes that are there, but for
+// accessors without any, which are zeros.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/intake/json_reader.hpp"
+#include "apps/intake/model.hpp"
+
+namespace apps::intake {
+
+class GltfData {
+ public:
+  // `binary`: the chunk of a GLB, if there is one.
+  GltfData(const JsonValue& root, std::optional<std::string_view> binary, const SideFile& side_file)
+      : root_(root), binary_(binary), side_file_(side_file) {}
+
+  // All numbers of an accessor, `components` for each element: of vectors, or 1 of indices. Nothing after an error: a sentence in `fault`.
+  [[nodiscard]] std::optional<std::vector<double>> numbers(const JsonValue& accessor_index, std::size_t components, std::string& fault);
+
+ private:
+  [[nodiscard]] std::optional<std::string_view> buffer(std::size_t index, std::string& fault);
+
+  const JsonValue& root_;
+  std::optional<std::string_view> binary_;
+  const SideFile& side_file_;
+  std::vector<std::optional<std::string>> loaded_;
+};
+
+// A URI such as "a%20b.bin" as a name; nothing when it is no file beside this one.
+[[nodiscard]] std::optional<std::string> file_of_uri(std::string_view uri);
+
+}  // namespace apps::intake

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Reads JSON (RFC 8259) into a tree of values. Strings are kept as UTF-8; what is wrong is told with its place. At most 64 levels deep, so
+// that recursion is bounded. Asking a value for what it is not gives nothing, so readers need no checks of their own.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace apps {
+
+class JsonValue {
+ public:
+  enum class Kind : unsigned char { null, boolean, number, string, array, object };
+
+  [[nodiscard]] Kind kind() const { return kind_; }
+  [[nodiscard]] std::size_t offset() const { return offset_; }  // bytes before it in the text
+
+  // The member of an object, the item of an array; a null value where there is none.
+  [[nodiscard]] const JsonValue& operator[](std::string_view key) const;
+  [[nodiscard]] const JsonValue& operator[](std::size_t index) const;
+  [[nodiscard]] const std::vector<JsonValue>& items() const { return items_; }  // of arrays and objects
+  [[nodiscard]] explicit operator bool() const { return kind_ != Kind::null; }
+
+  [[nodiscard]] double number(double otherwise = 0.0) const { return kind_ == Kind::number ? number_ : otherwise; }
+  [[nodiscard]] bool boolean(bool otherwise = false) const { return kind_ == Kind::boolean ? number_ != 0.0 : otherwise; }
+  [[nodiscard]] const std::string& string() const { return text_; }  // empty unless it is one
+  // A whole number from 0 on; nothing when it is something else.
+  [[nodiscard]] std::optional<std::size_t> index() const;
+
+ private:
+  friend class JsonParser;
+  Kind kind_ = Kind::null;
+  double number_ = 0.0;
+  std::size_t offset_ = 0;
+  std::string text_;
+  std::vector<std::string> keys_;  // of an object, in the order of items_
+  std::vector<JsonValue> items_;
+};
+
+struct JsonFault {
+  std::size_t offset = 0;
+  std::string sentence;
+};
+
+// The value that the text holds, or what is wrong with it.
+[[nodiscard]] std::optional<JsonValue> parse_json(std::string_view text, JsonFault& fault);
+
+}  // namespace apps

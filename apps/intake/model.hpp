@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Scenes in the formats of other programs. Each format has a reader that fills a Model: polygons, materials, cameras and analytic objects
+// as the file has them, unjudged. to_scene.hpp makes a scene of it: polygons go through the intake (radiosity/intake/intake.hpp), which
+// repairs and counts. A reader refuses what cannot be read, with file, line, column and what to do; what it passes over it notes.
+//
+// No input makes a reader throw, crash, recurse deeply or run without end. Files beside the first one are asked for by a function, so that
+// tests and fuzz targets need no file system.
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+
+#include "apps/input_errors.hpp"
+#include "apps/scene_file.hpp"
+
+namespace apps {
+
+// A material as files have it: what is not said stays open.
+struct ModelMaterial {
+  std::string name;
+  std::optional<radiosity::Color> reflectance;
+  radiosity::Color emission{0.0};  // W/m2
+  bool two_sided = false;          // the file says that its surfaces are seen from both sides
+};
+
+// A light without a surface, which becomes a small lamp. `intensity`: of an ordinary one 1 1 1.
+struct ModelLight {
+  glm::dvec3 position{0.0};
+  radiosity::Color intensity{0.0};
+};
+
+struct Model {
+  std::vector<glm::dvec3> positions;
+  std::vector<std::uint32_t> corners, first_corner{0};
+  std::vector<std::uint32_t> material, group;  // of each polygon
+  std::vector<std::uint32_t> line;             // of each polygon: where it stands in the file; empty or 0: nowhere
+  std::vector<std::string> groups;             // names
+  std::vector<ModelMaterial> materials;
+  std::vector<radiosity::SceneObject> objects;  // analytic ones; their materials are among the model's
+  std::vector<ObjectOrigin> origins;            // one per object
+  std::vector<Camera> cameras;
+  std::vector<ModelLight> lights;
+  std::vector<std::string> notes;  // sentences about what was passed over or taken otherwise
+
+  [[nodiscard]] std::size_t polygons() const { return first_corner.size() - 1; }
+  void polygon(std::span<const std::uint32_t> its_corners, std::uint32_t its_material, std::uint32_t its_group,
+               std::uint32_t its_line = 0) {
+    corners.insert(corners.end(), its_corners.begin(), its_corners.end());
+    first_corner.push_back(static_cast<std::uint32_t>(corners.size()));
+    material.push_back(its_material);
+    group.push_back(its_group);
+    line.push_back(its_line);
+  }
+};
+
+// Notes that are the same for many places: each is told once, with how often and where first.
+class Notes {
+ public:
+  void add(const std::string& sentence, std::string place = {}) {
+    Entry& entry = entries_[sentence];
+    if (entry.count++ == 0) { entry = {1, entries_.size(), std::move(place)}; }
+  }
+  [[nodiscard]] std::vector<std::string> take() const;
+
+ private:
+  struct Entry {
+    std::size_t count = 0, number = 0;
+    std::string place;
+  };
+  std::map<std::string, Entry> entries_;
+};
+
+// Does it look somewhere, with its up beside its view, and through a lens that a picture can have? Others must not get into a model.
+[[nodiscard]] bool usable(const Camera& camera);
+
+struct ModelResult : ErrorReport {
+  std::optional<Model> model;  // nothing when there are errors
+};
+
+enum class UpAxis : unsigned char { x, y, z };
+
+// A format: one file of this folder defines it, one line of formats.cpp lists it.
+struct ModelFormat {
+  std::string_view ending;                 // of the name, in small letters: ".gltf"
+  std::string_view name;                   // "glTF"
+  UpAxis up;                               // what files of this format mean by up
+  bool (*begins)(std::string_view bytes);  // does a file of this format begin so? For files without a name
+  ModelResult (*read)(std::string_view bytes, const SideFile& side_file);
+};
+
+[[nodiscard]] std::span<const ModelFormat* const> model_formats();
+
+// ".obj, .ply, ... or .wrl"
+[[nodiscard]] std::string model_endings();
+
+// By the ending of the name, in any case; of "-" by the first bytes. Null when none has it.
+[[nodiscard]] const ModelFormat* model_format(std::string_view path, std::string_view bytes);
+
+}  // namespace apps

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#include "apps/intake/to_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <radiosity/intake/intake.hpp>
+#include <raycast/box.hpp>
+#include <raycast/objects/box.hpp>
+#include <raycast/objects/polygon.hpp>
+#include <raycast/objects/sphere.hpp>
+#include <raycast/transform.hpp>
+
+#include "apps/bounds.hpp"
+#include "apps/scene_file/words.hpp"
+#include "apps/text.hpp"
+#include "apps/view.hpp"
+
+namespace apps {
+namespace {
+
+// From the file's coordinates to metres with z up.
+glm::dmat3 to_metres(UpAxis up, double metres) {
+  glm::dmat3 turn(1.0);
+  if (up == UpAxis::y) { turn = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}; }  // columns: where x, y, z go
+  if (up == UpAxis::x) { turn = {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}; }
+  return metres * turn;
+}
+
+std::string counted(std::size_t count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
+
+class SceneMaker {
+ public:
+  SceneMaker(Model model, const ModelOptions& options) : model_(std::move(model)), options_(options) {}
+
+  std::optional<SceneFile> scene(UpAxis up, std::vector<std::string>& faults) {
+    given_positions_ = model_.positions;
+    given_z_up_ = options_.up.value_or(up) == UpAxis::z;
+    place(to_metres(options_.up.value_or(up), options_.metres));
+    if (!part(faults) || (!shines() && !add_studio(faults))) { return std::nullopt; }
+    return std::move(file_);
+  }
+  std::optional<SceneFile> part_alone(std::vector<std::string>& faults) {
+    model_.cameras.clear();
+    return part(faults) ? std::optional(std::move(file_)) : std::nullopt;
+  }
+
+ private:
+  bool part(std::vector<std::string>& faults) {
+    file_.notes = std::move(model_.notes);
+    take_materials();
+    if (!take_lamps(faults)) { return false; }
+    take_polygons();
+    for (std::size_t i = 0; i < model_.objects.size(); ++i) {
+      file_.scene.objects.push_back(std::move(model_.objects[i]));
+      file_.origins.push_back(model_.origins[i]);
+    }
+    if (file_.scene.objects.empty()) {
+      faults.emplace_back("nothing in this file has a surface");
+      return false;
+    }
+    if (file_.scene.objects.size() > max_objects) {
+      faults.push_back("the scene has more than " + std::to_string(max_objects) + " objects");
+      return false;
+    }
+    add_lights();
+    rename();
+    return true;
+  }
+
+  void place(const glm::dmat3& linear) {
+    for (glm::dvec3& p : model_.positions) { p = linear * p; }
+    for (radiosity::SceneObject& object : model_.objects) {
+      object.placement = raycast::compose({linear, glm::dvec3(0.0), false}, object.placement);
+    }
+    for (Camera& camera : model_.cameras) {
+      camera.eye = linear * camera.eye;
+      camera.forward = linear * camera.forward;
+      camera.up = linear * camera.up;
+    }
+    file_.cameras = std::move(model_.cameras);
+    for (ModelLight& light : model_.lights) { light.position = linear * light.position; }
+  }
+
+  void note(std::string sentence) { file_.notes.push_back(std::move(sentence)); }
+
+  void take_materials() {
+    std::size_t open = 0, bright = 0;
+    for (const ModelMaterial& given : model_.materials) {
+      radiosity::Material material{given.name, given.reflectance.value_or(radiosity::Color(options_.reflectance)), given.emission};
+      open += given.reflectance ? 0 : 1;
+      const radiosity::Color lowered = glm::min(material.reflectance, radiosity::Color(most_reflectance));
+      bright += lowered == material.reflectance ? 0 : 1;
+      material.reflectance = glm::max(lowered, radiosity::Color(0.0));
+      file_.scene.materials.push_back(std::move(material));
+      two_sided_.push_back(given.two_sided ? 1 : 0);
+    }
+    if (open > 0) {
+      note((open == 1 ? "1 material has no reflectance: " : std::to_string(open) + " materials have no reflectance: ") +
+           formatted("%g", options_.reflectance) + " (--reflectance)");
+    }
+    if (bright > 0) {
+      note((bright == 1 ? "1 material reflects" : std::to_string(bright) + " materials reflect") + " more than " +
+           formatted("%g", most_reflectance) + ", as no surface does: lowered to that");
+    }
+  }
+
+  // Of the materials, each once.
+  [[nodiscard]] std::vector<std::string_view> names() const {
+    std::vector<std::string_view> list;
+    for (const radiosity::Material& material : file_.scene.materials) {
+      if (list.size() < 1000 && std::find(list.begin(), list.end(), material.name) == list.end()) { list.push_back(material.name); }
+    }
+    return list;
+  }
+
+  // A lamp that is no material of the file is an error: it would be missed in silence.
+  bool take_lamps(std::vector<std::string>& faults) {
+    for (const Lamp& lamp : options_.lamps) {
+      const std::vector<std::string_view> known = names();
+      bool found = false;
+      for (radiosity::Material& material : file_.scene.materials) {
+        if (material.name != lamp.material) { continue; }
+        found = true;
+        material.emission = radiosity::Color(lamp.exitance);
+      }
+      if (found) { continue; }
+      faults.push_back("--lamp " + lamp.material + ": the file has no such material; it has " + scene_file::list_of(known) +
+                       scene_file::suggestion(lamp.material, known));
+    }
+    return faults.empty();
+  }
+
+  void take_polygons() {
+    if (model_.polygons() == 0) { return; }
+    radiosity::IntakeOptions options;
+    options.two_sided = options_.two_sided;
+    options.merge = options_.merge;
+    for (const Camera& camera : file_.cameras) { options.eyes.push_back(camera.eye); }
+    for (const ModelLight& light : model_.lights) { options.eyes.push_back(light.position); }
+    const radiosity::PolygonView view{model_.positions, model_.corners, model_.first_corner, model_.material,
+                                      model_.group,     model_.groups,  two_sided_};
+    radiosity::Intake intake = radiosity::take_in(view, file_.scene.materials, options);
+    for (const radiosity::Change& change : intake.changes) {
+      const bool vertex = change.kind == radiosity::ChangeKind::welded || change.kind == radiosity::ChangeKind::flattened;
+      const std::uint32_t line = vertex || change.first >= model_.line.size() ? 0 : model_.line[change.first];
+      note(radiosity::sentence(change) + (line > 0 ? (change.count > 1 ? ", first at line " : ", at line ") + std::to_string(line) : ""));
+    }
+    note(counted(intake.polygons, "polygon") + " became " + counted(intake.faces, "face") + " of " +
+         counted(intake.objects.size(), "object"));
+    file_.scene.objects = std::move(intake.objects);
+    if (!given_positions_.empty()) {
+      file_.given =
+          std::make_shared<GivenPolygons>(GivenPolygons{std::move(given_positions_), std::move(model_.positions), std::move(model_.corners),
+                                                        std::move(model_.first_corner), std::move(intake.parts), 0, given_z_up_});
+    }
+    file_.origins.assign(file_.scene.objects.size(), {"mesh", {}});
+  }
+
+  // A sphere of a hundredth of the scene's size. One of intensity 1 brings 100 W/m2 to what is half that size away.
+  void add_lights() {
+    if (model_.lights.empty()) { return; }
+    const double size = scene_bounds(file_.scene).diameter(), radius = 0.01 * size;
+    for (const ModelLight& light : model_.lights) {
+      raycast::Made<raycast::Sphere> sphere = raycast::Sphere::make(light.position, radius);
+      if (!sphere || radiosity::is_black(light.intensity)) { continue; }
+      const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());
+      file_.scene.materials.push_back({"light", radiosity::Color(0.0), 100.0 * 2500.0 * light.intensity});
+      file_.scene.objects.push_back({"light", std::move(sphere.object), {}, {material}});
+      file_.origins.push_back({"light", {}});
+    }
+    note(std::to_string(model_.lights.size()) +
+         (model_.lights.size() == 1 ? " light has no surface: a lamp" : " lights have no surface: lamps") + " of " +
+         radiosity::length_text(2.0 * radius) + " across");
+  }
+
+  // Names that are there already get a number.
+  void rename() {
+    std::map<std::string, std::size_t> taken;
+    for (radiosity::SceneObject& object : file_.scene.objects) {
+      const std::string name = object.name.empty() ? "object" : object.name;
+      std::size_t& times = taken[name];
+      object.name = ++times == 1 ? name : name + "#" + std::to_string(times);
+    }
+  }
+
+  [[nodiscard]] bool shines() const {
+    for (const radiosity::SceneObject& object : file_.scene.objects) {
+      for (const std::uint32_t m : object.material) {
+        if (!radiosity::is_black(file_.scene.materials[m].emission)) { return true; }
+      }
+    }
+    return false;
+  }
+
+  // Who only wants to see a model gets a studio around it: floor, walls, and a lamp in the ceiling. In a closed room its light would not
+  // arrive.
+  bool add_studio(std::vector<std::string>& faults) {
+    const std::vector<std::string_view> known = names();
+    const std::string advice = "--lamp MATERIAL, one of " + scene_file::list_of(known);
+    if (std::any_of(file_.scene.objects.begin(), file_.scene.objects.end(), [](const auto& o) { return o.placement.inside; })) {
+      faults.push_back("nothing shines in this closed room; say which material does: " + advice);
+      return false;
+    }
+    if (file_.cameras.empty()) { file_.cameras.push_back(automatic_camera(file_.scene)); }
+    const raycast::Box bounds = scene_bounds(file_.scene);
+    const double size = bounds.diameter();
+    const glm::dvec3 middle{bounds.centre().x, bounds.centre().y, bounds.lo.z};
+    const glm::dvec3 reach{1.5 * size, 1.5 * size, 0.0}, top{0.0, 0.0, 2.0 * size};
+    std::vector<glm::dvec3> lamp;  // looks down
+    for (const glm::dvec3 corner : {glm::dvec3(-1, -1, 0), glm::dvec3(-1, 1, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, -1, 0)}) {
+      lamp.push_back(middle + top + 0.4 * size * corner);
+    }
+    const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());
+    file_.scene.materials.push_back({"studio", radiosity::Color(0.5), radiosity::Color(0.0)});
+    file_.scene.materials.push_back({"studio lamp", radiosity::Color(0.0), radiosity::Color(100.0)});
+    raycast::Placement inside;
+    inside.inside = true;
+    // Before the model, so that what lies on the floor covers it.
+    auto& objects = file_.scene.objects;
+    objects.insert(objects.begin(), {"studio", raycast::BoxObject::make(middle - reach, middle + reach + top).object, inside, {material}});
+    if (file_.given) { file_.given->first_object = 1; }
+    objects.push_back({"studio lamp", raycast::Polygon::make(std::move(lamp)).object, {}, {material + 1}});
+    file_.origins.insert(file_.origins.begin(), {"box", {}});
+    file_.origins.push_back({"polygon", {}});
+    note("nothing shines in this file: put into a studio with a lamp of 100 W/m2 above it; to have lamps of its own: " + advice);
+    return true;
+  }
+
+  Model model_;
+  const ModelOptions& options_;
+  SceneFile file_;
+  std::vector<std::uint8_t> two_sided_;
+  std::vector<glm::dvec3> given_positions_;  // before they were placed
+  bool given_z_up_ = false;
+};
+
+std::optional<double> positive(std::string_view text, bool zero) {
+  double value = 0.0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool good = code == std::errc() && end == text.data() + text.size() && (value > 0.0 || (zero && value == 0.0)) && value <= 1e12;
+  return good ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
+std::string ModelOptions::key() const {
+  std::string text =
+      formatted("%.17g", reflectance) + formatted(" %.17g", metres) + (two_sided ? " two-sided" : "") + (merge ? "" : " as given");
+  if (up) { text += " up " + std::to_string(static_cast<int>(*up)); }
+  for (const Lamp& lamp : lamps) { text += " lamp " + lamp.material + formatted("=%.17g", lamp.exitance); }
+  return text;
+}
+
+std::optional<Lamp> parse_lamp(std::string_view text) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string_view::npos) { return text.empty() ? std::nullopt : std::optional(Lamp{std::string(text)}); }
+  const auto value = positive(text.substr(equals + 1), true);
+  if (!value || equals == 0) { return std::nullopt; }
+  return Lamp{std::string(text.substr(0, equals)), *value};
+}
+
+std::optional<double> parse_unit(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, double>, 6> units{
+      {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"km", 1e3}, {"in", 0.0254}, {"ft", 0.3048}}};
+  for (const auto& [name, metres] : units) {
+    if (name == text) { return metres; }
+  }
+  return positive(text, false);
+}
+
+std::optional<SceneFile> to_scene(Model model, UpAxis up, const ModelOptions& options, std::vector<std::string>& faults) {
+  return SceneMaker(std::move(model), options).scene(up, faults);
+}
+
+std::optional<SceneFile> to_part(Model model, std::vector<std::string>& faults) {
+  const ModelOptions options;
+  return SceneMaker(std::move(model), options).part_alone(faults);
+}
+
+}  // namespace apps

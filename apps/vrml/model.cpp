@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+// VRML 1.0 as a scene: a visitor that makes objects of the shapes. Cube, Sphere, Cylinder and Cone stay what they are, analytic solids with
+// their placement; face sets become polygons. The diffuse colour is the reflectance, the emissive colour a radiance L: the exitance is pi
+// L.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <raycast/objects/box.hpp>
+#include <raycast/objects/cone.hpp>
+#include <raycast/objects/cylinder.hpp>
+#include <raycast/objects/sphere.hpp>
+#include <raycast/transform.hpp>
+
+#include "apps/intake/model.hpp"
+#include "apps/mesh_file/reading.hpp"
+#include "apps/vrml/node_types.hpp"
+#include "apps/vrml/scene_graph.hpp"
+
+namespace apps::vrml {
+namespace {
+
+constexpr std::size_t most_corners = 50'000'000;  // of all uses of all face sets
+constexpr std::size_t most_inlines = 1000;
+constexpr int sides_of_part = 32;  // of a part of a cylinder or a cone that is no solid
+
+class ModelMaker final : public Visitor {
+ public:
+  ModelMaker(const SideFile& side_file, Errors& errors, Notes& notes) : side_file_(side_file), errors_(errors), notes_(notes) {}
+
+  Model model;
+
+  void shape(const Node& node, const State& state) override {
+    if (errors_.full()) { return; }
+    constexpr std::array<std::string_view, 3> surfaceless{"IndexedLineSet", "PointSet", "AsciiText"};
+    if (node.type == "Cube") {
+      cube(node, state);
+    } else if (node.type == "Sphere") {
+      add(raycast::Sphere::make(glm::dvec3(0.0), node.number("radius", 1.0)), "sphere", {0}, node, state);
+    } else if (node.type == "Cylinder") {
+      cylinder(node, state);
+    } else if (node.type == "Cone") {
+      cone(node, state);
+    } else if (node.type == "IndexedFaceSet") {
+      face_set(node, state);
+    } else if (std::find(surfaceless.begin(), surfaceless.end(), node.type) != surfaceless.end()) {
+      notes_.add("lines, points and texts have no surface: left out", at(node));
+    } else if (node.type == "Texture2") {
+      notes_.add("textures are not read: the diffuse colour stands for the picture", at(node));
+    }
+  }
+
+  void camera(const Node& node, const State& state) override {
+    if (node.type != "PerspectiveCamera") { return notes_.add("cameras without perspective are passed over", at(node)); }
+    const glm::dvec4 orientation = node.rotation("orientation");
+    const glm::dvec3 axis(orientation);
+    const glm::dmat3 turn =
+        glm::length(axis) > 0.0 ? glm::dmat3(glm::rotate(glm::dmat4(1.0), orientation.w, glm::normalize(axis))) : glm::dmat3(1.0);
+    const glm::dmat3 linear(state.transform);
+    Camera camera;
+    camera.name = node.name.empty() ? "camera" + std::to_string(model.cameras.size()) : node.name;
+    camera.eye = point(state, node.vector("position", {0.0, 0.0, 1.0}));
+    camera.forward = linear * (turn * glm::dvec3(0.0, 0.0, -1.0));
+    camera.up = linear * (turn * glm::dvec3(0.0, 1.0, 0.0));
+    // The angle is that of the height, here of pictures of 4 : 3.
+    camera.field_of_view = 2.0 * std::atan(4.0 / 3.0 * std::tan(0.5 * node.number("heightAngle", 0.785398))) * 180.0 / std::numbers::pi;
+    if (usable(camera)) { return model.cameras.push_back(std::move(camera)); }
+    notes_.add("cameras that see nothing are passed over", at(node));
+  }
+
+  void light(const Node& node, const State& state) override {
+    if (node.word("on", "TRUE") == "FALSE") { return; }
+    if (node.type == "DirectionalLight") { return notes_.add("directional lights are left out: a lamp has a place", at(node)); }
+    if (node.type == "SpotLight") { notes_.add("spot lights shine in all directions", at(node)); }
+    const double intensity = node.number("intensity", 1.0);
+    const glm::dvec3 color = node.vector("color", glm::dvec3(1.0));
+    model.lights.push_back({point(state, node.vector("location", {0.0, 0.0, 1.0})), glm::max(intensity * color, glm::dvec3(0.0))});
+  }
+
+  std::shared_ptr<const Node> inlined(const Node& node) override {
+    const std::string name(node.word("name", ""));
+    const auto [known, is_new] = inlines_.emplace(name, nullptr);
+    if (!is_new) { return known->second; }
+    std::string fault;
+    const bool allowed = !name.empty() && name.find("://") == name.npos && inlines_.size() <= most_inlines;
+    const auto text = allowed ? side_file_(name, fault) : std::nullopt;
+    if (!text) {
+      notes_.add("the file " + mesh_file::shown(name) + (allowed ? " " + fault : " is not beside this one") + ": left out", at(node));
+      return nullptr;
+    }
+    Errors errors;
+    auto root = std::make_shared<Node>();
+    root->type = "Separator";
+    if (auto child = parse(*text, errors, notes_)) { root->children.push_back(std::move(child)); }
+    if (errors.count() > 0) {
+      std::string first = to_text(errors.take(), name);
+      notes_.add("left out " + first.substr(0, first.find('\n')), at(node));
+      return nullptr;
+    }
+    inlines_[name] = root;  // one that names itself is found to be too deep
+    return root;
+  }
+
+ private:
+  using Made = raycast::Made<raycast::Object>;
+
+  static std::string at(const Node& node) { return "at line " + std::to_string(node.place.line); }
+  static glm::dvec3 point(const State& state, const glm::dvec3& p) { return glm::dvec3(state.transform * glm::dvec4(p, 1.0)); }
+
+  // Numbers of the material of this state; those beyond the last begin again with the first.
+  std::uint32_t material(const State& state, std::size_t index, bool two_sided = false) {
+    const auto count = [&](const char* field, std::size_t size) {
+      const Field* const found = state.material != nullptr ? state.material->find(field) : nullptr;
+      return found != nullptr ? found->numbers.size() / size : 0;
+    };
+    const std::size_t all = std::max({count("diffuseColor", 3), count("emissiveColor", 3), std::size_t{1}});
+    index %= all;
+    const auto [known, is_new] =
+        materials_.emplace(std::tuple(state.material, index, two_sided), static_cast<std::uint32_t>(model.materials.size()));
+    if (!is_new) { return known->second; }
+    const auto color = [&](const char* field, const glm::dvec3& otherwise) {
+      const std::size_t n = count(field, 3);
+      if (n == 0) { return otherwise; }
+      const double* const c = &state.material->find(field)->numbers[3 * (index % n)];
+      return glm::max(glm::dvec3(c[0], c[1], c[2]), glm::dvec3(0.0));
+    };
+    ModelMaterial made;
+    made.name = state.material == nullptr      ? "default"
+                : state.material->name.empty() ? "material" + std::to_string(model.materials.size())
+                                               : state.material->name;
+    if (all > 1) { made.name += "." + std::to_string(index); }
+    made.reflectance = color("diffuseColor", glm::dvec3(0.8));
+    made.emission = std::numbers::pi * color("emissiveColor", glm::dvec3(0.0));
+    made.two_sided = two_sided;
+    if (count("transparency", 1) > 0 && state.material->number("transparency", 0.0) > 0.0) {
+      notes_.add("materials that let light through are taken as opaque", at(*state.material));
+    }
+    model.materials.push_back(std::move(made));
+    return known->second;
+  }
+
+  // An analytic solid; `parts`: of each of its sheets, which part of the node it is.
+  template <class MadeObject>
+  void add(MadeObject made, const char* kind, const std::vector<std::size_t>& parts, const Node& node, const State& state) {
+    if (model.objects.size() > max_objects) { return; }  // more than a scene may have: refused later
+    raycast::Placement placement{glm::dmat3(state.transform), glm::dvec3(state.transform[3]), false};
+    if (!made.object || raycast::check(*made.object, placement)) {
+      return notes_.add("shapes without size, or flattened by their transform, are left out", at(node));
+    }
+    const bool by_part = state.binding == Binding::per_part || state.binding == Binding::per_part_indexed;
+    std::vector<std::uint32_t> materials;
+    for (const std::size_t part : parts) { materials.push_back(material(state, by_part ? part : 0)); }
+    if (!by_part) { materials.resize(1); }
+    model.objects.push_back({node.name.empty() ? kind : node.name, std::move(made.object), placement, std::move(materials)});
+    model.origins.push_back({kind, node.place});
+  }
+
+  void cube(const Node& node, const State& state) {
+    const glm::dvec3 half = 0.5 * glm::dvec3(node.number("width", 2.0), node.number("height", 2.0), node.number("depth", 2.0));
+    // Parts: front, back, left, right, top, bottom. Sheets: x0 x1 y0 y1 z0 z1.
+    add(raycast::BoxObject::make(-half, half), "box", {2, 3, 5, 4, 1, 0}, node, state);
+  }
+
+  // Which of these parts are there, in this order? "ALL" stands for each.
+  template <std::size_t n>
+  static std::array<bool, n> parts(const Node& node, const std::array<std::string_view, n>& names) {
+    std::array<bool, n> there{};
+    const Field* const field = node.find("parts");
+    for (std::size_t i = 0; i < n; ++i) {
+      there[i] = field == nullptr || std::any_of(field->words.begin(), field->words.end(),
+                                                 [&](const std::string& word) { return word == names[i] || word == "ALL"; });
+    }
+    return there;
+  }
+
+  void cylinder(const Node& node, const State& state) {
+    const double radius = node.number("radius", 1.0), height = node.number("height", 2.0);
+    const auto [sides, top, bottom] = parts<3>(node, {"SIDES", "TOP", "BOTTOM"});
+    if (sides && top && bottom) {  // sheets: side, bottom, top
+      return add(raycast::Cylinder::make({0.0, -0.5 * height, 0.0}, {0.0, height, 0.0}, radius), "cylinder", {0, 2, 1}, node, state);
+    }
+    open_parts(node, state, radius, radius, height, sides, top, bottom);
+  }
+
+  void cone(const Node& node, const State& state) {
+    const double radius = node.number("bottomRadius", 1.0), height = node.number("height", 2.0);
+    const auto [sides, bottom] = parts<2>(node, {"SIDES", "BOTTOM"});
+    if (sides && bottom) {
+      return add(raycast::Cone::make({0.0, -0.5 * height, 0.0}, {0.0, height, 0.0}, radius, 0.0), "cone", {0, 1}, node, state);
+    }
+    open_parts(node, state, radius, 0.0, height, sides, false, bottom);
+  }
+
+  // Without all its parts it encloses nothing: polygons, seen from both sides.
+  void open_parts(const Node& node, const State& state, double low, double high, double height, bool sides, bool top, bool bottom) {
+    const bool by_part = state.binding == Binding::per_part || state.binding == Binding::per_part_indexed;
+    std::array<std::vector<std::uint32_t>, 2> rings;
+    for (int end = 0; end < 2; ++end) {
+      for (int i = 0; i < sides_of_part; ++i) {
+        const double a = 2.0 * std::numbers::pi * i / sides_of_part, r = end == 0 ? low : high;
+        rings[static_cast<std::size_t>(end)].push_back(static_cast<std::uint32_t>(model.positions.size()));
+        model.positions.push_back(point(state, {r * std::sin(a), (end - 0.5) * height, r * std::cos(a)}));
+      }
+    }
+    const std::uint32_t group = new_group(node);
+    const auto polygon = [&](std::vector<std::uint32_t> corners, std::size_t part) {
+      if (mirrored(state)) { std::reverse(corners.begin(), corners.end()); }
+      model.polygon(corners, material(state, by_part ? part : 0, true), group, node.place.line);
+    };
+    for (std::size_t i = 0; sides && i < sides_of_part; ++i) {
+      const std::size_t next = (i + 1) % sides_of_part;
+      polygon({rings[0][i], rings[0][next], rings[1][next], rings[1][i]}, 0);
+    }
+    if (top) { polygon(rings[1], 1); }
+    if (bottom) { polygon({rings[0].rbegin(), rings[0].rend()}, high > 0.0 ? 2 : 1); }
+  }
+
+  static bool mirrored(const State& state) { return glm::determinant(glm::dmat3(state.transform)) < 0.0; }
+  std::uint32_t new_group(const Node& node) {
+    model.groups.push_back(node.name.empty() ? "faces" + std::to_string(model.groups.size()) : node.name);
+    return static_cast<std::uint32_t>(model.groups.size() - 1);
+  }
+
+  void face_set(const Node& node, const State& state) {
+    const Field* const given = node.find("coordIndex");
+    const Field* const points = state.coordinates != nullptr ? state.coordinates->find("point") : nullptr;
+    if (given == nullptr || points == nullptr || points->numbers.size() < 3) {
+      return notes_.add("face sets without coordinates are left out", at(node));
+    }
+    const Field& index = *given;
+    const auto count = static_cast<double>(points->numbers.size() / 3);
+    const std::uint32_t group = new_group(node);
+    const bool turn = state.clockwise != mirrored(state), two_sided = !(state.ordered && state.solid);
+    std::map<std::uint32_t, std::uint32_t> vertices;  // of the file, here
+    std::vector<std::uint32_t> corners;
+    std::size_t face = 0, first = 0;
+    for (std::size_t i = 0; i <= index.numbers.size(); ++i) {
+      const double number = i < index.numbers.size() ? index.numbers[i] : -1.0;
+      if (number >= 0.0) {
+        if (!(number < count) || number != std::floor(number)) {
+          return errors_.add(index.places[i],
+                             "there is no vertex " + mesh_file::shown(std::to_string(static_cast<std::int64_t>(std::min(number, 1e15)))) +
+                                 "; the coordinates have " + std::to_string(static_cast<std::int64_t>(count)) + ", counted from 0");
+        }
+        const auto v = static_cast<std::uint32_t>(number);
+        const auto [known, is_new] = vertices.emplace(v, static_cast<std::uint32_t>(model.positions.size()));
+        if (is_new) {
+          model.positions.push_back(point(state, {points->numbers[3 * v], points->numbers[3 * v + 1], points->numbers[3 * v + 2]}));
+        }
+        corners.push_back(known->second);
+        continue;
+      }
+      if (corners.size() >= 3 && model.corners.size() < most_corners) {
+        if (turn) { std::reverse(corners.begin(), corners.end()); }
+        const std::uint32_t line = first < index.places.size() ? index.places[first].line : 0;
+        model.polygon(corners, material(state, material_of(node, state, face, first), two_sided), group, line);
+      }
+      face += corners.empty() ? 0 : 1;
+      corners.clear();
+      first = i + 1;
+    }
+  }
+
+  // Of a face, whose first corner is this one among all indices.
+  std::size_t material_of(const Node& node, const State& state, std::size_t face, std::size_t corner) {
+    const auto listed = [&](std::size_t i) {
+      const Field* const list = node.find("materialIndex");
+      return list != nullptr && i < list->numbers.size() && list->numbers[i] >= 0.0
+                 ? static_cast<std::size_t>(std::min(list->numbers[i], 1e9))
+                 : i;
+    };
+    switch (state.binding) {
+      case Binding::per_part:
+      case Binding::per_face:
+        return face;
+      case Binding::per_part_indexed:
+      case Binding::per_face_indexed:
+        return listed(face);
+      case Binding::per_vertex:
+      case Binding::per_vertex_indexed:
+        notes_.add("faces with a material for each corner have that of the first one", at(node));
+        return state.binding == Binding::per_vertex ? corner - face : listed(corner);  // a -1 stands before each face but the first
+      default:
+        return 0;
+    }
+  }
+
+  const SideFile& side_file_;
+  Errors& errors_;
+  Notes& notes_;
+  std::map<std::tuple<const Node*, std::size_t, bool>, std::uint32_t> materials_;
+  std::map<std::string, std::shared_ptr<const Node>> inlines_;
+};
+
+ModelResult read_vrml(std::string_view bytes, const SideFile& side_file) {
+  Errors errors;
+  Notes notes;
+  const auto root = parse(bytes, errors, notes);
+  ModelMaker maker(side_file, errors, notes);
+  if (root != nullptr && !traverse(root, maker)) {
+    errors.add(root->place, "uses of uses make more than " + std::to_string(most_visits) +
+                                " nodes of this file, or a way through it is longer than " + std::to_string(deepest));
+  }
+  maker.model.notes = notes.take();
+  const bool sound = errors.count() == 0;
+  return {errors.take(), sound ? std::optional(std::move(maker.model)) : std::nullopt};
+}
+
+bool begins_vrml(std::string_view bytes) { return bytes.starts_with("#VRML"); }
+
+}  // namespace
+}  // namespace apps::vrml
+
+namespace apps::intake {
+
+extern const ModelFormat wrl;
+constinit const ModelFormat wrl{".wrl", "VRML 1.0", UpAxis::y, vrml::begins_vrml, vrml::read_vrml};
+
+}  // namespace apps::intake

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "apps/vrml/scene_graph.hpp"
+
+namespace apps::vrml {
+namespace {
+
+glm::dmat4 turned(const glm::dvec4& rotation) {
+  const glm::dvec3 axis(rotation);
+  const double length = glm::length(axis);
+  return length > 0.0 ? glm::rotate(glm::dmat4(1.0), rotation.w, axis / length) : glm::dmat4(1.0);
+}
+
+glm::dmat4 moved(const glm::dvec3& by) { return glm::translate(glm::dmat4(1.0), by); }
+
+// What the node does to what follows it; nothing when it is no transform.
+std::optional<glm::dmat4> transform_of(const Node& node) {
+  const glm::dvec3 zero(0.0), one(1.0);
+  if (node.type == "Translation") { return moved(node.vector("translation", zero)); }
+  if (node.type == "Rotation") { return turned(node.rotation("rotation")); }
+  if (node.type == "Scale") { return glm::scale(glm::dmat4(1.0), node.vector("scaleFactor", one)); }
+  if (node.type == "MatrixTransform") {  // rows of a matrix that stands behind a row vector: our columns
+    const Field* const matrix = node.find("matrix");
+    glm::dmat4 result(1.0);
+    if (matrix == nullptr || matrix->numbers.size() < 16) { return result; }
+    for (int i = 0; i < 16; ++i) { result[i / 4][i % 4] = matrix->numbers[static_cast<std::size_t>(i)]; }
+    return result;
+  }
+  if (node.type == "Transform") {
+    const glm::dmat4 tilt = turned(node.rotation("scaleOrientation"));
+    const glm::dvec3 centre = node.vector("center", zero);
+    return moved(node.vector("translation", zero)) * moved(centre) * turned(node.rotation("rotation")) * tilt *
+           glm::scale(glm::dmat4(1.0), node.vector("scaleFactor", one)) * glm::transpose(tilt) * moved(-centre);
+  }
+  return std::nullopt;
+}
+
+Binding binding_of(std::string_view word) {
+  constexpr std::array<std::string_view, 7> words{"OVERALL",          "PER_PART",   "PER_PART_INDEXED",  "PER_FACE",
+                                                  "PER_FACE_INDEXED", "PER_VERTEX", "PER_VERTEX_INDEXED"};
+  const auto found = std::find(words.begin(), words.end(), word);
+  return found == words.end() ? Binding::overall : static_cast<Binding>(found - words.begin());
+}
+
+bool is_camera(const Node& node) { return node.type.ends_with("Camera"); }
+
+class Walk {
+ public:
+  explicit Walk(Visitor& visitor) : visitor_(visitor) {}
+
+  bool visit(const std::shared_ptr<const Node>& at, State& state, std::size_t depth) {
+    const Node& node = *at;
+    if (++visits_ > most_visits || depth > deepest) { return false; }
+    if (const auto transform = transform_of(node)) {
+      state.transform = state.transform * *transform;
+    } else if (node.type == "Material") {
+      state.material = &node;
+    } else if (node.type == "Coordinate3") {
+      state.coordinates = &node;
+    } else if (node.type == "MaterialBinding") {
+      state.binding = binding_of(node.word("value", "OVERALL"));
+    } else if (node.type == "ShapeHints") {
+      const std::string_view order = node.word("vertexOrdering", "UNKNOWN_ORDERING");
+      state.ordered = order != "UNKNOWN_ORDERING";
+      state.clockwise = order == "CLOCKWISE";
+      state.solid = node.word("shapeType", "UNKNOWN_SHAPE_TYPE") == "SOLID";
+    } else if (is_camera(node)) {
+      visitor_.camera(node, state);
+    } else if (node.type.ends_with("Light")) {
+      visitor_.light(node, state);
+    } else if (node.type == "WWWInline") {
+      const auto inlined = visitor_.inlined(node);
+      State own = state;
+      return inlined == nullptr || visit(inlined, own, depth + 1);
+    } else if (node.children.empty()) {
+      visitor_.shape(node, state);
+    }
+    return children(node, state, depth);
+  }
+
+ private:
+  bool children(const Node& node, State& state, std::size_t depth) {
+    const State before = state;
+    std::size_t first = 0, last = node.children.size();
+    if (node.type == "Switch") {
+      const double which = node.number("whichChild", -1.0);
+      // Views to choose from: a viewer offers all of them.
+      const bool views = std::all_of(node.children.begin(), node.children.end(), [](const auto& child) { return is_camera(*child); });
+      if (which != -3.0 && !views) {
+        const bool exists = which >= 0.0 && which < static_cast<double>(last);
+        first = exists ? static_cast<std::size_t>(which) : 0;
+        last = exists ? first + 1 : 0;
+      }
+    } else if (node.type == "LOD") {
+      last = std::min<std::size_t>(last, 1);  // the finest
+    }
+    for (std::size_t i = first; i < last; ++i) {
+      if (!visit(node.children[i], state, depth + 1)) { return false; }
+    }
+    if (node.type == "Separator" || node.type == "WWWAnchor") { state = before; }
+    if (node.type == "TransformSeparator") { state.transform = before.transform; }
+    return true;
+  }
+
+  Visitor& visitor_;
+  std::size_t visits_ = 0;
+};
+
+}  // namespace
+
+bool traverse(const std::shared_ptr<const Node>& root, Visitor& visitor) {
+  State state;
+  return Walk(visitor).visit(root, state, 0);
+}
+
+}  // namespace apps::vrml

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: MIT
+# halflight from Python, by ctypes alone: a furnace, a closed room that shines everywhere, whose light is known: B = E / (1 - reflectance).
+#
+#     python3 bake.py path/to/libhalflight_c.so
+import ctypes
+import sys
+
+hl = ctypes.CDLL(sys.argv[1])
+hl.halflight_version.restype = hl.halflight_message.restype = hl.halflight_change.restype = ctypes.c_char_p
+hl.halflight_create.restype = ctypes.c_void_p
+floats, indices, doubles = ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_uint32), ctypes.POINTER(ctypes.c_double)
+job_type, size, text = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_char_p
+hl.halflight_destroy.argtypes = hl.halflight_run.argtypes = hl.halflight_message.argtypes = [job_type]
+hl.halflight_set_positions.argtypes = [job_type, floats, size, size]
+hl.halflight_set_triangles.argtypes = [job_type, indices, size, indices]
+hl.halflight_add_material.argtypes = [job_type, text, doubles, doubles]
+hl.halflight_set_number.argtypes = [job_type, text, ctypes.c_double]
+hl.halflight_vertex_colors.argtypes = hl.halflight_corner_colors.argtypes = [job_type, floats, size]
+hl.halflight_at.argtypes = [job_type, size, floats, ctypes.c_int, floats]
+hl.halflight_figure.argtypes = [job_type, text, doubles]
+hl.halflight_change.argtypes = [job_type, size]
+progress_type = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double)
+hl.halflight_set_progress.argtypes = [job_type, progress_type, ctypes.c_void_p]
+
+
+def check(job, status):
+    if status != 0:
+        sys.exit(f"{status}: {hl.halflight_message(job).decode()}")
+
+
+# Eight corners, twelve triangles, seen from inside.
+xyz = [float(c) for z in (0, 1) for y in (0, 1) for x in (0, 2) for c in (x, y, z)]
+quads = [(0, 2, 6, 4), (1, 5, 7, 3), (0, 4, 5, 1), (2, 3, 7, 6), (0, 1, 3, 2), (4, 6, 7, 5)]
+triangles = [v for a, b, c, d in quads for v in (a, b, c, a, c, d)]
+positions, corners = (ctypes.c_float * len(xyz))(*xyz), (ctypes.c_uint32 * len(triangles))(*triangles)
+
+job = hl.halflight_create()
+print("version", hl.halflight_version().decode() != "")
+hl.halflight_add_material(job, b"oven", (ctypes.c_double * 3)(0.2, 0.5, 0.8), (ctypes.c_double * 3)(1, 2, 3))
+check(job, hl.halflight_set_positions(job, positions, len(xyz) // 3, 3))
+check(job, hl.halflight_set_triangles(job, corners, len(triangles) // 3, None))
+check(job, hl.halflight_set_number(job, b"epsilon", 0.05))
+stages = []
+watch = progress_type(lambda user, stage, fraction: stages.append(stage.decode()) or 0)
+check(job, hl.halflight_set_progress(job, watch, None))
+check(job, hl.halflight_run(job))
+
+colors = (ctypes.c_float * len(xyz))()
+check(job, hl.halflight_vertex_colors(job, colors, len(xyz) // 3))
+print("expected     1.250 4.000 15.000")
+print("vertex 0    ", *(f"{c:.3f}" for c in colors[:3]))
+print("vertex 7    ", *(f"{c:.3f}" for c in colors[-3:]))
+inside = (ctypes.c_float * 3)()
+check(job, hl.halflight_at(job, 8, (ctypes.c_float * 3)(0.7, 0.3, 0), 0, inside))
+print("on the floor", *(f"{c:.3f}" for c in inside))
+faces = ctypes.c_double()
+check(job, hl.halflight_figure(job, b"faces", faces))
+print("faces solved", int(faces.value), "of", len(triangles) // 3, "triangles")
+print("change      ", hl.halflight_change(job, 0).decode())
+print("stages      ", "link" in stages)
+print("refused     ", hl.halflight_set_number(job, b"epsilon", -1), hl.halflight_message(job).decode())
+print("refused     ", hl.halflight_add_material(job, b"mirror", (ctypes.c_double * 3)(2, 0, 0), None), hl.halflight_message(job).decode())
+print("too small   ", hl.halflight_vertex_colors(job, colors, 3), hl.halflight_message(job).decode())
+
+stop = progress_type(lambda user, stage, fraction: 1)
+check(job, hl.halflight_set_progress(job, stop, None))
+print("stopped     ", hl.halflight_run(job), hl.halflight_message(job).decode())
+hl.halflight_destroy(job)

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// halflight.h: each function checks what it is given, calls bake.hpp, and hands values on. Its own source of the shared library, because
+// everything else is C++ already.
+#include <radiosity/bake/halflight.h>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <new>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <radiosity/bake/bake.hpp>
+
+struct halflight_job {
+  std::span<const float> positions;
+  std::span<const std::uint32_t> indices, material;
+  std::uint32_t stride = 3;
+  std::vector<radiosity::Material> materials;
+  radiosity::BakeOptions options;
+  halflight_progress progress = nullptr;
+  void* user = nullptr;
+
+  std::optional<radiosity::Baked> baked;
+  std::vector<std::string> changes;
+  std::string message;
+};
+
+namespace {
+
+using radiosity::BakeOptions;
+
+halflight_status refuse(halflight_job* job, std::string message, halflight_status status = HALFLIGHT_INVALID) {
+  if (job != nullptr) { job->message = std::move(message); }
+  return status;
+}
+
+// An option: what it may be, and where it goes.
+struct NumberOption {
+  std::string_view name;
+  double least, most;
+  bool whole;
+  void (*set)(BakeOptions& options, double value);
+};
+
+constexpr double any = std::numeric_limits<double>::max();
+constexpr double exact = 9007199254740992.0;  // whole numbers up to here
+
+constexpr std::array<NumberOption, 11> number_options{{
+    {"epsilon", 0.0, 1.0, false, [](BakeOptions& o, double v) { o.solve.epsilon = v; }},
+    {"min_area", 0.0, 1.0, false, [](BakeOptions& o, double v) { o.solve.min_area = v; }},
+    {"error", 0.0, 1.0, false, [](BakeOptions& o, double v) { o.solve.error = v; }},
+    {"seconds", 0.0, any, false,
+     [](BakeOptions& o, double v) {
+       o.solve.refinement = radiosity::Refinement::a_posteriori;
+       o.solve.time = v;
+     }},
+    {"audit_points", 0.0, 1e8, true, [](BakeOptions& o, double v) { o.solve.audit_points = static_cast<std::uint32_t>(v); }},
+    {"threads", 0.0, 4096.0, true, [](BakeOptions& o, double v) { o.solve.threads = static_cast<unsigned>(v); }},
+    {"seed", 0.0, exact, true, [](BakeOptions& o, double v) { o.solve.seed = static_cast<std::uint64_t>(v); }},
+    {"memory", 0.0, exact, true, [](BakeOptions& o, double v) { o.solve.memory = static_cast<std::uint64_t>(v); }},
+    {"weld", 0.0, 0.01, false, [](BakeOptions& o, double v) { o.intake.weld = v; }},
+    {"two_sided", 0.0, 1.0, true, [](BakeOptions& o, double v) { o.intake.two_sided = v != 0.0; }},
+    {"merge", 0.0, 1.0, true, [](BakeOptions& o, double v) { o.intake.merge = v != 0.0; }},
+}};
+
+struct Figure {
+  std::string_view name;
+  std::optional<double> (*value)(const radiosity::Baked& baked);
+};
+
+template <class Number>
+std::optional<double> number(Number value) {
+  return static_cast<double>(value);
+}
+
+std::optional<double> of_error(const radiosity::Baked& baked, double radiosity::ErrorEstimate::*value) {
+  return baked.audit.surface_error ? std::optional((*baked.audit.surface_error).*value) : std::nullopt;
+}
+
+constexpr std::array<Figure, 14> figures{{
+    {"error", [](const radiosity::Baked& b) { return of_error(b, &radiosity::ErrorEstimate::relative_l2); }},
+    {"error_low", [](const radiosity::Baked& b) { return of_error(b, &radiosity::ErrorEstimate::low); }},
+    {"error_high", [](const radiosity::Baked& b) { return of_error(b, &radiosity::ErrorEstimate::high); }},
+    {"seconds", [](const radiosity::Baked& b) { return number(b.audit.wall_seconds); }},
+    {"cpu_seconds", [](const radiosity::Baked& b) { return number(b.audit.cpu_seconds); }},
+    {"faces", [](const radiosity::Baked& b) { return number(b.faces); }},
+    {"leaves", [](const radiosity::Baked& b) { return number(b.audit.leaves); }},
+    {"links", [](const radiosity::Baked& b) { return number(b.audit.links); }},
+    {"rays", [](const radiosity::Baked& b) { return number(b.audit.rays); }},
+    {"residual", [](const radiosity::Baked& b) { return number(b.audit.residual); }},
+    {"iterations", [](const radiosity::Baked& b) { return number(b.audit.iterations); }},
+    {"converged", [](const radiosity::Baked& b) { return number(b.audit.converged); }},
+    {"interrupted", [](const radiosity::Baked& b) { return number(b.audit.interrupted); }},
+    {"without", [](const radiosity::Baked& b) { return number(b.colors.without); }},
+}};
+
+halflight_status copy(halflight_job* job, const std::vector<radiosity::Color> radiosity::BakedColors::*colors, float* rgb,
+                      std::size_t count) {
+  if (job == nullptr || rgb == nullptr) { return refuse(job, "there is no buffer for the colours"); }
+  if (!job->baked) { return refuse(job, "there are no colours before halflight_run", HALFLIGHT_NOT_RUN); }
+  const std::vector<radiosity::Color>& list = job->baked->colors.*colors;
+  if (count < list.size()) {
+    return refuse(job, "there are " + std::to_string(list.size()) + " colours, and room for " + std::to_string(count));
+  }
+  for (const radiosity::Color& color : list) {
+    for (int k = 0; k < 3; ++k) { *rgb++ = static_cast<float>(color[k]); }
+  }
+  return HALFLIGHT_OK;
+}
+
+}  // namespace
+
+extern "C" {
+
+const char* halflight_version(void) { return HALFLIGHT_C_VERSION; }
+
+halflight_job* halflight_create(void) { return new (std::nothrow) halflight_job; }
+
+void halflight_destroy(halflight_job* job) { delete job; }
+
+halflight_status halflight_set_positions(halflight_job* job, const float* xyz, size_t count, size_t stride) {
+  if (job == nullptr || (xyz == nullptr && count > 0)) { return refuse(job, "there are no positions"); }
+  if (stride < 3 || stride > 1'000'000) {
+    return refuse(job, "the stride of the positions is " + std::to_string(stride) + "; a vertex has three numbers");
+  }
+  if (count > std::numeric_limits<std::uint32_t>::max()) { return refuse(job, "there are more vertices than indices can count"); }
+  job->positions = {xyz, count == 0 ? 0 : (count - 1) * stride + 3};
+  job->stride = static_cast<std::uint32_t>(stride);
+  return HALFLIGHT_OK;
+}
+
+halflight_status halflight_set_triangles(halflight_job* job, const uint32_t* indices, size_t triangles, const uint32_t* material) {
+  if (job == nullptr || (indices == nullptr && triangles > 0)) { return refuse(job, "there are no indices"); }
+  if (triangles > std::numeric_limits<std::uint32_t>::max() / 3) { return refuse(job, "there are more triangles than can be counted"); }
+  job->indices = {indices, 3 * triangles};
+  job->material = {material, material == nullptr ? 0 : triangles};
+  return HALFLIGHT_OK;
+}
+
+int halflight_add_material(halflight_job* job, const char* name, const double reflectance[3], const double emission[3]) {
+  if (job == nullptr || reflectance == nullptr) { return -refuse(job, "a material needs a reflectance"); }
+  radiosity::Material material{
+      name == nullptr ? "material" : name, {reflectance[0], reflectance[1], reflectance[2]}, radiosity::Color(0.0)};
+  if (emission != nullptr) { material.emission = {emission[0], emission[1], emission[2]}; }
+  if (auto sentence = radiosity::fault(material)) { return -refuse(job, std::move(*sentence)); }
+  job->materials.push_back(std::move(material));
+  return static_cast<int>(job->materials.size()) - 1;
+}
+
+halflight_status halflight_set_number(halflight_job* job, const char* option, double value) {
+  if (job == nullptr || option == nullptr) { return refuse(job, "there is no option without a name"); }
+  for (const NumberOption& known : number_options) {
+    if (known.name != option) { continue; }
+    if (!(value >= known.least && value <= known.most) || (known.whole && value != std::floor(value))) {
+      return refuse(job, std::string(option) + " cannot be " + std::to_string(value));
+    }
+    known.set(job->options, value);
+    return HALFLIGHT_OK;
+  }
+  return refuse(job, "there is no option '" + std::string(option) + "'", HALFLIGHT_NOTHING);
+}
+
+halflight_status halflight_set_progress(halflight_job* job, halflight_progress callback, void* user) {
+  if (job == nullptr) { return HALFLIGHT_INVALID; }
+  job->progress = callback;
+  job->user = user;
+  return HALFLIGHT_OK;
+}
+
+halflight_status halflight_run(halflight_job* job) {
+  if (job == nullptr) { return HALFLIGHT_INVALID; }
+  std::atomic<bool> stop{false};
+  radiosity::Control control;
+  control.cancel = &stop;
+  if (job->progress != nullptr) {
+    control.progress = [&](std::string_view stage, double fraction) {
+      if (job->progress(job->user, std::string(stage).c_str(), fraction) != 0) { stop.store(true, std::memory_order_relaxed); }
+    };
+  }
+  job->baked.reset();
+  job->changes.clear();
+  radiosity::BakeOutcome outcome =
+      radiosity::bake({job->positions, job->indices, job->materials, job->material, job->stride}, job->options, control);
+  if (!outcome.baked) {
+    std::string message;
+    for (const std::string& sentence : outcome.failure.sentences) { message += (message.empty() ? "" : "\n") + sentence; }
+    using Kind = radiosity::Failure::Kind;
+    const Kind kind = outcome.failure.kind;
+    return refuse(job, std::move(message),
+                  kind == Kind::cancelled       ? HALFLIGHT_CANCELLED
+                  : kind == Kind::out_of_memory ? HALFLIGHT_OUT_OF_MEMORY
+                                                : HALFLIGHT_INVALID);
+  }
+  job->baked = std::move(outcome.baked);
+  for (const radiosity::Change& change : job->baked->changes) { job->changes.push_back(radiosity::sentence(change)); }
+  return HALFLIGHT_OK;
+}
+
+const char* halflight_message(const halflight_job* job) { return job == nullptr ? "there is no job" : job->message.c_str(); }
+
+halflight_status halflight_corner_colors(halflight_job* job, float* rgb, size_t count) {
+  return copy(job, &radiosity::BakedColors::corner, rgb, count);
+}
+
+halflight_status halflight_vertex_colors(halflight_job* job, float* rgb, size_t count) {
+  return copy(job, &radiosity::BakedColors::vertex, rgb, count);
+}
+
+halflight_status halflight_at(const halflight_job* job, size_t triangle, const float point[3], int back, float rgb[3]) {
+  if (job == nullptr || point == nullptr || rgb == nullptr) { return HALFLIGHT_INVALID; }
+  if (!job->baked) { return HALFLIGHT_NOT_RUN; }
+  const auto color = job->baked->light.radiosity(triangle, {point[0], point[1], point[2]},
+                                                 back != 0 ? radiosity::FaceSide::back : radiosity::FaceSide::front);
+  if (!color) { return HALFLIGHT_NOTHING; }
+  for (int k = 0; k < 3; ++k) { rgb[k] = static_cast<float>((*color)[k]); }
+  return HALFLIGHT_OK;
+}
+
+halflight_status halflight_figure(halflight_job* job, const char* name, double* value) {
+  if (job == nullptr || name == nullptr || value == nullptr) { return refuse(job, "a figure has a name, and a place to go to"); }
+  if (!job->baked) { return refuse(job, "there are no figures before halflight_run", HALFLIGHT_NOT_RUN); }
+  for (const Figure& figure : figures) {
+    if (figure.name != name) { continue; }
+    const std::optional<double> found = figure.value(*job->baked);
+    if (!found) { return refuse(job, std::string(name) + " was not measured", HALFLIGHT_NOTHING); }
+    *value = *found;
+    return HALFLIGHT_OK;
+  }
+  return refuse(job, "there is no figure '" + std::string(name) + "'", HALFLIGHT_NOTHING);
+}
+
+const char* halflight_change(const halflight_job* job, size_t number) {
+  return job == nullptr || number >= job->changes.size() ? nullptr : job->changes[number].c_str();
+}
+
+}  // extern "C"

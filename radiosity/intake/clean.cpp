@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/intake/clean.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/polygon.hpp>
+
+#include <raycast/inline.hpp>
+#include <raycast/planar.hpp>
+#include <raycast/tolerances.hpp>
+
+#include <radiosity/intake/ears.hpp>
+
+namespace radiosity::intake {
+namespace detail {
+
+inline constexpr std::size_t most_corners = 1024;  // the search for self-intersections is quadratic
+
+// Takes away a b b c and a b a.
+inline void simplify(std::vector<std::uint32_t>& corners) {
+  for (bool changed = true; changed && corners.size() > 2;) {
+    changed = false;
+    for (std::size_t i = 0; i < corners.size() && corners.size() > 2; ++i) {
+      const std::size_t n = corners.size(), next = (i + 1) % n, after = (i + 2) % n;
+      if (corners[i] != corners[next] && corners[i] != corners[after]) { continue; }
+      const std::size_t gone = next;
+      corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(gone));
+      changed = true;
+    }
+  }
+}
+
+// The smallest extent of a triangle, 0 of one without area; of other polygons the area over the extent.
+inline double width(std::span<const glm::dvec3> p) {
+  double longest = 0.0;
+  for (std::size_t i = 0; i < p.size(); ++i) { longest = std::max(longest, glm::length(p[(i + 1) % p.size()] - p[i])); }
+  if (p.size() > 3) { longest = std::max(longest, brep::extent(p)); }
+  return longest > 0.0 ? (p.size() == 3 ? 2.0 : 1.0) * brep::area(p) / longest : 0.0;
+}
+
+// The corners from the least on, in their order.
+inline std::vector<std::uint32_t> canonical(std::vector<std::uint32_t> corners) {
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+inline bool nearly_planar(const raycast::Plane& plane, std::span<const glm::dvec3> outline, double tolerance) {
+  return plane.slack <= std::min(tolerance, 1e-4 * brep::extent(outline));
+}
+
+// A polygon that crosses itself may have no area although its triangles have.
+inline bool has_triangles(Working& mesh, const Face& face) {
+  const std::vector<std::array<std::uint32_t, 3>> triangles = ears(mesh.outline(face));
+  return std::any_of(triangles.begin(), triangles.end(), [&](const std::array<std::uint32_t, 3>& t) {
+    return width(mesh.outline({face.corners[t[0]], face.corners[t[1]], face.corners[t[2]]})) >= mesh.tolerance;
+  });
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE void drop_degenerate(Working& mesh) {
+  std::erase_if(mesh.faces, [&](Face& face) {
+    detail::simplify(face.corners);
+    const double width = face.corners.size() < 3 ? 0.0 : detail::width(mesh.outline(face));
+    if (width >= mesh.tolerance || (face.corners.size() > 3 && detail::has_triangles(mesh, face))) { return false; }
+    const bool area = width > raycast::tol_area * brep::extent(mesh.outline(face));
+    mesh.changed(area ? ChangeKind::sliver : ChangeKind::no_area, face.polygon, area ? width : 0.0);
+    return true;
+  });
+}
+
+HALFLIGHT_INLINE void drop_duplicates(Working& mesh) {
+  std::vector<std::pair<std::vector<std::uint32_t>, std::uint32_t>> keys;
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) { keys.emplace_back(detail::canonical(mesh.faces[f].corners), f); }
+  std::sort(keys.begin(), keys.end());
+  std::vector<bool> gone(mesh.faces.size(), false);
+  for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+    if (keys[i].first != keys[i + 1].first) { continue; }
+    gone[keys[i].second] = true;
+    mesh.faces[keys[i + 1].second].stand_for(mesh.faces[keys[i].second]);
+    mesh.changed(ChangeKind::duplicate, mesh.faces[keys[i].second].polygon);
+  }
+  std::erase_if(mesh.faces, [&](const Face& face) { return gone[static_cast<std::size_t>(&face - mesh.faces.data())]; });
+}
+
+HALFLIGHT_INLINE bool nearly_sound(std::span<const glm::dvec3> outline, double tolerance) {
+  if (outline.size() > detail::most_corners) { return false; }
+  if (!raycast::polygon_fault(outline)) { return true; }
+  const raycast::Plane plane = raycast::plane_of(outline);
+  if (!detail::nearly_planar(plane, outline, tolerance)) { return false; }
+  std::vector<glm::dvec3> flat(outline.begin(), outline.end());
+  for (glm::dvec3& p : flat) { p -= glm::dot(p - plane.point, plane.normal) * plane.normal; }
+  return !raycast::polygon_fault(flat);
+}
+
+HALFLIGHT_INLINE void split_faulty(Working& mesh, bool strict) {
+  std::vector<Face> faces;
+  faces.reserve(mesh.faces.size());
+  for (Face& face : mesh.faces) {
+    const std::span<const glm::dvec3> outline = mesh.outline(face);
+    const bool sound =
+        strict ? outline.size() <= detail::most_corners && !raycast::polygon_fault(outline) : nearly_sound(outline, mesh.tolerance);
+    if (sound) {
+      faces.push_back(std::move(face));
+      continue;
+    }
+    if (outline.size() > 3) {
+      const double slack = raycast::plane_of(outline).slack;
+      const bool flat = slack <= raycast::tol_planar * brep::extent(outline);
+      mesh.changed(flat ? ChangeKind::crossing : ChangeKind::not_planar, face.polygon, flat ? 0.0 : slack);
+    }
+    for (const auto& [a, b, c] : ears(outline)) {
+      Face triangle{
+          {face.corners[a], face.corners[b], face.corners[c]}, face.material, face.group, face.polygon, face.turned, face.mixed, face.more};
+      if (!raycast::polygon_fault(mesh.outline(triangle))) { faces.push_back(std::move(triangle)); }
+    }
+  }
+  mesh.faces = std::move(faces);
+}
+
+// Each vertex is projected on the planes of its faces in turn (Kaczmarz 1937), which converges to a point of all of them near the first.
+HALFLIGHT_INLINE void flatten(Working& mesh) {
+  std::vector<raycast::Plane> planes;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> uses;  // vertex, plane
+  bool any = false;
+  for (const Face& face : mesh.faces) {
+    const std::span<const glm::dvec3> outline = mesh.outline(face);
+    if (outline.size() == 3) { continue; }  // planar wherever its corners go
+    const raycast::Plane plane = raycast::plane_of(outline);
+    if (!detail::nearly_planar(plane, outline, mesh.tolerance)) { continue; }
+    any = any || plane.slack > 0.0;
+    for (const std::uint32_t v : face.corners) { uses.emplace_back(v, static_cast<std::uint32_t>(planes.size())); }
+    planes.push_back(plane);
+  }
+  if (!any) { return; }
+  std::sort(uses.begin(), uses.end());
+  for (std::size_t first = 0, end = 0; first < uses.size(); first = end) {
+    const std::uint32_t vertex = uses[first].first;
+    bool off = false;
+    for (end = first; end < uses.size() && uses[end].first == vertex; ++end) { off = off || planes[uses[end].second].slack > 0.0; }
+    if (!off) { continue; }
+    glm::dvec3 p = mesh.positions[vertex];
+    double moved = HUGE_VAL;
+    for (int round = 0; round < 64 && moved > 1e-9 * mesh.tolerance; ++round) {
+      moved = 0.0;
+      for (std::size_t i = first; i < end; ++i) {
+        const raycast::Plane& plane = planes[uses[i].second];
+        const double height = glm::dot(p - plane.point, plane.normal);
+        p -= height * plane.normal;
+        moved = std::max(moved, std::abs(height));
+      }
+    }
+    const double distance = glm::length(p - mesh.positions[vertex]);
+    if (!(distance > 0.0 && distance <= mesh.tolerance)) { continue; }
+    mesh.positions[vertex] = p;
+    mesh.changed(ChangeKind::flattened, vertex, distance);
+  }
+}
+
+}  // namespace radiosity::intake

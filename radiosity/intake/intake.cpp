@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/intake/intake.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/intake/clean.hpp>
+#include <radiosity/intake/merge.hpp>
+#include <radiosity/intake/objects.hpp>
+#include <radiosity/intake/t_joints.hpp>
+#include <radiosity/intake/topology.hpp>
+#include <radiosity/intake/weld.hpp>
+#include <radiosity/intake/working.hpp>
+
+namespace radiosity {
+namespace intake::detail {
+
+// "#" stands for the count, "@" for the size.
+struct Wording {
+  const char *one, *several;
+};
+
+inline constexpr std::array<Wording, static_cast<std::size_t>(ChangeKind::merged) + 1> wordings{{
+    {"1 polygon has a corner that is not finite or does not exist: left out",
+     "# polygons have corners that are not finite or do not exist: left out"},
+    {"1 vertex lay on another one, @ beside it: made one", "# vertices lay on others, beside them by up to @: made one"},
+    {"1 polygon has no area: left out", "# polygons have no area: left out"},
+    {"1 polygon is only @ wide: left out", "# polygons are at most @ wide: left out"},
+    {"1 polygon lies on another one: left out", "# polygons lie on others: left out"},
+    {"1 polygon was not planar by @: split", "# polygons were not planar by up to @: split"},
+    {"1 polygon crossed itself: split", "# polygons crossed themselves: split"},
+    {"1 vertex was moved by @, so that its polygons are planar", "# vertices were moved by up to @, so that their polygons are planar"},
+    {"1 vertex lay on the edge of another polygon, beside it by @: joined",
+     "# vertices lay on edges of other polygons, beside them by up to @: joined"},
+    {"1 edge has more than two polygons: cut", "# edges have more than two polygons: cut"},
+    {"1 polygon looked another way than its neighbours: turned", "# polygons looked another way than their neighbours: turned"},
+    {"across 1 edge polygons cannot look the same way, as on a Moebius strip: cut",
+     "across # edges polygons cannot look the same way, as on a Moebius strip: cut"},
+    {"1 polygon fits to none of its neighbours: a surface of its own", "# polygons fit to none of their neighbours: surfaces of their own"},
+    {"1 closed shell looked inwards with no lamp or camera in it: turned",
+     "# closed shells looked inwards with no lamp or camera in them: turned"},
+    {"1 closed shell around a lamp or a camera looked outwards: turned, as a room",
+     "# closed shells around lamps or cameras looked outwards: turned, as rooms"},
+    {"1 surface has polygons of both orientations: it reflects on both sides",
+     "# surfaces have polygons of both orientations: they reflect on both sides"},
+    {"1 polygon became part of a coplanar neighbour", "# polygons became parts of coplanar neighbours"},
+}};
+
+inline std::string replaced(std::string text, char mark, const std::string& by) {
+  const std::size_t at = text.find(mark);
+  return at == std::string::npos ? text : text.replace(at, 1, by);
+}
+
+}  // namespace intake::detail
+
+HALFLIGHT_INLINE std::string length_text(double metres) {
+  constexpr std::array<std::pair<double, const char*>, 5> units{{{1e3, " km"}, {1.0, " m"}, {1e-3, " mm"}, {1e-6, " um"}, {0.0, " nm"}}};
+  for (const auto& [unit, name] : units) {
+    if (!(metres >= unit) || metres == 0.0) { continue; }
+    const double value = metres / (unit > 0.0 ? unit : 1e-9);
+    const double step = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-3))) - 1.0);  // two digits
+    const double rounded = std::round(value / step) * step;
+    std::string text = std::to_string(rounded);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') { text.pop_back(); }
+    return text + name;
+  }
+  return "0 mm";
+}
+
+HALFLIGHT_INLINE std::string sentence(const Change& change) {
+  const intake::detail::Wording& wording = intake::detail::wordings[static_cast<std::size_t>(change.kind)];
+  std::string text = change.count == 1 ? wording.one : wording.several;
+  if (!(change.size > 0.0)) {  // exactly there
+    for (const std::string_view beside : {", @ beside it", ", beside it by @", ", beside them by up to @"}) {
+      const std::size_t at = text.find(beside);
+      if (at != std::string::npos) { text.erase(at, beside.size()); }
+    }
+  }
+  text = intake::detail::replaced(std::move(text), '#', std::to_string(change.count));
+  return intake::detail::replaced(std::move(text), '@', length_text(change.size));
+}
+
+HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Material> materials, const IntakeOptions& options) {
+  intake::Working mesh;
+  intake::weld(input, materials.size(), options.weld, mesh);
+  intake::drop_degenerate(mesh);
+  intake::drop_duplicates(mesh);
+  intake::close_t_joints(mesh);
+  intake::drop_duplicates(mesh);  // those that had no joint
+  intake::split_faulty(mesh, false);
+  intake::orient(mesh);
+  if (options.merge) { intake::merge_coplanar(mesh, intake::topology_of(mesh, false)); }
+  intake::flatten(mesh);
+  intake::split_faulty(mesh, true);
+  const intake::Topology topology = intake::topology_of(mesh, true);
+  Intake result;
+  intake::MadeObjects made = intake::make_objects(mesh, topology, input, materials, options);
+  result.objects = std::move(made.objects);
+  result.parts = intake::parts_of(mesh, made.sheets, input.count());
+  result.polygons = input.count();
+  for (const SceneObject& object : result.objects) { result.faces += object.shape->sheet_count(); }
+  for (const Change& change : mesh.changes) {
+    if (change.count > 0) { result.changes.push_back(change); }
+  }
+  return result;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// From faces to objects. A closed shell becomes a solid. One that looks inwards, or that holds a lamp or an eye, is seen from inside: a
+// room, where everything else lies in it, or else a surface, for beyond its walls a room is solid. What is open becomes, of each group, one
+// surface; where it has two sides its back is a surface of its own at the same place.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <radiosity/intake/topology.hpp>
+#include <radiosity/intake/working.hpp>
+
+namespace radiosity::intake {
+
+// A sheet of an object and the face that became it.
+struct SheetOrigin {
+  PolygonPart part;  // `back`: of the face
+  std::uint32_t face = 0;
+};
+
+struct MadeObjects {
+  std::vector<SceneObject> objects;
+  std::vector<SheetOrigin> sheets;
+};
+
+[[nodiscard]] MadeObjects make_objects(Working& mesh, const Topology& topology, const PolygonView& input,
+                                       std::span<const Material> materials, const IntakeOptions& options);
+
+// Of each of `polygons` polygons of the input, in the order of objects and sheets.
+[[nodiscard]] PolygonParts parts_of(const Working& mesh, std::span<const SheetOrigin> sheets, std::size_t polygons);
+
+}  // namespace radiosity::intake
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/intake/objects.cpp>
+#endif

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/intake/topology.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/polygon.hpp>
+
+#include <raycast/inline.hpp>
+
+namespace radiosity::intake {
+namespace detail {
+
+// A side of a face, as a use of the edge between two vertices.
+struct Use {
+  std::uint32_t group, low, high;
+  std::uint32_t side, face;
+  bool up;  // runs from low to high
+
+  [[nodiscard]] auto key() const { return std::tie(group, low, high); }
+};
+
+// All uses, those of an edge after each other; and the first side of each face.
+inline std::vector<Use> uses_of(const Working& mesh, std::vector<std::uint32_t>& first) {
+  std::vector<Use> uses;
+  first.clear();
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const std::vector<std::uint32_t>& corners = mesh.faces[f].corners;
+    first.push_back(static_cast<std::uint32_t>(uses.size()));
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::uint32_t a = corners[i], b = corners[i + 1 < corners.size() ? i + 1 : 0];
+      uses.push_back({mesh.faces[f].group, std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(uses.size()), f, a < b});
+    }
+  }
+  first.push_back(static_cast<std::uint32_t>(uses.size()));
+  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return std::tuple(a.key(), a.side) < std::tuple(b.key(), b.side); });
+  return uses;
+}
+
+// visit(uses of one edge)
+template <class Visit>
+void each_edge(std::span<const Use> uses, Visit&& visit) {
+  for (std::size_t first = 0, end = 0; first < uses.size(); first = end) {
+    while (end < uses.size() && uses[end].key() == uses[first].key()) { ++end; }
+    visit(uses.subspan(first, end - first));
+  }
+}
+
+// Do the faces have the same corners, in opposite order: are they the two sides of one sheet?
+inline bool back_to_back(const Face& a, const Face& b) {
+  const std::size_t n = a.corners.size();
+  if (n != b.corners.size()) { return false; }
+  const auto at = std::find(b.corners.begin(), b.corners.end(), a.corners[0]);
+  if (at == b.corners.end()) { return false; }
+  const auto shift = static_cast<std::size_t>(at - b.corners.begin());
+  for (std::size_t i = 0; i < n; ++i) {
+    if (a.corners[i] != b.corners[(shift + n - i) % n]) { return false; }
+  }
+  return true;
+}
+
+inline void turn(Face& face) {
+  std::reverse(face.corners.begin(), face.corners.end());
+  face.turned = !face.turned;
+  for (Source& source : face.more) { source.turned = !source.turned; }
+}
+
+// Union-find with path halving.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) { i = parent_[i] = parent_[parent_[i]]; }
+    return i;
+  }
+  void unite(std::uint32_t a, std::uint32_t b) {
+    a = find(a), b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+  // Numbers the sets from 0 in the order of their first members; how many there are.
+  std::uint32_t number(std::vector<std::uint32_t>& out) {
+    std::uint32_t count = 0;
+    out.resize(parent_.size());
+    for (std::uint32_t i = 0; i < parent_.size(); ++i) { out[i] = find(i) == i ? count++ : out[find(i)]; }
+    return count;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+class Joiner {
+ public:
+  explicit Joiner(Working& mesh) : mesh_(mesh), uses_(uses_of(mesh, topology_.first)), loose_(mesh.faces.size(), false) {
+    topology_.mate.assign(uses_.size(), none);
+    face_of_.resize(uses_.size());
+    for (const Use& use : uses_) { face_of_[use.side] = use.face; }
+  }
+
+  Topology run(bool report) {
+    each_edge(uses_, [&](std::span<const Use> edge) { join(edge, report); });
+    for (bool again = true; again;) {
+      part_fans();
+      const std::size_t before = loosened_;
+      loosen(report);
+      again = loosened_ != before;
+    }
+    Sets components(mesh_.faces.size());
+    for (std::uint32_t s = 0; s < topology_.mate.size(); ++s) {
+      if (topology_.mate[s] != none) { components.unite(face_of_[s], face_of_[topology_.mate[s]]); }
+    }
+    topology_.components = components.number(topology_.component);
+    return std::move(topology_);
+  }
+
+ private:
+  void join(std::span<const Use> edge, bool report) {
+    if (edge.size() == 2) {
+      if (edge[0].up != edge[1].up && !back_to_back(mesh_.faces[edge[0].face], mesh_.faces[edge[1].face])) { mate(edge[0], edge[1]); }
+      return;
+    }
+    if (edge.size() == 1) { return; }
+    const auto up = static_cast<std::size_t>(std::count_if(edge.begin(), edge.end(), [](const Use& use) { return use.up; }));
+    if (2 * up == edge.size() && edge.size() <= 16 && join_around(edge)) { return; }
+    if (report) { mesh_.changed(ChangeKind::nonmanifold, mesh_.faces[edge[0].face].polygon); }
+  }
+
+  void mate(const Use& a, const Use& b) {
+    topology_.mate[a.side] = b.side;
+    topology_.mate[b.side] = a.side;
+  }
+
+  // Several solids that touch in an edge: from each face around the edge, through the solid behind it, to the next face.
+  bool join_around(std::span<const Use> edge) {
+    const glm::dvec3 axis = glm::normalize(mesh_.positions[edge[0].high] - mesh_.positions[edge[0].low]);
+    std::vector<double> angle;
+    glm::dvec3 zero{0.0};
+    for (const Use& use : edge) {
+      const glm::dvec3 normal = brep::normal(mesh_.outline(mesh_.faces[use.face]));
+      const glm::dvec3 into = use.up ? glm::cross(normal, axis) : glm::cross(axis, normal);  // the face, from the edge
+      if (angle.empty()) { zero = into; }
+      const double a = std::atan2(glm::dot(glm::cross(zero, into), axis), glm::dot(zero, into));
+      angle.push_back(a < -1e-9 ? a + 2.0 * std::numbers::pi : std::max(a, 0.0));
+    }
+    std::vector<std::pair<const Use*, const Use*>> pairs;
+    std::vector<bool> taken(edge.size(), false);
+    for (std::size_t i = 0; i < edge.size(); ++i) {
+      if (!edge[i].up) { continue; }
+      std::optional<std::size_t> best;
+      double least = HUGE_VAL;
+      for (std::size_t j = 0; j < edge.size(); ++j) {
+        if (edge[j].up || taken[j] || back_to_back(mesh_.faces[edge[i].face], mesh_.faces[edge[j].face])) { continue; }
+        double turn = angle[i] - angle[j];  // the solid is behind the face: the way round is against the axis
+        if (turn < 1e-9) { turn += 2.0 * std::numbers::pi; }
+        if (turn < least) {
+          least = turn;
+          best = j;
+        }
+      }
+      if (!best) { return false; }
+      taken[*best] = true;
+      pairs.emplace_back(&edge[i], &edge[*best]);
+    }
+    for (const auto& [a, b] : pairs) { mate(*a, *b); }
+    return true;
+  }
+
+  void part_fans() {
+    Sets fans(uses_.size());
+    for (std::uint32_t s = 0; s < topology_.mate.size(); ++s) {
+      const std::uint32_t t = topology_.mate[s];
+      if (t != none) { fans.unite(s, topology_.next(t, face_of_[t])); }
+    }
+    topology_.vertices = fans.number(topology_.vertex);
+  }
+
+  // Faces that are not the only ones to run along an edge in their direction, or that meet in an edge without being neighbours, get loose:
+  // of each such edge the later face.
+  void loosen(bool report) {
+    struct Run {
+      std::uint32_t from, to, side;
+    };
+    std::vector<Run> runs;
+    for (std::uint32_t s = 0; s < topology_.vertex.size(); ++s) {
+      runs.push_back({topology_.vertex[s], topology_.vertex[topology_.next(s, face_of_[s])], s});
+    }
+    const auto before = [](const Run& a, const Run& b) { return std::tie(a.from, a.to, a.side) < std::tie(b.from, b.to, b.side); };
+    std::sort(runs.begin(), runs.end(), before);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const Run& run = runs[i];
+      const bool doubled = i > 0 && runs[i - 1].from == run.from && runs[i - 1].to == run.to;
+      bool strange = doubled;
+      const auto other = std::lower_bound(runs.begin(), runs.end(), Run{run.to, run.from, 0}, before);
+      if (other != runs.end() && other->from == run.to && other->to == run.from && topology_.mate[run.side] != other->side) {
+        strange = strange || other->side < run.side;
+      }
+      if (strange) { set_loose(face_of_[run.side], report); }
+    }
+    std::vector<std::uint32_t> corners;  // a face that comes to a vertex twice
+    for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
+      corners.assign(topology_.vertex.begin() + topology_.first[f], topology_.vertex.begin() + topology_.first[f + 1]);
+      std::sort(corners.begin(), corners.end());
+      if (std::adjacent_find(corners.begin(), corners.end()) != corners.end()) { set_loose(f, report); }
+    }
+  }
+
+  void set_loose(std::uint32_t face, bool report) {
+    if (loose_[face]) { return; }
+    loose_[face] = true;
+    ++loosened_;
+    if (report) { mesh_.changed(ChangeKind::loose, mesh_.faces[face].polygon); }
+    for (std::uint32_t s = topology_.first[face]; s < topology_.first[face + 1]; ++s) {
+      if (topology_.mate[s] == none) { continue; }
+      topology_.mate[topology_.mate[s]] = none;
+      topology_.mate[s] = none;
+    }
+  }
+
+  Working& mesh_;
+  Topology topology_;
+  std::vector<Use> uses_;
+  std::vector<std::uint32_t> face_of_;
+  std::vector<bool> loose_;
+  std::size_t loosened_ = 0;
+};
+
+}  // namespace detail
+
+HALFLIGHT_INLINE void orient(Working& mesh) {
+  std::vector<std::uint32_t> first;
+  const std::vector<detail::Use> uses = detail::uses_of(mesh, first);
+  struct Neighbour {
+    std::uint32_t face;
+    bool alike;
+  };
+  std::vector<std::vector<Neighbour>> neighbours(mesh.faces.size());
+  detail::each_edge(uses, [&](std::span<const detail::Use> edge) {
+    if (edge.size() != 2 || edge[0].face == edge[1].face) { return; }
+    if (detail::back_to_back(mesh.faces[edge[0].face], mesh.faces[edge[1].face])) { return; }
+    const bool alike = edge[0].up != edge[1].up;
+    neighbours[edge[0].face].push_back({edge[1].face, alike});
+    neighbours[edge[1].face].push_back({edge[0].face, alike});
+  });
+  std::vector<signed char> side(mesh.faces.size(), 0);  // 1: as the first face of its component, -1: against it
+  std::vector<std::uint32_t> component;
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    if (side[f] != 0) { continue; }
+    component.assign(1, f);
+    side[f] = 1;
+    double along = 0.0, against = 0.0;
+    bool one_sided = false;
+    for (std::size_t i = 0; i < component.size(); ++i) {
+      const std::uint32_t at = component[i];
+      (side[at] > 0 ? along : against) += brep::area(mesh.outline(mesh.faces[at]));
+      for (const auto& [next, alike] : neighbours[at]) {
+        const auto wanted = static_cast<signed char>(alike ? side[at] : -side[at]);
+        if (side[next] == 0) {
+          side[next] = wanted;
+          component.push_back(next);
+        } else if (side[next] != wanted) {
+          one_sided = true;
+          if (at < next) { mesh.changed(ChangeKind::moebius, mesh.faces[at].polygon); }
+        }
+      }
+    }
+    const bool mixed = one_sided || 10.0 * std::min(along, against) > along + against;
+    for (const std::uint32_t at : component) {
+      mesh.faces[at].mixed = mixed;
+      if ((side[at] > 0) == (along >= against)) { continue; }
+      detail::turn(mesh.faces[at]);
+      mesh.changed(ChangeKind::turned, mesh.faces[at].polygon);
+    }
+  }
+}
+
+HALFLIGHT_INLINE Topology topology_of(Working& mesh, bool report) { return detail::Joiner(mesh).run(report); }
+
+}  // namespace radiosity::intake

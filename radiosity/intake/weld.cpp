@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/intake/weld.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+
+namespace radiosity::intake {
+namespace detail {
+
+// Points in cells of a grid. A cell is much wider than the tolerance, so a point looks into its own cell, and into a neighbour only where
+// it lies near the border.
+class PointGrid {
+ public:
+  PointGrid(const raycast::Box& bounds, double tolerance, std::vector<glm::dvec3>& points)
+      : points_(points), origin_(bounds.lo), tolerance_(tolerance), cell_(std::max(64.0 * tolerance, bounds.diameter() * 0x1p-20)) {}
+
+  // The first point within the tolerance; `none` when there is none.
+  [[nodiscard]] std::uint32_t find(const glm::dvec3& p) const {
+    const glm::dvec3 lo = glm::floor((p - tolerance_ - origin_) / cell_), hi = glm::floor((p + tolerance_ - origin_) / cell_);
+    std::uint32_t found = none;
+    for (double x = lo.x; x <= hi.x; x += 1.0) {
+      for (double y = lo.y; y <= hi.y; y += 1.0) {
+        for (double z = lo.z; z <= hi.z; z += 1.0) {
+          const auto head = heads_.find(key({x, y, z}));
+          if (head == heads_.end()) { continue; }
+          for (std::uint32_t i = head->second; i != none; i = next_[i]) {
+            if (glm::length(points_[i] - p) <= tolerance_) { found = std::min(found, i); }
+          }
+        }
+      }
+    }
+    return found;
+  }
+  std::uint32_t add(const glm::dvec3& p) {
+    const auto index = static_cast<std::uint32_t>(points_.size());
+    points_.push_back(p);
+    const auto [head, is_new] = heads_.emplace(key(glm::floor((p - origin_) / cell_)), index);
+    next_.push_back(is_new ? none : head->second);
+    head->second = index;
+    return index;
+  }
+  void reserve(std::size_t count) {
+    heads_.reserve(count);
+    next_.reserve(count);
+    points_.reserve(count);
+  }
+
+ private:
+  // Cells are numbered from -1 to 2^20 each way.
+  static std::uint64_t key(const glm::dvec3& cell) {
+    const auto number = [](double x) { return static_cast<std::uint64_t>(x + 1.0); };
+    return number(cell.x) << 42U | number(cell.y) << 21U | number(cell.z);
+  }
+
+  std::vector<glm::dvec3>& points_;
+  std::unordered_map<std::uint64_t, std::uint32_t> heads_;
+  std::vector<std::uint32_t> next_;
+  glm::dvec3 origin_;
+  double tolerance_, cell_;
+};
+
+// Every index exists, every coordinate is finite.
+inline bool usable_polygon(const PolygonView& input, std::size_t p, std::size_t materials) {
+  if (input.first_corner[p] > input.first_corner[p + 1] || input.first_corner[p + 1] > input.corners.size()) { return false; }
+  if (p >= input.material.size() || input.material[p] >= materials) { return false; }
+  if (!input.group.empty() && p >= input.group.size()) { return false; }
+  for (std::size_t i = input.first_corner[p]; i < input.first_corner[p + 1]; ++i) {
+    if (input.corners[i] >= input.positions.size() || !raycast::usable(input.positions[input.corners[i]])) { return false; }
+  }
+  return true;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE void weld(const PolygonView& input, std::size_t materials, double relative_tolerance, Working& out) {
+  std::vector<bool> usable(input.count());
+  raycast::Box bounds;
+  for (std::size_t p = 0; p < input.count(); ++p) {
+    usable[p] = detail::usable_polygon(input, p, materials);
+    if (!usable[p]) {
+      out.changed(ChangeKind::unusable, static_cast<std::uint32_t>(p));
+      continue;
+    }
+    for (std::size_t i = input.first_corner[p]; i < input.first_corner[p + 1]; ++i) { bounds.extend(input.positions[input.corners[i]]); }
+  }
+  if (!(bounds.diameter() > 0.0)) { return; }
+  out.tolerance = relative_tolerance * bounds.diameter() + 0x1p-50 * bounds.magnitude();  // coordinates are known no better
+  detail::PointGrid grid(bounds, out.tolerance, out.positions);
+  grid.reserve(input.positions.size());
+  std::vector<std::uint32_t> kept(input.positions.size(), none);
+  for (std::size_t p = 0; p < input.count(); ++p) {
+    if (!usable[p]) { continue; }
+    Face face{{}, input.material[p], input.group.empty() ? 0 : input.group[p], static_cast<std::uint32_t>(p)};
+    for (std::size_t i = input.first_corner[p]; i < input.first_corner[p + 1]; ++i) {
+      const std::uint32_t v = input.corners[i];
+      if (kept[v] == none) {
+        const glm::dvec3& position = input.positions[v];
+        kept[v] = grid.find(position);
+        if (kept[v] == none) {
+          kept[v] = grid.add(position);
+        } else {
+          out.changed(ChangeKind::welded, v, glm::length(out.positions[kept[v]] - position));
+        }
+      }
+      face.corners.push_back(kept[v]);
+    }
+    out.faces.push_back(std::move(face));
+  }
+}
+
+}  // namespace radiosity::intake

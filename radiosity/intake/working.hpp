@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the steps of the intake hand on to each other: positions, faces that know from which polygon of the input they come, and the
+// changes.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <radiosity/intake/intake.hpp>
+
+namespace radiosity::intake {
+
+inline constexpr std::uint32_t none = 0xffffffff;
+
+// A polygon of the input that a face stands for.
+struct Source {
+  std::uint32_t polygon = 0;
+  bool turned = false;  // against the input
+};
+
+struct Face {
+  std::vector<std::uint32_t> corners;  // indices into Working::positions
+  std::uint32_t material = 0, group = 0;
+  std::uint32_t polygon = 0;      // of the input
+  bool turned = false;            // against the input
+  bool mixed = false;             // belongs to a surface of which it is not known which side was meant to be seen
+  std::vector<Source> more = {};  // besides `polygon`: its duplicates, and those that were merged
+
+  void stand_for(const Face& other) {
+    more.push_back({other.polygon, other.turned});
+    more.insert(more.end(), other.more.begin(), other.more.end());
+  }
+};
+
+struct Working {
+  std::vector<glm::dvec3> positions;
+  std::vector<Face> faces;
+  double tolerance = 0.0;  // a length: closer than this is the same place
+  std::array<Change, static_cast<std::size_t>(ChangeKind::merged) + 1> changes{};
+
+  void changed(ChangeKind kind, std::uint32_t first, double size = 0.0, std::size_t count = 1) {
+    Change& change = changes[static_cast<std::size_t>(kind)];
+    change.kind = kind;
+    change.first = change.count == 0 ? first : std::min(change.first, first);
+    change.count += count;
+    change.size = std::max(change.size, size);
+  }
+  // The corners of a face in space. Valid until the next call.
+  [[nodiscard]] std::span<const glm::dvec3> outline(const std::vector<std::uint32_t>& corners) {
+    outline_.clear();
+    for (const std::uint32_t v : corners) { outline_.push_back(positions[v]); }
+    return outline_;
+  }
+  [[nodiscard]] std::span<const glm::dvec3> outline(const Face& face) { return outline(face.corners); }
+
+ private:
+  std::vector<glm::dvec3> outline_;
+};
+
+}  // namespace radiosity::intake

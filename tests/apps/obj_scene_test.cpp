@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// OBJ with MTL, PLY and OFF as scenes; what the command line may say about files of other programs.
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <radiosity/radiosity.hpp>
+
+#include "models.hpp"
+#include "program.hpp"
+
+using models::noted;
+using models::read;
+using models::scene;
+
+TEST_CASE("OBJ: faces know their group and their material, materials their colours") {
+  const apps::Model model =
+      read("a.obj",
+           "mtllib one.mtl two.mtl\nmtllib my own.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+           "f 1 2 3\no table\ng leg\nusemtl red paint\nf -4 -3 -1\ng top\nusemtl glow\nf 2 3 4\no chair\nusemtl nobody\nf 1 3 4\n",
+           {{"one.mtl", "newmtl  red  paint\nKd 0.5 0.25 0.125 # a comment\nnewmtl other\nKd 1 1 1\n"},
+            {"two.mtl", "newmtl glow\nKd 0.2\nKe 1 2 3\nmap_Kd a b.png\nd 0.5\n"},
+            {"my own.mtl", "newmtl default\nKd x y z\nKd 0.5 -1 0\n"}});
+  REQUIRE(model.polygons() == 4);
+  CHECK(model.groups == std::vector<std::string>{"mesh", "table.leg", "table.top", "chair"});
+  CHECK(model.group == std::vector<std::uint32_t>{0, 1, 2, 3});
+  CHECK(model.material == std::vector<std::uint32_t>{0, 1, 2, 3});
+  CHECK(model.line == std::vector<std::uint32_t>{7, 11, 14, 17});
+  REQUIRE(model.materials.size() == 4);
+  CHECK(model.materials[0].name == "default");
+  CHECK_FALSE(model.materials[0].reflectance);
+  CHECK(model.materials[1].name == "red paint");
+  CHECK(model.materials[1].reflectance == radiosity::Color(0.5, 0.25, 0.125));
+  CHECK(model.materials[2].reflectance == radiosity::Color(0.2));
+  CHECK(model.materials[2].emission.z == 3.0 * std::numbers::pi);
+  CHECK_FALSE(model.materials[3].reflectance);
+  CHECK(noted(model.notes, "textures are not read"));
+  CHECK(noted(model.notes, "taken as opaque, at two.mtl:5"));
+  CHECK(noted(model.notes, "numbers from 0 on after Kd: passed over, 2 times, first at my own.mtl:2"));
+
+  const apps::Model without = read("a.obj", models::room_obj);
+  CHECK(noted(without.notes, "the materials in 'room.mtl' are not known: it is not there"));
+  CHECK(models::error("a.obj", "v 0 0 0\nf 1 2 3\n").find(":2:5: error: there is no vertex 2") == 0);
+}
+
+// In a closed room in which everything shines with E and reflects rho, the radiosity is E / (1 - rho) everywhere.
+TEST_CASE("OBJ: furnace") {
+  const apps::SceneFile file = scene("room.obj", models::room_obj, {{"room.mtl", "newmtl wall\nKd 0.5\nKe 2\n"}});
+  REQUIRE(file.scene.objects.size() == 1);
+  CHECK(file.scene.objects[0].placement.inside);
+  radiosity::Options options;
+  options.audit_points = 0;
+  options.threads = 1;
+  const radiosity::Outcome outcome = radiosity::solve(file.scene, options);
+  REQUIRE(outcome.solution);
+  for (const radiosity::SurfaceMean& surface : outcome.solution->audit.surfaces) {
+    CHECK(surface.radiosity.x == Approx(2.0 * std::numbers::pi / (1.0 - 0.5)).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("units, the up axis, reflectance and lamps come from the command line") {
+  const std::string lamp = models::room_obj + "usemtl ceiling lamp\no lamp\nv 1 2.9 1\nv 2 2.9 1\nv 2 2.9 2\nv 1 2.9 2\nf 9 10 11 12\n";
+  apps::ModelOptions options;
+  options.lamps = {{"ceiling lamp", 40.0}};
+  options.metres = 0.01;
+  options.reflectance = 0.3;
+  const apps::SceneFile file = scene("room.obj", lamp, {}, options);
+  REQUIRE(file.scene.materials.size() == 2);
+  CHECK(file.scene.materials[0].reflectance == radiosity::Color(0.3));
+  CHECK(file.scene.materials[1].emission == radiosity::Color(40.0));
+  CHECK(file.scene.objects[0].placement.inside);  // around its lamp
+  CHECK(file.scene.objects[0].shape->bounds().hi.z == Approx(0.03));
+  CHECK(file.scene.objects[0].shape->bounds().lo.y == Approx(-0.04));
+  CHECK(noted(file.notes, "2 materials have no reflectance: 0.3"));
+  options.up = apps::UpAxis::z;
+  CHECK(scene("room.obj", lamp, {}, options).scene.objects[0].shape->bounds().hi.y == Approx(0.03));
+
+  std::vector<std::string> faults;
+  options.lamps = {{"ceiling lmap", 1.0}};
+  CHECK_FALSE(apps::to_scene(read("room.obj", lamp), apps::UpAxis::y, options, faults));
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].find("did you mean 'ceiling lamp'?") != std::string::npos);
+
+  CHECK(apps::parse_lamp("a=b=2.5")->material == "a=b");
+  CHECK(apps::parse_lamp("a b")->exitance == 100.0);
+  for (const char* wrong : {"", "=2", "a=", "a=x", "a=-1", "a=nan", "a=1e300"}) { CHECK_FALSE(apps::parse_lamp(wrong)); }
+  CHECK(apps::parse_unit("ft") == 0.3048);
+  CHECK(apps::parse_unit("0.5") == 0.5);
+  for (const char* wrong : {"", "0", "-1", "inch", "1e13", "m "}) { CHECK_FALSE(apps::parse_unit(wrong)); }
+}
+
+TEST_CASE("a model without a lamp stands in a studio; what is closed around it cannot be lit from there") {
+  const apps::SceneFile file = scene("a.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+  REQUIRE(file.scene.objects.size() == 3);
+  CHECK(file.scene.objects[0].name == "studio");
+  CHECK(file.scene.objects[1].shape->solid());
+  CHECK(file.cameras.size() == 1);
+  CHECK(noted(file.notes, "nothing shines in this file"));
+
+  const std::string room =
+      "#VRML V1.0 ascii\nGroup { PerspectiveCamera { position 0 0 0.5 }\nCoordinate3 { point [ -1 -1 -1, 1 -1 -1, 1 1 -1, -1 1 -1, "
+      "-1 -1 1, 1 -1 1, 1 1 1, -1 1 1 ] }\nIndexedFaceSet { coordIndex [ 0 1 2 3 -1 4 7 6 5 -1 0 4 5 1 -1 1 5 6 2 -1 2 6 7 3 "
+      "-1 3 7 4 0 -1 ] } }";
+  std::vector<std::string> faults;
+  CHECK_FALSE(apps::to_scene(read("a.wrl", room), apps::UpAxis::y, {}, faults));
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0] == "nothing shines in this closed room; say which material does: --lamp MATERIAL, one of default");
+}
+
+TEST_CASE("a mesh of a scene may be a file of another program; groups use it in many places") {
+  const models::Files files{
+      {"my room.obj", models::room_obj}, {"room.mtl", "newmtl wall\nKd 0.25\n"}, {"bad.obj", "v 0 0\n"}, {"x.txt", "?"}};
+  const std::string head = "material m reflectance 0.5 emission 1\nsphere s center 0 0 0 radius 1 material m\n";
+  const auto parse = [&](const std::string& text) { return apps::parse_scene(head + text, models::beside(files)); };
+  const auto result =
+      parse("define g { mesh a file \"my room.obj\" scale 2 }\nuse g as one move 10 0 0\nuse g as two\nmesh b file bad.obj material m\n");
+  CHECK_FALSE(result.file);
+  CHECK(apps::to_text(result, "s") == "s:6:13: error: bad.obj:1:6: expected a coordinate, found the end of the line; a vertex has three\n");
+  const auto good = parse(
+      "define g { mesh a file \"my room.obj\" scale 2 }\nuse g as one move 10 0 0\nuse g as two\nmesh b file \"my room.obj\" material m\n");
+  INFO(apps::to_text(good, "s"));
+  REQUIRE(good.file);
+  const auto& objects = good.file->scene.objects;
+  REQUIRE(objects.size() == 4);
+  CHECK(objects[1].name == "one.a.room");
+  CHECK(objects[1].shape == objects[2].shape);  // made once
+  CHECK(objects[1].placement.translation == glm::dvec3(10, 0, 0));
+  CHECK(good.file->scene.materials[objects[1].material[0]].name == "a.wall");
+  CHECK(good.file->scene.materials[objects[1].material[0]].reflectance == radiosity::Color(0.25));
+  CHECK(objects[3].material == std::vector<std::uint32_t>{0});
+  const std::pair<const char*, const char*> wrong[] = {
+      {"mesh b file nowhere.obj\n", "s:3:13: error: the file 'nowhere.obj' is not there"},
+      {"mesh b file x.txt\n", "s:3:13: error: the file 'x.txt' is of no known format"},
+      {"mesh b file\n", "s:3:12: error: expected the name of a file"},
+      {"mesh b file \"x\n", "s:3:13: error: expected the name of a file in double quotes"},
+      {"mesh b file \"my room.obj\" inside\n", "has no 'inside' beside its file"},
+      {"union u { \nmesh b file \"my room.obj\" \n} material m\n", "among operands"},
+  };
+  for (const auto& [text, sentence] : wrong) {
+    CAPTURE(text, apps::to_text(parse(text), "s"));
+    CHECK(apps::to_text(parse(text), "s").find(sentence) != std::string::npos);
+  }
+  CHECK_FALSE(apps::parse_scene(head + "mesh b file \"my room.obj\"\n").file);
+}
+
+TEST_CASE("the program takes files of other programs wherever it takes scenes, and says what it changed") {
+  const program::Place place;
+  place.write("room.obj", models::room_obj + "o lamp\nusemtl lamp\nv 1 2.9 1\nv 2 2.9 1\nv 2 2.9 2\nv 1 2.9 2\nf 9 10 11 12\n");
+  place.write("room.mtl", "newmtl wall\nKd 1\nnewmtl lamp\nKe 5\n");
+  const program::Run info = place.run("info room.obj");
+  INFO(info.err);
+  CHECK(info.code == 0);
+  CHECK(info.out.find("taken in:\n  1 material has no reflectance: 0.5 (--reflectance)\n  1 material reflects more than 0.95") !=
+        std::string::npos);
+  CHECK(info.out.find("7 polygons became 7 faces of 2 objects") != std::string::npos);
+  const program::Run render = place.run("render room.obj --audit 0 --json - --quiet --epsilon 0.1 --threads 1");
+  CHECK(render.code == 0);
+  CHECK(render.out.find("\"taken_in\": [\n    \"1 material has no") != std::string::npos);
+  CHECK(place.run("mesh room.obj").out.find("room") != std::string::npos);
+  CHECK(place.run("factors room.obj --error 0.1 --two-sided").code == 0);
+  CHECK(place.run("info - <room.obj").code == 0);
+  const program::Run lamp = place.run("info room.obj --lamp wal=3");
+  CHECK(lamp.code == 3);
+  CHECK(lamp.err == "room.obj: error: --lamp wal: the file has no such material; it has wall or lamp; did you mean 'wall'?\n");
+  CHECK(place.run("info room.obj --lamp wall=x").code == 2);
+  place.write("a.scene", "material m reflectance 0.5\n");
+  CHECK(place.run("info a.scene --lamp m").err.find("in a .scene the material says it") != std::string::npos);
+  place.write("b.txt", models::room_obj);
+  CHECK(place.run("info b.txt").err ==
+        "halflight: b.txt is a polygon mesh (Wavefront OBJ), not a scene; give it a name that ends with the right "
+        "letters (.obj, .ply or .off), and it is read as a scene\n");
+}

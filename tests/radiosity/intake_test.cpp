@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: MIT
+// The intake: whatever comes in, what goes out can be solved, and is the same surface.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include <radiosity/intake/intake.hpp>
+#include <radiosity/scene/scene.hpp>
+
+#include "catch.hpp"
+#include "radiosity/polygon_soup.hpp"
+
+using radiosity::ChangeKind;
+using soup::count_of;
+using soup::measure;
+using soup::size_of;
+using soup::Soup;
+
+namespace {
+
+// What take_in() promises of every input.
+void check_sound(const Soup& soup, const radiosity::Intake& intake) {
+  radiosity::Scene scene{soup.materials, intake.objects};
+  if (scene.objects.empty()) { return; }
+  for (const std::string& fault : radiosity::faults(scene)) { FAIL_CHECK(fault); }
+}
+
+}  // namespace
+
+TEST_CASE("intake: a box of loose triangles becomes one solid of six faces") {
+  Soup soup;
+  soup::add_box(soup, {0, 0, 0}, {1, 2, 3}, 4);
+  const radiosity::Intake intake = soup.take_in();
+  check_sound(soup, intake);
+  REQUIRE(intake.objects.size() == 1);
+  CHECK(intake.faces == 6);
+  CHECK(intake.objects[0].shape->convex());
+  CHECK(intake.objects[0].name == "thing");
+  CHECK(measure(intake.objects).volume == Approx(6.0).epsilon(1e-12));
+  CHECK(count_of(intake, ChangeKind::merged) == soup.count() - 6);
+  CHECK(count_of(intake, ChangeKind::t_joint) == 0);
+
+  radiosity::IntakeOptions as_given;
+  as_given.merge = false;
+  CHECK(soup.take_in(as_given).faces == soup.count());
+}
+
+// A closed surface is damaged at random in every way that keeps it the same surface to the eye.
+TEST_CASE("intake: a damaged closed surface is closed again, with its area and volume") {
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+    const auto chance = [&](double p) { return number(0.0, 1.0) < p; };
+    Soup whole;
+    soup::add_torus(whole, 24, 14);
+    const double before = whole.area(), volume = measure(whole.take_in().objects).volume;
+    REQUIRE(volume > 0.0);
+
+    const double jitter = 1e-7;  // of each coordinate; the diagonal is 4.04, so the tolerance is 4e-6
+    Soup soup;
+    std::size_t turned = 0, doubled = 0, flat = 0;
+    std::vector<std::size_t> order(whole.count());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::shuffle(order.begin(), order.end(), random);
+    for (const std::size_t f : order) {
+      std::vector<glm::dvec3> p = whole.outline(f);
+      std::rotate(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(random() % p.size()), p.end());
+      const bool turn = chance(0.2);
+      if (turn) { std::reverse(p.begin(), p.end()); }
+      turned += turn ? 1 : 0;
+      const auto shaken = [&](std::vector<glm::dvec3> points) {
+        for (glm::dvec3& x : points) { x += jitter * glm::dvec3(number(-1, 1), number(-1, 1), number(-1, 1)); }
+        return points;
+      };
+      if (chance(0.1)) {
+        soup.polygon(shaken(p));
+        ++doubled;
+      }
+      if (chance(0.1)) {
+        soup.polygon({p[0], p[1], p[0], p[1]});
+        ++flat;
+      }
+      std::vector<glm::dvec3> points = shaken(p);
+      if (chance(0.1)) { points.insert(points.begin() + 1, points[0]); }
+      if (chance(0.1)) {  // a T-joint: the other face knows nothing of this corner
+        points.insert(points.begin() + 1, 0.5 * (points[0] + points[1]));
+      }
+      soup.polygon(points);
+    }
+    const radiosity::Intake intake = soup.take_in();
+    check_sound(soup, intake);
+    const soup::Measure after = measure(intake.objects);
+    for (const radiosity::Change& change : intake.changes) { UNSCOPED_INFO(radiosity::sentence(change)); }
+    REQUIRE(intake.objects.size() == 1);
+    CHECK(after.solids == 1);
+    // A vertex moves by at most sqrt(3) jitter + the tolerance of flattening: the area by that times the length of all edges, 900 of them
+    // of length 0.3 each.
+    CHECK(after.area == Approx(before).margin(900 * 0.3 * 5e-6));
+    CHECK(after.volume == Approx(volume).margin(before * 5e-6));
+    CHECK(count_of(intake, ChangeKind::duplicate) == doubled);
+    CHECK(count_of(intake, ChangeKind::no_area) == flat);
+    CHECK(count_of(intake, ChangeKind::turned) == turned);
+    CHECK(size_of(intake, ChangeKind::welded) <= 2.0 * std::sqrt(3.0) * jitter);
+    CHECK(count_of(intake, ChangeKind::nonmanifold) == 0);
+    CHECK(count_of(intake, ChangeKind::loose) == 0);
+  }
+}
+
+TEST_CASE("intake: no input is refused, and no area gets lost") {
+  for (const unsigned seed : {11U, 12U, 13U, 14U, 15U, 16U, 17U, 18U}) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+    Soup soup;
+    for (int i = 0; i < 40; ++i) { soup.vertex({number(0, 1), number(0, 1), number(0, 1)}); }
+    // Triangles of common vertices: edges of many faces, flipped neighbours, vertices with several fans.
+    double area = 0.0;
+    for (int i = 0; i < 150; ++i) {
+      std::vector<std::uint32_t> corners;
+      for (int k = 0; k < 3; ++k) { corners.push_back(static_cast<std::uint32_t>(random() % soup.positions.size())); }
+      soup.face(corners);
+    }
+    const radiosity::Intake intake = soup.take_in();
+    check_sound(soup, intake);
+    std::vector<std::array<std::uint32_t, 3>> kept;  // duplicates cover each other
+    for (std::size_t f = 0; f < soup.count(); ++f) {
+      std::array<std::uint32_t, 3> key{soup.corners[3 * f], soup.corners[3 * f + 1], soup.corners[3 * f + 2]};
+      std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
+      if (std::find(kept.begin(), kept.end(), key) != kept.end()) { continue; }
+      kept.push_back(key);
+      area += brep::area(soup.outline(f));
+    }
+    const double sides = measure(intake.objects).area;  // surfaces of mixed orientation have two
+    CHECK(sides >= area * (1.0 - 1e-9));
+    CHECK(sides <= 2.0 * area * (1.0 + 1e-9));
+  }
+}
+
+TEST_CASE("intake: polygons of any number of corners, planar or not, keep their outline") {
+  for (const unsigned seed : {21U, 22U, 23U, 24U}) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+    Soup soup;
+    double flat_area = 0.0;
+    for (int i = 0; i < 20; ++i) {  // stars, most of them concave, each at its own place
+      const int n = 3 + static_cast<int>(random() % 40);
+      const bool bent = i % 2 == 1;
+      std::vector<glm::dvec3> points;
+      for (int k = 0; k < n; ++k) {
+        const double a = 2.0 * std::numbers::pi * k / n, r = number(0.3, 1.0);
+        points.emplace_back(r * std::cos(a) + 4.0 * i, r * std::sin(a), bent && n > 3 ? number(-0.05, 0.05) : 0.0);
+      }
+      soup.polygon(points);
+      std::vector<glm::dvec3> shadow = points;
+      for (glm::dvec3& p : shadow) { p.z = 0.0; }
+      flat_area += brep::area(shadow);
+    }
+    const radiosity::Intake intake = soup.take_in();
+    check_sound(soup, intake);
+    CHECK(count_of(intake, ChangeKind::crossing) == 0);
+    CHECK(size_of(intake, ChangeKind::not_planar) < 0.15);
+    // The triangles of a bent star cover its shadow once: their vector areas add up to that of the outline, whichever diagonals are cut.
+    double shadow = 0.0;
+    for (const radiosity::SceneObject& object : intake.objects) {
+      brep::Builder builder;
+      object.shape->approximate(1.0, builder);
+      for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
+        if (builder.sheet(f) == brep::no_sheet) { continue; }
+        std::vector<glm::dvec3> p;
+        for (const std::uint32_t v : builder.corners(f)) { p.push_back(builder.position(v)); }
+        shadow += brep::vector_area(p).z;
+      }
+    }
+    CHECK(shadow == Approx(flat_area).epsilon(1e-5));  // vertices move by up to the tolerance, 1e-6 of the length of the row
+  }
+}
+
+TEST_CASE("intake: a quadrilateral that is not planar is cut along the better diagonal") {
+  // Over 0 and 2 it folds into a roof, over 1 and 3 into a thin valley: the first one bends less.
+  Soup soup;
+  soup.polygon({{0, 0, 0}, {1, 0, 0.02}, {2, 2, 0}, {0, 1, 0.02}});
+  radiosity::IntakeOptions options;
+  const radiosity::Intake intake = soup.take_in(options);
+  check_sound(soup, intake);
+  CHECK(intake.faces == 2);
+  CHECK(count_of(intake, ChangeKind::not_planar) == 1);
+  CHECK(radiosity::sentence(intake.changes[0]) == "1 polygon was not planar by 10 mm: split");
+}
+
+TEST_CASE("intake: a wall with a window becomes few convex faces, of each material its own") {
+  Soup soup;
+  double area = 0.0;
+  for (int i = 0; i < 12; ++i) {
+    for (int j = 0; j < 9; ++j) {
+      if (i >= 4 && i < 8 && j >= 3 && j < 6) { continue; }
+      const glm::dvec3 a(i, j, 0), b(i + 1, j, 0), c(i + 1, j + 1, 0), d(i, j + 1, 0);
+      const std::uint32_t m = i == 0 ? 1 : 0;
+      soup.polygon({a, b, c}, m);
+      soup.polygon({a, c, d}, m);
+      area += 1.0;
+    }
+  }
+  const radiosity::Intake intake = soup.take_in();
+  check_sound(soup, intake);
+  REQUIRE(intake.objects.size() == 1);
+  CHECK(measure(intake.objects).area == Approx(area).epsilon(1e-12));
+  CHECK(intake.faces <= 12);
+  CHECK(std::count(intake.objects[0].material.begin(), intake.objects[0].material.end(), 1U) == 1);
+}
+
+TEST_CASE("intake: a closed shell around a lamp is a room, whichever way it looked") {
+  for (const bool inwards : {false, true}) {
+    Soup soup;
+    soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, 1, inwards);
+    soup.polygon({{1, 1, 2.9}, {1, 2, 2.9}, {2, 2, 2.9}, {2, 1, 2.9}}, 1);
+    const radiosity::Intake intake = soup.take_in();
+    check_sound(soup, intake);
+    const soup::Measure m = measure(intake.objects);
+    CHECK(m.rooms == 1);
+    CHECK(m.surfaces == 1);
+    CHECK(count_of(intake, ChangeKind::room) == (inwards ? 0 : 1));
+
+    // Where something is beyond its walls it is a surface: a room would bury what is there.
+    soup::add_box(soup, {10, 0, 0}, {11, 1, 1});
+    const radiosity::Intake two = soup.take_in();
+    check_sound(soup, two);
+    CHECK(measure(two.objects).rooms == 0);
+    CHECK(measure(two.objects).solids == 1);
+    CHECK(measure(two.objects).area == Approx(m.area + 6.0).epsilon(1e-12));
+  }
+  // The upper half of a lamp is let into a slab: that is no room.
+  Soup soup;
+  soup::add_box(soup, {0, 0, 2}, {4, 4, 2.5});
+  soup::add_box(soup, {1, 1, 1.9}, {2, 2, 2.1}, 1, false, 1);
+  CHECK(measure(soup.take_in().objects).rooms == 0);
+  // An empty shell that looks inwards was meant to be seen from outside.
+  Soup empty;
+  soup::add_box(empty, {0, 0, 0}, {1, 1, 1}, 1, true);
+  CHECK(measure(empty.take_in().objects).volume == Approx(1.0).epsilon(1e-12));
+  CHECK(count_of(empty.take_in(), ChangeKind::inside_out) == 1);
+  radiosity::IntakeOptions options;
+  options.eyes = {{0.5, 0.5, 0.5}};
+  CHECK(measure(empty.take_in(options).objects).rooms == 1);
+}
+
+TEST_CASE("intake: solids that touch in an edge or a vertex stay solids") {
+  Soup soup;
+  soup::add_box(soup, {0, 0, 0}, {1, 1, 1});
+  soup::add_box(soup, {1, 1, 0}, {2, 2, 1});
+  soup::add_box(soup, {2, 2, 1}, {3, 3, 2});
+  const radiosity::Intake intake = soup.take_in();
+  check_sound(soup, intake);
+  CHECK(measure(intake.objects).solids == 3);
+  CHECK(measure(intake.objects).volume == Approx(3.0).epsilon(1e-12));
+  CHECK(count_of(intake, ChangeKind::nonmanifold) == 0);
+}
+
+TEST_CASE("intake: sheets have two sides where the caller, the material or the file's own disorder says so") {
+  Soup soup;
+  soup.polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  CHECK(measure(soup.take_in().objects).area == Approx(1.0));
+  radiosity::IntakeOptions options;
+  options.two_sided = true;
+  CHECK(measure(soup.take_in(options).objects).area == Approx(2.0));
+  soup.two_sided = {1, 0};
+  CHECK(measure(soup.take_in().objects).area == Approx(2.0));
+  // Both sides are in the file: nothing is added, nothing is taken away.
+  soup.two_sided.clear();
+  soup.polygon({{0, 1, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 0}});
+  CHECK(measure(soup.take_in().objects).area == Approx(2.0));
+  check_sound(soup, soup.take_in());
+
+  Soup strip;  // Moebius: 12 quadrilaterals, half a turn
+  const auto at = [](int i, double side) {
+    const double a = 2.0 * std::numbers::pi * i / 12, half = a / 2.0;
+    const glm::dvec3 out(std::cos(a), std::sin(a), 0.0);
+    return 2.0 * out + side * (std::cos(half) * out + std::sin(half) * glm::dvec3(0, 0, 1));
+  };
+  for (int i = 0; i < 12; ++i) { strip.polygon({at(i, -0.3), at(i + 1, -0.3), at(i + 1, 0.3), at(i, 0.3)}); }
+  const radiosity::Intake intake = strip.take_in();
+  check_sound(strip, intake);
+  CHECK(count_of(intake, ChangeKind::moebius) >= 1);
+  CHECK(count_of(intake, ChangeKind::both_sides) == 1);
+  CHECK(measure(intake.objects).area == Approx(measure(strip.take_in(options).objects).area));  // as if all were asked for
+}
+
+TEST_CASE("intake: what cannot be used is counted, not followed") {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Soup soup;
+  soup.polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+  soup.polygon({{0, 0, 0}, {std::nan(""), 0, 0}, {1, 1, 0}});
+  soup.polygon({{0, 0, 0}, {infinity, 0, 0}, {1, 1, 0}});
+  soup.polygon({{0, 0, 0}, {1e300, 0, 0}, {1, 1, 0}});
+  soup.face({0, 1, 4'000'000'000U});
+  soup.face({0, 1, 2}, 7);
+  soup.face({});
+  soup.face({0});
+  const radiosity::Intake intake = soup.take_in();
+  check_sound(soup, intake);
+  CHECK(intake.faces == 1);
+  CHECK(count_of(intake, ChangeKind::unusable) == 5);
+  CHECK(count_of(intake, ChangeKind::no_area) == 2);
+  CHECK(Soup().take_in().objects.empty());
+  Soup point;
+  point.polygon({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}});
+  CHECK(point.take_in().objects.empty());
+}
+
+TEST_CASE("intake: scale by a power of two changes nothing but the scale") {
+  Soup soup;
+  soup::add_torus(soup, 12, 8);
+  soup.polygon({{3, 0, 0}, {4, 0, 0.1}, {4, 1, 0}, {3, 1, 0.1}});
+  soup::add_box(soup, {5, 0, 0}, {6, 1, 1}, 3);
+  const radiosity::Intake one = soup.take_in();
+  for (const int power : {-40, -3, 20, 60}) {
+    Soup scaled = soup;
+    for (glm::dvec3& p : scaled.positions) { p *= std::ldexp(1.0, power); }
+    const radiosity::Intake other = scaled.take_in();
+    REQUIRE(other.changes.size() == one.changes.size());
+    CHECK(other.faces == one.faces);
+    for (std::size_t i = 0; i < one.changes.size(); ++i) {
+      CHECK(other.changes[i].kind == one.changes[i].kind);
+      CHECK(other.changes[i].count == one.changes[i].count);
+      CHECK(other.changes[i].size == std::ldexp(one.changes[i].size, power));
+    }
+  }
+}
+
+TEST_CASE("lengths are told with two digits and a unit") {
+  CHECK(radiosity::length_text(0.0018) == "1.8 mm");
+  CHECK(radiosity::length_text(0.00996) == "10 mm");
+  CHECK(radiosity::length_text(12.34) == "12 m");
+  CHECK(radiosity::length_text(4.5e-7) == "450 nm");
+  CHECK(radiosity::length_text(2345.0) == "2.3 km");
+  CHECK(radiosity::length_text(0.0) == "0 mm");
+}
