@@ -176,7 +176,7 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
         break;
       case RenderFormat::exported:
         if (!exported) { exported = options.onto_input ? given_mesh(file, solution) : solution_mesh(file, solution); }
-        if (exported) { outputs.back().bytes = export_format(path)->write(*exported, tone.exposure); }
+        if (exported) { outputs.back().bytes = export_format(path)->write(*exported, tone); }
         break;
     }
     report.files.push_back(path);

@@ -17,6 +17,7 @@
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>
 
+#include "apps/color.hpp"
 #include "apps/scene_file.hpp"
 
 namespace apps {
@@ -58,7 +59,7 @@ struct ExportMesh {
 
 struct ExportFormat {
   std::string_view ending;
-  std::string (*write)(const ExportMesh& mesh, double exposure);
+  std::string (*write)(const ExportMesh& mesh, const Tone& tone);
 };
 
 // By the ending of the name; null when none has it.

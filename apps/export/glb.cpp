@@ -30,7 +30,7 @@ void put(std::string& bytes, const glm::vec3& value) {
 
 class Writer {
  public:
-  Writer(const ExportMesh& mesh, double exposure) : mesh_(mesh), exposure_(exposure) {
+  Writer(const ExportMesh& mesh, const Tone& tone) : mesh_(mesh), tone_(tone) {
     glm::dvec3 lo(0.0), hi(0.0);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       const glm::dvec3& p = mesh.vertices[v].position;
@@ -44,7 +44,7 @@ class Writer {
   std::string file() {
     for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(v.position - centre_)); }
     for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(v.normal)); }
-    for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(shown(v.radiosity, exposure_))); }
+    for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(tone_(v.radiosity))); }
     for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(v.radiosity)); }
     for (std::size_t g = 0; g < mesh_.groups.size(); ++g) { add_indices(g); }
     std::string json = description();
@@ -130,7 +130,8 @@ class Writer {
     JsonWriter json;
     json.open_object();
     json.key("asset").object("version", "2.0", "generator", std::string("halflight ") + version, "extras", [&](JsonWriter& extras) {
-      extras.object("exposure", exposure_, "COLOR_0", "radiosity / pi * exposure, linear, clamped to [0, 1]", "_RADIOSITY", "W/m2");
+      extras.object("exposure", tone_.exposure, "tone", name(tone_.curve), "COLOR_0",
+                    "tone of radiosity / pi * exposure, linear, clamped to [0, 1]", "_RADIOSITY", "W/m2");
     });
     json.key("extensionsUsed").open_array().string("KHR_materials_unlit").close();
     json.fields("scene", 0);
@@ -192,7 +193,7 @@ class Writer {
   }
 
   const ExportMesh& mesh_;
-  double exposure_;
+  Tone tone_;
   glm::dvec3 centre_{0.0};
   double size_ = 1.0;
   std::vector<Part> parts_;
@@ -200,7 +201,7 @@ class Writer {
   std::string binary_;
 };
 
-std::string write_glb(const ExportMesh& mesh, double exposure) { return Writer(mesh, exposure).file(); }
+std::string write_glb(const ExportMesh& mesh, const Tone& tone) { return Writer(mesh, tone).file(); }
 
 }  // namespace
 

@@ -17,12 +17,13 @@ void append(std::string& text, double value) {
   text.append(digits.data(), end);
 }
 
-std::string write_obj(const ExportMesh& mesh, double exposure) {
-  std::string text = "# halflight: x y z r g b, colours sRGB of radiance times " + shortest(exposure) + "\n";
+std::string write_obj(const ExportMesh& mesh, const Tone& tone) {
+  std::string text =
+      "# halflight: x y z r g b, colours sRGB of radiance times " + shortest(tone.exposure) + ", tone " + name(tone.curve) + "\n";
   for (const ExportVertex& vertex : mesh.vertices) {
     text += 'v';
     for (int k = 0; k < 3; ++k) { append(text, vertex.position[k]); }
-    const radiosity::Color color = shown(vertex.radiosity, exposure);
+    const radiosity::Color color = tone(vertex.radiosity);
     for (int k = 0; k < 3; ++k) { text += formatted(" %.4f", srgb_encode(color[k])); }
     text += '\n';
   }
