@@ -15,6 +15,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/ears.hpp>
 #include <brep/polygon.hpp>
 
 #include <raycast/box.hpp>
@@ -182,11 +183,11 @@ HALFLIGHT_INLINE void Compiler::form(FormKind kind, const glm::dvec3& centre, co
 }
 
 HALFLIGHT_INLINE void Compiler::pieces(std::uint32_t number, std::uint32_t sheet, const glm::dvec3& normal, bool convex) {
-  const std::size_t n = world_.size();
-  const auto piece = [&](std::span<const std::size_t> corners, bool known) {
+  const auto n = static_cast<std::uint32_t>(world_.size());
+  const auto piece = [&](std::span<const std::uint32_t> corners, bool known) {
     Face face{{}, number, sheet};
     Box box;
-    for (const std::size_t i : corners) { box.extend(world_[i]); }
+    for (const std::uint32_t i : corners) { box.extend(world_[i]); }
     face.row[0] = row(normal, -glm::dot(normal, world_[0]));
     for (std::size_t i = 0; i < corners.size() && known; ++i) {
       const glm::dvec3& corner = world_[corners[i]];
@@ -198,18 +199,25 @@ HALFLIGHT_INLINE void Compiler::pieces(std::uint32_t number, std::uint32_t sheet
     faces_.push_back(face);
   };
   if (normal != glm::dvec3{0.0} && convex) {
-    for (std::size_t first = 1; first + 1 < n; first += 2) {
-      const std::array<std::size_t, 4> corners{0, first, first + 1, first + 2};
+    for (std::uint32_t first = 1; first + 1 < n; first += 2) {
+      const std::array<std::uint32_t, 4> corners{0, first, first + 1, first + 2};
       piece(std::span(corners).first(std::min<std::size_t>(4, n - first + 1)), true);
     }
     return;
   }
-  const std::vector<std::array<std::size_t, 3>> parts =
-      normal != glm::dvec3{0.0} && n <= most_corners ? ears(world_, normal) : std::vector<std::array<std::size_t, 3>>{};
-  for (const std::array<std::size_t, 3>& part : parts) { piece(part, true); }
-  if (!parts.empty()) { return; }
-  std::vector<std::size_t> all(n);
-  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (normal != glm::dvec3{0.0} && n <= most_corners) {
+    const std::vector<std::array<std::uint32_t, 3>> parts = brep::ears(world_);
+    const auto turns_alike = [&](const std::array<std::uint32_t, 3>& part) {
+      const glm::dvec3 &a = world_[part[0]], &b = world_[part[1]], &c = world_[part[2]];
+      return glm::dot(glm::cross(b - a, c - a), normal) > 0.0;
+    };
+    if (std::all_of(parts.begin(), parts.end(), turns_alike)) {
+      for (const std::array<std::uint32_t, 3>& part : parts) { piece(part, true); }
+      return;
+    }
+  }
+  std::vector<std::uint32_t> all(n);
+  std::iota(all.begin(), all.end(), 0U);
   piece(all, false);
 }
 

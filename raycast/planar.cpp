@@ -119,36 +119,4 @@ HALFLIGHT_INLINE std::optional<std::string> polygon_fault(std::span<const glm::d
   return std::nullopt;
 }
 
-HALFLIGHT_INLINE std::vector<std::array<std::size_t, 3>> ears(std::span<const glm::dvec3> corners, const glm::dvec3& normal) {
-  const glm::dvec3 size = glm::abs(normal);
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const int way = normal[axis] > 0.0 ? 1 : -1;
-  std::vector<detail::Flat> flat;
-  std::vector<std::size_t> left;
-  for (const glm::dvec3& p : corners) {
-    left.push_back(flat.size());
-    flat.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
-  }
-  const auto turn = [&](std::size_t a, std::size_t b, std::size_t c) { return way * detail::side_of(flat[a], flat[b], flat[c]); };
-  std::vector<std::array<std::size_t, 3>> triangles;
-  std::size_t i = 0, tried = 0;
-  while (left.size() > 2) {
-    const std::size_t n = left.size(), a = left[(i + n - 1) % n], b = left[i], c = left[(i + 1) % n];
-    const int corner = turn(a, b, c);
-    const auto in_the_way = [&](std::size_t p) {
-      return p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
-    };
-    if (corner < 0 || (corner > 0 && std::any_of(left.begin(), left.end(), in_the_way))) {
-      if (++tried == n) { return {}; }
-      i = (i + 1) % n;
-      continue;
-    }
-    if (corner > 0) { triangles.push_back({a, b, c}); }
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
-    i %= left.size();
-    tried = 0;
-  }
-  return triangles;
-}
-
 }  // namespace raycast

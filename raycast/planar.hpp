@@ -83,10 +83,6 @@ bool meet(const Flat& a, const Flat& b, const Flat& c, const Flat& d);
 // Straight corners are allowed. Corners may leave the mean plane by 1e-6 of the polygon's extent. O(n^2) for n corners.
 [[nodiscard]] std::optional<std::string> polygon_fault(std::span<const glm::dvec3> corners);
 
-// Cuts a simple polygon into triangles, as indices of its corners, by cutting off ears (Meisters 1975); `normal` is that of its front, of any
-// length. Straight corners may be left out. Nothing where rounding leaves no ear. O(n^2) as a rule.
-[[nodiscard]] std::vector<std::array<std::size_t, 3>> ears(std::span<const glm::dvec3> corners, const glm::dvec3& normal);
-
 }  // namespace raycast
 
 #ifdef HALFLIGHT_HEADER_ONLY

@@ -11,7 +11,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <radiosity/intake/ears.hpp>
+#include <brep/ears.hpp>
 
 #include "apps/color.hpp"
 #include "apps/export/export_mesh.hpp"
@@ -83,7 +83,7 @@ class Writer {
       }
       std::vector<glm::dvec3> outline;
       for (const std::uint32_t v : face) { outline.push_back(mesh_.vertices[v].position); }
-      for (const auto& [a, b, c] : radiosity::intake::ears(outline)) { triangle(a, b, c); }
+      for (const auto& [a, b, c] : brep::ears(outline)) { triangle(a, b, c); }
     }
     indices_ += part.indices;
     if (part.indices > 0) { parts_.push_back(part); }

@@ -21,7 +21,7 @@
 #include <raycast/planar.hpp>
 #include <raycast/tolerances.hpp>
 
-#include <radiosity/intake/ears.hpp>
+#include <brep/ears.hpp>
 
 namespace radiosity::intake {
 namespace detail {
@@ -62,7 +62,7 @@ inline bool nearly_planar(const raycast::Plane& plane, std::span<const glm::dvec
 
 // A polygon that crosses itself may have no area although its triangles have.
 inline bool has_triangles(Working& mesh, const Face& face) {
-  const std::vector<std::array<std::uint32_t, 3>> triangles = ears(mesh.outline(face));
+  const std::vector<std::array<std::uint32_t, 3>> triangles = brep::ears(mesh.outline(face));
   return std::any_of(triangles.begin(), triangles.end(), [&](const std::array<std::uint32_t, 3>& t) {
     return width(mesh.outline({face.corners[t[0]], face.corners[t[1]], face.corners[t[2]]})) >= mesh.tolerance;
   });
@@ -121,7 +121,7 @@ HALFLIGHT_INLINE void split_faulty(Working& mesh, bool strict) {
       const bool flat = slack <= raycast::tol_planar * brep::extent(outline);
       mesh.changed(flat ? ChangeKind::crossing : ChangeKind::not_planar, face.polygon, flat ? 0.0 : slack);
     }
-    for (const auto& [a, b, c] : ears(outline)) {
+    for (const auto& [a, b, c] : brep::ears(outline)) {
       Face triangle{
           {face.corners[a], face.corners[b], face.corners[c]}, face.material, face.group, face.polygon, face.turned, face.mixed, face.more};
       if (!raycast::polygon_fault(mesh.outline(triangle))) { faces.push_back(std::move(triangle)); }

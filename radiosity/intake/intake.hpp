@@ -8,7 +8,7 @@
 //
 // The steps, each in a file of its own:
 //     weld       vertices within `weld` of each other become one                              weld.hpp
-//     clean      repeated corners, faces without area, slivers, duplicates; what is not        clean.hpp, ears.hpp
+//     clean      repeated corners, faces without area, slivers, duplicates; what is not        clean.hpp
 //                planar or crosses itself is cut along the best diagonals
 //     t_joints   a vertex on the edge of another face becomes a corner of that face            t_joints.hpp
 //     topology   faces are turned alike; where that cannot be, or more than two faces meet,    topology.hpp

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # halflight from Python, by ctypes alone: a furnace, a closed room that shines everywhere, whose light is known: B = E / (1 - reflectance).
 #
-#     python3 bake.py path/to/libhalflight_c.so
+#     python3 bake_from_python.py path/to/libhalflight_c.so
 import ctypes
 import sys
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An OBJ in, colours out: `example_140_bake FILE.obj >lit.obj` writes the same vertices and triangles in the same order, each vertex with
+// An OBJ in, colours out: `example_bake FILE.obj >lit.obj` writes the same vertices and triangles in the same order, each vertex with
 // its radiosity as a colour. Materials are known by name: `lamp` shines. Without a file it takes the room below, whose walls the file has
 // in two triangles each; a vertex colour says nothing of what lies between, so they are cut first, as a renderer's mesh would be.
 

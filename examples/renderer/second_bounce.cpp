@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A small path tracer whose paths end at their second surface: there it takes the light that was baked. What the eye sees at once, the
 // first surface with its direct light and shadows, is traced; what is seen by way of another surface is looked up.
-// `example_150_second_bounce FILE.ppm` writes the picture; without a file it compares with paths that go on until they die.
+// `example_second_bounce FILE.ppm` writes the picture; without a file it compares with paths that go on until they die.
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/intake/ears.hpp>
+#pragma once
+
+// Triangles of any polygon, planar or not. It is looked at along its mean normal (Newell), and the best ear is cut off again and again
+// (Meisters 1975): the one of which the worse of ear and rest has the best shape, tilt against the mean normal included. So a
+// quadrilateral is cut along the better of its two diagonals. A polygon that crosses itself runs out of ears; then the best corner is cut
+// off although others lie in its triangle.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -14,9 +19,7 @@
 
 #include <brep/polygon.hpp>
 
-#include <raycast/inline.hpp>
-
-namespace radiosity::intake {
+namespace brep {
 namespace detail {
 
 // 1 for an equilateral triangle that looks along the normal, 0 or less for one without area or that looks away.
@@ -27,7 +30,7 @@ inline double shape(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
 
 class EarClipper {
  public:
-  explicit EarClipper(std::span<const glm::dvec3> polygon) : polygon_(polygon), normal_(brep::normal(polygon)) {
+  explicit EarClipper(std::span<const glm::dvec3> polygon) : polygon_(polygon), normal_(normal(polygon)) {
     const auto n = static_cast<std::uint32_t>(polygon.size());
     for (std::uint32_t i = 0; i < n; ++i) {
       before_.push_back(i == 0 ? n - 1 : i - 1);
@@ -98,8 +101,11 @@ class EarClipper {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::vector<std::array<std::uint32_t, 3>> ears(std::span<const glm::dvec3> polygon) {
+// Corners of the triangles, as indices into `polygon`, which has at least 3 corners; n - 2 of them, some perhaps without area. O(n^2)
+// as a rule.
+// When all of them turn as the polygon does, they cover each of its points once; a simple planar polygon is cut so, but for rounding.
+[[nodiscard]] inline std::vector<std::array<std::uint32_t, 3>> ears(std::span<const glm::dvec3> polygon) {
   return detail::EarClipper(polygon).run();
 }
 
-}  // namespace radiosity::intake
+}  // namespace brep
