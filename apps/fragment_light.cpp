@@ -10,10 +10,13 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <raycast/shaft.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
+#include <radiosity/picture/final_gather.hpp>
+#include <radiosity/scene/material.hpp>
 #include <radiosity/support/random.hpp>
 
 namespace apps {
@@ -21,7 +24,9 @@ namespace {
 
 using radiosity::Color;
 
-radiosity::LitRegion region_of(const radiosity::FinalGather& light, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments) {
+// A flat rectangle around these fragments of one surface, with how far a curved one leaves it.
+radiosity::LitRegion region_of(const radiosity::FinalGather& light, std::span<const std::uint32_t> own,
+                               const std::vector<Fragment>& fragments) {
   const radiosity::FinalGather::Place& first = fragments[own[0]].place;
   glm::dvec3 n{0.0};
   for (const std::uint32_t i : own) { n += fragments[i].place.point.normal; }
@@ -64,8 +69,8 @@ void add_lamp(radiosity::LitRegion& region, std::size_t k, std::span<const std::
     for (const std::uint32_t i : own) { add(i, share); }
   };
   if (!region.may_be_hidden(k)) { return all(1.0); }
-  const bool filled =
-      own.size() == block_side * block_side && std::all_of(own.begin(), own.end(), [&](std::uint32_t i) { return fragments[i].share == 1.0f; });
+  const auto whole = [&](std::uint32_t i) { return fragments[i].share == 1.0f; };
+  const bool filled = own.size() == block_side * block_side && std::all_of(own.begin(), own.end(), whole);
   if (!filled) {
     for (const std::uint32_t i : own) { add(i, visible(i)); }
     return;

@@ -10,22 +10,14 @@
 #include <span>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/scene/material.hpp>
+
+#include "apps/fragments.hpp"
 
 namespace apps {
 
 constexpr std::uint32_t block_side = 8;  // pixels
-
-// What the rays of one pixel meet of one surface, facing one way.
-struct Fragment {
-  std::uint32_t x = 0, y = 0;
-  float share = 0.0f;  // of the pixel
-  radiosity::FinalGather::Place place;
-  glm::dvec3 positions{0.0}, normals{0.0};  // sums over its rays
-};
 
 // Adds to the irradiance of the fragments `own`, all of one block and one surface, what comes from the lamps.
 void add_direct_light(const radiosity::FinalGather& light, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,

@@ -20,6 +20,7 @@
 #include <radiosity/support/random.hpp>
 
 #include "apps/fragment_light.hpp"
+#include "apps/fragments.hpp"
 #include "apps/indirect_points.hpp"
 
 namespace apps {
@@ -27,14 +28,14 @@ namespace {
 
 using radiosity::Color;
 
-// Points of indirect light, by measurement: rays of each, and the share of its light at which they are enough; radius of its ball by the harmonic mean distance of what it sees, and in pixels.
+// Points of indirect light, by measurement: rays of each, and the share of its light at which they are enough; radius of its ball by the
+// harmonic mean distance of what it sees, and in pixels.
 constexpr std::uint32_t least_rays = 256, most_rays = 1024;
 constexpr double ray_error = 0.03;
 constexpr double part_of_distance = 0.2, least_pixels = 2.0, most_pixels = 20.0;
 
 constexpr float change_at_edge = 0.3f;  // of light, from one pixel to the next, or within one: an edge of a shadow, not only a slope
 
-constexpr std::uint32_t side = block_side;
 constexpr std::uint32_t no_surface = 0xffffffff, several_surfaces = 0xfffffffe;  // in place of the number of a surface
 
 class Painter {
@@ -44,10 +45,10 @@ class Painter {
         view_{view},
         threads_{radiosity::thread_count(threads)},
         control_{control},
-        columns_{(view.size.width + side - 1) / side},
-        rows_{(view.size.height + side - 1) / side},
+        columns_{(view.size.width + block_side - 1) / block_side},
+        rows_{(view.size.height + block_side - 1) / block_side},
         eye_{light.eye(view.eye)},
-        pixel_angle_{2.0 * view.half_width / view.size.width},
+        pixel_size_{eye_.position, 2.0 * view.half_width / view.size.width},
         points_{view.size.width, view.size.height},
         blocks_(std::size_t{columns_} * rows_),
         irradiance_(blocks_.size()),
@@ -87,16 +88,13 @@ class Painter {
   }
   template <class Body>
   void each_pixel(std::size_t block, const Body& body) const {
-    const auto x0 = static_cast<std::uint32_t>(block % columns_) * side, y0 = static_cast<std::uint32_t>(block / columns_) * side;
-    for (std::uint32_t y = y0; y < std::min(y0 + side, view_.size.height); ++y) {
-      for (std::uint32_t x = x0; x < std::min(x0 + side, view_.size.width); ++x) { body(x, y); }
+    const auto x0 = static_cast<std::uint32_t>(block % columns_) * block_side, y0 = static_cast<std::uint32_t>(block / columns_) * block_side;
+    for (std::uint32_t y = y0; y < std::min(y0 + block_side, view_.size.height); ++y) {
+      for (std::uint32_t x = x0; x < std::min(x0 + block_side, view_.size.width); ++x) { body(x, y); }
     }
   }
   [[nodiscard]] std::uint32_t& surface_of(std::uint32_t x, std::uint32_t y) { return surfaces_[std::size_t{y} * view_.size.width + x]; }
 
-  void add_fragments(std::uint32_t x, std::uint32_t y, std::span<const std::optional<radiosity::FinalGather::Place>> seen,
-                     std::vector<Fragment>& out) const;
-  [[nodiscard]] bool one_piece(const radiosity::FinalGather::Place& a, const radiosity::FinalGather::Place& b) const;
   void glance(std::size_t block);
   void look_closer(std::size_t block);
   void light_block(std::size_t block);
@@ -104,7 +102,6 @@ class Painter {
   [[nodiscard]] std::vector<Color> direct_light_at(const Fragment& fragment, std::span<const glm::dvec2> places) const;
   void smooth_shadows(std::size_t block);
   void show(std::size_t block, const Tone& tone, Picture& picture) const;
-  [[nodiscard]] double pixel_size(const glm::dvec3& p) const { return pixel_angle_ * glm::length(p - eye_.position); }
   [[nodiscard]] IndirectPoint gather_at(const Fragment& fragment) const;
 
   const radiosity::FinalGather& light_;
@@ -113,7 +110,7 @@ class Painter {
   const radiosity::Control& control_;
   std::uint32_t columns_, rows_;
   radiosity::FinalGather::Eye eye_;
-  double pixel_angle_;
+  PixelSize pixel_size_;
   IndirectPoints points_;
   std::vector<std::vector<Fragment>> blocks_;
   std::vector<std::vector<Color>> irradiance_;  // of the fragments of each block
@@ -122,48 +119,6 @@ class Painter {
   std::array<glm::dvec2, 16> sixteen_{};
   std::array<glm::dvec2, 4> four_{};
 };
-
-void Painter::add_fragments(std::uint32_t x, std::uint32_t y, std::span<const std::optional<radiosity::FinalGather::Place>> seen,
-                            std::vector<Fragment>& out) const {
-  const auto first = static_cast<std::ptrdiff_t>(out.size());
-  for (const auto& place : seen) {
-    if (!place) { continue; }
-    const auto same = std::find_if(out.begin() + first, out.end(), [&](const Fragment& f) { return one_piece(f.place, *place); });
-    if (same == out.end()) {
-      out.push_back({x, y, 1.0f, *place, place->point.position, place->point.normal});
-    } else {
-      same->share += 1.0f;
-      same->positions += place->point.position;
-      same->normals += place->point.normal;
-    }
-  }
-  for (auto f = out.begin() + first; f != out.end(); ++f) {
-    const glm::dvec3 middle = f->positions / static_cast<double>(f->share);
-    f->share /= static_cast<float>(seen.size());
-    if (light_.objects().object(f->place.object).flat()) {
-      f->place.point = {middle, glm::normalize(f->normals)};
-      continue;
-    }
-    // The middle of points of a curved surface lies off it: the nearest of them is on it.
-    double nearest = raycast::infinity;
-    const radiosity::FinalGather::Place of_piece = f->place;
-    for (const auto& place : seen) {
-      if (!place || !one_piece(of_piece, *place)) { continue; }
-      const double distance = glm::length(place->point.position - middle);
-      if (distance < nearest) {
-        nearest = distance;
-        f->place.point = place->point;
-      }
-    }
-  }
-}
-
-// Seen through one pixel, do these two belong together? Not where one part of a surface hides another, or on two sides of a crease.
-bool Painter::one_piece(const radiosity::FinalGather::Place& a, const radiosity::FinalGather::Place& b) const {
-  if (a.surface != b.surface || !(glm::dot(a.point.normal, b.point.normal) > 0.97)) { return false; }
-  constexpr double apart = 4.0;  // pixels
-  return std::abs(glm::dot(a.point.normal, b.point.position - a.point.position)) < apart * pixel_size(a.point.position);
-}
 
 void Painter::glance(std::size_t block) {
   std::array<glm::dvec3, 16> directions{};
@@ -177,9 +132,9 @@ void Painter::glance(std::size_t block) {
       std::uint32_t& surface = surface_of(x, y);
       surface = own[0] ? own[0]->surface : no_surface;
       for (const auto& place : own) {
-        if (place.has_value() != own[0].has_value() || (place && !one_piece(*own[0], *place))) { surface = several_surfaces; }
+        if (place.has_value() != own[0].has_value() || (place && !one_piece(*own[0], *place, pixel_size_))) { surface = several_surfaces; }
       }
-      add_fragments(x, y, own, blocks_[block]);
+      add_fragments(light_, x, y, own, pixel_size_, blocks_[block]);
     }
     waiting = 0;
   };
@@ -215,7 +170,7 @@ void Painter::look_closer(std::size_t block) {
     changed = true;
     std::array<glm::dvec3, 16> directions{};
     for (unsigned k = 0; k < 16; ++k) { directions[k] = view_.direction(x + sixteen_[k].x, y + sixteen_[k].y); }
-    add_fragments(x, y, light_.seen16(eye_, directions, true), result);
+    add_fragments(light_, x, y, light_.seen16(eye_, directions, true), pixel_size_, result);
   });
   if (changed) { blocks_[block] = std::move(result); }
 }
@@ -229,7 +184,7 @@ IndirectPoint Painter::gather_at(const Fragment& fragment) const {
   point.object = fragment.place.object;
   point.x = fragment.x;
   point.y = fragment.y;
-  const double size = pixel_size(point.position);
+  const double size = pixel_size_(point.position);
   const double facing = std::abs(glm::dot(point.normal, glm::normalize(point.position - eye_.position)));
   const double footprint = size / std::max(facing, 0.2);  // of a pixel; where it is slanted, at most five times as long
   const double allowed = found.nearness > 0.0 ? part_of_distance / found.nearness : raycast::infinity;
@@ -254,7 +209,7 @@ bool Painter::gather() {
         if (radiosity::is_black(light_.material(f.place.surface).reflectance)) { continue; }
         if (points_.covered(f.x, f.y, p.position, p.normal, f.place.object)) { continue; }
         // Not two points for neighbours; at least the smallest balls do not depend on what is seen from them.
-        const double apart = 2.0 * pixel_size(p.position);
+        const double apart = 2.0 * pixel_size_(p.position);
         const bool near = std::any_of(wanted[b].begin(), wanted[b].end(), [&](std::uint32_t k) {
           const auto& other = blocks_[b][k].place;
           return other.object == f.place.object && glm::dot(other.point.normal, p.normal) > 0.95 &&
