@@ -2,14 +2,9 @@
 // MGF (Materials and Geometry Format, Ward 1995), as far as diffuse scenes have it: the entities o, xf, i; c with cxy; m with sides, rd, ed;
 // v with p and n; f, sph, cyl, cone, ring, torus, prism. All else is told and passed over. Spheres and tori stay analytic; what is open,
 // cylinders and cones without their ends, becomes polygons, of as many sides as rings, so that both fit together.
-//
-// Colours, materials and vertices are contexts: "m" makes an unnamed one of defaults the current one, "m NAME" a known one, "m NAME =" a new
-// one of defaults, "m NAME = OTHER" a new one like another. What follows changes the current one.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
-#include <functional>
 #include <map>
 #include <numbers>
 #include <string>
@@ -24,6 +19,7 @@
 #include <raycast/transform.hpp>
 
 #include "apps/intake/mgf_color.hpp"
+#include "apps/intake/mgf_contexts.hpp"
 #include "apps/intake/mgf_transform.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/mesh_file/reading.hpp"
@@ -36,57 +32,6 @@ constexpr std::size_t most_lines = 5'000'000;  // that are carried out: copies o
 constexpr std::size_t most_corners = 10'000'000;
 constexpr std::size_t most_files = 1000, deepest = 32;
 constexpr int sides_of_circle = 32;
-
-struct Chroma {
-  double x = 1.0 / 3.0, y = 1.0 / 3.0;
-};
-struct Material {
-  std::string name = "default";
-  bool two_sided = true;
-  radiosity::Color reflectance{0.0}, emission{0.0};
-  std::uint32_t number = none;  // in the model, once something has it
-  static constexpr std::uint32_t none = 0xffffffff;
-};
-struct Vertex {
-  glm::dvec3 position{0.0}, normal{0.0};
-};
-
-template <class Value>
-class Contexts {
- public:
-  // What the line says behind its keyword; an error for a name that is not known.
-  void choose(const Line& line, Errors& errors) {
-    const std::string name(line.word(1));
-    if (name.empty() || line.word(2) == "=") {
-      Value fresh;
-      if (line.words.size() > 3) {
-        const Value* const like = find(line, 3, errors);
-        if (like == nullptr) { return; }
-        fresh = *like;
-      }
-      current_ = &values_.emplace_back(std::move(fresh));
-      if (!name.empty()) { names_[name] = current_; }
-    } else if (Value* const known = find(line, 1, errors)) {
-      current_ = known;
-    }
-  }
-  Value* find(const Line& line, std::size_t word, Errors& errors) {
-    const auto found = names_.find(line.word(word));
-    if (found != names_.end()) { return found->second; }
-    errors.add(line.place(word), "there is no " + std::string(what_) + " " + mesh_file::shown(line.word(word)));
-    return nullptr;
-  }
-  explicit Contexts(std::string_view what) : what_(what) {}
-  Contexts(const Contexts&) = delete;
-  Contexts& operator=(const Contexts&) = delete;
-  Value& current() { return *current_; }
-
- private:
-  std::string_view what_;
-  std::deque<Value> values_{Value{}};
-  Value* current_ = &values_.front();
-  std::map<std::string, Value*, std::less<>> names_;
-};
 
 class Reader {
  public:
