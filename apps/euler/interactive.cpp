@@ -41,7 +41,8 @@ constexpr const char* more_help =
 
 // Words that a line may begin with.
 std::vector<std::string> commands() {
-  std::vector<std::string> words = {"undo", "redo", "raw", "expect", "refused", "set_anchor", "show", "face", "vertex", "save", "help", "quit"};
+  std::vector<std::string> words = {"undo", "redo", "raw",    "expect", "refused", "set_anchor",
+                                    "show", "face", "vertex", "save",   "help",    "quit"};
   for (const brep::OperatorForm& row : brep::operator_forms) {
     words.emplace_back(row.name);
     for (const std::string_view word : row.textbook) {

@@ -117,12 +117,16 @@ Fault holes(const std::string& text) {
   Played played;
   return first_of([&] { return play(text, played); }, [&] { return kept(played, 3); }, [&] { return one_shell(played); },
                   [&]() -> Fault {
-                    const auto pothole = [](const Moment& m) { return m.v == 16 && m.e == 25 && m.f == 11 && m.shells == 1 && m.handles == 0; };
+                    const auto pothole = [](const Moment& m) {
+                      return m.v == 16 && m.e == 25 && m.f == 11 && m.shells == 1 && m.handles == 0;
+                    };
                     if (std::none_of(played.moments.begin(), played.moments.end(), pothole)) {
                       return "no step shows the pothole: a square rim tied to the border of the lid, four walls and a floor";
                     }
                     const long handles = played.moments.back().handles;
-                    if (handles != 1) { return "at the end there are " + std::to_string(handles) + " handles: nothing leads through the cube once"; }
+                    if (handles != 1) {
+                      return "at the end there are " + std::to_string(handles) + " handles: nothing leads through the cube once";
+                    }
                     std::size_t large = 0;
                     for (const brep::FaceId f : brep::faces(played.solid)) { large += brep::degree(played.solid, f) > 4 ? 1 : 0; }
                     if (large > 1) { return std::to_string(large) + " faces have more than four edges"; }
@@ -138,16 +142,17 @@ Fault dual_of_prism(const std::string& text) {
       "h0 = make_segment\nh2 = split_vertex h1 h1\nh4 = split_face h3 h0\nh6 = split_vertex h1 h1\nh8 = split_vertex h3 h3\n"
       "h10 = split_vertex h5 h5\nh12 = split_face h7 h11\nh14 = split_face h11 h9\nh16 = split_face h9 h12\n";
   Played played;
-  return first_of([&] { return play(text, played); }, [&] { return one_shell(played); },
-                  [&]() -> Fault {
-                    Played of;
-                    static_cast<void>(play(prism, of));
-                    if (brep::find_isomorphism(of.solid, played.solid)) { return "this is the prism itself"; }
-                    const auto dual = brep::dual(of.solid);
-                    const auto same = [&](brep::Orientation way) { return brep::find_isomorphism(dual.brep, played.solid, way).has_value(); };
-                    if (same(brep::Orientation::kept) || same(brep::Orientation::reversed)) { return std::nullopt; }
-                    return "this is not the dual of the prism: count the faces of the prism, and the edges that meet in each of its vertices";
-                  });
+  return first_of(
+      [&] { return play(text, played); }, [&] { return one_shell(played); },
+      [&]() -> Fault {
+        Played of;
+        static_cast<void>(play(prism, of));
+        if (brep::find_isomorphism(of.solid, played.solid)) { return "this is the prism itself"; }
+        const auto dual = brep::dual(of.solid);
+        const auto same = [&](brep::Orientation way) { return brep::find_isomorphism(dual.brep, played.solid, way).has_value(); };
+        if (same(brep::Orientation::kept) || same(brep::Orientation::reversed)) { return std::nullopt; }
+        return "this is not the dual of the prism: count the faces of the prism, and the edges that meet in each of its vertices";
+      });
 }
 
 Fault inverse(const std::string& text) {

@@ -174,7 +174,9 @@ Drawing weights_at_a_rim(const std::string& scene) {
   for (const brep::HalfedgeId h : brep::halfedges_from(brep, best)) {
     std::vector<glm::dvec2> corners;
     glm::dvec2 towards{0.0};
-    for (const brep::HalfedgeId k : brep::halfedges_of(brep, brep.face(h))) { corners.push_back(place(brep.data(brep.vertex(k)).position)); }
+    for (const brep::HalfedgeId k : brep::halfedges_of(brep, brep.face(h))) {
+      corners.push_back(place(brep.data(brep.vertex(k)).position));
+    }
     const double weight = std::max(0.0, glm::dot(brep.data(of).normal, brep.data(h).normal));
     for (const glm::dvec2& p : corners) { towards += p / static_cast<double>(corners.size()); }
     drawing.add(polygon(corners, weight > 0.5 ? lit : pale));

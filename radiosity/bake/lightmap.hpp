@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Baked light as a texture: an atlas in which every polygon has a rectangle of its own, and texture coordinates for its corners. Polygons are
-// planar, so no surface has to be unwrapped: a rectangle lies in the polygon's plane, along its longest side, its texels are squares of one
-// size. It is a texel wider than the polygon all around, and what lies beside the polygon has the light of the nearest place on it, so that
-// bilinear filtering never reaches another polygon. Rectangles are packed on shelves, the highest first (Coffman et al. 1980).
+// Baked light as a texture: an atlas in which every polygon has a rectangle of its own, and texture coordinates for its corners. Polygons
+// are planar, so no surface has to be unwrapped: a rectangle lies in the polygon's plane, along its longest side, its texels are squares of
+// one size. It is a texel wider than the polygon all around, and what lies beside the polygon has the light of the nearest place on it, so
+// that bilinear filtering never reaches another polygon. Rectangles are packed on shelves, the highest first (Coffman et al. 1980).
 //
-// Give this the polygons that the user has, large ones best: for each triangle of a fine mesh a rectangle is waste, and vertex colours say as
-// much.
+// Give this the polygons that the user has, large ones best: for each triangle of a fine mesh a rectangle is waste, and vertex colours say
+// as much.
 
 #include <cstddef>
 #include <cstdint>

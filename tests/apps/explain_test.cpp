@@ -120,7 +120,8 @@ TEST_CASE("explain refuses what cannot be looked at whole, with the number and w
     return result.sentences.empty() ? std::string() : result.sentences.front();
   };
   CHECK(refusal(example_scene("boxes.scene"), 0.001).find("a larger --epsilon or --min-area asks about fewer") != std::string::npos);
-  CHECK(refusal(example_scene("furnace.scene"), 0.05).find("more than 12000 pairs") != std::string::npos);  // beyond it in the last generation
+  CHECK(refusal(example_scene("furnace.scene"), 0.05).find("more than 12000 pairs") !=
+        std::string::npos);  // beyond it in the last generation
   CHECK(refusal(example_scene("primitives.scene"), 0.1).find("input faces; at most 256") != std::string::npos);
 }
 
@@ -157,7 +158,8 @@ TEST_CASE("explain: every step of the page is drawn in a browser without an erro
     document.documentElement.dataset.pulled = data.iterations.slice(1).every((next, n) =>
       next.sent.every((b, i) => Math.abs(b - light.value(3 * n + 2)(i)) <= 1e-3 * largest));
     document.documentElement.dataset.mine = atThreshold(data.epsilon).links.length === data.pairs.filter(p => p.is === 'link').length;
-  )", "1200,800");
+  )",
+                                            "1200,800");
   INFO(dom.substr(0, 400));
   CHECK(dom.find("data-ready=\"1\"") != std::string::npos);
   CHECK(dom.find("data-error") == std::string::npos);
