@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// MGF (Materials and Geometry Format, Ward 1995), as far as diffuse scenes have it: the entities o, xf, i; c with cxy; m with sides, rd, ed;
-// v with p and n; f, sph, cyl, cone, ring, torus, prism. All else is told and passed over. Spheres and tori stay analytic; what is open,
-// cylinders and cones without their ends, becomes polygons, of as many sides as rings, so that both fit together.
+// MGF (Materials and Geometry Format, Ward 1995), as far as diffuse scenes have it: the entities o, xf, i; c with cxy; m with sides, rd,
+// ed; v with p and n; f, sph, cyl, cone, ring, torus, prism. All else is told and passed over. Spheres and tori stay analytic; what is
+// open, cylinders and cones without their ends, becomes polygons, of as many sides as rings, so that both fit together.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -257,7 +257,8 @@ class Reader {
       object = raycast::Torus::make(v->position, v->normal, 0.5 * (small + large), 0.5 * (large - small)).object;
     }
     if (!object || raycast::check(*object, placement)) {
-      return notes.add("shapes without size, or flattened by their transform, are left out", "at line " + std::to_string(line.place(0).line));
+      return notes.add("shapes without size, or flattened by their transform, are left out",
+                       "at line " + std::to_string(line.place(0).line));
     }
     const std::string name = objects_.empty() ? (ball ? "sphere" : "torus") : model.groups.back();
     model.objects.push_back({name, std::move(object), placement, {material()}});
@@ -287,8 +288,16 @@ class Reader {
     }
     for (int i = 0; i < sides_of_circle; ++i) {
       std::vector<glm::dvec3> corners;
-      if (r > 0.0) { corners = {point(a, r, i), point(a, r, i + 1)}; } else { corners = {a}; }
-      if (s > 0.0) { corners.insert(corners.end(), {point(b, s, i + 1), point(b, s, i)}); } else { corners.push_back(b); }
+      if (r > 0.0) {
+        corners = {point(a, r, i), point(a, r, i + 1)};
+      } else {
+        corners = {a};
+      }
+      if (s > 0.0) {
+        corners.insert(corners.end(), {point(b, s, i + 1), point(b, s, i)});
+      } else {
+        corners.push_back(b);
+      }
       if (inwards) { std::reverse(corners.begin(), corners.end()); }
       polygon(std::move(corners), line);
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Colours, materials and vertices of MGF are contexts: "m" makes an unnamed one of defaults the current one, "m NAME" a known one, "m NAME ="
-// a new one of defaults, "m NAME = OTHER" a new one like another. What follows changes the current one.
+// Colours, materials and vertices of MGF are contexts: "m" makes an unnamed one of defaults the current one, "m NAME" a known one,
+// "m NAME =" a new one of defaults, "m NAME = OTHER" a new one like another. What follows changes the current one.
 
 #include <cstdint>
 #include <deque>

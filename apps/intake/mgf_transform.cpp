@@ -61,7 +61,9 @@ Transforms::Transforms(const Line& line, std::size_t first, Errors& errors) {
     } else if (word == "-i" || word == "-a") {
       const auto count = mesh_file::to_integer(line.word(i + 1));
       const bool good = count && *count >= 0 && *count <= static_cast<std::int64_t>(most_copies);
-      if (!good) { errors.add(line.place(i + 1), "expected a number from 0 to " + std::to_string(most_copies) + ", " + found(line, i + 1)); }
+      if (!good) {
+        errors.add(line.place(i + 1), "expected a number from 0 to " + std::to_string(most_copies) + ", " + found(line, i + 1));
+      }
       parts_.push_back({glm::dmat4(1.0), good ? static_cast<std::size_t>(*count) : 1, word == "-a"});
       if (parts_.back().array) { copies_ *= parts_.back().count; }
       if (copies_ > most_copies) {

@@ -18,8 +18,7 @@ namespace apps::scene_file {
 
 // Is told of an object as often as it is used: with the names of the uses around it, "first.", their placement, and the place of the
 // statement of the file.
-using PlaceObject =
-    std::function<void(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at)>;
+using PlaceObject = std::function<void(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at)>;
 
 // Walks all uses in the order of the file; ends at the first error, or when the scene grows beyond max_objects.
 void place_all(const std::vector<Item>& items, const Groups& groups, Errors& errors, const PlaceObject& place);

@@ -93,11 +93,13 @@ TEST_CASE("mgf: transforms act one after the other, the inner ones first, and co
                                                       "xf -i 3 -t 1 0 0\nf a b c\nxf\nxf -a 0\nf a b c\nxf -t 1 1 1\nf a b c\nxf\nxf\n"
                                                       "xf -mx\nf a b c\nxf\nf a b c\n");
   REQUIRE(model.polygons() == 1 + 6 + 1 + 1 + 1);
-  CHECK(close(models::corner(model, 0, 1), {10, 3, 0}));   // b: 2 0 0, 3 0 0; 0 3 0, 10 3 0
-  CHECK(close(models::corner(model, 0, 2), {8, 3, 0}));    // c: 2 2 0, 3 2 0; -2 3 0, 8 3 0
+  CHECK(close(models::corner(model, 0, 1), {10, 3, 0}));  // b: 2 0 0, 3 0 0; 0 3 0, 10 3 0
+  CHECK(close(models::corner(model, 0, 2), {8, 3, 0}));   // c: 2 2 0, 3 2 0; -2 3 0, 8 3 0
   std::vector<glm::dvec3> first;
   for (std::size_t f = 1; f < 7; ++f) { first.push_back(models::corner(model, f, 0)); }
-  for (int i = 0; i < 6; ++i) { CHECK(std::count_if(first.begin(), first.end(), [&](const auto& p) { return close(p, {i % 3, 2 * (i / 3), 5}); }) == 1); }
+  for (int i = 0; i < 6; ++i) {
+    CHECK(std::count_if(first.begin(), first.end(), [&](const auto& p) { return close(p, {i % 3, 2 * (i / 3), 5}); }) == 1);
+  }
   CHECK(close(models::corner(model, 7, 0), {3, 0, 0}));
   const auto turn = [&](std::size_t f) {
     const glm::dvec3 p = models::corner(model, f, 0);
@@ -112,7 +114,8 @@ TEST_CASE("mgf: solids look outwards and have their areas and volumes, wherever 
     INFO("seed " << seed);
     std::mt19937 random(seed);
     const auto number = [&](double lo, double hi) { return std::to_string(std::uniform_real_distribution(lo, hi)(random)); };
-    const std::string turn = "xf -rx " + number(0, 360) + " -ry " + number(0, 360) + (seed == 2 ? " -mx" : "") + " -t " + number(-5, 5) + " 1 2\n";
+    const std::string turn =
+        "xf -rx " + number(0, 360) + " -ry " + number(0, 360) + (seed == 2 ? " -mx" : "") + " -t " + number(-5, 5) + " 1 2\n";
     const apps::Model box = models::read("a.mgf", square + turn + "prism a d c b 3\nxf\n");
     CHECK(std::abs(area(box) - 14.0) < 1e-9);
     CHECK(std::abs(volume(box) - 3.0) < 1e-9);  // seen from below, it grows up
@@ -124,7 +127,8 @@ TEST_CASE("mgf: solids look outwards and have their areas and volumes, wherever 
     CHECK(std::abs(volume(can) - 2.0 * polygon) < 1e-9);
     const apps::Model cone = models::read("a.mgf", ends + turn + "cone p 1 q 0\nring p 0.5 1\nring p 0 0.5\nxf\n");
     CHECK(std::abs(volume(cone) - 2.0 / 3.0 * polygon) < 1e-9);
-    const apps::SceneFile taken = models::scene("a.mgf", "m w =\n rd .5\n ed 1\n" + ends + turn + "cyl p 1 q\nring p 0 1\nring q 0 1\nxf\n");
+    const apps::SceneFile taken =
+        models::scene("a.mgf", "m w =\n rd .5\n ed 1\n" + ends + turn + "cyl p 1 q\nring p 0 1\nring q 0 1\nxf\n");
     REQUIRE(taken.scene.objects.size() == 1);
     CHECK(taken.scene.objects[0].shape->solid());
   }
@@ -147,7 +151,8 @@ TEST_CASE("mgf: a furnace is a furnace") {
 
 TEST_CASE("mgf: included files are placed, know what is defined, and are told when they are missing or wrong") {
   const models::Files files{{"part.mgf", "f a b c\nm inner =\n rd .3\n"}, {"loop.mgf", "i loop.mgf -t 1 0 0\n"}, {"bad.mgf", "\n p x\n"}};
-  const apps::Model model = models::read("a.mgf", square + "xf -t 0 0 1\ni part.mgf -t 1 0 0 -a 2 -t 0 1 0\nxf\nm inner\nf a b c\ni nothing.mgf\n", files);
+  const apps::Model model =
+      models::read("a.mgf", square + "xf -t 0 0 1\ni part.mgf -t 1 0 0 -a 2 -t 0 1 0\nxf\nm inner\nf a b c\ni nothing.mgf\n", files);
   REQUIRE(model.polygons() == 3);
   CHECK(close(models::corner(model, 1, 0), {1, 1, 1}));
   CHECK(model.materials[model.material[2]].name == "inner");

@@ -45,7 +45,9 @@ TEST_CASE("scene graph: a node that is used often is met as often, each time wit
     Graph graph;
     graph.uses.resize(9);
     for (std::size_t node = 0; node < 9; ++node) {
-      for (std::size_t k = random() % 3 + (node == 0 ? 1 : 0); k > 0 && node < 8; --k) { graph.uses[node].push_back(node + 1 + random() % (8 - node)); }
+      for (std::size_t k = random() % 3 + (node == 0 ? 1 : 0); k > 0 && node < 8; --k) {
+        graph.uses[node].push_back(node + 1 + random() % (8 - node));
+      }
     }
     std::vector<std::string> expected;
     std::string state, other;
