@@ -40,8 +40,8 @@ std::string to_ply(const ExportMesh& mesh, const Tone& tone) {
   const bool single = std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const ExportVertex& v) { return is_float(v.position); });
   bool wide = false;
   for (std::uint32_t f = 0; f < mesh.faces(); ++f) { wide = wide || mesh.face(f).size() > 255; }
-  std::vector<std::string_view> of_vertex =
-      single ? std::vector<std::string_view>{"float x", "float y", "float z"} : std::vector<std::string_view>{"double x", "double y", "double z"};
+  std::vector<std::string_view> of_vertex = single ? std::vector<std::string_view>{"float x", "float y", "float z"}
+                                                   : std::vector<std::string_view>{"double x", "double y", "double z"};
   for (const std::string_view property : {"float nx", "float ny", "float nz", "uchar red", "uchar green", "uchar blue", "float radiosity_r",
                                           "float radiosity_g", "float radiosity_b"}) {
     of_vertex.push_back(property);

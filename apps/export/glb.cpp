@@ -202,7 +202,8 @@ class Writer {
       for (std::size_t i = 0; i < parts; ++i) {
         json.open_object().fields("name", mesh_.groups[parts_[i].group].name);
         json.key("primitives").open_array().open_object();
-        json.key("attributes").object("POSITION", 5 * i, "NORMAL", 5 * i + 1, textured() ? "TEXCOORD_0" : "COLOR_0", 5 * i + 2, "_RADIOSITY", 5 * i + 3);
+        json.key("attributes")
+            .object("POSITION", 5 * i, "NORMAL", 5 * i + 1, textured() ? "TEXCOORD_0" : "COLOR_0", 5 * i + 2, "_RADIOSITY", 5 * i + 3);
         json.fields("indices", 5 * i + 4, "material", 0).close().close().close();
       }
       json.close();

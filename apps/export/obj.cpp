@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OBJ with colours behind the positions of its vertices, as MeshLab, Blender and others read and write them: sRGB in [0, 1], exposed. With a
-// lightmap each corner has its place in it, by the format's custom from the lower left.
+// OBJ with colours behind the positions of its vertices, as MeshLab, Blender and others read and write them: sRGB in [0, 1], exposed. With
+// a lightmap each corner has its place in it, by the format's custom from the lower left.
 #include <array>
 #include <charconv>
 
@@ -42,9 +42,7 @@ std::string write_obj(const ExportMesh& mesh, const Tone& tone) {
   for (const glm::vec2& at : mesh.coordinates) { text += formatted("vt %.9g", double{at.x}) + formatted(" %.9g\n", 1.0 - double{at.y}); }
   std::size_t group = 0;
   for (std::uint32_t f = 0; f < mesh.faces(); ++f) {
-    while (group < mesh.groups.size() && mesh.groups[group].first_face == f) {
-      text += "o " + one_line(mesh.groups[group++].name) + "\n";
-    }
+    while (group < mesh.groups.size() && mesh.groups[group].first_face == f) { text += "o " + one_line(mesh.groups[group++].name) + "\n"; }
     text += 'f';
     for (std::uint32_t c = mesh.first_corner[f]; c < mesh.first_corner[f + 1]; ++c) {
       const std::string vertex = std::to_string(mesh.corners[c] + 1);

@@ -71,8 +71,8 @@ inline bool arrange(std::vector<LightmapChart>& charts, double texel, std::uint3
 
 }  // namespace lightmap::detail
 
-HALFLIGHT_INLINE std::optional<LightmapChart> make_chart(std::size_t polygon, std::span<const glm::dvec3> points,
-                                                         const glm::dvec3& normal, const glm::dvec3& along) {
+HALFLIGHT_INLINE std::optional<LightmapChart> make_chart(std::size_t polygon, std::span<const glm::dvec3> points, const glm::dvec3& normal,
+                                                         const glm::dvec3& along) {
   const glm::dvec3 across = glm::cross(normal, along);
   if (points.empty() || !(glm::length(normal) > 0.0) || !(glm::length(across) > 0.0)) { return std::nullopt; }
   LightmapChart chart;

@@ -26,8 +26,9 @@ namespace radiosity {
 // A rectangle of the atlas, and the plane that it shows.
 struct LightmapChart {
   std::size_t polygon = 0;
-  glm::dvec3 origin{0.0}, u{0.0}, v{0.0};  // a corner of the bounds of what lies in it, in the middle of texel (1, 1); directions, of length 1
-  double width = 0.0, height = 0.0;        // of these bounds
+  glm::dvec3 origin{0.0};                             // a corner of the bounds of what lies in it: the middle of texel (1, 1)
+  glm::dvec3 u{0.0}, v{0.0};                          // directions of its sides, of length 1
+  double width = 0.0, height = 0.0;                   // of these bounds
   std::uint32_t columns = 0, rows = 0, x = 0, y = 0;  // size and place in texels
 };
 

@@ -76,7 +76,8 @@ double difference(const apps::ExportMesh& mesh, const apps::Picture& map, std::m
       const glm::dvec3 weight = anywhere(random);
       const auto light = [&](std::uint32_t i) { return mesh.vertices[mesh.corners[c + i]].radiosity; };
       const auto place = [&](std::uint32_t i) { return glm::dvec2(mesh.coordinates[c + i]); };
-      const double here = mix(weight, light(0), light(k - 1), light(k)).x, off = sample(map, mix(weight, place(0), place(k - 1), place(k))).x - here;
+      const double here = mix(weight, light(0), light(k - 1), light(k)).x,
+                   off = sample(map, mix(weight, place(0), place(k - 1), place(k))).x - here;
       square += off * off;
       reference += here * here;
     }

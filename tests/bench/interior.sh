@@ -1,7 +1,7 @@
 #!/bin/sh
-# An interior as other programs write it, one OBJ file of triangles with its MTL: a room whose walls are grids, tables with chairs, shelves of
-# books, bowls and fruit that are round by many small triangles, lamps in the ceiling or bulbs. Prints what a run at default settings takes, as
-# a report alone and with a picture.
+# An interior as other programs write it, one OBJ file of triangles with its MTL: a room whose walls are grids, tables with chairs, shelves
+# of books, bowls and fruit that are round by many small triangles, lamps in the ceiling or bulbs. Prints what a run at default settings
+# takes, as a report alone and with a picture.
 #
 #   sh tests/bench/interior.sh [TRIANGLES [LAMPS [PROGRAM]]]      100000, flat (or bulbs), build/release/apps/halflight
 set -eu
