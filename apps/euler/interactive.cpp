@@ -108,7 +108,8 @@ class Conversation {
       say(records_table(teller_.story().frames.back().records));
     } else if (const auto element = asked_walk(text)) {
       say(walk(teller_.story().frames.back().records, *element) + "\n");
-    } else if (const std::string word = text.substr(0, text.find_first_of(" \t")); (word == "face" || word == "vertex") && text.find('=') == text.npos) {
+    } else if (const std::string word = text.substr(0, text.find_first_of(" \t"));
+               (word == "face" || word == "vertex") && text.find('=') == text.npos) {
       say(word + ": expected a " + word + ", such as " + word[0] + "1\n");
     } else if (text == "save" || text.rfind("save ", 0) == 0) {
       save(text.substr(std::min<std::size_t>(5, text.size())));

@@ -190,6 +190,17 @@ TEST_CASE("explain: every step of the page is drawn in a browser without an erro
     chapters.forEach((c, i) => { for (let k = 0; k < c.steps; k += 1 + Math.floor(c.steps / 12)) { open(i, k); pick(k % 5); drawn += last.faces.length > 0; } });
     document.documentElement.dataset.drawn = drawn;
     document.documentElement.dataset.coarse = atThreshold(1).links.length;
+    // The scene lies within the view and fills nine tenths of it, one way or the other.
+    const size = [$('view').clientWidth, $('view').clientHeight], places = bounds.map(camera(...size).to);
+    const spans = [0, 1].map(c => (Math.max(...places.map(p => p[c])) - Math.min(...places.map(p => p[c]))) / size[c]);
+    const within = places.every(p => [0, 1].every(c => p[c] > 0 && p[c] < size[c]));
+    document.documentElement.dataset.fills = within && Math.abs(Math.max(...spans) - 0.9) < 1e-6;
+    // Over-shooting is said to pay where one of its residuals is below that of shooting.
+    const residuals = (s, name) => s.methods.filter(m => m.name.startsWith(name)).map(m => m.residual);
+    document.documentElement.dataset.pays = data.solvers.every(s => {
+      const shooting = residuals(s, 'Southwell')[0], ahead = (r, k) => k > 0 && r[k] < (shooting[k] ?? shooting.at(-1));
+      return overshooting(s.methods).includes('never') !== residuals(s, 'over').some(r => r.some((_, k) => ahead(r, k)));
+    });
     const largest = Math.max(...data.iterations.at(-1).sent);  // numbers of the page have four digits
     const light = chapters.find(c => c.name === 'Light');
     document.documentElement.dataset.pulled = data.iterations.slice(1).every((next, n) =>
@@ -203,5 +214,7 @@ TEST_CASE("explain: every step of the page is drawn in a browser without an erro
   CHECK(dom.find("data-drawn=\"") != std::string::npos);
   CHECK(dom.find("data-coarse=\"3\"") != std::string::npos);  // of six pairs three face each other
   CHECK(dom.find("data-mine=\"true\"") != std::string::npos);
+  CHECK(dom.find("data-fills=\"true\"") != std::string::npos);
+  CHECK(dom.find("data-pays=\"true\"") != std::string::npos);
   CHECK(dom.find("data-pulled=\"true\"") != std::string::npos);  // what the page pulls up is what the program sends next
 }

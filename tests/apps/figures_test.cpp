@@ -23,7 +23,9 @@ int crossings(const std::string& svg) {
     lines.push_back(line);
   }
   CHECK(lines.size() == 28);
-  const auto side = [](const std::array<double, 4>& l, double x, double y) { return (l[2] - l[0]) * (y - l[1]) - (l[3] - l[1]) * (x - l[0]); };
+  const auto side = [](const std::array<double, 4>& l, double x, double y) {
+    return (l[2] - l[0]) * (y - l[1]) - (l[3] - l[1]) * (x - l[0]);
+  };
   const auto parts = [&](const auto& l, const auto& m) { return side(l, m[0], m[1]) * side(l, m[2], m[3]) < 0.0; };
   int found = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
