@@ -39,6 +39,7 @@ struct RenderOptions {
   ModelOptions model;
   std::vector<std::string> outputs;  // pictures and meshes, by their endings
   bool onto_input = false;           // exported: the user's polygons, not those of the solution
+  std::string light;                 // a .light file that is drawn instead of a new solution; empty: none
   std::string json;                  // empty: none
   std::string camera;                // empty: the first of the file, or the automatic one
   std::optional<PictureSize> size;
@@ -52,7 +53,7 @@ struct RenderOptions {
   radiosity::Options solver;
 };
 
-enum class RenderFormat { png, hdr, pfm, ply, html, exported };
+enum class RenderFormat { png, hdr, pfm, light, ply, html, exported };
 
 // By the ending of the name.
 [[nodiscard]] std::optional<RenderFormat> render_format(const std::string& path);
@@ -60,6 +61,7 @@ enum class RenderFormat { png, hdr, pfm, ply, html, exported };
 // ".png, .ply, ... or .html"
 [[nodiscard]] std::string render_endings();
 
+[[nodiscard]] bool is_picture(const std::string& path);
 [[nodiscard]] bool has_picture(const RenderOptions& options);
 
 // The solution's settings as they are asked for. What is seen in gathered light alone is solved coarser: direct light is found anew,
@@ -92,6 +94,9 @@ struct RenderOutput {
   std::string path;
   std::string bytes;
 };
+
+// The picture in each format that is asked for.
+[[nodiscard]] std::vector<RenderOutput> encode(const RenderOptions& options, const Picture& picture, const Tone& tone);
 
 // Everything that is to be written, in memory; the report is completed. Nothing when interrupted.
 [[nodiscard]] std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera,
