@@ -93,8 +93,7 @@ class LightReader {
   std::string_view rest_;
 };
 
-constexpr std::size_t bytes_of_head = 3 * 8, bytes_of_position = 3 * 8, bytes_of_corner = 4 + 3 * 8 + 3 * 4,
-                      bytes_of_face = 3 * 4 + 3 * 8;
+constexpr std::size_t bytes_of_head = 3 * 8, bytes_of_position = 3 * 8, bytes_of_corner = 4 + 3 * 8 + 3 * 4, bytes_of_face = 3 * 4 + 3 * 8;
 
 bool all_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -119,7 +118,9 @@ bool consistent(const radiosity::Mesh& mesh, std::size_t surfaces) {
 
 std::string to_light_file(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Scene& scene) {
   std::string bytes = std::string(light_opening) + key_of(scene, frame) + "\n";
-  for (const std::size_t count : {mesh.positions.size(), mesh.corners.size(), mesh.faces.size()}) { append_raw(bytes, std::uint64_t{count}); }
+  for (const std::size_t count : {mesh.positions.size(), mesh.corners.size(), mesh.faces.size()}) {
+    append_raw(bytes, std::uint64_t{count});
+  }
   for (const glm::dvec3& p : mesh.positions) { append_vector(bytes, p); }
   for (const radiosity::MeshCorner& corner : mesh.corners) {
     append_raw(bytes, corner.vertex);

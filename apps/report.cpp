@@ -130,6 +130,7 @@ class Text {
     }
     constexpr const char* shows[] = {"of the mesh", "of the objects, in gathered light"};
     const auto method = static_cast<std::size_t>(report_.picture ? report_.picture->method : PictureMethod::mesh);
+    say("lightmap", "{lightmap.width} x {lightmap.height}, texels of {lightmap.texel} m");
     say("picture", std::string("{picture.width} x {picture.height}, ") + shows[method] + ", camera {picture.camera}");
   }
 

@@ -30,6 +30,12 @@ struct PictureReport {
   PictureMethod method = PictureMethod::mesh;
 };
 
+struct LightmapReport {
+  unsigned width = 0;
+  unsigned height = 0;
+  double texel = 0.0;  // metres
+};
+
 struct Report {
   std::string scene;                  // the file's name as it was given
   std::vector<std::string> taken_in;  // what was changed in a file of another program
@@ -40,7 +46,8 @@ struct Report {
   ToneCurve tone = ToneCurve::linear;
   std::optional<PictureReport> picture;
   std::optional<radiosity::StageTime> picture_time;  // drawing and encoding; not part of the total
-  std::vector<std::string> files;                    // what was written
+  std::optional<LightmapReport> lightmap;
+  std::vector<std::string> files;  // what was written
 };
 
 [[nodiscard]] std::string to_text(const Report& report);

@@ -64,6 +64,7 @@ std::optional<Camera> choose_camera(const SceneFile& file, const std::string& na
 
 std::vector<std::string> all_outputs(const RenderOptions& options) {
   std::vector<std::string> paths = options.outputs;
+  paths.push_back(options.lightmap);
   paths.push_back(options.json);
   return paths;
 }
@@ -76,9 +77,22 @@ ExitCode check(const RenderOptions& options) {
       return ExitCode::usage;
     }
   }
-  const auto takes = [](const std::string& path) { return render_format(path) == RenderFormat::exported; };
-  if (options.onto_input && std::none_of(options.outputs.begin(), options.outputs.end(), takes)) {
-    complain("--onto-input is about outputs that end with .glb or .obj; there is none");
+  const auto any = [&](bool ply) {
+    return std::any_of(options.outputs.begin(), options.outputs.end(), [ply](const std::string& path) {
+      const auto format = render_format(path);
+      return format == RenderFormat::exported || (ply && format == RenderFormat::ply);
+    });
+  };
+  if (options.onto_input && !any(true)) {
+    complain("--onto-input is about outputs that end with .ply, .glb or .obj; there is none");
+    return ExitCode::usage;
+  }
+  if (!options.lightmap.empty() && !any(false)) {
+    complain("--lightmap is about outputs that end with .glb or .obj; there is none");
+    return ExitCode::usage;
+  }
+  if (!options.lightmap.empty() && !is_picture(options.lightmap)) {
+    complain("--lightmap " + options.lightmap + ": expected a name that ends with .hdr, .pfm or .png");
     return ExitCode::usage;
   }
   if (!options.light.empty() && (options.outputs.empty() || !std::all_of(options.outputs.begin(), options.outputs.end(), is_picture))) {
@@ -242,11 +256,15 @@ std::vector<Argument> arguments(RenderOptions& options) {
             ".glb, .obj) or a page that shows it (.html); repeat for more; without, the report alone",
             Argument::Values::repeated),
       flag("--onto-input", options.onto_input,
-           "with .glb and .obj: the polygons and vertices of the input file in its own order, each vertex with its light"),
+           "with .ply, .glb and .obj: the polygons and vertices of the input file in its own order, each vertex with its light"),
+      text("--lightmap", "FILE", options.lightmap,
+           "with .glb and .obj: the light as a texture of them, too (.hdr, .pfm: radiance; .png), a rectangle for every face"),
+      above_zero("--texel", options.texel, 1e30, "side of a texel of the lightmap in metres (default: such that there are a million)")
+          .needing("--lightmap"),
       text("--light", "FILE", options.light,
            "a .light file of this scene: pictures are drawn from it, and nothing is solved; with the options of pictures alone")
-          .without({"--json", "--onto-input", "--error", "--target", "--time", "--epsilon", "--min-area", "--light-epsilon", "--indirect",
-                    "--solver", "--reconstruction", "--no-shortcuts"}),
+          .without({"--json", "--onto-input", "--lightmap", "--error", "--target", "--time", "--epsilon", "--min-area", "--light-epsilon",
+                    "--indirect", "--solver", "--reconstruction", "--no-shortcuts"}),
       above_zero("--error", solver.error, 1.0, "refine until the measured relative L2 error is at most this"),
       one_of<std::optional<ErrorOf>, ErrorOf>(
           "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},

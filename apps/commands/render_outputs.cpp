@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -23,6 +24,7 @@
 
 #include "apps/audited_picture.hpp"
 #include "apps/export/export_mesh.hpp"
+#include "apps/export/lightmap.hpp"
 #include "apps/export/viewer.hpp"
 #include "apps/gather_picture.hpp"
 #include "apps/light_file.hpp"
@@ -47,6 +49,27 @@ class Stopwatch {
   std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
   std::clock_t cpu_ = std::clock();
 };
+
+std::string encoded(const Picture& picture, RenderFormat format, const Tone& tone) {
+  return format == RenderFormat::png ? to_png(picture, tone) : format == RenderFormat::hdr ? to_hdr(picture) : to_pfm(picture);
+}
+
+// The mesh that is exported, with its lightmap among the outputs when one is asked for.
+std::optional<ExportMesh> exported_mesh(const RenderOptions& options, const SceneFile& file, const radiosity::Solution& solution,
+                                        const Tone& tone, std::vector<RenderOutput>& outputs, Report& report) {
+  std::optional<ExportMesh> mesh = options.onto_input ? given_mesh(file, solution) : solution_mesh(file, solution);
+  if (!mesh || options.lightmap.empty()) { return mesh; }
+  const std::optional<LightTexture> texture = options.onto_input ? given_texture(file, solution, tone, options.texel, *mesh)
+                                                                 : solution_texture(solution, tone, options.texel, *mesh);
+  if (!texture) { return mesh; }
+  mesh->texture = to_png(texture->picture, tone);
+  mesh->texture_name = std::filesystem::path(options.lightmap).filename().string();
+  const auto format = *render_format(options.lightmap);
+  outputs.push_back({options.lightmap, format == RenderFormat::png ? mesh->texture : encoded(texture->picture, format, tone)});
+  report.files.push_back(options.lightmap);
+  report.lightmap = LightmapReport{texture->picture.width, texture->picture.height, texture->texel};
+  return mesh;
+}
 
 // The line below the title of a page: how large and how wrong the solution is.
 std::string summary(const radiosity::Solution& solution) {
@@ -78,12 +101,12 @@ std::optional<RenderFormat> render_format(const std::string& path) {
   return export_format(path) != nullptr ? std::optional(RenderFormat::exported) : std::nullopt;
 }
 
-std::string render_endings() { return ".png, .hdr, .pfm, .light, .ply, .glb, .obj or .html"; }
-
 bool is_picture(const std::string& path) {
   const auto format = render_format(path);
   return format == RenderFormat::png || format == RenderFormat::hdr || format == RenderFormat::pfm;
 }
+
+std::string render_endings() { return ".png, .hdr, .pfm, .light, .ply, .glb, .obj or .html"; }
 
 bool has_picture(const RenderOptions& options) { return std::any_of(options.outputs.begin(), options.outputs.end(), is_picture); }
 
@@ -128,10 +151,7 @@ std::optional<radiosity::PictureError> Artist::audit(const Picture& picture, con
 std::vector<RenderOutput> encode(const RenderOptions& options, const Picture& picture, const Tone& tone) {
   std::vector<RenderOutput> outputs;
   for (const std::string& path : options.outputs) {
-    const auto format = render_format(path);
-    if (format == RenderFormat::png) { outputs.push_back({path, to_png(picture, tone)}); }
-    if (format == RenderFormat::hdr) { outputs.push_back({path, to_hdr(picture)}); }
-    if (format == RenderFormat::pfm) { outputs.push_back({path, to_pfm(picture)}); }
+    if (is_picture(path)) { outputs.push_back({path, encoded(picture, *render_format(path), tone)}); }
   }
   return outputs;
 }
@@ -166,6 +186,12 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
   }
   auto next_picture = pictures.begin();
   std::optional<ExportMesh> exported;
+  const auto is_exported = [&](const std::string& path) {
+    return render_format(path) == RenderFormat::exported || (options.onto_input && has_ending(path, ".ply"));
+  };
+  if (std::any_of(options.outputs.begin(), options.outputs.end(), is_exported)) {
+    exported = exported_mesh(options, file, solution, tone, outputs, report);
+  }
   for (const std::string& path : options.outputs) {
     outputs.push_back({path, {}});
     switch (*render_format(path)) {
@@ -178,13 +204,13 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
         outputs.back().bytes = to_light_file(solution.mesh, solution.frame, file.scene);
         break;
       case RenderFormat::ply:
-        outputs.back().bytes = to_ply(solution.mesh, radiosity::surfaces(file.scene), tone);
+        outputs.back().bytes =
+            options.onto_input && exported ? to_ply(*exported, tone) : to_ply(solution.mesh, radiosity::surfaces(file.scene), tone);
         break;
       case RenderFormat::html:
         outputs.back().bytes = viewer_page(file, solution, camera, tone.exposure, options.scene, summary(solution));
         break;
       case RenderFormat::exported:
-        if (!exported) { exported = options.onto_input ? given_mesh(file, solution) : solution_mesh(file, solution); }
         if (exported) { outputs.back().bytes = export_format(path)->write(*exported, tone); }
         break;
     }

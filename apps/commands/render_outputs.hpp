@@ -40,6 +40,8 @@ struct RenderOptions {
   std::vector<std::string> outputs;  // pictures and meshes, by their endings
   bool onto_input = false;           // exported: the user's polygons, not those of the solution
   std::string light;                 // a .light file that is drawn instead of a new solution; empty: none
+  std::string lightmap;              // of what is exported; empty: none
+  std::optional<double> texel;       // of the lightmap, metres
   std::string json;                  // empty: none
   std::string camera;                // empty: the first of the file, or the automatic one
   std::optional<PictureSize> size;
@@ -58,10 +60,12 @@ enum class RenderFormat { png, hdr, pfm, light, ply, html, exported };
 // By the ending of the name.
 [[nodiscard]] std::optional<RenderFormat> render_format(const std::string& path);
 
+// Does the name end as those of pictures do: .png, .hdr or .pfm?
+[[nodiscard]] bool is_picture(const std::string& path);
+
 // ".png, .ply, ... or .html"
 [[nodiscard]] std::string render_endings();
 
-[[nodiscard]] bool is_picture(const std::string& path);
 [[nodiscard]] bool has_picture(const RenderOptions& options);
 
 // The solution's settings as they are asked for. What is seen in gathered light alone is solved coarser: direct light is found anew,

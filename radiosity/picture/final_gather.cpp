@@ -98,13 +98,14 @@ HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       const raycast::Hit& hit = hits.hit[i];
       const raycast::Segment ray = rays.at(i);
-      const Met found = outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
+      const Met found =
+          outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
       const bool from_air = eye.in_air && passed == 0;
       if (hit.front && (from_air || !objects().covered(found.point.position, found.point.normal, found.object))) {
         result[i] = Place{found.point, found.object, lookup_.surface(found.object, found.sheet)};
         rays.lanes &= ~(1u << i);
       } else {
-        rays.set(i, {ray.at(hit.t), ray.direction}, hit.object, raycast::no_object);
+        rays.set(i, {ray.at(hit.t), ray.direction}, hit.object, raycast::no_object, hit.sheet);
       }
     }
   }
@@ -126,13 +127,14 @@ HALFLIGHT_INLINE std::optional<FinalGather::Place> FinalGather::beside(const Pla
   return result;
 }
 
-HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most,
-                                                             double error, std::uint64_t key) const {
+HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error,
+                                                             std::uint64_t key) const {
   const Sobol4 sequence{1, key};
   const double reach = objects().diameter();
   const double lift = direct_.lift(place.object);
   const glm::dvec3 from = place.point.position + lift * place.point.normal;
   const std::uint32_t owner = lift > 0.0 ? raycast::no_object : place.object;
+  const std::uint32_t sheet = place.surface - lookup_.surface(place.object, 0);
   Color sum{0.0};
   std::array<double, 4> part{};  // of the rays, by fours of sixteen: their spread is the standard error
   double nearness = 0.0;
@@ -147,7 +149,7 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
     raycast::Segments16 segments;
     for (unsigned k = 0; k < 16; ++k) {
       const std::array<double, 4> u = sequence(rays + k);
-      segments.set(k, {from, reach * cosine_direction(place.point.normal, u[0], u[1])}, owner, raycast::no_object);
+      segments.set(k, {from, reach * cosine_direction(place.point.normal, u[0], u[1])}, owner, raycast::no_object, sheet);
     }
     const raycast::Hits16 hits = direct_.objects().closest16(segments);
     const Color before = sum;
