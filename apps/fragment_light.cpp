@@ -40,7 +40,7 @@ radiosity::LitRegion region_of(const radiosity::FinalGather& light, std::span<co
     lo = glm::min(lo, at);
     hi = glm::max(hi, at);
   }
-  const auto corner = [&](double u, double v) { return first.point.position + u * s + v * t; };
+  const auto corner = [&, s = s, t = t](double u, double v) { return first.point.position + u * s + v * t; };
   const std::array<glm::dvec3, 4> contour{corner(lo.x, lo.y), corner(hi.x, lo.y), corner(hi.x, hi.y), corner(lo.x, hi.y)};
   const double bulge = flat ? 0.0 : std::max(hi.z, -lo.z);
   return {light.direct(), {contour, first.object, bulge}, flat ? n : glm::dvec3{0.0}};

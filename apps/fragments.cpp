@@ -25,11 +25,13 @@ bool one_piece(const radiosity::FinalGather::Place& a, const radiosity::FinalGat
 }
 
 void add_fragments(const radiosity::FinalGather& light, std::uint32_t x, std::uint32_t y,
-                   std::span<const std::optional<radiosity::FinalGather::Place>> seen, const PixelSize& pixel_size, std::vector<Fragment>& out) {
+                   std::span<const std::optional<radiosity::FinalGather::Place>> seen, const PixelSize& pixel_size,
+                   std::vector<Fragment>& out) {
   const auto first = static_cast<std::ptrdiff_t>(out.size());
   for (const auto& place : seen) {
     if (!place) { continue; }
-    const auto same = std::find_if(out.begin() + first, out.end(), [&](const Fragment& f) { return one_piece(f.place, *place, pixel_size); });
+    const auto same =
+        std::find_if(out.begin() + first, out.end(), [&](const Fragment& f) { return one_piece(f.place, *place, pixel_size); });
     if (same == out.end()) {
       out.push_back({x, y, 1.0f, *place, place->point.position, place->point.normal});
     } else {

@@ -35,6 +35,7 @@ struct PixelSize {
 
 // Adds the fragments of the pixel (x, y), given what each of its rays sees.
 void add_fragments(const radiosity::FinalGather& light, std::uint32_t x, std::uint32_t y,
-                   std::span<const std::optional<radiosity::FinalGather::Place>> seen, const PixelSize& pixel_size, std::vector<Fragment>& out);
+                   std::span<const std::optional<radiosity::FinalGather::Place>> seen, const PixelSize& pixel_size,
+                   std::vector<Fragment>& out);
 
 }  // namespace apps

@@ -68,9 +68,9 @@ class Painter {
   [[nodiscard]] bool gather();
   [[nodiscard]] bool light_up(const Tone& tone, Picture& picture) {
     return each_block(0.7, 0.9, [&](std::size_t b) { light_block(b); }) && each_block(0.9, 1.0, [&](std::size_t b) {
-      smooth_shadows(b);
-      show(b, tone, picture);
-    });
+             smooth_shadows(b);
+             show(b, tone, picture);
+           });
   }
 
  private:
@@ -88,7 +88,8 @@ class Painter {
   }
   template <class Body>
   void each_pixel(std::size_t block, const Body& body) const {
-    const auto x0 = static_cast<std::uint32_t>(block % columns_) * block_side, y0 = static_cast<std::uint32_t>(block / columns_) * block_side;
+    const auto x0 = static_cast<std::uint32_t>(block % columns_) * block_side,
+               y0 = static_cast<std::uint32_t>(block / columns_) * block_side;
     for (std::uint32_t y = y0; y < std::min(y0 + block_side, view_.size.height); ++y) {
       for (std::uint32_t x = x0; x < std::min(x0 + block_side, view_.size.width); ++x) { body(x, y); }
     }
@@ -299,7 +300,8 @@ void Painter::smooth_shadows(std::size_t block) {
     if (f.share != 1.0f || f.place.surface != surfaces_[std::size_t{f.y} * view_.size.width + f.x] || !on_edge(f.x, f.y)) { continue; }
     if (radiosity::is_black(light_.material(f.place.surface).reflectance)) { continue; }
     std::vector<Color> light = direct_light_at(f, four_);
-    const auto [least, most] = std::minmax_element(light.begin(), light.end(), [&](const Color& a, const Color& b) { return sum(a) < sum(b); });
+    const auto [least, most] =
+        std::minmax_element(light.begin(), light.end(), [&](const Color& a, const Color& b) { return sum(a) < sum(b); });
     if (sum(*most) - sum(*least) > change_at_edge * sum(*most)) { light = direct_light_at(f, sixteen_); }
     if (light.size() == 1) { continue; }
     Color mean{0.0};

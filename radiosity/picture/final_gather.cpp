@@ -98,7 +98,8 @@ HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       const raycast::Hit& hit = hits.hit[i];
       const raycast::Segment ray = rays.at(i);
-      const Met found = outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
+      const Met found =
+          outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
       const bool from_air = eye.in_air && passed == 0;
       if (hit.front && (from_air || !objects().covered(found.point.position, found.point.normal, found.object))) {
         result[i] = Place{found.point, found.object, lookup_.surface(found.object, found.sheet)};
@@ -126,8 +127,8 @@ HALFLIGHT_INLINE std::optional<FinalGather::Place> FinalGather::beside(const Pla
   return result;
 }
 
-HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most,
-                                                             double error, std::uint64_t key) const {
+HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error,
+                                                             std::uint64_t key) const {
   const Sobol4 sequence{1, key};
   const double reach = objects().diameter();
   const double lift = direct_.lift(place.object);

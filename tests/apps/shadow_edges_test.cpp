@@ -22,8 +22,8 @@
 
 namespace {
 
-constexpr std::uint32_t side = 40;        // pixels
-constexpr double half = 0.25;             // of the floor that is seen
+constexpr std::uint32_t side = 40;         // pixels
+constexpr double half = 0.25;              // of the floor that is seen
 constexpr double pixel = 2 * half / side;  // on the floor
 constexpr glm::dvec3 sun{60.0, 0.0, 100.0};
 
