@@ -25,14 +25,14 @@
 
 namespace {
 
-apps::SceneFile scene_of(const std::string& text) {
+apps::SceneFile model_of(const std::string& text) {
   apps::SceneResult result = apps::parse_scene(text);
   INFO(apps::to_text(result, "scene"));
   REQUIRE(result.file);
   return std::move(*result.file);
 }
 
-radiosity::Solution solved(const radiosity::Scene& scene) {
+radiosity::Solution solution_of(const radiosity::Scene& scene) {
   radiosity::Options options;
   options.epsilon = 0.05;
   options.audit_points = 0;
@@ -96,8 +96,8 @@ TEST_CASE("lightmap: each face has its own light up to its borders, flat or curv
           "sphere s center 9 0 0 radius 1 material m7\ntorus t center 13 0 0 axis 0 0 1 radius 1 tube 0.3 material m8\n"
           "difference d material m9 {\n box a from 17 0 0 to 20 1 3\n box w from 18 -1 1 to 19 2 2 material m10\n}\n"
           "disk e center 23 0 0 normal 1 2 3 radius 1 material m11\n";
-  const apps::SceneFile file = scene_of(text.str());
-  const radiosity::Solution solution = solved(file.scene);
+  const apps::SceneFile file = model_of(text.str());
+  const radiosity::Solution solution = solution_of(file.scene);
   for (const double texel : {0.02, 0.3}) {
     apps::ExportMesh mesh = apps::solution_mesh(file, solution);
     const auto texture = apps::solution_texture(solution, {}, texel, mesh);
@@ -111,11 +111,11 @@ TEST_CASE("lightmap: each face has its own light up to its borders, flat or curv
 }
 
 TEST_CASE("lightmap: the finer its texels, the closer to the light of the mesh, on a ball and its shadow as well") {
-  const apps::SceneFile file = scene_of(
+  const apps::SceneFile file = model_of(
       "material white reflectance 0.6\nmaterial lamp reflectance 0 emission 20\n"
       "box room from 0 0 0 to 2 2 2 inside material white\nsphere ball center 0.6 1.4 0.5 radius 0.3 material white\n"
       "polygon light material lamp {\n vertex 0.7 0.7 1.9\n vertex 0.7 1.3 1.9\n vertex 1.3 1.3 1.9\n vertex 1.3 0.7 1.9\n}\n");
-  const radiosity::Solution solution = solved(file.scene);
+  const radiosity::Solution solution = solution_of(file.scene);
   std::vector<double> off;
   for (const double texel : {0.04, 0.01}) {
     apps::ExportMesh mesh = apps::solution_mesh(file, solution);
