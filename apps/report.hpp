@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/options.hpp>
 
 #include "apps/color.hpp"
@@ -50,6 +51,8 @@ struct Report {
 };
 
 [[nodiscard]] std::string to_text(const Report& report);
+// The rows that it has about the error of the picture that a camera has taken.
+[[nodiscard]] std::string picture_error_text(const radiosity::PictureError& picture, const std::string& camera);
 [[nodiscard]] std::string to_json(const Report& report);
 
 }  // namespace apps

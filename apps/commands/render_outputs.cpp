@@ -27,6 +27,7 @@
 #include "apps/export/lightmap.hpp"
 #include "apps/export/viewer.hpp"
 #include "apps/gather_picture.hpp"
+#include "apps/light_file.hpp"
 #include "apps/memory.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/ply.hpp"
@@ -94,6 +95,7 @@ std::optional<RenderFormat> render_format(const std::string& path) {
   if (has_ending(path, ".png")) { return RenderFormat::png; }
   if (has_ending(path, ".hdr")) { return RenderFormat::hdr; }
   if (has_ending(path, ".pfm")) { return RenderFormat::pfm; }
+  if (has_ending(path, ".light")) { return RenderFormat::light; }
   if (has_ending(path, ".ply")) { return RenderFormat::ply; }
   if (has_ending(path, ".html")) { return RenderFormat::html; }
   return export_format(path) != nullptr ? std::optional(RenderFormat::exported) : std::nullopt;
@@ -104,15 +106,16 @@ bool is_picture(const std::string& path) {
   return format == RenderFormat::png || format == RenderFormat::hdr || format == RenderFormat::pfm;
 }
 
-std::string render_endings() { return ".png, .hdr, .pfm, .ply, .glb, .obj or .html"; }
+std::string render_endings() { return ".png, .hdr, .pfm, .light, .ply, .glb, .obj or .html"; }
 
 bool has_picture(const RenderOptions& options) { return std::any_of(options.outputs.begin(), options.outputs.end(), is_picture); }
 
 radiosity::Options solver_options(const RenderOptions& options) {
   radiosity::Options solver = options.solver;
+  const auto is_gathered = [](const std::string& path) { return is_picture(path) || render_format(path) == RenderFormat::light; };
   const bool mesh_is_seen =
-      options.method != PictureMethod::gather || !std::all_of(options.outputs.begin(), options.outputs.end(), is_picture);
-  if (has_picture(options) && !mesh_is_seen) {
+      options.method != PictureMethod::gather || !std::all_of(options.outputs.begin(), options.outputs.end(), is_gathered);
+  if (!options.outputs.empty() && !mesh_is_seen) {
     solver.epsilon = gathered_epsilon;
     solver.min_area = gathered_min_area;
   }
@@ -145,6 +148,14 @@ std::optional<radiosity::PictureError> Artist::audit(const Picture& picture, con
   return audit_->measure(audited(picture, view_, tone), goal, options_.solver.threads, options_.solver.seed, control);
 }
 
+std::vector<RenderOutput> encode(const RenderOptions& options, const Picture& picture, const Tone& tone) {
+  std::vector<RenderOutput> outputs;
+  for (const std::string& path : options.outputs) {
+    if (is_picture(path)) { outputs.push_back({path, encoded(picture, *render_format(path), tone)}); }
+  }
+  return outputs;
+}
+
 std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
                                                 const radiosity::Solution& solution, const radiosity::Control& control, Report& report) {
   if (control.cancelled()) { return std::nullopt; }
@@ -153,17 +164,12 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
   report.exposure = tone.exposure;
   report.tone = tone.curve;
   report.automatic_exposure = !options.exposure || options.exposure->of_automatic;
-  std::string png, hdr, pfm;
+  std::vector<RenderOutput> pictures;  // in the order of the outputs
   if (has_picture(options)) {
     const Stopwatch watch;
     const auto picture = artist.draw(solution.mesh, solution.frame, tone, control);
     if (!picture) { return std::nullopt; }
-    for (const std::string& path : options.outputs) {
-      const auto format = render_format(path);
-      if (format == RenderFormat::png && png.empty()) { png = to_png(*picture, tone); }
-      if (format == RenderFormat::hdr && hdr.empty()) { hdr = to_hdr(*picture); }
-      if (format == RenderFormat::pfm && pfm.empty()) { pfm = to_pfm(*picture); }
-    }
+    pictures = encode(options, *picture, tone);
     report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
     std::vector<radiosity::StageTime> stages{watch.stop("picture")};
     leave_out_others(stages);
@@ -178,6 +184,7 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
       report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, its error not measured
     }
   }
+  auto next_picture = pictures.begin();
   std::optional<ExportMesh> exported;
   const auto is_exported = [&](const std::string& path) {
     return render_format(path) == RenderFormat::exported || (options.onto_input && has_ending(path, ".ply"));
@@ -189,13 +196,12 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
     outputs.push_back({path, {}});
     switch (*render_format(path)) {
       case RenderFormat::png:
-        outputs.back().bytes = png;
-        break;
       case RenderFormat::hdr:
-        outputs.back().bytes = hdr;
-        break;
       case RenderFormat::pfm:
-        outputs.back().bytes = pfm;
+        outputs.back() = std::move(*next_picture++);
+        break;
+      case RenderFormat::light:
+        outputs.back().bytes = to_light_file(solution.mesh, solution.frame, file.scene);
         break;
       case RenderFormat::ply:
         outputs.back().bytes =

@@ -39,6 +39,7 @@ struct RenderOptions {
   ModelOptions model;
   std::vector<std::string> outputs;  // pictures and meshes, by their endings
   bool onto_input = false;           // exported: the user's polygons, not those of the solution
+  std::string light;                 // a .light file that is drawn instead of a new solution; empty: none
   std::string lightmap;              // of what is exported; empty: none
   std::optional<double> texel;       // of the lightmap, metres
   std::string json;                  // empty: none
@@ -54,7 +55,7 @@ struct RenderOptions {
   radiosity::Options solver;
 };
 
-enum class RenderFormat { png, hdr, pfm, ply, html, exported };
+enum class RenderFormat { png, hdr, pfm, light, ply, html, exported };
 
 // By the ending of the name.
 [[nodiscard]] std::optional<RenderFormat> render_format(const std::string& path);
@@ -97,6 +98,9 @@ struct RenderOutput {
   std::string path;
   std::string bytes;
 };
+
+// The picture in each format that is asked for.
+[[nodiscard]] std::vector<RenderOutput> encode(const RenderOptions& options, const Picture& picture, const Tone& tone);
 
 // Everything that is to be written, in memory; the report is completed. Nothing when interrupted.
 [[nodiscard]] std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera,

@@ -12,6 +12,7 @@
 #include <brep/validate.hpp>
 
 #include "apps/euler/story.hpp"
+#include "apps/euler/words.hpp"
 #include "apps/exercise/exercises.hpp"
 
 namespace apps::exercise {
@@ -35,7 +36,10 @@ std::string at(const brep::Place& place) { return "line " + std::to_string(place
 
 Fault play(const std::string& text, Played& played) {
   brep::ScriptResult parsed = brep::parse_script(text);
-  if (!parsed.script) { return at(parsed.errors.front().place) + parsed.errors.front().sentence; }
+  if (!parsed.script) {
+    const brep::ScriptError& e = parsed.errors.front();
+    return at(e.place) + e.sentence + euler::meant_in(text, e.place.line);
+  }
   played.script = std::move(*parsed.script);
   euler::Teller teller(played.solid, false);
   for (const brep::Statement& statement : played.script.statements) {

@@ -115,45 +115,49 @@ HALFLIGHT_INLINE void Emitters::add_flat(std::uint32_t surface, const Polygon& p
 
 HALFLIGHT_INLINE void Emitters::add_curved(std::uint32_t surface, const std::vector<Polygon>& faces, const raycast::PlacedObject& object,
                                            std::uint32_t sheet, double exitance) {
-  const auto pieces = detail::compact_triangles(faces);
+  auto pieces = detail::compact_triangles(faces);
   // How far the surface bulges out of its faces: half as much again as in the middle of the worst.
   double bulge = object.slack();
-  double area = 0.0;
-  raycast::Box bounds;
   for (const auto& [a, b, c] : pieces) {
     const glm::dvec3 middle = (a + b + c) / 3.0;
     bulge = std::max(bulge, 1.5 * glm::length(object.project(sheet, middle).position - middle));
-    area += 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
+  add_spheres(surface, pieces, bulge, exitance);
+}
+
+// A sphere around all pieces, or, where it would show much more than they do, spheres around halves of them. The larger the spheres,
+// the fewer a ray meets: a curved room that shines all over is one.
+HALFLIGHT_INLINE void Emitters::add_spheres(std::uint32_t surface, std::span<std::array<glm::dvec3, 3>> pieces, double bulge,
+                                            double exitance) {
+  Shape shape;
+  raycast::Box bounds, middles;
+  for (const auto& [a, b, c] : pieces) {
+    shape.area += 0.5 * glm::length(glm::cross(b - a, c - a));
     for (const glm::dvec3& p : {a, b, c}) { bounds.extend(p); }
+    middles.extend((a + b + c) / 3.0);
   }
-  const glm::dvec3 centre = 0.5 * (bounds.lo + bounds.hi);
-  double radius = 0.0;
+  if (!(shape.area > 0.0)) { return; }
+  shape.centre = 0.5 * (bounds.lo + bounds.hi);
   for (const auto& piece : pieces) {
-    for (const glm::dvec3& p : piece) { radius = std::max(radius, glm::length(p - centre)); }
-  }
-  // From afar a convex surface shows a quarter of its area on average (Cauchy 1832); a sphere that shows no more than twice that will do.
-  if (std::numbers::pi * (radius + bulge) * (radius + bulge) <= 0.5 * area) {
-    Shape whole;
-    whole.centre = centre;
-    whole.radius = radius + bulge;
-    whole.area = area;
-    whole.power = exitance * area;
-    whole.surface = surface;
-    shapes_.push_back(whole);
-    return;
-  }
-  for (const auto& piece : pieces) {
-    Shape shape;
-    const auto& [a, b, c] = piece;
-    shape.area = 0.5 * glm::length(glm::cross(b - a, c - a));
-    if (!(shape.area > 0.0)) { continue; }
-    shape.centre = (a + b + c) / 3.0;
     for (const glm::dvec3& p : piece) { shape.radius = std::max(shape.radius, glm::length(p - shape.centre)); }
-    shape.radius += bulge;
+  }
+  shape.radius += bulge;
+  // A square within its sphere, seen straight from the front, shows 2 / pi of it: no smaller piece shows more. A closed convex
+  // surface at this limit shows an eighth of its sphere on average (a quarter of its area: Cauchy 1832).
+  if (pieces.size() == 1 || std::numbers::pi * shape.radius * shape.radius <= 2.0 * shape.area) {
     shape.power = exitance * shape.area;
     shape.surface = surface;
     shapes_.push_back(shape);
+    return;
   }
+  const glm::dvec3 extent = middles.hi - middles.lo;
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const std::size_t half = pieces.size() / 2;
+  std::nth_element(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(half), pieces.end(), [axis](const auto& a, const auto& b) {
+    return a[0][axis] + a[1][axis] + a[2][axis] < b[0][axis] + b[1][axis] + b[2][axis];
+  });
+  add_spheres(surface, pieces.first(half), bulge, exitance);
+  add_spheres(surface, pieces.subspan(half), bulge, exitance);
 }
 
 // Halves the shapes [first, last): between surfaces while there are several, then by place.

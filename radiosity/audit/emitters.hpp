@@ -6,7 +6,7 @@
 //
 //   flat emitters     the triangles of their faces; a point of a triangle, spread evenly over its area
 //   curved emitters   spheres around pieces of their faces, large enough for the true surface; a direction, spread evenly over the solid
-//                     angle of the sphere. One sphere for the whole of a compact one.
+//                     angle of the sphere. The larger a piece is, the better it fills its sphere: one for the whole of a compact one.
 //
 // The shapes only propose directions: what a direction carries is found by a ray. So a shape may be larger than what it stands for,
 // overlap others or be hidden, and every direction has a density() that can be computed, which the balance heuristic needs (Veach and
@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -79,6 +80,7 @@ class Emitters {
   void add_flat(std::uint32_t surface, const Polygon& polygon, double exitance);
   void add_curved(std::uint32_t surface, const std::vector<Polygon>& faces, const raycast::PlacedObject& object, std::uint32_t sheet,
                   double exitance);
+  void add_spheres(std::uint32_t surface, std::span<std::array<glm::dvec3, 3>> pieces, double bulge, double exitance);
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t last);
   [[nodiscard]] double importance(const Node& node, const glm::dvec3& x, const glm::dvec3& n) const;
   [[nodiscard]] double first_share(const Node& node, const glm::dvec3& x, const glm::dvec3& n) const;

@@ -95,10 +95,34 @@ HALFLIGHT_INLINE std::vector<std::string> warnings_of_buried(const Scene& scene,
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
     if (hierarchy[i].leaf()) { area[hierarchy[i].object] += exposure.area[i]; }
   }
+  std::vector<bool> shines(area.size(), false);
+  for (const InputSurface& input : surfaces(scene)) {
+    shines[input.object] = shines[input.object] || !is_black(scene.materials[input.material].emission);
+  }
+  // Lamps first, each in a sentence of its own as long as they are few: their light is missing.
   std::vector<std::string> sentences;
-  for (std::size_t o = 0; o < area.size() && sentences.size() < detail::most_warnings; ++o) {
+  std::vector<std::size_t> others;
+  for (std::size_t o = 0; o < area.size(); ++o) {
     if (area[o] > 0.0) { continue; }
-    sentences.push_back("object '" + scene.objects[o].name + "' is buried: all of its surface lies in or under other objects and is dark");
+    if (shines[o] && sentences.size() < detail::most_warnings) {
+      sentences.push_back("object '" + scene.objects[o].name +
+                          "' is buried: all of its surface lies in or under other objects and is dark, and its light is lost");
+    } else {
+      others.push_back(o);
+    }
+  }
+  if (others.size() == 1) {
+    sentences.push_back("object '" + scene.objects[others[0]].name +
+                        "' is buried: all of its surface lies in or under other objects and is dark");
+  } else if (!others.empty()) {
+    constexpr std::size_t most_names = 5;
+    std::string names;
+    for (std::size_t k = 0; k < std::min(others.size(), most_names); ++k) {
+      names += (k > 0 ? ", '" : "'") + scene.objects[others[k]].name + "'";
+    }
+    if (others.size() > most_names) { names += " and others"; }
+    sentences.push_back(std::to_string(others.size()) +
+                        " objects are buried: all of their surfaces lie in or under other objects and are dark: " + names);
   }
   return sentences;
 }

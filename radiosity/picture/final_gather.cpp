@@ -98,7 +98,8 @@ HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       const raycast::Hit& hit = hits.hit[i];
       const raycast::Segment ray = rays.at(i);
-      const Met found = outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
+      const Met found =
+          outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
       const bool from_air = eye.in_air && passed == 0;
       if (hit.front && (from_air || !objects().covered(found.point.position, found.point.normal, found.object))) {
         result[i] = Place{found.point, found.object, lookup_.surface(found.object, found.sheet)};
@@ -111,8 +112,23 @@ HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::
   return result;
 }
 
-HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most,
-                                                             double error, std::uint64_t key) const {
+HALFLIGHT_INLINE std::optional<FinalGather::Place> FinalGather::beside(const Place& place, const Eye& eye,
+                                                                       const glm::dvec3& direction) const {
+  const double towards = glm::dot(direction, place.point.normal);
+  const double height = glm::dot(eye.position - place.point.position, place.point.normal);
+  if (!(towards < 0.0) || !(height > 0.0)) { return std::nullopt; }
+  Place result = place;
+  result.point.position = eye.position - height / towards * direction;
+  const raycast::PlacedObject& object = objects().object(place.object);
+  if (!object.flat()) {
+    result.point = object.project(place.surface - lookup_.surface(place.object, 0), result.point.position);
+    if (!(glm::dot(result.point.normal, direction) < 0.0)) { return std::nullopt; }
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error,
+                                                             std::uint64_t key) const {
   const Sobol4 sequence{1, key};
   const double reach = objects().diameter();
   const double lift = direct_.lift(place.object);

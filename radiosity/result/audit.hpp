@@ -58,7 +58,7 @@ struct Audit {
   Range row_sum;                  // of the form factors of a leaf, area-weighted mean; of the system that was solved
   Range computed_row_sum;         // the same before a closed scene was corrected
   std::optional<double> closure;  // RMS correction that made all row sums of a closed scene 1
-  double ray_correction = 0.0;    // RMS correction that took the noise of stored rays out of the row sums
+  double ray_correction = 0.0;    // RMS correction that took the noise of stored rays out of their row sums, relative to those
   double closure_limit = 0.0;     // what quadrature and sampling explain of one (doubt.hpp); beyond, it is refused
   double energy_balance = 0.0;    // |emitted - absorbed - escaped| / emitted
   double escaped = 0.0;           // fraction of the emitted power that leaves an open scene

@@ -161,13 +161,25 @@ HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& want
   std::vector<double> power(wanted);
   for (std::size_t i = 0; i < power.size(); ++i) { power[i] *= exposure_->area[i]; }
   // Row sums that no scale brings about, of a patch that sees little else than one other, would drive scales towards 0 and infinity.
-  part.scale = balance(
-      [&](const std::vector<double>& x, std::vector<double>& y) {
-        y.assign(x.size(), 0.0);
-        apply(part, x, y);
-      },
-      power, {.most = 4.0, .tolerance = 1e-6});
-  return root_mean_square(part.scale);
+  const auto apply_part = [&](const std::vector<double>& x, std::vector<double>& y) {
+    y.assign(x.size(), 0.0);
+    apply(part, x, y);
+  };
+  const std::vector<double> scale = balance(apply_part, power, {.most = 4.0, .tolerance = 1e-6});
+  std::vector<double> before, after;
+  apply_part(std::vector<double>(power.size(), 1.0), before);
+  apply_part(scale, after);
+  double correction = 0.0;
+  double all = 0.0;
+  for (std::size_t i = 0; i < scale.size(); ++i) {
+    const double area = exposure_->area[i];
+    if (!(*hierarchy_)[i].leaf() || !(area > 0.0)) { continue; }
+    const double row = scale[i] * after[i] / area;
+    correction += area * (row - before[i] / area) * (row - before[i] / area);
+    all += area * row * row;
+  }
+  part.scale = scale;
+  return all > 0.0 ? std::sqrt(correction / all) : 0.0;
 }
 
 HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tolerance) {

@@ -232,7 +232,7 @@ TEST_CASE("export: render writes what the names end with, and says what it canno
   CHECK(lines_of(place.read("a.obj"), "o ") == std::vector<std::string>{"o b"});
   program::Run run = place.run("render a.scene -o a.stl" + quick);
   CHECK(run.code == 2);
-  CHECK(run.err.find("a name that ends with .png, .hdr, .pfm, .ply, .glb, .obj or .html") != std::string::npos);
+  CHECK(run.err.find("a name that ends with .png, .hdr, .pfm, .light, .ply, .glb, .obj or .html") != std::string::npos);
   run = place.run("render a.scene -o b.glb --onto-input" + quick);
   CHECK(run.code == 2);
   CHECK(run.err.find("a.scene gives no polygons") != std::string::npos);

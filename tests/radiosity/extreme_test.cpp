@@ -86,6 +86,34 @@ TEST_CASE("many duplicates are warned of in few sentences") {
   CHECK(warnings_of(scene).size() <= 21);
 }
 
+TEST_CASE("however many objects are buried one sentence counts them, and each buried lamp has its own") {
+  Scene scene = scenes::furnace_cube(0.5);
+  scene.materials.push_back({"dark", Color{0.5}, Color{0.0}});
+  scene.materials.push_back({"bulb", Color{0.0}, Color{1.0}});
+  const auto dark = static_cast<std::uint32_t>(scene.materials.size() - 2);
+  scene.objects.push_back(scenes::object("crate", scenes::box({0.2, 0.2, 0.2}, {0.8, 0.8, 0.8}), dark));
+  radiosity::Options options;
+  options.audit_points = 0;
+  options.epsilon = 0.5;
+  options.min_area = 0.1;
+  for (const int count : {1, 2, 30}) {
+    Scene full = scene;
+    for (int i = 0; i < count; ++i) {
+      const double at = 0.3 + 0.01 * i;
+      full.objects.push_back(scenes::object("in" + std::to_string(i), scenes::box(glm::dvec3{at}, glm::dvec3{at + 0.005}), dark));
+    }
+    full.objects.push_back(scenes::object("lamp", scenes::box(glm::dvec3{0.7}, glm::dvec3{0.75}), dark + 1));
+    const radiosity::Outcome outcome = radiosity::solve(full, options);
+    REQUIRE(outcome.solution);
+    const std::vector<std::string>& sentences = outcome.solution->audit.warnings;
+    CAPTURE(count, sentences);
+    REQUIRE(sentences.size() == 2);
+    CHECK(sentences[0].find("'lamp' is buried") != std::string::npos);
+    CHECK(sentences[0].find("its light is lost") != std::string::npos);
+    CHECK(sentences[1].find(count == 1 ? "object 'in0' is buried" : std::to_string(count) + " objects are buried") == 0);
+  }
+}
+
 TEST_CASE("a scene is closed by no more than its links explain: where a thousandth of the light is missing it is refused") {
   radiosity::Options options;
   options.audit_points = 0;
