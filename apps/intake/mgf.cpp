@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -174,6 +175,7 @@ class Reader {
     const std::string name(line.word(1));
     const Transforms transforms(line, 2, errors);
     std::string fault;
+    if (refused_.contains(name)) { return; }  // that has been told
     if (depth >= deepest || ++files_ > most_files) {
       return errors.add(line.place(0), depth >= deepest ? "files that include others are nested deeper than " + std::to_string(deepest)
                                                         : "more than " + std::to_string(most_files) + " files are included");
@@ -190,6 +192,7 @@ class Reader {
       if (inner.count() > 0) {
         const std::string first = to_text(inner.take(), name);
         errors.add(line.place(1), "in " + first.substr(0, first.find('\n')));
+        refused_.insert(name);
         break;
       }
     }
@@ -308,6 +311,7 @@ class Reader {
   Contexts<Material> materials_{"material"};
   Contexts<Vertex> vertices_{"vertex"};
   std::vector<std::string> objects_;  // that are open
+  std::set<std::string> refused_;     // included files with errors
   glm::dmat4 transform_{1.0};
   std::map<std::array<double, 3>, std::uint32_t> positions_;
   std::size_t lines_ = 0, files_ = 0;

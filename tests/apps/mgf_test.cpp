@@ -157,6 +157,8 @@ TEST_CASE("mgf: included files are placed, know what is defined, and are told wh
   CHECK(close(models::corner(model, 1, 0), {1, 1, 1}));
   CHECK(model.materials[model.material[2]].name == "inner");
   CHECK(models::noted(model.notes, "'nothing.mgf' is not there: left out"));
+  // A wrong file is told once, however often it is included, by itself among others.
+  CHECK(models::result("a.mgf", "i twice.mgf\ni twice.mgf\n", {{"twice.mgf", "i twice.mgf\ni twice.mgf\np x\n"}}).errors.size() == 1);
   CHECK(models::error("a.mgf", "i loop.mgf\n", files).find("nested deeper than 32") != std::string::npos);
   CHECK(models::error("a.mgf", "o x\ni bad.mgf\n", files) == ":2:3: error: in bad.mgf:2:4: error: expected a number, found 'x'");
 }
