@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "apps/ply.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <string_view>
 
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -30,7 +32,36 @@ class Vertices {
   std::map<std::array<std::uint32_t, 5>, std::uint32_t> index_;
 };
 
+bool is_float(const glm::dvec3& p) { return glm::dvec3(glm::vec3(p)) == p; }
+
 }  // namespace
+
+std::string to_ply(const ExportMesh& mesh, const Tone& tone) {
+  const bool single = std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const ExportVertex& v) { return is_float(v.position); });
+  bool wide = false;
+  for (std::uint32_t f = 0; f < mesh.faces(); ++f) { wide = wide || mesh.face(f).size() > 255; }
+  std::vector<std::string_view> of_vertex = single ? std::vector<std::string_view>{"float x", "float y", "float z"}
+                                                   : std::vector<std::string_view>{"double x", "double y", "double z"};
+  for (const std::string_view property : {"float nx", "float ny", "float nz", "uchar red", "uchar green", "uchar blue", "float radiosity_r",
+                                          "float radiosity_g", "float radiosity_b"}) {
+    of_vertex.push_back(property);
+  }
+  std::string bytes = ply_header({"halflight: radiosity in W/m2, vertex colours sRGB"},
+                                 {{"vertex", mesh.vertices.size(), of_vertex},
+                                  {"face", mesh.faces(), {wide ? "list int int vertex_indices" : "list uchar int vertex_indices"}}});
+  for (const ExportVertex& vertex : mesh.vertices) {
+    for (int c = 0; c < 3; ++c) { single ? put(bytes, static_cast<float>(vertex.position[c])) : put(bytes, vertex.position[c]); }
+    for (int c = 0; c < 3; ++c) { put(bytes, static_cast<float>(vertex.normal[c])); }
+    for (const std::uint8_t byte : to_rgb8(tone(vertex.radiosity))) { put(bytes, byte); }
+    for (int c = 0; c < 3; ++c) { put(bytes, static_cast<float>(vertex.radiosity[c])); }
+  }
+  for (std::uint32_t f = 0; f < mesh.faces(); ++f) {
+    const auto size = static_cast<std::uint32_t>(mesh.face(f).size());
+    wide ? put(bytes, size) : put(bytes, static_cast<std::uint8_t>(size));
+    for (const std::uint32_t v : mesh.face(f)) { put(bytes, v); }
+  }
+  return bytes;
+}
 
 std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, const Tone& tone) {
   Vertices vertices;

@@ -16,8 +16,16 @@
 #include <radiosity/scene/scene.hpp>
 
 #include "apps/color.hpp"
+#include "apps/export/export_mesh.hpp"
 
 namespace apps {
+
+// The user's own polygons and vertices (export/export_mesh.hpp), in their order, so that colours can be taken over by number:
+//
+//   vertex  x y z: float where that is exact, else double; float nx ny nz, uchar red green blue as above,
+//           float radiosity_r radiosity_g radiosity_b: the mean of the faces around, W/m2.
+//   face    list vertex_indices.
+[[nodiscard]] std::string to_ply(const ExportMesh& mesh, const Tone& tone);
 
 [[nodiscard]] std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, const Tone& tone);
 

@@ -22,6 +22,8 @@ std::string error_text(const std::optional<radiosity::ErrorEstimate>& error) {
   return percent(error->relative_l2) + "  (" + percent(error->low) + " to " + percent(error->high) + ")";
 }
 
+std::string text_row(std::string_view label, const std::string& value) { return "  " + left(std::string(label), 24, 1) + value + "\n"; }
+
 class Text {
  public:
   explicit Text(const Report& report) : report_(report), audit_(report.audit), facts_(facts_of(report)) {}
@@ -41,7 +43,7 @@ class Text {
   }
 
  private:
-  void row(std::string_view label, const std::string& value) { out_ += "  " + left(std::string(label), 24, 1) + value + "\n"; }
+  void row(std::string_view label, const std::string& value) { out_ += text_row(label, value); }
   // A sentence that names facts; left out where one of them is not known. `more` follows as it is.
   void say(std::string_view label, std::string_view sentence, const std::string& more = {}) {
     if (const auto text = facts_.text(sentence)) { row(label, *text + more); }
@@ -49,7 +51,7 @@ class Text {
 
   void errors() {
     out_ += "error (RMS, relative to the RMS of the reflected radiosity; 95 % interval)\n";
-    if (audit_.picture_error) { picture_error(*audit_.picture_error); }
+    if (audit_.picture_error) { out_ += picture_error_text(*audit_.picture_error, report_.picture ? report_.picture->camera : ""); }
     if (report_.options.reconstruction != radiosity::Reconstruction::none) { row("surfaces", error_text(audit_.surface_error)); }
     row("leaf constants", error_text(audit_.leaf_error));
     if (audit_.estimated_error) {
@@ -60,19 +62,6 @@ class Text {
       if (audit_.target_missed) { row("", "TARGET MISSED: the error is above " + percent(audit_.target)); }
     }
     say("path-traced points", "{error.points}, {error.rays} rays");
-  }
-
-  void picture_error(const radiosity::PictureError& picture) {
-    row("picture front", error_text(picture.error));
-    const auto share = [](const radiosity::ShareBounds& of) {
-      return of.least == of.most ? percent(of.least) : percent(of.least) + " to " + percent(of.most);
-    };
-    row("  off by 2, 8 of 255", share(picture.over2) + ", " + share(picture.over8) + " of the pixels");
-    if (picture.worst) {
-      row("  worst sixteenth", error_text(picture.worst->error) + ", column " + std::to_string(picture.worst->column + 1) + ", row " +
-                                   std::to_string(picture.worst->row + 1) + " of 4");
-    }
-    row("  path-traced pixels", grouped(picture.points) + ", " + grouped(picture.rays) + " rays");
   }
 
   void times() {
@@ -141,6 +130,7 @@ class Text {
     }
     constexpr const char* shows[] = {"of the mesh", "of the objects, in gathered light"};
     const auto method = static_cast<std::size_t>(report_.picture ? report_.picture->method : PictureMethod::mesh);
+    say("lightmap", "{lightmap.width} x {lightmap.height}, texels of {lightmap.texel} m");
     say("picture", std::string("{picture.width} x {picture.height}, ") + shows[method] + ", camera {picture.camera}");
   }
 
@@ -171,6 +161,19 @@ class Text {
 };
 
 }  // namespace
+
+std::string picture_error_text(const radiosity::PictureError& picture, const std::string& camera) {
+  const auto share = [](const radiosity::ShareBounds& of) {
+    return of.least == of.most ? percent(of.least) : percent(of.least) + " to " + percent(of.most);
+  };
+  std::string text = text_row("picture " + camera, error_text(picture.error));
+  text += text_row("  off by 2, 8 of 255", share(picture.over2) + ", " + share(picture.over8) + " of the pixels");
+  if (picture.worst) {
+    text += text_row("  worst sixteenth", error_text(picture.worst->error) + ", column " + std::to_string(picture.worst->column + 1) +
+                                              ", row " + std::to_string(picture.worst->row + 1) + " of 4");
+  }
+  return text + text_row("  path-traced pixels", grouped(picture.points) + ", " + grouped(picture.rays) + " rays");
+}
 
 std::string to_text(const Report& report) { return Text(report).write(); }
 std::string to_json(const Report& report) { return facts_of(report).json(); }

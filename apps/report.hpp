@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/options.hpp>
 
 #include "apps/color.hpp"
@@ -29,6 +30,12 @@ struct PictureReport {
   PictureMethod method = PictureMethod::mesh;
 };
 
+struct LightmapReport {
+  unsigned width = 0;
+  unsigned height = 0;
+  double texel = 0.0;  // metres
+};
+
 struct Report {
   std::string scene;                  // the file's name as it was given
   std::vector<std::string> taken_in;  // what was changed in a file of another program
@@ -39,10 +46,13 @@ struct Report {
   ToneCurve tone = ToneCurve::linear;
   std::optional<PictureReport> picture;
   std::optional<radiosity::StageTime> picture_time;  // drawing and encoding; not part of the total
-  std::vector<std::string> files;                    // what was written
+  std::optional<LightmapReport> lightmap;
+  std::vector<std::string> files;  // what was written
 };
 
 [[nodiscard]] std::string to_text(const Report& report);
+// The rows that it has about the error of the picture that a camera has taken.
+[[nodiscard]] std::string picture_error_text(const radiosity::PictureError& picture, const std::string& camera);
 [[nodiscard]] std::string to_json(const Report& report);
 
 }  // namespace apps

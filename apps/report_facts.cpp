@@ -111,6 +111,13 @@ void add_settings(Facts& facts, const Report& report) {
   facts.add("settings.channels", audit.channels);
   facts.add("settings.threads", audit.threads, "1");
   facts.add("settings.seed", audit.seed, "1");
+  if (report.lightmap) {
+    facts.add("lightmap.width", report.lightmap->width, "1");
+    facts.add("lightmap.height", report.lightmap->height, "1");
+    facts.add("lightmap.texel", report.lightmap->texel, "%.3g");
+  } else {
+    facts.add("lightmap", {});
+  }
   if (!report.picture) { return facts.add("picture", {}); }
   facts.add("picture.camera", report.picture->camera);
   facts.add("picture.width", report.picture->width, "1");

@@ -108,7 +108,13 @@ inline double circumscribed_radius(const Outline& p) {
 [[nodiscard]] inline double proportion(Polygon polygon) {
   if (!(area(polygon) > 0.0)) { return 0.0; }
   const Outline outline(polygon);
-  return std::fmax(0.0, detail::inscribed_radius(outline)) / detail::circumscribed_radius(outline);
+  double perimeter = 0.0;
+  for (std::size_t i = 0; i < outline.size(); ++i) { perimeter += glm::distance(outline[i], outline[outline.next(i)]); }
+  // No circle within has a larger radius than twice the area over the perimeter, which is that of a triangle. The sides of a needle may be
+  // too close to parallel to tell where they meet.
+  const double radius = std::fmin(detail::inscribed_radius(outline), 2.0 * area(polygon) / perimeter);
+  const double around = detail::circumscribed_radius(outline);
+  return around > 0.0 && std::isfinite(around) ? std::fmax(0.0, radius) / around : 0.0;
 }
 
 }  // namespace brep

@@ -14,7 +14,8 @@
 // would insert vertices beyond the limit is refused.
 //
 // Every cut is one split_face, with the ends in the order in which the shorter side is relabelled: the largest part keeps its FaceId as
-// a rule. The data of the parts follow the rule of split_face; a new vertex has default data, and its `position`, if there is one, on the edge.
+// a rule. The data of the parts follow the rule of split_face; a new vertex has default data, and its `position`, if there is one, on the
+// edge.
 
 #include <cmath>
 #include <cstddef>

@@ -3,8 +3,8 @@
 // The first hit of one ray and of sixteen: the search of kernels/first.inc in front of the law of scene.hpp.
 //
 // The search goes through the part of the ray that lies in a cube around the compiled scene. Polygons and faces of open surfaces that are
-// crossed for certain and faces of solids that are entered for certain it leaves over, with bounds of the parameter; mostly one is left, whose place is then
-// computed in double precision, as the law does. Of everything else the law is asked.
+// crossed for certain and faces of solids that are entered for certain it leaves over, with bounds of the parameter; mostly one is left,
+// whose place is then computed in double precision, as the law does. Of everything else the law is asked.
 
 #include <algorithm>
 #include <bit>

@@ -16,6 +16,7 @@
 #include "apps/euler/solid.hpp"
 #include "apps/euler/story.hpp"
 #include "apps/euler/svg.hpp"
+#include "apps/euler/words.hpp"
 
 namespace apps {
 namespace {
@@ -30,9 +31,10 @@ constexpr std::size_t most_edges = 200000;  // in all pictures of a script: minu
 
 bool ends_with(const std::string& path, std::string_view end) { return path.size() > end.size() && path.ends_with(end); }
 
-void report(const std::vector<brep::ScriptError>& errors, const std::string& path) {
+void report(const std::vector<brep::ScriptError>& errors, const std::string& path, const std::string& script) {
   for (const brep::ScriptError& e : errors) {
-    std::fprintf(stderr, "%s:%u:%u: error: %s\n", path.c_str(), e.place.line, e.place.column, e.sentence.c_str());
+    const std::string sentence = e.sentence + euler::meant_in(script, e.place.line);
+    std::fprintf(stderr, "%s:%u:%u: error: %s\n", path.c_str(), e.place.line, e.place.column, sentence.c_str());
   }
 }
 
@@ -52,12 +54,12 @@ ExitCode run(const EulerOptions& options) {
   const brep::ScriptResult parsed = brep::parse_script(*text);
   if (!parsed.script) {
     const auto sentence = wrong_kind(shown(options.script), *text, FileKind::script);
-    sentence ? complain(*sentence) : report(parsed.errors, options.script);
+    sentence ? complain(*sentence) : report(parsed.errors, options.script, *text);
     return ExitCode::invalid_input;
   }
   const std::string name = std::filesystem::path(options.script).stem().string();
   euler::Story story = euler::tell(*parsed.script, name, false);
-  report(story.errors, options.script);
+  report(story.errors, options.script, *text);
   if (!options.outputs.empty()) {
     if (story.edges > most_edges) {
       complain(options.script + " is too long to draw: its " + std::to_string(story.frames.size()) + " pictures would show " +

@@ -20,7 +20,8 @@ std::string list() {
     const exercise::Exercise& e = exercise::all()[n - 1];
     out += (n < 10 ? " " : "") + std::to_string(n) + "  " + e.title + "   (" + e.file + ")\n";
   }
-  return out + "`halflight exercise N -o FILE` writes the text of an exercise and its beginning, `halflight exercise N FILE` checks yours.\n";
+  return out +
+         "`halflight exercise N -o FILE` writes the text of an exercise and its beginning, `halflight exercise N FILE` checks yours.\n";
 }
 
 ExitCode run(const ExerciseOptions& options) {

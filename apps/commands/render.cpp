@@ -23,6 +23,7 @@
 #include "apps/commands/render_outputs.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/light_file.hpp"
 #include "apps/memory.hpp"
 #include "apps/progress.hpp"
 #include "apps/text.hpp"
@@ -63,6 +64,7 @@ std::optional<Camera> choose_camera(const SceneFile& file, const std::string& na
 
 std::vector<std::string> all_outputs(const RenderOptions& options) {
   std::vector<std::string> paths = options.outputs;
+  paths.push_back(options.lightmap);
   paths.push_back(options.json);
   return paths;
 }
@@ -75,12 +77,29 @@ ExitCode check(const RenderOptions& options) {
       return ExitCode::usage;
     }
   }
-  const auto takes = [](const std::string& path) { return render_format(path) == RenderFormat::exported; };
-  if (options.onto_input && std::none_of(options.outputs.begin(), options.outputs.end(), takes)) {
-    complain("--onto-input is about outputs that end with .glb or .obj; there is none");
+  const auto any = [&](bool ply) {
+    return std::any_of(options.outputs.begin(), options.outputs.end(), [ply](const std::string& path) {
+      const auto format = render_format(path);
+      return format == RenderFormat::exported || (ply && format == RenderFormat::ply);
+    });
+  };
+  if (options.onto_input && !any(true)) {
+    complain("--onto-input is about outputs that end with .ply, .glb or .obj; there is none");
     return ExitCode::usage;
   }
-  return check_outputs(all_outputs(options), {options.scene});
+  if (!options.lightmap.empty() && !any(false)) {
+    complain("--lightmap is about outputs that end with .glb or .obj; there is none");
+    return ExitCode::usage;
+  }
+  if (!options.lightmap.empty() && !is_picture(options.lightmap)) {
+    complain("--lightmap " + options.lightmap + ": expected a name that ends with .hdr, .pfm or .png");
+    return ExitCode::usage;
+  }
+  if (!options.light.empty() && (options.outputs.empty() || !std::all_of(options.outputs.begin(), options.outputs.end(), is_picture))) {
+    complain("--light draws pictures: expected outputs that end with .png, .hdr or .pfm, and nothing else");
+    return ExitCode::usage;
+  }
+  return check_outputs(all_outputs(options), {options.scene, options.light});
 }
 
 ExitCode report_failure(const radiosity::Failure& failure, const std::string& scene) {
@@ -125,6 +144,31 @@ ExitCode write_all(const std::vector<RenderOutput>& outputs) {
   return ExitCode::ok;
 }
 
+// Pictures from a solution that was kept.
+ExitCode draw_light(const RenderOptions& options, const SceneFile& file, const Camera& camera, const radiosity::Control& control) {
+  ExitCode code = ExitCode::ok;
+  const auto bytes = load_text(options.light, code);
+  if (!bytes) { return code; }
+  const LightResult read = read_light_file(*bytes, file.scene);
+  if (!read.light) {
+    complain(shown(options.light) + ": " + read.reason);
+    return ExitCode::invalid_input;
+  }
+  Artist artist(options, file, camera);
+  const Tone tone = artist.tone(read.light->mesh);
+  const auto picture = artist.draw(read.light->mesh, read.light->frame, tone, control);
+  if (!picture) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
+  std::string text;
+  if (options.solver.audit_points > 0) {
+    const auto error = artist.audit(*picture, tone, radiosity::goal_to_know({}, options.solver.audit_points), control);
+    if (error) { text = picture_error_text(*error, camera.name); }
+  }
+  const std::vector<RenderOutput> outputs = encode(options, *picture, tone);
+  if (code = write_all(outputs); code != ExitCode::ok) { return code; }
+  for (const RenderOutput& output : outputs) { text += "written: " + output.path + "\n"; }
+  return print(text, options.outputs) ? ExitCode::ok : ExitCode::failure;
+}
+
 ExitCode run(const RenderOptions& options) {
   const std::atomic<bool>& cancel = watch_interrupts();
   if (options.solver.error && options.solver.audit_points == 0) {
@@ -151,6 +195,7 @@ ExitCode run(const RenderOptions& options) {
   radiosity::Control control;
   control.cancel = &cancel;
   control.progress = [&](std::string_view stage, double part) { progress.report(stage, part); };
+  if (!options.light.empty()) { return draw_light(options, *file, *camera, control); }
   Artist artist(options, *file, *camera);
   if (settings.error && options.error_of.value_or(has_picture(options) ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
     control.picture_error = [&](const radiosity::Mesh& mesh, const radiosity::Frame& frame,
@@ -207,12 +252,19 @@ std::vector<Argument> arguments(RenderOptions& options) {
   return {
       scene_argument(options.scene),
       texts("-o,--output", "FILE", options.outputs,
-            "what to write: a picture (.png; .hdr, .pfm: radiance), a mesh with its light (.ply, .glb, .obj) or a page that shows it "
-            "(.html); "
-            "repeat for more; without, the report alone",
+            "what to write: a picture (.png; .hdr, .pfm: radiance), the light for further pictures (.light), a mesh with its light (.ply, "
+            ".glb, .obj) or a page that shows it (.html); repeat for more; without, the report alone",
             Argument::Values::repeated),
       flag("--onto-input", options.onto_input,
-           "with .glb and .obj: the polygons and vertices of the input file in its own order, each vertex with its light"),
+           "with .ply, .glb and .obj: the polygons and vertices of the input file in its own order, each vertex with its light"),
+      text("--lightmap", "FILE", options.lightmap,
+           "with .glb and .obj: the light as a texture of them, too (.hdr, .pfm: radiance; .png), a rectangle for every face"),
+      above_zero("--texel", options.texel, 1e30, "side of a texel of the lightmap in metres (default: such that there are a million)")
+          .needing("--lightmap"),
+      text("--light", "FILE", options.light,
+           "a .light file of this scene: pictures are drawn from it, and nothing is solved; with the options of pictures alone")
+          .without({"--json", "--onto-input", "--lightmap", "--error", "--target", "--time", "--epsilon", "--min-area", "--light-epsilon",
+                    "--indirect", "--solver", "--reconstruction", "--no-shortcuts"}),
       above_zero("--error", solver.error, 1.0, "refine until the measured relative L2 error is at most this"),
       one_of<std::optional<ErrorOf>, ErrorOf>(
           "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},

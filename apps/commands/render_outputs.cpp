@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -23,8 +24,10 @@
 
 #include "apps/audited_picture.hpp"
 #include "apps/export/export_mesh.hpp"
+#include "apps/export/lightmap.hpp"
 #include "apps/export/viewer.hpp"
 #include "apps/gather_picture.hpp"
+#include "apps/light_file.hpp"
 #include "apps/memory.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/ply.hpp"
@@ -47,9 +50,25 @@ class Stopwatch {
   std::clock_t cpu_ = std::clock();
 };
 
-bool is_picture(const std::string& path) {
-  const auto format = render_format(path);
-  return format == RenderFormat::png || format == RenderFormat::hdr || format == RenderFormat::pfm;
+std::string encoded(const Picture& picture, RenderFormat format, const Tone& tone) {
+  return format == RenderFormat::png ? to_png(picture, tone) : format == RenderFormat::hdr ? to_hdr(picture) : to_pfm(picture);
+}
+
+// The mesh that is exported, with its lightmap among the outputs when one is asked for.
+std::optional<ExportMesh> exported_mesh(const RenderOptions& options, const SceneFile& file, const radiosity::Solution& solution,
+                                        const Tone& tone, std::vector<RenderOutput>& outputs, Report& report) {
+  std::optional<ExportMesh> mesh = options.onto_input ? given_mesh(file, solution) : solution_mesh(file, solution);
+  if (!mesh || options.lightmap.empty()) { return mesh; }
+  const std::optional<LightTexture> texture = options.onto_input ? given_texture(file, solution, tone, options.texel, *mesh)
+                                                                 : solution_texture(solution, tone, options.texel, *mesh);
+  if (!texture) { return mesh; }
+  mesh->texture = to_png(texture->picture, tone);
+  mesh->texture_name = std::filesystem::path(options.lightmap).filename().string();
+  const auto format = *render_format(options.lightmap);
+  outputs.push_back({options.lightmap, format == RenderFormat::png ? mesh->texture : encoded(texture->picture, format, tone)});
+  report.files.push_back(options.lightmap);
+  report.lightmap = LightmapReport{texture->picture.width, texture->picture.height, texture->texel};
+  return mesh;
 }
 
 // The line below the title of a page: how large and how wrong the solution is.
@@ -76,20 +95,27 @@ std::optional<RenderFormat> render_format(const std::string& path) {
   if (has_ending(path, ".png")) { return RenderFormat::png; }
   if (has_ending(path, ".hdr")) { return RenderFormat::hdr; }
   if (has_ending(path, ".pfm")) { return RenderFormat::pfm; }
+  if (has_ending(path, ".light")) { return RenderFormat::light; }
   if (has_ending(path, ".ply")) { return RenderFormat::ply; }
   if (has_ending(path, ".html")) { return RenderFormat::html; }
   return export_format(path) != nullptr ? std::optional(RenderFormat::exported) : std::nullopt;
 }
 
-std::string render_endings() { return ".png, .hdr, .pfm, .ply, .glb, .obj or .html"; }
+bool is_picture(const std::string& path) {
+  const auto format = render_format(path);
+  return format == RenderFormat::png || format == RenderFormat::hdr || format == RenderFormat::pfm;
+}
+
+std::string render_endings() { return ".png, .hdr, .pfm, .light, .ply, .glb, .obj or .html"; }
 
 bool has_picture(const RenderOptions& options) { return std::any_of(options.outputs.begin(), options.outputs.end(), is_picture); }
 
 radiosity::Options solver_options(const RenderOptions& options) {
   radiosity::Options solver = options.solver;
+  const auto is_gathered = [](const std::string& path) { return is_picture(path) || render_format(path) == RenderFormat::light; };
   const bool mesh_is_seen =
-      options.method != PictureMethod::gather || !std::all_of(options.outputs.begin(), options.outputs.end(), is_picture);
-  if (has_picture(options) && !mesh_is_seen) {
+      options.method != PictureMethod::gather || !std::all_of(options.outputs.begin(), options.outputs.end(), is_gathered);
+  if (!options.outputs.empty() && !mesh_is_seen) {
     solver.epsilon = gathered_epsilon;
     solver.min_area = gathered_min_area;
   }
@@ -122,6 +148,14 @@ std::optional<radiosity::PictureError> Artist::audit(const Picture& picture, con
   return audit_->measure(audited(picture, view_, tone), goal, options_.solver.threads, options_.solver.seed, control);
 }
 
+std::vector<RenderOutput> encode(const RenderOptions& options, const Picture& picture, const Tone& tone) {
+  std::vector<RenderOutput> outputs;
+  for (const std::string& path : options.outputs) {
+    if (is_picture(path)) { outputs.push_back({path, encoded(picture, *render_format(path), tone)}); }
+  }
+  return outputs;
+}
+
 std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
                                                 const radiosity::Solution& solution, const radiosity::Control& control, Report& report) {
   if (control.cancelled()) { return std::nullopt; }
@@ -130,17 +164,12 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
   report.exposure = tone.exposure;
   report.tone = tone.curve;
   report.automatic_exposure = !options.exposure || options.exposure->of_automatic;
-  std::string png, hdr, pfm;
+  std::vector<RenderOutput> pictures;  // in the order of the outputs
   if (has_picture(options)) {
     const Stopwatch watch;
     const auto picture = artist.draw(solution.mesh, solution.frame, tone, control);
     if (!picture) { return std::nullopt; }
-    for (const std::string& path : options.outputs) {
-      const auto format = render_format(path);
-      if (format == RenderFormat::png && png.empty()) { png = to_png(*picture, tone); }
-      if (format == RenderFormat::hdr && hdr.empty()) { hdr = to_hdr(*picture); }
-      if (format == RenderFormat::pfm && pfm.empty()) { pfm = to_pfm(*picture); }
-    }
+    pictures = encode(options, *picture, tone);
     report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
     std::vector<radiosity::StageTime> stages{watch.stop("picture")};
     leave_out_others(stages);
@@ -155,27 +184,33 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
       report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, its error not measured
     }
   }
+  auto next_picture = pictures.begin();
   std::optional<ExportMesh> exported;
+  const auto is_exported = [&](const std::string& path) {
+    return render_format(path) == RenderFormat::exported || (options.onto_input && has_ending(path, ".ply"));
+  };
+  if (std::any_of(options.outputs.begin(), options.outputs.end(), is_exported)) {
+    exported = exported_mesh(options, file, solution, tone, outputs, report);
+  }
   for (const std::string& path : options.outputs) {
     outputs.push_back({path, {}});
     switch (*render_format(path)) {
       case RenderFormat::png:
-        outputs.back().bytes = png;
-        break;
       case RenderFormat::hdr:
-        outputs.back().bytes = hdr;
-        break;
       case RenderFormat::pfm:
-        outputs.back().bytes = pfm;
+        outputs.back() = std::move(*next_picture++);
+        break;
+      case RenderFormat::light:
+        outputs.back().bytes = to_light_file(solution.mesh, solution.frame, file.scene);
         break;
       case RenderFormat::ply:
-        outputs.back().bytes = to_ply(solution.mesh, radiosity::surfaces(file.scene), tone);
+        outputs.back().bytes =
+            options.onto_input && exported ? to_ply(*exported, tone) : to_ply(solution.mesh, radiosity::surfaces(file.scene), tone);
         break;
       case RenderFormat::html:
         outputs.back().bytes = viewer_page(file, solution, camera, tone.exposure, options.scene, summary(solution));
         break;
       case RenderFormat::exported:
-        if (!exported) { exported = options.onto_input ? given_mesh(file, solution) : solution_mesh(file, solution); }
         if (exported) { outputs.back().bytes = export_format(path)->write(*exported, tone); }
         break;
     }

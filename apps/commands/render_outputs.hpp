@@ -39,6 +39,9 @@ struct RenderOptions {
   ModelOptions model;
   std::vector<std::string> outputs;  // pictures and meshes, by their endings
   bool onto_input = false;           // exported: the user's polygons, not those of the solution
+  std::string light;                 // a .light file that is drawn instead of a new solution; empty: none
+  std::string lightmap;              // of what is exported; empty: none
+  std::optional<double> texel;       // of the lightmap, metres
   std::string json;                  // empty: none
   std::string camera;                // empty: the first of the file, or the automatic one
   std::optional<PictureSize> size;
@@ -52,10 +55,13 @@ struct RenderOptions {
   radiosity::Options solver;
 };
 
-enum class RenderFormat { png, hdr, pfm, ply, html, exported };
+enum class RenderFormat { png, hdr, pfm, light, ply, html, exported };
 
 // By the ending of the name.
 [[nodiscard]] std::optional<RenderFormat> render_format(const std::string& path);
+
+// Does the name end as those of pictures do: .png, .hdr or .pfm?
+[[nodiscard]] bool is_picture(const std::string& path);
 
 // ".png, .ply, ... or .html"
 [[nodiscard]] std::string render_endings();
@@ -92,6 +98,9 @@ struct RenderOutput {
   std::string path;
   std::string bytes;
 };
+
+// The picture in each format that is asked for.
+[[nodiscard]] std::vector<RenderOutput> encode(const RenderOptions& options, const Picture& picture, const Tone& tone);
 
 // Everything that is to be written, in memory; the report is completed. Nothing when interrupted.
 [[nodiscard]] std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera,

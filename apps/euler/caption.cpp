@@ -71,7 +71,9 @@ std::string walk(const Records& r, brep::Element of) {
   std::uint32_t h = anchors[of.index];
   std::size_t steps = 0;
   do {
-    if (h >= r.halfedges.size() || !r.halfedges[h].alive || ++steps > r.halfedges.size()) { return out + " ... the walk does not come back"; }
+    if (h >= r.halfedges.size() || !r.halfedges[h].alive || ++steps > r.halfedges.size()) {
+      return out + " ... the walk does not come back";
+    }
     out += " " + name('h', h) + (face ? " (from " + name('v', r.halfedges[h].vertex) : " (in " + name('f', r.halfedges[h].face)) + ")";
     h = face ? r.halfedges[h].next : r.halfedges[h ^ 1U].next;
   } while (h != anchors[of.index]);

@@ -46,13 +46,14 @@ void write(JsonWriter& json, const Story& story, std::size_t i, const Layout& la
     if (e.letter != 0) { lit.push_back(to_string(e)); }
   }
   const std::array<long, 5> numbers{frame.drawn.v, frame.drawn.e, frame.drawn.f, frame.shells, frame.handles};
-  json.open_object().fields("statement", frame.statement, "headline", headline(frame), "caption", frame.caption, "told", frame.told, "refused", refused,
-                            "expected", frame.outcome.as_written, "sentence", frame.outcome.sentence, "faults", faults);
+  json.open_object().fields("statement", frame.statement, "headline", headline(frame), "caption", frame.caption, "told", frame.told,
+                            "refused", refused, "expected", frame.outcome.as_written, "sentence", frame.outcome.sentence, "faults", faults);
   json.key("checks").list(frame.checks,
                           [&](const Check& check) { json.object("text", check.text, "met", check.met, "sentence", check.sentence); });
   json.fields("damaged", frame.damaged, "counts", numbers, "equation", equation(frame), "lit", lit, "halfedges",
               halfedge_rows(frame.records), "vertices", anchor_rows(frame.records.vertices), "faces", anchor_rows(frame.records.faces),
-              "panels", layout.panels.size(), "picture", drawing(story, i, layout, 790.0), "solid", solid_view(frame, story.coordinates, 240.0));
+              "panels", layout.panels.size(), "picture", drawing(story, i, layout, 790.0), "solid",
+              solid_view(frame, story.coordinates, 240.0));
   json.close();
 }
 

@@ -26,9 +26,9 @@
 #include "apps/euler/line_editor.hpp"
 #include "apps/euler/story.hpp"
 #include "apps/euler/svg.hpp"
+#include "apps/euler/words.hpp"
 #include "apps/files.hpp"
 #include "apps/output_paths.hpp"
-#include "apps/scene_file/words.hpp"
 
 namespace apps::euler {
 namespace {
@@ -41,26 +41,9 @@ constexpr const char* more_help =
 
 // Words that a line may begin with.
 std::vector<std::string> commands() {
-  std::vector<std::string> words = {"undo", "redo", "raw", "expect", "refused", "set_anchor", "show", "face", "vertex", "save", "help", "quit"};
-  for (const brep::OperatorForm& row : brep::operator_forms) {
-    words.emplace_back(row.name);
-    for (const std::string_view word : row.textbook) {
-      if (!word.empty()) { words.emplace_back(word); }
-    }
-  }
+  std::vector<std::string> words = statement_words();
+  for (const char* const word : {"show", "face", "vertex", "save", "help", "quit"}) { words.emplace_back(word); }
   return words;
-}
-
-// "; did you mean 'split_face'?" of a line that cannot be read because its operator is not known.
-std::string meant(const std::string& text) {
-  const std::vector<std::string> known = commands();
-  const std::size_t equals = text.find('=');
-  const std::size_t begin = text.find_first_not_of(" \t", equals == text.npos ? 0 : equals + 1);
-  if (begin == text.npos) { return {}; }
-  const std::string word = text.substr(begin, text.find_first_of(" \t(", begin) - begin);
-  if (std::find(known.begin(), known.end(), word) != known.end()) { return {}; }
-  const std::vector<std::string_view> views(known.begin(), known.end());
-  return scene_file::suggestion(word, views);
 }
 
 // The operators with their arguments, what must hold of these, and the textbook names, which are understood as well.
@@ -125,6 +108,8 @@ class Conversation {
       say(records_table(teller_.story().frames.back().records));
     } else if (const auto element = asked_walk(text)) {
       say(walk(teller_.story().frames.back().records, *element) + "\n");
+    } else if (const std::string word = text.substr(0, text.find_first_of(" \t")); (word == "face" || word == "vertex") && text.find('=') == text.npos) {
+      say(word + ": expected a " + word + ", such as " + word[0] + "1\n");
     } else if (text == "save" || text.rfind("save ", 0) == 0) {
       save(text.substr(std::min<std::size_t>(5, text.size())));
     } else {
@@ -183,7 +168,7 @@ class Conversation {
     const auto parsed = parser_.parse_line(text, number);
     if (parser_.errors().size() > errors) {
       const brep::ScriptError& e = parser_.errors().back();
-      return say("column " + std::to_string(e.place.column) + ": " + e.sentence + meant(text) + "\n");
+      return say("column " + std::to_string(e.place.column) + ": " + e.sentence + meant(text, commands()) + "\n");
     }
     if (!parsed) { return; }
     const std::size_t checks = teller_.story().frames.back().checks.size();

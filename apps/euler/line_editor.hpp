@@ -40,7 +40,8 @@ class LineEditor {
 // Reads lines from the terminal; nothing at its end.
 class TerminalLines {
  public:
-  TerminalLines(std::string prompt, std::function<std::vector<std::string>()> words) : prompt_(std::move(prompt)), editor_(std::move(words)) {}
+  TerminalLines(std::string prompt, std::function<std::vector<std::string>()> words)
+      : prompt_(std::move(prompt)), editor_(std::move(words)) {}
   [[nodiscard]] std::optional<std::string> read();
 
  private:

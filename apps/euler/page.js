@@ -131,8 +131,8 @@ function show(i) {
   if (f.h.size) $('tables').append(records('half-edge', ['next', 'prev', 'vertex', 'face'], f.h, before && before.h, f.lit), anchors);
   mark(null);
   const changed = $('tables').querySelector('.fresh, .moved');
-  if (changed) {  // in the middle of what scrolls; at the top is the caption, which comes first where both fit
-    const box = document.querySelector('aside'), at = changed.getBoundingClientRect().top - box.getBoundingClientRect().top + box.scrollTop;
+  if (changed) {  // in the middle of the table, which scrolls below the caption
+    const box = $('tables'), at = changed.getBoundingClientRect().top - box.getBoundingClientRect().top + box.scrollTop;
     box.scrollTop = at > box.clientHeight - 40 ? at - box.clientHeight / 2 : 0;
   }
   [...$('script').children].forEach((e, k) => e.classList.toggle('now', k === i));

@@ -94,18 +94,20 @@ std::string solid_view(const Frame& frame, const Coordinates& coordinates, doubl
     if (face.corners.size() < 3) { continue; }
     std::string d;
     for (const std::uint32_t v : face.corners) { d += (d.empty() ? "M" : "L") + point(place(v)); }
-    out += "<path class='area' data-of='f" + std::to_string(face.face) + "' fill-opacity='.55' fill='" + tint(face.face) + "' d='" + d + "Z'/>\n";
+    out += "<path class='area' data-of='f" + std::to_string(face.face) + "' fill-opacity='.55' fill='" + tint(face.face) + "' d='" + d +
+           "Z'/>\n";
   }
   for (std::uint32_t h = 0; h < records.halfedges.size(); h += 2) {
     if (!records.halfedges[h].alive) { continue; }
     const std::uint32_t a = records.halfedges[h].vertex, b = records.halfedges[h + 1].vertex;
     if (!coordinates.contains(a) || !coordinates.contains(b)) { continue; }
-    out += "<path class='edge' data-of='h" + std::to_string(h) + " h" + std::to_string(h + 1) + "' d='M" + point(place(a)) + "L" + point(place(b)) + "'/>\n";
+    out += "<path class='edge' data-of='h" + std::to_string(h) + " h" + std::to_string(h + 1) + "' d='M" + point(place(a)) + "L" +
+           point(place(b)) + "'/>\n";
   }
   for (std::uint32_t v = 0; v < records.vertices.size(); ++v) {
     if (records.vertices[v] == brep::invalid_index || !coordinates.contains(v)) { continue; }
-    out += "<g class='vertex' data-of='v" + std::to_string(v) + "' transform='translate(" + point(place(v)) + ")'><circle r='" + trimmed(0.035 * width, 1) +
-           "'/><text font-size='" + trimmed(0.04 * width, 1) + "'>v" + std::to_string(v) + "</text></g>\n";
+    out += "<g class='vertex' data-of='v" + std::to_string(v) + "' transform='translate(" + point(place(v)) + ")'><circle r='" +
+           trimmed(0.035 * width, 1) + "'/><text font-size='" + trimmed(0.04 * width, 1) + "'>v" + std::to_string(v) + "</text></g>\n";
   }
   return out.empty() ? out : "<g class='drawing'>\n" + out + "</g>\n";
 }

@@ -83,22 +83,24 @@ Fault form_factors(const std::string& text) {
 Fault push_pull(const std::string& text) {
   constexpr double rho = 0.5, lamp = 2.0, to_p = 0.1, to_a = 0.3, area_a = 1.0, area_b = 2.0;
   constexpr double gather_p = to_p * lamp, gather_a = to_a * lamp, b_a = rho * (gather_p + gather_a), b_b = rho * gather_p;
-  return compare(text, {{"gather_P", gather_p, "gather takes F times the radiosity of the other end, for this link alone"},
-                        {"gather_A", gather_a, "gather takes F times the radiosity of the other end, for this link alone"},
-                        {"arrived_A", gather_p + gather_a, "push adds what the parent gathered; irradiance is per m2, so is it divided by anything?"},
-                        {"arrived_B", gather_p, "a child without a link of its own still lies in the light of its parent"},
-                        {"B_A", b_a, "the leaf reflects a share of what arrives"},
-                        {"B_B", b_b, "the leaf reflects a share of what arrives"},
-                        {"B_P", (area_a * b_a + area_b * b_b) / (area_a + area_b), "pull is a mean; of two children of different size"}});
+  return compare(
+      text, {{"gather_P", gather_p, "gather takes F times the radiosity of the other end, for this link alone"},
+             {"gather_A", gather_a, "gather takes F times the radiosity of the other end, for this link alone"},
+             {"arrived_A", gather_p + gather_a, "push adds what the parent gathered; irradiance is per m2, so is it divided by anything?"},
+             {"arrived_B", gather_p, "a child without a link of its own still lies in the light of its parent"},
+             {"B_A", b_a, "the leaf reflects a share of what arrives"},
+             {"B_B", b_b, "the leaf reflects a share of what arrives"},
+             {"B_P", (area_a * b_a + area_b * b_b) / (area_a + area_b), "pull is a mean; of two children of different size"}});
 }
 
 Fault t_vertex(const std::string& text) {
   constexpr double a = 0.2, b = 0.6, m = 0.7, coarse = (a + b) / 2.0;
-  return compare(text, {{"coarse", coarse, "the coarse face knows a and b alone, and Gouraud shading is linear along an edge"},
-                        {"jump", m - coarse, "the fine faces show the colour of m itself"},
-                        {"quarter", (m - coarse) / 2.0, "both sides are linear between a and m"},
-                        {"after", 0.0, "which corners do the faces have in common then?"},
-                        {"gap", 1.0 - std::sqrt(0.5), "the coarse face still has the straight edge; how far is its middle from the circle?"}});
+  return compare(text,
+                 {{"coarse", coarse, "the coarse face knows a and b alone, and Gouraud shading is linear along an edge"},
+                  {"jump", m - coarse, "the fine faces show the colour of m itself"},
+                  {"quarter", (m - coarse) / 2.0, "both sides are linear between a and m"},
+                  {"after", 0.0, "which corners do the faces have in common then?"},
+                  {"gap", 1.0 - std::sqrt(0.5), "the coarse face still has the straight edge; how far is its middle from the circle?"}});
 }
 
 }  // namespace apps::exercise

@@ -12,6 +12,7 @@
 #include <brep/validate.hpp>
 
 #include "apps/euler/story.hpp"
+#include "apps/euler/words.hpp"
 #include "apps/exercise/exercises.hpp"
 
 namespace apps::exercise {
@@ -35,7 +36,10 @@ std::string at(const brep::Place& place) { return "line " + std::to_string(place
 
 Fault play(const std::string& text, Played& played) {
   brep::ScriptResult parsed = brep::parse_script(text);
-  if (!parsed.script) { return at(parsed.errors.front().place) + parsed.errors.front().sentence; }
+  if (!parsed.script) {
+    const brep::ScriptError& e = parsed.errors.front();
+    return at(e.place) + e.sentence + euler::meant_in(text, e.place.line);
+  }
   played.script = std::move(*parsed.script);
   euler::Teller teller(played.solid, false);
   for (const brep::Statement& statement : played.script.statements) {
@@ -117,12 +121,16 @@ Fault holes(const std::string& text) {
   Played played;
   return first_of([&] { return play(text, played); }, [&] { return kept(played, 3); }, [&] { return one_shell(played); },
                   [&]() -> Fault {
-                    const auto pothole = [](const Moment& m) { return m.v == 16 && m.e == 25 && m.f == 11 && m.shells == 1 && m.handles == 0; };
+                    const auto pothole = [](const Moment& m) {
+                      return m.v == 16 && m.e == 25 && m.f == 11 && m.shells == 1 && m.handles == 0;
+                    };
                     if (std::none_of(played.moments.begin(), played.moments.end(), pothole)) {
                       return "no step shows the pothole: a square rim tied to the border of the lid, four walls and a floor";
                     }
                     const long handles = played.moments.back().handles;
-                    if (handles != 1) { return "at the end there are " + std::to_string(handles) + " handles: nothing leads through the cube once"; }
+                    if (handles != 1) {
+                      return "at the end there are " + std::to_string(handles) + " handles: nothing leads through the cube once";
+                    }
                     std::size_t large = 0;
                     for (const brep::FaceId f : brep::faces(played.solid)) { large += brep::degree(played.solid, f) > 4 ? 1 : 0; }
                     if (large > 1) { return std::to_string(large) + " faces have more than four edges"; }
@@ -138,16 +146,17 @@ Fault dual_of_prism(const std::string& text) {
       "h0 = make_segment\nh2 = split_vertex h1 h1\nh4 = split_face h3 h0\nh6 = split_vertex h1 h1\nh8 = split_vertex h3 h3\n"
       "h10 = split_vertex h5 h5\nh12 = split_face h7 h11\nh14 = split_face h11 h9\nh16 = split_face h9 h12\n";
   Played played;
-  return first_of([&] { return play(text, played); }, [&] { return one_shell(played); },
-                  [&]() -> Fault {
-                    Played of;
-                    static_cast<void>(play(prism, of));
-                    if (brep::find_isomorphism(of.solid, played.solid)) { return "this is the prism itself"; }
-                    const auto dual = brep::dual(of.solid);
-                    const auto same = [&](brep::Orientation way) { return brep::find_isomorphism(dual.brep, played.solid, way).has_value(); };
-                    if (same(brep::Orientation::kept) || same(brep::Orientation::reversed)) { return std::nullopt; }
-                    return "this is not the dual of the prism: count the faces of the prism, and the edges that meet in each of its vertices";
-                  });
+  return first_of(
+      [&] { return play(text, played); }, [&] { return one_shell(played); },
+      [&]() -> Fault {
+        Played of;
+        static_cast<void>(play(prism, of));
+        if (brep::find_isomorphism(of.solid, played.solid)) { return "this is the prism itself"; }
+        const auto dual = brep::dual(of.solid);
+        const auto same = [&](brep::Orientation way) { return brep::find_isomorphism(dual.brep, played.solid, way).has_value(); };
+        if (same(brep::Orientation::kept) || same(brep::Orientation::reversed)) { return std::nullopt; }
+        return "this is not the dual of the prism: count the faces of the prism, and the edges that meet in each of its vertices";
+      });
 }
 
 Fault inverse(const std::string& text) {

@@ -77,7 +77,8 @@ std::string page(const Recording& r) {
                 packed(arrives), "why", link.sentence);
   });
   json.key("iterations").list(r.iterations, [&](const Iteration& step) {
-    json.object("sent", packed(step.sent), "gathered", packed(step.gathered), "arrived", packed(step.arrived), "mean", packed(step.mean), "residual", step.residual);
+    json.object("sent", packed(step.sent), "gathered", packed(step.gathered), "arrived", packed(step.arrived), "mean", packed(step.mean),
+                "residual", step.residual);
   });
   json.key("leaves").list(r.leaves, [&](const LeafLoop& leaf) {
     json.object("node", leaf.node, "corners", packed(leaf.corners), "levels", packed(leaf.levels), "t", packed(leaf.t_vertex));

@@ -1,5 +1,5 @@
 // The chapters of a page and what each shows at a step.
-let picked = -1, threshold = data.epsilon, showLinks = false, at99 = 1, now = 0, chapter = 0;
+let picked = -1, threshold = data.epsilon, showLinks = false, at99 = 1, solver = '', now = 0, chapter = 0;
 const blue = '#0b5bd3', orange = '#d9730d';
 const facesOf = (tree, leaves, fill) => leaves.map(i => ({points: tree[i].points, node: i, fill: fill(i)}));
 const outline = (tree, i, edge) => ({points: tree[i].points, fill: 'rgba(255,255,255,.15)', edge, wide: true});
@@ -30,6 +30,16 @@ function atThreshold(t) {
   data.pairs.filter(p => p.parent < 0).forEach(go);
   return {links, open};
 }
+// Whether over-shooting comes below shooting at last: only where much light is reflected again does it pay.
+function overshooting(methods) {
+  const after = (m, k) => m.residual[Math.min(k, m.residual.length - 1)], shooting = methods.find(m => m.name.startsWith('Southwell'));
+  const over = methods.filter(m => m.name.startsWith('over'));
+  for (let k = 1; over.some(m => k < m.residual.length); ++k) {
+    const best = over.find(m => after(m, k) < after(shooting, k));
+    if (best) return `Here ${best.name} is ahead of shooting from pass ${k} on.`;
+  }
+  return 'Here over-shooting never pays: too little of the light is reflected again. A closed scene shows the contrary.';
+}
 const generations = Math.max(0, ...data.pairs.map(p => p.generation)) + 2;
 const leavesAt = Array.from({length: generations}, (_, g) => main.leaves(i => main[i].born <= g).length);
 const linksBy = [], matrixBy = [];
@@ -41,7 +51,7 @@ const chapters = [{
   ring: k => i => i === data.pairs[k].p ? blue : i === data.pairs[k].q ? orange : '',
   show(k) {
     const p = data.pairs[k], mine = atThreshold(threshold), small = Math.max(main[p.p].area, main[p.q].area);
-    $('heading').textContent = `Question ${k + 1} of ${data.pairs.length}, generation ${p.generation}`;
+    $('heading').textContent = `Question ${k + 1} of ${data.pairs.length}, generation ${p.generation}: may these two be linked?`;
     $('caption').textContent = `${main[p.p].name} (blue) and ${main[p.q].name} (orange): ${p.why}.`;
     const slider = element('input');
     Object.assign(slider, {type: 'range', min: -3, max: 0, step: 0.01, value: Math.log10(threshold)});
@@ -60,7 +70,8 @@ const chapters = [{
       : `F = ${short(p.estimate)}: you would split the larger`;
     const note = element('div', `${verdict}. In all: ${mine.links.length} links` +
       (mine.open ? `, and ${mine.open} pairs that this run linked and you would split further.` : '.'), 'note');
-    $('details').append(note, chart([{name: 'links so far', values: linksBy}, {name: 'n\u00b2, n leaves', values: matrixBy}], k, 'links against n\u00b2, by question'));
+    $('details').append(note, chart([{name: 'links so far', values: linksBy}, {name: 'n\u00b2, n leaves', values: matrixBy}], k, 'links against n\u00b2, by question'),
+      element('div', 'The line between them is green where they are linked, else red; thin lines are the rays of the link.', 'small'));
     const l = data.links.find(x => (x.p === p.p && x.q === p.q) || (x.p === p.q && x.q === p.p));
     const lines = showLinks ? mine.links.map(x => link(main, x, 'rgba(11,91,211,.25)', 1)) : [];
     lines.push({...link(main, p, p.is === 'link' ? '#14702d' : '#c8310f', 2)});
@@ -105,7 +116,7 @@ const chapters = [{
         (data.closure === null ? '' : ` The scene is closed: what leaves send and take is scaled so that their form factors sum to 1, by ${short(100 * data.closure)} % on average.`),
       'Each leaf radiates B = E + rho times its irradiance, and the area averages are pulled up, so that every node can send.'][k % 3];
     const rows = element('table'), head = element('tr');
-    for (const t of ['patch', 'sent', 'own links', 'its leaves', 'B of them']) head.append(element('th', t));
+    for (const t of ['patch', 'B sent', 'gathered', 'arrived', 'B new']) head.append(element('th', t));
     const radiosity = step.mean.map((irradiance, i) => data.emission[i] + data.reflectance[i] * irradiance);
     rows.append(head);
     main.forEach((m, i) => {
@@ -114,7 +125,8 @@ const chapters = [{
       for (const t of [m.name, ...[step.sent, step.gathered, step.mean, radiosity].map(of => short(of[i]))]) row.append(element('td', t));
       rows.append(row);
     });
-    $('details').append(chart([{name: 'relative change of B', values: data.iterations.map(s => s.residual)}], n, 'by iteration'), element('div', 'W/m2: what the patch sent before, what its own links gathered, what arrived at its leaves with all that was pushed down, their radiosity then', 'small'), rows);
+    $('details').append(chart([{name: 'relative change of B', values: data.iterations.map(s => s.residual)}], n, 'relative change of B, by iteration'),
+      element('div', 'W/m2. B sent: the radiosity of the patch before; gathered: irradiance over its own links; arrived: mean irradiance of its leaves after push; B new: their mean radiosity.', 'small'), rows);
     return {faces: facesOf(main, main.leaves(everything), i => shade(value(i)))};
   }
 }, {
@@ -171,21 +183,23 @@ const chapters = [{
     label.prepend(box);
     keep('solvers', box, label);
     $('heading').textContent = `Solvers after ${k} ${k === 1 ? 'pass' : 'passes'} over all links`;
-    $('caption').textContent = 'Residual against work. Jacobi gathers everywhere at once; Gauss-Seidel face by face with what is new; Southwell shoots from the face with the most unshot light; ' +
-      'over-shooting sends more than there is and takes back the rest as negative light (violet), first worse, later faster where light is reflected long; conjugate gradients search all directions at once.';
+    $('caption').textContent = 'Residual against work. Jacobi gathers everywhere at once; Gauss-Seidel leaf by leaf with what is new; Southwell shoots from the leaf with the most unshot light; ' +
+      'over-shooting sends more than there is and takes back the rest as negative light (violet): worse at first, ahead later where light is reflected many times; ' +
+      'conjugate gradients search all directions at once. ' + overshooting(s.methods);
     $('details').append(chart(s.methods.map(m => ({name: m.name, values: m.residual})), k, 'relative residual, by passes'));
-    if (at99) {
-      const thumbs = element('div', undefined, 'thumbs');
-      const top = Math.max(1e-30, ...s.solution.filter((_, i) => data.emission[i] === 0));
-      s.methods.forEach(m => {
-        const b = m.radiosity[Math.min(k, m.radiosity.length - 1)], figure = element('figure'), small = element('canvas');
-        figure.append(small, element('figcaption', m.name));
-        thumbs.append(figure);
-        requestAnimationFrame(() => paint(small, {faces: facesOf(main, main.leaves(everything), i => shade(b[i] / top * most)).map(f => ({...f, edge: 'none'}))}));
-      });
-      $('details').append(thumbs);
-    }
-    return {faces: facesOf(main, main.leaves(everything), this.fill)};
+    if (!at99) return {faces: facesOf(main, main.leaves(everything), this.fill)};
+    const thumbs = element('div', undefined, 'thumbs'), top = Math.max(1e-30, ...s.solution.filter((_, i) => data.emission[i] === 0));
+    const after = m => { const b = m.radiosity[Math.min(k, m.radiosity.length - 1)]; return facesOf(main, main.leaves(everything), i => shade(b[i] / top * most)); };
+    s.methods.forEach(m => {
+      const figure = element('figure', undefined, m.name === solver ? 'now' : ''), small = element('canvas');
+      figure.append(small, element('figcaption', m.name));
+      figure.onclick = () => { solver = solver === m.name ? '' : m.name; redraw(); };
+      thumbs.append(figure);
+      requestAnimationFrame(() => paint(small, {faces: after(m).map(f => ({...f, edge: 'none'}))}));
+    });
+    $('details').append(element('div', `Large: ${solver || 'the solution of the scene'}. Click one of the small pictures to see it large.`, 'small'), thumbs);
+    const large = s.methods.find(m => m.name === solver);
+    return {faces: large ? after(large) : facesOf(main, main.leaves(everything), this.fill)};
   }
 }];
 

@@ -9,7 +9,7 @@ const points = text => {
   const n = numbers(text);
   return Array.from({length: n.length / 3}, (_, i) => n.slice(3 * i, 3 * i + 3));
 };
-const short = x => x === 0 ? '0' : Math.abs(x) >= 1e-3 && Math.abs(x) < 1e4 ? String(+x.toPrecision(3)) : x.toExponential(1);
+const short = x => x === 0 ? '0' : Math.abs(x) >= 1e-3 && Math.abs(x) < 1e4 ? String(+x.toPrecision(3)) : x.toExponential(2);
 const plus = (a, b) => a.map((x, i) => x + b[i]), minus = (a, b) => a.map((x, i) => x - b[i]), times = (a, s) => a.map(x => x * s);
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -52,7 +52,7 @@ const shade = b => {
 };
 
 // --- the picture: polygons from back to front, lines above them
-const eye = {turn: -0.6, lift: 0.45, zoom: 1};
+const eye = {turn: -0.6, lift: 0.45, zoom: 1, low: [-0.3, -0.3], high: [0.3, 0.3]};
 const bounds = main.filter(n => n.parent < 0).flatMap(n => n.points);
 const low = [0, 1, 2].map(c => Math.min(...bounds.map(p => p[c]))), high = [0, 1, 2].map(c => Math.max(...bounds.map(p => p[c])));
 const middle = times(plus(low, high), 0.5), reach = Math.hypot(...minus(high, low)) / 2 || 1;
@@ -60,13 +60,17 @@ function camera(width, height) {
   const {turn, lift} = eye;
   const back = [Math.cos(lift) * Math.sin(turn), -Math.cos(lift) * Math.cos(turn), Math.sin(lift)];
   const right = [Math.cos(turn), Math.sin(turn), 0], up = cross(back, right), distance = 3.2 * reach, from = plus(middle, times(back, distance));
-  const scale = 1.5 * eye.zoom * Math.min(width, height);
-  return {from, to: p => {
+  const {low, high} = eye, scale = 0.9 * eye.zoom * Math.min(width / (high[0] - low[0]), height / (high[1] - low[1]));
+  const across = p => {
     const d = minus(p, from), depth = Math.max(1e-9, -dot(d, back));
-    return [width / 2 + scale * dot(d, right) / depth, height / 2 - scale * dot(d, up) / depth, depth];
+    return [dot(d, right) / depth, -dot(d, up) / depth, depth];
+  };
+  return {from, across, to: p => {
+    const [x, y, depth] = across(p);
+    return [width / 2 + scale * (x - (low[0] + high[0]) / 2), height / 2 + scale * (y - (low[1] + high[1]) / 2), depth];
   }};
 }
-// The first view is the one that shows most of what is lit; backs cannot be seen.
+// The first view is the one that shows most of what is lit; backs cannot be seen. The scene fills it.
 function bestView() {
   let best = -1;
   for (const lift of [0.45, -0.45]) for (let turn = -0.6; turn < 5.6; turn += Math.PI / 4) {
@@ -79,6 +83,8 @@ function bestView() {
     });
     if (shown > best) { best = shown; Object.assign(eye, {turn, lift}); }
   }
+  const seen = bounds.map(camera(1, 1).across);
+  for (const [end, pick] of [['low', Math.min], ['high', Math.max]]) eye[end] = [0, 1].map(c => pick(...seen.map(p => p[c])));
 }
 bestView();
 // faces: {points, fill, node, edge, wide}; lines: {from, to, colour, width}; marks: {at, text, colour}
@@ -197,12 +203,14 @@ function chart(series, upTo, title) {
     picture.append(svg('line', {x1: 46, x2: 386, y1: y(10 ** e), y2: y(10 ** e), stroke: '#e4e4de'}));
     say(e >= 0 && e < 5 ? String(10 ** e) : '1e' + e, 42, y(10 ** e) + 4, '#777', 'end');
   }
+  if (Math.ceil(bottom) > top) say(short(10 ** top), 42, y(10 ** top) + 4, '#777', 'end');
   say('0', 46, 190, '#777', 'middle');
   say(String(steps), 386, 190, '#777', 'middle');
   series.forEach((s, k) => {
     const shown = s.values.slice(0, upTo + 1);
     picture.append(svg('polyline', {points: shown.map((v, i) => x(i).toFixed(1) + ',' + y(v).toFixed(1)).join(' '), fill: 'none',
       stroke: s.colour || colours[k], 'stroke-width': 2}));
+    if (shown.length) picture.append(svg('circle', {cx: x(shown.length - 1), cy: y(shown.at(-1)), r: 3, fill: s.colour || colours[k]}));
   });
   const legend = element('div');
   series.forEach((s, k) => {

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
+#include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/oracle/f_oracle.hpp>
 
 #include "apps/text.hpp"
@@ -15,6 +17,38 @@ namespace apps::explain {
 using radiosity::Decision;
 
 std::string number(double x) { return formatted("%.3g", x); }
+
+namespace {
+
+// The numbers from which the estimate follows by the paper's formula (4.3), F = cos cos A / (pi r^2 + A). form_factor_estimate looks from
+// centre to centre with the larger area, or at the nearest point of a disk with its area, or, across a horizon, at the highest points.
+std::string estimate_of(const Recording& recording, const Pair& pair) {
+  const radiosity::Node &p = recording.nodes[pair.p], &q = recording.nodes[pair.q];
+  const double area = std::max(p.area, q.area);
+  const auto same = [&](double estimate) { return std::abs(estimate - pair.estimate) <= 1e-6 * pair.estimate; };
+  const auto cosines = [&](const glm::dvec3& x, const glm::dvec3& y) {
+    const glm::dvec3 way = glm::normalize(y - x);
+    return "cosines " + number(glm::dot(p.normal, way)) + " and " + number(-glm::dot(q.normal, way));
+  };
+  const double r = glm::length(q.centre - p.centre);
+  const std::string head = "disk estimate F = " + number(pair.estimate) + " (" + number(p.area) + " and " + number(q.area) + " m2, ";
+  if (same(radiosity::disk_estimate(p.centre, p.normal, q.centre, q.normal, area))) {
+    return head + "centres " + number(r) + " m apart, " + cosines(p.centre, q.centre) + ")";
+  }
+  const glm::dvec3 near_p = radiosity::nearest_point(p, q.centre), near_q = radiosity::nearest_point(q, p.centre);
+  for (const bool of_p : {true, false}) {
+    const glm::dvec3 &x = of_p ? near_p : p.centre, &y = of_p ? q.centre : near_q;
+    if (same(radiosity::disk_estimate(x, p.normal, y, q.normal, of_p ? p.area : q.area))) {
+      return head + number(glm::length(y - x)) + " m from the nearest point of the disk of " + recording.names[of_p ? pair.p : pair.q] +
+             ", " + cosines(x, y) + ")";
+    }
+  }
+  const double product = pair.estimate * (std::numbers::pi * r * r + area) / area;
+  return head + "centres " + number(r) + " m apart, cosines multiply to " + number(product) +
+         ": where a patch crosses the other's horizon, at its highest point)";
+}
+
+}  // namespace
 
 std::string sentence_of(const Recording& recording, const Pair& pair) {
   const radiosity::Node &p = recording.nodes[pair.p], &q = recording.nodes[pair.q];
@@ -31,10 +65,8 @@ std::string sentence_of(const Recording& recording, const Pair& pair) {
       break;
   }
   const double epsilon = recording.wanted.epsilon;
-  const std::string estimate = "disk estimate F = " + number(pair.estimate) + " (" + number(p.area) + " and " + number(q.area) +
-                               " m2, centres " + number(glm::length(q.centre - p.centre)) + " m apart)";
   const bool above = pair.estimate > epsilon;
-  const std::string compared = estimate + (above ? " > " : " <= ") + number(epsilon);
+  const std::string compared = estimate_of(recording, pair) + (above ? " > " : " <= ") + number(epsilon);
   if (pair.decision == Decision::link) {
     return compared + (above ? ", but neither is larger than the least area: link" : ": link");
   }
@@ -49,10 +81,12 @@ std::string sentence_of(const Recording& recording, const Pair& pair) {
 std::string sentence_of(const Recording& recording, const LinkRecord& link) {
   const double area_p = recording.nodes[link.p].area, area_q = recording.nodes[link.q].area;
   const auto arrived = std::count_if(link.rays.begin(), link.rays.end(), [](const Ray& ray) { return ray.arrives; });
-  const std::string rays = link.proven ? "nothing can stand between, so no ray was needed"
-                                       : std::to_string(arrived) + " of " + std::to_string(link.rays.size()) +
-                                             " rays arrive, visibility " + number(link.visibility);
-  return "F = " + number(link.exchange / area_p) + " one way and " + number(link.exchange / area_q) + " the other; " + rays;
+  const std::string rays = link.proven         ? "nothing can stand between, so no ray was needed"
+                           : link.rays.empty() ? "no point that was tried is above the other's horizon, so one ray was cast, between the "
+                                                 "highest corners, and arrives"
+                                               : std::to_string(arrived) + " of " + std::to_string(link.rays.size()) +
+                                                     " rays arrive, visibility " + number(link.visibility);
+  return "F = " + number(link.exchange / area_p) + " from the first to the second, " + number(link.exchange / area_q) + " back; " + rays;
 }
 
 std::string sentence_of(const Recording& recording, const BfChoice& choice) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -119,6 +121,11 @@ ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solut
   return out;
 }
 
+bool is_sound(const GivenPolygons& given, std::size_t polygon) {
+  return std::all_of(given.corners.begin() + given.first_corner[polygon], given.corners.begin() + given.first_corner[polygon + 1],
+                     [&](std::uint32_t v) { return v < given.positions.size(); });
+}
+
 std::optional<ExportMesh> given_mesh(const SceneFile& file, const radiosity::Solution& solution) {
   if (!file.given) { return std::nullopt; }
   const GivenPolygons& given = *file.given;
@@ -134,7 +141,7 @@ std::optional<ExportMesh> given_mesh(const SceneFile& file, const radiosity::Sol
   for (std::size_t f = 0; f + 1 < given.first_corner.size(); ++f) {
     const std::span<const std::uint32_t> face =
         std::span(given.corners).subspan(given.first_corner[f], given.first_corner[f + 1] - given.first_corner[f]);
-    if (std::any_of(face.begin(), face.end(), [&](std::uint32_t v) { return v >= normals.size(); })) { continue; }
+    if (!is_sound(given, f)) { continue; }
     outline.clear();
     for (const std::uint32_t v : face) { outline.push_back(given.positions[v]); }
     const glm::dvec3 normal = outline.size() < 3 ? glm::dvec3(0.0) : brep::vector_area(outline);
@@ -144,6 +151,31 @@ std::optional<ExportMesh> given_mesh(const SceneFile& file, const radiosity::Sol
   }
   for (std::size_t v = 0; v < given.positions.size(); ++v) {
     out.vertices.push_back({given.positions[v], unit(normals[v], {0, 0, 1}), colors.vertex[v]});
+  }
+  return out;
+}
+
+ExportMesh split_at_seams(const ExportMesh& mesh, std::vector<glm::vec2>& of_vertex) {
+  ExportMesh out;
+  out.first_corner = mesh.first_corner;
+  out.z_up = mesh.z_up;
+  out.cameras = mesh.cameras;
+  out.texture = mesh.texture;
+  out.texture_name = mesh.texture_name;
+  std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known;  // those of one group lie together, as before
+  for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+    const ExportGroup& group = mesh.groups[g];
+    out.groups.push_back({group.name, group.first_face, static_cast<std::uint32_t>(out.vertices.size())});
+    const std::uint32_t end = g + 1 < mesh.groups.size() ? mesh.groups[g + 1].first_face : mesh.faces();
+    for (std::uint32_t c = mesh.first_corner[group.first_face]; c < mesh.first_corner[end]; ++c) {
+      const glm::vec2 at = mesh.coordinates[c];
+      const auto [entry, is_new] = known.emplace(std::tuple(mesh.corners[c], at.x, at.y), static_cast<std::uint32_t>(out.vertices.size()));
+      if (is_new) {
+        out.vertices.push_back(mesh.vertices[mesh.corners[c]]);
+        of_vertex.push_back(at);
+      }
+      out.corners.push_back(entry->second);
+    }
   }
   return out;
 }

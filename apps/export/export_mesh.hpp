@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <radiosity/result/outcome.hpp>
@@ -39,6 +40,9 @@ struct ExportMesh {
   std::vector<ExportGroup> groups;
   bool z_up = true;
   std::vector<Camera> cameras;
+  // Light as a texture (lightmap.hpp): of each corner its place there, from the first row and column on; empty when there is none.
+  std::vector<glm::vec2> coordinates;
+  std::string texture, texture_name;  // a PNG; the name of the file in which the same light is
 
   [[nodiscard]] std::uint32_t faces() const { return static_cast<std::uint32_t>(first_corner.size() - 1); }
   [[nodiscard]] std::span<const std::uint32_t> face(std::uint32_t f) const {
@@ -56,6 +60,12 @@ struct ExportMesh {
 // The user's polygons and vertices, all of them, in the order of the file; a vertex has the mean of its corners. Nothing when the scene
 // came from no file of polygons.
 [[nodiscard]] std::optional<ExportMesh> given_mesh(const SceneFile& file, const radiosity::Solution& solution);
+
+// Has the polygon corners that the file has? Others are not in given_mesh().
+[[nodiscard]] bool is_sound(const GivenPolygons& given, std::size_t polygon);
+
+// The same mesh with a vertex for each place in the texture: where that jumps, vertices are doubled. `of_vertex`: their places.
+[[nodiscard]] ExportMesh split_at_seams(const ExportMesh& mesh, std::vector<glm::vec2>& of_vertex);
 
 struct ExportFormat {
   std::string_view ending;

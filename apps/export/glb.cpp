@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // GLB (glTF 2.0, binary). COLOR_0 is what a screen shows: linear, exposed, clamped to [0, 1], on an unlit material. _RADIOSITY holds the
 // light itself in W/m2. Positions are floats about the scene's centre, which is the translation of their nodes, so that a scene far from
-// the origin loses nothing; a node above turns z, which is up with us, to y.
+// the origin loses nothing; a node above turns z, which is up with us, to y. With a lightmap the colour is a texture in place of COLOR_0.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -24,13 +24,16 @@ namespace {
 void put(std::string& bytes, std::uint32_t value) {
   for (unsigned k = 0; k < 4; ++k) { bytes += static_cast<char>(value >> (8 * k) & 0xffU); }
 }
-void put(std::string& bytes, const glm::vec3& value) {
-  for (int k = 0; k < 3; ++k) { put(bytes, std::bit_cast<std::uint32_t>(value[k])); }
+template <glm::length_t n>
+void put(std::string& bytes, const glm::vec<n, float>& value) {
+  for (int k = 0; k < n; ++k) { put(bytes, std::bit_cast<std::uint32_t>(value[k])); }
 }
 
 class Writer {
  public:
-  Writer(const ExportMesh& mesh, const Tone& tone) : mesh_(mesh), tone_(tone) {
+  // `coordinates`: of each vertex in the texture of the mesh; empty when it has none.
+  Writer(const ExportMesh& mesh, const std::vector<glm::vec2>& coordinates, const Tone& tone)
+      : mesh_(mesh), coordinates_(coordinates), tone_(tone) {
     glm::dvec3 lo(0.0), hi(0.0);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       const glm::dvec3& p = mesh.vertices[v].position;
@@ -44,9 +47,14 @@ class Writer {
   std::string file() {
     for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(v.position - centre_)); }
     for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(v.normal)); }
-    for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(tone_(v.radiosity))); }
+    for (std::size_t v = 0; v < mesh_.vertices.size() && !textured(); ++v) { put(binary_, glm::vec3(tone_(mesh_.vertices[v].radiosity))); }
+    for (const glm::vec2& at : coordinates_) { put(binary_, at); }
     for (const ExportVertex& v : mesh_.vertices) { put(binary_, glm::vec3(v.radiosity)); }
     for (std::size_t g = 0; g < mesh_.groups.size(); ++g) { add_indices(g); }
+    if (textured()) {
+      binary_ += mesh_.texture;
+      binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
+    }
     std::string json = description();
     json.resize((json.size() + 3) / 4 * 4, ' ');
     std::string bytes = "glTF";
@@ -89,16 +97,25 @@ class Writer {
     if (part.indices > 0) { parts_.push_back(part); }
   }
 
-  void view(JsonWriter& json, std::size_t offset, std::size_t length, int target, bool vertices) const {
-    json.open_object().fields("buffer", 0, "byteOffset", offset, "byteLength", length);
-    if (vertices) { json.fields("byteStride", 12); }
-    json.fields("target", target).close();
+  [[nodiscard]] bool textured() const { return !coordinates_.empty(); }
+  // Of the list of vertex attributes, POSITION, NORMAL, COLOR_0 or TEXCOORD_0, _RADIOSITY.
+  [[nodiscard]] std::size_t stride(std::size_t list) const { return list == 2 && textured() ? 8 : 12; }
+
+  void views(JsonWriter& json) const {
+    std::size_t offset = 0;
+    for (std::size_t list = 0; list < 4; ++list) {
+      const std::size_t length = stride(list) * mesh_.vertices.size();
+      json.object("buffer", 0, "byteOffset", offset, "byteLength", length, "byteStride", stride(list), "target", 34962);
+      offset += length;
+    }
+    json.object("buffer", 0, "byteOffset", offset, "byteLength", 4 * indices_, "target", 34963);
+    if (textured()) { json.object("buffer", 0, "byteOffset", offset + 4 * indices_, "byteLength", mesh_.texture.size()); }
   }
 
   void accessors(JsonWriter& json, const Part& part) const {
-    for (int view = 0; view < 4; ++view) {
-      json.open_object().fields("bufferView", view, "byteOffset", std::size_t{12} * part.first_vertex, "componentType", 5126, "count",
-                                part.vertices, "type", "VEC3");
+    for (std::size_t view = 0; view < 4; ++view) {
+      json.open_object().fields("bufferView", view, "byteOffset", stride(view) * part.first_vertex, "componentType", 5126, "count",
+                                part.vertices, "type", stride(view) == 8 ? "VEC2" : "VEC3");
       if (view == 0) {
         glm::vec3 lo(mesh_.vertices[part.first_vertex].position - centre_), hi = lo;
         for (std::uint32_t v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
@@ -126,12 +143,15 @@ class Writer {
   }
 
   std::string description() {
-    const std::size_t vertices = mesh_.vertices.size(), parts = parts_.size(), cameras = mesh_.cameras.size();
+    const std::size_t parts = parts_.size(), cameras = mesh_.cameras.size();
     JsonWriter json;
     json.open_object();
     json.key("asset").object("version", "2.0", "generator", std::string("halflight ") + version, "extras", [&](JsonWriter& extras) {
-      extras.object("exposure", tone_.exposure, "tone", name(tone_.curve), "COLOR_0",
+      extras.open_object();
+      extras.fields("exposure", tone_.exposure, "tone", name(tone_.curve), textured() ? "texture" : "COLOR_0",
                     "tone of radiosity / pi * exposure, linear, clamped to [0, 1]", "_RADIOSITY", "W/m2");
+      if (textured()) { extras.fields("radiance", mesh_.texture_name); }
+      extras.close();
     });
     json.key("extensionsUsed").open_array().string("KHR_materials_unlit").close();
     json.fields("scene", 0);
@@ -168,14 +188,22 @@ class Writer {
     if (parts > 0) {
       json.key("materials").open_array().open_object();
       json.fields("name", "baked light");
-      json.key("pbrMetallicRoughness").object("metallicFactor", 0, "roughnessFactor", 1);
+      json.key("pbrMetallicRoughness").open_object();
+      if (textured()) { json.key("baseColorTexture").object("index", 0); }
+      json.fields("metallicFactor", 0, "roughnessFactor", 1).close();
       json.key("extensions").object("KHR_materials_unlit", [](JsonWriter& unlit) { unlit.object(); });
       json.close().close();
+      if (textured()) {  // linear filters without smaller copies, in which neighbours in the atlas would mix
+        json.key("textures").open_array().object("source", 0, "sampler", 0).close();
+        json.key("samplers").open_array().object("magFilter", 9729, "minFilter", 9729, "wrapS", 33071, "wrapT", 33071).close();
+        json.key("images").open_array().object("bufferView", 5, "mimeType", "image/png").close();
+      }
       json.key("meshes").open_array();
       for (std::size_t i = 0; i < parts; ++i) {
         json.open_object().fields("name", mesh_.groups[parts_[i].group].name);
         json.key("primitives").open_array().open_object();
-        json.key("attributes").object("POSITION", 5 * i, "NORMAL", 5 * i + 1, "COLOR_0", 5 * i + 2, "_RADIOSITY", 5 * i + 3);
+        json.key("attributes")
+            .object("POSITION", 5 * i, "NORMAL", 5 * i + 1, textured() ? "TEXCOORD_0" : "COLOR_0", 5 * i + 2, "_RADIOSITY", 5 * i + 3);
         json.fields("indices", 5 * i + 4, "material", 0).close().close().close();
       }
       json.close();
@@ -183,8 +211,7 @@ class Writer {
       for (const Part& part : parts_) { accessors(json, part); }
       json.close();
       json.key("bufferViews").open_array();
-      for (std::size_t k = 0; k < 4; ++k) { view(json, 12 * vertices * k, 12 * vertices, 34962, true); }
-      view(json, 48 * vertices, 4 * indices_, 34963, false);
+      views(json);
       json.close();
       json.key("buffers").open_array().object("byteLength", binary_.size()).close();
     }
@@ -193,6 +220,7 @@ class Writer {
   }
 
   const ExportMesh& mesh_;
+  const std::vector<glm::vec2>& coordinates_;
   Tone tone_;
   glm::dvec3 centre_{0.0};
   double size_ = 1.0;
@@ -201,7 +229,12 @@ class Writer {
   std::string binary_;
 };
 
-std::string write_glb(const ExportMesh& mesh, const Tone& tone) { return Writer(mesh, tone).file(); }
+std::string write_glb(const ExportMesh& mesh, const Tone& tone) {
+  std::vector<glm::vec2> coordinates;
+  if (mesh.coordinates.empty()) { return Writer(mesh, coordinates, tone).file(); }
+  const ExportMesh split = split_at_seams(mesh, coordinates);
+  return Writer(split, coordinates, tone).file();
+}
 
 }  // namespace
 

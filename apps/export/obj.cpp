@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OBJ with colours behind the positions of its vertices, as MeshLab, Blender and others read and write them: sRGB in [0, 1], exposed.
+// OBJ with colours behind the positions of its vertices, as MeshLab, Blender and others read and write them: sRGB in [0, 1], exposed. With
+// a lightmap each corner has its place in it, by the format's custom from the lower left.
 #include <array>
 #include <charconv>
 
@@ -17,9 +18,15 @@ void append(std::string& text, double value) {
   text.append(digits.data(), end);
 }
 
+std::string one_line(std::string name) {
+  for (char& c : name) { c = c == '\n' || c == '\r' ? ' ' : c; }
+  return name;
+}
+
 std::string write_obj(const ExportMesh& mesh, const Tone& tone) {
   std::string text =
       "# halflight: x y z r g b, colours sRGB of radiance times " + shortest(tone.exposure) + ", tone " + name(tone.curve) + "\n";
+  if (!mesh.coordinates.empty()) { text += "# texture coordinates: of the lightmap " + one_line(mesh.texture_name) + "\n"; }
   for (const ExportVertex& vertex : mesh.vertices) {
     text += 'v';
     for (int k = 0; k < 3; ++k) { append(text, vertex.position[k]); }
@@ -32,15 +39,15 @@ std::string write_obj(const ExportMesh& mesh, const Tone& tone) {
     for (int k = 0; k < 3; ++k) { text += formatted(" %.6g", vertex.normal[k]); }
     text += '\n';
   }
+  for (const glm::vec2& at : mesh.coordinates) { text += formatted("vt %.9g", double{at.x}) + formatted(" %.9g\n", 1.0 - double{at.y}); }
   std::size_t group = 0;
   for (std::uint32_t f = 0; f < mesh.faces(); ++f) {
-    while (group < mesh.groups.size() && mesh.groups[group].first_face == f) {
-      std::string name = mesh.groups[group++].name;
-      for (char& c : name) { c = c == '\n' || c == '\r' ? ' ' : c; }
-      text += "o " + name + "\n";
-    }
+    while (group < mesh.groups.size() && mesh.groups[group].first_face == f) { text += "o " + one_line(mesh.groups[group++].name) + "\n"; }
     text += 'f';
-    for (const std::uint32_t v : mesh.face(f)) { text += ' ' + std::to_string(v + 1) + "//" + std::to_string(v + 1); }
+    for (std::uint32_t c = mesh.first_corner[f]; c < mesh.first_corner[f + 1]; ++c) {
+      const std::string vertex = std::to_string(mesh.corners[c] + 1);
+      text += ' ' + vertex + '/' + (mesh.coordinates.empty() ? "" : std::to_string(c + 1)) + '/' + vertex;
+    }
     text += '\n';
   }
   return text;

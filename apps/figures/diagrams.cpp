@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -61,9 +62,10 @@ explain::Recording recorded(const std::string& scene, double epsilon) {
 Drawing hierarchy_over_faces(const std::string& scene) {
   const explain::Recording r = recorded(scene, 0.12);
   Drawing drawing{640.0, 460.0, {}};
-  const auto mesh_point = [](const glm::dvec3& p) { return glm::dvec2{90.0 + 190.0 * p.x + 45.0 * p.y, 420.0 - 75.0 * p.y}; };
+  const auto mesh_point = [](const glm::dvec3& p) { return glm::dvec2{60.0 + 200.0 * p.x + 60.0 * p.y, 420.0 - 75.0 * p.y}; };
   const auto in_plate = [&](std::uint32_t i) { return r.nodes[i].surface == r.nodes[0].surface; };
-  // Leaves side by side, parents above the middle of their children.
+  // Leaves side by side, parents above the middle of their children; these stand from left to right as their faces do, so that few arrows
+  // cross.
   std::vector<glm::dvec2> at(r.nodes.size(), glm::dvec2{0.0});
   std::size_t leaves = 0;
   for (std::uint32_t i = 0; i < r.nodes.size(); ++i) { leaves += in_plate(i) && r.nodes[i].leaf() ? 1 : 0; }
@@ -77,8 +79,13 @@ Drawing hierarchy_over_faces(const std::string& scene) {
       return;
     }
     const std::uint32_t first = r.nodes[i].first_child, last = first + r.nodes[i].child_count;
-    for (std::uint32_t c = first; c < last; ++c) { self(self, c, depth + 1); }
-    at[i].x = 0.5 * (at[first].x + at[last - 1].x);
+    std::vector<std::uint32_t> children(last - first);
+    std::iota(children.begin(), children.end(), first);
+    std::stable_sort(children.begin(), children.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return mesh_point(r.nodes[a].centre).x < mesh_point(r.nodes[b].centre).x;
+    });
+    for (const std::uint32_t c : children) { self(self, c, depth + 1); }
+    at[i].x = 0.5 * (at[children.front()].x + at[children.back()].x);
   };
   place(place, 0, 0);
   for (const explain::LeafLoop& leaf : r.leaves) {
@@ -174,7 +181,9 @@ Drawing weights_at_a_rim(const std::string& scene) {
   for (const brep::HalfedgeId h : brep::halfedges_from(brep, best)) {
     std::vector<glm::dvec2> corners;
     glm::dvec2 towards{0.0};
-    for (const brep::HalfedgeId k : brep::halfedges_of(brep, brep.face(h))) { corners.push_back(place(brep.data(brep.vertex(k)).position)); }
+    for (const brep::HalfedgeId k : brep::halfedges_of(brep, brep.face(h))) {
+      corners.push_back(place(brep.data(brep.vertex(k)).position));
+    }
     const double weight = std::max(0.0, glm::dot(brep.data(of).normal, brep.data(h).normal));
     for (const glm::dvec2& p : corners) { towards += p / static_cast<double>(corners.size()); }
     drawing.add(polygon(corners, weight > 0.5 ? lit : pale));

@@ -33,7 +33,8 @@ std::string svg(double width, double height, const std::string& body) {
 std::string record(const euler::Records& records, std::uint32_t h) {
   const euler::Records::Halfedge& r = records.halfedges[h];
   const auto n = [](std::uint32_t i) { return std::to_string(i); };
-  return "h" + n(h) + ": origin v" + n(r.vertex) + ", face f" + n(r.face) + ", next h" + n(r.next) + ", prev h" + n(r.prev) + ", twin h" + n(h ^ 1U);
+  return "h" + n(h) + ": origin v" + n(r.vertex) + ", face f" + n(r.face) + ", next h" + n(r.next) + ", prev h" + n(r.prev) + ", twin h" +
+         n(h ^ 1U);
 }
 
 // The last step of a script: its solid in space, where it has coordinates, and its plane map; below, when asked for, what the halves of the
@@ -49,11 +50,12 @@ std::string last_step(std::string text, bool records = false) {
     body += "<g transform='translate(170 200)'>" + euler::solid_view(story.frames[last], coordinates, 340.0) + "</g>\n";
     left = 340.0;
   }
-  body += "<g transform='translate(" + std::to_string(left + 200.0) + " 200)'>" + euler::drawing(story, last, layouts[last], 400.0) + "</g>\n";
+  body +=
+      "<g transform='translate(" + std::to_string(left + 200.0) + " 200)'>" + euler::drawing(story, last, layouts[last], 400.0) + "</g>\n";
   for (std::uint32_t half = 0; records && half < 2; ++half) {
     const std::uint32_t h = story.frames[last].outcome.result.index + half;
-    body += "<text x='" + std::to_string(left + 200.0) + "' y='" + std::to_string(420 + 22 * half) + "' font-size='14' text-anchor='middle'>" +
-            record(story.frames[last].drawn, h) + "</text>\n";
+    body += "<text x='" + std::to_string(left + 200.0) + "' y='" + std::to_string(420 + 22 * half) +
+            "' font-size='14' text-anchor='middle'>" + record(story.frames[last].drawn, h) + "</text>\n";
   }
   return svg(left + 400.0, records ? 460.0 : 400.0, body);
 }
@@ -62,7 +64,8 @@ std::string diagram(const study::Drawing& drawing, const char* what) { return st
 
 std::string pictures(const std::vector<std::string>& pngs, unsigned width, unsigned height) {
   study::Drawing drawing{static_cast<double>(width) * static_cast<double>(pngs.size()) + 8.0 * static_cast<double>(pngs.size() - 1),
-                         static_cast<double>(height), {}};
+                         static_cast<double>(height),
+                         {}};
   double x = 0.0;
   for (const std::string& png : pngs) {
     drawing.add(study::Image{{x, 0.0}, static_cast<double>(width), static_cast<double>(height), png});
@@ -99,33 +102,40 @@ std::vector<Figure> make() {
   const Pictures room = both_reconstructions(embedded::example("scenes/room.scene"), 360, 270, 0.05);
   return {
       {"figure1.svg", "euler/010_cube.euler",
-       "A cube, and the same cube in the plane: the bottom face is pulled wide open and everything else is spread within it. Vertices, edges "
+       "A cube, and the same cube in the plane: the bottom face is pulled wide open and everything else is spread within it. Vertices, "
+       "edges "
        "and faces keep their names, and no two edges cross.",
        last_step(embedded::example("euler/010_cube.euler"))},
       {"figure2.svg", "figures/2_winged_edge.euler",
-       "The halves of one edge, red. Each runs on the side of its own face and knows its origin, its face, its twin, and the half-edges before "
+       "The halves of one edge, red. Each runs on the side of its own face and knows its origin, its face, its twin, and the half-edges "
+       "before "
        "and behind it along the face; so all neighbours are one step away.",
        last_step(embedded::example("figures/2_winged_edge.euler"), true)},
       {"figure3.svg", "figures/3_hierarchy.scene",
-       "The hierarchy stands on the BRep. Nodes hold centre, normal and area; a leaf knows its face (dashed), and the faces know corners and "
+       "The hierarchy stands on the BRep. Nodes hold centre, normal and area; a leaf knows its face (dashed), and the faces know corners "
+       "and "
        "neighbours. When a leaf is split, its face is split by Euler operators and the leaf becomes an inner node.",
        diagram(hierarchy_over_faces(embedded::example("figures/3_hierarchy.scene")), "a tree over the faces of a mesh")},
       {"figure4.svg", "figures/3_hierarchy.scene",
-       "Level tags. A vertex has the level of the split that made it; a face of level l has corners of level l or less. A vertex of higher level "
+       "Level tags. A vertex has the level of the split that made it; a face of level l has corners of level l or less. A vertex of higher "
+       "level "
        "on its border is a T-vertex and serves as the anchor of the next split.",
        diagram(level_tags(embedded::example("figures/3_hierarchy.scene")), "a mesh with the levels of its vertices and faces")},
       {"figure5.svg", "figures/5_weights.scene",
-       "Weighted reconstruction at a vertex on the rim of a cylinder: for the colour of one half-edge every face around the vertex counts by "
+       "Weighted reconstruction at a vertex on the rim of a cylinder: for the colour of one half-edge every face around the vertex counts "
+       "by "
        "max(0, N_e . N_l). On the top all normals agree, the side counts nothing, and the edge stays sharp.",
        diagram(weights_at_a_rim(embedded::example("figures/5_weights.scene")), "weights of the faces around a vertex on a rim")},
       {"figure6.svg", "scenes/paper_figure.scene",
-       "A cylinder under a superquadric that shadows itself, reconstructed simply (left) and with weights (right): left the side's darkness "
+       "A cylinder under a superquadric that shadows itself, reconstructed simply (left) and with weights (right): left the side's "
+       "darkness "
        "bleeds over the rim into the top.",
        pictures({close.simple, close.weighted}, 240, 210)},
       {"figure7.svg", "scenes/room.scene",
        "A room reconstructed simply: colours bleed across every edge of an object, and foot and rim of the cylinder wear wrong shades.",
        pictures({room.simple}, 360, 270)},
-      {"figure8.svg", "scenes/room.scene", "The same solution with weights: smooth over the sphere and around the cylinder, sharp at edges.",
+      {"figure8.svg", "scenes/room.scene",
+       "The same solution with weights: smooth over the sphere and around the cylinder, sharp at edges.",
        pictures({room.weighted}, 360, 270)},
   };
 }
@@ -133,14 +143,18 @@ std::vector<Figure> make() {
 std::string page(const std::vector<Figure>& figures) {
   std::string out =
       "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n<meta name='viewport' content='width=device-width'>\n"
-      "<title>The figures of the paper</title>\n<style>body{font:16px/1.5 'DejaVu Sans',Verdana,sans-serif;max-width:1000px;margin:2em auto;padding:0 1em;"
-      "color:#222}figure{margin:2.4em 0;break-inside:avoid}img{max-width:100%;display:block;border:1px solid #ddd}figcaption{margin-top:.5em}"
-      "code{color:#555}</style>\n</head>\n<body>\n<h1>The figures of the paper</h1>\n<p>After Bendels, Fellner, Sch\xc3\xa4" "fer: Hierarchical "
+      "<title>The figures of the paper</title>\n<style>body{font:16px/1.5 'DejaVu Sans',Verdana,sans-serif;max-width:1000px;margin:2em "
+      "auto;padding:0 1em;"
+      "color:#222}figure{margin:2.4em 0;break-inside:avoid}img{max-width:100%;display:block;border:1px solid "
+      "#ddd}figcaption{margin-top:.5em}"
+      "code{color:#555}</style>\n</head>\n<body>\n<h1>The figures of the paper</h1>\n<p>After Bendels, Fellner, Sch\xc3\xa4"
+      "fer: Hierarchical "
       "Radiosity on Topological Data Structures, 1996. Each is made by this program from the file that is named.</p>\n";
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const Figure& figure = figures[i];
-    out += "<figure><img src='" + figure.file + "' alt='figure " + std::to_string(i + 1) + "'><figcaption><b>Figure " + std::to_string(i + 1) + ".</b> " +
-           escaped(figure.caption) + " <code>examples/" + figure.source + "</code></figcaption></figure>\n";
+    out += "<figure><img src='" + figure.file + "' alt='figure " + std::to_string(i + 1) + "'><figcaption><b>Figure " +
+           std::to_string(i + 1) + ".</b> " + escaped(figure.caption) + " <code>examples/" + figure.source +
+           "</code></figcaption></figure>\n";
   }
   return out + "</body>\n</html>\n";
 }

@@ -12,12 +12,13 @@
 namespace apps {
 namespace intake {
 
-extern const ModelFormat obj, ply, off, gltf, glb, wrl;
+extern const ModelFormat obj, ply, off, gltf, glb, wrl, mgf_format;
 
 }  // namespace intake
 
 std::span<const ModelFormat* const> model_formats() {
-  static constexpr std::array formats{&intake::obj, &intake::gltf, &intake::glb, &intake::ply, &intake::off, &intake::wrl};
+  static constexpr std::array formats{&intake::obj, &intake::gltf, &intake::glb,       &intake::ply,
+                                      &intake::off, &intake::wrl,  &intake::mgf_format};
   return formats;
 }
 

@@ -102,7 +102,7 @@ struct ModelFormat {
 
 [[nodiscard]] std::span<const ModelFormat* const> model_formats();
 
-// ".obj, .ply, ... or .wrl"
+// ".obj, .gltf, ... or .mgf"
 [[nodiscard]] std::string model_endings();
 
 // By the ending of the name, in any case; of "-" by the first bytes. Null when none has it.

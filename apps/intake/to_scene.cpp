@@ -45,6 +45,8 @@ class SceneMaker {
     given_z_up_ = options_.up.value_or(up) == UpAxis::z;
     place(to_metres(options_.up.value_or(up), options_.metres));
     if (!part(faults) || (!shines() && !add_studio(faults))) { return std::nullopt; }
+    note(std::string(1, "xyz"[static_cast<std::size_t>(options_.up.value_or(up))]) + " is taken as up (--up), one unit as " +
+         radiosity::length_text(options_.metres) + " (--units)");
     return std::move(file_);
   }
   std::optional<SceneFile> part_alone(std::vector<std::string>& faults) {

@@ -19,6 +19,7 @@
 #include "apps/intake/to_scene.hpp"
 #include "apps/scene_file/csg.hpp"
 #include "apps/scene_file/groups.hpp"
+#include "apps/scene_file/uses.hpp"
 #include "apps/scene_file/words.hpp"
 
 namespace apps::scene_file {
@@ -274,41 +275,11 @@ std::vector<std::uint32_t> Builder::sheet_materials(const ObjectSyntax& object, 
   return result;
 }
 
-// Walks the uses with its own stack, in the order of the file.
 void Builder::place() {
-  struct Level {
-    const std::vector<Item>* items;
-    std::size_t next;
-    std::string prefix;
-    raycast::Placement placement;
-  };
-  std::size_t placed = 0;
-  Place at;
-  std::vector<Level> levels;
-  levels.push_back({&syntax_.items, 0, {}, {}});
-  while (!levels.empty() && errors_.count() == 0) {
-    Level& level = levels.back();
-    if (level.next == level.items->size()) {
-      levels.pop_back();
-      continue;
-    }
-    const Item& item = (*level.items)[level.next++];
-    const auto* use = std::get_if<UseSyntax>(&item);
-    if (levels.size() == 1) {
-      at = std::visit([](const auto& it) { return it.name.place; }, item);
-      placed += use == nullptr ? 1 : groups_.size(*groups_.find(use->group));
-      if (placed > max_objects) {
-        errors_.add(at, "the scene grows beyond " + std::to_string(max_objects) + " objects here");
-        return;
-      }
-    }
-    if (use == nullptr) {
-      place(std::get<ObjectSyntax>(item), level.prefix, level.placement, at);
-    } else {
-      levels.push_back(
-          {&groups_.find(use->group)->items, 0, level.prefix + use->name.text + ".", raycast::compose(level.placement, use->placement)});
-    }
-  }
+  place_all(syntax_.items, groups_, errors_,
+            [this](const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at) {
+              place(object, prefix, outer, at);
+            });
 }
 
 void Builder::place(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at) {

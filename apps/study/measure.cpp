@@ -162,7 +162,9 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
   }
   left_out = solution.audit.left_out;
   Measured measured = errors_of_run(scene, truth, solution, setting.text, peak_bytes);
-  if (solution.audit.interrupted) { measured.run.cut_off = "stopped after " + seconds_text(options.cpu_seconds_per_run) + " s of CPU time"; }
+  if (solution.audit.interrupted) {
+    measured.run.cut_off = "stopped after " + seconds_text(options.cpu_seconds_per_run) + " s of CPU time";
+  }
   measured.run.picture_error = judge(solution, control);
   if (setting.without_shortcuts) {
     const RunLimit run_limit{options.cpu_seconds_per_run, control};

@@ -137,10 +137,11 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
   std::vector<MethodPlan> all;
   Options rays = common(study);
   rays.indirect = radiosity::Indirect::rays;
-  all.push_back(hierarchical("F, stored rays",
-                             "lamps are linked as in hierarchical F; light between other surfaces goes by links that are made of stored rays, "
-                             "also where these do not pay",
-                             "epsilon", epsilons, rays, set_epsilon));
+  all.push_back(
+      hierarchical("F, stored rays",
+                   "lamps are linked as in hierarchical F; light between other surfaces goes by links that are made of stored rays, "
+                   "also where these do not pay",
+                   "epsilon", epsilons, rays, set_epsilon));
   Options faces = common(study);
   faces.indirect = radiosity::Indirect::links;
   faces.cluster_from = std::numeric_limits<std::uint32_t>::max();

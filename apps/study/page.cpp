@@ -131,7 +131,8 @@ class Page {
     table(
         run_table(s), "wide",
         "All runs: cost, and the relative L2 error of cell means and at points, in per cent, before and after reconstruction. “s saved” is "
-        "about what the run would take longer if nothing were left out. † was stopped by a limit: the best it had by then, which stands in no "
+        "about what the run would take longer if nothing were left out. † was stopped by a limit: the best it had by then, which stands in "
+        "no "
         "plot and counts for no method. ★ and shade: on the Pareto front of error and CPU time.");
     const Table parts = part_table(s);
     if (!parts.rows.empty()) {
@@ -196,8 +197,10 @@ class Page {
   void reading() {
     text_ += "<h2>How this is measured</h2>\n";
     paragraph(
-        "Methods are compared, in plots, in the first table and on the Pareto front, by one error: the relative L2 error of the cell means, "
-        "before reconstruction. Errors are those of the radiosity of all surfaces that do not emit, weighted by area. L1 and L2 are relative to the same norm of "
+        "Methods are compared, in plots, in the first table and on the Pareto front, by one error: the relative L2 error of the cell "
+        "means, "
+        "before reconstruction. Errors are those of the radiosity of all surfaces that do not emit, weighted by area. L1 and L2 are "
+        "relative to the same norm of "
         "the reference, the worst "
         "is relative to the greatest value of the reference. “Cells” compares means over the cells of the reference, “points” the "
         "radiosity at single points. "

@@ -257,7 +257,10 @@ class ModelMaker final : public Visitor {
         corners.push_back(known->second);
         continue;
       }
-      if (corners.size() >= 3 && model.corners.size() < most_corners) {
+      if (model.corners.size() > most_corners) {
+        return errors_.add(node.place, "uses of uses make more than " + std::to_string(most_corners) + " corners of faces");
+      }
+      if (corners.size() >= 3) {
         if (turn) { std::reverse(corners.begin(), corners.end()); }
         const std::uint32_t line = first < index.places.size() ? index.places[first].line : 0;
         model.polygon(corners, material(state, material_of(node, state, face, first), two_sided), group, line);
@@ -305,8 +308,8 @@ ModelResult read_vrml(std::string_view bytes, const SideFile& side_file) {
   const auto root = parse(bytes, errors, notes);
   ModelMaker maker(side_file, errors, notes);
   if (root != nullptr && !traverse(root, maker)) {
-    errors.add(root->place, "uses of uses make more than " + std::to_string(most_visits) +
-                                " nodes of this file, or a way through it is longer than " + std::to_string(deepest));
+    errors.add(root->place, "uses of uses make more than " + std::to_string(graph_limits.most_visits) +
+                                " nodes of this file, or a way through it is longer than " + std::to_string(graph_limits.deepest));
   }
   maker.model.notes = notes.take();
   const bool sound = errors.count() == 0;

@@ -108,8 +108,8 @@ class Parser {
   static std::string at(Place place) { return std::to_string(place.line) + ":" + std::to_string(place.column); }
 
   std::shared_ptr<const Node> read(std::size_t depth) {
-    if (depth > deepest) {
-      fail("nodes are nested deeper than " + std::to_string(deepest));
+    if (depth > graph_limits.deepest) {
+      fail("nodes are nested deeper than " + std::to_string(graph_limits.deepest));
       return nullptr;
     }
     std::string name;

@@ -23,6 +23,7 @@
 
 #include "apps/input_errors.hpp"
 #include "apps/intake/model.hpp"
+#include "apps/scene_graph.hpp"
 
 namespace apps::vrml {
 
@@ -50,8 +51,7 @@ struct Node {
   [[nodiscard]] std::string_view word(std::string_view field, std::string_view otherwise) const;
 };
 
-// How many nodes may be on the way from the root to a leaf, and how many may be met on one walk: uses of uses multiply.
-inline constexpr std::size_t deepest = 200, most_visits = 2'000'000;
+inline constexpr GraphLimits graph_limits;
 
 // The nodes of the text under one root, or errors.
 [[nodiscard]] std::shared_ptr<const Node> parse(std::string_view text, Errors& errors, Notes& notes);
@@ -80,7 +80,7 @@ class Visitor {
   [[nodiscard]] virtual std::shared_ptr<const Node> inlined(const Node& node) = 0;
 };
 
-// False: given up after most_visits nodes.
+// False: given up at a limit.
 [[nodiscard]] bool traverse(const std::shared_ptr<const Node>& root, Visitor& visitor);
 
 }  // namespace apps::vrml

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "apps/scene_graph.hpp"
 #include "apps/vrml/scene_graph.hpp"
 
 namespace apps::vrml {
@@ -50,13 +52,13 @@ Binding binding_of(std::string_view word) {
 
 bool is_camera(const Node& node) { return node.type.ends_with("Camera"); }
 
-class Walk {
+// What the nodes mean to the walk (apps/scene_graph.hpp).
+class Meaning {
  public:
-  explicit Walk(Visitor& visitor) : visitor_(visitor) {}
+  explicit Meaning(Visitor& visitor) : visitor_(visitor) {}
 
-  bool visit(const std::shared_ptr<const Node>& at, State& state, std::size_t depth) {
+  bool enter(const std::shared_ptr<const Node>& at, State& state) {
     const Node& node = *at;
-    if (++visits_ > most_visits || depth > deepest) { return false; }
     if (const auto transform = transform_of(node)) {
       state.transform = state.transform * *transform;
     } else if (node.type == "Material") {
@@ -74,49 +76,47 @@ class Walk {
       visitor_.camera(node, state);
     } else if (node.type.ends_with("Light")) {
       visitor_.light(node, state);
-    } else if (node.type == "WWWInline") {
-      const auto inlined = visitor_.inlined(node);
-      State own = state;
-      return inlined == nullptr || visit(inlined, own, depth + 1);
-    } else if (node.children.empty()) {
+    } else if (node.children.empty() && node.type != "WWWInline") {
       visitor_.shape(node, state);
     }
-    return children(node, state, depth);
-  }
-
- private:
-  bool children(const Node& node, State& state, std::size_t depth) {
-    const State before = state;
-    std::size_t first = 0, last = node.children.size();
-    if (node.type == "Switch") {
-      const double which = node.number("whichChild", -1.0);
-      // Views to choose from: a viewer offers all of them.
-      const bool views = std::all_of(node.children.begin(), node.children.end(), [](const auto& child) { return is_camera(*child); });
-      if (which != -3.0 && !views) {
-        const bool exists = which >= 0.0 && which < static_cast<double>(last);
-        first = exists ? static_cast<std::size_t>(which) : 0;
-        last = exists ? first + 1 : 0;
-      }
-    } else if (node.type == "LOD") {
-      last = std::min<std::size_t>(last, 1);  // the finest
-    }
-    for (std::size_t i = first; i < last; ++i) {
-      if (!visit(node.children[i], state, depth + 1)) { return false; }
-    }
-    if (node.type == "Separator" || node.type == "WWWAnchor") { state = before; }
-    if (node.type == "TransformSeparator") { state.transform = before.transform; }
     return true;
   }
 
+  std::vector<std::shared_ptr<const Node>> children(const std::shared_ptr<const Node>& at) {
+    const Node& node = *at;
+    std::vector<std::shared_ptr<const Node>> all = node.children;
+    if (node.type == "WWWInline") {
+      auto inlined = visitor_.inlined(node);
+      if (inlined != nullptr) { all = {std::move(inlined)}; }
+    } else if (node.type == "Switch") {
+      const double which = node.number("whichChild", -1.0);
+      // Views to choose from: a viewer offers all of them.
+      const bool views = std::all_of(all.begin(), all.end(), [](const auto& child) { return is_camera(*child); });
+      if (which == -3.0 || views) { return all; }
+      const bool exists = which >= 0.0 && which < static_cast<double>(all.size());
+      if (!exists) { return {}; }
+      all = {all[static_cast<std::size_t>(which)]};
+    } else if (node.type == "LOD" && !all.empty()) {
+      all.resize(1);  // the finest
+    }
+    return all;
+  }
+
+  void leave(const std::shared_ptr<const Node>& node, const State& before, State& state) {
+    if (node->type == "Separator" || node->type == "WWWAnchor" || node->type == "WWWInline") { state = before; }
+    if (node->type == "TransformSeparator") { state.transform = before.transform; }
+  }
+
+ private:
   Visitor& visitor_;
-  std::size_t visits_ = 0;
 };
 
 }  // namespace
 
 bool traverse(const std::shared_ptr<const Node>& root, Visitor& visitor) {
   State state;
-  return Walk(visitor).visit(root, state, 0);
+  Meaning meaning(visitor);
+  return GraphWalk<Meaning, State>(meaning, graph_limits).visit(root, state);
 }
 
 }  // namespace apps::vrml

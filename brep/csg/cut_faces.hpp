@@ -8,10 +8,10 @@
 // segment after the other. A segment may end inside the face, where an edge of the other operand touches it. Where the operands touch
 // themselves, a segment may run through the end of another; it is cut there, too.
 //
-// Why not by calls of the operators (paper 2.2): faces of a BRep have no rings, so an operator reaches a loop inside a face only by a bridge
-// edge. A bridge has no geometry: it lies on no plane of the operands, its ends would have to see each other, and the next loop may
-// cross it. Without rings there is nothing to bridge, and links in arrays are what the operators change anyhow. That both come to the
-// same map is tested (tests/brep/csg_cut_test.cpp), and shown step by step by examples/euler/090_union.euler. Bridges are drawn once, by the
+// Why not by calls of the operators (paper 2.2): faces of a BRep have no rings, so an operator reaches a loop inside a face only by a
+// bridge edge. A bridge has no geometry: it lies on no plane of the operands, its ends would have to see each other, and the next loop may
+// cross it. Without rings there is nothing to bridge, and links in arrays are what the operators change anyhow. That both come to the same
+// map is tested (tests/brep/csg_cut_test.cpp), and shown step by step by examples/euler/090_union.euler. Bridges are drawn once, by the
 // operator, where a result becomes a BRep (to_brep.hpp).
 
 #include <cstdint>

@@ -34,7 +34,8 @@ int main() {
     (void)brep::split_edge(theirs, h);
     const std::string at = " (h" + std::to_string(h.index) + ")";
     check(brep::validate(mine).empty(), "the records are damaged afterwards" + at);
-    check(mine.vertex_count() == before.vertex_count() + 1 && mine.edge_count() == before.edge_count() + 1 && mine.face_count() == before.face_count(),
+    check(mine.vertex_count() == before.vertex_count() + 1 && mine.edge_count() == before.edge_count() + 1 &&
+              mine.face_count() == before.face_count(),
           "a vertex on an edge is one vertex and one edge more, and no face" + at);
     check(mine.vertex(h) == from, "h does not begin where it began" + at);
     check(mine.next(h) == n, "the result is not next(h)" + at);

@@ -123,18 +123,18 @@ HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const ShownPic
   Color emitted{0.0};
   for (std::uint32_t k = 0; k < 16; ++k) {
     const auto at = seen(picture, sample.x + (k % 4 + 0.5) / 4.0, sample.y + (k / 4 + 0.5) / 4.0, sample.rays);
-    if (!at) { continue; }
-    if (!sees) { emitted = emission(*at); }
-    if (emission(*at) != emitted) { return sample; }
-    sees = true;
+    const Color own = at ? emission(*at) : Color{0.0};  // where nothing is, nothing is emitted
+    if (k == 0) { emitted = own; }
+    if (own != emitted) { return sample; }
+    sees = sees || at.has_value();
   }
   if (!sees || (!all_emit_ && !is_black(emitted))) { return sample; }
   bool edge = false;  // of a lamp
   const TwoEstimates light{seed, key, paths, [&](PathNumbers& numbers) -> PathTracer::Light {
                              const double u = numbers.uniform();
                              const auto at = seen(picture, sample.x + u, sample.y + numbers.uniform(), sample.rays);
+                             edge = edge || (at ? emission(*at) : Color{0.0}) != emitted;
                              if (!at) { return {}; }
-                             edge = edge || emission(*at) != emitted;
                              return tracer_.radiosity(at->point.position, at->point.normal, at->object, at->sheet, numbers, sample.rays);
                            }};
   if (edge) { return sample; }

@@ -81,7 +81,7 @@ HALFLIGHT_INLINE std::string length_text(double metres) {
 HALFLIGHT_INLINE std::string sentence(const Change& change) {
   const intake::detail::Wording& wording = intake::detail::wordings[static_cast<std::size_t>(change.kind)];
   std::string text = change.count == 1 ? wording.one : wording.several;
-  if (!(change.size > 0.0)) {  // exactly there
+  if (length_text(change.size).starts_with("0 ")) {  // exactly there, or but for rounding
     for (const std::string_view beside : {", @ beside it", ", beside it by @", ", beside them by up to @"}) {
       const std::size_t at = text.find(beside);
       if (at != std::string::npos) { text.erase(at, beside.size()); }

@@ -98,26 +98,43 @@ HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       const raycast::Hit& hit = hits.hit[i];
       const raycast::Segment ray = rays.at(i);
-      const Met found = outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
+      const Met found =
+          outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
       const bool from_air = eye.in_air && passed == 0;
       if (hit.front && (from_air || !objects().covered(found.point.position, found.point.normal, found.object))) {
         result[i] = Place{found.point, found.object, lookup_.surface(found.object, found.sheet)};
         rays.lanes &= ~(1u << i);
       } else {
-        rays.set(i, {ray.at(hit.t), ray.direction}, hit.object, raycast::no_object);
+        rays.set(i, {ray.at(hit.t), ray.direction}, hit.object, raycast::no_object, hit.sheet);
       }
     }
   }
   return result;
 }
 
-HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most,
-                                                             double error, std::uint64_t key) const {
+HALFLIGHT_INLINE std::optional<FinalGather::Place> FinalGather::beside(const Place& place, const Eye& eye,
+                                                                       const glm::dvec3& direction) const {
+  const double towards = glm::dot(direction, place.point.normal);
+  const double height = glm::dot(eye.position - place.point.position, place.point.normal);
+  if (!(towards < 0.0) || !(height > 0.0)) { return std::nullopt; }
+  Place result = place;
+  result.point.position = eye.position - height / towards * direction;
+  const raycast::PlacedObject& object = objects().object(place.object);
+  if (!object.flat()) {
+    result.point = object.project(place.surface - lookup_.surface(place.object, 0), result.point.position);
+    if (!(glm::dot(result.point.normal, direction) < 0.0)) { return std::nullopt; }
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error,
+                                                             std::uint64_t key) const {
   const Sobol4 sequence{1, key};
   const double reach = objects().diameter();
   const double lift = direct_.lift(place.object);
   const glm::dvec3 from = place.point.position + lift * place.point.normal;
   const std::uint32_t owner = lift > 0.0 ? raycast::no_object : place.object;
+  const std::uint32_t sheet = place.surface - lookup_.surface(place.object, 0);
   Color sum{0.0};
   std::array<double, 4> part{};  // of the rays, by fours of sixteen: their spread is the standard error
   double nearness = 0.0;
@@ -132,7 +149,7 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
     raycast::Segments16 segments;
     for (unsigned k = 0; k < 16; ++k) {
       const std::array<double, 4> u = sequence(rays + k);
-      segments.set(k, {from, reach * cosine_direction(place.point.normal, u[0], u[1])}, owner, raycast::no_object);
+      segments.set(k, {from, reach * cosine_direction(place.point.normal, u[0], u[1])}, owner, raycast::no_object, sheet);
     }
     const raycast::Hits16 hits = direct_.objects().closest16(segments);
     const Color before = sum;

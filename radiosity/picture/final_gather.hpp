@@ -56,6 +56,9 @@ class FinalGather {
   // (lookup.hpp). `outlines`: where those are as they are, not as those of meshes that stand in for slow objects.
   [[nodiscard]] std::array<std::optional<Place>, 16> seen16(const Eye& eye, std::span<const glm::dvec3> directions, bool outlines) const;
 
+  // The point of the same sheet that is seen beside a place, in a direction that differs by part of a pixel; nothing where the sheet bends away.
+  [[nodiscard]] std::optional<Place> beside(const Place& place, const Eye& eye, const glm::dvec3& direction) const;
+
   struct Indirect {
     Color irradiance{0.0};  // W/m2
     double nearness = 0.0;  // 1 / harmonic mean distance of what is seen, in the frame

@@ -40,7 +40,8 @@ struct LeafLight {
 
 // Fills the half-edge normals and colours of all surfaces and reads the mesh from them: one face a leaf, positions in the frame. Buried
 // leaves are left out of the mesh, but for those that touch an exposed one: a curved object stands in front of its chords, and what shows
-// between the two must not be a hole. Of flat ones that lie on each other only the one that is seen is there: a lamp, not the ceiling under it.
+// between the two must not be a hole. Of flat ones that lie on each other only the one that is seen is there: a lamp, not the ceiling under
+// it.
 Mesh reconstruct(std::vector<Surface>& surfaces, const LeafLight& light, Reconstruction kind);
 
 }  // namespace radiosity

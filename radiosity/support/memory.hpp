@@ -51,8 +51,9 @@ struct MemoryBudget {
   // Bytes at the peak. Of each node: itself (104), its patch (1400), its faces, edges and vertices (350), what its exposure (70), the
   // solution (150) and the mesh (300) add. Of each link: itself (24), and the pair from which it is made (12), whose table may be half
   // empty (24); of BF-refinement its record (84), which is copied as the table grows, and its error: 178 in all. Of each pair: itself, the
-  // decision, the rays; and a batch of occluder lists at full length. Of each stored ray: itself (32), its part of a link (40), its place in
-  // their order (4) and at most one link, in a table that may be half empty (72). Held against what runs take in tests/memory/budget_test.cpp.
+  // decision, the rays; and a batch of occluder lists at full length. Of each stored ray: itself (32), its part of a link (40), its place
+  // in their order (4) and at most one link, in a table that may be half empty (72). Held against what runs take in
+  // tests/memory/budget_test.cpp.
   [[nodiscard]] std::uint64_t peak(const Counts& counts) const;
   [[nodiscard]] bool allows(const Counts& counts) const { return peak(counts) <= allowed; }
   [[nodiscard]] bool limited() const { return allowed != std::numeric_limits<std::uint64_t>::max(); }

@@ -14,7 +14,8 @@ namespace browser {
 [[nodiscard]] inline bool found() { return std::system("command -v chromium >/dev/null 2>&1") == 0; }
 
 // The elements of a page, as text, after `script` has run at its end, in a window of this size.
-[[nodiscard]] inline std::string elements(const program::Place& place, std::string page, const std::string& script, const std::string& window) {
+[[nodiscard]] inline std::string elements(const program::Place& place, std::string page, const std::string& script,
+                                          const std::string& window) {
   page.insert(page.rfind("</body>"), "<script>" + script + "</script>");
   place.write("page.html", page);
   const std::string command = "cd '" + place.path().string() + "' && timeout 60 chromium --headless --no-sandbox --disable-gpu" +

@@ -178,12 +178,20 @@ TEST_CASE("terminal: keys edit a line, arrows bring back earlier ones, Tab compl
 
 TEST_CASE("terminal: an unknown operator gets the nearest that is known; face and vertex walk") {
   program::Place place;
-  place.write("input", "mvsf\nmvfs\nface f0\nvertex v1\n");
+  place.write("input", "mvsf\nmvfs\nface f0\nvertex v1\nvertex\nface v1\n");
   const program::Run run = place.run("euler --interactive < input");
   INFO(run.out);
   CHECK(run.out.find("did you mean 'mvfs'?") != std::string::npos);
   CHECK(run.out.find("f0: h0 (from v0) h1 (from v1); 2 edges") != std::string::npos);
   CHECK(run.out.find("v1: h1 (in f0); 1 edge leaves") != std::string::npos);
+  CHECK(run.out.find("\nvertex: expected a vertex, such as v1\nface: expected a face, such as f1\n") != std::string::npos);
+
+  place.write("input.euler", "# a script\nh0 = make_segment\nh2 = split_vertx h1 h1\nh9 h9\n");
+  const program::Run script = place.run("euler input.euler");
+  INFO(script.err);
+  CHECK(script.code == 3);
+  CHECK(script.err.find("input.euler:3:6: error: found 'split_vertx'") != std::string::npos);
+  CHECK(script.err.find("; did you mean 'split_vertex'?\n") != std::string::npos);
 }
 
 TEST_CASE("stepper: every step of the page, and the walk of all that it shows, work in a browser") {
@@ -195,9 +203,10 @@ TEST_CASE("stepper: every step of the page, and the walk of all that it shows, w
     for (let i = 0; i < frames.length; ++i) {
       show(i);
       for (const e of document.querySelectorAll('#picture [data-k]')) { mark(pointed({target: e})); walks += document.querySelectorAll('.walked').length > 0; }
+      // What changed is in view, and so is the caption above it.
       const changed = document.querySelector('#tables .fresh, #tables .moved'), box = document.querySelector('aside').getBoundingClientRect();
-      if (changed) { const at = changed.getBoundingClientRect(); seen += at.top >= box.top && at.bottom <= box.bottom + 1; }
-      else ++seen;
+      const inside = e => { const at = e.getBoundingClientRect(); return at.top >= box.top && at.bottom <= box.bottom + 1; };
+      seen += (!changed || inside(changed)) && inside($('caption'));
     }
     document.documentElement.dataset.walks = walks > 1000;
     document.documentElement.dataset.seen = seen === frames.length;

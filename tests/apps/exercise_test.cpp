@@ -90,8 +90,10 @@ TEST_CASE("exercises: what the rules forbid is named with its line") {
   CHECK(faults(5, "h0 = make_segment\nh2 = split_vertex h1 h1\nh4 = split_face h3 h0\n").find("step 4 is not that of the beginning") == 0);
   CHECK(faults(1, "h0 = make_segment\nsplit_fase h0 h0\n").find("line 2: found 'split_fase'") == 0);
   CHECK(faults(1, "h0 = make_segment\njoin_faces h0\n").find("line 2: join_faces: both sides") == 0);
-  CHECK(faults(4, "h0 = make_segment\nh2 = split_vertex h1 h1\nh4 = split_face h3 h0\nh6 = split_vertex h1 h1\nh8 = split_vertex h3 h3\n"
-                  "h10 = split_vertex h5 h5\nh12 = split_face h7 h11\nh14 = split_face h11 h9\nh16 = split_face h9 h12\n") == "this is the prism itself");
+  CHECK(faults(4,
+               "h0 = make_segment\nh2 = split_vertex h1 h1\nh4 = split_face h3 h0\nh6 = split_vertex h1 h1\nh8 = split_vertex h3 h3\n"
+               "h10 = split_vertex h5 h5\nh12 = split_face h7 h11\nh14 = split_face h11 h9\nh16 = split_face h9 h12\n") ==
+        "this is the prism itself");
 }
 
 TEST_CASE("exercise in the terminal: the list, the text, the verdict by exit code") {

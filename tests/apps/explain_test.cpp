@@ -98,6 +98,43 @@ TEST_CASE("explain: watching changes nothing, and the recorded numbers are those
   }
 }
 
+// F = cos cos A / (pi r^2 + A) of the numbers in a sentence; below 0 when it has none. The area is that of the named disk, else the larger.
+double told_estimate(const Recording& r, const apps::explain::Pair& pair) {
+  const std::string& told = pair.sentence;
+  const auto after = [&](const std::string& word, std::size_t from = 0) {
+    const std::size_t at = told.find(word, from);
+    return at == std::string::npos ? -1.0 : std::stod(told.substr(at + word.size()));
+  };
+  const double a = after(" ("), b = after(" and ", told.find(" ("));
+  double area = std::max(a, b);
+  for (const auto& [node, own] : {std::pair{pair.p, a}, std::pair{pair.q, b}}) {
+    if (told.find("disk of " + r.names[node] + ",") != std::string::npos) { area = own; }
+  }
+  const double product = after("multiply to ") >= 0.0 ? after("multiply to ") : after("cosines ") * after(" and ", told.find("cosines "));
+  const double distance = told.find("centres ") != std::string::npos ? after("centres ") : after(" m2, ");
+  return told.starts_with("disk estimate") ? product * area / (3.14159265 * distance * distance + area) : -1.0;
+}
+
+TEST_CASE("explain: the estimate of a sentence follows from the numbers that stand beside it") {
+  const unsigned first = std::random_device{}();
+  for (unsigned k = 0; k < 6; ++k) {
+    INFO("seed " << first + k);
+    apps::explain::Wanted wanted;
+    wanted.epsilon = 0.1;
+    const Recording r = recorded(random_plates(first + k), wanted);
+    int told = 0;
+    for (const apps::explain::Pair& pair : r.pairs) {
+      const double estimate = told_estimate(r, pair);
+      if (estimate < 0.0) { continue; }
+      INFO(r.names[pair.p] << " - " << r.names[pair.q] << ": " << pair.sentence);
+      // Three digits each, .5 % at worst: two cosines, the area, and the distance, which is squared.
+      CHECK(estimate == test::Approx(pair.estimate).epsilon(0.025));
+      ++told;
+    }
+    CHECK(told > 0);
+  }
+}
+
 TEST_CASE("explain: all solvers end at the same radiosities, over-shooting as well") {
   const Recording r = recorded(random_plates(7));
   for (const apps::explain::Comparison* comparison : {&r.as_is, &r.at_99}) {
@@ -120,7 +157,8 @@ TEST_CASE("explain refuses what cannot be looked at whole, with the number and w
     return result.sentences.empty() ? std::string() : result.sentences.front();
   };
   CHECK(refusal(example_scene("boxes.scene"), 0.001).find("a larger --epsilon or --min-area asks about fewer") != std::string::npos);
-  CHECK(refusal(example_scene("furnace.scene"), 0.05).find("more than 12000 pairs") != std::string::npos);  // beyond it in the last generation
+  CHECK(refusal(example_scene("furnace.scene"), 0.05).find("more than 12000 pairs") !=
+        std::string::npos);  // beyond it in the last generation
   CHECK(refusal(example_scene("primitives.scene"), 0.1).find("input faces; at most 256") != std::string::npos);
 }
 
@@ -130,7 +168,7 @@ TEST_CASE("explain tells the story in the terminal and writes a page of its own"
   const program::Run run = place.run("explain " + scene + " --epsilon 0.2 --text -o page.html");
   INFO(run.err << run.out);
   CHECK(run.code == 0);
-  for (const char* part : {"generation 0:\n  lamp - plate: disk estimate F = 0.241 (1 and 1 m2, centres 1 m apart) > 0.2: split lamp",
+  for (const char* part : {"generation 0:\n  lamp - plate: disk estimate F = 0.241 (1 and 1 m2, centres 1 m apart, cosines 1 and 1) > 0.2: split lamp",
                            "blocker - back: face away from each other: no link", "rays arrive, visibility 0.", "Gather, push, pull",
                            "T-vertices: ", "Refinement by the light that links carry", "over-shooting by 1.8", "written: page.html\n"}) {
     INFO(part);
@@ -157,7 +195,8 @@ TEST_CASE("explain: every step of the page is drawn in a browser without an erro
     document.documentElement.dataset.pulled = data.iterations.slice(1).every((next, n) =>
       next.sent.every((b, i) => Math.abs(b - light.value(3 * n + 2)(i)) <= 1e-3 * largest));
     document.documentElement.dataset.mine = atThreshold(data.epsilon).links.length === data.pairs.filter(p => p.is === 'link').length;
-  )", "1200,800");
+  )",
+                                            "1200,800");
   INFO(dom.substr(0, 400));
   CHECK(dom.find("data-ready=\"1\"") != std::string::npos);
   CHECK(dom.find("data-error") == std::string::npos);

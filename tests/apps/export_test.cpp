@@ -232,7 +232,7 @@ TEST_CASE("export: render writes what the names end with, and says what it canno
   CHECK(lines_of(place.read("a.obj"), "o ") == std::vector<std::string>{"o b"});
   program::Run run = place.run("render a.scene -o a.stl" + quick);
   CHECK(run.code == 2);
-  CHECK(run.err.find("a name that ends with .png, .hdr, .pfm, .ply, .glb, .obj or .html") != std::string::npos);
+  CHECK(run.err.find("a name that ends with .png, .hdr, .pfm, .light, .ply, .glb, .obj or .html") != std::string::npos);
   run = place.run("render a.scene -o b.glb --onto-input" + quick);
   CHECK(run.code == 2);
   CHECK(run.err.find("a.scene gives no polygons") != std::string::npos);
@@ -243,6 +243,9 @@ TEST_CASE("export: render writes what the names end with, and says what it canno
   CHECK(place.run("render room.obj --lamp wall -o b.obj --onto-input" + quick).code == 0);
   CHECK(lines_of(place.read("b.obj"), "v ").size() == 8);
   CHECK(lines_of(place.read("b.obj"), "f ").size() == 6);
+  CHECK(place.run("render room.obj --lamp wall -o b.ply --onto-input" + quick).code == 0);
+  const apps::Model given = models::read("room.obj", models::room_obj), back = models::read("b.ply", place.read("b.ply"));
+  CHECK((back.positions == given.positions && back.corners == given.corners && back.first_corner == given.first_corner));
 }
 
 TEST_CASE("export: the page holds everything itself, and no name in it can break out of its data") {

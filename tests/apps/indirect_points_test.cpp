@@ -38,7 +38,8 @@ TEST_CASE("between points of indirect light a linear field is exact, wherever th
     CAPTURE(seed);
     radiosity::Random random{seed, 0};
     const auto uniform = [&](double lo, double hi) { return lo + (hi - lo) * random.uniform(); };
-    const Color middle{uniform(5, 9), uniform(5, 9), uniform(5, 9)}, by_x{uniform(-2, 2), uniform(-2, 2), 0.0}, by_y{uniform(-2, 2), 0.0, 1.0};
+    const Color middle{uniform(5, 9), uniform(5, 9), uniform(5, 9)}, by_x{uniform(-2, 2), uniform(-2, 2), 0.0},
+        by_y{uniform(-2, 2), 0.0, 1.0};
     const auto field = [&](double x, double y) { return middle + 0.01 * x * by_x + 0.01 * y * by_y; };
     apps::IndirectPoints points{100, 80};
     for (int k = 0; k < 150; ++k) {

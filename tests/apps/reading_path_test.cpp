@@ -58,8 +58,8 @@ TEST_CASE("map of the paper: every section is there, and every name that it give
   const program::Place place;
   const auto run = [&](const std::string& page) {
     place.write("page.md", page);
-    const std::string command =
-        "sh '" + (examples / "paper.sh").string() + "' '" + (place.path() / "page.md").string() + "' >'" + (place.path() / "out").string() + "' 2>&1";
+    const std::string command = "sh '" + (examples / "paper.sh").string() + "' '" + (place.path() / "page.md").string() + "' >'" +
+                                (place.path() / "out").string() + "' 2>&1";
     return std::system(command.c_str());
   };
   CHECK(run(map) == 0);

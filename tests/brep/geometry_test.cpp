@@ -73,6 +73,21 @@ TEST_CASE("proportion: triangles, rectangles, straight corners") {
   CHECK(proportion(Corners{{0, 0, 0}, {1, 0, 0}}) == 0.0);
 }
 
+TEST_CASE("proportion of needles stays between 0 and 1, and falls with their width") {
+  for (double width = 1e-1; width > 1e-15; width *= 0.1) {
+    INFO(width);
+    // The radius of the circle within a triangle is twice the area over the perimeter; that around it half of its length, or a little more.
+    CHECK(proportion(Corners{{0, 0, 0}, {1, 0, 0}, {0, width, 0}}) == test::Approx(width).epsilon(0.11));
+    for (const Corners& needle :
+         {Corners{{0, 0, 0}, {1, 0, 0}, {1, width, 0}, {0, width, 0}}, Corners{{0, 0, 0}, {1, -width, 0}, {2, 0, 0}, {1, width, 0}},
+          Corners{{0, 0, 0}, {1, 0, 0}, {1, width, 0}, {0.5, 1.5 * width, 0}, {0, width, 0}}}) {
+      const double of_needle = proportion(needle);
+      CHECK(of_needle >= 0.0);
+      CHECK(of_needle <= 2.0 * width);
+    }
+  }
+}
+
 TEST_CASE("proportion of random convex polygons agrees with a search over all triples of sides") {
   // The inscribed circle touches three sides whose normals surround it: the smallest such radius over all triples.
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {

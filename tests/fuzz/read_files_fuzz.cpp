@@ -44,8 +44,11 @@ void read_as_mesh(std::string_view text, const apps::MeshFormat& format) {
 }
 
 void read_as_model(std::string_view text, const apps::ModelFormat& format) {
-  // Files beside it are the file itself.
-  apps::ModelResult result = format.read(text, [&](const std::string&, std::string&) { return std::optional(std::string(text)); });
+  // A file beside it is what stands behind a form feed, or the file itself.
+  const std::size_t feed = text.find('\f');
+  const std::string beside(feed == text.npos ? text : text.substr(feed + 1));
+  text = text.substr(0, feed);
+  apps::ModelResult result = format.read(text, [&](const std::string&, std::string&) { return std::optional(beside); });
   require(result.model.has_value() == result.errors.empty(), "either a model or errors");
   if (!result.model || result.model->polygons() > 500 || result.model->objects.size() > 100) return;
   std::vector<std::string> faults;

@@ -78,7 +78,9 @@ TEST_CASE("two sides that light hardly anything but each other are balanced in f
   for (const double within : {1e-1, 1e-3, 1e-6}) {
     Matrix matrix{20};
     for (std::size_t i = 0; i < 20; ++i) {
-      for (std::size_t j = 0; j < 20; ++j) { matrix.at(i, j) = (i < 10) == (j < 10) ? within : 1.0 + 0.1 * std::cos(static_cast<double>(i * j)); }
+      for (std::size_t j = 0; j < 20; ++j) {
+        matrix.at(i, j) = (i < 10) == (j < 10) ? within : 1.0 + 0.1 * std::cos(static_cast<double>(i * j));
+      }
     }
     const std::vector<double> t(20, 1.0);
     const std::vector<double> scale = balanced(matrix, t, {.tolerance = 1e-10});

@@ -344,4 +344,7 @@ TEST_CASE("lengths are told with two digits and a unit") {
   CHECK(radiosity::length_text(4.5e-7) == "450 nm");
   CHECK(radiosity::length_text(2345.0) == "2.3 km");
   CHECK(radiosity::length_text(0.0) == "0 mm");
+  // What only rounding tells from nothing is not told.
+  CHECK(radiosity::sentence({radiosity::ChangeKind::welded, 2, 1e-17, 0}) ==
+        radiosity::sentence({radiosity::ChangeKind::welded, 2, 0.0, 0}));
 }

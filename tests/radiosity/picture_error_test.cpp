@@ -94,6 +94,23 @@ TEST_CASE("picture audit: lamps are left out, whatever the picture shows there; 
   CHECK(error.audited < 0.5);
 }
 
+TEST_CASE("picture audit: where all emits, the edge of a lamp before nothing is left out as lamps are") {
+  // One sphere of which nothing arrives anywhere: B = E = 1, so no light is reflected and there is nothing to be wrong about.
+  radiosity::Scene scene{{{"lamp", Color{0.5}, Color{1.0}}}, {}};
+  scene.objects = {scenes::object("lamp", raycast::Sphere::make({0, 2, 0}, 1.0).object, 0)};
+  const auto audit = PictureAudit::make(scene);
+  REQUIRE(audit);
+  const auto shown = [](std::uint32_t x, std::uint32_t y) {  // the cone of half-angle 30 degrees, its mean over 16 x 16 points of a pixel
+    Color sum{0.0};
+    for (int k = 0; k < 256; ++k) {
+      const double px = (x + (k % 16 + 0.5) / 16.0) / 16.0 - 1.0, pz = 1.0 - (y + (k / 16 + 0.5) / 16.0) / 16.0;
+      if (px * px + pz * pz < 1.0 / 3.0) { sum += Color{1.0 / 256.0}; }
+    }
+    return sum;
+  };
+  CHECK_FALSE(audit->measure(seen_from({0, 0, 0}, shown), {400, 400'000}, 1, 1));
+}
+
 TEST_CASE("picture audit: results do not depend on the number of threads") {
   const auto picture = seen_from({0.5, 0.02, 0.5}, [](std::uint32_t x, auto) { return Color{1.0 + 0.01 * x}; });
   const PictureError one = measured_picture(scenes::furnace_with_things(0.3), picture, 1),

@@ -161,7 +161,8 @@ TEST_CASE("the mesh has no face that lies wholly under one of the same plane") {
     radiosity::Random random{seed, 0};
     const glm::dvec3 centre{1.2 * random.uniform() - 0.6, 1.2 * random.uniform() - 0.6, 1.0};
     const double r = 0.1 + 0.3 * random.uniform();
-    radiosity::Scene scene{{{"grey", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}}}, {}};
+    radiosity::Scene scene{{{"grey", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}}},
+                           {}};
     scene.objects = {scenes::square("ceiling", {0, 0, 1}, 1.0, false), scenes::square("floor", {0, 0, 0}, 1.0, true),
                      scenes::square("lamp", centre, r, false, 1)};
     radiosity::Options options;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a pixel of a gathered picture sees: its rays, sorted into pieces of surfaces that are lit once each (gather_picture.hpp).
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <radiosity/picture/final_gather.hpp>
+
+namespace apps {
+
+// What the rays of one pixel meet of one surface, facing one way.
+struct Fragment {
+  std::uint32_t x = 0, y = 0;
+  float share = 0.0f;  // of the pixel
+  radiosity::FinalGather::Place place;
+  glm::dvec3 positions{0.0}, normals{0.0};  // sums over its rays
+};
+
+// The width of a pixel at the distance of a point.
+struct PixelSize {
+  glm::dvec3 eye{0.0};
+  double angle = 0.0;
+  [[nodiscard]] double operator()(const glm::dvec3& p) const { return angle * glm::length(p - eye); }
+};
+
+// Seen through one pixel, do these two belong together? Not where one part of a surface hides another, or on two sides of a crease.
+[[nodiscard]] bool one_piece(const radiosity::FinalGather::Place& a, const radiosity::FinalGather::Place& b, const PixelSize& pixel_size);
+
+// Adds the fragments of the pixel (x, y), given what each of its rays sees.
+void add_fragments(const radiosity::FinalGather& light, std::uint32_t x, std::uint32_t y,
+                   std::span<const std::optional<radiosity::FinalGather::Place>> seen, const PixelSize& pixel_size,
+                   std::vector<Fragment>& out);
+
+}  // namespace apps

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The light of a solution in a file (.light), from which further pictures of the scene are drawn without solving it again: the mesh with its
+// colours, in full precision, so that these pictures are the same to the bit.
+//
+//   "halflight light 1\n", key of the scene and "\n", then little-endian, without gaps:
+//   uint64: number of positions, of corners, of faces
+//   a position: 3 double;   a corner: uint32 position, 3 double radiosity, 3 float normal
+//   a face: uint32 first corner, number of corners, input surface; 3 double radiosity
+//   checksum of all before, 16 hexadecimal digits
+//
+// The key is a checksum of the materials and of the objects' shapes: light of another scene is refused, and so is a damaged file.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/scene.hpp>
+
+namespace apps {
+
+struct Light {
+  radiosity::Mesh mesh;  // faces do not name nodes of a hierarchy
+  radiosity::Frame frame;
+};
+
+// Of a sound scene.
+[[nodiscard]] std::string to_light_file(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Scene& scene);
+
+struct LightResult {
+  std::optional<Light> light;
+  std::string reason;  // why there is none
+};
+[[nodiscard]] LightResult read_light_file(std::string_view bytes, const radiosity::Scene& scene);
+
+}  // namespace apps
