@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <raycast/inline.hpp>
@@ -63,6 +64,16 @@ struct Scaled {
   return x;
 }
 
+// Sum of the squared differences of row sums and what they should be, each over the larger of the two. Rows that should be 0 have no say:
+// no scale of their own changes them.
+[[nodiscard]] HALFLIGHT_INLINE double distance(const std::vector<double>& rows, const std::vector<double>& wanted) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (wanted[i] > 0.0) { sum += (wanted[i] - rows[i]) * (wanted[i] - rows[i]) / std::max(rows[i], wanted[i]); }
+  }
+  return sum;
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE std::vector<double> balance(const SymmetricOperator& apply, const std::vector<double>& t, const Balance& goal) {
@@ -73,8 +84,17 @@ HALFLIGHT_INLINE std::vector<double> balance(const SymmetricOperator& apply, con
   std::vector<double> missing(n, 0.0);
   std::vector<bool> free(n, false);
   const auto limit = [&](double scale) { return goal.most > 0.0 ? std::clamp(scale, 1.0 / goal.most, goal.most) : scale; };
-  for (bool first = true; !matrix.exhausted(); first = false) {
+  // The scale that has come nearest to the goal. Where the system is nearly singular a linear step leads away.
+  double nearest = std::numeric_limits<double>::infinity(), start = nearest;
+  std::vector<double> nearest_scale = matrix.scale;
+  for (bool plain = true; !matrix.exhausted(); plain = false) {
     matrix(ones, rows);
+    const double off = detail::distance(rows, t);
+    if (plain) { start = off; }
+    if (off < nearest) {
+      nearest = off;
+      nearest_scale = matrix.scale;
+    }
     double worst = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
       missing[i] = t[i] - rows[i];
@@ -82,16 +102,16 @@ HALFLIGHT_INLINE std::vector<double> balance(const SymmetricOperator& apply, con
       free[i] = rows[i] > 0.0 && t[i] > 0.0 && (missing[i] == 0.0 || limit(missing[i] > 0.0 ? 2.0 * scale : 0.5 * scale) != scale);
       if (free[i]) { worst = std::max(worst, std::abs(missing[i]) / t[i]); }
     }
-    if (worst < goal.tolerance) { break; }
+    if (worst < goal.tolerance) { return off <= start ? matrix.scale : nearest_scale; }
     // Far from the goal the linear step may lead anywhere: one step of the plain iteration comes before it.
     std::vector<double> step;
-    if (!first) { step = detail::newton_step(matrix, rows, free, missing, std::min(0.1, worst)); }
+    if (!plain) { step = detail::newton_step(matrix, rows, free, missing, std::min(0.1, worst)); }
     for (std::size_t i = 0; i < n; ++i) {
       if (!free[i]) { continue; }
-      matrix.scale[i] = limit(matrix.scale[i] * (first ? std::sqrt(t[i] / rows[i]) : std::clamp(1.0 + step[i], 0.5, 2.0)));
+      matrix.scale[i] = limit(matrix.scale[i] * (plain ? std::sqrt(t[i] / rows[i]) : std::clamp(1.0 + step[i], 0.5, 2.0)));
     }
   }
-  return matrix.scale;
+  return nearest_scale;
 }
 
 }  // namespace radiosity

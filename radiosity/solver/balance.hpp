@@ -19,7 +19,8 @@ struct Balance {
   double tolerance = 1e-12;  // of row sums, relative
 };
 
-// The diagonal of D: 1 in rows with t = 0 and in those without light. As near as 400 products with S come where no D is within the limits.
+// The diagonal of D: 1 in rows with t = 0 and in those without light. As near as 400 products with S come where no D is within the limits,
+// and never further than D = 1 is.
 [[nodiscard]] std::vector<double> balance(const SymmetricOperator& apply, const std::vector<double>& t, const Balance& goal);
 
 }  // namespace radiosity
