@@ -275,7 +275,8 @@ TEST_CASE("lightmap: with fine texels it is the light itself") {
   for (std::size_t p = 0; p < soup.count(); ++p) {
     if (map.has_texels[p] == 0) { continue; }
     const std::uint32_t c = soup.first[p];
-    for (const auto& [a, b] : {std::pair(0.2, 0.3), {0.5, 0.25}, {0.1, 0.1}, {0.7, 0.2}}) {
+    for (const auto& weights : {std::pair(0.2, 0.3), {0.5, 0.25}, {0.1, 0.1}, {0.7, 0.2}}) {
+      const double a = weights.first, b = weights.second;
       const auto mix = [&](const auto& x, const auto& y, const auto& z) { return (1.0 - a - b) * x + a * y + b * z; };
       const std::vector<glm::dvec3> points = soup.outline(p);
       const auto light = outcome.baked->light.radiosity(p, mix(points[0], points[1], points[2]));
