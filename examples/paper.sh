@@ -1,5 +1,6 @@
 #!/bin/sh
-# sh examples/paper.sh [PAGE]: every name of paper.md with the file and line of its definition, or of its first use outside comments.
+# sh examples/paper.sh [PAGE]: every name of paper.md with the file and line of its definition: of a type, else of a function, else its first
+# use outside comments.
 # A name that is gone is told, and the exit code is 1.
 cd "$(dirname "$0")"
 status=0
@@ -9,7 +10,11 @@ grep -E -o '^## .*|\[`[A-Za-z_0-9]+`\]\([^)]*\)' "${1:-paper.md}" | tr -d '[]`()
     '## '*) echo "$row" ;;
     *)
       name=${row%%../*} file=../${row#*../}
-      line=$(sed 's|//.*||; s|^#.*||' "$file" 2>/dev/null | grep -n -w -- "$name" | head -n 1)
+      end='([^A-Za-z_0-9]|$)'
+      for pattern in "(struct|class|concept|using) $name$end" "[]A-Za-z_0-9>&*] $name[(]" "(^|[^A-Za-z_0-9])$name$end"; do
+        line=$(sed 's|//.*||; s|^#.*||' "$file" 2>/dev/null | grep -n -E -- "$pattern" | head -n 1)
+        [ -z "$line" ] || break
+      done
       if [ -n "$line" ]; then
         echo "${file#../}:${line%%:*}: $name"
       else

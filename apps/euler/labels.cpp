@@ -143,28 +143,16 @@ class Region {
   std::vector<Site> sites_;
 };
 
-}  // namespace
-
-void place_names(const PlanarMap& map, std::uint32_t outer, double smallest, Panel& panel) {
-  std::vector<Region> regions;
-  std::vector<double> rooms, inner;
-  for (std::uint32_t f = 0; f < map.faces.size(); ++f) {
-    regions.emplace_back(map, panel, f, f == outer);
-    rooms.push_back(regions.back().room());
-    if (f != outer) { inner.push_back(rooms.back()); }
-  }
-  double length = 0.0;
-  for (const Strand& s : panel.strands) { length += std::log(std::max(length_of(s.curve.flat(1)), 1e-9)); }
-  double wanted = 0.14 * std::exp(length / static_cast<double>(panel.strands.size()));
-  if (!inner.empty()) {
-    const auto middle = inner.begin() + static_cast<std::ptrdiff_t>(inner.size() / 2);
-    std::nth_element(inner.begin(), middle, inner.end());
-    wanted = std::min(wanted, 0.5 * *middle);
-  }
-  const double largest = std::max(smallest, 0.072);
-  panel.text = std::clamp(wanted, smallest, largest);
-  panel.gap = 0.36 * panel.text;
+// What is taken of the panel, and the least that a name of a half-edge has of the size that was wanted; 0 where one is not drawn.
+struct Crowd {
   std::vector<NameBox> taken;
+  double least = 1.0;
+};
+// Places the names of the half-edges, at the size of text that the panel has. `rooms`: of the faces.
+Crowd name_halfedges(const PlanarMap& map, const std::vector<double>& rooms, std::uint32_t outer, double smallest, Panel& panel) {
+  panel.gap = 0.36 * panel.text;
+  Crowd crowd;
+  std::vector<NameBox>& taken = crowd.taken;
   for (const VertexMark& v : panel.vertices) { taken.push_back(vertex_box(panel, v)); }
   for (std::size_t i = 0; i < panel.strands.size(); ++i) {
     Strand& s = panel.strands[i];
@@ -193,6 +181,7 @@ void place_names(const PlanarMap& map, std::uint32_t outer, double smallest, Pan
         }
         if (found || size == 0.2) {
           s.sizes[k] *= found ? size : 0.0;
+          crowd.least = std::min(crowd.least, found ? size : 0.0);
           break;
         }
       }
@@ -200,6 +189,36 @@ void place_names(const PlanarMap& map, std::uint32_t outer, double smallest, Pan
       std::reverse(line.begin(), line.end());
     }
   }
+  return crowd;
+}
+
+}  // namespace
+
+void place_names(const PlanarMap& map, std::uint32_t outer, double smallest, Panel& panel) {
+  std::vector<Region> regions;
+  std::vector<double> rooms, inner;
+  for (std::uint32_t f = 0; f < map.faces.size(); ++f) {
+    regions.emplace_back(map, panel, f, f == outer);
+    rooms.push_back(regions.back().room());
+    if (f != outer) { inner.push_back(rooms.back()); }
+  }
+  double length = 0.0;
+  for (const Strand& s : panel.strands) { length += std::log(std::max(length_of(s.curve.flat(1)), 1e-9)); }
+  double wanted = 0.14 * std::exp(length / static_cast<double>(panel.strands.size()));
+  if (!inner.empty()) {
+    const auto middle = inner.begin() + static_cast<std::ptrdiff_t>(inner.size() / 2);
+    std::nth_element(inner.begin(), middle, inner.end());
+    wanted = std::min(wanted, 0.5 * *middle);
+  }
+  const double largest = std::max(smallest, 0.072);
+  panel.text = std::clamp(wanted, smallest, largest);
+  // Smaller where names would not be half as large as wanted.
+  Crowd crowd = name_halfedges(map, rooms, outer, smallest, panel);
+  while (crowd.least < 0.5 && panel.text > smallest) {
+    panel.text = std::max(smallest, 0.9 * panel.text);
+    crowd = name_halfedges(map, rooms, outer, smallest, panel);
+  }
+  std::vector<NameBox>& taken = crowd.taken;
   for (std::uint32_t f = 0; f < map.faces.size(); ++f) {
     const bool small = f != outer && regions[f].whole();
     const std::size_t before = panel.labels.size();

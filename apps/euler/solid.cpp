@@ -2,9 +2,11 @@
 #include "apps/euler/solid.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include <brep/handles.hpp>
@@ -89,6 +91,14 @@ std::string solid_view(const Frame& frame, const Coordinates& coordinates, doubl
   }
   const double scale = 0.8 * width / std::max({1e-9, high.x - low.x, high.y - low.y});
   const auto place = [&](std::uint32_t v) { return scale * (projected(coordinates.at(v)) - 0.5 * (low + high)); };
+  // Disks of the vertices, of all steps alike, are as small as the nearest two ask for; names are as wide as their disk.
+  double radius = 0.035 * width;
+  for (auto a = coordinates.begin(); a != coordinates.end(); ++a) {
+    for (auto b = std::next(a); b != coordinates.end(); ++b) {
+      radius = std::min(radius, 0.48 * glm::length(place(a->first) - place(b->first)));
+    }
+  }
+  radius = std::max(radius, 0.012 * width);  // two that lie behind one another cannot be told apart anyway
   std::string out;
   for (const FaceShape& face : faces) {
     if (face.corners.size() < 3) { continue; }
@@ -106,8 +116,10 @@ std::string solid_view(const Frame& frame, const Coordinates& coordinates, doubl
   }
   for (std::uint32_t v = 0; v < records.vertices.size(); ++v) {
     if (records.vertices[v] == brep::invalid_index || !coordinates.contains(v)) { continue; }
-    out += "<g class='vertex' data-of='v" + std::to_string(v) + "' transform='translate(" + point(place(v)) + ")'><circle r='" +
-           trimmed(0.035 * width, 1) + "'/><text font-size='" + trimmed(0.04 * width, 1) + "'>v" + std::to_string(v) + "</text></g>\n";
+    const std::string name = "v" + std::to_string(v);
+    const double size = std::min(1.15, 2.8 / static_cast<double>(name.size())) * radius;  // a letter is .64 of its size wide
+    out += "<g class='vertex' data-of='" + name + "' transform='translate(" + point(place(v)) + ")'><circle r='" + trimmed(radius, 2) +
+           "'/><text font-size='" + trimmed(size, 2) + "' y='.35em'>" + name + "</text></g>\n";
   }
   return out.empty() ? out : "<g class='drawing'>\n" + out + "</g>\n";
 }

@@ -14,6 +14,7 @@
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
 
+#include "apps/euler/labels.hpp"
 #include "apps/markup.hpp"
 #include "apps/text.hpp"
 
@@ -138,7 +139,7 @@ class Pen {
   void draw_vertex(const VertexMark& v) {
     const std::string label = name('v', v.vertex);
     out_ += "<g class='vertex" + mark('v', v.vertex) + "' data-k='" + label + "' transform='translate(" + at(v.at) + ")'><circle r='" +
-            number(0.92 * text_) + "'/><text font-size='" + number((label.size() > 2 ? 0.8 : 0.95) * text_) + "' y='.35em'>" + label +
+            number(vertex_radius * text_) + "'/><text font-size='" + number((label.size() > 2 ? 0.8 : 0.95) * text_) + "' y='.35em'>" + label +
             "</text></g>\n";
   }
   void draw_label(const FaceLabel& l, int copy) {

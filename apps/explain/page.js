@@ -136,14 +136,17 @@ const chapters = [{
     $('heading').textContent = ['Level tags', 'T-vertices', 'Connected', 'Simple reconstruction', 'Weighted reconstruction'][k];
     $('caption').textContent = [
       'Every vertex carries the level at which it was made. A leaf of level l has corners of level l or less.',
-      `A vertex with a level above that of the leaf is a T-vertex: ${count} here, red. Drawn as they are, the colours of both sides would part there.`,
-      `Each T-vertex is connected to the nearest corner: ${data.leaves.length} leaves, ${data.mesh.length} faces. No coordinates are compared, tags decide.`,
+      'A vertex with a level above that of the leaf is a T-vertex. ' + (count ? `There are ${count}, red. Drawn as they are, the colours of both sides would part there.`
+        : 'There is none here: leaves that meet in an edge are equally fine. A smaller --epsilon may split one of two neighbours; three_plates.scene has some as it is.'),
+      (count ? 'Each T-vertex is connected to the nearest corner' : 'With no T-vertex there is nothing to connect') +
+        `: ${data.leaves.length} leaves, ${data.mesh.length} faces. No coordinates are compared, tags decide.`,
       'The colour of a corner is the average of all faces around the vertex: light bleeds over the edges of a solid (paper, fig. 7).',
       'Weighted by the cosine between the normals: smooth on one surface, sharp at its edges (paper, figs. 5 and 8).'][k];
     if (k < 2) {
       const marks = data.leaves.flatMap(l => l.corners.map((c, i) => k ? {at: c, colour: '#c8310f', t: l.t[i]} : {at: c, text: String(l.levels[i]), colour: '#14702d', t: 1}))
         .filter(m => m.t);
-      return {faces: data.leaves.map(l => ({points: l.corners, node: l.node, fill: shade(data.radiosity[l.node])})), marks};
+      const marked = new Map(marks.map(m => [m.at + (m.text || ''), m]));  // leaves share corners
+      return {faces: data.leaves.map(l => ({points: l.corners, node: l.node, fill: shade(data.radiosity[l.node])})), marks: [...marked.values()]};
     }
     if (k === 2) return {faces: data.mesh.map(m => ({points: m.corners, node: m.node, fill: shade(data.radiosity[m.node])}))};
     const faces = [];  // bilinear: a face as 4 x 4 cells
@@ -165,7 +168,7 @@ const chapters = [{
     const g = data.bf[k];
     $('heading').textContent = `BF-refinement, generation ${k}: ${g.leaves} leaves, ${g.links} links`;
     $('caption').textContent = `Estimated error ${short(100 * g.estimate)} %, wanted ${short(100 * data.target)} %. The mesh so far is solved, and the links whose light errs most are refined next` +
-      (g.choices.length ? ':' : '; here it ends.');
+      (g.choices.length ? ':' : '; here it ends.' + (k ? '' : ' A smaller --target goes on.'));
     $('details').append(chart([{name: 'links', values: data.bf.map(b => b.links)}, {name: 'n\u00b2', values: data.bf.map(b => b.leaves ** 2)}], k, 'links against n\u00b2, by generation'),
       list(g.choices.map((c, i) => [c.why, i]), 0, i => { g.choices.unshift(g.choices.splice(i, 1)[0]); redraw(); }));
     const c = g.choices[0], known = this.known(k), faces = facesOf(byLight, byLight.leaves(known), this.fillAt(k));

@@ -98,7 +98,8 @@ function paint(canvas, {faces, lines = [], marks = []}) {
   for (const f of faces) {
     const at = f.points.map(look.to), c = centre(f.points);
     const normal = f.points.reduce((n, p, i) => plus(n, cross(minus(p, c), minus(f.points[(i + 1) % f.points.length], c))), [0, 0, 0]);
-    drawn.push({...f, at, depth: Math.hypot(...minus(c, look.from)), front: dot(normal, minus(look.from, c)) > 0});
+    const above = dot(normal, minus(look.from, c));  // the eye over the plane of the face
+    drawn.push({...f, at, normal, above, depth: Math.hypot(...minus(c, look.from)), front: above > 0});
   }
   drawn.sort((a, b) => b.depth - a.depth || (a.wide ? 1 : 0) - (b.wide ? 1 : 0));
   const path = at => {
@@ -128,8 +129,12 @@ function paint(canvas, {faces, lines = [], marks = []}) {
   context.font = '12px sans-serif';
   for (const m of marks) {
     const p = look.to(m.at);
+    if (behind(drawn, look.from, m.at, p)) continue;
     context.fillStyle = m.colour;
-    if (m.text) {
+    if (m.text) {  // with a rim that sets it off from a dark face
+      context.strokeStyle = 'rgba(255,255,255,.8)';
+      context.lineWidth = 3;
+      context.strokeText(m.text, p[0] - 3, p[1] + 4);
       context.fillText(m.text, p[0] - 3, p[1] + 4);
     } else {
       context.beginPath();
@@ -139,17 +144,22 @@ function paint(canvas, {faces, lines = [], marks = []}) {
   }
   canvas.drawn = drawn;
 }
-function hit(canvas, x, y) {
-  for (const f of [...canvas.drawn].reverse()) {
-    if (!f.front || f.node === undefined) continue;
-    let inside = false;
-    for (let i = 0, j = f.at.length - 1; i < f.at.length; j = i++) {
-      const [xi, yi] = f.at[i], [xj, yj] = f.at[j];
-      if ((yi > y) !== (yj > y) && x < (xj - xi) * (y - yi) / (yj - yi) + xi) inside = !inside;
-    }
-    if (inside) return f.node;
+function inside(at, x, y) {
+  let within = false;
+  for (let i = 0, j = at.length - 1; i < at.length; j = i++) {
+    const [xi, yi] = at[i], [xj, yj] = at[j];
+    if ((yi > y) !== (yj > y) && x < (xj - xi) * (y - yi) / (yj - yi) + xi) within = !within;
   }
-  return -1;
+  return within;
+}
+// Does a face that is seen from its front hide a point? The hundredth is for faces around the point itself, which need not be flat.
+function behind(drawn, from, point, [x, y]) {
+  const away = minus(from, point);
+  return drawn.some(f => f.front && !f.wide && f.above < 0.99 * dot(f.normal, away) && inside(f.at, x, y));
+}
+function hit(canvas, x, y) {
+  const face = [...canvas.drawn].reverse().find(f => f.front && f.node !== undefined && inside(f.at, x, y));
+  return face ? face.node : -1;
 }
 
 // --- the trees: one box a node, children under their parent, as wide as their leaves

@@ -65,7 +65,7 @@ class Page {
         if (std::find(names.begin(), names.end(), m.name) == names.end()) { names.push_back(m.name); }
       }
     }
-    text_ += "<h2 class=\"first\">Overview</h2>\n<div class=\"scroll wide\"><table><caption><b>Table " + std::to_string(++tables_) +
+    text_ += "<div class=\"scroll wide\"><h2 class=\"first\">Overview</h2>\n<table><caption><b>Table " + std::to_string(++tables_) +
              ".</b> CPU seconds of each method's cheapest run within the error named, which is the smallest that most methods reach; the "
              "least of each scene is bold.</caption>\n<thead><tr><th class=\"name\">scene</th><th "
              "class=\"name\">reference</th><th>noise</th><th>error</th>";

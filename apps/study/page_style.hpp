@@ -63,7 +63,7 @@ td.remark{text-align:left;white-space:normal;font-style:italic;color:var(--pale)
  figure svg{max-width:170mm}
  .scroll{overflow:visible}
  table,.wide table{font-size:7pt}.summary table{font-size:7.5pt;break-inside:avoid}th,td,.wide th,.wide td{padding:1px 3px}
- thead{display:table-header-group}tr{break-inside:avoid}
+ thead{display:table-header-group}tr{break-inside:avoid}tr:not(.begins){break-before:avoid}
  caption{font-size:9.5pt}figcaption{font-size:9.5pt}.maps figcaption{font-size:8.5pt}
  tr.front td{background:none}
  nav{display:none}

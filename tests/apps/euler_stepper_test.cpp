@@ -3,9 +3,12 @@
 #include "catch.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <random>
+#include <regex>
 #include <string>
 
 #include <brep/euler_script_parse.hpp>
@@ -149,6 +152,29 @@ TEST_CASE("stepper: coordinates of a script are read, keep the places of lines, 
   const Story story = told_story("make_segment\n");
   CHECK(solid_view(story.frames[1], coordinates, 100.0).find("data-of='h0 h1'") != std::string::npos);
   CHECK(solid_view(story.frames[1], {}, 100.0).empty());
+}
+
+TEST_CASE("stepper: no vertex covers another in the view of the solid, and its name stays within its disk") {
+  const std::regex mark("translate\\(([-.0-9]+) ([-.0-9]+)\\)'><circle r='([.0-9]+)'/><text font-size='([.0-9]+)' y='.35em'>(v[0-9]+)<");
+  int seen = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(HALFLIGHT_LESSONS)) {
+    if (entry.path().extension() != ".euler") { continue; }
+    std::string text = program::content(entry.path());
+    const Coordinates coordinates = take_coordinates(text);
+    const std::string view = solid_view(told_story(text).frames.back(), coordinates, 240.0);
+    std::vector<std::array<double, 3>> disks;
+    for (std::sregex_iterator m(view.begin(), view.end(), mark), end; m != end; ++m) {
+      INFO(entry.path().filename().string() << ": " << m->str(5));
+      const std::array<double, 3> disk{std::stod(m->str(1)), std::stod(m->str(2)), std::stod(m->str(3))};
+      // DejaVu Sans: letters are .64 of the size wide and .73 high.
+      const double size = std::stod(m->str(4)), letters = static_cast<double>(m->str(5).size());
+      CHECK(std::hypot(0.32 * size * letters, 0.365 * size) <= disk[2]);
+      for (const auto& other : disks) { CHECK(std::hypot(disk[0] - other[0], disk[1] - other[1]) >= disk[2] + other[2]); }
+      disks.push_back(disk);
+      ++seen;
+    }
+  }
+  CHECK(seen == 8 + 16 + 16);  // lessons 010, 030 and 040
 }
 
 TEST_CASE("terminal: keys edit a line, arrows bring back earlier ones, Tab completes") {

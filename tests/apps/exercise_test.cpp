@@ -42,6 +42,17 @@ TEST_CASE("exercises: twelve, each with a beginning that is not solved and a sol
   }
 }
 
+TEST_CASE("exercises: no lesson solves one, so that each has to be worked out") {
+  for (const Exercise& e : apps::exercise::all()) {
+    if (!is_script(e)) { continue; }
+    for (const auto& lesson : std::filesystem::directory_iterator(HALFLIGHT_LESSONS)) {
+      if (lesson.path().extension() != ".euler") { continue; }
+      INFO(e.file << " and " << lesson.path().filename().string());
+      CHECK(e.fault(program::content(lesson.path())));
+    }
+  }
+}
+
 TEST_CASE("exercises: a script without one of its operators is told as wrong") {
   for (const Exercise& e : apps::exercise::all()) {
     if (!is_script(e)) { continue; }

@@ -195,6 +195,10 @@ TEST_CASE("explain: every step of the page is drawn in a browser without an erro
     const spans = [0, 1].map(c => (Math.max(...places.map(p => p[c])) - Math.min(...places.map(p => p[c]))) / size[c]);
     const within = places.every(p => [0, 1].every(c => p[c] > 0 && p[c] < size[c]));
     document.documentElement.dataset.fills = within && Math.abs(Math.max(...spans) - 0.9) < 1e-6;
+    // A face that is seen from its front hides what lies behind its middle, and nothing else on the way there.
+    const {from, to} = camera(...size), along = (f, s) => plus(from, times(minus(centre(f.points), from), s));
+    document.documentElement.dataset.hides = view.drawn.length > 9 && view.drawn.every(f => [0.9, 1, 1.1].every(s =>
+      behind([f], from, along(f, s), to(along(f, s))) === (s > 1 && f.front && !f.wide)));
     // Over-shooting is said to pay where one of its residuals is below that of shooting.
     const residuals = (s, name) => s.methods.filter(m => m.name.startsWith(name)).map(m => m.residual);
     document.documentElement.dataset.pays = data.solvers.every(s => {
@@ -215,6 +219,7 @@ TEST_CASE("explain: every step of the page is drawn in a browser without an erro
   CHECK(dom.find("data-coarse=\"3\"") != std::string::npos);  // of six pairs three face each other
   CHECK(dom.find("data-mine=\"true\"") != std::string::npos);
   CHECK(dom.find("data-fills=\"true\"") != std::string::npos);
+  CHECK(dom.find("data-hides=\"true\"") != std::string::npos);
   CHECK(dom.find("data-pays=\"true\"") != std::string::npos);
   CHECK(dom.find("data-pulled=\"true\"") != std::string::npos);  // what the page pulls up is what the program sends next
 }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <regex>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "program.hpp"
@@ -16,7 +18,7 @@ namespace fs = std::filesystem;
 
 const fs::path examples = fs::path(HALFLIGHT_SOURCE) / "examples";
 
-std::vector<std::string> matches(const std::string& text, const char* pattern) {
+std::vector<std::string> matches(const std::string& text, const std::string& pattern) {
   const std::regex expression(pattern);
   std::vector<std::string> found;
   for (std::sregex_iterator at(text.begin(), text.end(), expression), end; at != end; ++at) { found.push_back((*at)[1]); }
@@ -65,6 +67,15 @@ TEST_CASE("map of the paper: every section is there, and every name that it give
   CHECK(run(map) == 0);
   INFO(place.read("out"));
   CHECK(matches(place.read("out"), R"((brep/euler\.hpp:\d+: split_face))").size() == 1);
+  for (const auto& [file, name] : {std::pair{"radiosity/solver/iteration.hpp", "residual"}, std::pair{"brep/csg/booleans.hpp", "unite"}}) {
+    // The function, not a member or a name of an enumeration above it.
+    const std::vector<std::string> at = matches(place.read("out"), std::string(file) + ":(\\d+): " + name + "\n");
+    REQUIRE(at.size() == 1);
+    std::istringstream lines(program::content(fs::path(HALFLIGHT_SOURCE) / file));
+    std::string line;
+    for (int k = std::stoi(at[0]); k > 0; --k) { std::getline(lines, line); }
+    CHECK(line.find(std::string(" ") + name + "(") != std::string::npos);
+  }
   CHECK(run(map + "[`split_faces_in_three`](../brep/euler.hpp)\n") != 0);
   CHECK(place.read("out").find("split_faces_in_three is not in brep/euler.hpp") != std::string::npos);
   CHECK(run(map + "[`split_face`](../brep/gone.hpp)\n") != 0);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <map>
+#include <sstream>
 
 #include "apps/study/base64.hpp"
 #include "apps/study/error_picture.hpp"
@@ -14,6 +16,7 @@
 #include "apps/study/pages.hpp"
 #include "apps/study/table.hpp"
 #include "apps/study/tables.hpp"
+#include "browser.hpp"
 #include "json.hpp"
 #include "made_up_study.hpp"
 #include "markup.hpp"
@@ -266,6 +269,39 @@ TEST_CASE("the page is well-formed, holds everything itself and states machine, 
   CHECK(html.find("two thirds of the solver&#39;s arithmetic") != std::string::npos);
   CHECK(count_parts(html, "Overview") == 1);
   CHECK(markup::fault(page({})) == "");
+}
+
+TEST_CASE("on paper the runs of a method stay together, and a heading is on the page of its table") {
+  if (!browser::found() || std::system("command -v pdftotext >/dev/null 2>&1") != 0) { SKIP_TEST("there is no chromium, or no pdftotext"); }
+  Study study = made_up::study_of_one();
+  study.scenes.resize(2, study.scenes[0]);
+  std::vector<std::string> names;
+  for (SceneStudy& scene : study.scenes) {
+    scene.pictures.clear();
+    for (Method& method : scene.methods) {
+      method.name = method.name.substr(0, method.name.find(','));  // on one line
+      const std::vector<Run> runs = method.runs;
+      method.runs.insert(method.runs.end(), runs.begin(), runs.end());
+      names.push_back(method.name);
+    }
+  }
+  const program::Place place;
+  place.write("page.html", page(study));
+  REQUIRE(std::system(("cd '" + place.path().string() + "' && timeout 60 chromium --headless --no-sandbox --disable-gpu" +
+                       " --user-data-dir=profile --print-to-pdf=page.pdf page.html >/dev/null 2>&1 && pdftotext -layout page.pdf")
+                          .c_str()) == 0);
+  std::istringstream pages(place.read("page.txt"));
+  int checked = 0;
+  for (std::string text; std::getline(pages, text, '\f');) {
+    INFO(text);
+    if (text.find("Overview") != std::string::npos) { CHECK(text.find("Table 1") != std::string::npos); }
+    const std::size_t run = text.find(" epsilon .");  // the first of the page
+    if (run == std::string::npos) { continue; }
+    const std::string row = text.substr(text.rfind('\n', run) + 1, run - text.rfind('\n', run));
+    CHECK(std::any_of(names.begin(), names.end(), [&](const std::string& name) { return row.find(name) != std::string::npos; }));
+    ++checked;
+  }
+  CHECK(checked >= 6);  // three tables of each scene
 }
 
 TEST_CASE("a method has the same colour in every scene") {
