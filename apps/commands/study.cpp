@@ -115,7 +115,7 @@ bool study_scene(const std::string& path, const StudyOptions& options, const std
   measuring.finished = [&](const study::Method& method, const study::Run& run) {
     char line[160] = "";
     const std::string outcome = !run.refused.empty() ? run.refused
-                                                     : "L2 of the leaves " + percent(run.leaves_error.cells.l2) +
+                                                     : "L2 of cell means " + percent(run.leaves_error.cells.l2) +
                                                            (run.cut_off.empty() ? "" : ", " + run.cut_off + ": not credited");
     std::snprintf(line, sizeof line, "  %-20s %-26s %8.3f s  %s", method.name.c_str(), run.setting.c_str(), run.cpu_seconds,
                   outcome.c_str());
