@@ -5,11 +5,13 @@
 // of it is exposed. Refinement lets it grow; everything after refinement reads it.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <raycast/scene.hpp>
 
 #include <radiosity/clusters/clusters.hpp>
+#include <radiosity/discontinuity/light_meshing.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
@@ -55,6 +57,7 @@ struct DiscreteScene {
   Control control;
   MemoryBudget budget;
   Meshing meshing = RegularMeshing{};
+  std::optional<LightMeshing> light_meshing;  // the one in use
 
   Frame frame;
   raycast::Scene objects;         // in the frame

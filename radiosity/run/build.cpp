@@ -44,6 +44,10 @@ HALFLIGHT_INLINE std::optional<Failure> build(detail::Run& run) {
     for (Surface& surface : boundaries) { surface = separate_polygons(surface); }
   }
   run.tracer.emplace(scene.input, scene.objects, boundaries);
+  if (options.discontinuities > 0 && (run.f_refined() || run.bf_refined())) {
+    scene.light_meshing.emplace(scene.objects, boundaries, scene.reflectance, scene.emission, options.discontinuities);
+    scene.meshing = [&scene](const LeafFace& leaf) { return scene.light_meshing->split(leaf); };
+  }
   audit.warnings = warnings(scene.input, scene.frame, boundaries);
   if (const std::size_t left = cut_at_walls(boundaries, scene.objects.diameter())) { audit.warnings.push_back(warning_of_uncut(left)); }
   cut_long_faces(boundaries, options.min_area);

@@ -75,6 +75,9 @@ struct Options {
   std::function<Decision(const Question&)> oracle;
   // This splits the faces of leaves, in place of regular refinement (meshing.hpp).
   std::function<ChildFaces(const LeafFace&)> meshing;
+  // F-refinement: the faces of flat objects are cut at the discontinuities of the direct light and across it (discontinuity/), where at
+  // most so many lines are looked at on each face; 0: regular refinement.
+  std::uint32_t discontinuities = 0;
 
   // Input faces from which on clusters are built above them; below, all pairs of input faces are looked at.
   std::uint32_t cluster_from = 300;
