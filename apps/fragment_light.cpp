@@ -15,6 +15,7 @@
 #include <raycast/shaft.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lit_region.hpp>
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/support/random.hpp>

@@ -85,6 +85,11 @@ class Text {
     say("input polygons", "{polygons}");
     say("nodes, leaves", "{nodes}, {leaves}");
     say("proportions", "{proportion.min} to {proportion.max}, mean {proportion.mean} (regular polygon: 1)");
+    say("edges of shadows", "{discontinuities.edges} imprinted on {discontinuities.faces} faces",
+        (audit_.imprinted && audit_.imprinted->limited > 0 ? "; limit reached on " + std::to_string(audit_.imprinted->limited) : "") +
+            (audit_.imprinted && audit_.imprinted->not_looked_at > 0
+                 ? "; not looked for on " + std::to_string(audit_.imprinted->not_looked_at) + ": too many faces, lamps and objects"
+                 : ""));
     say("links", audit_.clusters > 0      ? "{links}, {cluster_links} of them with one of {clusters} clusters"
                  : audit_.stored_rays > 0 ? "{links}, {ray_links} of them made of {stored_rays} stored rays"
                                           : "{links}");

@@ -166,6 +166,14 @@ Facts facts_of(const Report& report) {
   facts.add("polygons", audit.polygons);
   facts.add("nodes", audit.nodes);
   facts.add("leaves", audit.leaves);
+  if (audit.imprinted) {
+    facts.add("discontinuities.edges", audit.imprinted->edges);
+    facts.add("discontinuities.faces", audit.imprinted->faces);
+    facts.add("discontinuities.limited", audit.imprinted->limited);
+    facts.add("discontinuities.not_looked_at", audit.imprinted->not_looked_at);
+  } else {
+    facts.add("discontinuities", {});
+  }
   facts.add("links", audit.links);
   facts.add("ray_links", audit.ray_links);
   facts.add("stored_rays", audit.stored_rays);

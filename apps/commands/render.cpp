@@ -264,7 +264,7 @@ std::vector<Argument> arguments(RenderOptions& options) {
       text("--light", "FILE", options.light,
            "a .light file of this scene: pictures are drawn from it, and nothing is solved; with the options of pictures alone")
           .without({"--json", "--onto-input", "--lightmap", "--error", "--target", "--time", "--epsilon", "--min-area", "--light-epsilon",
-                    "--indirect", "--solver", "--reconstruction", "--no-shortcuts"}),
+                    "--discontinuities", "--indirect", "--solver", "--reconstruction", "--no-shortcuts"}),
       above_zero("--error", solver.error, 1.0, "refine until the measured relative L2 error is at most this"),
       one_of<std::optional<ErrorOf>, ErrorOf>(
           "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},
@@ -288,6 +288,9 @@ std::vector<Argument> arguments(RenderOptions& options) {
       above_zero("--light-epsilon", solver.light_epsilon, 1.0,
                  "share of the error that the light of a lamp may cause by varying over one patch (default: a quarter of epsilon)")
           .without(ends),
+      whole_number("--discontinuities", solver.discontinuities, 0, 1'000'000,
+                   "cuts faces along the edges of shadows, at most so many on each, and across their direct light: half the error at equal "
+                   "leaves where lamps cause most of it (default: 0, regular refinement)"),
       text("--camera", "TEXT", options.camera, "camera of the scene (default: the first; without any, an automatic view)"),
       parsed("--size", "WxH", options.size, parse_size, size_fault, "picture size in pixels (default: the camera's, else 800x600)"),
       one_of<PictureMethod, PictureMethod>(

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -12,8 +13,9 @@
 
 #include <raycast/inline.hpp>
 
-#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lit_region.hpp>
 #include <radiosity/discontinuity/critical_lines.hpp>
+#include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/visibility/visibility.hpp>
@@ -22,79 +24,88 @@ namespace radiosity {
 
 namespace detail {
 
-inline constexpr unsigned grid = 6;
-
 struct LightSamples {
-  std::array<glm::dvec3, grid * grid> at;
-  std::array<Color, grid * grid> light;
+  static constexpr std::size_t side = 6, count = side * side;
+  std::array<glm::dvec3, count> at;
+  std::array<Color, count> light;
 };
 
-// The variance between both sides of a plane, and how well both parts are proportioned.
-[[nodiscard]] HALFLIGHT_INLINE double between(const LightSamples& samples, const CutPlane& cut) {
-  Color low{0.0}, high{0.0};
-  double lows = 0.0, highs = 0.0;
-  for (std::size_t i = 0; i < samples.at.size(); ++i) {
-    const bool above = glm::dot(cut.normal, samples.at[i] - cut.point) > 0.0;
-    (above ? high : low) += samples.light[i];
-    (above ? highs : lows) += 1.0;
+// The variance that a cut takes away: that between the means of both sides.
+[[nodiscard]] HALFLIGHT_INLINE double variance_between(const LightSamples& samples, const CutPlane& cut) {
+  std::array<Color, 2> sum{Color{0.0}, Color{0.0}};
+  std::array<double, 2> count{};
+  for (std::size_t i = 0; i < LightSamples::count; ++i) {
+    const std::size_t above = glm::dot(cut.normal, samples.at[i] - cut.point) > 0.0 ? 1 : 0;
+    sum[above] += samples.light[i];
+    count[above] += 1.0;
   }
-  if (lows == 0.0 || highs == 0.0) { return 0.0; }
-  const Color difference = high / highs - low / lows;
-  return lows * highs / ((lows + highs) * (lows + highs)) * glm::dot(difference, difference);
+  if (count[0] == 0.0 || count[1] == 0.0) { return 0.0; }
+  const Color difference = sum[1] / count[1] - sum[0] / count[0];
+  constexpr double all = LightSamples::count;
+  return count[0] * count[1] / (all * all) * glm::dot(difference, difference);
 }
 
-// Length over width of a convex polygon with this normal: its diameter squared over its area.
+// The square of the diameter over the area: length over width of what is long.
 [[nodiscard]] HALFLIGHT_INLINE double length_over_width(const Polygon& polygon) {
-  double far = 0.0;
+  double square = 0.0;
   for (const glm::dvec3& a : polygon) {
-    for (const glm::dvec3& b : polygon) { far = std::max(far, glm::dot(a - b, a - b)); }
+    for (const glm::dvec3& b : polygon) { square = std::max(square, glm::dot(a - b, a - b)); }
   }
   const double area = polygon.size() < 3 ? 0.0 : glm::length(vector_area(polygon));
-  return area > 0.0 ? far / area : 1e300;
+  return area > 0.0 ? square / area : std::numeric_limits<double>::infinity();
+}
+
+// The larger of both parts' lengths over widths.
+[[nodiscard]] HALFLIGHT_INLINE double worst_part(const Polygon& contour, const CutPlane& cut) {
+  Polygon above;
+  Polygon below;
+  clip_to_horizon(contour, cut.point, cut.normal, above);
+  clip_to_horizon(contour, cut.point, -cut.normal, below);
+  return std::max(length_over_width(above), length_over_width(below));
 }
 
 }  // namespace detail
 
-HALFLIGHT_INLINE PatchVariation patch_variation(LitRegion& region, const Patch& patch, const Color& reflectance,
-                                                const std::vector<CriticalLine>& lines) {
-  detail::LightSamples samples;
+HALFLIGHT_INLINE DirectVariation direct_variation(LitRegion& region, const Patch& patch, const Color& reflectance,
+                                                  const std::vector<CriticalLine>& lines) {
+  using detail::LightSamples;
+  LightSamples samples;
   Color mean{0.0};
   double square = 0.0;
-  constexpr double count = detail::grid * detail::grid;
-  for (unsigned i = 0; i < detail::grid; ++i) {
-    for (unsigned k = 0; k < detail::grid; ++k) {
-      const std::size_t n = i * detail::grid + k;
-      samples.at[n] = sample(patch, (i + 0.5) / detail::grid, (k + 0.5) / detail::grid);
-      samples.light[n] = reflectance * region.irradiance(samples.at[n], patch.normal);
-      mean += samples.light[n] / count;
-      square += glm::dot(samples.light[n], samples.light[n]) / count;
-    }
+  for (std::size_t i = 0; i < LightSamples::count; ++i) {
+    const auto u = static_cast<double>(i % LightSamples::side);
+    const auto v = static_cast<double>(i / LightSamples::side);
+    samples.at[i] = sample(patch, (u + 0.5) / LightSamples::side, (v + 0.5) / LightSamples::side);
+    samples.light[i] = reflectance * region.irradiance(samples.at[i], patch.normal);
+    mean += samples.light[i] / static_cast<double>(LightSamples::count);
+    square += glm::dot(samples.light[i], samples.light[i]) / static_cast<double>(LightSamples::count);
   }
-  PatchVariation result;
+  DirectVariation result;
   result.variance = std::max(0.0, square - glm::dot(mean, mean));
-  // Parts may be as long as the patch itself where that is longer than they should be.
-  const double own = detail::length_over_width(patch.contour);
-  const double longest = std::max(longest_cut_part, own);
-  double best = -1.0;
-  const auto consider = [&](const CutPlane& cut, double bonus) {
-    Polygon below, above;
-    clip_to_horizon(patch.contour, cut.point, cut.normal, above);
-    clip_to_horizon(patch.contour, cut.point, -cut.normal, below);
-    const double shape = std::max(detail::length_over_width(above), detail::length_over_width(below));
-    if (!(shape <= longest * 1.000001)) { return; }
-    // Of equal gains the better proportioned parts: the second term is at most a hundredth of the variance.
-    const double gain = detail::between(samples, cut) * bonus + 0.01 * (result.variance + 1e-12 * square + 1e-300) / shape;
-    if (gain > best * (1.0 + 1e-9)) {
-      best = gain;
-      result.cut = cut;
-    }
-  };
+
+  constexpr double even = 1.0 + 0x1p-20;  // keeps rounding from deciding between the sides of a square
+  const double longest = std::max(longest_cut_part, detail::length_over_width(patch.contour)) * even;
+  double most = -1.0;
   for (std::size_t i = 0; i < patch.contour.size(); ++i) {
     const glm::dvec3 side = patch.contour[i + 1 < patch.contour.size() ? i + 1 : 0] - patch.contour[i];
-    if (glm::length(side) > 0.0) { consider({patch.centroid, glm::normalize(glm::cross(patch.normal, side))}, 1.0); }
+    if (!(glm::length(side) > 0.0)) { continue; }
+    const CutPlane cut{patch.centroid, glm::normalize(glm::cross(patch.normal, side))};
+    const double proportion = detail::worst_part(patch.contour, cut);
+    if (!(proportion <= longest)) { continue; }
+    // Where the light is as good as even the proportions of the parts decide.
+    const double gain = detail::variance_between(samples, cut) + (0.01 * result.variance + 1e-9 * square + 1e-300) / proportion;
+    if (!(gain > most * even)) { continue; }
+    most = gain;
+    result.halves = cut;
   }
+  const double least = result.halves ? 0.5 * detail::variance_between(samples, *result.halves) : 0.0;
+  double best = std::max(least, 1e-6 * square);
   for (const CriticalLine& line : lines) {
-    consider({line.from, glm::normalize(glm::cross(patch.normal, line.to - line.from))}, 2.0);
+    const CutPlane cut{line.from, glm::normalize(glm::cross(patch.normal, line.to - line.from))};
+    const double gain = detail::variance_between(samples, cut);
+    if (!(gain > best * even) || !(detail::worst_part(patch.contour, cut) <= longest)) { continue; }
+    best = gain;
+    result.along = cut;
   }
   return result;
 }

@@ -1,43 +1,42 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How the direct light varies across a patch, and where a cut takes the most of that away.
+// How the direct light varies across a patch, and which cut takes the most of that away.
 //
-// The light of the lamps is known before anything is solved (DirectLight), shadows and penumbrae included. It is looked at in 36 points of
-// the patch; a leaf carries one radiosity, so what it cannot express is their variance. A cut at a line leaves two parts with means of
-// their own, and takes the variance between them away. Lines that are tried: the critical lines that cross the patch, and through its
-// centroid the parallels to its sides; so parts of long strips are strips, as the light is.
+// A leaf carries one radiosity, so what it cannot express is the variance of the light over it. That is measured in 36 points, with shadows
+// and half-shadows as they are (LitRegion). A cut leaves two parts, each with a mean of its own, and takes away the variance between the
+// two. Two kinds of cuts are compared by that: along a critical line that crosses the patch, and in halves, through its centroid, parallel to
+// one of its sides. So the parts of a half-shadow are strips along its edge, over which the light is even.
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lit_region.hpp>
 #include <radiosity/discontinuity/critical_lines.hpp>
 #include <radiosity/hierarchy/patch.hpp>
-#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
 
 namespace radiosity {
 
-// A cut along the plane through a point.
+// Parts are no longer than this many times their width, unless the patch itself is.
+inline constexpr double longest_cut_part = 8.0;
+
+// A cut along the plane through a point, its normal in the plane of the patch.
 struct CutPlane {
   glm::dvec3 point{0.0}, normal{0.0};
 };
 
-struct PatchVariation {
-  double variance = 0.0;  // of the reflected direct light, over the patch, all channels
-  CutPlane cut;           // normal 0: none is left that makes both parts proper
+struct DirectVariation {
+  double variance = 0.0;           // of the reflected direct light, summed over the channels; (W/m2)^2
+  std::optional<CutPlane> halves;  // nothing: no cut leaves parts of sound proportion
+  std::optional<CutPlane> along;   // a critical line, where that takes away half of what cutting in halves does, at least
 };
 
-// Parts are no longer than this many times their width.
-inline constexpr double longest_cut_part = 8.0;
-
-// Of a patch on a flat object. `region` is that of the patch.
-[[nodiscard]] PatchVariation patch_variation(LitRegion& region, const Patch& patch, const Color& reflectance,
-                                             const std::vector<CriticalLine>& lines);
+// Of a flat patch with area, whose points `region` is made for.
+[[nodiscard]] DirectVariation direct_variation(LitRegion& region, const Patch& patch, const Color& reflectance,
+                                               const std::vector<CriticalLine>& lines);
 
 }  // namespace radiosity
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <utility>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -24,133 +24,159 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/facets.hpp>
+#include <radiosity/direct/lit_region.hpp>
 #include <radiosity/discontinuity/critical_lines.hpp>
 #include <radiosity/discontinuity/direct_variation.hpp>
+#include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/support/parallel.hpp>
+#include <radiosity/visibility/occlusion.hpp>
 #include <radiosity/visibility/polygon_shaft.hpp>
 
 namespace radiosity {
 
 namespace detail {
 
-HALFLIGHT_INLINE CriticalLines find_lines(const DirectLight& light, const std::vector<Surface>& surfaces, std::size_t limit) {
-  CriticalLines lines;
-  std::vector<Facets> bodies(surfaces.size());
-  for (std::size_t o = 0; o < surfaces.size(); ++o) {
-    if (surfaces[o].object->exact()) { bodies[o] = facets_of(surfaces[o]); }
-  }
-  for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
-    if (!surfaces[o].object->flat()) { continue; }
-    for (const brep::FaceId f : brep::faces(surfaces[o].brep)) {
-      if (surfaces[o].brep.data(f).sheet == brep::no_sheet) { continue; }
-      ReceivingFace face{corner_polygon(surfaces[o].brep, f), {}};
-      const glm::dvec3 area = vector_area(face.contour);
-      if (!(glm::length(area) > 0.0)) { continue; }
-      face.normal = glm::normalize(area);
-      double size = 0.0;
-      for (const glm::dvec3& p : face.contour) { size = std::max(size, glm::length(p - face.contour[0])); }
-      const double tolerance = 1e-9;
-      std::vector<CriticalLine>& on = lines.of[{o, surfaces[o].brep.data(f).part}];
-      for (std::size_t b = 0; b < bodies.size(); ++b) {
-        if (b != o && !bodies[b].empty()) { add_contact_lines(face, bodies[b], tolerance, on); }
-      }
-      for (const DirectLight::Lamp& lamp : light.lamps()) {
-        const bool reached = std::any_of(lamp.corners.begin(), lamp.corners.end(),
-                                         [&](const glm::dvec3& p) { return face.height(p) > tolerance; });
-        if (!lamp.flat || !reached) { continue; }
-        const Shaft shaft{face.contour, lamp.corners, tolerance};
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-          if (bodies[b].empty() || shaft.misses(surfaces[b].object->bounds())) { continue; }
-          add_critical_lines(face, lamp.facets, bodies[b], tolerance, on);
-        }
-      }
-      join_lines(on, 1e-3 * size);
-      if (on.size() > limit) {
-        lines.left_out += on.size() - limit;
-        on.resize(limit);
-      }
-    }
-  }
-  return lines;
-}
+// What is nearer to a face touches it, in a scene of size 1 to 2.
+inline constexpr double tol_touch = 1e-9;
+// Lines nearer than this to each other, relative to the face, count as one: what lies between them would be a sliver.
+inline constexpr double tol_line = 1e-3;
+// A line that covers a smaller share of its chord through a patch does not cut it: the rest of the cut would be no edge of a shadow.
+inline constexpr double least_share_of_chord = 0.3;
 
 // Of the chord of a convex polygon on the line, the share that the line itself covers; 0 where it only touches.
 [[nodiscard]] HALFLIGHT_INLINE double share_of_chord(const Polygon& polygon, const glm::dvec3& normal, const CriticalLine& line) {
   const double length = glm::length(line.to - line.from);
   const glm::dvec3 along = (line.to - line.from) / length;
   const glm::dvec3 across = glm::cross(normal, along);
-  double from = 1e300, to = -1e300, low = 0.0, high = 0.0;
+  double from = std::numeric_limits<double>::infinity();
+  double to = -from;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec3 a = polygon[i] - line.from;
     const glm::dvec3 b = polygon[i + 1 < polygon.size() ? i + 1 : 0] - line.from;
-    const double ya = glm::dot(across, a), yb = glm::dot(across, b);
-    low = std::min(low, ya), high = std::max(high, ya);
+    const double ya = glm::dot(across, a);
+    const double yb = glm::dot(across, b);
     if ((ya > 0.0) == (yb > 0.0)) { continue; }
     const double x = glm::dot(along, a + ya / (ya - yb) * (b - a));
-    from = std::min(from, x), to = std::max(to, x);
+    from = std::min(from, x);
+    to = std::max(to, x);
   }
-  if (!(to > from) || !(low < 0.0) || !(high > 0.0)) { return 0.0; }
-  return std::max(0.0, std::min(to, length) - std::max(from, 0.0)) / (to - from);
+  return to > from ? std::max(0.0, std::min(to, length) - std::max(from, 0.0)) / (to - from) : 0.0;
+}
+
+[[nodiscard]] HALFLIGHT_INLINE std::optional<ReceivingFace> receiving_face(const Surface& surface, brep::FaceId f) {
+  if (surface.brep.data(f).sheet == brep::no_sheet) { return std::nullopt; }
+  ReceivingFace face{corner_polygon(surface.brep, f), {}};
+  const glm::dvec3 area = vector_area(face.contour);
+  if (!(glm::length(area) > 0.0)) { return std::nullopt; }
+  face.normal = glm::normalize(area);
+  return face;
 }
 
 }  // namespace detail
 
 HALFLIGHT_INLINE LightMeshing::LightMeshing(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
-                                            const std::vector<Color>& reflectance, const std::vector<Color>& emission, std::size_t limit)
-    : light_{objects, surfaces, emission}, lines_{detail::find_lines(light_, surfaces, limit)}, reflectance_{reflectance}, object_of_(emission.size(), 0) {
+                                            const std::vector<Color>& reflectance, const std::vector<Color>& emission,
+                                            std::uint32_t most_edges)
+    : light_{objects, surfaces, emission}, reflectance_{reflectance}, object_of_(emission.size(), 0), most_edges_{most_edges} {
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) { object_of_[surfaces[o].first_surface] = o; }
+  find_lines(surfaces);
 }
 
-HALFLIGHT_INLINE bool LightMeshing::covers(const Node& lamp, const Node& receiver) const {
-  return !lamp.is_cluster() && !receiver.is_cluster() && light_.is_lamp(lamp.surface) && receiver.deviation == 0.0 && receiver.area > 0.0;
-}
-
-HALFLIGHT_INLINE PatchVariation LightMeshing::look_at(const Surface& surface, brep::FaceId face, const Patch& patch) const {
-  const std::uint32_t sheet = surface.brep.data(face).sheet;
-  const std::uint32_t object = object_of_[surface.first_surface];
-  LitRegion region{light_, {patch.contour, object, 0.0, sheet}, patch.normal};
-  std::vector<CriticalLine> crossing;
-  const auto found = lines_.of.find({object, surface.brep.data(face).part});
-  if (found != lines_.of.end()) {
-    for (const CriticalLine& line : found->second) {
-      if (detail::share_of_chord(patch.contour, patch.normal, line) > 0.3) { crossing.push_back(line); }
+HALFLIGHT_INLINE void LightMeshing::find_lines(const std::vector<Surface>& surfaces) {
+  std::vector<Facets> bodies;
+  for (const Surface& surface : surfaces) { bodies.push_back(surface.object->exact() ? facets_of(surface) : Facets{}); }
+  constexpr std::uint64_t most_pairs = 20'000'000;
+  std::uint64_t pairs = 0;
+  for (const Surface& surface : surfaces) {
+    if (!surface.object->flat()) { continue; }
+    for (const brep::FaceId f : brep::faces(surface.brep)) {
+      const std::optional<ReceivingFace> face = detail::receiving_face(surface, f);
+      if (!face || is_black(reflectance_[surface.first_surface + surface.brep.data(f).sheet])) { continue; }
+      pairs += bodies.size() * (1 + light_.lamps().size());
+      if (pairs > most_pairs) {
+        ++not_looked_at_;
+        continue;
+      }
+      std::vector<CriticalLine> lines;
+      for (std::size_t b = 0; b < bodies.size(); ++b) {
+        if (&surfaces[b] != &surface && !bodies[b].empty()) { add_contact_lines(*face, bodies[b], detail::tol_touch, lines); }
+      }
+      for (const DirectLight::Lamp& lamp : light_.lamps()) {
+        const auto above = [&](const glm::dvec3& p) { return face->height(p) > detail::tol_touch; };
+        if (!lamp.flat || std::none_of(lamp.corners.begin(), lamp.corners.end(), above)) { continue; }
+        const Shaft shaft{face->contour, lamp.corners, detail::tol_touch};
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+          if (bodies[b].empty() || shaft.misses(surfaces[b].object->bounds())) { continue; }
+          add_critical_lines(*face, lamp.facets, bodies[b], detail::tol_touch, lines);
+        }
+      }
+      double size = 0.0;
+      for (const glm::dvec3& p : face->contour) { size = std::max(size, glm::length(p - face->contour[0])); }
+      join_lines(lines, detail::tol_line * size);
+      if (!lines.empty()) { faces_[key(surface, f)].lines = std::move(lines); }
     }
   }
-  return patch_variation(region, patch, reflectance_[surface.first_surface + sheet], crossing);
+}
+
+HALFLIGHT_INLINE LightMeshing::FaceKey LightMeshing::key(const Surface& surface, brep::FaceId face) const {
+  return {object_of_[surface.first_surface], surface.brep.data(face).part};
+}
+
+HALFLIGHT_INLINE DirectVariation LightMeshing::look_at(const Surface& surface, brep::FaceId face, const Patch& patch) const {
+  const std::uint32_t sheet = surface.brep.data(face).sheet;
+  LitRegion region{light_, {patch.contour, object_of_[surface.first_surface], 0.0, sheet}, patch.normal};
+  std::vector<CriticalLine> crossing;
+  if (const auto found = faces_.find(key(surface, face)); found != faces_.end()) {
+    for (const CriticalLine& line : found->second.lines) {
+      if (detail::share_of_chord(patch.contour, patch.normal, line) >= detail::least_share_of_chord) { crossing.push_back(line); }
+    }
+  }
+  return direct_variation(region, patch, reflectance_[surface.first_surface + sheet], crossing);
 }
 
 HALFLIGHT_INLINE void LightMeshing::measure(const std::vector<std::uint32_t>& nodes, const Hierarchy& hierarchy, const Patches& patches,
                                             const std::vector<Surface>& surfaces, unsigned threads) {
-  known_.resize(hierarchy.size(), false);
   measured_.resize(hierarchy.size());
-  parallel_for(
-      nodes.size(), threads,
-      [&](std::size_t k) {
-        std::uint32_t leaf = nodes[k];
-        while (!hierarchy[leaf].leaf()) { leaf = hierarchy[leaf].first_child; }
-        const Surface& surface = surfaces[hierarchy[leaf].object];
-        measured_[nodes[k]] = look_at(surface, hierarchy[leaf].face, patches[nodes[k]]);
-      },
-      4);
-  for (const std::uint32_t n : nodes) { known_[n] = true; }
+  const auto look = [&](std::size_t k) {
+    std::uint32_t leaf = nodes[k];
+    while (!hierarchy[leaf].leaf()) { leaf = hierarchy[leaf].first_child; }
+    measured_[nodes[k]] = {true, look_at(surfaces[hierarchy[leaf].object], hierarchy[leaf].face, patches[nodes[k]])};
+  };
+  parallel_for(nodes.size(), threads, look, 4);
 }
 
-HALFLIGHT_INLINE ChildFaces LightMeshing::split(const LeafFace& leaf) const {
+HALFLIGHT_INLINE ChildFaces LightMeshing::split(const LeafFace& leaf) {
   if (!leaf.surface.object->flat()) { return RegularMeshing{}(leaf); }
-  const SurfaceFace& face = leaf.surface.brep.data(leaf.face);
-  PatchVariation looked;
-  if (measured(face.node)) {
-    looked = measured_[face.node];
-  } else {
-    looked = look_at(leaf.surface, leaf.face, make_patch(corner_polygon(leaf.surface.brep, leaf.face)));
+  const std::uint32_t node = leaf.surface.brep.data(leaf.face).node;
+  const DirectVariation light =
+      measured(node) ? measured_[node].variation : look_at(leaf.surface, leaf.face, make_patch(corner_polygon(leaf.surface.brep, leaf.face)));
+  const auto cut = [&](const CutPlane& plane) { return CutBy{brep::AlongPlane{plane.point, plane.normal}}(leaf); };
+  if (light.along) {
+    FaceLines& face = faces_[key(leaf.surface, leaf.face)];
+    face.limited = face.limited || face.edges >= most_edges_;
+    ChildFaces parts = face.edges < most_edges_ ? cut(*light.along) : ChildFaces{};
+    if (!parts.faces.empty()) {
+      ++face.edges;
+      return parts;
+    }
   }
-  if (looked.cut.normal == glm::dvec3{0.0}) { return {}; }
-  return CutBy{brep::AlongPlane{looked.cut.point, looked.cut.normal}}(leaf);
+  return light.halves ? cut(*light.halves) : ChildFaces{};
+}
+
+HALFLIGHT_INLINE ImprintedEdges LightMeshing::imprinted() const {
+  ImprintedEdges sum;
+  for (const auto& [key, face] : faces_) {
+    sum.edges += face.edges;
+    sum.faces += face.edges > 0 ? 1 : 0;
+    sum.limited += face.limited ? 1 : 0;
+  }
+  sum.not_looked_at = not_looked_at_;
+  return sum;
 }
 
 }  // namespace radiosity

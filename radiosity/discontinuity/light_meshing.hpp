@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Discontinuity meshing, hierarchical (Lischinski, Tampieri and Greenberg 1993): the faces of flat objects are cut where the direct light
-// is not smooth, from the roots of the hierarchy on, so the pieces are nodes with light of their own and links to any of them.
+// Discontinuity meshing within the hierarchy (Lischinski, Tampieri and Greenberg 1993): the faces of flat objects are cut along the edges
+// of shadows, and across their light, from the input faces on. The pieces are nodes of the hierarchy like others.
 //
-// Each split of a leaf is one cut by Euler operators (CutBy, meshing.hpp), where the light on it varies most (direct_variation.hpp): along
-// a critical line that crosses it, or across its light. A leaf is split for its direct light while that varies too much over it. So pieces
-// arise where they are worth something, and a line of which nothing is to be seen cuts nothing.
+// Each split of a leaf is one cut by Euler operators (CutBy, hierarchy/meshing.hpp), the one that takes most of the variance of its direct
+// light away (direct_variation.hpp). A leaf is split for a lamp while that variance is too large a share of the error. So edges are
+// imprinted where they are worth it, and a line of which nothing is to be seen cuts nothing.
 //
-// Lamps are those of DirectLight; of those that reflect nothing the radiosity is the same all over, so one link brings the light of the
-// whole lamp to any leaf over which it is even, however large its form factor is.
+// A lamp that reflects nothing has the same radiosity all over. One link carries the light of the whole of it to any leaf on which that
+// light is even, however large its form factor is; neither end needs to be split for it.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,59 +17,74 @@
 #include <utility>
 #include <vector>
 
+#include <brep/handles.hpp>
+
 #include <raycast/scene.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/discontinuity/critical_lines.hpp>
 #include <radiosity/discontinuity/direct_variation.hpp>
+#include <radiosity/discontinuity/imprinted_edges.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/meshing.hpp>
+#include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 
 namespace radiosity {
 
-// The critical lines of all faces.
-struct CriticalLines {
-  // By the object and the part of its boundary (SurfaceFace::part).
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<CriticalLine>> of;
-  std::size_t left_out = 0;  // beyond the limit
-};
-
 class LightMeshing {
  public:
-  // The surfaces are those before any cut. At most `limit` lines are kept on each face, those of lower degree first.
+  // The surfaces are the boundaries before any cut; the scene must outlive this. On each face at most `most_edges` edges are imprinted.
+  // Time: pairs of faces, lamps and objects, of which no more than 20 million are looked at.
   LightMeshing(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const std::vector<Color>& reflectance,
-               const std::vector<Color>& emission, std::size_t limit);
+               const std::vector<Color>& emission, std::uint32_t most_edges);
 
-  [[nodiscard]] const DirectLight& light() const { return light_; }
-  [[nodiscard]] const CriticalLines& lines() const { return lines_; }
+  // Is the variance of the light known, or can measure() find it?
+  [[nodiscard]] static bool measurable(const Node& node) { return !node.is_cluster() && node.deviation == 0.0 && node.area > 0.0; }
+  [[nodiscard]] bool is_lamp(const Node& node) const { return !node.is_cluster() && light_.is_lamp(node.surface); }
+  // Is this a lamp with the same radiosity all over? One in parts is not taken for it: a link with many parts costs more than theirs.
+  [[nodiscard]] bool is_even_lamp(const Node& node) const {
+    return is_lamp(node) && is_black(reflectance_[node.surface]) && !node.in_parts();
+  }
 
-  // Is this a lamp whose light is looked at, on a receiver for which that is done?
-  [[nodiscard]] bool covers(const Node& lamp, const Node& receiver) const;
-  // Does the lamp reflect nothing?
-  [[nodiscard]] bool even(const Node& lamp) const { return is_black(reflectance_[lamp.surface]); }
-
-  // Looks at the light on these nodes, in parallel.
+  // Measures the light on these nodes, in parallel.
   void measure(const std::vector<std::uint32_t>& nodes, const Hierarchy& hierarchy, const Patches& patches,
                const std::vector<Surface>& surfaces, unsigned threads);
-  [[nodiscard]] bool measured(std::uint32_t node) const { return node < known_.size() && known_[node]; }
-  // The variance of the reflected direct light over a node that was measured; in the squared unit of the emission.
-  [[nodiscard]] double variance(std::uint32_t node) const { return measured_[node].variance; }
+  [[nodiscard]] bool measured(std::uint32_t node) const { return node < measured_.size() && measured_[node].known; }
+  // Of a node that was measured: DirectVariation::variance.
+  [[nodiscard]] double variance(std::uint32_t node) const { return measured_[node].variation.variance; }
 
-  // The strategy: splits a leaf of a flat object at its best cut, others regularly.
-  [[nodiscard]] ChildFaces split(const LeafFace& leaf) const;
+  // The meshing strategy. Faces of curved objects are refined regularly.
+  [[nodiscard]] ChildFaces split(const LeafFace& leaf);
+
+  [[nodiscard]] ImprintedEdges imprinted() const;
 
  private:
-  [[nodiscard]] PatchVariation look_at(const Surface& surface, brep::FaceId face, const Patch& patch) const;
+  // By object and part of its boundary (SurfaceFace::part), which stays the same however that is cut.
+  using FaceKey = std::pair<std::uint32_t, std::uint32_t>;
+  struct FaceLines {
+    std::vector<CriticalLine> lines;
+    std::uint64_t edges = 0;  // imprinted so far
+    bool limited = false;
+  };
+  struct Measured {
+    bool known = false;
+    DirectVariation variation;
+  };
+
+  void find_lines(const std::vector<Surface>& surfaces);
+  [[nodiscard]] FaceKey key(const Surface& surface, brep::FaceId face) const;
+  [[nodiscard]] DirectVariation look_at(const Surface& surface, brep::FaceId face, const Patch& patch) const;
 
   DirectLight light_;
-  CriticalLines lines_;
-  std::vector<Color> reflectance_;
-  std::vector<std::uint32_t> object_of_;  // by its first input surface
-  std::vector<bool> known_;
-  std::vector<PatchVariation> measured_;
+  std::vector<Color> reflectance_;        // of each input surface
+  std::vector<std::uint32_t> object_of_;  // by the first input surface of each object
+  std::uint32_t most_edges_;
+  std::uint64_t not_looked_at_ = 0;
+  std::map<FaceKey, FaceLines> faces_;
+  std::vector<Measured> measured_;  // by node
 };
 
 }  // namespace radiosity

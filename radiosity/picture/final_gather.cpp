@@ -27,6 +27,7 @@
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/picture/lookup.hpp>
+#include <radiosity/picture/pass_through.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>
@@ -90,25 +91,15 @@ HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::
   std::array<std::optional<Place>, 16> result;
   raycast::Segments16 rays;
   for (unsigned i = 0; i < directions.size(); ++i) { rays.set(i, {eye.position, directions[i]}, raycast::no_object, raycast::no_object); }
-  constexpr int most = 10'000;  // surfaces passed: only backs and buried ones are, so this ends what rounding might not
-  for (int passed = 0; passed < most && rays.lanes != 0; ++passed) {
-    const raycast::Hits16 hits = scene.closest16(rays);
-    rays.lanes &= hits.met;
-    for (std::uint32_t rest = rays.lanes; rest != 0; rest &= rest - 1) {
-      const auto i = static_cast<unsigned>(std::countr_zero(rest));
-      const raycast::Hit& hit = hits.hit[i];
-      const raycast::Segment ray = rays.at(i);
-      const Met found =
-          outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
-      const bool from_air = eye.in_air && passed == 0;
-      if (hit.front && (from_air || !objects().covered(found.point.position, found.point.normal, found.object))) {
-        result[i] = Place{found.point, found.object, lookup_.surface(found.object, found.sheet)};
-        rays.lanes &= ~(1u << i);
-      } else {
-        rays.set(i, {ray.at(hit.t), ray.direction}, hit.object, raycast::no_object, hit.sheet);
-      }
-    }
-  }
+  pass_through(scene, rays, [&](unsigned i, const raycast::Hit& hit, const raycast::Segment& ray, int passed) -> std::optional<glm::dvec3> {
+    const Met found =
+        outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
+    const bool from_air = eye.in_air && passed == 0;
+    const bool shown = hit.front && (from_air || !objects().covered(found.point.position, found.point.normal, found.object));
+    if (!shown) { return ray.at(hit.t); }
+    result[i] = Place{found.point, found.object, lookup_.surface(found.object, found.sheet)};
+    return std::nullopt;
+  });
   return result;
 }
 

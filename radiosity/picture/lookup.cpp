@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +25,7 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/geometry/chord.hpp>
+#include <radiosity/picture/pass_through.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>
@@ -142,23 +142,13 @@ HALFLIGHT_INLINE std::array<std::optional<Lookup::Seen>, 16> Lookup::seen16(cons
   for (unsigned i = 0; i < directions.size(); ++i) {
     rays.set(i, {(eye - frame_.centre) * frame_.scale, directions[i]}, raycast::no_object, raycast::no_object);
   }
-  constexpr int most = 10'000;  // surfaces passed: only backs and buried ones are, so this ends what rounding might not
-  for (int passed = 0; passed < most && rays.lanes != 0; ++passed) {
-    const raycast::Hits16 hits = objects_.closest16(rays);
-    rays.lanes &= hits.met;
-    for (std::uint32_t rest = rays.lanes; rest != 0; rest &= rest - 1) {
-      const auto i = static_cast<unsigned>(std::countr_zero(rest));
-      const raycast::Hit& hit = hits.hit[i];
-      const raycast::Segment ray = rays.at(i);
-      const raycast::SurfacePoint place = objects_.object(hit.object).project(hit.sheet, ray.at(hit.t));
-      if (const std::optional<Color> color = shade(hit, place)) {
-        result[i] = Seen{first_sheet_[hit.object] + hit.sheet, *color};
-        rays.lanes &= ~(1u << i);
-      } else {
-        rays.set(i, {place.position, ray.direction}, hit.object, raycast::no_object, hit.sheet);
-      }
-    }
-  }
+  pass_through(objects_, rays, [&](unsigned i, const raycast::Hit& hit, const raycast::Segment& ray, int) -> std::optional<glm::dvec3> {
+    const raycast::SurfacePoint place = objects_.object(hit.object).project(hit.sheet, ray.at(hit.t));
+    const std::optional<Color> color = shade(hit, place);
+    if (!color) { return place.position; }
+    result[i] = Seen{first_sheet_[hit.object] + hit.sheet, *color};
+    return std::nullopt;
+  });
   return result;
 }
 

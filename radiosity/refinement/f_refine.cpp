@@ -128,23 +128,23 @@ struct FRefinement {
   return split.leaf() && small ? Decision::link : answer;
 }
 
-// Of a pair with a lamp whose light is looked at point by point (LightMeshing), the node that receives; else no_node.
-[[nodiscard]] HALFLIGHT_INLINE std::uint32_t lit_by_lamp(const DiscreteScene& scene, const NodePair& pair) {
+// Of a pair with a lamp, where the light on the other node is measured (LightMeshing): that node; else no_node.
+[[nodiscard]] HALFLIGHT_INLINE std::uint32_t measured_receiver(const DiscreteScene& scene, const NodePair& pair) {
   if (!scene.light_meshing) { return no_node; }
   const Node& p = scene.hierarchy[pair.p];
   const Node& q = scene.hierarchy[pair.q];
-  const bool from_p = scene.light_meshing->covers(p, q);
-  const bool from_q = scene.light_meshing->covers(q, p);
-  return from_p == from_q ? no_node : from_p ? pair.q : pair.p;
+  const bool from_p = scene.light_meshing->is_lamp(p);
+  const std::uint32_t receiver = from_p ? pair.q : pair.p;
+  const bool one = from_p != scene.light_meshing->is_lamp(q);
+  return one && LightMeshing::measurable(scene.hierarchy[receiver]) ? receiver : no_node;
 }
 
-// Looks at the light of the nodes that are lit by lamps in the open pairs.
-HALFLIGHT_INLINE void look_at_light(FRefinement& state) {
+HALFLIGHT_INLINE void measure_light(FRefinement& state) {
   DiscreteScene& scene = state.scene;
   if (!scene.light_meshing) { return; }
   std::vector<std::uint32_t> nodes;
   for (const NodePair& pair : state.pairs) {
-    const std::uint32_t receiver = lit_by_lamp(scene, pair);
+    const std::uint32_t receiver = measured_receiver(scene, pair);
     if (receiver != no_node && !scene.light_meshing->measured(receiver)) { nodes.push_back(receiver); }
   }
   std::sort(nodes.begin(), nodes.end());
@@ -152,21 +152,28 @@ HALFLIGHT_INLINE void look_at_light(FRefinement& state) {
   scene.light_meshing->measure(nodes, scene.hierarchy, scene.patches, scene.surfaces, scene.threads);
 }
 
+// Is the variance that was measured too large a share of the error? The light oracle judges by bounds, which are several times too large
+// within half-shadows; what is measured is held to a quarter of what it allows, for patches of a quarter of the side.
+[[nodiscard]] HALFLIGHT_INLINE bool is_uneven(const FRefinement& state, std::uint32_t receiver) {
+  const Node& node = state.scene.hierarchy[receiver];
+  const double rms = std::sqrt(state.scene.light_meshing->variance(receiver) / 3.0 * node.area / state.light.scene_area());
+  return node.area > state.light_min_area / 16.0 && rms > 0.25 * state.fineness.light_epsilon * state.light.mean_emission();
+}
+
 // What to do with each open pair.
 HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
   DiscreteScene& scene = state.scene;
   scene.patches.extend(scene.threads);
-  look_at_light(state);
+  measure_light(state);
   std::vector<RayCount> rays(state.pairs.size());
   std::vector<Decision> decisions = decide(
       scene, state.pairs, state.result,
       [&](std::uint32_t p, std::uint32_t q) {
         const Question question{scene.hierarchy, p, q, state.shown, state.fineness.epsilon, state.min_area, &state.stuck};
         const Decision proven = state.proofs(question);
-        const std::uint32_t receiver = lit_by_lamp(scene, {p, q});
-        if (proven == Decision::link && receiver != no_node && scene.light_meshing->even(scene.hierarchy[receiver == p ? q : p])) {
-          return Decision::link;
-        }
+        const std::uint32_t receiver = measured_receiver(scene, {p, q});
+        const std::uint32_t lamp = receiver == p ? q : p;
+        if (receiver != no_node && scene.light_meshing->is_even_lamp(scene.hierarchy[lamp])) { return proven; }
         return proven == Decision::link ? within_min_area(question, state.fineness.oracle(question)) : proven;
       },
       [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
@@ -175,12 +182,9 @@ HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
         question.min_area = state.light_min_area;
         question.between = &list;
         question.rays = &rays[i];
-        const std::uint32_t receiver = lit_by_lamp(scene, state.pairs[i]);
+        const std::uint32_t receiver = measured_receiver(scene, state.pairs[i]);
         if (receiver != no_node) {
-          const Node& node = scene.hierarchy[receiver];
-          const double share = std::sqrt(scene.light_meshing->variance(receiver) / 3.0 * node.area / state.light.scene_area());
-          const bool split = share > state.fineness.light_epsilon * state.light.mean_emission() && node.area > question.min_area / 16.0;
-          decision = !split ? Decision::link : receiver == state.pairs[i].p ? Decision::split_p : Decision::split_q;
+          decision = !is_uneven(state, receiver) ? Decision::link : receiver == state.pairs[i].p ? Decision::split_p : Decision::split_q;
           return;
         }
         decision = state.light(question);

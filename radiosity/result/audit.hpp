@@ -11,6 +11,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <radiosity/discontinuity/imprinted_edges.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/support/left_out.hpp>
@@ -46,6 +47,7 @@ struct Audit {
   std::uint64_t nodes = 0, leaves = 0, links = 0, rays = 0;
   std::uint64_t ray_links = 0, stored_rays = 0;     // among the links, made of rays; these
   std::uint64_t clusters = 0, cluster_links = 0;    // among the nodes; among the links, with one at an end
+  std::optional<ImprintedEdges> imprinted;          // of discontinuity meshing, where that was done
   std::uint64_t rays_avoided = 0;                   // at least; by the two proofs:
   std::uint64_t pairs_clear = 0, pairs_hidden = 0;  // links that nothing can block; pairs, with all below, that one object hides
   std::uint64_t audit_rays = 0;

@@ -44,7 +44,7 @@ HALFLIGHT_INLINE std::optional<Failure> build(detail::Run& run) {
     for (Surface& surface : boundaries) { surface = separate_polygons(surface); }
   }
   run.tracer.emplace(scene.input, scene.objects, boundaries);
-  if (options.discontinuities > 0 && (run.f_refined() || run.bf_refined())) {
+  if (options.discontinuities > 0 && run.needs_links()) {
     scene.light_meshing.emplace(scene.objects, boundaries, scene.reflectance, scene.emission, options.discontinuities);
     scene.meshing = [&scene](const LeafFace& leaf) { return scene.light_meshing->split(leaf); };
   }

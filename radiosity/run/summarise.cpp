@@ -40,6 +40,7 @@ HALFLIGHT_INLINE std::optional<Failure> summarise(detail::Run& run) {
   audit.stored_rays = run.ray_links.rays;
   audit.cluster_links = static_cast<std::uint64_t>(
       std::count_if(links.begin(), links.end(), [&](const Link& l) { return hierarchy[l.p].is_cluster() || hierarchy[l.q].is_cluster(); }));
+  if (scene.light_meshing) { audit.imprinted = scene.light_meshing->imprinted(); }
   audit.proportion = summarise_proportions(hierarchy, scene.patches);
   RayCount rays = run.refined.rays;
   rays += run.evaluated.rays;

@@ -32,6 +32,9 @@ HALFLIGHT_INLINE std::vector<std::string> faults(const Options& options) {
         "light by stored rays needs the solver cg or jacobi: Gauss-Seidel and Southwell go through the links of one patch at a time");
   }
   if (options.memory && *options.memory == 0) { sentences.emplace_back("memory is 0; it must be above 0, or be left out for no limit"); }
+  if (options.discontinuities > 0 && (options.topology == Topology::separate || options.meshing)) {
+    sentences.emplace_back("discontinuity meshing needs faces that share their vertices, and no meshing strategy of its own beside it");
+  }
   check("residual", options.residual, options.residual > 0.0, "above 0");
   if (options.error) {
     check("error", *options.error, *options.error > 0.0, "above 0");

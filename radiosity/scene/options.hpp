@@ -75,8 +75,8 @@ struct Options {
   std::function<Decision(const Question&)> oracle;
   // This splits the faces of leaves, in place of regular refinement (meshing.hpp).
   std::function<ChildFaces(const LeafFace&)> meshing;
-  // F-refinement: the faces of flat objects are cut at the discontinuities of the direct light and across it (discontinuity/), where at
-  // most so many lines are looked at on each face; 0: regular refinement.
+  // Above 0: the faces of flat objects are cut along the edges of shadows and across their direct light (discontinuity/) in place of
+  // regular refinement, and at most so many such edges are imprinted on each. Needs shared topology and no strategy of the user.
   std::uint32_t discontinuities = 0;
 
   // Input faces from which on clusters are built above them; below, all pairs of input faces are looked at.

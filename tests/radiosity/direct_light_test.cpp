@@ -19,6 +19,7 @@
 #include <raycast/objects/torus.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lit_region.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/direct/lit_region.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bundle.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/shaft.hpp>
+
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/facets.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/polygon_shaft.hpp>
+#include <radiosity/visibility/shadow.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// How far segments stay off the surfaces at their ends, in a scene of size 1 to 2: more than single precision's error.
+inline constexpr double off_surface = 1e-5;
+inline constexpr unsigned first_samples = 64;  // of a lamp: enough where they agree
+
+}  // namespace detail
+
+HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal)
+    : light_{&light}, owner_{shape.owner} {
+  raycast::Box box;
+  for (const glm::dvec3& p : shape.contour) { box.extend(p); }
+  centre_ = box.centre();
+  for (const glm::dvec3& p : shape.contour) { radius_ = std::max(radius_, glm::length(p - centre_)); }
+  radius_ += shape.bulge;
+  // A point of a surface for which a mesh stands in lies beside that mesh, so it is lifted above it and owned by nothing.
+  raycast::PatchShape from = shape;
+  lift_ = owner_ != raycast::no_object ? light.lift(owner_) : 0.0;
+  if (lift_ > 0.0) {
+    from.owner = raycast::no_object;
+    from.bulge += lift_;
+  }
+  const bool planar = normal != glm::dvec3{0.0};
+  for (std::uint32_t k = 0; k < light.lamps_.size(); ++k) {
+    const DirectLight::Lamp& lamp = light.lamps_[k];
+    if (planar && glm::dot(normal, lamp.centre - centre_) <= -lamp.radius - radius_) { continue; }
+    if (lamp.flat && lamp.facets.facets[0].height(centre_) <= -radius_) { continue; }
+    Reach reach;
+    reach.lamp = k;
+    reach.list = light.objects_->occluders(from, lamp.shape());
+    if (reach.list.blocked()) { continue; }
+    if (!reach.list.clear()) {
+      reach.between = Between::anything;
+      if (lamp.flat && lamp.facets.facets.size() <= 16 && take_bodies(reach, shape)) {
+        reach.between = reach.faces.empty() && reach.outlines.empty() ? Between::nothing : Between::bodies;
+      }
+    }
+    reaches_.push_back(std::move(reach));
+  }
+}
+
+// What may stand between as faces and outlines; false when something is neither.
+HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchShape& shape) const {
+  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  const raycast::Scene& objects = *light_->objects_;
+  std::vector<std::uint32_t> candidates;
+  if (!reach.list.known()) { return false; }
+  for (const std::uint32_t s : reach.list.shapes()) { candidates.push_back(light_->whole(objects.object_of(s))); }
+  if (!reach.list.rooms_clear()) { candidates.insert(candidates.end(), light_->rooms_.begin(), light_->rooms_.end()); }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  constexpr double slack = detail::direct_slack;
+  // With a bulge the contour says too little, and all candidates are taken.
+  std::vector<Shaft> shaft;
+  if (shape.bulge == 0.0) { shaft.emplace_back(shape.contour, lamp.corners, slack); }
+  const auto misses = [&](std::span<const glm::dvec3> corners) { return !shaft.empty() && shaft[0].misses(corners); };
+  constexpr std::size_t most_faces = 48;
+  for (const std::uint32_t o : candidates) {
+    const DirectLight::Body& body = light_->bodies_[o];
+    if (body.convex && o == owner_) { continue; }
+    if (body.facets.empty()) { return false; }
+    if (body.convex && body.closed && !lamp.behind[o]) {
+      if (shaft.empty() || !shaft[0].misses(body.bounds)) {
+        Reach::Outline outline{&body.facets, 0, {}};
+        const auto& facets = body.facets.facets;
+        for (std::uint32_t f = 1; f < facets.size(); ++f) {
+          if (facets[f].height(centre_) > facets[outline.nearest].height(centre_)) { outline.nearest = f; }
+        }
+        const auto side = [&](std::uint32_t f) {  // 1: all of the region is before the facet, -1: behind it
+          const double height = facets[f].height(centre_);
+          return height > radius_ + slack ? 1 : height < -radius_ - slack ? -1 : 0;
+        };
+        for (const Facets::Edge& edge : body.facets.edges) {
+          const int left = side(edge.left);
+          if (left != 0 && edge.right != Facets::none && side(edge.right) == left) { continue; }
+          outline.corners.push_back(edge.a);
+          outline.corners.push_back(edge.b);
+        }
+        const auto before = [](const glm::dvec3& a, const glm::dvec3& b) {
+          return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+        };
+        std::sort(outline.corners.begin(), outline.corners.end(), before);
+        outline.corners.erase(std::unique(outline.corners.begin(), outline.corners.end()), outline.corners.end());
+        reach.outlines.push_back(std::move(outline));
+      }
+      continue;
+    }
+    if (!body.convex && !body.exact) { return false; }
+    if (body.convex && body.closed && !body.exact) { return false; }
+    for (const Facets::Facet& facet : body.facets.facets) {
+      if (body.closed && facet.height(centre_) <= slack - radius_) { continue; }  // its back, behind its fronts
+      if (misses(facet.contour)) { continue; }
+      reach.faces.push_back({facet.contour, facet.normal});
+    }
+    if (reach.faces.size() > most_faces) { return false; }
+  }
+  return true;
+}
+
+HALFLIGHT_INLINE double LitRegion::unhidden(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
+  const DirectLight::Lamp& lamp = this->lamp(k);
+  const double height = glm::dot(n, lamp.centre - x);
+  if (height <= -lamp.radius) { return 0.0; }
+  return lamp.correction * radiosity::form_factor(lamp.facets, x, n, height >= lamp.radius, facing_);
+}
+
+// The convex hull of the corners as they are seen from x (Andrew 1979): so it does not matter how a curved body was cut into facets.
+HALFLIGHT_INLINE void LitRegion::make_cone(const Reach::Outline& outline, const glm::dvec3& x) {
+  cone_.clear();
+  const auto& facets = outline.facets->facets;
+  const Facets::Facet* plane = &facets[outline.nearest];
+  if (!(plane->height(x) > detail::direct_slack)) {
+    plane = &*std::max_element(facets.begin(), facets.end(), [&](const auto& a, const auto& b) { return a.height(x) < b.height(x); });
+    if (!(plane->height(x) > detail::direct_slack)) { return; }
+  }
+  const glm::dvec3 axis = -plane->normal;  // all corners lie ahead
+  const auto [s, t] = orthonormal(axis);
+  projected_.clear();
+  for (const glm::dvec3& corner : outline.corners) {
+    const glm::dvec3 d = corner - x;
+    const double ahead = std::max(glm::dot(d, axis), detail::direct_slack);
+    projected_.push_back({glm::dot(d, s) / ahead, glm::dot(d, t) / ahead, &corner});
+  }
+  std::sort(projected_.begin(), projected_.end(),
+            [](const Projected& a, const Projected& b) { return a.s != b.s ? a.s < b.s : a.t < b.t; });
+  const auto turns_right = [](const Projected& a, const Projected& b, const Projected& c) {
+    return !((b.s - a.s) * (c.t - a.t) - (b.t - a.t) * (c.s - a.s) > 0.0);
+  };
+  hull_.clear();
+  const auto half = [&](auto first, auto last) {
+    const std::size_t base = hull_.size();
+    for (; first != last; ++first) {
+      while (hull_.size() >= base + 2 && turns_right(hull_[hull_.size() - 2], hull_.back(), *first)) { hull_.pop_back(); }
+      hull_.push_back(*first);
+    }
+    hull_.pop_back();  // it begins the other half
+  };
+  half(projected_.begin(), projected_.end());
+  half(projected_.rbegin(), projected_.rend());
+  for (std::size_t i = 0; i < hull_.size(); ++i) {
+    const glm::dvec3 across = glm::cross(*hull_[i].corner - x, *hull_[i + 1 < hull_.size() ? i + 1 : 0].corner - x);
+    if (glm::dot(across, across) > 0.0) { cone_.push_back({x, across}); }
+  }
+}
+
+HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
+  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  double sum = 0.0;
+  for (const Facets::Facet& facet : lamp.facets.facets) {
+    if (!(facet.height(x) > 0.0)) { continue; }
+    ShadowedTarget target{facet.contour, facet.normal, {}, detail::direct_slack};
+    target.look(x, n);
+    for (const Blocker& face : reach.faces) {
+      if (target.hidden()) { break; }
+      target.hide(face);
+    }
+    for (const Reach::Outline& outline : reach.outlines) {
+      if (target.hidden()) { break; }
+      make_cone(outline, x);
+      if (!cone_.empty()) { target.hide(cone_); }
+    }
+    sum += target.form_factor();
+  }
+  return sum;
+}
+
+HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
+  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  // Away from flat surfaces on which they begin and end, segments need no owners, and single precision decides about nearly all.
+  const glm::dvec3 from = x + std::max(lift_, detail::off_surface) * n;
+  const bool curved = owner_ != raycast::no_object && !light_->objects_->object(owner_).flat();  // and convex, or a mesh would stand in
+  const std::uint32_t source = curved ? owner_ : raycast::no_object;
+  const double to_lift = lamp.flat ? detail::off_surface : 0.0;
+  const std::uint32_t target = lamp.flat ? raycast::no_object : lamp.object;
+  double all = 0.0;
+  double seen = 0.0;
+  for (unsigned first = 0; first < lamp.samples.size(); first += 16) {
+    raycast::Segments16 segments;
+    std::array<double, 16> weight{};
+    for (unsigned k = 0; k < 16; ++k) {
+      const DirectLight::Sample& sample = lamp.samples[first + k];
+      const glm::dvec3 d = sample.position - x;
+      const double cosines = glm::dot(n, d) * -glm::dot(sample.normal, d);
+      if (!(glm::dot(n, d) > 0.0) || !(cosines > 0.0)) { continue; }
+      const double r2 = glm::dot(d, d);
+      weight[k] = cosines / (r2 * r2);
+      segments.set(k, {from, sample.position + to_lift * sample.normal - from}, source, target);
+    }
+    rays_ += static_cast<unsigned>(std::popcount(segments.lanes));
+    const std::uint32_t blocked = segments.lanes != 0 ? light_->objects_->occluded16(segments, reach.list, reach.hint) : 0;
+    for (unsigned k = 0; k < 16; ++k) {
+      all += weight[k];
+      if ((blocked >> k & 1u) == 0) { seen += weight[k]; }
+    }
+    if (first + 16 == detail::first_samples && (seen == 0.0 || seen == all)) { break; }
+  }
+  return all > 0.0 ? seen / all : 0.0;
+}
+
+HALFLIGHT_INLINE double LitRegion::visible(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
+  Reach& reach = reaches_[k];
+  if (reach.between == Between::nothing) { return 1.0; }
+  if (reach.between == Between::anything) { return seen_share(reach, x, n); }
+  const double all = unhidden(k, x, n);
+  return all > 0.0 ? std::min(1.0, cut(reach, x, n) / all) : 0.0;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Direct light at points: the irradiance that each lamp causes, with what stands in between.
+//
+// A LitRegion is what points of one place (a leaf, some neighbouring pixels) have in common: which lamps they can see, and what may stand
+// in between. It is made once and asked for each of its points. What stands between a flat lamp and a region, in the order of what it costs:
+//   nothing             proven by the occluder lists of the scene (raycast/shaft.hpp) or by the shaft of both (polygon_shaft.hpp)
+//   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point
+//   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighed so
+//                       that only what is hidden is sampled, and they stop at 64 when these agree. In place of curved objects that are
+//                       slow or not convex segments meet meshes within 0.04 % of their diameter
+// Curved lamps are always asked by segments where something may stand between. Nothing here is random: the result depends on the region and
+// the point alone.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/shaft.hpp>
+
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/facets.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/visibility/shadow.hpp>
+
+namespace radiosity {
+
+class LitRegion {
+ public:
+  // Points of this shape, which the object `shape.owner` owns; its bulge is that of the points off the plane of the contour. `normal`: of all
+  // points, when it is the same, else 0. `light` must outlive this. Not for several threads at once.
+  LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal);
+
+  // Lamps that some point may see.
+  [[nodiscard]] std::size_t size() const { return reaches_.size(); }
+  [[nodiscard]] const DirectLight::Lamp& lamp(std::size_t k) const { return light_->lamps_[reaches_[k].lamp]; }
+  // Of one of them, with what stands between, from the point x of the region with unit normal n.
+  [[nodiscard]] double form_factor(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
+    return reaches_[k].between == Between::nothing ? unhidden(k, x, n) : unhidden(k, x, n) * visible(k, x, n);
+  }
+  // The same in two factors: the form factor if nothing stood between, and the share of it that is not hidden. The second is what takes time.
+  [[nodiscard]] double unhidden(std::size_t k, const glm::dvec3& x, const glm::dvec3& n);
+  [[nodiscard]] double visible(std::size_t k, const glm::dvec3& x, const glm::dvec3& n);
+  [[nodiscard]] bool may_be_hidden(std::size_t k) const { return reaches_[k].between != Between::nothing; }
+  // From all lamps, W/m2.
+  [[nodiscard]] Color irradiance(const glm::dvec3& x, const glm::dvec3& n) {
+    Color sum{0.0};
+    for (std::size_t k = 0; k < size(); ++k) { sum += lamp(k).exitance * form_factor(k, x, n); }
+    return sum;
+  }
+  [[nodiscard]] std::uint64_t rays() const { return rays_; }
+
+ private:
+  enum class Between : unsigned char { nothing, bodies, anything };
+  struct Reach {
+    std::uint32_t lamp = 0;
+    Between between = Between::nothing;
+    raycast::OccluderList list;
+    std::vector<Blocker> faces;
+    struct Outline {
+      const Facets* facets = nullptr;
+      std::uint32_t nearest = 0;        // the facet that the region's centre is highest above
+      std::vector<glm::dvec3> corners;  // that may belong to the outline seen from the region
+    };
+    std::vector<Outline> outlines;
+    std::uint32_t hint = 0xffffffff;
+  };
+
+  [[nodiscard]] bool take_bodies(Reach& reach, const raycast::PatchShape& shape) const;
+  // The cone from x over a convex body; empty when x lies on the body's surface.
+  void make_cone(const Reach::Outline& outline, const glm::dvec3& x);
+  [[nodiscard]] double cut(const Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
+  [[nodiscard]] double seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
+
+  const DirectLight* light_;
+  std::uint32_t owner_;
+  glm::dvec3 centre_{0.0};
+  double radius_ = 0.0;
+  double lift_ = 0.0;
+  std::vector<Reach> reaches_;
+  std::vector<char> facing_;
+  std::vector<HalfSpace> cone_;
+  struct Projected {
+    double s = 0.0, t = 0.0;
+    const glm::dvec3* corner = nullptr;
+  };
+  std::vector<Projected> projected_, hull_;
+  std::uint64_t rays_ = 0;
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/direct/lit_region.cpp>
+#endif
