@@ -70,18 +70,29 @@ HALFLIGHT_INLINE DirectVariation direct_variation(LitRegion& region, const Patch
                                                   const std::vector<CriticalLine>& lines) {
   using detail::LightSamples;
   LightSamples samples;
+  std::vector<std::array<double, 2>> arrives(region.size(), {0.0, 0.0});  // of the light of each lamp, and all of it
   Color mean{0.0};
   double square = 0.0;
   for (std::size_t i = 0; i < LightSamples::count; ++i) {
     const auto u = static_cast<double>(i % LightSamples::side);
     const auto v = static_cast<double>(i / LightSamples::side);
     samples.at[i] = sample(patch, (u + 0.5) / LightSamples::side, (v + 0.5) / LightSamples::side);
-    samples.light[i] = reflectance * region.irradiance(samples.at[i], patch.normal);
+    Color light{0.0};
+    for (std::size_t k = 0; k < region.size(); ++k) {
+      const double form_factor = region.form_factor(k, samples.at[i], patch.normal);
+      light += region.lamp(k).exitance * form_factor;
+      arrives[k][0] += form_factor;
+      if (region.may_be_hidden(k)) { arrives[k][1] += region.unhidden(k, samples.at[i], patch.normal); }
+    }
+    samples.light[i] = reflectance * light;
     mean += samples.light[i] / static_cast<double>(LightSamples::count);
     square += glm::dot(samples.light[i], samples.light[i]) / static_cast<double>(LightSamples::count);
   }
   DirectVariation result;
   result.variance = std::max(0.0, square - glm::dot(mean, mean));
+  for (std::size_t k = 0; k < region.size(); ++k) {
+    if (arrives[k][1] > 0.0) { result.seen.push_back({region.lamp(k).surface, arrives[k][0] / arrives[k][1]}); }
+  }
 
   constexpr double even = 1.0 + 0x1p-20;  // keeps rounding from deciding between the sides of a square
   const double longest = std::max(longest_cut_part, detail::length_over_width(patch.contour)) * even;

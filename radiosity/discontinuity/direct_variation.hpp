@@ -8,6 +8,7 @@
 // two. Two kinds of cuts are compared by that: along a critical line that crosses the patch, and in halves, through its centroid, parallel to
 // one of its sides. So the parts of a half-shadow are strips along its edge, over which the light is even.
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -28,10 +29,17 @@ struct CutPlane {
   glm::dvec3 point{0.0}, normal{0.0};
 };
 
+// Of a lamp that may be hidden from some of the patch: the share of its light that arrives there.
+struct LampSeen {
+  std::uint32_t surface = 0;  // the lamp's input surface
+  double share = 0.0;
+};
+
 struct DirectVariation {
   double variance = 0.0;           // of the reflected direct light, summed over the channels; (W/m2)^2
   std::optional<CutPlane> halves;  // nothing: no cut leaves parts of sound proportion
   std::optional<CutPlane> along;   // a critical line, where that takes away half of what cutting in halves does, at least
+  std::vector<LampSeen> seen;
 };
 
 // Of a flat patch with area, whose points `region` is made for.

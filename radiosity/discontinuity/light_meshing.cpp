@@ -150,6 +150,18 @@ HALFLIGHT_INLINE void LightMeshing::measure(const std::vector<std::uint32_t>& no
   parallel_for(nodes.size(), threads, look, 4);
 }
 
+HALFLIGHT_INLINE std::optional<double> LightMeshing::seen_share(const Hierarchy& hierarchy, std::uint32_t lamp, std::uint32_t node) const {
+  if (!is_lamp(hierarchy[lamp]) || !is_input_face(hierarchy, lamp) || !measured(node)) { return std::nullopt; }
+  const std::uint32_t surface = hierarchy[lamp].surface;
+  const auto& lamps = light_.lamps();
+  const auto whole = std::find_if(lamps.begin(), lamps.end(), [&](const DirectLight::Lamp& l) { return l.surface == surface; });
+  if (!whole->flat || whole->facets.facets.size() != 1) { return std::nullopt; }
+  if (hierarchy[lamp].area < (1.0 - 0x1p-20) * whole->facets.facets[0].area) { return std::nullopt; }  // it was cut
+  const std::vector<LampSeen>& seen = measured_[node].variation.seen;
+  const auto found = std::find_if(seen.begin(), seen.end(), [&](const LampSeen& s) { return s.surface == surface; });
+  return found != seen.end() ? std::optional{found->share} : std::nullopt;
+}
+
 HALFLIGHT_INLINE ChildFaces LightMeshing::split(const LeafFace& leaf) {
   if (!leaf.surface.object->flat()) { return RegularMeshing{}(leaf); }
   const std::uint32_t node = leaf.surface.brep.data(leaf.face).node;

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,10 @@ class LightMeshing {
   [[nodiscard]] bool measured(std::uint32_t node) const { return node < measured_.size() && measured_[node].known; }
   // Of a node that was measured: DirectVariation::variance.
   [[nodiscard]] double variance(std::uint32_t node) const { return measured_[node].variation.variance; }
+
+  // The share of a lamp's light that arrives on a node, where that was measured for the whole lamp; nothing where it was not, or where
+  // nothing stands between.
+  [[nodiscard]] std::optional<double> seen_share(const Hierarchy& hierarchy, std::uint32_t lamp, std::uint32_t node) const;
 
   // The meshing strategy. Faces of curved objects are refined regularly.
   [[nodiscard]] ChildFaces split(const LeafFace& leaf);

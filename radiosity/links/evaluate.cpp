@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -16,6 +18,7 @@
 
 #include <radiosity/clusters/cluster_exchange.hpp>
 #include <radiosity/clusters/clusters.hpp>
+#include <radiosity/discontinuity/light_meshing.hpp>
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/exchange/exchange.hpp>
 #include <radiosity/geometry/direction_lattice.hpp>
@@ -81,7 +84,9 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
   const std::uint64_t key = key_of(link);
   const PatchEnd end_p = end(link.p);
   const PatchEnd end_q = end(link.q);
-  const VisibilityEstimate seen = visibility(scene_, list, end_p, end_q, patch_rounds, Random{seed_, key});
+  const std::optional<VisibilityEstimate> measured = measured_visibility(link);
+  const VisibilityEstimate seen =
+      measured ? *measured : visibility(scene_, list, end_p, end_q, patch_rounds, Random{seed_, key});
   // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
   const double share = exposed_share(end_p, area_p, q) * exposed_share(end_q, area_q, p);
   link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
@@ -103,6 +108,20 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
   }
   if (doubt != nullptr) { *doubt = doubt_of(link, unoccluded * share, seen, light_varies); }
   return seen.rays;
+}
+
+HALFLIGHT_INLINE std::optional<VisibilityEstimate> LinkEvaluator::measured_visibility(const Link& link) const {
+  if (light_ == nullptr) { return std::nullopt; }
+  for (const auto& [lamp, receiver] : {std::pair{link.p, link.q}, std::pair{link.q, link.p}}) {
+    if (exposure_->partly_buried[lamp] || exposure_->partly_buried[receiver]) { continue; }
+    const std::optional<double> share = light_->seen_share(scene_.hierarchy, lamp, receiver);
+    if (!share) { continue; }
+    VisibilityEstimate seen;
+    seen.fraction = *share;
+    seen.proven = true;
+    return seen;
+  }
+  return std::nullopt;
 }
 
 HALFLIGHT_INLINE Doubt LinkEvaluator::doubt_of(const Link& link, double sent, const VisibilityEstimate& seen,

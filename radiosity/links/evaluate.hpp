@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <raycast/shaft.hpp>
@@ -25,6 +26,8 @@
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
+
+class LightMeshing;  // discontinuity/light_meshing.hpp
 
 struct EvaluateResult {
   RayCount rays;
@@ -71,6 +74,9 @@ class LinkEvaluator {
   // The references must outlive the evaluator. `shown`: by exposed areas.
   LinkEvaluator(const SceneView& scene, const Exposure& exposure, const ShownAreas& shown, std::uint64_t seed);
 
+  // Where that has measured the share of a lamp's light that arrives, no segment is cast. It must outlive the evaluator.
+  void use(const LightMeshing& light) { light_ = &light; }
+
   // Sets the exchange, 0 when nothing arrives, and the shapes where they have an effect, or anyhow when the variation is asked for.
   // Returns its segments. Depends on the ends of the link and the seed alone; `list` saves time.
   RayCount operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation = nullptr, Doubt* doubt = nullptr) const;
@@ -85,6 +91,7 @@ class LinkEvaluator {
   }
 
  private:
+  [[nodiscard]] std::optional<VisibilityEstimate> measured_visibility(const Link& link) const;
   // doubt.hpp. `sent`: what would arrive if nothing stood between.
   [[nodiscard]] Doubt doubt_of(const Link& link, double sent, const VisibilityEstimate& seen, const Variations& varies) const;
   // What a link may exchange of which none of these segments arrived, and none of those before (Laplace's mean); `sent`: if nothing
@@ -115,6 +122,7 @@ class LinkEvaluator {
   const Exposure* exposure_;
   ClusterSampler sampler_;
   std::uint64_t seed_;
+  const LightMeshing* light_ = nullptr;
 };
 
 // Fits a cluster link to what its ends show now instead of `before`: exposed areas are known better where faces were split.

@@ -46,6 +46,7 @@ HALFLIGHT_INLINE std::optional<Failure> build(detail::Run& run) {
   run.tracer.emplace(scene.input, scene.objects, boundaries);
   if (options.discontinuities > 0 && run.needs_links()) {
     scene.light_meshing.emplace(scene.objects, boundaries, scene.reflectance, scene.emission, options.discontinuities);
+    scene.evaluator.use(*scene.light_meshing);
     scene.meshing = [&scene](const LeafFace& leaf) { return scene.light_meshing->split(leaf); };
   }
   audit.warnings = warnings(scene.input, scene.frame, boundaries);
