@@ -72,7 +72,8 @@ HALFLIGHT_INLINE DirectVariation direct_variation(LitRegion& region, const Patch
   LightSamples samples;
   std::vector<std::array<double, 2>> arrives(region.size(), {0.0, 0.0});  // of the light of each lamp, and all of it
   Color mean{0.0};
-  double square = 0.0;
+  DirectVariation result;
+  double& square = result.square;
   for (std::size_t i = 0; i < LightSamples::count; ++i) {
     const auto u = static_cast<double>(i % LightSamples::side);
     const auto v = static_cast<double>(i / LightSamples::side);
@@ -88,7 +89,6 @@ HALFLIGHT_INLINE DirectVariation direct_variation(LitRegion& region, const Patch
     mean += samples.light[i] / static_cast<double>(LightSamples::count);
     square += glm::dot(samples.light[i], samples.light[i]) / static_cast<double>(LightSamples::count);
   }
-  DirectVariation result;
   result.variance = std::max(0.0, square - glm::dot(mean, mean));
   for (std::size_t k = 0; k < region.size(); ++k) {
     if (arrives[k][1] > 0.0) { result.seen.push_back({region.lamp(k).surface, arrives[k][0] / arrives[k][1]}); }

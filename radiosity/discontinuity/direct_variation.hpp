@@ -36,7 +36,8 @@ struct LampSeen {
 };
 
 struct DirectVariation {
-  double variance = 0.0;           // of the reflected direct light, summed over the channels; (W/m2)^2
+  double square = 0.0;             // mean of the square of the reflected direct light, summed over the channels; (W/m2)^2
+  double variance = 0.0;           // of that light, likewise
   std::optional<CutPlane> halves;  // nothing: no cut leaves parts of sound proportion
   std::optional<CutPlane> along;   // a critical line, where that takes away half of what cutting in halves does, at least
   std::vector<LampSeen> seen;

@@ -54,8 +54,8 @@ class LightMeshing {
   void measure(const std::vector<std::uint32_t>& nodes, const Hierarchy& hierarchy, const Patches& patches,
                const std::vector<Surface>& surfaces, unsigned threads);
   [[nodiscard]] bool measured(std::uint32_t node) const { return node < measured_.size() && measured_[node].known; }
-  // Of a node that was measured: DirectVariation::variance.
-  [[nodiscard]] double variance(std::uint32_t node) const { return measured_[node].variation.variance; }
+  // Of a node that was measured.
+  [[nodiscard]] const DirectVariation& light_on(std::uint32_t node) const { return measured_[node].variation; }
 
   // The share of a lamp's light that arrives on a node, where that was measured for the whole lamp; nothing where it was not, or where
   // nothing stands between.

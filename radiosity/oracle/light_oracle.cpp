@@ -45,7 +45,6 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& s
     power += root.area * emission_[root.surface];
     scene_area_ += root.area;
   }
-  mean_emission_ = scene_area_ > 0.0 ? power / scene_area_ : 0.0;
   for (double& e : emission_) { e = power > 0.0 ? e / power * scene_area_ : 0.0; }
   for (std::size_t i = hierarchy.size(); i-- > 0;) {
     const Node& node = hierarchy[i];

@@ -37,8 +37,6 @@ class LightOracle {
 
   // Total area of the input faces that are not buried.
   [[nodiscard]] double scene_area() const { return scene_area_; }
-  // Over that area, of the largest channel.
-  [[nodiscard]] double mean_emission() const { return mean_emission_; }
 
   // Asked once it is known what can stand between the two. Splits the end whose light varies too much because of the other, down to
   // min_area.
@@ -68,7 +66,7 @@ class LightOracle {
     double mean = 0.0, brightest = 0.0;  // of its faces
   };
   std::vector<ClusterLight> of_cluster_;
-  double scene_area_ = 0.0, mean_emission_ = 0.0;
+  double scene_area_ = 0.0;
 };
 static_assert(Oracle<LightOracle>);
 

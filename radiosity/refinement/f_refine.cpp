@@ -2,7 +2,6 @@
 #include <radiosity/refinement/f_refine.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -21,6 +20,7 @@
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/oracle/proof_oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/refinement/measured_light.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/support/memory.hpp>
@@ -84,6 +84,9 @@ HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, con
   return sends;
 }
 
+// By how much the light is to be resolved finer than epsilon says by itself.
+[[nodiscard]] HALFLIGHT_INLINE double finer_for_light(const Fineness& to) { return std::min(1.0, to.light_epsilon / (0.25 * to.epsilon)); }
+
 // F-refinement between two generations.
 struct FRefinement {
   FRefinement(DiscreteScene& of, const Fineness& to)
@@ -92,10 +95,9 @@ struct FRefinement {
         proofs{of.surfaces, of.hierarchy},
         shown{of.hierarchy, [&](std::size_t i) { return of.hierarchy[i].area; }},
         light{of.input, of.view(), shown, to.light_epsilon, of.seed, proofs.buried()},
-        min_area{to.min_area * light.scene_area()} {
-    const double finer = std::min(1.0, fineness.light_epsilon / (0.25 * fineness.epsilon));
-    light_min_area = 0.25 * min_area * finer * finer;
-  }
+        min_area{to.min_area * light.scene_area()},
+        light_min_area{0.25 * min_area * finer_for_light(to) * finer_for_light(to)},
+        measured{of, proofs.buried(), light.scene_area(), to.light_epsilon, light_min_area / 16.0} {}
 
   // Whether so many may be made; if not, the result says what they would need.
   [[nodiscard]] bool few_enough(std::uint64_t links) {
@@ -114,7 +116,8 @@ struct FRefinement {
   ShownAreas shown;  // by the clusters, by the whole area of their faces
   LightOracle light;
   double min_area;  // in the squared unit of the frame
-  double light_min_area = 0.0;
+  double light_min_area;
+  MeasuredLight measured;
   std::vector<NodePair> pairs;  // open
   std::vector<bool> stuck;      // leaves that the BRep refused to split
   RefineResult result;
@@ -128,52 +131,18 @@ struct FRefinement {
   return split.leaf() && small ? Decision::link : answer;
 }
 
-// Of a pair with a lamp, where the light on the other node is measured (LightMeshing): that node; else no_node.
-[[nodiscard]] HALFLIGHT_INLINE std::uint32_t measured_receiver(const DiscreteScene& scene, const NodePair& pair) {
-  if (!scene.light_meshing) { return no_node; }
-  const Node& p = scene.hierarchy[pair.p];
-  const Node& q = scene.hierarchy[pair.q];
-  const bool from_p = scene.light_meshing->is_lamp(p);
-  const std::uint32_t receiver = from_p ? pair.q : pair.p;
-  const bool one = from_p != scene.light_meshing->is_lamp(q);
-  return one && LightMeshing::measurable(scene.hierarchy[receiver]) ? receiver : no_node;
-}
-
-HALFLIGHT_INLINE void measure_light(FRefinement& state) {
-  DiscreteScene& scene = state.scene;
-  if (!scene.light_meshing) { return; }
-  std::vector<std::uint32_t> nodes;
-  for (const NodePair& pair : state.pairs) {
-    const std::uint32_t receiver = measured_receiver(scene, pair);
-    if (receiver != no_node && !scene.light_meshing->measured(receiver)) { nodes.push_back(receiver); }
-  }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  scene.light_meshing->measure(nodes, scene.hierarchy, scene.patches, scene.surfaces, scene.threads);
-}
-
-// Is the variance that was measured too large a share of the error? The light oracle judges by bounds, which are several times too large
-// within half-shadows; what is measured is held to a quarter of what it allows, for patches of a quarter of the side.
-[[nodiscard]] HALFLIGHT_INLINE bool is_uneven(const FRefinement& state, std::uint32_t receiver) {
-  const Node& node = state.scene.hierarchy[receiver];
-  const double rms = std::sqrt(state.scene.light_meshing->variance(receiver) / 3.0 * node.area / state.light.scene_area());
-  return node.area > state.light_min_area / 16.0 && rms > 0.25 * state.fineness.light_epsilon * state.light.mean_emission();
-}
-
 // What to do with each open pair.
 HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
   DiscreteScene& scene = state.scene;
   scene.patches.extend(scene.threads);
-  measure_light(state);
+  state.measured.measure(state.pairs);
   std::vector<RayCount> rays(state.pairs.size());
   std::vector<Decision> decisions = decide(
       scene, state.pairs, state.result,
       [&](std::uint32_t p, std::uint32_t q) {
         const Question question{scene.hierarchy, p, q, state.shown, state.fineness.epsilon, state.min_area, &state.stuck};
         const Decision proven = state.proofs(question);
-        const std::uint32_t receiver = measured_receiver(scene, {p, q});
-        const std::uint32_t lamp = receiver == p ? q : p;
-        if (receiver != no_node && scene.light_meshing->is_even_lamp(scene.hierarchy[lamp])) { return proven; }
+        if (state.measured.takes_whole_lamp({p, q})) { return proven; }
         return proven == Decision::link ? within_min_area(question, state.fineness.oracle(question)) : proven;
       },
       [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
@@ -182,12 +151,8 @@ HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
         question.min_area = state.light_min_area;
         question.between = &list;
         question.rays = &rays[i];
-        const std::uint32_t receiver = measured_receiver(scene, state.pairs[i]);
-        if (receiver != no_node) {
-          decision = !is_uneven(state, receiver) ? Decision::link : receiver == state.pairs[i].p ? Decision::split_p : Decision::split_q;
-          return;
-        }
-        decision = state.light(question);
+        const bool measured = state.measured.receiver(state.pairs[i]) != no_node;
+        decision = measured ? state.measured(state.pairs[i]) : state.light(question);
       });
   for (const RayCount& r : rays) { state.result.rays += r; }
   return decisions;
