@@ -164,8 +164,7 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
   Options discontinuities = faces;
   discontinuities.discontinuities = 1000;
   all.push_back(hierarchical("F, discontinuities",
-                             "hierarchical F whose faces are cut along the edges of shadows and across their direct light (Lischinski 1993), "
-                             "not into quarters",
+                             "hierarchical F whose faces are cut along the edges of shadows and across their direct light, not into quarters",
                              "epsilon", epsilons, discontinuities, set_epsilon));
   Options separate = common(study);
   separate.topology = radiosity::Topology::separate;

@@ -4,7 +4,7 @@
 // Direct light at points: the irradiance that each lamp causes, with what stands in between.
 //
 // A LitRegion is what points of one place (a leaf, some neighbouring pixels) have in common: which lamps they can see, and what may stand
-// in between. It is made once and asked for each of its points. What stands between a flat lamp and a region, in the order of what it costs:
+// in between. It is made once and asked for each of its points. What stands between a flat lamp and a region, in the order of its cost:
 //   nothing             proven by the occluder lists of the scene (raycast/shaft.hpp) or by the shaft of both (polygon_shaft.hpp)
 //   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point
 //   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighed so

@@ -24,7 +24,8 @@ using Segment2 = std::pair<glm::dvec3, glm::dvec3>;
 
 // The part of a - b where low <= height <= high.
 template <class Height>
-[[nodiscard]] std::optional<Segment2> part_between(const glm::dvec3& a, const glm::dvec3& b, const Height& height, double low, double high) {
+[[nodiscard]] std::optional<Segment2> part_between(const glm::dvec3& a, const glm::dvec3& b, const Height& height, double low,
+                                                   double high) {
   const double ha = height(a);
   const double hb = height(b);
   double from = 0.0;

@@ -35,8 +35,8 @@ struct ReceivingFace {
   [[nodiscard]] double height(const glm::dvec3& p) const { return glm::dot(normal, p - contour[0]); }
 };
 
-// The lines of a flat lamp past one blocker, whose facets are exact, those of the lamp's plane and of the face's own plane included. What is
-// nearer than `tolerance`, a length, touches. Lines shorter than that are left out.
+// Adds the lines of a flat lamp past one blocker, whose facets are exact. What is nearer than `tolerance`, a length, touches. Lines shorter
+// than that are left out.
 void add_critical_lines(const ReceivingFace& face, const Facets& lamp, const Facets& blocker, double tolerance,
                         std::vector<CriticalLine>& lines);
 

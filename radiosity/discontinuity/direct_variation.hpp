@@ -5,8 +5,8 @@
 //
 // A leaf carries one radiosity, so what it cannot express is the variance of the light over it. That is measured in 36 points, with shadows
 // and half-shadows as they are (LitRegion). A cut leaves two parts, each with a mean of its own, and takes away the variance between the
-// two. Two kinds of cuts are compared by that: along a critical line that crosses the patch, and in halves, through its centroid, parallel to
-// one of its sides. So the parts of a half-shadow are strips along its edge, over which the light is even.
+// two. Two kinds of cuts are compared by that: along a critical line that crosses the patch, and in halves, through its centroid, parallel
+// to one of its sides. So the parts of a half-shadow are strips along its edge, over which the light is even.
 
 #include <cstdint>
 #include <optional>

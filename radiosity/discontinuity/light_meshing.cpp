@@ -165,8 +165,8 @@ HALFLIGHT_INLINE std::optional<double> LightMeshing::seen_share(const Hierarchy&
 HALFLIGHT_INLINE ChildFaces LightMeshing::split(const LeafFace& leaf) {
   if (!leaf.surface.object->flat()) { return RegularMeshing{}(leaf); }
   const std::uint32_t node = leaf.surface.brep.data(leaf.face).node;
-  const DirectVariation light =
-      measured(node) ? measured_[node].variation : look_at(leaf.surface, leaf.face, make_patch(corner_polygon(leaf.surface.brep, leaf.face)));
+  const auto look = [&] { return look_at(leaf.surface, leaf.face, make_patch(corner_polygon(leaf.surface.brep, leaf.face))); };
+  const DirectVariation light = measured(node) ? measured_[node].variation : look();
   const auto cut = [&](const CutPlane& plane) { return CutBy{brep::AlongPlane{plane.point, plane.normal}}(leaf); };
   if (light.along) {
     FaceLines& face = faces_[key(leaf.surface, leaf.face)];

@@ -230,7 +230,9 @@ TEST_CASE("join_lines: pieces of one line become one, which covers them and no m
     REQUIRE(lines.size() == 3);
     const CriticalLine* const whole =
         &*std::max_element(lines.begin(), lines.end(), [&](const CriticalLine& a, const CriticalLine& b) {
-          const auto on = [&](const CriticalLine& l) { return std::abs(glm::dot(glm::cross(up, along), l.from)) < 1e-6 ? glm::length(l.to - l.from) : 0.0; };
+          const auto on = [&](const CriticalLine& l) {
+            return std::abs(glm::dot(glm::cross(up, along), l.from)) < 1e-6 ? glm::length(l.to - l.from) : 0.0;
+          };
           return on(a) < on(b);
         });
     CHECK(whole->degree == lowest);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Meshes that are cut along the edges of shadows: the laws of topology and area, the limit, and what they are for: the error at equal leaves.
+// Meshes that are cut along the edges of shadows: the laws of topology and area, the limit, and the error at equal leaves.
 
 #include <array>
 #include <cmath>
