@@ -86,6 +86,18 @@ TEST_CASE("the settings that an error target found repeat its last round") {
   }
 }
 
+TEST_CASE("discontinuities: the report says how many edges of shadows were imprinted, and where the limit was reached") {
+  const Place place;
+  const std::string arguments = "render " + scene("penumbra") + " --json a.json --audit 0 --epsilon 0.04 --threads 1 --quiet";
+  const Run cut = place.run(arguments + " --discontinuities 3");
+  REQUIRE(cut.code == 0);
+  CHECK(cut.out.find("3 imprinted on 1 faces; limit reached on 1") != std::string::npos);
+  CHECK(json::parse(place.read("a.json"))["discontinuities"]["edges"].number() == 3);
+  CHECK(json::parse(place.read("a.json"))["discontinuities"]["limited"].number() == 1);
+  REQUIRE(place.run(arguments).code == 0);
+  CHECK(json::parse(place.read("a.json"))["discontinuities"].is_null());
+}
+
 TEST_CASE("quiet is quiet on stderr, the report stays") {
   const Place place;
   const Run run = place.run("render " + scene("two_plates") + " -o a.ply --audit 0 --quiet --solver jacobi --reconstruction simple");
