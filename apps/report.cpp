@@ -85,17 +85,23 @@ class Text {
     say("input polygons", "{polygons}");
     say("nodes, leaves", "{nodes}, {leaves}");
     say("proportions", "{proportion.min} to {proportion.max}, mean {proportion.mean} (regular polygon: 1)");
-    say("edges of shadows", "{discontinuities.edges} imprinted on {discontinuities.faces} faces",
-        (audit_.imprinted && audit_.imprinted->limited > 0 ? "; limit reached on " + std::to_string(audit_.imprinted->limited) : "") +
-            (audit_.imprinted && audit_.imprinted->not_looked_at > 0
-                 ? "; not looked for on " + std::to_string(audit_.imprinted->not_looked_at) + ": too many faces, lamps and objects"
-                 : ""));
+    if (audit_.imprinted) { edges(*audit_.imprinted); }
     say("links", audit_.clusters > 0      ? "{links}, {cluster_links} of them with one of {clusters} clusters"
                  : audit_.stored_rays > 0 ? "{links}, {ray_links} of them made of {stored_rays} stored rays"
                                           : "{links}");
     say("rays", "{rays} cast, {rays_avoided} avoided: {pairs_clear} pairs proven clear, {pairs_blocked} proven blocked");
     row("memory",
         facts_.text("{peak_bytes.process} at the peak of the process, ").value_or("") + *facts_.text("{bytes} held by the result"));
+  }
+
+  void edges(const radiosity::ImprintedEdges& imprinted) {
+    const auto faces = [](std::uint64_t n) { return grouped(n) + (n == 1 ? " face" : " faces"); };
+    std::string text = grouped(imprinted.edges) + " imprinted on " + faces(imprinted.faces);
+    if (imprinted.limited > 0) { text += "; limit reached on " + grouped(imprinted.limited); }
+    if (imprinted.not_looked_at > 0) {
+      text += "; not looked for on " + faces(imprinted.not_looked_at) + ": too many faces, lamps and objects";
+    }
+    row("edges of shadows", text);
   }
 
   void checks() {

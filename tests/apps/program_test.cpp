@@ -91,7 +91,7 @@ TEST_CASE("discontinuities: the report says how many edges of shadows were impri
   const std::string arguments = "render " + scene("penumbra") + " --json a.json --audit 0 --epsilon 0.04 --threads 1 --quiet";
   const Run cut = place.run(arguments + " --discontinuities 3");
   REQUIRE(cut.code == 0);
-  CHECK(cut.out.find("3 imprinted on 1 faces; limit reached on 1") != std::string::npos);
+  CHECK(cut.out.find("3 imprinted on 1 face; limit reached on 1") != std::string::npos);
   CHECK(json::parse(place.read("a.json"))["discontinuities"]["edges"].number() == 3);
   CHECK(json::parse(place.read("a.json"))["discontinuities"]["limited"].number() == 1);
   REQUIRE(place.run(arguments).code == 0);
