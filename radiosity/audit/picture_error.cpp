@@ -73,7 +73,8 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
     return !control.cancelled();
   };
   if (!measure_to_goal<Measured>(
-          measure, [](const Measured& m) -> const ErrorSums& { return m.sums; }, goal, measured)) {
+          measure, [](const Measured& m) -> const ErrorSums& { return m.sums; }, goal.among_rays_of(prepared_->objects.ray_work()),
+          measured)) {
     return std::nullopt;
   }
   return summary(picture, measured);

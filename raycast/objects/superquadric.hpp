@@ -46,6 +46,8 @@ class Superquadric final : public Object {
 
   [[nodiscard]] bool nearest() const override { return false; }
 
+  [[nodiscard]] double work() const override { return convex() ? 2.0 : 4.0; }
+
   [[nodiscard]] Box bounds() const override;
 
   void spans(const Segment& line, Spans& out) const override;
