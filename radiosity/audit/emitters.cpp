@@ -78,7 +78,7 @@ HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const
       brightest = std::max(brightest, exitance);
     }
   }
-  return brightest * area <= 2.0 * power;
+  return brightest * area <= 1.5 * power;
 }
 
 HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {

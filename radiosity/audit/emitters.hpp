@@ -12,8 +12,8 @@
 // overlap others or be hidden, and every direction has a density() that can be computed, which the balance heuristic needs (Veach and
 // Guibas 1995).
 //
-// Where nothing shines more than twice as bright as the mean of all surfaces, no direction is better than another: then there are no shapes,
-// for of a furnace they would be thousands, and each ray would meet many.
+// Where nothing shines more than half as bright again as all surfaces do in the mean, no direction is better than another: then there are
+// no shapes, for of a furnace they would be thousands, and each ray would meet many.
 
 #include <algorithm>
 #include <array>
@@ -59,7 +59,7 @@ class Emitters {
  private:
   static constexpr std::uint32_t none = 0xffffffff;
 
-  // Does nothing shine more than twice as bright as all surfaces do in the mean?
+  // Does nothing shine more than half as bright again as all surfaces do in the mean?
   [[nodiscard]] static bool even(const std::vector<Surface>& surfaces, const std::vector<Color>& emission);
 
   struct Shape {
