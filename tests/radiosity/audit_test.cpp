@@ -180,7 +180,7 @@ TEST_CASE("an audit of a target decides from fresh points, or ends at its rays")
   }
 }
 
-TEST_CASE("an audit costs what it may: as much as the solution, more only where what is wanted is there to show, and then no more than that takes") {
+TEST_CASE("an audit costs what it may: as much as the solution; more only to show the wanted error, and then no more than that takes") {
   // Points whose errors and noise are random, from 1e-4 to 1e-1; a path is a ray.
   struct Points {
     radiosity::ErrorSums sums;
@@ -208,7 +208,8 @@ TEST_CASE("an audit costs what it may: as much as the solution, more only where 
     };
     Points measured;
     REQUIRE(radiosity::measure_to_goal<Points>(
-        measure, [](const Points& p) -> const radiosity::ErrorSums& { return p.sums; }, {points_wanted, budget, wanted, to_show}, measured));
+        measure, [](const Points& p) -> const radiosity::ErrorSums& { return p.sums; }, {points_wanted, budget, wanted, to_show},
+        measured));
     CAPTURE(round, off, spread, wanted, budget, rays, measured.sums.square.size());
     // The pilots, each four times the one before it and half of the least that is measured, are a third of that more.
     const std::uint64_t floor = 3 * 16 * least;

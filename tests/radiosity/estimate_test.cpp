@@ -268,7 +268,7 @@ TEST_CASE("light through a hole of any size: the estimate is no less than a thir
   };
   int doubted = 0;
   for (int k = 0; k < 12; ++k) {
-    const double hole = std::pow(10.0, -2.5 + 2.0 * (k + random.uniform()) / 12.0), z = 0.3 + 0.5 * random.uniform(), h = z + 0.3;
+    const double hole = std::pow(10.0, -3.5 + 3.0 * (k + random.uniform()) / 12.0), z = 0.3 + 0.5 * random.uniform(), h = z + 1.0;
     const double x = random.uniform() - 0.5, y = random.uniform() - 0.5, side = 0.2 + 0.6 * random.uniform(), far = 4.0;
     radiosity::Scene scene;
     scene.materials = {{"plate", Color{rho}, Color{0.0}}, {"lamp", Color{0.0}, Color{1.0}}, {"black", Color{0.0}, Color{0.0}}};
