@@ -62,6 +62,7 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
   }
   solution.row_sum = transport.row_sums();
   audit.row_sum = summarise_rows(scene.hierarchy, area, solution.row_sum);
+  audit.overfull = overfull_share(scene.hierarchy, area, solution.row_sum);
 }
 
 HALFLIGHT_INLINE void solve_system(Run& run) {
