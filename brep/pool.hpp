@@ -98,8 +98,7 @@ class Pages {
     ++size_;
   }
   [[nodiscard]] std::uint32_t size() const { return size_; }
-  // What has been touched: of the rest of a page the system has given nothing yet.
-  [[nodiscard]] std::size_t bytes() const { return size_ * sizeof(T) + pages_.capacity() * sizeof(T*); }
+  [[nodiscard]] std::size_t bytes() const { return pages_.size() * page_size * sizeof(T) + pages_.capacity() * sizeof(T*); }
   [[nodiscard]] Allocator allocator() const { return Allocator(pages_.get_allocator()); }
 
  private:
