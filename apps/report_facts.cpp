@@ -187,6 +187,7 @@ Facts facts_of(const Report& report) {
   add_range(facts, "proportion", audit.proportion, "%.2f");
   add_range(facts, "row_sum", audit.row_sum, "%.6f");
   add_range(facts, "computed_row_sum", audit.computed_row_sum, "%.6f");
+  facts.add("overfull", audit.overfull, "%");
   facts.add("ray_correction", audit.ray_correction, "%");
   facts.add("closure", audit.closure, "%");
   facts.add("estimated_error", audit.estimated_error, "%");

@@ -100,6 +100,9 @@ class Object {
   // Those of the spans, bit for bit, that meet t in [0, 1], and perhaps others. A mesh need not look at its faces along the whole line.
   virtual void spans_of_segment(const Segment& segment, Spans& out) const { spans(segment, out); }
 
+  // About what spans() costs, in rays through a scene of few polygons.
+  [[nodiscard]] virtual double work() const { return 0.25; }
+
   // Is it known, for less than spans() costs, that the line is inside along one span at most? Never true where spans() finds more.
   [[nodiscard]] virtual bool passes_once(const Segment&) const { return convex(); }
 };

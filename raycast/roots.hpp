@@ -47,8 +47,8 @@ struct SplitSample {
   double value, convex, concave;
 };
 
-// Calls found(lo, hi, rising) for every sign change of f on [a, b], from left to right; f is monotone on [lo, hi] (or that is as short as
-// 4 u of the larger |end|). f(s) -> SplitSample; a value of 0 counts as positive. Two sign changes between which |f| stays below
+// Calls found(lo, hi, rising, guess) for every sign change of f on [a, b], from left to right; f is monotone on [lo, hi] (or that is as
+// short as 4 u of the larger |end|), and `guess` is about where its chord is 0. f(s) -> SplitSample; a value of 0 counts as positive. Two sign changes between which |f| stays below
 // `negligible` may be left out. Typically 5 to 15 values.
 template <class F, class Found>
 void sign_changes(F&& f, double a, double b, double negligible, Found&& found) {
@@ -67,7 +67,7 @@ void sign_changes(F&& f, double a, double b, double negligible, Found&& found) {
     const double least = p.at_a.convex + p.at_b.concave, most = p.at_b.convex + p.at_a.concave;
     if (rises || falls) {
       if (least >= 0.0 || most <= 0.0 || width <= shortest) {
-        found(p.a, p.b, rises);
+        found(p.a, p.b, rises, p.a + width * std::clamp(fa / (fa - fb), 0.02, 0.98));
         continue;
       }
     } else if (least >= 0.0 || most <= 0.0 || width <= shortest) {

@@ -75,6 +75,21 @@ HALFLIGHT_INLINE Scene::Scene(std::vector<PlacedObject> objects, Isa isa) : obje
   }
 }
 
+HALFLIGHT_INLINE double Scene::ray_work() const {
+  const auto surface = [](const Box& box) {
+    const glm::dvec3 d = box.hi - box.lo;
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+  };
+  const double whole = surface(bounds_);
+  double work = 1.0;
+  for (const PlacedObject& object : objects_) {
+    // Faces that the search decides by itself cost next to nothing.
+    if (object.flat() && !object.inside()) { continue; }
+    work += object.object().work() * (whole > 0.0 && !object.inside() ? std::min(1.0, surface(object.bounds()) / whole) : 1.0);
+  }
+  return work;
+}
+
 HALFLIGHT_INLINE bool Scene::blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const {
   const Record& r = records_[i];
   if (r.corner_count) {  // a polygon: the ends lie on different sides of its plane, both out of the skin

@@ -44,7 +44,10 @@ class Superellipse {
  private:
   [[nodiscard]] double power(double x) const { return p_ == 2.0 ? x * x : p_ == 1.0 ? x : p_ == 4.0 ? (x * x) * (x * x) : std::pow(x, p_); }
   [[nodiscard]] double root(double x) const {
-    return p_ == 2.0 ? std::sqrt(x) : p_ == 1.0 ? x : p_ == 4.0 ? std::sqrt(std::sqrt(x)) : std::pow(x, 1.0 / p_);
+    if (halves_ == 0) { return p_ == 4.0 ? std::sqrt(std::sqrt(x)) : std::pow(x, 1.0 / p_); }
+    double result = halves_ % 2 == 1 ? std::sqrt(x) : 1.0;
+    for (int k = 2; k <= halves_; k += 2) { result *= x; }
+    return result;
   }
   // 1 - z^p without cancellation.
   [[nodiscard]] double rest(double z) const {
@@ -52,6 +55,8 @@ class Superellipse {
   }
 
   double p_;
+  // 1 / p in halves, where it is so few of them that products are as exact as std::pow; else 0.
+  int halves_ = 2.0 / p_ <= 6.0 && 2.0 / p_ == std::floor(2.0 / p_) ? static_cast<int>(2.0 / p_) : 0;
   double flat_ = p_ >= 64.0 ? std::exp2(-64.0 / p_) : 0.0;  // of nearly straight sides: ratios below have a power that is lost beside 1
 };
 

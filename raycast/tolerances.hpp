@@ -48,6 +48,8 @@ inline constexpr double eps_tube = gamma(16);
 // Of superquadrics, in units of the radii: where Newton's steps onto the surface end, to 1; of a distance from the ring, to the ring's
 // radius; of the norm along a line, to (1 + ring) (1 + 1/p + 1/q), because the powers 1/p and 1/q magnify.
 inline constexpr double eps_gauge = gamma(4), eps_ring = gamma(8), eps_norm = gamma(16);
+// Planes around a pinched superquadric stand off from it by this part of its size, so that rounding cannot cut its tips.
+inline constexpr double tol_hull = 1e-6;
 
 // --- Double precision: ranges. ---
 

@@ -18,17 +18,26 @@ namespace radiosity {
 
 struct AuditGoal {
   std::uint64_t points = 2000;     // about: a quarter of them at least, more where the points differ much
-  std::uint64_t rays = 0;          // at most, unless the least number of points takes more
+  std::uint64_t rays = 0;          // at most, unless the least number of points takes more; as dear as among few polygons
   std::optional<double> wanted{};  // relative L2 that is to be shown, or shown to be missed; else the error is to be known to a quarter
   std::uint64_t rays_to_show = 0;  // at most when the pilot finds the error to be what is wanted: that is then all that is left to do
+
+  // The same where a ray costs `work` times as much (raycast::Scene::ray_work).
+  [[nodiscard]] AuditGoal among_rays_of(double work) const {
+    const auto fewer = [work](std::uint64_t count) { return static_cast<std::uint64_t>(static_cast<double>(count) / work); };
+    return {points, fewer(rays), wanted, fewer(rays_to_show)};
+  }
 };
 
-// As many rays of paths as the solution took time: a ray of a path costs as much as two segments of links or two thirds of a link.
-[[nodiscard]] inline std::uint64_t rays_worth(const Audit& audit) { return (audit.rays + 3 * audit.links) / 2; }
+// As many rays of paths as the solution took time, or somewhat less: among few polygons, a link takes at least as long as a ray of a path.
+// A segment of a link takes an eighth of that in any scene: it ends, goes the way of fifteen others, and looks for nothing but a blocker.
+[[nodiscard]] inline std::uint64_t rays_worth(const Audit& audit) {
+  return audit.links + static_cast<std::uint64_t>(audit.ray_work * static_cast<double>(audit.rays) / 8.0);
+}
 
-// For an audit without a target: as long as the solution took, or 2000 rays a point.
+// For an audit without a target: as long as the solution took, or 1000 rays a point.
 [[nodiscard]] inline AuditGoal goal_to_know(const Audit& audit, std::uint32_t points) {
-  return {points, std::max<std::uint64_t>(rays_worth(audit), 2000 * std::uint64_t{points})};
+  return {points, std::max<std::uint64_t>(rays_worth(audit), 1000 * std::uint64_t{points})};
 }
 
 // `measure(points, paths, result)` adds that many fresh points to the result and returns false when it was cancelled; a Measured has
@@ -39,7 +48,8 @@ template <class Measured>
   const std::uint64_t least = std::max<std::uint64_t>(16, goal.points / 4);
   const double target = goal.wanted ? *goal.wanted * *goal.wanted : 0.0;
   std::uint64_t few = std::clamp<std::uint64_t>(goal.points / 8, 16, 512);  // points of the pilot
-  std::uint32_t paths = 16;
+  constexpr std::uint64_t rays_a_path = 8;                                  // about
+  std::uint32_t paths = goal.rays < 2 * 16 * rays_a_path * least ? 4 : 16;
   std::uint64_t points = least;
   for (;;) {
     Measured pilot;
@@ -59,17 +69,20 @@ template <class Measured>
       points = few;
       break;
     }
+    // The standard error of the mean that is needed, and the points that give it. The pilot's own doubt stands in for an error that it
+    // hides; an error below `negligible` need not be known.
+    constexpr double negligible = 0.005;
+    const double off = goal.wanted ? std::max(std::abs(target - seen->ratio), 0.1 * target) / 2.5
+                                   : std::max(0.25 * std::max(seen->ratio, doubt), 0.5 * negligible * negligible);
+    const double needed = 1.2 * seen->variance / (off * off);
     const std::uint64_t rays = goal.wanted && seen->ratio <= target ? std::max(goal.rays, goal.rays_to_show) : goal.rays;
     // The noise of the paths falls with the square of their number, so more paths at fewer points pay until it is half of the variance.
-    // From few points its share is mostly seen too small.
-    if (seen->noise_share > 0.2 && affordable(4.0, rays)) {
+    // From few points its share is mostly seen too small. A target needs no more than to be met with the least number of points.
+    if (seen->noise_share > 0.2 && (!goal.wanted || needed > static_cast<double>(least)) && affordable(4.0, rays)) {
       paths *= 4;
       continue;
     }
-    if (seen->noise_share < 1.0 / 32.0) { paths /= 4; }
-    // The standard error of the mean that is needed. The pilot's own doubt stands in for an error that it hides.
-    const double off = goal.wanted ? std::max(std::abs(target - seen->ratio), 0.1 * target) / 2.5 : 0.25 * std::max(seen->ratio, doubt);
-    const double needed = off > 0.0 ? 1.2 * seen->variance / (off * off) : 0.0;
+    if (seen->noise_share < 1.0 / 32.0 && paths > 4) { paths /= 4; }
     const auto most = std::max(static_cast<double>(least), static_cast<double>(rays) / rays_a_point);
     points = static_cast<std::uint64_t>(std::clamp(needed, static_cast<double>(least), most));
     break;

@@ -18,6 +18,7 @@
 #include <brep/brep.hpp>
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
+#include <brep/geometry.hpp>
 #include <brep/handles.hpp>
 
 #include <raycast/box.hpp>
@@ -64,7 +65,24 @@ HALFLIGHT_INLINE std::vector<std::array<glm::dvec3, 3>> compact_triangles(const 
 
 }  // namespace detail
 
+HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
+  double area = 0.0, power = 0.0, brightest = 0.0;
+  for (const Surface& surface : surfaces) {
+    for (const brep::FaceId f : brep::faces(surface.brep)) {
+      const std::uint32_t sheet = surface.brep.data(f).sheet;
+      if (sheet == brep::no_sheet) { continue; }
+      const Color& e = emission[surface.first_surface + sheet];
+      const double exitance = e.x + e.y + e.z, of_face = brep::area(surface.brep, f);
+      area += of_face;
+      power += of_face * exitance;
+      brightest = std::max(brightest, exitance);
+    }
+  }
+  return brightest * area <= 1.5 * power;
+}
+
 HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
+  if (even(surfaces, emission)) { return; }
   for (const Surface& surface : surfaces) {
     std::vector<std::vector<Polygon>> curved(surface.object->sheet_count());  // faces, by sheet
     for (const brep::FaceId f : brep::faces(surface.brep)) {

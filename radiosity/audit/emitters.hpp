@@ -11,6 +11,9 @@
 // The shapes only propose directions: what a direction carries is found by a ray. So a shape may be larger than what it stands for,
 // overlap others or be hidden, and every direction has a density() that can be computed, which the balance heuristic needs (Veach and
 // Guibas 1995).
+//
+// Where nothing shines more than half as bright again as all surfaces do in the mean, no direction is better than another: then there are
+// no shapes, for of a furnace they would be thousands, and each ray would meet many.
 
 #include <algorithm>
 #include <array>
@@ -55,6 +58,9 @@ class Emitters {
 
  private:
   static constexpr std::uint32_t none = 0xffffffff;
+
+  // Does nothing shine more than half as bright again as all surfaces do in the mean?
+  [[nodiscard]] static bool even(const std::vector<Surface>& surfaces, const std::vector<Color>& emission);
 
   struct Shape {
     std::array<glm::dvec3, 3> corner{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};  // of a triangle

@@ -74,6 +74,17 @@ HALFLIGHT_INLINE Audit::Range summarise_rows(const Hierarchy& hierarchy, const s
   return total > 0.0 ? Audit::Range{range.min, range.mean / total, range.max} : Audit::Range{};
 }
 
+HALFLIGHT_INLINE double overfull_share(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<double>& rows) {
+  constexpr double most = 1.1;
+  double total = 0.0, overfull = 0.0;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (!hierarchy[i].leaf()) { continue; }
+    total += area[i];
+    overfull += rows[i] > most ? area[i] : 0.0;
+  }
+  return total > 0.0 ? overfull / total : 0.0;
+}
+
 HALFLIGHT_INLINE Audit::Range summarise_proportions(const Hierarchy& hierarchy, const Patches& patches) {
   Audit::Range range{1.0, 0.0, 0.0};
   double count = 0.0;

@@ -54,30 +54,45 @@ HALFLIGHT_INLINE std::size_t open_edges(const Surface& surface) {
   return count;
 }
 
+// The first few of `count` names, in a list.
+template <class Name>
+[[nodiscard]] std::string first_of(std::size_t count, const Name& name) {
+  constexpr std::size_t most = 5;
+  std::string list;
+  for (std::size_t k = 0; k < std::min(count, most); ++k) { list += (k > 0 ? ", " : "") + name(k); }
+  return list + (count > most ? " and others" : "");
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE std::vector<std::string> warnings(const Scene& scene, const Frame& frame, const std::vector<Surface>& surfaces) {
   std::vector<std::string> sentences;
   const auto name = [&](std::uint32_t o) { return "'" + scene.objects[o].name + "'"; };
-  const auto add = [&](std::size_t& count, std::string sentence) {
-    if (count++ < detail::most_warnings) { sentences.push_back(std::move(sentence)); }
-  };
-  const auto more = [&](std::size_t count, const char* what) {
-    if (count > detail::most_warnings) { sentences.push_back("and more " + std::string{what}); }
-  };
-  std::size_t count = 0;
-  for (const auto& [a, b] : detail::twins(surfaces, detail::most_warnings + 1)) {
-    add(count, "objects " + name(a) + " and " + name(b) + " are the same surface at the same place: duplicates; " + name(b) +
-                   " is seen, being the later one, and " + name(a) + " is covered by it");
+  const auto twins = detail::twins(surfaces);
+  if (twins.size() == 1) {
+    const auto& [a, b] = twins[0];
+    sentences.push_back("objects " + name(a) + " and " + name(b) + " are the same surface at the same place: duplicates; " + name(b) +
+                        " is seen, being the later one, and " + name(a) + " is covered by it");
+  } else if (!twins.empty()) {
+    sentences.push_back(
+        std::to_string(twins.size()) + " objects are duplicates, each covered by a later one that is the same surface at the same place: " +
+        detail::first_of(twins.size(), [&](std::size_t k) { return name(twins[k][0]) + " by " + name(twins[k][1]); }));
   }
-  more(count, "duplicates");
-  count = 0;
+  std::vector<std::uint32_t> open;
+  std::size_t edges = 0;
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
     if (surfaces[o].object->solid() || input_faces(surfaces[o]).size() < 2) { continue; }
-    add(count, "object " + name(o) + " is an open shell with " + std::to_string(detail::open_edges(surfaces[o])) +
-                   " open edges: its back is black and takes no light");
+    open.push_back(o);
+    edges += detail::open_edges(surfaces[o]);
   }
-  more(count, "open shells");
+  if (open.size() == 1) {
+    sentences.push_back("object " + name(open[0]) + " is an open shell with " + std::to_string(edges) +
+                        " open edges: its back is black and takes no light");
+  } else if (!open.empty()) {
+    sentences.push_back(std::to_string(open.size()) + " objects are open shells, with " + std::to_string(edges) +
+                        " open edges: their backs are black and take no light: " +
+                        detail::first_of(open.size(), [&](std::size_t k) { return name(open[k]); }));
+  }
   // How well the coordinates of the scene are known, in the frame: half a unit in the last place of the largest.
   const double magnitude = std::max({std::abs(frame.centre.x), std::abs(frame.centre.y), std::abs(frame.centre.z)});
   const double known = raycast::unit_roundoff * magnitude * frame.scale;
@@ -115,14 +130,9 @@ HALFLIGHT_INLINE std::vector<std::string> warnings_of_buried(const Scene& scene,
     sentences.push_back("object '" + scene.objects[others[0]].name +
                         "' is buried: all of its surface lies in or under other objects and is dark");
   } else if (!others.empty()) {
-    constexpr std::size_t most_names = 5;
-    std::string names;
-    for (std::size_t k = 0; k < std::min(others.size(), most_names); ++k) {
-      names += (k > 0 ? ", '" : "'") + scene.objects[others[k]].name + "'";
-    }
-    if (others.size() > most_names) { names += " and others"; }
     sentences.push_back(std::to_string(others.size()) +
-                        " objects are buried: all of their surfaces lie in or under other objects and are dark: " + names);
+                        " objects are buried: all of their surfaces lie in or under other objects and are dark: " +
+                        detail::first_of(others.size(), [&](std::size_t k) { return "'" + scene.objects[others[k]].name + "'"; }));
   }
   return sentences;
 }

@@ -240,8 +240,12 @@ HALFLIGHT_INLINE EvaluateResult make_links(const Evaluation& by, const std::vect
       },
       [&](std::size_t i, const Doubt& doubt) {
         // Of a pair that was proven to exchange nothing there is no doubt.
-        if (pairs[i].list != OccluderLists::hidden) { result.doubt.add(pairs[i].p, pairs[i].q, doubt); }
-        if (!(links[i].exchange > 0.0f)) { return false; }
+        const bool hidden = pairs[i].list == OccluderLists::hidden;
+        if (!hidden) { result.doubt.add(pairs[i].p, pairs[i].q, doubt); }
+        if (!(links[i].exchange > 0.0f)) {
+          if (!hidden && doubt.square > 0.0f) { result.unseen.add(pairs[i].p, pairs[i].q); }
+          return false;
+        }
         links[kept++] = links[i];
         return true;
       },

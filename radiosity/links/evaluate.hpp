@@ -10,6 +10,8 @@
 #include <optional>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include <raycast/shaft.hpp>
 
 #include <radiosity/clusters/cluster_exchange.hpp>
@@ -29,10 +31,30 @@ namespace radiosity {
 
 class LightMeshing;  // discontinuity/light_meshing.hpp
 
+// Some of many pairs, spread evenly over them in their order.
+class PairSample {
+ public:
+  void add(std::uint32_t p, std::uint32_t q) {
+    if (count_++ % each_ == 0) { pairs_.push_back({p, q}); }
+    if (pairs_.size() < 2 * least) { return; }
+    for (std::size_t i = 0; i < least; ++i) { pairs_[i] = pairs_[2 * i]; }
+    pairs_.resize(least);
+    each_ *= 2;
+  }
+  [[nodiscard]] const std::vector<glm::uvec2>& pairs() const { return pairs_; }
+  [[nodiscard]] std::uint64_t each() const { return each_; }  // pairs that one stands for
+
+ private:
+  static constexpr std::size_t least = 1 << 14;
+  std::vector<glm::uvec2> pairs_;
+  std::uint64_t count_ = 0, each_ = 1;
+};
+
 struct EvaluateResult {
   RayCount rays;
   std::uint64_t proven_clear = 0;  // links for which no segment was cast
   std::uint64_t blocked = 0;       // links left out because nothing arrives
+  PairSample unseen;               // of those that are not proven to be blocked; not of measured links
   DoubtSum doubt;                  // of the links left out, and, unless measured links hold theirs, of all
   bool cancelled = false;
 };

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -186,6 +187,15 @@ struct LinkTables {
   }
 };
 
+// Those that hold a light at an end, and those that do not; nothing is measured yet.
+[[nodiscard]] HALFLIGHT_INLINE std::array<LinkSample, 2> lights_and_others(const DiscreteScene& scene, const LinkTables& links) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(scene.emission[hierarchy[i].surface]); };
+  std::array<LinkSample, 2> samples;
+  for (std::uint32_t i = 0; i < links.size(); ++i) { samples[emits(links[i].p) || emits(links[i].q) ? 0 : 1].from.push_back(i); }
+  return samples;
+}
+
 // Measures `most` of the links at most. The exchange stays as it is.
 HALFLIGHT_INLINE void measure_sample(const DiscreteScene& scene, const LinkTables& links, std::size_t most, LinkSample& sample) {
   const std::size_t count = std::min(sample.from.size(), most);
@@ -234,24 +244,41 @@ HALFLIGHT_INLINE LeafErrors sampled_leaf_errors(const DiscreteScene& scene, std:
   return leaves;
 }
 
+// What may pass where no segment did.
+HALFLIGHT_INLINE void add_unseen(const DiscreteScene& scene, const PairSample& unseen, const AlikeErrors& alike,
+                                 const std::vector<Color>& radiosity, ErrorEstimation& result) {
+  Links pairs;
+  for (const glm::uvec2& pair : unseen.pairs()) {
+    pairs.emplace_back();
+    pairs.back().p = pair.x;
+    pairs.back().q = pair.y;
+  }
+  auto [of_lights, others] = lights_and_others(scene, {{pairs, {}}});
+  measure_sample(scene, {{pairs, {}}}, 1024, of_lights);
+  measure_sample(scene, {{pairs, {}}}, 1024, others);
+  for (const LinkSample* sample : {&of_lights, &others}) {
+    const double squares = estimate_link_errors(alike, scene, sample->links, radiosity).of_links;
+    result.unseen += static_cast<double>(unseen.each()) * sample->each * squares;
+  }
+  result.of_links += result.unseen;
+}
+
 HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, const std::array<std::span<const Link>, 2>& tables,
-                                                  const std::vector<Color>& radiosity, const DoubtSum& doubt) {
+                                                  const std::vector<Color>& radiosity, const EvaluateResult& evaluated) {
   const LinkTables links{tables};
-  const Hierarchy& hierarchy = scene.hierarchy;
-  const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(scene.emission[hierarchy[i].surface]); };
-  LinkSample of_lights, others;
-  for (std::uint32_t i = 0; i < links.size(); ++i) { (emits(links[i].p) || emits(links[i].q) ? of_lights : others).from.push_back(i); }
+  auto [of_lights, others] = lights_and_others(scene, links);
   measure_sample(scene, links, 1024, of_lights);
   measure_sample(scene, links, 3072, others);
   const LeafErrors leaves = sampled_leaf_errors(scene, {&of_lights, &others}, links.size(), radiosity);
   ErrorEstimation result;
   result.of_leaves = leaves.sum;
-  const AlikeErrors alike{std::sqrt(doubt.alike(scene.exposure.area)), leaves.alike()};
+  const AlikeErrors alike{std::sqrt(evaluated.doubt.alike(scene.exposure.area)), leaves.alike()};
   for (const LinkSample* sample : {&of_lights, &others}) {
     const ErrorEstimation errors = estimate_link_errors(alike, scene, sample->links, radiosity);
     result.of_links += sample->each * errors.of_links;
     result.norm = errors.norm;
   }
+  add_unseen(scene, evaluated.unseen, alike, radiosity, result);
   return result;
 }
 

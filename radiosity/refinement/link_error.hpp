@@ -65,10 +65,10 @@ struct AlikeErrors {
 ErrorEstimation estimate_link_errors(const AlikeErrors& alike, const DiscreteScene& scene, const MeasuredLinks& links,
                                      const std::vector<Color>& radiosity);
 
-// For links that were not made by BF-refinement, in two tables: from at most 1024 links of lights and 3072 others, spread evenly; they are
-// measured now.
+// For links that were not made by BF-refinement, in two tables, and for pairs that were left out because no segment came through: from at
+// most 1024 of either that hold a light, and 3072 and 1024 others, spread evenly; they are measured now.
 ErrorEstimation sampled_estimate(const DiscreteScene& scene, const std::array<std::span<const Link>, 2>& links,
-                                 const std::vector<Color>& radiosity, const DoubtSum& doubt);
+                                 const std::vector<Color>& radiosity, const EvaluateResult& evaluated);
 
 // Why the estimate is no bound, or nothing. It does not know what a segment never found, nor how errors grow when light that is wrong is
 // reflected again and again; a closed scene keeps its row sums, and what errs there has no mean. `unseen`: share of its square that is

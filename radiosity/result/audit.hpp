@@ -51,6 +51,7 @@ struct Audit {
   std::uint64_t rays_avoided = 0;                   // at least; by the two proofs:
   std::uint64_t pairs_clear = 0, pairs_hidden = 0;  // links that nothing can block; pairs, with all below, that one object hides
   std::uint64_t audit_rays = 0;
+  double ray_work = 1.0;                            // what a ray costs, in rays among few polygons
   std::uint64_t bytes = 0;  // held by the result: BReps, hierarchy, links, compiled objects; the peak is that of the last stage
   // the linear system
   struct Range {
@@ -59,6 +60,7 @@ struct Audit {
   Range proportion;               // of the leaves: inscribed over circumscribed circle, relative to that of a regular polygon
   Range row_sum;                  // of the form factors of a leaf, area-weighted mean; of the system that was solved
   Range computed_row_sum;         // the same before a closed scene was corrected
+  double overfull = 0.0;          // share of the exposed area where row_sum is above 1.1, which cannot be: it receives too much light
   std::optional<double> closure;  // RMS correction that made all row sums of a closed scene 1
   double ray_correction = 0.0;    // RMS correction that took the noise of stored rays out of their row sums, relative to those
   double closure_limit = 0.0;     // what quadrature and sampling explain of one (doubt.hpp); beyond, it is refused

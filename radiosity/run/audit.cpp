@@ -32,11 +32,12 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
   SurfaceErrorMeter meter{run.scene.input,    run.scene.objects, *run.tracer,
                           run.scene.exposure, solution.mesh,     run.direct ? &*run.direct : nullptr,
                           options.seed};
+  audit.ray_work = run.scene.objects.ray_work();
   const AuditGoal to_know = goal_to_know(audit, options.audit_points);
   const std::uint64_t solution_rays = rays_worth(audit);
   AuditGoal goal = to_know;
-  if (options.error) {
-    goal = {options.audit_points, solution_rays, *options.error, std::max<std::uint64_t>(25'000'000, 2 * solution_rays)};
+  if (options.error) {  // a quarter is left for what steers the next round
+    goal = {options.audit_points, 3 * solution_rays / 4, *options.error, std::max<std::uint64_t>(25'000'000, 2 * solution_rays)};
   }
   if (options.error && control.picture_error) {
     Mesh shown = solution.mesh;
@@ -44,7 +45,7 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
     audit.picture_error = control.picture_error(shown, solution.frame, goal);
     // The error over all surfaces decides nothing then: until the picture is good enough, a little of it will do.
     const bool last = audit.picture_error && audit.picture_error->error.within(*options.error);
-    goal = last ? to_know : AuditGoal{options.audit_points / 4, solution_rays / 2};
+    goal = last ? to_know : AuditGoal{options.audit_points / 4, solution_rays / 4};
   }
   const bool reconstructed = options.reconstruction != Reconstruction::none;
   const auto measure = [&](std::uint64_t points, std::uint32_t paths, SurfaceError& to) {
@@ -52,18 +53,19 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
   };
   SurfaceError measured;
   const bool complete = measure_to_goal<SurfaceError>(
-      measure, [&](const SurfaceError& error) -> const ErrorSums& { return reconstructed ? error.reconstructed : error.leaf; }, goal,
-      measured);
+      measure, [&](const SurfaceError& error) -> const ErrorSums& { return reconstructed ? error.reconstructed : error.leaf; },
+      goal.among_rays_of(audit.ray_work), measured);
   if (!complete) { return; }
   audit.leaf_error = measured.leaf.estimate();
   if (reconstructed) { audit.surface_error = measured.reconstructed.estimate(); }
   audit.audit_points = measured.points();
   audit.audit_rays = measured.rays;
   if (!options.error || control.picture_error) { return; }
-  // What steers the next round must not depend on the target: as many rays as the solution took, at most.
+  // What steers the next round must not depend on the target: a quarter of the rays that the solution is worth, at most.
   SurfaceError steering;
-  constexpr std::uint64_t points = 256;
-  const auto paths = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(solution_rays / (points * 8), 4, 64));
+  constexpr std::uint64_t points = 256, rays_a_path = 8;
+  const double rays = static_cast<double>(solution_rays) / (4.0 * audit.ray_work);
+  const auto paths = static_cast<std::uint32_t>(std::clamp(rays / (2.0 * points * rays_a_path), 4.0, 64.0));
   if (!measure(points, paths, steering)) { return; }
   const double split = std::max(0.0, steering.direct) + std::max(0.0, steering.other);
   if (split > 0.0) { audit.direct_share = std::max(0.0, steering.direct) / split; }

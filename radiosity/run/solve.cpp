@@ -62,6 +62,7 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
   }
   solution.row_sum = transport.row_sums();
   audit.row_sum = summarise_rows(scene.hierarchy, area, solution.row_sum);
+  audit.overfull = overfull_share(scene.hierarchy, area, solution.row_sum);
 }
 
 HALFLIGHT_INLINE void solve_system(Run& run) {
@@ -89,10 +90,11 @@ HALFLIGHT_INLINE void estimate_error(Run& run) {
   const Solution& solution = run.solution;
   Audit& audit = run.solution.audit;
   if (run.f_refined() && run.options.audit_points > 0) {
-    ErrorEstimation errors = sampled_estimate(scene, {solution.links, solution.ray_links}, solution.radiosity, run.evaluated.doubt);
+    ErrorEstimation errors = sampled_estimate(scene, {solution.links, solution.ray_links}, solution.radiosity, run.evaluated);
     if (run.rays.cast) { errors.of_links += run.ray_links.noise(scene, solution.ray_links, solution.radiosity); }
     audit.estimated_error = errors.relative(leaf_part(run.options.reconstruction));
     audit.estimated_leaf_error = errors.relative(1.0);
+    run.unseen = errors.sum(1.0) > 0.0 ? errors.unseen / errors.sum(1.0) : 0.0;
   }
   if (audit.estimated_error) {
     audit.estimate_doubt = estimate_doubt(scene, *run.transport, solution.radiosity, run.unseen, audit.closure.has_value());

@@ -43,6 +43,7 @@ class Csg final : public Object {
   [[nodiscard]] bool convex() const override { return mesh_ ? mesh_->convex() : tree_->convex(); }
   [[nodiscard]] bool flat() const override { return mesh_ != nullptr; }
   [[nodiscard]] double slack() const override { return slack_; }
+  [[nodiscard]] double work() const override { return mesh_ ? mesh_->work() : tree_->work(); }
   [[nodiscard]] std::uint32_t sheet_count() const override { return tree_->sheet_count(); }
   [[nodiscard]] std::string_view sheet_name(std::uint32_t sheet) const override { return tree_->sheet_name(sheet); }
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override { return tree_->project(sheet, p); }

@@ -77,6 +77,12 @@ HALFLIGHT_INLINE glm::dvec3 CsgTree::vertex(std::uint32_t sheet, const glm::dvec
   return leaf.solid.vertex(sheet - leaf.first_sheet, p);
 }
 
+HALFLIGHT_INLINE double CsgTree::work() const {
+  double sum = 0.0;
+  for (const Leaf& leaf : leaves_) { sum += leaf.solid.object().work(); }
+  return 2.0 * sum;  // as much again to merge them
+}
+
 HALFLIGHT_INLINE bool CsgTree::convex() const {
   return std::all_of(nodes_.begin(), nodes_.end(),
                      [](const Node& n) { return n.parts.size() <= 1 || n.operation == CsgOperation::intersect; }) &&

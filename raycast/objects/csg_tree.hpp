@@ -74,6 +74,7 @@ class CsgTree {
   [[nodiscard]] glm::dvec3 vertex(std::uint32_t sheet, const glm::dvec3& p) const;
   // What convex solids have in common is convex.
   [[nodiscard]] bool convex() const;
+  [[nodiscard]] double work() const;  // as Object::work
   [[nodiscard]] std::uint32_t leaf_of(std::uint32_t sheet) const { return leaf_of_sheet_[sheet]; }
   [[nodiscard]] bool flat_sheet(std::uint32_t sheet) const { return leaves_[leaf_of_sheet_[sheet]].solid.flat(); }
 

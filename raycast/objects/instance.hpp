@@ -48,6 +48,7 @@ class Instance final : public Object {
   [[nodiscard]] std::uint32_t sheet_count() const override { return placed_.sheet_count(); }
   [[nodiscard]] std::string_view sheet_name(std::uint32_t sheet) const override { return placed_.sheet_name(sheet); }
   [[nodiscard]] double slack() const override { return placed_.slack(); }
+  [[nodiscard]] double work() const override { return placed_.object().work(); }
   [[nodiscard]] std::span<const glm::dvec3> outline() const override { return outline_; }
 
  private:

@@ -72,6 +72,7 @@ HALFLIGHT_INLINE void Superquadric::spans(const Segment& line, Spans& out) const
     lo = std::max(lo, (-forward - f[k]) / e[k]);
     hi = std::min(hi, (forward - f[k]) / e[k]);
   }
+  clip_pinched(f, e, lo, hi);
   if (!(lo < hi)) { return; }
   Cut cuts;
   if (convex()) {
@@ -82,6 +83,31 @@ HALFLIGHT_INLINE void Superquadric::spans(const Segment& line, Spans& out) const
   for (const auto& [in, leave] : cuts) {
     const auto t = [&](double s) { return shift + (again + s) / length; };
     out.push(Span{{t(in), 0}, {t(leave), 0}});
+  }
+}
+
+HALFLIGHT_INLINE void Superquadric::clip_pinched(const glm::dvec3& f, const glm::dvec3& e, double& lo, double& hi) const {
+  const double limit = (1.0 + ring_) * (1.0 + tol_hull);
+  const auto slab = [&](const glm::dvec3& n) {
+    const double at = glm::dot(n, f), rate = glm::dot(n, e);
+    if (rate == 0.0) {
+      if (std::abs(at) > limit) { hi = lo; }
+      return;
+    }
+    const double forward = std::copysign(limit, rate);
+    lo = std::max(lo, (-forward - at) / rate);
+    hi = std::min(hi, (forward - at) / rate);
+  };
+  const bool around = !around_.convex(), profile = !profile_.convex();
+  for (const double sign : {-1.0, 1.0}) {
+    if (around) { slab({1.0, sign, 0.0}); }
+    if (around && profile) {
+      slab({1.0, sign, 1.0});
+      slab({1.0, sign, -1.0});
+    } else if (profile) {
+      slab({1.0, 0.0, sign});
+      slab({0.0, 1.0, sign});
+    }
   }
 }
 
@@ -230,8 +256,8 @@ HALFLIGHT_INLINE void Superquadric::cut_pieces(const glm::dvec3& f, const glm::d
         return at;
       };
       if (i == 0) { outside[inner] = !(split(lo).value < 0.0); }
-      sign_changes(split, ends[i], ends[i + 1], negligible, [&](double a, double b, bool rising) {
-        changes.push({bracketed_root(gauge, a, b, rising, 0.5 * (a + b)), inner == 1, !rising});
+      sign_changes(split, ends[i], ends[i + 1], negligible, [&](double a, double b, bool rising, double guess) {
+        changes.push({bracketed_root(gauge, a, b, rising, guess), inner == 1, !rising});
       });
     }
   }

@@ -46,6 +46,8 @@ class Superquadric final : public Object {
 
   [[nodiscard]] bool nearest() const override { return false; }
 
+  [[nodiscard]] double work() const override { return convex() ? 2.0 : 4.0; }
+
   [[nodiscard]] Box bounds() const override;
 
   void spans(const Segment& line, Spans& out) const override;
@@ -75,6 +77,10 @@ class Superquadric final : public Object {
 
   Superquadric(const glm::dvec3& centre, const glm::dvec3& radii, double profile, double around, double ring)
       : centre_(centre), radii_(radii), limit_(1.0 + ring, 1.0 + ring, 1.0), around_(2.0 / around), profile_(2.0 / profile), ring_(ring) {}
+
+  // Cuts off what is outside of the planes between which pinched shapes lie. With p < 1, |x| + |y| is at most A(x, y), else the larger of
+  // the two is; with q < 1 the same holds for |A| and |z|. Nothing is cut from other shapes.
+  void clip_pinched(const glm::dvec3& f, const glm::dvec3& e, double& lo, double& hi) const;
 
   // The norm of the superellipsoid at f + s e, less one.
   [[nodiscard]] Sample norm(const glm::dvec3& f, const glm::dvec3& e, double s) const;

@@ -40,6 +40,8 @@ class Torus final : public Object {
 
   void spans(const Segment& line, Spans& out) const override;
 
+  [[nodiscard]] double work() const override { return 1.0; }
+
   // Two spans have three extrema, the middle one outside.
   [[nodiscard]] bool passes_once(const Segment& line) const override;
 

@@ -180,6 +180,53 @@ TEST_CASE("an audit of a target decides from fresh points, or ends at its rays")
   }
 }
 
+TEST_CASE("an audit costs what it may: as much as the solution; more only to show the wanted error, and then no more than that takes") {
+  // Points whose errors and noise are random, from 1e-4 to 1e-1; a path is a ray.
+  struct Points {
+    radiosity::ErrorSums sums;
+    std::uint64_t rays = 0;
+  };
+  INFO("seed 17");
+  radiosity::Random random{17, 0};
+  for (int round = 0; round < 60; ++round) {
+    const double off = round % 4 == 0 ? 0.0 : std::pow(10.0, -4.0 + 3.0 * random.uniform());
+    const double spread = std::pow(10.0, -3.0 + 2.5 * random.uniform());  // of one path
+    const double wanted = std::pow(10.0, -2.5 + 1.5 * random.uniform());
+    const auto budget = static_cast<std::uint64_t>(std::pow(10.0, 3.0 + 3.0 * random.uniform()));
+    constexpr std::uint64_t to_show = 50'000'000, points_wanted = 400, least = points_wanted / 4;
+    std::uint64_t asked = 0, rays = 0;
+    const auto measure = [&](std::uint64_t points, std::uint32_t paths, Points& to) {
+      for (std::uint64_t i = 0; i < points; ++i) {
+        radiosity::Random at{7, asked++};
+        const double error = off * std::sqrt(2.0 * at.uniform()), noise = spread / std::sqrt(paths);
+        const double a = noise * (at.uniform() - 0.5), b = noise * (at.uniform() - 0.5);
+        to.sums.add((error + a) * (error + b), 1.0, std::pow(0.5 * (a - b) * (a - b), 2) / 3.0);
+      }
+      to.rays += points * paths;
+      rays += points * paths;
+      return true;
+    };
+    Points measured;
+    REQUIRE(radiosity::measure_to_goal<Points>(
+        measure, [](const Points& p) -> const radiosity::ErrorSums& { return p.sums; }, {points_wanted, budget, wanted, to_show},
+        measured));
+    CAPTURE(round, off, spread, wanted, budget, rays, measured.sums.square.size());
+    // The pilots, each four times the one before it and half of the least that is measured, are a third of that more.
+    const std::uint64_t floor = 3 * 16 * least;
+    const auto most = static_cast<double>(std::max(floor, 2 * budget));
+    if (off > 2.0 * wanted) { CHECK(static_cast<double>(rays) <= most); }
+    if (off < 0.5 * wanted) {
+      // To know the mean square to a quarter of the target takes n points of p paths, 16 (spread^2 / (12 p))^2 / n of noise. The cheapest
+      // p gives the least number of points, or is the fewest.
+      const double noise = spread * spread / 12.0, square = wanted * wanted;
+      const double paths = std::max(4.0, 4.0 * noise / (square * std::sqrt(static_cast<double>(least))));
+      const double enough = static_cast<double>(least) * paths;
+      CHECK(static_cast<double>(rays) <= std::max(most, 64.0 * enough));
+    }
+    CHECK(rays <= 2 * to_show);
+  }
+}
+
 TEST_CASE("a run with an accuracy target ends when it is cancelled while its audit is undecided") {
   std::atomic<bool> cancel{false};
   radiosity::Control control;

@@ -80,10 +80,26 @@ TEST_CASE("duplicates are warned of by name, and what only shares its bounds is 
   CHECK(sentences[0].find("'one half' and 'twin' are the same surface") != std::string::npos);
 }
 
-TEST_CASE("many duplicates are warned of in few sentences") {
+TEST_CASE("however many duplicates and open shells there are, one sentence counts each kind") {
+  for (const int count : {2, 7, 1000}) {
+    Scene scene = scenes::two_plates(0.5);
+    for (int i = 0; i < count; ++i) { scene.objects.push_back(scene.objects[0]); }
+    const std::vector<std::string> sentences = warnings_of(scene);
+    CAPTURE(count, sentences);
+    REQUIRE(sentences.size() == 1);
+    CHECK(sentences[0].find(std::to_string(count) + " objects are duplicates") == 0);
+    CHECK((sentences[0].find("and others") != std::string::npos) == (count > 5));
+  }
   Scene scene = scenes::two_plates(0.5);
-  for (int i = 0; i < 1000; ++i) { scene.objects.push_back(scene.objects[0]); }
-  CHECK(warnings_of(scene).size() <= 21);
+  for (int i = 0; i < 7; ++i) {  // two triangles that share an edge
+    const glm::dvec3 at{2.0 * i, 0, 3};
+    const std::vector<glm::dvec3> corners{at, at + glm::dvec3{1, 0, 0}, at + glm::dvec3{1, 1, 0}, at + glm::dvec3{0, 1, 1}};
+    scene.objects.push_back(scenes::object("shell", raycast::Mesh::make(corners, {{0, 1, 2}, {0, 2, 3}}).object));
+  }
+  const std::vector<std::string> sentences = warnings_of(scene);
+  CAPTURE(sentences);
+  REQUIRE(sentences.size() == 1);
+  CHECK(sentences[0].find("7 objects are open shells, with 28 open edges") == 0);
 }
 
 TEST_CASE("however many objects are buried one sentence counts them, and each buried lamp has its own") {

@@ -32,10 +32,11 @@ ShownPicture seen_from(const glm::dvec3& eye, std::function<Color(std::uint32_t,
           std::move(radiosity), [](double b) { return 100.0 * b; }};
 }
 
-PictureError measured_picture(const radiosity::Scene& scene, const ShownPicture& picture, unsigned threads = 1, std::uint64_t points = 400) {
+PictureError measured_picture(const radiosity::Scene& scene, const ShownPicture& picture, unsigned threads = 1, std::uint64_t points = 400,
+                              std::uint64_t seed = 1) {
   const auto audit = PictureAudit::make(scene);
   REQUIRE(audit);
-  const auto error = audit->measure(picture, {points, 400'000}, threads, 1);
+  const auto error = audit->measure(picture, {points, 400'000}, threads, seed);
   REQUIRE(error);
   return *error;
 }
@@ -48,14 +49,17 @@ TEST_CASE("picture audit: a picture of a furnace that is right is found right, o
   const PictureError right = measured_picture(scene, seen_from(eye, [](auto, auto) { return Color{1.0}; }));
   CHECK(right.error.low == 0.0);
   CHECK(right.over8.least == 0.0);
-  const PictureError off = measured_picture(scene, seen_from(eye, [](auto, auto) { return Color{1.05}; }));
-  CAPTURE(off.error.relative_l2, off.error.low, off.error.high);
-  CHECK(off.error.low <= 0.1);
-  CHECK(off.error.high >= 0.1);
-  CHECK(off.error.high - off.error.low < 0.05);
-  CHECK(off.audited == 1.0);
-  CHECK(off.over2.most == test::Approx(1.0));  // by 5 levels
-  CHECK(off.over8.least == 0.0);
+  int held = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const PictureError off = measured_picture(scene, seen_from(eye, [](auto, auto) { return Color{1.05}; }), 1, 400, seed);
+    CAPTURE(seed, off.error.relative_l2, off.error.low, off.error.high);
+    held += off.error.low <= 0.1 && off.error.high >= 0.1 ? 1 : 0;
+    CHECK(off.error.high - off.error.low < 0.05);
+    CHECK(off.audited == 1.0);
+    CHECK(off.over2.most == test::Approx(1.0));  // by 5 levels
+    CHECK(off.over8.least <= 0.02);              // two of a hundred pixels beyond three standard errors
+  }
+  CHECK(held >= 16);  // of 20 intervals of 95 %, fewer in one of 400 cases
 }
 
 TEST_CASE("picture audit: an error in one tile is found in that tile") {
