@@ -123,14 +123,21 @@ class ObjectMaker {
     return std::abs(angle) > 2.0 * std::numbers::pi;
   }
 
-  // The innermost shell that holds all these points.
-  [[nodiscard]] Component* innermost(std::span<const glm::dvec3> points, const Component* but) {
+  // A point that must be seen, on either side of a lamp that may lie on a wall.
+  struct Place {
+    glm::dvec3 front{0.0}, behind{0.0};
+  };
+
+  // The innermost shell that holds all these points. What lies on a shell is in it when its front is; or, of a shell that looks inwards,
+  // when its back is.
+  [[nodiscard]] Component* innermost(std::span<const Place> places, const Component* but) {
     Component* best = nullptr;
     for (Component& shell : components_) {
       if (shell.role == Role::surface || &shell == but || (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume))) {
         continue;
       }
-      if (std::all_of(points.begin(), points.end(), [&](const glm::dvec3& p) { return holds(shell, p); })) { best = &shell; }
+      const auto held = [&](const Place& place) { return holds(shell, place.front) || (shell.volume < 0.0 && holds(shell, place.behind)); };
+      if (std::all_of(places.begin(), places.end(), held)) { best = &shell; }
     }
     return best;
   }
@@ -140,17 +147,21 @@ class ObjectMaker {
     std::vector<Component*> rooms;
     std::size_t lamps = 0;
     for (Component& component : components_) {
-      std::vector<glm::dvec3> points;
+      std::vector<Place> places;
       for (const std::uint32_t f : component.faces) {
-        if (points.size() < most_points && !is_black(materials_[mesh_.faces[f].material].emission)) {
-          points.push_back(brep::centroid(mesh_.outline(mesh_.faces[f])));
-        }
+        if (places.size() >= most_points || is_black(materials_[mesh_.faces[f].material].emission)) { continue; }
+        const std::span<const glm::dvec3> outline = mesh_.outline(mesh_.faces[f]);
+        const glm::dvec3 middle = brep::centroid(outline), off = 4.0 * mesh_.tolerance * glm::normalize(brep::vector_area(outline));
+        places.push_back({middle + off, middle - off});
       }
-      if (points.empty() || ++lamps > most_lamps) { continue; }
-      rooms.push_back(innermost(points, &component));
+      if (places.empty() || ++lamps > most_lamps) { continue; }
+      rooms.push_back(innermost(places, &component));
       if (component.volume < 0.0 && component.role == Role::solid) { rooms.push_back(&component); }  // it shines inwards
     }
-    for (const glm::dvec3& eye : options_.eyes) { rooms.push_back(innermost(std::span(&eye, 1), nullptr)); }
+    for (const glm::dvec3& eye : options_.eyes) {
+      const Place place{eye, eye};
+      rooms.push_back(innermost(std::span(&place, 1), nullptr));
+    }
     for (Component* const room : rooms) {
       if (room != nullptr) { room->role = Role::room; }
     }

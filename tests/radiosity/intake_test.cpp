@@ -254,6 +254,34 @@ TEST_CASE("intake: a closed shell around a lamp is a room, whichever way it look
   CHECK(measure(empty.take_in(options).objects).rooms == 1);
 }
 
+// Whether the lamp's middle is inside the shell is rounding's choice; that it shines into it is not.
+TEST_CASE("intake: a closed shell on whose walls lamps lie is a room, wherever it stands") {
+  const unsigned seed = 20261123;
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int round = 0; round < 40; ++round) {
+    const bool inwards = round % 2 == 0, face_up = round % 4 == 2;  // a lamp with its back to an inward shell
+    const double size = std::exp(6.0 * unit(random));
+    Soup soup, solid;
+    soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, round % 3 == 0 ? 3 : 1, inwards);  // by 2 a lamp's edge is one of three faces: no shell
+    soup::add_box(soup, {1, 1, 0}, {2, 2, 1});
+    std::vector<glm::dvec3> lamp{{1, 1, 3}, {1, 2, 3}, {2, 2, 3}, {2, 1, 3}};  // faces down
+    if (face_up) { std::reverse(lamp.begin(), lamp.end()); }
+    soup.polygon(lamp, 1);
+    // A lamp that lies on a table and faces up does not shine into it.
+    soup::add_box(solid, {0, 0, 0}, {4, 4, 3});
+    solid.polygon({{1, 1, 3}, {2, 1, 3}, {2, 2, 3}, {1, 2, 3}}, 1);
+    const glm::dvec3 by{10.0 * unit(random), 10.0 * unit(random), 10.0 * unit(random)};
+    for (Soup* const s : {&soup, &solid}) {
+      for (glm::dvec3& p : s->positions) { p = size * (p + by); }
+    }
+    CHECK(measure(soup.take_in().objects).rooms == 1);
+    CHECK(measure(solid.take_in().objects).rooms == 0);
+    CHECK(measure(solid.take_in().objects).solids == 1);
+  }
+}
+
 TEST_CASE("intake: solids that touch in an edge or a vertex stay solids") {
   Soup soup;
   soup::add_box(soup, {0, 0, 0}, {1, 1, 1});
