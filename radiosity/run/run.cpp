@@ -35,6 +35,7 @@ HALFLIGHT_INLINE std::optional<Failure> Run::prepare_scene() {
   PrepareResult preparation = prepare(scene.input, options.shortcuts);
   if (!preparation.prepared) { return Failure{Failure::Kind::invalid_scene, std::move(preparation.faults)}; }
   scene.take(std::move(*preparation.prepared));
+  if (options.caster) { scene.objects.ask(options.caster(scene.objects, scene.frame)); }
   solution.frame = scene.frame;
   solution.audit.channels = scene.plan.channels;
   return std::nullopt;

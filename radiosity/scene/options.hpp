@@ -11,6 +11,11 @@
 #include <string_view>
 #include <vector>
 
+namespace raycast {
+class Scene;
+struct OtherCaster;
+}  // namespace raycast
+
 namespace radiosity {
 
 struct Surface;
@@ -75,6 +80,9 @@ struct Options {
   std::function<Decision(const Question&)> oracle;
   // This splits the faces of leaves, in place of regular refinement (meshing.hpp).
   std::function<ChildFaces(const LeafFace&)> meshing;
+
+  // Makes the ray caster that answers in place of the library's own (raycast::Scene::ask), for objects that are compiled in this frame.
+  std::function<raycast::OtherCaster(const raycast::Scene&, const Frame&)> caster;
 
   // Input faces from which on clusters are built above them; below, all pairs of input faces are looked at.
   std::uint32_t cluster_from = 300;
