@@ -8,6 +8,7 @@
 // links a node.
 
 #include <array>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,7 @@ struct Patch {
   double radius = 0.0;                               // greatest distance of a corner from the centre
   glm::dvec3 centroid{0.0};                          // of the area
   glm::dmat3 inverse_inertia{0.0};                   // inverse, in the plane, of the mean of (x - centroid)(x - centroid)'
-  std::vector<QuadraturePoint> rule2, rule3, rule4;  // 2x2, 3x3 and 4x4 Gauss points on each quadrilateral piece
+  BigArray<QuadraturePoint> rule2, rule3, rule4;  // 2x2, 3x3 and 4x4 Gauss points on each quadrilateral piece
   bool bent = false;                                 // its surface is curved, and normals turn over it:
   glm::dmat3 bend{0.0};                              // by this, a length (bend.hpp)
   std::vector<Polygon> parts;                        // convex, of a contour that is not; holes are reached by bridges, run through twice
@@ -56,10 +57,11 @@ inline constexpr std::array<double, 4> gauss4_w{0.17392742256872692869, 0.326072
 
 // The patch with this contour; one that is not convex comes with its convex parts. A contour of no area gives a patch of area 0 without
 // quadrature points.
-[[nodiscard]] Patch make_patch(Polygon contour, std::vector<Polygon> parts = {});
+[[nodiscard]] Patch make_patch(Polygon contour, std::vector<Polygon> parts = {}, std::pmr::memory_resource* arrays = nullptr);
 
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY
 #include <radiosity/hierarchy/patch.cpp>
+#include <radiosity/support/big_array.hpp>
 #endif

@@ -27,6 +27,7 @@ namespace detail {
 HALFLIGHT_INLINE Run::Run(const Scene& input, const Options& with, const Control& control, const MemoryBudget& within)
     : options{with}, scene{input, thread_count(with.threads), with.seed, control, within} {
   if (options.meshing) { scene.meshing = options.meshing; }
+  solution.links = Links(within.arrays);
   solution.audit.threads = scene.threads;
   solution.audit.seed = options.seed;
 }
