@@ -173,9 +173,7 @@ class GltfReader {
       if (node["mesh"]) { mesh(node, matrix, index); }
       if (node["camera"]) { camera(node, matrix); }
       if (node["skin"]) { notes_.add("skins are not read: meshes stand as they are drawn", "node " + std::to_string(index)); }
-      if (node["extensions"]["KHR_lights_punctual"]) {
-        notes_.add("lights without a surface are left out; a lamp is a material that shines", "node " + std::to_string(index));
-      }
+      if (const JsonValue& named = node["extensions"]["KHR_lights_punctual"]["light"]) { light(named, matrix, index); }
       for (std::size_t i = node["children"].items().size(); i-- > 0;) { push(node["children"][i], matrix); }
     }
   }
@@ -246,6 +244,20 @@ class GltfReader {
   void pass_over(const std::string& sentence, const std::string& place) {
     notes_.add(sentence, place);
     why_ = "; " + sentence;
+  }
+
+  // KHR_lights_punctual: candela, taken as W/sr, as the strength of materials is.
+  void light(const JsonValue& named, const glm::dmat4& matrix, std::size_t index) {
+    const JsonValue& given = (*root_)["extensions"]["KHR_lights_punctual"]["lights"][named.index().value_or(nowhere)];
+    const std::string place = "node " + std::to_string(index);
+    if (!given) { return error(named.offset(), "there is no such light"); }
+    const std::string& type = given["type"].string();
+    if (type == "directional") { return notes_.add("directional lights are left out: a lamp has a place", place); }
+    if (type == "spot") { notes_.add("spot lights shine in all directions", place); }
+    radiosity::Color color(1.0);
+    for (int k = 0; k < 3; ++k) { color[k] = given["color"][static_cast<std::size_t>(k)].number(1.0); }
+    const radiosity::Color intensity = glm::clamp(given["intensity"].number(1.0) * color, radiosity::Color(0.0), radiosity::Color(1e6));
+    model_.lights.push_back({glm::dvec3(matrix[3]), intensity, true});
   }
 
   void camera(const JsonValue& node, const glm::dmat4& matrix) {

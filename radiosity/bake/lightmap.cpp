@@ -127,7 +127,7 @@ HALFLIGHT_INLINE Lightmap make_lightmap(const BakedLight& light, const PolygonVi
     if (!light.radiosity(p, input.positions[input.corners[first]])) { continue; }  // a polygon with light has sound corners
     face_of[p] = faces.size();
     if (const auto part = light.front(p)) { face_of[p] = face_of_sheet.emplace(std::pair(part->object, part->sheet), faces.size()).first->second; }
-    if (face_of[p] == faces.size()) { faces.push_back({p}); }
+    if (face_of[p] == faces.size()) { faces.emplace_back().first = p; }
     faces[face_of[p]].add(input, p);
   }
   std::vector<LightmapChart> charts;

@@ -28,7 +28,7 @@
 namespace radiosity::intake {
 namespace detail {
 
-enum class Role : unsigned char { surface, solid, room };
+enum class Role : unsigned char { surface, solid, room, cavity };
 
 struct Component {
   std::vector<std::uint32_t> faces;
@@ -36,6 +36,7 @@ struct Component {
   bool closed = true;
   double volume = 0.0;  // of a closed one; negative when it looks inwards
   Role role = Role::surface;
+  std::vector<std::uint32_t> cavities;  // of a solid: faces of the rooms in it
 };
 
 class ObjectMaker {
@@ -55,6 +56,7 @@ class ObjectMaker {
     };
     std::vector<Group> groups(std::max<std::size_t>(input_.names.size(), 1));
     for (const Component& component : components_) {
+      if (component.role == Role::cavity) { continue; }
       const std::uint32_t g = mesh_.faces[component.faces[0]].group;
       if (g >= groups.size()) { groups.resize(g + 1); }
       if (component.role != Role::surface) {
@@ -71,7 +73,11 @@ class ObjectMaker {
     }
     for (std::uint32_t g = 0; g < groups.size(); ++g) {
       const std::size_t first = objects_.size();
-      for (const Component* const component : groups[g].closed) { add(component->faces, component->role, false); }
+      for (const Component* const component : groups[g].closed) {
+        std::vector<std::uint32_t> faces = component->faces;
+        faces.insert(faces.end(), component->cavities.begin(), component->cavities.end());
+        add(faces, component->role, false);
+      }
       add_surface(groups[g].front, false);
       add_surface(groups[g].back, true);
       const std::string name = g < input_.names.size() ? input_.names[g] : std::string("mesh");
@@ -142,6 +148,22 @@ class ObjectMaker {
     return best;
   }
 
+  // The shell that looks inwards at all the others, which do not look inwards themselves, as in a model that is inside out. Null: none.
+  [[nodiscard]] Component* shell_around_others() {
+    constexpr std::size_t most_asked = 1000;
+    for (Component& shell : components_) {
+      const raycast::Box box = shell.box.grown(mesh_.tolerance);
+      if (shell.role != Role::solid || shell.volume > 0.0 || !box.contains(bounds_.lo) || !box.contains(bounds_.hi)) { continue; }
+      const std::span<const Component> asked = std::span<const Component>(components_).first(std::min(components_.size(), most_asked));
+      const bool others = std::any_of(asked.begin(), asked.end(), [&](const Component& other) {
+        return &other != &shell && other.volume >= 0.0 && holds(shell, other.box.centre());
+      });
+      const bool inside_out = std::any_of(asked.begin(), asked.end(), [&](const Component& o) { return &o != &shell && o.volume < 0.0; });
+      if (others && !inside_out) { return &shell; }
+    }
+    return nullptr;
+  }
+
   void find_roles() {
     constexpr std::size_t most_lamps = 64, most_points = 16;
     std::vector<Component*> rooms;
@@ -158,6 +180,7 @@ class ObjectMaker {
       rooms.push_back(innermost(places, &component));
       if (component.volume < 0.0 && component.role == Role::solid) { rooms.push_back(&component); }  // it shines inwards
     }
+    if (Component* const around = shell_around_others()) { rooms.push_back(around); }
     for (const glm::dvec3& eye : options_.eyes) {
       const Place place{eye, eye};
       rooms.push_back(innermost(std::span(&place, 1), nullptr));
@@ -174,6 +197,15 @@ class ObjectMaker {
       component.volume = -component.volume;
       turned_.resize(components_.size());
       turned_[static_cast<std::size_t>(&component - components_.data())] = true;
+    }
+    for (Component& component : components_) {  // walls with a thickness: the room is a cavity of the solid around it
+      if (component.role != Role::room) { continue; }
+      const glm::dvec3& corner = mesh_.outline(mesh_.faces[component.faces[0]])[0];
+      const Place place{corner, corner};
+      Component* const around = innermost(std::span(&place, 1), &component);
+      if (around == nullptr || around->role != Role::solid || around->volume < -component.volume) { continue; }
+      component.role = Role::cavity;
+      around->cavities.insert(around->cavities.end(), component.faces.begin(), component.faces.end());
     }
     for (Component& component : components_) {  // what is beyond the walls of a room would be buried
       if (component.role != Role::room) { continue; }

@@ -282,6 +282,28 @@ TEST_CASE("intake: a closed shell on whose walls lamps lie is a room, wherever i
   }
 }
 
+// What is in a solid is buried, so a room within walls must not be in one.
+TEST_CASE("intake: walls with a thickness around a room are a solid with a cavity") {
+  for (const bool outwards : {false, true}) {  // how the inner shell looked
+    Soup soup;
+    soup::add_box(soup, {-0.1, -0.1, -0.1}, {8.1, 4.1, 3.1}, 2);
+    soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, 1, !outwards);
+    soup::add_box(soup, {4.1, 0, 0}, {8, 4, 3}, 1, !outwards);
+    for (const double x : {1.0, 5.0}) {
+      soup::add_box(soup, {x, 1, 0.5}, {x + 1, 2, 1});
+      soup.polygon({{x, 1, 2.9}, {x, 2, 2.9}, {x + 1, 2, 2.9}, {x + 1, 1, 2.9}}, 1);
+    }
+    soup::add_box(soup, {9, 0, 0}, {10, 1, 1});  // outside
+    const radiosity::Intake intake = soup.take_in();
+    check_sound(soup, intake);
+    const soup::Measure m = measure(intake.objects);
+    CHECK(m.rooms == 0);
+    CHECK(m.solids == 4);
+    CHECK(m.volume == Approx(8.2 * 4.2 * 3.2 - 4.0 * 4.0 * 3.0 - 3.9 * 4.0 * 3.0 + 0.5 + 0.5 + 1.0).epsilon(1e-9));
+    CHECK(count_of(intake, ChangeKind::room) == (outwards ? 2 : 0));
+  }
+}
+
 TEST_CASE("intake: solids that touch in an edge or a vertex stay solids") {
   Soup soup;
   soup::add_box(soup, {0, 0, 0}, {1, 1, 1});
