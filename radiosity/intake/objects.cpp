@@ -28,7 +28,7 @@
 namespace radiosity::intake {
 namespace detail {
 
-enum class Role : unsigned char { surface, solid, room, cavity };
+enum class Role : unsigned char { surface, solid, room, cavity, nothing };
 
 struct Component {
   std::vector<std::uint32_t> faces;
@@ -56,7 +56,7 @@ class ObjectMaker {
     };
     std::vector<Group> groups(std::max<std::size_t>(input_.names.size(), 1));
     for (const Component& component : components_) {
-      if (component.role == Role::cavity) { continue; }
+      if (component.role == Role::cavity || component.role == Role::nothing) { continue; }
       const std::uint32_t g = mesh_.faces[component.faces[0]].group;
       if (g >= groups.size()) { groups.resize(g + 1); }
       if (component.role != Role::surface) {
@@ -129,6 +129,46 @@ class ObjectMaker {
     return std::abs(angle) > 2.0 * std::numbers::pi;
   }
 
+  // Shells of the same place, of which one looks outwards and one inwards: walls that were given twice, for both sides.
+  struct Twins {
+    Component *outer = nullptr, *inner = nullptr;
+  };
+  [[nodiscard]] std::vector<Twins> find_twins() {
+    std::vector<Component*> order;
+    for (Component& component : components_) {
+      if (component.role == Role::solid) { order.push_back(&component); }
+    }
+    const auto left_end = [](const Component* c) { return c->box.lo.x; };
+    std::sort(order.begin(), order.end(), [&](const Component* a, const Component* b) { return left_end(a) < left_end(b); });
+    const auto same = [&](const Component& a, const Component& b) {
+      return a.box.grown(mesh_.tolerance).contains(b.box.lo) && a.box.grown(mesh_.tolerance).contains(b.box.hi) &&
+             b.box.grown(mesh_.tolerance).contains(a.box.lo) && b.box.grown(mesh_.tolerance).contains(a.box.hi) &&
+             std::abs(a.volume + b.volume) < 1e-6 * std::abs(a.volume);
+    };
+    constexpr std::size_t most_asked = 64;
+    std::vector<Twins> twins;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      for (std::size_t k = i + 1; k < std::min(order.size(), i + most_asked) && left_end(order[k]) <= left_end(order[i]) + mesh_.tolerance; ++k) {
+        if (!same(*order[i], *order[k])) { continue; }
+        twins.push_back(order[i]->volume > 0.0 ? Twins{order[i], order[k]} : Twins{order[k], order[i]});
+      }
+    }
+    return twins;
+  }
+
+  // One side of the walls is seen; the other stays where it is neither clear that all lies within, nor that nothing does.
+  void settle(const Twins& twins) {
+    if (twins.inner->role == Role::surface) { return; }
+    const bool room = twins.inner->role == Role::room || twins.inner->role == Role::cavity;
+    Component& gone = room ? *twins.outer : *twins.inner;
+    if (!room) { twins.outer->role = Role::solid; }
+    gone.role = Role::nothing;
+    for (const std::uint32_t f : gone.faces) {
+      mesh_.changed(ChangeKind::duplicate, mesh_.faces[f].polygon);
+      for (const Source& source : mesh_.faces[f].more) { mesh_.changed(ChangeKind::duplicate, source.polygon); }
+    }
+  }
+
   // A point that must be seen, on either side of a lamp that may lie on a wall.
   struct Place {
     glm::dvec3 front{0.0}, behind{0.0};
@@ -166,6 +206,8 @@ class ObjectMaker {
 
   void find_roles() {
     constexpr std::size_t most_lamps = 64, most_points = 16;
+    const std::vector<Twins> twins = find_twins();
+    for (const Twins& t : twins) { t.outer->role = Role::surface; }
     std::vector<Component*> rooms;
     std::size_t lamps = 0;
     for (Component& component : components_) {
@@ -188,7 +230,11 @@ class ObjectMaker {
     for (Component* const room : rooms) {
       if (room != nullptr) { room->role = Role::room; }
     }
+    for (const Twins& t : twins) {
+      if (t.inner->role != Role::room) { settle(t); }
+    }
     for (Component& component : components_) {
+      if (component.role == Role::nothing) { continue; }
       const bool inwards = component.volume < 0.0;
       if (component.role == Role::surface || (component.role == Role::room) == inwards) { continue; }
       std::uint32_t first = none;
@@ -212,6 +258,9 @@ class ObjectMaker {
       const raycast::Box box = component.box.grown(mesh_.tolerance);
       const bool all = glm::min(box.lo, bounds_.lo) == box.lo && glm::max(box.hi, bounds_.hi) == box.hi;
       if (!all) { component.role = Role::surface; }
+    }
+    for (const Twins& t : twins) {
+      if (t.inner->role != Role::nothing) { settle(t); }
     }
   }
 

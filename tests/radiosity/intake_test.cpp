@@ -304,6 +304,33 @@ TEST_CASE("intake: walls with a thickness around a room are a solid with a cavit
   }
 }
 
+// As programs write them that know no material with two sides.
+TEST_CASE("intake: walls that were given twice, for both sides, bury nothing") {
+  for (const bool inwards_first : {false, true}) {
+    const auto twice = [&](Soup& soup, const glm::dvec3& lo, const glm::dvec3& hi) {
+      soup::add_box(soup, lo, hi, 1, inwards_first);
+      soup::add_box(soup, lo, hi, 1, !inwards_first);
+    };
+    Soup room;
+    twice(room, {0, 0, 0}, {4, 4, 3});
+    twice(room, {1, 1, 0}, {2, 2, 1});
+    room.polygon({{1, 1, 2.9}, {1, 2, 2.9}, {2, 2, 2.9}, {2, 1, 2.9}}, 1);
+    const radiosity::Intake lit = room.take_in();
+    CHECK(measure(lit.objects).rooms == 1);
+    CHECK(measure(lit.objects).solids == 1);
+    CHECK(count_of(lit, ChangeKind::duplicate) == 24);
+    CHECK(lit.faces == 13);
+    // With something beyond them both sides are seen.
+    soup::add_box(room, {10, 0, 0}, {11, 1, 1});
+    const radiosity::Intake outside = room.take_in();
+    CHECK(measure(outside.objects).rooms == 0);
+    CHECK(measure(outside.objects).solids == 2);
+    CHECK(outside.faces == 6 + 6 + 6 + 6 + 1);
+    radiosity::Scene scene{room.materials, outside.objects};
+    CHECK(radiosity::faults(scene).empty());
+  }
+}
+
 TEST_CASE("intake: solids that touch in an edge or a vertex stay solids") {
   Soup soup;
   soup::add_box(soup, {0, 0, 0}, {1, 1, 1});
