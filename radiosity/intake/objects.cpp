@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/intake/objects.hpp>
+#include <radiosity/intake/shells.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,34 +27,22 @@
 namespace radiosity::intake {
 namespace detail {
 
-enum class Role : unsigned char { surface, solid, room, cavity, nothing };
-
-struct Component {
-  std::vector<std::uint32_t> faces;
-  raycast::Box box;
-  bool closed = true;
-  double volume = 0.0;  // of a closed one; negative when it looks inwards
-  Role role = Role::surface;
-  std::vector<std::uint32_t> cavities;  // of a solid: faces of the rooms in it
-};
-
 class ObjectMaker {
  public:
   ObjectMaker(Working& mesh, const Topology& topology, const PolygonView& input, std::span<const Material> materials,
               const IntakeOptions& options)
-      : mesh_(mesh), topology_(topology), input_(input), materials_(materials), options_(options) {
+      : mesh_(mesh), topology_(topology), input_(input), options_(options), shells_(mesh, topology, materials, options) {
     local_.assign(topology.vertices, none);
-    find_components();
+    shells_.find_roles();
   }
 
   MadeObjects run() {
-    find_roles();
     struct Group {
       std::vector<const Component*> closed;
       std::vector<std::uint32_t> front, back;
     };
     std::vector<Group> groups(std::max<std::size_t>(input_.names.size(), 1));
-    for (const Component& component : components_) {
+    for (const Component& component : shells_.components()) {
       if (component.role == Role::cavity || component.role == Role::nothing) { continue; }
       const std::uint32_t g = mesh_.faces[component.faces[0]].group;
       if (g >= groups.size()) { groups.resize(g + 1); }
@@ -89,182 +76,7 @@ class ObjectMaker {
   }
 
  private:
-  void find_components() {
-    components_.resize(topology_.components);
-    for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
-      Component& component = components_[topology_.component[f]];
-      component.faces.push_back(f);
-      for (const std::uint32_t v : mesh_.faces[f].corners) { component.box.extend(mesh_.positions[v]); }
-      for (std::uint32_t s = topology_.first[f]; s < topology_.first[f + 1]; ++s) {
-        component.closed = component.closed && topology_.mate[s] != none;
-      }
-    }
-    for (Component& component : components_) {
-      bounds_.extend(component.box.lo);
-      bounds_.extend(component.box.hi);
-      if (!component.closed) { continue; }
-      for (const std::uint32_t f : component.faces) {
-        const std::span<const glm::dvec3> p = mesh_.outline(mesh_.faces[f]);
-        component.volume += glm::dot(p[0] - component.box.centre(), brep::vector_area(p)) / 3.0;
-      }
-      const double size = component.box.diameter();
-      component.role = std::abs(component.volume) > 1e-9 * size * size * size ? Role::solid : Role::surface;
-    }
-  }
-
-  // The part of all directions from the point in which the shell is seen from behind: 1 inside, 0 outside (van Oosterom, Strackee 1983).
-  [[nodiscard]] bool holds(const Component& shell, const glm::dvec3& point) {
-    const auto beyond = [&](int k) { return point[k] < shell.box.lo[k] || point[k] > shell.box.hi[k]; };
-    if (beyond(0) || beyond(1) || beyond(2)) { return false; }
-    double angle = 0.0;
-    for (const std::uint32_t f : shell.faces) {
-      const std::span<const glm::dvec3> p = mesh_.outline(mesh_.faces[f]);
-      for (std::size_t i = 2; i < p.size(); ++i) {
-        const glm::dvec3 a = p[0] - point, b = p[i - 1] - point, c = p[i] - point;
-        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        const double below = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
-        angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)), below);
-      }
-    }
-    return std::abs(angle) > 2.0 * std::numbers::pi;
-  }
-
-  // Shells of the same place, of which one looks outwards and one inwards: walls that were given twice, for both sides.
-  struct Twins {
-    Component *outer = nullptr, *inner = nullptr;
-  };
-  [[nodiscard]] std::vector<Twins> find_twins() {
-    std::vector<Component*> order;
-    for (Component& component : components_) {
-      if (component.role == Role::solid) { order.push_back(&component); }
-    }
-    const auto left_end = [](const Component* c) { return c->box.lo.x; };
-    std::sort(order.begin(), order.end(), [&](const Component* a, const Component* b) { return left_end(a) < left_end(b); });
-    const auto same = [&](const Component& a, const Component& b) {
-      return a.box.grown(mesh_.tolerance).contains(b.box.lo) && a.box.grown(mesh_.tolerance).contains(b.box.hi) &&
-             b.box.grown(mesh_.tolerance).contains(a.box.lo) && b.box.grown(mesh_.tolerance).contains(a.box.hi) &&
-             std::abs(a.volume + b.volume) < 1e-6 * std::abs(a.volume);
-    };
-    constexpr std::size_t most_asked = 64;
-    std::vector<Twins> twins;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      for (std::size_t k = i + 1; k < std::min(order.size(), i + most_asked) && left_end(order[k]) <= left_end(order[i]) + mesh_.tolerance; ++k) {
-        if (!same(*order[i], *order[k])) { continue; }
-        twins.push_back(order[i]->volume > 0.0 ? Twins{order[i], order[k]} : Twins{order[k], order[i]});
-      }
-    }
-    return twins;
-  }
-
-  // One side of the walls is seen; the other stays where it is neither clear that all lies within, nor that nothing does.
-  void settle(const Twins& twins) {
-    if (twins.inner->role == Role::surface) { return; }
-    const bool room = twins.inner->role == Role::room || twins.inner->role == Role::cavity;
-    Component& gone = room ? *twins.outer : *twins.inner;
-    if (!room) { twins.outer->role = Role::solid; }
-    gone.role = Role::nothing;
-    for (const std::uint32_t f : gone.faces) {
-      mesh_.changed(ChangeKind::duplicate, mesh_.faces[f].polygon);
-      for (const Source& source : mesh_.faces[f].more) { mesh_.changed(ChangeKind::duplicate, source.polygon); }
-    }
-  }
-
-  // A point that must be seen, on either side of a lamp that may lie on a wall.
-  struct Place {
-    glm::dvec3 front{0.0}, behind{0.0};
-  };
-
-  // The innermost shell that holds all these points. What lies on a shell is in it when its front is; or, of a shell that looks inwards,
-  // when its back is.
-  [[nodiscard]] Component* innermost(std::span<const Place> places, const Component* but) {
-    Component* best = nullptr;
-    for (Component& shell : components_) {
-      if (shell.role == Role::surface || &shell == but || (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume))) {
-        continue;
-      }
-      const auto held = [&](const Place& place) { return holds(shell, place.front) || (shell.volume < 0.0 && holds(shell, place.behind)); };
-      if (std::all_of(places.begin(), places.end(), held)) { best = &shell; }
-    }
-    return best;
-  }
-
-  // The shell that looks inwards at all the others, which do not look inwards themselves, as in a model that is inside out. Null: none.
-  [[nodiscard]] Component* shell_around_others() {
-    constexpr std::size_t most_asked = 1000;
-    for (Component& shell : components_) {
-      const raycast::Box box = shell.box.grown(mesh_.tolerance);
-      if (shell.role != Role::solid || shell.volume > 0.0 || !box.contains(bounds_.lo) || !box.contains(bounds_.hi)) { continue; }
-      const std::span<const Component> asked = std::span<const Component>(components_).first(std::min(components_.size(), most_asked));
-      const bool others = std::any_of(asked.begin(), asked.end(), [&](const Component& other) {
-        return &other != &shell && other.volume >= 0.0 && holds(shell, other.box.centre());
-      });
-      const bool inside_out = std::any_of(asked.begin(), asked.end(), [&](const Component& o) { return &o != &shell && o.volume < 0.0; });
-      if (others && !inside_out) { return &shell; }
-    }
-    return nullptr;
-  }
-
-  void find_roles() {
-    constexpr std::size_t most_lamps = 64, most_points = 16;
-    const std::vector<Twins> twins = find_twins();
-    for (const Twins& t : twins) { t.outer->role = Role::surface; }
-    std::vector<Component*> rooms;
-    std::size_t lamps = 0;
-    for (Component& component : components_) {
-      std::vector<Place> places;
-      for (const std::uint32_t f : component.faces) {
-        if (places.size() >= most_points || is_black(materials_[mesh_.faces[f].material].emission)) { continue; }
-        const std::span<const glm::dvec3> outline = mesh_.outline(mesh_.faces[f]);
-        const glm::dvec3 middle = brep::centroid(outline), off = 4.0 * mesh_.tolerance * glm::normalize(brep::vector_area(outline));
-        places.push_back({middle + off, middle - off});
-      }
-      if (places.empty() || ++lamps > most_lamps) { continue; }
-      rooms.push_back(innermost(places, &component));
-      if (component.volume < 0.0 && component.role == Role::solid) { rooms.push_back(&component); }  // it shines inwards
-    }
-    if (Component* const around = shell_around_others()) { rooms.push_back(around); }
-    for (const glm::dvec3& eye : options_.eyes) {
-      const Place place{eye, eye};
-      rooms.push_back(innermost(std::span(&place, 1), nullptr));
-    }
-    for (Component* const room : rooms) {
-      if (room != nullptr) { room->role = Role::room; }
-    }
-    for (const Twins& t : twins) {
-      if (t.inner->role != Role::room) { settle(t); }
-    }
-    for (Component& component : components_) {
-      if (component.role == Role::nothing) { continue; }
-      const bool inwards = component.volume < 0.0;
-      if (component.role == Role::surface || (component.role == Role::room) == inwards) { continue; }
-      std::uint32_t first = none;
-      for (const std::uint32_t f : component.faces) { first = std::min(first, mesh_.faces[f].polygon); }
-      mesh_.changed(inwards ? ChangeKind::inside_out : ChangeKind::room, first);
-      component.volume = -component.volume;
-      turned_.resize(components_.size());
-      turned_[static_cast<std::size_t>(&component - components_.data())] = true;
-    }
-    for (Component& component : components_) {  // walls with a thickness: the room is a cavity of the solid around it
-      if (component.role != Role::room) { continue; }
-      const glm::dvec3& corner = mesh_.outline(mesh_.faces[component.faces[0]])[0];
-      const Place place{corner, corner};
-      Component* const around = innermost(std::span(&place, 1), &component);
-      if (around == nullptr || around->role != Role::solid || around->volume < -component.volume) { continue; }
-      component.role = Role::cavity;
-      around->cavities.insert(around->cavities.end(), component.faces.begin(), component.faces.end());
-    }
-    for (Component& component : components_) {  // what is beyond the walls of a room would be buried
-      if (component.role != Role::room) { continue; }
-      const raycast::Box box = component.box.grown(mesh_.tolerance);
-      const bool all = glm::min(box.lo, bounds_.lo) == box.lo && glm::max(box.hi, bounds_.hi) == box.hi;
-      if (!all) { component.role = Role::surface; }
-    }
-    for (const Twins& t : twins) {
-      if (t.inner->role != Role::nothing) { settle(t); }
-    }
-  }
-
-  [[nodiscard]] bool is_turned(std::uint32_t face) const { return !turned_.empty() && turned_[topology_.component[face]]; }
+  [[nodiscard]] bool is_turned(std::uint32_t face) const { return shells_.turned(topology_.component[face]); }
 
   [[nodiscard]] bool has_back(const Face& face) const {
     return options_.two_sided || face.mixed || (face.material < input_.two_sided.size() && input_.two_sided[face.material] != 0);
@@ -334,11 +146,8 @@ class ObjectMaker {
   Working& mesh_;
   const Topology& topology_;
   const PolygonView& input_;
-  std::span<const Material> materials_;
   const IntakeOptions& options_;
-  std::vector<Component> components_;
-  std::vector<bool> turned_;  // of a component
-  raycast::Box bounds_;
+  Shells shells_;
   std::vector<std::uint32_t> local_;  // of a vertex, in the object that is made
   std::vector<SceneObject> objects_;
   std::vector<SheetOrigin> sheets_;
