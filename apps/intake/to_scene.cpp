@@ -20,6 +20,7 @@
 
 #include "apps/bounds.hpp"
 #include "apps/intake/ceiling_lamp.hpp"
+#include "apps/intake/inside_camera.hpp"
 #include "apps/scene_file/words.hpp"
 #include "apps/text.hpp"
 #include "apps/view.hpp"
@@ -45,7 +46,15 @@ class SceneMaker {
     given_positions_ = model_.positions;
     given_z_up_ = options_.up.value_or(up) == UpAxis::z;
     place(to_metres(options_.up.value_or(up), options_.metres));
-    if (!part(faults) || (!shines() && !add_studio(faults))) { return std::nullopt; }
+    if (!part(faults)) { return std::nullopt; }
+    if (!shines()) {
+      if (!add_studio(faults)) { return std::nullopt; }
+    } else if (file_.cameras.empty()) {
+      if (auto camera = inside_camera(file_.scene)) {
+        file_.cameras.push_back(std::move(*camera));
+        note("from outside nothing is seen of its light: the camera stands in the room of a lamp");
+      }
+    }
     note(std::string(1, "xyz"[static_cast<std::size_t>(options_.up.value_or(up))]) + " is taken as up (--up), one unit as " +
          radiosity::length_text(options_.metres) + " (--units)");
     return std::move(file_);

@@ -120,6 +120,23 @@ TEST_CASE("a model without a lamp stands in a studio; what is closed around it c
   CHECK(lit.scene.objects[1].shape->project(0, lamp.centre()).normal.z == test::Approx(-1.0));
 }
 
+TEST_CASE("a house whose lamps are in its rooms is looked at from within, a room as a doll's house") {
+  const std::string room =
+      "v 0 0 0\nv 4 0 0\nv 4 0 4\nv 0 0 4\nv 0 3 0\nv 4 3 0\nv 4 3 4\nv 0 3 4\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const std::string lamp = "usemtl lamp\nv 1 2.9 1\nv 1 2.9 2\nv 2 2.9 2\nv 2 2.9 1\nf -4 -3 -2 -1\n";
+  const std::string walls =
+      "v -1 -1 -1\nv 5 -1 -1\nv 5 -1 5\nv -1 -1 5\nv -1 4 -1\nv 5 4 -1\nv 5 4 5\nv -1 4 5\n"
+      "f -8 -7 -6 -5\nf -4 -1 -2 -3\nf -8 -4 -3 -7\nf -7 -3 -2 -6\nf -6 -2 -1 -5\nf -5 -1 -4 -8\n";
+  apps::ModelOptions options;
+  options.lamps = {{"lamp", 10.0}};
+  const apps::SceneFile doll = scene("a.obj", room + lamp, {}, options), house = scene("a.obj", room + walls + lamp, {}, options);
+  CHECK(doll.cameras.empty());
+  REQUIRE(house.cameras.size() == 1);
+  CHECK(noted(house.notes, "the camera stands in the room of a lamp"));
+  const glm::dvec3 eye = house.cameras[0].eye;  // y was up
+  CHECK((eye.x > 0.0 && eye.x < 4.0 && eye.y < 0.0 && eye.y > -4.0 && eye.z > 0.0 && eye.z < 3.0));
+}
+
 // Rooms without lamps as models have them: looking inwards, with things in them, some up to the ceiling, turned and of any size.
 TEST_CASE("a closed room in which nothing shines gets a lamp in its air") {
   const unsigned seed = 7;
