@@ -72,6 +72,8 @@ print("change      ", hl.halflight_change(job, 0).decode())
 print("stages      ", "link" in stages)
 print("refused     ", hl.halflight_set_number(job, b"epsilon", -1), hl.halflight_message(job).decode())
 print("refused     ", hl.halflight_add_material(job, b"mirror", (ctypes.c_double * 3)(2, 0, 0), None), hl.halflight_message(job).decode())
+print("too early   ", hl.halflight_lightmap_texels(hl.halflight_create(), texels, 1))
+print("too small   ", hl.halflight_lightmap_texels(job, texels, 3), hl.halflight_message(job).decode())
 print("too small   ", hl.halflight_vertex_colors(job, colors, 3), hl.halflight_message(job).decode())
 
 stop = progress_type(lambda user, stage, fraction: 1)
