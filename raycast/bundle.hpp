@@ -4,6 +4,7 @@
 // Sixteen segments, as they run between two patches or through a pixel: what Scene::occluded16 and closest16 are asked.
 
 #include <cstdint>
+#include <functional>
 
 #include <glm/vec3.hpp>
 
@@ -44,6 +45,15 @@ struct Hit {
 struct Hits16 {
   Hit hit[16];
   std::uint32_t met = 0;
+};
+
+// Another ray caster, asked in place of a Scene's own search (Scene::ask), from many threads at once. The rays carry the owners and sheets of
+// their ends; scene.hpp tells what stops a ray that begins or ends on a surface.
+struct OtherCaster {
+  // The lanes whose segment is occluded, t in (0, 1).
+  std::function<std::uint32_t(const Segments16&)> occluded16;
+  // What the rays meet first at t > 0. Returns the lanes that it cannot tell: of these the scene asks itself.
+  std::function<std::uint32_t(const Segments16&, Hits16&)> closest16;
 };
 
 }  // namespace raycast

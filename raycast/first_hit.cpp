@@ -121,12 +121,28 @@ HALFLIGHT_INLINE void Scene::approach_bounded(Search& search) const {
   decide(search, entries, limit);
 }
 
+// The lanes that are left: those of which the other caster cannot tell, and those whose end may lie on two surfaces, of which one is met
+// (the law of covered(), and a front stands before a back).
+HALFLIGHT_INLINE std::uint32_t Scene::met_by_other(const Segments16& rays, Hits16& hits) const {
+  std::uint32_t left = other_.closest16(rays, hits) & rays.lanes;
+  hits.met &= rays.lanes & ~left;
+  for (std::uint32_t rest = hits.met; rest; rest &= rest - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(rest));
+    const Hit& hit = hits.hit[i];
+    const SurfacePoint at = objects_[hit.object].project(hit.sheet, rays.at(i).at(hit.t));
+    if (!hit.front || covered(at.position, at.normal, hit.object)) { left |= 1u << i; }
+  }
+  hits.met &= ~left;
+  return left;
+}
+
 HALFLIGHT_INLINE Hits16 Scene::closest16(const Segments16& rays) const {
   Hits16 result;
   Search searches[16];
   Segments16 inner;
   const double per_scale = 1.0 / compiled_.scale;  // a power of two
-  for (std::uint32_t rest = rays.lanes; rest; rest &= rest - 1) {
+  const std::uint32_t lanes = other_.closest16 ? met_by_other(rays, result) : rays.lanes;
+  for (std::uint32_t rest = lanes; rest; rest &= rest - 1) {
     const auto i = static_cast<unsigned>(std::countr_zero(rest));
     Search& s = searches[i];
     s = {rays.at(i), end_at(rays.source[i]), rays.source_sheet[i]};
@@ -158,7 +174,7 @@ HALFLIGHT_INLINE Hits16 Scene::closest16(const Segments16& rays) const {
       }
     }
   }
-  for (std::uint32_t rest = rays.lanes; rest; rest &= rest - 1) {
+  for (std::uint32_t rest = lanes; rest; rest &= rest - 1) {
     const auto i = static_cast<unsigned>(std::countr_zero(rest));
     result.hit[i] = searches[i].nearest.hit;
     result.met |= static_cast<std::uint32_t>(result.hit[i].object != no_object) << i;

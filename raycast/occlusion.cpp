@@ -124,6 +124,7 @@ HALFLIGHT_INLINE std::uint32_t Scene::blocked_by_rooms(const Segments16& segment
 
 HALFLIGHT_INLINE std::uint32_t Scene::occluded16(const Segments16& segments, const std::uint32_t* list, std::uint32_t count,
                                                  bool rooms_clear, std::uint32_t& hint) const {
+  if (other_.occluded16) { return other_.occluded16(segments) & segments.lanes; }
   Rays16 rays;
   unsigned lines = 0;
   const unsigned near = HALFLIGHT_DISPATCH(isa_, convert(compiled_, segments, rays, lines));
@@ -161,7 +162,7 @@ HALFLIGHT_INLINE std::uint32_t Scene::occluded16(const Segments16& segments, std
 HALFLIGHT_INLINE bool Scene::occluded(const Segment& segment, std::uint32_t source_owner, std::uint32_t target_owner) const {
   if (!has_line(segment)) { return false; }
   Rays16 rays;
-  if (!HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, segment, source_owner, unknown_sheet, target_owner, rays))) {
+  if (other_.occluded16 || !HALFLIGHT_DISPATCH(isa_, convert_one(compiled_, segment, source_owner, unknown_sheet, target_owner, rays))) {
     Segments16 segments;
     segments.set(0, segment, source_owner, target_owner);
     return occluded16(segments) != 0;

@@ -164,6 +164,12 @@ HALFLIGHT_INLINE bool Scene::within_owner(const Segment& s, const End& end, bool
 
 HALFLIGHT_INLINE std::optional<Hit> Scene::closest(const Segment& ray, std::uint32_t source_owner, std::uint32_t source_sheet) const {
   if (!has_line(ray)) { return std::nullopt; }
+  if (other_.closest16) {
+    Segments16 rays;
+    rays.set(0, ray, source_owner, no_object, source_sheet);
+    const Hits16 hits = closest16(rays);
+    return hits.met != 0 ? std::optional(hits.hit[0]) : std::nullopt;
+  }
   Search search{ray, end_at(source_owner), source_sheet};
   for (const std::uint32_t i : compiled_.rooms) { approach(Line(ray), search.source, i, search.nearest); }
   approach_bounded(search);

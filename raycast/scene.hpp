@@ -29,6 +29,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -54,6 +55,10 @@ class Scene {
  public:
   // Every instruction set gives the same answers; one that the machine does not have must not be named.
   explicit Scene(std::vector<PlacedObject> objects, Isa isa = best_isa());
+
+  // From now on this caster answers all rays. What stands between patches without any ray, and what is covered, the scene knows as before.
+  // Where surfaces coincide, or a back is met, the scene searches after all.
+  void ask(OtherCaster caster) { other_ = std::move(caster); }
 
   [[nodiscard]] const PlacedObject& object(std::uint32_t i) const { return objects_[i]; }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(objects_.size()); }
@@ -180,6 +185,7 @@ class Scene {
   // Does the point at an end of a segment lie on the plane of this sheet, well within the skin?
   [[nodiscard]] bool touches(const glm::dvec3& p, const End& end, std::uint32_t object, std::uint32_t sheet) const;
   [[nodiscard]] bool within_owner(const Segment& s, const End& end, bool source, const Span& span, std::uint32_t i) const;
+  [[nodiscard]] std::uint32_t met_by_other(const Segments16& rays, Hits16& hits) const;
   void approach(const Line& line, const End& a, std::uint32_t i, Nearest& nearest) const;
   void approach_bounded(Search& search) const;
   void decide(Search& search, const Entries& entries, float limit) const;
@@ -191,6 +197,7 @@ class Scene {
   std::vector<Plane> walls_;                  // of the convex polyhedral rooms, normals inwards
   std::vector<std::uint32_t> first_wall_{0};  // by room
   Compiled compiled_;
+  OtherCaster other_;
   Isa isa_;
   Box bounds_;
   double rounding_ = 0.0, slack_ = 0.0;  // slack_: the largest of all objects

@@ -135,6 +135,7 @@ std::optional<ExportMesh> given_mesh(const SceneFile& file, const radiosity::Sol
   const radiosity::BakedColors colors = radiosity::baked_colors(light, view);
   ExportMesh out;
   out.z_up = given.z_up;
+  out.as_given = true;
   out.groups.push_back({"mesh", 0, 0});
   std::vector<glm::dvec3> normals(given.positions.size(), glm::dvec3(0.0));
   std::vector<glm::dvec3> outline;
@@ -159,6 +160,7 @@ ExportMesh split_at_seams(const ExportMesh& mesh, std::vector<glm::vec2>& of_ver
   ExportMesh out;
   out.first_corner = mesh.first_corner;
   out.z_up = mesh.z_up;
+  out.as_given = mesh.as_given;
   out.cameras = mesh.cameras;
   out.texture = mesh.texture;
   out.texture_name = mesh.texture_name;

@@ -39,6 +39,7 @@ struct ExportMesh {
   std::vector<std::uint32_t> corners, first_corner{0};  // of face f: first_corner[f] to first_corner[f + 1] - 1
   std::vector<ExportGroup> groups;
   bool z_up = true;
+  bool as_given = false;  // the positions are those of the user's file, and stay so
   std::vector<Camera> cameras;
   // Light as a texture (lightmap.hpp): of each corner its place there, from the first row and column on; empty when there is none.
   std::vector<glm::vec2> coordinates;

@@ -23,20 +23,26 @@ std::string one_line(std::string name) {
   return name;
 }
 
+// Programs that read OBJ take y as up, as we do, so a scene is turned; the user's own vertices are not.
 std::string write_obj(const ExportMesh& mesh, const Tone& tone) {
+  const bool turn = mesh.z_up && !mesh.as_given;
+  const auto turned = [&](const glm::dvec3& v) { return turn ? glm::dvec3(v.x, v.z, -v.y) : v; };
   std::string text =
-      "# halflight: x y z r g b, colours sRGB of radiance times " + shortest(tone.exposure) + ", tone " + name(tone.curve) + "\n";
+      "# halflight: x y z r g b, colours sRGB of radiance times " + shortest(tone.exposure) + ", tone " + name(tone.curve) + ", " +
+      (mesh.z_up && !turn ? "z" : "y") + " is up\n";
   if (!mesh.coordinates.empty()) { text += "# texture coordinates: of the lightmap " + one_line(mesh.texture_name) + "\n"; }
   for (const ExportVertex& vertex : mesh.vertices) {
     text += 'v';
-    for (int k = 0; k < 3; ++k) { append(text, vertex.position[k]); }
+    const glm::dvec3 place = turned(vertex.position);
+    for (int k = 0; k < 3; ++k) { append(text, place[k]); }
     const radiosity::Color color = tone(vertex.radiosity);
     for (int k = 0; k < 3; ++k) { text += formatted(" %.4f", srgb_encode(color[k])); }
     text += '\n';
   }
   for (const ExportVertex& vertex : mesh.vertices) {
     text += "vn";
-    for (int k = 0; k < 3; ++k) { text += formatted(" %.6g", vertex.normal[k]); }
+    const glm::dvec3 normal = turned(glm::dvec3(vertex.normal));
+    for (int k = 0; k < 3; ++k) { text += formatted(" %.6g", normal[k]); }
     text += '\n';
   }
   for (const glm::vec2& at : mesh.coordinates) { text += formatted("vt %.9g", double{at.x}) + formatted(" %.9g\n", 1.0 - double{at.y}); }

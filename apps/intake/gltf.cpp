@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, materials, cameras. The base colour is the
-// reflectance, the emissive colour (times KHR_materials_emissive_strength) a radiance L, so that the exitance is pi L. Textures, skins,
-// morphs and compressed meshes are passed over with a word; what a file marks as required and is none of these is refused by its geometry
-// alone.
+// glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, materials, cameras, lights. Skins, morphs and
+// compressed meshes are passed over with a word; what a file marks as required and is none of these is refused by its geometry alone.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +11,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "apps/intake/gltf_data.hpp"
+#include "apps/intake/gltf_materials.hpp"
 #include "apps/intake/json_reader.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/mesh_file/reading.hpp"
@@ -44,7 +43,8 @@ class GltfReader {
     }
     GltfData data(*root, binary_, side_file_);
     data_ = &data;
-    materials();
+    model_.materials = read_gltf_materials(*root, data, notes_);
+    default_material_ = static_cast<std::uint32_t>(model_.materials.size());
     nodes();
     if (errors_.count() == 0 && model_.polygons() == 0) { error(root->offset(), "the scene of this file has no triangles" + why_); }
     model_.notes = notes_.take();
@@ -66,64 +66,15 @@ class GltfReader {
     return {errors_.take(), sound ? std::optional(std::move(model_)) : std::nullopt};
   }
 
-  // The first `count` numbers of an array; nothing when there are fewer.
-  template <std::size_t count>
-  static std::optional<std::array<double, count>> array(const JsonValue& value) {
-    std::array<double, count> out{};
-    if (value.items().size() < count) { return std::nullopt; }
-    for (std::size_t i = 0; i < count; ++i) {
-      if (value[i].kind() != JsonValue::Kind::number) { return std::nullopt; }
-      out[i] = value[i].number();
-    }
-    return out;
-  }
-
-  void materials() {
-    for (const JsonValue& given : (*root_)["materials"].items()) {
-      ModelMaterial material;
-      material.name = given["name"].string();
-      if (material.name.empty()) { material.name = "material" + std::to_string(model_.materials.size()); }
-      const JsonValue &extensions = given["extensions"], &glossy = extensions["KHR_materials_pbrSpecularGlossiness"];
-      const JsonValue& base = glossy ? glossy : given["pbrMetallicRoughness"];
-      const auto color = array<3>(base[glossy ? "diffuseFactor" : "baseColorFactor"]).value_or(std::array{1.0, 1.0, 1.0});
-      const bool picture = static_cast<bool>(base[glossy ? "diffuseTexture" : "baseColorTexture"]);
-      if (picture) {
-        notes_.add("textures are not read: the base colour factor stands for the picture", "in " + mesh_file::shown(material.name));
-      }
-      // A factor of 1 1 1 under a picture says nothing about the picture.
-      if (!picture || color != std::array{1.0, 1.0, 1.0}) {
-        if (base || given["emissiveFactor"]) { material.reflectance = radiosity::Color(color[0], color[1], color[2]); }
-      }
-      const auto emissive = array<3>(given["emissiveFactor"]).value_or(std::array{0.0, 0.0, 0.0});
-      const double strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"].number(1.0);
-      for (int i = 0; i < 3; ++i) {
-        material.emission[i] = std::max(0.0, std::numbers::pi * strength * emissive[static_cast<std::size_t>(i)]);
-        if (!std::isfinite(material.emission[i])) { material.emission[i] = 0.0; }
-      }
-      if (given["emissiveTexture"] && !radiosity::is_black(material.emission)) {
-        notes_.add("textures are not read: the emissive factor stands for the picture", "in " + mesh_file::shown(material.name));
-      }
-      if (extensions["KHR_materials_unlit"]) {
-        notes_.add("unlit materials are taken as paint of their colour", "in " + mesh_file::shown(material.name));
-      }
-      if (extensions["KHR_materials_transmission"] || given["alphaMode"].string() == "BLEND") {
-        notes_.add("materials that let light through are taken as opaque", "in " + mesh_file::shown(material.name));
-      }
-      material.two_sided = given["doubleSided"].boolean();
-      model_.materials.push_back(std::move(material));
-    }
-    default_material_ = static_cast<std::uint32_t>(model_.materials.size());
-  }
-
   static glm::dmat4 transform(const JsonValue& node) {
-    if (const auto m = array<16>(node["matrix"])) {
+    if (const auto m = array_of<16>(node["matrix"])) {
       glm::dmat4 matrix(1.0);
       for (int i = 0; i < 16; ++i) { matrix[i / 4][i % 4] = (*m)[static_cast<std::size_t>(i)]; }
       return matrix;
     }
-    const auto t = array<3>(node["translation"]).value_or(std::array{0.0, 0.0, 0.0});
-    const auto r = array<4>(node["rotation"]).value_or(std::array{0.0, 0.0, 0.0, 1.0});
-    const auto s = array<3>(node["scale"]).value_or(std::array{1.0, 1.0, 1.0});
+    const auto t = array_of<3>(node["translation"]).value_or(std::array{0.0, 0.0, 0.0});
+    const auto r = array_of<4>(node["rotation"]).value_or(std::array{0.0, 0.0, 0.0, 1.0});
+    const auto s = array_of<3>(node["scale"]).value_or(std::array{1.0, 1.0, 1.0});
     const glm::dmat3 linear = glm::mat3_cast(glm::dquat(r[3], r[0], r[1], r[2]));
     glm::dmat4 matrix(1.0);
     for (int c = 0; c < 3; ++c) { matrix[c] = glm::dvec4(linear[c] * s[static_cast<std::size_t>(c)], 0.0); }
@@ -173,9 +124,7 @@ class GltfReader {
       if (node["mesh"]) { mesh(node, matrix, index); }
       if (node["camera"]) { camera(node, matrix); }
       if (node["skin"]) { notes_.add("skins are not read: meshes stand as they are drawn", "node " + std::to_string(index)); }
-      if (node["extensions"]["KHR_lights_punctual"]) {
-        notes_.add("lights without a surface are left out; a lamp is a material that shines", "node " + std::to_string(index));
-      }
+      if (const JsonValue& named = node["extensions"]["KHR_lights_punctual"]["light"]) { light(named, matrix, index); }
       for (std::size_t i = node["children"].items().size(); i-- > 0;) { push(node["children"][i], matrix); }
     }
   }
@@ -246,6 +195,20 @@ class GltfReader {
   void pass_over(const std::string& sentence, const std::string& place) {
     notes_.add(sentence, place);
     why_ = "; " + sentence;
+  }
+
+  // KHR_lights_punctual: candela, taken as W/sr, as the strength of materials is.
+  void light(const JsonValue& named, const glm::dmat4& matrix, std::size_t index) {
+    const JsonValue& given = (*root_)["extensions"]["KHR_lights_punctual"]["lights"][named.index().value_or(nowhere)];
+    const std::string place = "node " + std::to_string(index);
+    if (!given) { return error(named.offset(), "there is no such light"); }
+    const std::string& type = given["type"].string();
+    if (type == "directional") { return notes_.add("directional lights are left out: a lamp has a place", place); }
+    if (type == "spot") { notes_.add("spot lights shine in all directions", place); }
+    radiosity::Color color(1.0);
+    for (int k = 0; k < 3; ++k) { color[k] = given["color"][static_cast<std::size_t>(k)].number(1.0); }
+    const radiosity::Color intensity = glm::clamp(given["intensity"].number(1.0) * color, radiosity::Color(0.0), radiosity::Color(1e6));
+    model_.lights.push_back({glm::dvec3(matrix[3]), intensity, true});
   }
 
   void camera(const JsonValue& node, const glm::dmat4& matrix) {

@@ -115,6 +115,24 @@ std::optional<std::string_view> GltfData::buffer(std::size_t index, std::string&
   return std::string_view(*loaded_[index]);
 }
 
+std::optional<std::string> GltfData::picture(std::size_t image) {
+  const JsonValue& given = root_["images"][image];
+  std::string fault;
+  if (const JsonValue& view = root_["bufferViews"][given["bufferView"].index().value_or(~std::size_t{0})]) {
+    const auto bytes = buffer(view["buffer"].index().value_or(~std::size_t{0}), fault);
+    const std::size_t begin = view["byteOffset"].index().value_or(0), length = view["byteLength"].index().value_or(0);
+    if (!bytes || begin > bytes->size() || length > bytes->size() - begin) { return std::nullopt; }
+    return std::string(bytes->substr(begin, length));
+  }
+  const std::string_view uri = given["uri"].string();
+  if (uri.starts_with("data:")) {
+    const std::size_t comma = uri.find(";base64,");
+    return comma == std::string_view::npos ? std::nullopt : from_base64(uri.substr(comma + 8));
+  }
+  const auto name = file_of_uri(uri);
+  return name && side_file_ ? side_file_(*name, fault) : std::nullopt;
+}
+
 std::optional<std::vector<double>> GltfData::numbers(const JsonValue& accessor_index, std::size_t components, std::string& fault) {
   const auto fail = [&](std::string sentence) {
     fault = std::move(sentence);

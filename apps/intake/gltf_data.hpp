@@ -5,6 +5,7 @@
 // stands where in them. Whatever reaches beyond a buffer is an error; nothing is made larger than the bytes that are there, but for
 // accessors without any, which are zeros.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,6 +18,18 @@
 
 namespace apps::intake {
 
+// The first `count` numbers of an array; nothing when there are fewer.
+template <std::size_t count>
+[[nodiscard]] std::optional<std::array<double, count>> array_of(const JsonValue& value) {
+  std::array<double, count> out{};
+  if (value.items().size() < count) { return std::nullopt; }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (value[i].kind() != JsonValue::Kind::number) { return std::nullopt; }
+    out[i] = value[i].number();
+  }
+  return out;
+}
+
 class GltfData {
  public:
   // `binary`: the chunk of a GLB, if there is one.
@@ -25,6 +38,9 @@ class GltfData {
 
   // All numbers of an accessor, `components` for each element: of vectors, or 1 of indices. Nothing after an error: a sentence in `fault`.
   [[nodiscard]] std::optional<std::vector<double>> numbers(const JsonValue& accessor_index, std::size_t components, std::string& fault);
+
+  // The bytes of the picture that a texture shows, from wherever they are; nothing when they are nowhere.
+  [[nodiscard]] std::optional<std::string> picture(std::size_t image);
 
  private:
   [[nodiscard]] std::optional<std::string_view> buffer(std::size_t index, std::string& fault);

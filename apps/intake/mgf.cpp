@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// MGF (Materials and Geometry Format, Ward 1995), as far as diffuse scenes have it: the entities o, xf, i; c with cxy; m with sides, rd,
-// ed; v with p and n; f, sph, cyl, cone, ring, torus, prism. All else is told and passed over. Spheres and tori stay analytic; what is
-// open, cylinders and cones without their ends, becomes polygons, of as many sides as rings, so that both fit together.
+// MGF (Materials and Geometry Format, Ward 1995), as far as diffuse scenes have it: the entities o, xf, i; c with cxy, cspec, cct, cmix; m
+// with sides, rd, ed; v with p and n; f, sph, cyl, cone, ring, torus, prism. All else is told and passed over. Spheres and tori stay
+// analytic; what is open, cylinders and cones without their ends, becomes polygons, of as many sides as rings, so that both fit together.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -110,6 +110,14 @@ class Reader {
       } else {
         errors.add(line.place(1), "expected a chromaticity, x and y above 0 with a sum of at most 1");
       }
+    } else if (word == "cct") {
+      const double kelvin = value(1);
+      if (!(kelvin >= 100.0 && kelvin <= 1e6)) { return errors.add(line.place(1), "expected a temperature from 100 to 1000000 K"); }
+      set_color(xyz_of_temperature(kelvin));
+    } else if (word == "cspec") {
+      spectrum(line, errors);
+    } else if (word == "cmix") {
+      mixture(line, errors);
     } else if (word == "m") {
       materials_.choose(line, errors);
       if (line.words.size() != 2) { materials_.current().number = Material::none; }
@@ -150,9 +158,45 @@ class Reader {
       const Vertex* const v = vertex(1);
       const double inner = value(2), outer = value(3);
       if (v != nullptr) { strip(v->position, v->position, v->normal, outer, inner, line); }
+    } else if (word == "fh" || word == "ies") {
+      notes.add(word == "fh" ? "the entity 'fh' is not read: faces with holes are left out" : "the entity 'ies' is not read: lamps shine evenly", at());
     } else if (word != "ir") {
       notes.add("the entity " + mesh_file::shown(word) + " is not read: passed over", at());
     }
+  }
+
+  void set_color(const glm::dvec3& xyz) {
+    const double sum = xyz.x + xyz.y + xyz.z;
+    colors_.current() = {xyz.x / sum, xyz.y / sum};
+  }
+
+  void spectrum(const Line& line, Errors& errors) {
+    const double first = number(line, 1, errors), last = number(line, 2, errors);
+    if (!(first < last)) { return errors.add(line.place(1), "expected two wavelengths in nm, the shorter one first"); }
+    std::vector<double> values;
+    for (std::size_t i = 3; i < line.words.size(); ++i) {
+      values.push_back(number(line, i, errors));
+      if (values.back() < 0.0) { return errors.add(line.place(i), "expected a number from 0 on, found " + mesh_file::shown(line.word(i))); }
+    }
+    if (values.size() < 2) { return errors.add(line.place(line.words.size()), "a spectrum has at least two values"); }
+    const glm::dvec3 xyz = xyz_of_samples(values, first, last);
+    if (!(xyz.y > 1e-6 * (xyz.x + xyz.y + xyz.z))) { return errors.add(line.place(3), "nothing of this spectrum is seen"); }
+    set_color(xyz);
+  }
+
+  // By the weights, which are shares of the luminance.
+  void mixture(const Line& line, Errors& errors) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 1; i + 1 < line.words.size() || i == 1; i += 2) {
+      const double weight = number(line, i, errors);
+      const Chroma* const color = colors_.find(line, i + 1, errors);
+      if (color == nullptr) { return; }
+      if (weight < 0.0) { return errors.add(line.place(i), "expected a number from 0 on, found " + mesh_file::shown(line.word(i))); }
+      sum += weight * glm::dvec3(color->x, color->y, 1.0 - color->x - color->y) / color->y;
+    }
+    if (line.words.size() % 2 == 0) { return errors.add(line.place(line.words.size()), "expected pairs of a weight and a colour"); }
+    if (!(sum.y > 0.0)) { return errors.add(line.place(1), "the weights are all 0"); }
+    set_color(sum);
   }
 
   Material& changed() {

@@ -35,10 +35,11 @@ struct ModelMaterial {
   bool two_sided = false;          // the file says that its surfaces are seen from both sides
 };
 
-// A light without a surface, which becomes a small lamp. `intensity`: of an ordinary one 1 1 1.
+// A light without a surface, which becomes a small lamp. `intensity`: W/sr, or, of one that is bright enough for any scene, 1 1 1.
 struct ModelLight {
   glm::dvec3 position{0.0};
   radiosity::Color intensity{0.0};
+  bool absolute = false;  // in W/sr
 };
 
 struct Model {

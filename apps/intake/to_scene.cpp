@@ -19,6 +19,8 @@
 #include <raycast/transform.hpp>
 
 #include "apps/bounds.hpp"
+#include "apps/intake/ceiling_lamp.hpp"
+#include "apps/intake/inside_camera.hpp"
 #include "apps/scene_file/words.hpp"
 #include "apps/text.hpp"
 #include "apps/view.hpp"
@@ -44,7 +46,15 @@ class SceneMaker {
     given_positions_ = model_.positions;
     given_z_up_ = options_.up.value_or(up) == UpAxis::z;
     place(to_metres(options_.up.value_or(up), options_.metres));
-    if (!part(faults) || (!shines() && !add_studio(faults))) { return std::nullopt; }
+    if (!part(faults)) { return std::nullopt; }
+    if (!shines()) {
+      if (!add_studio(faults)) { return std::nullopt; }
+    } else if (file_.cameras.empty()) {
+      if (auto camera = inside_camera(file_.scene)) {
+        file_.cameras.push_back(std::move(*camera));
+        note("from outside nothing is seen of its light: the camera stands in the room of a lamp");
+      }
+    }
     note(std::string(1, "xyz"[static_cast<std::size_t>(options_.up.value_or(up))]) + " is taken as up (--up), one unit as " +
          radiosity::length_text(options_.metres) + " (--units)");
     return std::move(file_);
@@ -166,15 +176,17 @@ class SceneMaker {
     file_.origins.assign(file_.scene.objects.size(), {"mesh", {}});
   }
 
-  // A sphere of a hundredth of the scene's size. One of intensity 1 brings 100 W/m2 to what is half that size away.
+  // A sphere of a hundredth of the scene's size. One of intensity 1 brings 100 W/m2 to what is half that size away; one of I W/sr has the
+  // exitance I / radius^2.
   void add_lights() {
     if (model_.lights.empty()) { return; }
     const double size = scene_bounds(file_.scene).diameter(), radius = 0.01 * size;
     for (const ModelLight& light : model_.lights) {
       raycast::Made<raycast::Sphere> sphere = raycast::Sphere::make(light.position, radius);
-      if (!sphere || radiosity::is_black(light.intensity)) { continue; }
+      const double exitance = light.absolute ? 1.0 / (radius * radius) : 100.0 * 2500.0;
+      if (!sphere || radiosity::is_black(light.intensity) || !(exitance < 1e100)) { continue; }
       const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());
-      file_.scene.materials.push_back({"light", radiosity::Color(0.0), 100.0 * 2500.0 * light.intensity});
+      file_.scene.materials.push_back({"light", radiosity::Color(0.0), exitance * light.intensity});
       file_.scene.objects.push_back({"light", std::move(sphere.object), {}, {material}});
       file_.origins.push_back({"light", {}});
     }
@@ -207,9 +219,19 @@ class SceneMaker {
   bool add_studio(std::vector<std::string>& faults) {
     const std::vector<std::string_view> known = names();
     const std::string advice = "--lamp MATERIAL, one of " + scene_file::list_of(known);
-    if (std::any_of(file_.scene.objects.begin(), file_.scene.objects.end(), [](const auto& o) { return o.placement.inside; })) {
-      faults.push_back("nothing shines in this closed room; say which material does: " + advice);
-      return false;
+    const auto room = std::find_if(file_.scene.objects.begin(), file_.scene.objects.end(), [](const auto& o) { return o.placement.inside; });
+    if (room != file_.scene.objects.end()) {
+      const auto lamp = ceiling_lamp(file_.scene, *room);
+      if (!lamp) {
+        faults.push_back("nothing shines in this closed room; say which material does: " + advice);
+        return false;
+      }
+      const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());
+      file_.scene.materials.push_back({"room lamp", radiosity::Color(0.0), radiosity::Color(100.0)});
+      file_.scene.objects.push_back({"room lamp", lamp, {}, {material}});
+      file_.origins.push_back({"polygon", {}});
+      note("nothing shines in this closed room: a lamp of 100 W/m2 hangs under its ceiling; to have lamps of its own: " + advice);
+      return true;
     }
     if (file_.cameras.empty()) { file_.cameras.push_back(automatic_camera(file_.scene)); }
     const raycast::Box bounds = scene_bounds(file_.scene);
@@ -282,8 +304,9 @@ std::optional<SceneFile> to_scene(Model model, UpAxis up, const ModelOptions& op
   return SceneMaker(std::move(model), options).scene(up, faults);
 }
 
-std::optional<SceneFile> to_part(Model model, std::vector<std::string>& faults) {
-  const ModelOptions options;
+std::optional<SceneFile> to_part(Model model, bool two_sided, std::vector<std::string>& faults) {
+  ModelOptions options;
+  options.two_sided = two_sided;
   return SceneMaker(std::move(model), options).part_alone(faults);
 }
 

@@ -182,7 +182,7 @@ Made Builder::make_from_file(const ObjectSyntax& object) {
   }
   if (!read.model) { return made; }
   std::vector<std::string> faults;
-  auto part = to_part(std::move(*read.model), faults);
+  auto part = to_part(std::move(*read.model), object.two_sided.has_value(), faults);
   for (const std::string& sentence : faults) { errors_.add(file.place, file.text + ": " + sentence); }
   if (!part) { return made; }
   for (const std::string& note : part->notes) { file_.notes.push_back(object.name.text + ": " + note); }

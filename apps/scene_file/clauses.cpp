@@ -213,6 +213,8 @@ void Parser::object_clause(const Token& keyword, ObjectSyntax& out) {
   }
   if (word == "file") {
     file_clause(out);
+  } else if (word == "two-sided") {
+    out.two_sided = keyword.place;
   } else if (word == "sheet") {
     sheet_clause(out);
   } else if (word == "inside") {

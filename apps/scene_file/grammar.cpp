@@ -14,7 +14,7 @@ WordList words_of(const ObjectKind& kind) {
     for (const Clause& clause : kind.clauses) { words.push_back(clause.word); }
     words.insert(words.end(), {"material", "sheet", "move", "rotate", "scale"});
     if (kind.solid) { words.push_back("inside"); }
-    if (kind.word == "mesh") { words.push_back("file"); }
+    if (kind.word == "mesh") { words.insert(words.end(), {"file", "two-sided"}); }
     return words;
   }
   words = {"material", "move", "rotate", "scale", "inside"};

@@ -199,6 +199,7 @@ void Parser::require_clauses(const ObjectSyntax& object, bool operand) {
     require(!object.inside, "'inside' beside its file: a closed shell around a lamp is a room by itself");
     return require(!operand, "place among operands: what is in its file need not be a solid");
   }
+  require(!object.two_sided, "'file'; only a mesh from a file can be 'two-sided'");
   for (const Clause& clause : kind.clauses) {
     const bool given = clause.form == Form::vertex ? !object.vertices.empty()
                        : clause.form == Form::face ? !object.faces.empty()

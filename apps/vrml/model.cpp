@@ -234,6 +234,7 @@ class ModelMaker final : public Visitor {
     if (given == nullptr || points == nullptr || points->numbers.size() < 3) {
       return notes_.add("face sets without coordinates are left out", at(node));
     }
+    if (state.creased) { notes_.add("a creaseAngle changes how polygons are shaded, not where they are: they stay flat", at(node)); }
     const Field& index = *given;
     const auto count = static_cast<double>(points->numbers.size() / 3);
     const std::uint32_t group = new_group(node);

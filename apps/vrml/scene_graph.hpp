@@ -64,7 +64,7 @@ struct State {
   const Node* material = nullptr;     // null: the default one
   const Node* coordinates = nullptr;  // null: none
   Binding binding = Binding::overall;
-  bool ordered = false, clockwise = false, solid = false;  // ShapeHints
+  bool ordered = false, clockwise = false, solid = false, creased = false;  // ShapeHints; creased: with an angle above 0
 };
 
 class Visitor {

@@ -72,6 +72,7 @@ class Meaning {
       state.ordered = order != "UNKNOWN_ORDERING";
       state.clockwise = order == "CLOCKWISE";
       state.solid = node.word("shapeType", "UNKNOWN_SHAPE_TYPE") == "SOLID";
+      state.creased = node.number("creaseAngle", 0.0) > 0.0;
     } else if (is_camera(node)) {
       visitor_.camera(node, state);
     } else if (node.type.ends_with("Light")) {

@@ -19,6 +19,8 @@ hl.halflight_vertex_colors.argtypes = hl.halflight_corner_colors.argtypes = [job
 hl.halflight_at.argtypes = [job_type, size, floats, ctypes.c_int, floats]
 hl.halflight_figure.argtypes = [job_type, text, doubles]
 hl.halflight_change.argtypes = [job_type, size]
+hl.halflight_make_lightmap.argtypes = [job_type, ctypes.c_double, ctypes.c_uint32, indices, indices]
+hl.halflight_lightmap_texels.argtypes = hl.halflight_lightmap_coordinates.argtypes = [job_type, floats, size]
 progress_type = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double)
 hl.halflight_set_progress.argtypes = [job_type, progress_type, ctypes.c_void_p]
 
@@ -53,6 +55,16 @@ print("vertex 7    ", *(f"{c:.3f}" for c in colors[-3:]))
 inside = (ctypes.c_float * 3)()
 check(job, hl.halflight_at(job, 8, (ctypes.c_float * 3)(0.7, 0.3, 0), 0, inside))
 print("on the floor", *(f"{c:.3f}" for c in inside))
+
+# The same as a texture: every texel within the room's walls has that light, and where a corner lies in it is told.
+width, height = ctypes.c_uint32(), ctypes.c_uint32()
+check(job, hl.halflight_make_lightmap(job, 0.02, 1024, ctypes.byref(width), ctypes.byref(height)))
+texels, uv = (ctypes.c_float * (3 * width.value * height.value))(), (ctypes.c_float * (2 * len(triangles)))()
+check(job, hl.halflight_lightmap_texels(job, texels, width.value * height.value))
+check(job, hl.halflight_lightmap_coordinates(job, uv, len(triangles)))
+used = [texels[i] for i in range(0, len(texels), 3) if texels[i] > 0]
+print(f"lightmap     {width.value} x {height.value}, {len(used)} texels used, light {min(used):.3f} to {max(used):.3f}")
+print("last corner ", *(f"{c:.3f}" for c in uv[-2:]))
 faces = ctypes.c_double()
 check(job, hl.halflight_figure(job, b"faces", faces))
 print("faces solved", int(faces.value), "of", len(triangles) // 3, "triangles")
@@ -60,6 +72,8 @@ print("change      ", hl.halflight_change(job, 0).decode())
 print("stages      ", "link" in stages)
 print("refused     ", hl.halflight_set_number(job, b"epsilon", -1), hl.halflight_message(job).decode())
 print("refused     ", hl.halflight_add_material(job, b"mirror", (ctypes.c_double * 3)(2, 0, 0), None), hl.halflight_message(job).decode())
+print("too early   ", hl.halflight_lightmap_texels(hl.halflight_create(), texels, 1))
+print("too small   ", hl.halflight_lightmap_texels(job, texels, 3), hl.halflight_message(job).decode())
 print("too small   ", hl.halflight_vertex_colors(job, colors, 3), hl.halflight_message(job).decode())
 
 stop = progress_type(lambda user, stage, fraction: 1)

@@ -12,8 +12,10 @@
 
 #include <raycast/inline.hpp>
 
+#include <radiosity/bake/own_rays.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/out_of_memory.hpp>
+#include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/scene.hpp>
 
 namespace radiosity {
@@ -44,6 +46,11 @@ inline BakeOutcome bake_within_memory(const PolygonView& mesh, std::span<const M
   scene.objects = std::move(intake.objects);
   Options settings = options.solve;
   if (settings.reconstruction == Reconstruction::none) { settings.reconstruction = Reconstruction::weighted; }
+  if (options.rays) {
+    settings.caster = [&, skin = skin_of(options.rays, mesh, options.intake.weld)](const raycast::Scene& objects, const Frame& frame) {
+      return caster_of(options.rays, intake.parts, skin, objects, frame);
+    };
+  }
   Outcome outcome = solve(scene, settings, control);
   if (!outcome.solution) { return {std::nullopt, std::move(outcome.failure)}; }
   BakeOutcome result;

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include <radiosity/bake/baked_light.hpp>
+#include <radiosity/bake/own_rays.hpp>
 #include <radiosity/intake/intake.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
@@ -42,6 +43,7 @@ struct MeshView {
 struct BakeOptions {
   Options solve;  // accuracy, threads, memory
   IntakeOptions intake;
+  AnyRayCaster rays = {};  // of your own (own_rays.hpp): asked in place of ours
 };
 
 struct Baked {

@@ -54,6 +54,16 @@ HALFLIGHT_INLINE BakedLight::BakedLight(const Scene& scene, const Solution& solu
   }
 }
 
+HALFLIGHT_INLINE std::optional<PolygonPart> BakedLight::front(std::size_t polygon) const {
+  std::optional<PolygonPart> found;
+  for (const PolygonPart& part : parts_.of(polygon)) {
+    if (part.back) { continue; }
+    if (found) { return std::nullopt; }
+    found = part;
+  }
+  return found;
+}
+
 HALFLIGHT_INLINE std::optional<BakedLight::Found> BakedLight::nearest(const Sheet& sheet, const glm::dvec3& point) const {
   const auto place = [&](std::uint32_t i) {
     std::array<glm::dvec3, 3> p{};

@@ -39,6 +39,9 @@ class BakedLight {
   // left out or lies hidden under another object. Cost: a walk down a small tree. May be called from many threads at once.
   [[nodiscard]] std::optional<Color> radiosity(std::size_t polygon, const glm::dvec3& point, FaceSide side = FaceSide::front) const;
 
+  // The one sheet that shows the polygon's front; polygons with the same sheet are parts of one planar face. Nothing when it was split.
+  [[nodiscard]] std::optional<PolygonPart> front(std::size_t polygon) const;
+
   [[nodiscard]] std::size_t polygons() const { return parts_.first.size() - 1; }
 
  private:

@@ -3,6 +3,7 @@
 // everything else is C++ already.
 #include <radiosity/bake/halflight.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -19,7 +20,11 @@
 #include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
 #include <radiosity/bake/bake.hpp>
+#include <radiosity/bake/lightmap.hpp>
 
 struct halflight_job {
   std::span<const float> positions;
@@ -31,6 +36,7 @@ struct halflight_job {
   void* user = nullptr;
 
   std::optional<radiosity::Baked> baked;
+  std::optional<radiosity::Lightmap> lightmap;
   std::vector<std::string> changes;
   std::string message;
 };
@@ -104,19 +110,50 @@ constexpr std::array<Figure, 14> figures{{
     {"without", [](const radiosity::Baked& b) { return number(b.colors.without); }},
 }};
 
-halflight_status copy(halflight_job* job, const std::vector<radiosity::Color> radiosity::BakedColors::*colors, float* rgb,
-                      std::size_t count) {
-  if (job == nullptr || rgb == nullptr) { return refuse(job, "there is no buffer for the colours"); }
-  if (!job->baked) { return refuse(job, "there are no colours before halflight_run", HALFLIGHT_NOT_RUN); }
-  const std::vector<radiosity::Color>& list = job->baked->colors.*colors;
+// The components of a list's vectors into a buffer with room for `count` of these.
+template <class Vector>
+halflight_status copy(halflight_job* job, const std::vector<Vector>& list, const char* name, float* out, std::size_t count) {
+  if (out == nullptr) { return refuse(job, std::string("there is no buffer for the ") + name); }
   if (count < list.size()) {
-    return refuse(job, "there are " + std::to_string(list.size()) + " colours, and room for " + std::to_string(count));
+    return refuse(job, "there are " + std::to_string(list.size()) + " " + name + ", and room for " + std::to_string(count));
   }
-  for (const radiosity::Color& color : list) {
-    for (int k = 0; k < 3; ++k) { *rgb++ = static_cast<float>(color[k]); }
+  for (const Vector& vector : list) {
+    for (int k = 0; k < Vector::length(); ++k) { *out++ = static_cast<float>(vector[k]); }
   }
   return HALFLIGHT_OK;
 }
+
+halflight_status copy_colors(halflight_job* job, const std::vector<radiosity::Color> radiosity::BakedColors::*colors, float* rgb,
+                             std::size_t count) {
+  if (job == nullptr) { return HALFLIGHT_INVALID; }
+  if (!job->baked) { return refuse(job, "there are no colours before halflight_run", HALFLIGHT_NOT_RUN); }
+  return copy(job, job->baked->colors.*colors, "colours", rgb, count);
+}
+
+// What the triangles of a job are to the library.
+struct JobPolygons {
+  explicit JobPolygons(const halflight_job& job) : indices{job.indices}, first(job.indices.size() / 3 + 1), material(first.size() - 1, 0) {
+    for (std::size_t i = 0; i + 2 < job.positions.size(); i += job.stride) {
+      positions.emplace_back(job.positions[i], job.positions[i + 1], job.positions[i + 2]);
+    }
+    for (std::size_t t = 0; t < first.size(); ++t) { first[t] = static_cast<std::uint32_t>(3 * t); }
+  }
+  [[nodiscard]] radiosity::PolygonView view() const { return {positions, indices, first, material}; }
+  [[nodiscard]] double area() const {
+    double sum = 0.0;
+    for (std::size_t c = 0; c + 2 < indices.size(); c += 3) {
+      if (std::max({indices[c], indices[c + 1], indices[c + 2]}) >= positions.size()) { continue; }
+      const glm::dvec3& a = positions[indices[c]];
+      const double area = 0.5 * glm::length(glm::cross(positions[indices[c + 1]] - a, positions[indices[c + 2]] - a));
+      sum += std::isfinite(area) ? area : 0.0;
+    }
+    return sum;
+  }
+
+  std::span<const std::uint32_t> indices;
+  std::vector<glm::dvec3> positions;
+  std::vector<std::uint32_t> first, material;
+};
 
 }  // namespace
 
@@ -188,6 +225,7 @@ halflight_status halflight_run(halflight_job* job) {
     };
   }
   job->baked.reset();
+  job->lightmap.reset();
   job->changes.clear();
   radiosity::BakeOutcome outcome =
       radiosity::bake({job->positions, job->indices, job->materials, job->material, job->stride}, job->options, control);
@@ -209,11 +247,11 @@ halflight_status halflight_run(halflight_job* job) {
 const char* halflight_message(const halflight_job* job) { return job == nullptr ? "there is no job" : job->message.c_str(); }
 
 halflight_status halflight_corner_colors(halflight_job* job, float* rgb, size_t count) {
-  return copy(job, &radiosity::BakedColors::corner, rgb, count);
+  return copy_colors(job, &radiosity::BakedColors::corner, rgb, count);
 }
 
 halflight_status halflight_vertex_colors(halflight_job* job, float* rgb, size_t count) {
-  return copy(job, &radiosity::BakedColors::vertex, rgb, count);
+  return copy_colors(job, &radiosity::BakedColors::vertex, rgb, count);
 }
 
 halflight_status halflight_at(const halflight_job* job, size_t triangle, const float point[3], int back, float rgb[3]) {
@@ -224,6 +262,38 @@ halflight_status halflight_at(const halflight_job* job, size_t triangle, const f
   if (!color) { return HALFLIGHT_NOTHING; }
   for (int k = 0; k < 3; ++k) { rgb[k] = static_cast<float>((*color)[k]); }
   return HALFLIGHT_OK;
+}
+
+halflight_status halflight_make_lightmap(halflight_job* job, double texel, uint32_t most, uint32_t* width, uint32_t* height) {
+  if (job == nullptr || width == nullptr || height == nullptr) { return refuse(job, "the size of a lightmap needs a place to go to"); }
+  if (!job->baked) { return refuse(job, "there is no lightmap before halflight_run", HALFLIGHT_NOT_RUN); }
+  if (!(texel >= 0.0 && std::isfinite(texel)) || most < 64) {
+    return refuse(job, "a lightmap has texels of some size, and sides of 64 texels or more");
+  }
+  job->lightmap.reset();
+  try {
+    const JobPolygons polygons(*job);
+    constexpr double usual_texels = 1 << 20;
+    if (texel == 0.0) { texel = std::sqrt(polygons.area() / usual_texels); }
+    radiosity::Lightmap map = radiosity::make_lightmap(job->baked->light, polygons.view(), texel, most);
+    if (map.texels.empty()) { return refuse(job, "no triangle has light", HALFLIGHT_NOTHING); }
+    job->lightmap = std::move(map);
+  } catch (const std::bad_alloc&) { return HALFLIGHT_OUT_OF_MEMORY; }
+  *width = job->lightmap->width;
+  *height = job->lightmap->height;
+  return HALFLIGHT_OK;
+}
+
+halflight_status halflight_lightmap_texels(halflight_job* job, float* rgb, size_t count) {
+  if (job == nullptr) { return HALFLIGHT_INVALID; }
+  if (!job->lightmap) { return refuse(job, "there are no texels before halflight_make_lightmap", HALFLIGHT_NOT_RUN); }
+  return copy(job, job->lightmap->texels, "texels", rgb, count);
+}
+
+halflight_status halflight_lightmap_coordinates(halflight_job* job, float* uv, size_t count) {
+  if (job == nullptr) { return HALFLIGHT_INVALID; }
+  if (!job->lightmap) { return refuse(job, "there are no coordinates before halflight_make_lightmap", HALFLIGHT_NOT_RUN); }
+  return copy(job, job->lightmap->coordinates, "coordinates", uv, count);
 }
 
 halflight_status halflight_figure(halflight_job* job, const char* name, double* value) {

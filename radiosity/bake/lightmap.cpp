@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -21,17 +22,23 @@ namespace radiosity {
 
 namespace lightmap::detail {
 
-inline std::optional<LightmapChart> chart_of(const PolygonView& input, std::size_t p) {
-  std::vector<glm::dvec3> outline;
-  for (std::size_t c = input.first_corner[p]; c < input.first_corner[p + 1]; ++c) { outline.push_back(input.positions[input.corners[c]]); }
-  if (outline.size() < 3) { return std::nullopt; }
-  glm::dvec3 longest{0.0};
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const glm::dvec3 side = outline[(i + 1) % outline.size()] - outline[i];
-    if (glm::dot(side, side) > glm::dot(longest, longest)) { longest = side; }
+// What shares a chart: the polygons of one planar face.
+struct Shared {
+  std::size_t first = 0;  // of the polygons
+  std::vector<glm::dvec3> corners;
+  glm::dvec3 normal{0.0}, longest{0.0};  // of the sides
+
+  void add(const PolygonView& input, std::size_t p) {
+    const std::size_t begin = corners.size();
+    for (std::size_t c = input.first_corner[p]; c < input.first_corner[p + 1]; ++c) { corners.push_back(input.positions[input.corners[c]]); }
+    const std::span<const glm::dvec3> outline = std::span(corners).subspan(begin);
+    normal += brep::vector_area(outline);
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const glm::dvec3 side = outline[(i + 1) % outline.size()] - outline[i];
+      if (glm::dot(side, side) > glm::dot(longest, longest)) { longest = side; }
+    }
   }
-  return make_chart(p, outline, brep::vector_area(outline), longest);
-}
+};
 
 // Places the charts, which come highest first, on shelves of this width; the height that they need.
 inline std::uint64_t pack(std::vector<LightmapChart>& charts, std::uint64_t width) {
@@ -110,21 +117,38 @@ HALFLIGHT_INLINE Lightmap lay_out(std::vector<LightmapChart> charts, double texe
 }
 
 HALFLIGHT_INLINE Lightmap make_lightmap(const BakedLight& light, const PolygonView& input, double texel, std::uint32_t most) {
-  std::vector<LightmapChart> charts;
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<lightmap::detail::Shared> faces;
+  std::vector<std::size_t> face_of(input.count(), none);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> face_of_sheet;
   for (std::size_t p = 0; p < input.count() && p < light.polygons(); ++p) {
     const std::size_t first = input.first_corner[p];
     if (first >= input.corners.size() || input.corners[first] >= input.positions.size()) { continue; }
     if (!light.radiosity(p, input.positions[input.corners[first]])) { continue; }  // a polygon with light has sound corners
-    if (const auto chart = lightmap::detail::chart_of(input, p)) { charts.push_back(*chart); }
+    face_of[p] = faces.size();
+    if (const auto part = light.front(p)) { face_of[p] = face_of_sheet.emplace(std::pair(part->object, part->sheet), faces.size()).first->second; }
+    if (face_of[p] == faces.size()) { faces.emplace_back().first = p; }
+    faces[face_of[p]].add(input, p);
+  }
+  std::vector<LightmapChart> charts;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (const auto chart = make_chart(f, faces[f].corners, faces[f].normal, faces[f].longest)) { charts.push_back(*chart); }
   }
   Lightmap map = lay_out(std::move(charts), texel, most);
   map.coordinates.resize(input.corners.size(), glm::vec2(0.0F));
   map.has_texels.resize(input.count(), 0);
-  for (const LightmapChart& chart : map.charts) {
-    map.has_texels[chart.polygon] = 1;
+  std::vector<const LightmapChart*> chart_of(faces.size(), nullptr);
+  for (LightmapChart& chart : map.charts) {
+    chart_of[chart.polygon] = &chart;
+    chart.polygon = faces[chart.polygon].first;
     map.fill(chart, [&](const glm::dvec3& point) { return light.radiosity(chart.polygon, point).value_or(Color(0.0)); });
-    for (std::size_t c = input.first_corner[chart.polygon]; c < input.first_corner[chart.polygon + 1]; ++c) {
-      map.coordinates[c] = map.coordinate(chart, input.positions[input.corners[c]]);
+  }
+  for (std::size_t p = 0; p < input.count(); ++p) {
+    const LightmapChart* const chart = face_of[p] == none ? nullptr : chart_of[face_of[p]];
+    if (chart == nullptr) { continue; }
+    map.has_texels[p] = 1;
+    for (std::size_t c = input.first_corner[p]; c < input.first_corner[p + 1]; ++c) {
+      map.coordinates[c] = map.coordinate(*chart, input.positions[input.corners[c]]);
     }
   }
   return map;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Baked light as a texture: an atlas in which every polygon has a rectangle of its own, and texture coordinates for its corners. Polygons
-// are planar, so no surface has to be unwrapped: a rectangle lies in the polygon's plane, along its longest side, its texels are squares of
-// one size. It is a texel wider than the polygon all around, and what lies beside the polygon has the light of the nearest place on it, so
-// that bilinear filtering never reaches another polygon. Rectangles are packed on shelves, the highest first (Coffman et al. 1980).
+// Baked light as a texture: an atlas in which every planar face has a rectangle of its own, and texture coordinates for the corners of polygons.
+// A face is what the intake has merged: the two triangles of a quadrilateral, a wall in a hundred parts. No surface has to be unwrapped: a
+// rectangle lies in the face's plane, along its longest side, its texels are squares of one size. It is a texel wider than the face all
+// around, and what lies beside the face has the light of the nearest place on it, so that bilinear filtering never reaches another
+// face. Rectangles are packed on shelves, the highest first (Coffman et al. 1980).
 //
-// Give this the polygons that the user has, large ones best: for each triangle of a fine mesh a rectangle is waste, and vertex colours say
-// as much.
+// Best for large faces: for each triangle of a finely meshed curved surface a rectangle is waste, and vertex colours say as much.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace radiosity {
 
 // A rectangle of the atlas, and the plane that it shows.
 struct LightmapChart {
-  std::size_t polygon = 0;
+  std::size_t polygon = 0;                            // that lies in it; of several the first
   glm::dvec3 origin{0.0};                             // a corner of the bounds of what lies in it: the middle of texel (1, 1)
   glm::dvec3 u{0.0}, v{0.0};                          // directions of its sides, of length 1
   double width = 0.0, height = 0.0;                   // of these bounds

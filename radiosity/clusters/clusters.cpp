@@ -102,7 +102,7 @@ class ClusterWriter {
   }
 
   [[nodiscard]] Hierarchy write(std::uint32_t root) {
-    Hierarchy hierarchy;
+    Hierarchy hierarchy(faces_.get_allocator());
     std::vector<std::uint32_t> number{root};  // of each node
     hierarchy.push_back(node_of(root, no_node));
     for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {

@@ -13,11 +13,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include <glm/vec3.hpp>
 
 #include <brep/handles.hpp>
+
+#include <radiosity/support/big_array.hpp>
 
 namespace radiosity {
 
@@ -44,7 +45,7 @@ struct Node {
   [[nodiscard]] bool is_cluster() const { return cluster != no_node; }
 };
 
-using Hierarchy = std::vector<Node>;
+using Hierarchy = BigArray<Node>;
 
 // Is this node an input face, on which all patches below it stand?
 [[nodiscard]] inline bool is_input_face(const Hierarchy& hierarchy, std::size_t i) {

@@ -19,9 +19,10 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <vector>
 
 #include <glm/vec3.hpp>
+
+#include <radiosity/support/big_array.hpp>
 
 namespace radiosity {
 
@@ -65,7 +66,7 @@ struct Link {
 };
 static_assert(sizeof(Link) == 24);  // the solver reads all links in each iteration
 
-using Links = std::vector<Link>;
+using Links = BigArray<Link>;
 
 // The link of a record that holds one (LinkSchedule::arrange).
 [[nodiscard]] inline const Link& link_of(const Link& link) { return link; }

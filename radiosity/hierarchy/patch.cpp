@@ -26,7 +26,7 @@ namespace detail {
 // polynomials of degree 2n-1 on parallelograms. The weights use the area element along `normal`.
 template <std::size_t N>
 void append_gauss(const std::array<glm::dvec3, 4>& corner, const glm::dvec3& normal, const std::array<double, N>& x,
-                  const std::array<double, N>& w, std::vector<QuadraturePoint>& out) {
+                  const std::array<double, N>& w, BigArray<QuadraturePoint>& out) {
   const auto& [a, b, c, d] = corner;
   if (out.empty()) { out.reserve(N * N); }  // most patches are one piece, and a run has many patches
   for (std::size_t i = 0; i < N; ++i) {
@@ -102,8 +102,9 @@ HALFLIGHT_INLINE void append_rules(Patch& patch, const Polygon& q) {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE Patch make_patch(Polygon contour, std::vector<Polygon> parts) {
+HALFLIGHT_INLINE Patch make_patch(Polygon contour, std::vector<Polygon> parts, std::pmr::memory_resource* arrays) {
   Patch patch;
+  for (BigArray<QuadraturePoint>* const rule : {&patch.rule2, &patch.rule3, &patch.rule4}) { *rule = BigArray<QuadraturePoint>(arrays); }
   patch.contour = std::move(contour);
   patch.parts = std::move(parts);
   for (const glm::dvec3& p : patch.contour) { patch.centre += p / static_cast<double>(patch.contour.size()); }

@@ -3,11 +3,12 @@
 
 // The geometry of one patch as the form factor and the visibility test want it: contour, plane, size, and the
 // points of quadrature rules. One is made of every node of the hierarchy and lives until the end of the run (Patches, occlusion.hpp),
-// because the node takes part in many links: about 1.4 kB for a quadrilateral, 280 bytes here and the rest its corners and points, where
+// because the node takes part in many links: about 1.4 kB for a quadrilateral, 304 bytes here and the rest its corners and points, where
 // the node itself, with the centre, normal and area of paper 4.2, takes 104. So patches are most of what a run holds while it has few
 // links a node.
 
 #include <array>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/support/big_array.hpp>
 
 namespace radiosity {
 
@@ -31,7 +33,7 @@ struct Patch {
   double radius = 0.0;                               // greatest distance of a corner from the centre
   glm::dvec3 centroid{0.0};                          // of the area
   glm::dmat3 inverse_inertia{0.0};                   // inverse, in the plane, of the mean of (x - centroid)(x - centroid)'
-  std::vector<QuadraturePoint> rule2, rule3, rule4;  // 2x2, 3x3 and 4x4 Gauss points on each quadrilateral piece
+  BigArray<QuadraturePoint> rule2, rule3, rule4;  // 2x2, 3x3 and 4x4 Gauss points on each quadrilateral piece
   bool bent = false;                                 // its surface is curved, and normals turn over it:
   glm::dmat3 bend{0.0};                              // by this, a length (bend.hpp)
   std::vector<Polygon> parts;                        // convex, of a contour that is not; holes are reached by bridges, run through twice
@@ -56,10 +58,11 @@ inline constexpr std::array<double, 4> gauss4_w{0.17392742256872692869, 0.326072
 
 // The patch with this contour; one that is not convex comes with its convex parts. A contour of no area gives a patch of area 0 without
 // quadrature points.
-[[nodiscard]] Patch make_patch(Polygon contour, std::vector<Polygon> parts = {});
+[[nodiscard]] Patch make_patch(Polygon contour, std::vector<Polygon> parts = {}, std::pmr::memory_resource* arrays = nullptr);
 
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY
 #include <radiosity/hierarchy/patch.cpp>
+#include <radiosity/support/big_array.hpp>
 #endif

@@ -137,8 +137,8 @@ HALFLIGHT_INLINE std::vector<std::vector<brep::FaceId>> input_faces(const Surfac
   return result;
 }
 
-HALFLIGHT_INLINE Hierarchy make_roots(std::vector<Surface>& surfaces) {
-  Hierarchy hierarchy;
+HALFLIGHT_INLINE Hierarchy make_roots(std::vector<Surface>& surfaces, std::pmr::memory_resource* arrays) {
+  Hierarchy hierarchy(arrays);
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
     for (const std::vector<brep::FaceId>& parts : input_faces(surfaces[o])) {
       const auto root = static_cast<std::uint32_t>(hierarchy.size());

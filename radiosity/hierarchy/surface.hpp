@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,7 +75,7 @@ struct SurfaceResult {
 [[nodiscard]] std::vector<std::vector<brep::FaceId>> input_faces(const Surface& surface);
 
 // One root for each input face of each surface (paper 4.2); below that of a face in convex parts are the leaves of the parts.
-[[nodiscard]] Hierarchy make_roots(std::vector<Surface>& surfaces);
+[[nodiscard]] Hierarchy make_roots(std::vector<Surface>& surfaces, std::pmr::memory_resource* arrays = nullptr);
 
 // Makes the leaf of a face, a node with this index and parent, and enters it in the face.
 [[nodiscard]] Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, std::uint32_t parent, std::uint32_t index);

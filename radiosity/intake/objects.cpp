@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/intake/objects.hpp>
+#include <radiosity/intake/shells.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,33 +27,23 @@
 namespace radiosity::intake {
 namespace detail {
 
-enum class Role : unsigned char { surface, solid, room };
-
-struct Component {
-  std::vector<std::uint32_t> faces;
-  raycast::Box box;
-  bool closed = true;
-  double volume = 0.0;  // of a closed one; negative when it looks inwards
-  Role role = Role::surface;
-};
-
 class ObjectMaker {
  public:
   ObjectMaker(Working& mesh, const Topology& topology, const PolygonView& input, std::span<const Material> materials,
               const IntakeOptions& options)
-      : mesh_(mesh), topology_(topology), input_(input), materials_(materials), options_(options) {
+      : mesh_(mesh), topology_(topology), input_(input), options_(options), shells_(mesh, topology, materials, options) {
     local_.assign(topology.vertices, none);
-    find_components();
+    shells_.find_roles();
   }
 
   MadeObjects run() {
-    find_roles();
     struct Group {
       std::vector<const Component*> closed;
       std::vector<std::uint32_t> front, back;
     };
     std::vector<Group> groups(std::max<std::size_t>(input_.names.size(), 1));
-    for (const Component& component : components_) {
+    for (const Component& component : shells_.components()) {
+      if (component.role == Role::cavity || component.role == Role::nothing) { continue; }
       const std::uint32_t g = mesh_.faces[component.faces[0]].group;
       if (g >= groups.size()) { groups.resize(g + 1); }
       if (component.role != Role::surface) {
@@ -71,7 +60,11 @@ class ObjectMaker {
     }
     for (std::uint32_t g = 0; g < groups.size(); ++g) {
       const std::size_t first = objects_.size();
-      for (const Component* const component : groups[g].closed) { add(component->faces, component->role, false); }
+      for (const Component* const component : groups[g].closed) {
+        std::vector<std::uint32_t> faces = component->faces;
+        faces.insert(faces.end(), component->cavities.begin(), component->cavities.end());
+        add(faces, component->role, false);
+      }
       add_surface(groups[g].front, false);
       add_surface(groups[g].back, true);
       const std::string name = g < input_.names.size() ? input_.names[g] : std::string("mesh");
@@ -83,96 +76,7 @@ class ObjectMaker {
   }
 
  private:
-  void find_components() {
-    components_.resize(topology_.components);
-    for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
-      Component& component = components_[topology_.component[f]];
-      component.faces.push_back(f);
-      for (const std::uint32_t v : mesh_.faces[f].corners) { component.box.extend(mesh_.positions[v]); }
-      for (std::uint32_t s = topology_.first[f]; s < topology_.first[f + 1]; ++s) {
-        component.closed = component.closed && topology_.mate[s] != none;
-      }
-    }
-    for (Component& component : components_) {
-      bounds_.extend(component.box.lo);
-      bounds_.extend(component.box.hi);
-      if (!component.closed) { continue; }
-      for (const std::uint32_t f : component.faces) {
-        const std::span<const glm::dvec3> p = mesh_.outline(mesh_.faces[f]);
-        component.volume += glm::dot(p[0] - component.box.centre(), brep::vector_area(p)) / 3.0;
-      }
-      const double size = component.box.diameter();
-      component.role = std::abs(component.volume) > 1e-9 * size * size * size ? Role::solid : Role::surface;
-    }
-  }
-
-  // The part of all directions from the point in which the shell is seen from behind: 1 inside, 0 outside (van Oosterom, Strackee 1983).
-  [[nodiscard]] bool holds(const Component& shell, const glm::dvec3& point) {
-    const auto beyond = [&](int k) { return point[k] < shell.box.lo[k] || point[k] > shell.box.hi[k]; };
-    if (beyond(0) || beyond(1) || beyond(2)) { return false; }
-    double angle = 0.0;
-    for (const std::uint32_t f : shell.faces) {
-      const std::span<const glm::dvec3> p = mesh_.outline(mesh_.faces[f]);
-      for (std::size_t i = 2; i < p.size(); ++i) {
-        const glm::dvec3 a = p[0] - point, b = p[i - 1] - point, c = p[i] - point;
-        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        const double below = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
-        angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)), below);
-      }
-    }
-    return std::abs(angle) > 2.0 * std::numbers::pi;
-  }
-
-  // The innermost shell that holds all these points.
-  [[nodiscard]] Component* innermost(std::span<const glm::dvec3> points, const Component* but) {
-    Component* best = nullptr;
-    for (Component& shell : components_) {
-      if (shell.role == Role::surface || &shell == but || (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume))) {
-        continue;
-      }
-      if (std::all_of(points.begin(), points.end(), [&](const glm::dvec3& p) { return holds(shell, p); })) { best = &shell; }
-    }
-    return best;
-  }
-
-  void find_roles() {
-    constexpr std::size_t most_lamps = 64, most_points = 16;
-    std::vector<Component*> rooms;
-    std::size_t lamps = 0;
-    for (Component& component : components_) {
-      std::vector<glm::dvec3> points;
-      for (const std::uint32_t f : component.faces) {
-        if (points.size() < most_points && !is_black(materials_[mesh_.faces[f].material].emission)) {
-          points.push_back(brep::centroid(mesh_.outline(mesh_.faces[f])));
-        }
-      }
-      if (points.empty() || ++lamps > most_lamps) { continue; }
-      rooms.push_back(innermost(points, &component));
-      if (component.volume < 0.0 && component.role == Role::solid) { rooms.push_back(&component); }  // it shines inwards
-    }
-    for (const glm::dvec3& eye : options_.eyes) { rooms.push_back(innermost(std::span(&eye, 1), nullptr)); }
-    for (Component* const room : rooms) {
-      if (room != nullptr) { room->role = Role::room; }
-    }
-    for (Component& component : components_) {
-      const bool inwards = component.volume < 0.0;
-      if (component.role == Role::surface || (component.role == Role::room) == inwards) { continue; }
-      std::uint32_t first = none;
-      for (const std::uint32_t f : component.faces) { first = std::min(first, mesh_.faces[f].polygon); }
-      mesh_.changed(inwards ? ChangeKind::inside_out : ChangeKind::room, first);
-      component.volume = -component.volume;
-      turned_.resize(components_.size());
-      turned_[static_cast<std::size_t>(&component - components_.data())] = true;
-    }
-    for (Component& component : components_) {  // what is beyond the walls of a room would be buried
-      if (component.role != Role::room) { continue; }
-      const raycast::Box box = component.box.grown(mesh_.tolerance);
-      const bool all = glm::min(box.lo, bounds_.lo) == box.lo && glm::max(box.hi, bounds_.hi) == box.hi;
-      if (!all) { component.role = Role::surface; }
-    }
-  }
-
-  [[nodiscard]] bool is_turned(std::uint32_t face) const { return !turned_.empty() && turned_[topology_.component[face]]; }
+  [[nodiscard]] bool is_turned(std::uint32_t face) const { return shells_.turned(topology_.component[face]); }
 
   [[nodiscard]] bool has_back(const Face& face) const {
     return options_.two_sided || face.mixed || (face.material < input_.two_sided.size() && input_.two_sided[face.material] != 0);
@@ -242,11 +146,8 @@ class ObjectMaker {
   Working& mesh_;
   const Topology& topology_;
   const PolygonView& input_;
-  std::span<const Material> materials_;
   const IntakeOptions& options_;
-  std::vector<Component> components_;
-  std::vector<bool> turned_;  // of a component
-  raycast::Box bounds_;
+  Shells shells_;
   std::vector<std::uint32_t> local_;  // of a vertex, in the object that is made
   std::vector<SceneObject> objects_;
   std::vector<SheetOrigin> sheets_;

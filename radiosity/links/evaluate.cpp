@@ -226,7 +226,7 @@ void evaluate_in_order(const Evaluation& by, std::size_t count, EvaluateResult& 
   }
 }
 
-HALFLIGHT_INLINE EvaluateResult make_links(const Evaluation& by, const std::vector<NodePair>& pairs, Links& links) {
+HALFLIGHT_INLINE EvaluateResult make_links(const Evaluation& by, const NodePairs& pairs, Links& links) {
   EvaluateResult result;
   links.clear();
   links.resize(pairs.size());  // each at its place until all of a batch are known

@@ -21,6 +21,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/scene/options.hpp>
+#include <radiosity/support/big_array.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
@@ -79,7 +80,7 @@ struct MeasuredLink {
   LinkVariation variation;
 };
 
-using MeasuredLinks = std::vector<MeasuredLink>;
+using MeasuredLinks = BigArray<MeasuredLink>;
 
 [[nodiscard]] inline const Link& link_of(const MeasuredLink& measured) { return measured.link; }
 
@@ -159,7 +160,7 @@ struct Evaluation {
 };
 
 // Makes the links of these pairs, in their order, but for those that carry nothing.
-[[nodiscard]] EvaluateResult make_links(const Evaluation& by, const std::vector<NodePair>& pairs, Links& links);
+[[nodiscard]] EvaluateResult make_links(const Evaluation& by, const NodePairs& pairs, Links& links);
 
 // Measures the links from `first` on and removes those that carry nothing, unless they may carry something all the same
 // (LinkVariation::sampling).

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/support/big_array.hpp>
 
 namespace radiosity {
 
@@ -30,7 +31,7 @@ class LinkSchedule {
 
   // Moves the links of a block together, in their order. A record is a Link, or link_of(record) tells that of a larger one.
   template <class Record>
-  static void arrange(std::size_t nodes, std::vector<Record>& links) {
+  static void arrange(std::size_t nodes, BigArray<Record>& links) {
     if (links.size() < few) { return; }
     const std::vector<std::uint8_t> tile = tiles_of(nodes, links);
     const auto block = [&](const Record& record) { return block_of(tile, link_of(record)); };
@@ -58,7 +59,7 @@ class LinkSchedule {
 
   // Bounds between tiles lie where the running count of link ends passes a multiple of the mean.
   template <class Record>
-  static std::vector<std::uint8_t> tiles_of(std::size_t nodes, const std::vector<Record>& links) {
+  static std::vector<std::uint8_t> tiles_of(std::size_t nodes, const BigArray<Record>& links) {
     std::vector<std::uint32_t> ends(nodes, 0);
     for (const Record& record : links) {
       ++ends[link_of(record).p];
@@ -78,7 +79,7 @@ class LinkSchedule {
   }
   // Where the links of each block begin, once they are arranged.
   template <class Record>
-  static std::vector<std::size_t> first_of_blocks(const std::vector<std::uint8_t>& tile, const std::vector<Record>& links) {
+  static std::vector<std::size_t> first_of_blocks(const std::vector<std::uint8_t>& tile, const BigArray<Record>& links) {
     std::vector<std::size_t> first(tiles * tiles + 1, 0);
     for (const Record& record : links) { ++first[block_of(tile, link_of(record)) + 1]; }
     std::partial_sum(first.begin(), first.end(), first.begin());

@@ -20,6 +20,7 @@
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/support/big_array.hpp>
 
 namespace radiosity {
 
@@ -67,10 +68,10 @@ class Pooling {
 };
 
 // All rays between nodes that cast some.
-[[nodiscard]] HALFLIGHT_INLINE std::vector<RayPart> parts_of(const DiscreteScene& scene, const StoredRays& rays, RayLinks& result) {
+[[nodiscard]] HALFLIGHT_INLINE BigArray<RayPart> parts_of(const DiscreteScene& scene, const StoredRays& rays, RayLinks& result) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const Pooling pooling{scene, rays};
-  std::vector<RayPart> parts;
+  BigArray<RayPart> parts(scene.budget.arrays);
   parts.reserve(rays.size());
   for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
     std::size_t carried = 0;
@@ -112,7 +113,7 @@ class Pooling {
 
 // The link of parts that are all of the same pair.
 [[nodiscard]] HALFLIGHT_INLINE Link pooled_link(const DiscreteScene& scene, const std::vector<std::uint32_t>& caster,
-                                                const std::vector<RayPart>& parts, std::span<const std::uint32_t> of) {
+                                                const BigArray<RayPart>& parts, std::span<const std::uint32_t> of) {
   const std::uint32_t p = parts[of.front()].p;
   const std::uint32_t q = parts[of.front()].q;
   double sum = 0.0;
@@ -158,6 +159,7 @@ HALFLIGHT_INLINE double rays_per_node(double epsilon) { return std::clamp(12.8 /
 HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const StoredRays& rays, const std::vector<Caster>& casters) {
   const Hierarchy& hierarchy = scene.hierarchy;
   RayLinks result;
+  result.links = Links(scene.budget.arrays);
   result.rays = rays.size();
   result.share.assign(hierarchy.size(), 0.0);
   result.density = detail::densities(scene, rays);
@@ -166,12 +168,12 @@ HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const Store
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
     if (result.caster[i] == no_node && hierarchy[i].parent != no_node) { result.caster[i] = result.caster[hierarchy[i].parent]; }
   }
-  const std::vector<detail::RayPart> parts = detail::parts_of(scene, rays, result);
+  const BigArray<detail::RayPart> parts = detail::parts_of(scene, rays, result);
   // Parts by p, then by q.
   std::vector<std::size_t> first(hierarchy.size() + 1, 0);
   for (const detail::RayPart& part : parts) { ++first[part.p + 1]; }
   for (std::size_t i = 0; i < hierarchy.size(); ++i) { first[i + 1] += first[i]; }
-  std::vector<std::uint32_t> order(parts.size());
+  BigArray<std::uint32_t> order(parts.size(), scene.budget.arrays);
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
   for (std::uint32_t k = 0; k < parts.size(); ++k) { order[next[parts[k].p]++] = k; }
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {

@@ -28,7 +28,8 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE StoredRays::StoredRays(const std::vector<std::uint32_t>& counts) : first_(counts.size() + 1, 0) {
+HALFLIGHT_INLINE StoredRays::StoredRays(const std::vector<std::uint32_t>& counts, std::pmr::memory_resource* arrays)
+    : first_(counts.size() + 1, 0), rays_(arrays) {
   for (std::size_t i = 0; i < counts.size(); ++i) { first_[i + 1] = first_[i] + counts[i]; }
   rays_.resize(first_.back());
 }
@@ -138,7 +139,7 @@ HALFLIGHT_INLINE void cast_from(const DiscreteScene& scene, const LeafLocator& l
 }  // namespace detail
 
 HALFLIGHT_INLINE StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts) {
-  StoredRays rays{counts};
+  StoredRays rays{counts, scene.budget.arrays};
   const std::vector<std::uint64_t> keys = detail::keys_of(scene.hierarchy);
   constexpr std::size_t batch = 1 << 12;  // nodes between two looks at the cancel flag
   for (std::size_t first = 0; first < counts.size() && !scene.control.cancelled(); first += batch) {

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,7 @@ struct StoredRay {
 class StoredRays {
  public:
   StoredRays() = default;
-  explicit StoredRays(const std::vector<std::uint32_t>& counts);
+  explicit StoredRays(const std::vector<std::uint32_t>& counts, std::pmr::memory_resource* arrays = nullptr);
 
   [[nodiscard]] std::span<const StoredRay> of(std::size_t node) const { return std::span(rays_).subspan(first_[node], count(node)); }
   [[nodiscard]] std::span<StoredRay> of(std::size_t node) { return std::span(rays_).subspan(first_[node], count(node)); }
@@ -42,7 +43,7 @@ class StoredRays {
 
  private:
   std::vector<std::size_t> first_{0};
-  std::vector<StoredRay> rays_;
+  BigArray<StoredRay> rays_;
 };
 
 // 400 million rays are 60 GB when links are made of them; a run that asks for more is refused rather than left to exhaust the memory.
@@ -56,4 +57,5 @@ inline constexpr std::uint64_t ray_limit = 400'000'000;
 
 #ifdef HALFLIGHT_HEADER_ONLY
 #include <radiosity/rays/stored_rays.cpp>
+#include <radiosity/support/big_array.hpp>
 #endif

@@ -37,6 +37,8 @@ namespace detail {
 
 HALFLIGHT_INLINE BfState::BfState(DiscreteScene& of) : scene{of}, proofs{of.surfaces, of.hierarchy} {
   constexpr double first_epsilon = 0.25;
+  links = MeasuredLinks(scene.budget.arrays);
+  result.links = Links(scene.budget.arrays);
   result.refined = refine(scene, {first_epsilon, 1e-3, 0.0});
   for (const auto [p, q, list] : std::exchange(result.refined.linked, {})) { links.push_back({{p, q}, list, {}}); }
   double scene_area = 0.0;
@@ -78,7 +80,7 @@ HALFLIGHT_INLINE bool evaluate_generation(BfState& state) {
 HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
   const DiscreteScene& scene = state.scene;
   BfResult& result = state.result;
-  Links links;  // packed, for the operator
+  Links links(scene.budget.arrays);  // packed, for the operator
   links.reserve(state.links.size());
   for (const MeasuredLink& l : state.links) { links.push_back(l.link); }
   Transport transport{scene.hierarchy, links, scene.exposure, scene.threads};
@@ -100,7 +102,9 @@ HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
 
 // Pairs that come out of what is split, and have not been looked at.
 struct OpenPairs {
-  std::vector<NodePair> pairs;
+  explicit OpenPairs(std::pmr::memory_resource* arrays) : pairs(arrays) {}
+
+  NodePairs pairs;
   std::vector<float> blocked;  // of each pair, as in LinkVariation
 
   void add(const NodePair& pair, float segments) {
@@ -173,7 +177,7 @@ HALFLIGHT_INLINE void link_pairs(BfState& state, OpenPairs open) {
           return face_away(a, b) ? Decision::drop : f_rule(a, b, 1.0, state.min_area);
         },
         [](std::size_t, const raycast::OccluderList&, Decision&) {});
-    OpenPairs parts;  // of faces that come out of their clusters in too many to be linked
+    OpenPairs parts{state.scene.budget.arrays};  // of faces that come out of their clusters in too many to be linked
     for (std::size_t i = 0; i < open.pairs.size(); ++i) {
       if (decisions[i] < first_seeing) { continue; }
       const auto [p, q, list] = open.pairs[i];
@@ -192,7 +196,7 @@ HALFLIGHT_INLINE void link_pairs(BfState& state, OpenPairs open) {
 }
 
 HALFLIGHT_INLINE void split(BfState& state, const BfErrors& errors, const SplitChoice& choice, double allowed) {
-  OpenPairs open;
+  OpenPairs open{state.scene.budget.arrays};
   split_leaves(state, choice, open);
   const std::vector<LinkError>& of_links = errors.links.links;
   const auto carry = std::count_if(of_links.begin(), of_links.end(), [](const LinkError& e) { return e.sum() > 0.0f; });

@@ -29,7 +29,8 @@ HALFLIGHT_INLINE DiscreteScene::DiscreteScene(const Scene& scene, unsigned threa
       control{controlled_by},
       budget{within},
       objects{std::vector<raycast::PlacedObject>{}},
-      patches{surfaces, hierarchy},
+      hierarchy(within.arrays),
+      patches{surfaces, hierarchy, within.arrays},
       evaluator{view(), exposure, shown, seed} {}
 
 HALFLIGHT_INLINE void DiscreteScene::take(Prepared prepared) {

@@ -34,7 +34,7 @@ namespace detail {
 
 // Where refinement begins: with the pair of the root cluster with itself, or all pairs of input faces. In `inner` the input faces whose own
 // parts may face each other.
-HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const ProofOracle& proofs, Linked linked, std::vector<NodePair>& pairs,
+HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const ProofOracle& proofs, Linked linked, NodePairs& pairs,
                                   RefineResult& result) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const auto count = static_cast<std::uint32_t>(hierarchy.size());
@@ -64,7 +64,7 @@ HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const ProofOracle&
 }
 
 // Which roots send light: those that emit, and those that reflect and are reached, over pairs that may be linked, from one that sends.
-HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, const std::vector<NodePair>& pairs,
+HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, const NodePairs& pairs,
                                                  const std::vector<Decision>& decisions) {
   const Hierarchy& roots = scene.hierarchy;
   std::vector<bool> sends(roots.size(), false), reflects(roots.size(), false);
@@ -96,8 +96,9 @@ struct FRefinement {
         shown{of.hierarchy, [&](std::size_t i) { return of.hierarchy[i].area; }},
         light{of.input, of.view(), shown, to.light_epsilon, of.seed, proofs.buried()},
         min_area{to.min_area * light.scene_area()},
-        light_min_area{0.25 * min_area * finer_for_light(to) * finer_for_light(to)},
-        measured{of, proofs.buried(), light.scene_area(), to.light_epsilon, light_min_area / 16.0} {}
+  double light_min_area;
+  MeasuredLight measured;
+  NodePairs pairs;  // open
 
   // Whether so many may be made; if not, the result says what they would need.
   [[nodiscard]] bool few_enough(std::uint64_t links) {
@@ -118,7 +119,7 @@ struct FRefinement {
   double min_area;  // in the squared unit of the frame
   double light_min_area;
   MeasuredLight measured;
-  std::vector<NodePair> pairs;  // open
+  NodePairs pairs;  // open
   std::vector<bool> stuck;      // leaves that the BRep refused to split
   RefineResult result;
 };
@@ -213,7 +214,7 @@ HALFLIGHT_INLINE void tell(const FRefinement& state, const std::vector<Decision>
 
 // The pairs of the children of `split` with the other node, or with each other.
 HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, std::uint32_t other, std::uint32_t list,
-                              std::vector<NodePair>& pairs) {
+                              NodePairs& pairs) {
   const std::uint32_t first = hierarchy[split].first_child;
   const std::uint32_t last = first + hierarchy[split].child_count;
   for (std::uint32_t a = first; a < last; ++a) {
@@ -227,7 +228,7 @@ HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, s
 }
 
 // Links the pairs for which that was decided, and replaces those that are split by the pairs of the children.
-HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Decision>& decisions, std::vector<NodePair>& next) {
+HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Decision>& decisions, NodePairs& next) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   for (std::size_t i = 0; i < state.pairs.size(); ++i) {
     const auto [p, q, list] = state.pairs[i];
@@ -247,7 +248,7 @@ HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Deci
 }
 
 // The children of a concave curved face see each other.
-HALFLIGHT_INLINE void descend_inner(FRefinement& state, std::vector<NodePair>& next) {
+HALFLIGHT_INLINE void descend_inner(FRefinement& state, NodePairs& next) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   std::vector<std::uint32_t> still_inner;
   for (const std::uint32_t p : state.result.inner) {
@@ -284,7 +285,7 @@ HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& finen
     if (!detail::split_leaves(state, decisions)) { break; }
     const std::optional<std::uint64_t> opened = detail::count_opened(state, decisions);
     if (!opened) { break; }
-    std::vector<NodePair> next;
+    NodePairs next(scene.budget.arrays);
     next.reserve(*opened);
     detail::link_or_descend(state, decisions, next);
     detail::descend_inner(state, next);

@@ -52,7 +52,7 @@ HALFLIGHT_INLINE std::optional<Failure> build(detail::Run& run) {
   audit.warnings = warnings(scene.input, scene.frame, boundaries);
   if (const std::size_t left = cut_at_walls(boundaries, scene.objects.diameter())) { audit.warnings.push_back(warning_of_uncut(left)); }
   cut_long_faces(boundaries, options.min_area);
-  scene.hierarchy = make_roots(boundaries);
+  scene.hierarchy = make_roots(boundaries, scene.budget.arrays);
   std::uint64_t faces = 0;
   std::uint64_t lamps = 0;
   for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {

@@ -27,6 +27,7 @@ namespace detail {
 HALFLIGHT_INLINE Run::Run(const Scene& input, const Options& with, const Control& control, const MemoryBudget& within)
     : options{with}, scene{input, thread_count(with.threads), with.seed, control, within} {
   if (options.meshing) { scene.meshing = options.meshing; }
+  solution.links = Links(within.arrays);
   solution.audit.threads = scene.threads;
   solution.audit.seed = options.seed;
 }
@@ -35,6 +36,7 @@ HALFLIGHT_INLINE std::optional<Failure> Run::prepare_scene() {
   PrepareResult preparation = prepare(scene.input, options.shortcuts);
   if (!preparation.prepared) { return Failure{Failure::Kind::invalid_scene, std::move(preparation.faults)}; }
   scene.take(std::move(*preparation.prepared));
+  if (options.caster) { scene.objects.ask(options.caster(scene.objects, scene.frame)); }
   solution.frame = scene.frame;
   solution.audit.channels = scene.plan.channels;
   return std::nullopt;

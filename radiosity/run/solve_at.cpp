@@ -34,6 +34,7 @@ HALFLIGHT_INLINE Outcome solve_at(const Scene& scene, const Options& options, co
 
 HALFLIGHT_INLINE Outcome solve_within_memory(const Scene& scene, const Options& options, const Control& control, std::uint64_t held) {
   MemoryBudget budget;
+  budget.arrays = options.arrays;
   if (options.memory) { budget.allowed = *options.memory - std::min(*options.memory, held); }
   std::uint32_t solved = 0;  // generations of BF-refinement
   budget.solved = &solved;

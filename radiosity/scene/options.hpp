@@ -6,10 +6,16 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory_resource>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace raycast {
+class Scene;
+struct OtherCaster;
+}  // namespace raycast
 
 namespace radiosity {
 
@@ -79,6 +85,9 @@ struct Options {
   // regular refinement, and at most so many such edges are imprinted on each. Needs shared topology and no strategy of the user.
   std::uint32_t discontinuities = 0;
 
+  // Makes the ray caster that answers in place of the library's own (raycast::Scene::ask), for objects that are compiled in this frame.
+  std::function<raycast::OtherCaster(const raycast::Scene&, const Frame&)> caster;
+
   // Input faces from which on clusters are built above them; below, all pairs of input faces are looked at.
   std::uint32_t cluster_from = 300;
 
@@ -98,6 +107,9 @@ struct Options {
   // audit.shortage, or, when none is complete, without (Failure::Kind::out_of_memory): BF-refinement and error targets have one,
   // F-refinement has not.
   std::optional<std::uint64_t> memory;
+  // Where the arrays lie that grow with nodes, links, pairs and rays, those of the Solution among them (big_array.hpp); null: on the heap. It
+  // must outlive the Solution, and is used by several threads at once. What is left on the heap: BReps, contours, the mesh.
+  std::pmr::memory_resource* arrays = nullptr;
   std::uint64_t seed = 1;
 };
 

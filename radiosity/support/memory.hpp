@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <memory_resource>
 #include <optional>
 #include <string>
 
@@ -37,6 +38,7 @@ struct MemoryBudget {
   bool a_posteriori = false;  // BF-refinement keeps the error of each link (MeasuredLink, evaluate.hpp)
   // BF-refinement ends with the solution of this generation: memory ran out in the next one.
   std::uint32_t last_generation = std::numeric_limits<std::uint32_t>::max();
+  std::pmr::memory_resource* arrays = nullptr;  // where big arrays lie (big_array.hpp)
   std::uint32_t* solved = nullptr;  // where it writes how many generations have a solution
 
   // What of a run counts, at some moment.

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include <raycast/scene.hpp>
@@ -17,6 +18,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/support/big_array.hpp>
 #include <radiosity/visibility/scene_view.hpp>
 
 namespace radiosity {
@@ -25,7 +27,8 @@ namespace radiosity {
 class Patches {
  public:
   // The references must outlive the patches; the hierarchy may grow between two calls of extend().
-  Patches(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy) : surfaces_{&surfaces}, hierarchy_{&hierarchy} {}
+  Patches(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, std::pmr::memory_resource* arrays = nullptr)
+      : surfaces_{&surfaces}, hierarchy_{&hierarchy}, patches_(arrays) {}
 
   void extend(unsigned threads);
   [[nodiscard]] const Patch& operator[](std::size_t i) const { return patches_[i]; }
@@ -42,11 +45,13 @@ class Patches {
  private:
   const std::vector<Surface>* surfaces_;
   const Hierarchy* hierarchy_;
-  std::vector<Patch> patches_;
+  BigArray<Patch> patches_;
 };
 
 class OccluderLists {
  public:
+  explicit OccluderLists(std::pmr::memory_resource* arrays = nullptr) : words_(arrays) {}
+
   // Indices that stand for no list: none has been made, or it was too long to keep; nothing stands between; proven to exchange nothing, and
   // linked all the same.
   static constexpr std::uint32_t none = 0xffffffff, clear = 0xfffffffe, hidden = 0xfffffffd;
@@ -62,7 +67,7 @@ class OccluderLists {
   [[nodiscard]] std::size_t bytes() const { return words_.capacity() * sizeof(std::uint32_t); }
 
  private:
-  std::vector<std::uint32_t> words_;  // of each list: twice its length, plus 1 when no room is in the way; then the shapes
+  BigArray<std::uint32_t> words_;  // of each list: twice its length, plus 1 when no room is in the way; then the shapes
 };
 
 // A pair of nodes between which light may pass: it is still open whether they are linked, or that is decided and their exchange unknown.
@@ -70,6 +75,7 @@ struct NodePair {
   std::uint32_t p = 0, q = 0;
   std::uint32_t list = OccluderLists::none;  // of the pair, or of the pair of ancestors from which it comes
 };
+using NodePairs = BigArray<NodePair>;
 
 }  // namespace radiosity
 

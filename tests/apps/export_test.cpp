@@ -82,6 +82,28 @@ std::vector<std::string> lines_of(const std::string& text, const std::string& be
 
 }  // namespace
 
+// Positions of covered leaves lie 1e-4 of the scene's size deeper; those of GLB are floats.
+TEST_CASE("export: what is written stands, when it is read, as the scene did: up is up") {
+  const apps::SceneFile file = room();
+  const radiosity::Solution solution = solved(file.scene);
+  for (const std::string name : {"a.obj", "a.glb"}) {
+    INFO(name);
+    const std::string bytes = apps::export_format(name)->write(apps::solution_mesh(file, solution), 1.0);
+    apps::Model model = models::read(name, bytes);
+    std::vector<std::string> faults;
+    const auto read = apps::to_scene(std::move(model), models::format(name).up, {}, faults);
+    REQUIRE(read);
+    raycast::Box scene, again;
+    for (const auto& object : file.scene.objects) { scene.extend(object.shape->bounds()); }
+    for (const auto& object : read->scene.objects) {
+      if (object.name.find("studio") == std::string::npos && object.name != "room lamp") { again.extend(object.shape->bounds()); }
+    }
+    const double near = 5e-4 * scene.diameter();
+    CHECK(glm::length(scene.lo - again.lo) < near);
+    CHECK(glm::length(scene.hi - again.hi) < near);
+  }
+}
+
 // The reader of glTF has been written from the specification, so what it makes of our file others do, too.
 TEST_CASE("export: a GLB holds the triangles of the solution, their light, and the cameras") {
   const apps::SceneFile file = room();

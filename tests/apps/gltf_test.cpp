@@ -171,6 +171,37 @@ TEST_CASE("glTF: materials and cameras") {
   }
 }
 
+// A source of I W/sr sends 4 pi I; so must the small lamp that stands for it.
+TEST_CASE("glTF: lights without a surface become lamps of the same power, where they stand") {
+  Sample sample;
+  sample.nodes =
+      "[{\"mesh\": 0, \"scale\": [10, 10, 10], \"children\": [1, 2, 3]}, {\"translation\": [0, 0, 0.5], \"extensions\": "
+      "{\"KHR_lights_punctual\": {\"light\": 0}}}, {\"extensions\": {\"KHR_lights_punctual\": {\"light\": 1}}}, "
+      "{\"extensions\": {\"KHR_lights_punctual\": {\"light\": 2}}}]";
+  sample.more =
+      ", \"extensions\": {\"KHR_lights_punctual\": {\"lights\": [{\"type\": \"point\", \"intensity\": 40, \"color\": [1, 0.5, 0.25]}, "
+      "{\"type\": \"directional\"}, {\"type\": \"spot\", \"spot\": {}}]}}";
+  const apps::SceneFile file = models::scene("a.gltf", sample.embedded());
+  std::vector<const radiosity::SceneObject*> lamps;
+  for (const radiosity::SceneObject& object : file.scene.objects) {
+    if (!radiosity::is_black(file.scene.materials[object.material[0]].emission)) { lamps.push_back(&object); }
+  }
+  REQUIRE(lamps.size() == 2);
+  const radiosity::Color powers[] = {40.0 * radiosity::Color(1, 0.5, 0.25), radiosity::Color(1.0)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const raycast::Box box = lamps[i]->shape->bounds();
+    const double radius = 0.5 * box.size().x;
+    const radiosity::Color power = 4.0 * std::numbers::pi * radius * radius * file.scene.materials[lamps[i]->material[0]].emission;
+    CHECK(glm::length(power - 4.0 * std::numbers::pi * powers[i]) < 1e-9 * glm::length(power));
+  }
+  CHECK(glm::length(lamps[0]->shape->bounds().centre() - glm::dvec3(0, -5, 0)) < 1e-9);  // y was up
+  for (const char* part : {"directional lights are left out", "spot lights shine in all directions", "2 lights have no surface"}) {
+    CHECK(noted(file.notes, part));
+  }
+  sample.more = "";
+  CHECK(models::error("a.gltf", sample.embedded()).find("there is no such light") != std::string::npos);
+}
+
 TEST_CASE("glTF: what is wrong is told with its place") {
   const auto broken = [](const std::function<void(Sample&)>& change) {
     Sample sample;

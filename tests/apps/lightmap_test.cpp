@@ -22,6 +22,7 @@
 #include "apps/scene_file.hpp"
 #include "catch.hpp"
 #include "json.hpp"
+#include "texture.hpp"
 
 namespace {
 
@@ -40,19 +41,6 @@ radiosity::Solution solution_of(const radiosity::Scene& scene) {
   radiosity::Outcome outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   return std::move(*outcome.solution);
-}
-
-// Bilinear, between the middles of texels.
-glm::dvec3 sample(const apps::Picture& map, const glm::dvec2& at) {
-  const glm::dvec2 place = at * glm::dvec2(map.width, map.height) - 0.5;
-  glm::dvec3 sum(0.0);
-  for (int k = 0; k < 4; ++k) {
-    const double x = std::floor(place.x) + k % 2, y = std::floor(place.y) + k / 2;
-    REQUIRE((x >= 0.0 && y >= 0.0 && x < map.width && y < map.height));
-    const double weight = (1.0 - std::abs(place.x - x)) * (1.0 - std::abs(place.y - y));
-    sum += weight * glm::dvec3(map.radiosity[static_cast<std::size_t>(y) * map.width + static_cast<std::size_t>(x)]);
-  }
-  return sum;
 }
 
 // Three weights that sum to 1, evenly over a triangle.
@@ -77,7 +65,7 @@ double difference(const apps::ExportMesh& mesh, const apps::Picture& map, std::m
       const auto light = [&](std::uint32_t i) { return mesh.vertices[mesh.corners[c + i]].radiosity; };
       const auto place = [&](std::uint32_t i) { return glm::dvec2(mesh.coordinates[c + i]); };
       const double here = mix(weight, light(0), light(k - 1), light(k)).x,
-                   off = sample(map, mix(weight, place(0), place(k - 1), place(k))).x - here;
+                   off = texture::sample(map.radiosity, map.width, map.height, mix(weight, place(0), place(k - 1), place(k))).x - here;
       square += off * off;
       reference += here * here;
     }

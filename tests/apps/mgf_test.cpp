@@ -86,6 +86,38 @@ TEST_CASE("mgf: a chromaticity and its luminance come back from the colour") {
   CHECK(close(apps::intake::mgf::color_of(1.0 / 3, 1.0 / 3), glm::dvec3(1.0)));
 }
 
+// Chromaticities of Planck's law by the tabulated observer (CIE 15): illuminant A, 2856 K, 0.4476 0.4074; 6500 K, 0.3135 0.3237. The fitted
+// functions are off by 1 to 2 % of their maxima, which oscillates along the spectrum: .005 in x and y.
+TEST_CASE("mgf: spectra, temperatures and mixtures have the chromaticities that are known of them") {
+  const auto reflects = [](const std::string& color) {
+    const apps::Model model = models::read("a.mgf", square + "c red =\n cxy .5 .35\nc blue =\n cxy .25 .25\nc it =\n " + color +
+                                                        "\nm a =\n c it\n rd .5\nf a b c d\n");
+    REQUIRE(model.materials[0].reflectance);
+    return *model.materials[0].reflectance;
+  };
+  const auto of = [](double x, double y) { return 0.5 * apps::intake::mgf::color_of(x, y); };
+  CHECK(glm::length(reflects("cspec 300 900 .3 .3 .3") - glm::dvec3(0.5)) < 1e-12);  // white is even
+  CHECK(glm::length(reflects("cspec 380 780 0 .3 .9 .1") - reflects("cspec 380 780 0 3 9 1")) < 1e-12);
+  for (const auto& [kelvin, x, y] : {std::array{2856.0, 0.4476, 0.4074}, {6500.0, 0.3135, 0.3237}}) {
+    const glm::dvec3 xyz = apps::intake::mgf::xyz_of_temperature(kelvin);
+    const double sum = xyz.x + xyz.y + xyz.z;
+    CHECK(std::abs(xyz.x / sum - x) < 0.005);
+    CHECK(std::abs(xyz.y / sum - y) < 0.005);
+    CHECK(glm::length(reflects("cct " + std::to_string(kelvin)) - of(xyz.x / sum, xyz.y / sum)) < 1e-12);
+  }
+  // Weights are shares of the luminance, and colours of one luminance add.
+  CHECK(glm::length(reflects("cmix 3 red 1 blue") - 0.25 * (3.0 * of(0.5, 0.35) + of(0.25, 0.25))) < 1e-12);
+  CHECK(glm::length(reflects("cmix .2 red") - of(0.5, 0.35)) < 1e-12);
+
+  for (const char* const wrong : {"cct 0", "cct", "cspec 700 400 1 1", "cspec 400 700 1", "cspec 400 700 1 -1", "cspec 400 700 0 0 0",
+                                  "cspec 100 200 1 1", "cmix", "cmix 1", "cmix 1 red 2", "cmix 1 green", "cmix 0 red", "cmix -1 red 2 blue"}) {
+    INFO(wrong);
+    const apps::ModelResult result = models::result("a.mgf", square + "c red =\nc blue =\nc it =\n" + wrong + "\n");
+    REQUIRE_FALSE(result.errors.empty());
+    CHECK(result.errors[0].place.line == 12);
+  }
+}
+
 TEST_CASE("mgf: transforms act one after the other, the inner ones first, and copies are counted as by hand") {
   const apps::Model model = models::read("a.mgf", square +
                                                       "xf -rz 90 -t 10 0 0\nxf -s 2 -t 1 0 0\nf a b c\nxf\nxf\n"

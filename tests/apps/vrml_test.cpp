@@ -175,6 +175,9 @@ TEST_CASE("VRML: face sets with every binding, orders and hints") {
   CHECK(hinted("").materials[0].two_sided);
   CHECK_FALSE(hinted("vertexOrdering COUNTERCLOCKWISE shapeType SOLID").materials[0].two_sided);
   CHECK(noted(read("Group { Cube { } IndexedFaceSet { coordIndex [ 0 1 2 ] } }").notes, "face sets without coordinates"));
+  const std::string triangle = "Coordinate3 { point [ 0 0 0, 1 0 0, 0 1 0 ] } IndexedFaceSet { coordIndex [ 0 1 2 ] } }";
+  CHECK(noted(read("Group { ShapeHints { creaseAngle 0.6 } " + triangle).notes, "a creaseAngle changes how polygons are shaded"));
+  CHECK_FALSE(noted(read("Group { ShapeHints { creaseAngle 0 } " + triangle).notes, "creaseAngle"));
 }
 
 TEST_CASE("VRML: cameras, also those to choose from; lights become small lamps") {

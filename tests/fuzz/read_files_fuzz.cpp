@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: the input is read as a scene, as a mesh and as a model of every format. Nothing crashes; what is refused says why and
-// where; a mesh that is read and written reads back the same; what the intake makes of a model is a sound scene.
+// libFuzzer target: the input is read as a scene, as a mesh and as a model of every format, and as the light of a solution; with
+// --format=obj (scene, light, or the ending of another format) as that alone. Nothing crashes; what is refused says why and where; a mesh that
+// is read and written reads back the same; what the intake makes of a model is a sound scene; light that is read is written as it was.
 
 #include <algorithm>
 #include <cstdint>
@@ -14,8 +15,10 @@
 
 #include "apps/intake/model.hpp"
 #include "apps/intake/to_scene.hpp"
+#include "apps/light_file.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/scene_file.hpp"
+#include "apps/study/checksum.hpp"
 
 #include <brep/builder_input.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -57,13 +60,52 @@ void read_as_model(std::string_view text, const apps::ModelFormat& format) {
   require(!file || radiosity::faults(file->scene).empty(), "what was taken in is sound");
 }
 
+// The input is what stands between the key and the checksum: chance would find neither.
+void read_as_light(std::string_view body) {
+  static const radiosity::Scene scene =
+      apps::parse_scene("material lamp reflectance 0 emission 1\nsphere ball center 1 1 1 radius 1 material lamp\n").file->scene;
+  static const std::string head = [] {
+    const std::string file = apps::to_light_file({}, *radiosity::make_frame(scene), scene);
+    return file.substr(0, file.size() - 3 * 8 - 16);  // without counts and checksum
+  }();
+  const auto signed_file = [](std::string bytes) {
+    study::Checksum checksum;
+    checksum.add(bytes);
+    return bytes + checksum.text();
+  };
+  require(!apps::read_light_file(body, scene).light, "light without its checksum is refused");
+  const std::string bytes = signed_file(head + std::string(body));
+  const apps::LightResult result = apps::read_light_file(bytes, scene);
+  require(result.light.has_value() == result.reason.empty(), "either light or a reason");
+  if (result.light) { require(apps::to_light_file(result.light->mesh, result.light->frame, scene) == bytes, "light is written as it was read"); }
+}
+
+std::string_view asked_format;  // empty: all
+
+bool asked(std::string_view ending) { return asked_format.empty() || ending == asked_format || ending.substr(1) == asked_format; }
+
 }  // namespace
+
+extern "C" int LLVMFuzzerInitialize(const int* count, char*** arguments) {
+  for (int i = 1; i < *count; ++i) {
+    const std::string_view argument = (*arguments)[i];
+    if (argument.starts_with("--format=")) { asked_format = argument.substr(9); }
+  }
+  return 0;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const apps::SceneResult scene = apps::parse_scene(text);
-  require(scene.file.has_value() == scene.errors.empty(), "either a scene or errors");
-  for (const apps::MeshFormat* const format : apps::mesh_formats()) read_as_mesh(text, *format);
-  for (const apps::ModelFormat* const format : apps::model_formats()) read_as_model(text, *format);
+  if (asked("scene")) {
+    const apps::SceneResult scene = apps::parse_scene(text);
+    require(scene.file.has_value() == scene.errors.empty(), "either a scene or errors");
+  }
+  if (asked("light")) { read_as_light(text); }
+  for (const apps::MeshFormat* const format : apps::mesh_formats()) {
+    if (asked(format->ending)) { read_as_mesh(text, *format); }
+  }
+  for (const apps::ModelFormat* const format : apps::model_formats()) {
+    if (asked(format->ending)) { read_as_model(text, *format); }
+  }
   return 0;
 }

@@ -20,6 +20,7 @@
 
 #include "catch.hpp"
 #include "radiosity/polygon_soup.hpp"
+#include "texture.hpp"
 
 using soup::Soup;
 
@@ -203,18 +204,7 @@ TEST_CASE("bake: what cannot be solved is refused with a sentence; polygons that
 
 namespace {
 
-// As a graphics card reads a texture: bilinear, between the middles of texels.
-glm::dvec3 sample(const radiosity::Lightmap& map, const glm::dvec2& at) {
-  const glm::dvec2 place = at * glm::dvec2(map.width, map.height) - 0.5;
-  glm::dvec3 sum(0.0);
-  for (int k = 0; k < 4; ++k) {
-    const double x = std::floor(place.x) + k % 2, y = std::floor(place.y) + k / 2;
-    REQUIRE((x >= 0.0 && y >= 0.0 && x < map.width && y < map.height));
-    const double weight = (1.0 - std::abs(place.x - x)) * (1.0 - std::abs(place.y - y));
-    sum += weight * glm::dvec3(map.texels[static_cast<std::size_t>(y) * map.width + static_cast<std::size_t>(x)]);
-  }
-  return sum;
-}
+glm::dvec3 sample(const radiosity::Lightmap& map, const glm::dvec2& at) { return texture::sample(map.texels, map.width, map.height, at); }
 
 }  // namespace
 

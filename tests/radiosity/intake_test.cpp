@@ -254,6 +254,83 @@ TEST_CASE("intake: a closed shell around a lamp is a room, whichever way it look
   CHECK(measure(empty.take_in(options).objects).rooms == 1);
 }
 
+// Whether the lamp's middle is inside the shell is rounding's choice; that it shines into it is not.
+TEST_CASE("intake: a closed shell on whose walls lamps lie is a room, wherever it stands") {
+  const unsigned seed = 20261123;
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int round = 0; round < 40; ++round) {
+    const bool inwards = round % 2 == 0, face_up = round % 4 == 2;  // a lamp with its back to an inward shell
+    const double size = std::exp(6.0 * unit(random));
+    Soup soup, solid;
+    soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, round % 3 == 0 ? 3 : 1, inwards);  // by 2 a lamp's edge is one of three faces: no shell
+    soup::add_box(soup, {1, 1, 0}, {2, 2, 1});
+    std::vector<glm::dvec3> lamp{{1, 1, 3}, {1, 2, 3}, {2, 2, 3}, {2, 1, 3}};  // faces down
+    if (face_up) { std::reverse(lamp.begin(), lamp.end()); }
+    soup.polygon(lamp, 1);
+    // A lamp that lies on a table and faces up does not shine into it.
+    soup::add_box(solid, {0, 0, 0}, {4, 4, 3});
+    solid.polygon({{1, 1, 3}, {2, 1, 3}, {2, 2, 3}, {1, 2, 3}}, 1);
+    const glm::dvec3 by{10.0 * unit(random), 10.0 * unit(random), 10.0 * unit(random)};
+    for (Soup* const s : {&soup, &solid}) {
+      for (glm::dvec3& p : s->positions) { p = size * (p + by); }
+    }
+    CHECK(measure(soup.take_in().objects).rooms == 1);
+    CHECK(measure(solid.take_in().objects).rooms == 0);
+    CHECK(measure(solid.take_in().objects).solids == 1);
+  }
+}
+
+// What is in a solid is buried, so a room within walls must not be in one.
+TEST_CASE("intake: walls with a thickness around a room are a solid with a cavity") {
+  for (const bool outwards : {false, true}) {  // how the inner shell looked
+    Soup soup;
+    soup::add_box(soup, {-0.1, -0.1, -0.1}, {8.1, 4.1, 3.1}, 2);
+    soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, 1, !outwards);
+    soup::add_box(soup, {4.1, 0, 0}, {8, 4, 3}, 1, !outwards);
+    for (const double x : {1.0, 5.0}) {
+      soup::add_box(soup, {x, 1, 0.5}, {x + 1, 2, 1});
+      soup.polygon({{x, 1, 2.9}, {x, 2, 2.9}, {x + 1, 2, 2.9}, {x + 1, 1, 2.9}}, 1);
+    }
+    soup::add_box(soup, {9, 0, 0}, {10, 1, 1});  // outside
+    const radiosity::Intake intake = soup.take_in();
+    check_sound(soup, intake);
+    const soup::Measure m = measure(intake.objects);
+    CHECK(m.rooms == 0);
+    CHECK(m.solids == 4);
+    CHECK(m.volume == Approx(8.2 * 4.2 * 3.2 - 4.0 * 4.0 * 3.0 - 3.9 * 4.0 * 3.0 + 0.5 + 0.5 + 1.0).epsilon(1e-9));
+    CHECK(count_of(intake, ChangeKind::room) == (outwards ? 2 : 0));
+  }
+}
+
+// As programs write them that know no material with two sides.
+TEST_CASE("intake: walls that were given twice, for both sides, bury nothing") {
+  for (const bool inwards_first : {false, true}) {
+    const auto twice = [&](Soup& soup, const glm::dvec3& lo, const glm::dvec3& hi) {
+      soup::add_box(soup, lo, hi, 1, inwards_first);
+      soup::add_box(soup, lo, hi, 1, !inwards_first);
+    };
+    Soup room;
+    twice(room, {0, 0, 0}, {4, 4, 3});
+    twice(room, {1, 1, 0}, {2, 2, 1});
+    room.polygon({{1, 1, 2.9}, {1, 2, 2.9}, {2, 2, 2.9}, {2, 1, 2.9}}, 1);
+    const radiosity::Intake lit = room.take_in();
+    CHECK(measure(lit.objects).rooms == 1);
+    CHECK(measure(lit.objects).solids == 1);
+    CHECK(count_of(lit, ChangeKind::duplicate) == 24);
+    CHECK(lit.faces == 13);
+    // With something beyond them both sides are seen.
+    soup::add_box(room, {10, 0, 0}, {11, 1, 1});
+    const radiosity::Intake outside = room.take_in();
+    CHECK(measure(outside.objects).rooms == 0);
+    CHECK(measure(outside.objects).solids == 2);
+    CHECK(outside.faces == 6 + 6 + 6 + 6 + 1);
+    radiosity::Scene scene{room.materials, outside.objects};
+    CHECK(radiosity::faults(scene).empty());
+  }
+}
+
 TEST_CASE("intake: solids that touch in an edge or a vertex stay solids") {
   Soup soup;
   soup::add_box(soup, {0, 0, 0}, {1, 1, 1});

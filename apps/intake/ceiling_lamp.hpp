@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A lamp for a closed room in which nothing shines.
+
+#include <memory>
+
+#include <raycast/object.hpp>
+
+#include <radiosity/scene/scene.hpp>
+
+namespace apps {
+
+// A square close under the ceiling (z up) that looks down, where most of the air is around and below it. Null when no place was found.
+[[nodiscard]] std::shared_ptr<const raycast::Object> ceiling_lamp(const radiosity::Scene& scene, const radiosity::SceneObject& room);
+
+}  // namespace apps

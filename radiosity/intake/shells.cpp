@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/intake/shells.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/polygon.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/inline.hpp>
+
+namespace radiosity::intake {
+
+HALFLIGHT_INLINE Shells::Shells(Working& mesh, const Topology& topology, std::span<const Material> materials, const IntakeOptions& options)
+    : mesh_(mesh), materials_(materials), options_(options) {
+  components_.resize(topology.components);
+  for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
+    Component& component = components_[topology.component[f]];
+    component.faces.push_back(f);
+    for (const std::uint32_t v : mesh_.faces[f].corners) { component.box.extend(mesh_.positions[v]); }
+    for (std::uint32_t s = topology.first[f]; s < topology.first[f + 1]; ++s) {
+      component.closed = component.closed && topology.mate[s] != none;
+    }
+  }
+  for (Component& component : components_) {
+    bounds_.extend(component.box.lo);
+    bounds_.extend(component.box.hi);
+    if (!component.closed) { continue; }
+    for (const std::uint32_t f : component.faces) {
+      const std::span<const glm::dvec3> p = mesh_.outline(mesh_.faces[f]);
+      component.volume += glm::dot(p[0] - component.box.centre(), brep::vector_area(p)) / 3.0;
+    }
+    const double size = component.box.diameter();
+    component.role = std::abs(component.volume) > 1e-9 * size * size * size ? Role::solid : Role::surface;
+  }
+}
+
+HALFLIGHT_INLINE bool Shells::holds(const Component& shell, const glm::dvec3& point) const {
+  const auto beyond = [&](int k) { return point[k] < shell.box.lo[k] || point[k] > shell.box.hi[k]; };
+  if (beyond(0) || beyond(1) || beyond(2)) { return false; }
+  double angle = 0.0;
+  for (const std::uint32_t f : shell.faces) {
+    const std::span<const glm::dvec3> p = mesh_.outline(mesh_.faces[f]);
+    for (std::size_t i = 2; i < p.size(); ++i) {
+      const glm::dvec3 a = p[0] - point, b = p[i - 1] - point, c = p[i] - point;
+      const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+      const double below = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+      angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)), below);
+    }
+  }
+  return std::abs(angle) > 2.0 * std::numbers::pi;
+}
+
+HALFLIGHT_INLINE std::vector<Shells::Twins> Shells::find_twins() {
+  std::vector<Component*> order;
+  for (Component& component : components_) {
+    if (component.role == Role::solid) { order.push_back(&component); }
+  }
+  const auto left_end = [](const Component* c) { return c->box.lo.x; };
+  std::sort(order.begin(), order.end(), [&](const Component* a, const Component* b) { return left_end(a) < left_end(b); });
+  const auto same = [&](const Component& a, const Component& b) {
+    return a.box.grown(mesh_.tolerance).contains(b.box.lo) && a.box.grown(mesh_.tolerance).contains(b.box.hi) &&
+           b.box.grown(mesh_.tolerance).contains(a.box.lo) && b.box.grown(mesh_.tolerance).contains(a.box.hi) &&
+           std::abs(a.volume + b.volume) < 1e-6 * std::abs(a.volume);
+  };
+  constexpr std::size_t most_asked = 64;
+  std::vector<Twins> twins;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t k = i + 1; k < std::min(order.size(), i + most_asked) && left_end(order[k]) <= left_end(order[i]) + mesh_.tolerance; ++k) {
+      if (!same(*order[i], *order[k])) { continue; }
+      twins.push_back(order[i]->volume > 0.0 ? Twins{order[i], order[k]} : Twins{order[k], order[i]});
+    }
+  }
+  return twins;
+}
+
+HALFLIGHT_INLINE void Shells::settle(const Twins& twins) {
+  if (twins.inner->role == Role::surface) { return; }
+  const bool room = twins.inner->role == Role::room || twins.inner->role == Role::cavity;
+  Component& gone = room ? *twins.outer : *twins.inner;
+  if (!room) { twins.outer->role = Role::solid; }
+  gone.role = Role::nothing;
+  for (const std::uint32_t f : gone.faces) {
+    mesh_.changed(ChangeKind::duplicate, mesh_.faces[f].polygon);
+    for (const Source& source : mesh_.faces[f].more) { mesh_.changed(ChangeKind::duplicate, source.polygon); }
+  }
+}
+
+HALFLIGHT_INLINE Component* Shells::innermost(std::span<const Place> places, const Component* but) {
+  Component* best = nullptr;
+  for (Component& shell : components_) {
+    if (shell.role == Role::surface || shell.role == Role::nothing || &shell == but || (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume))) {
+      continue;
+    }
+    const auto held = [&](const Place& place) { return holds(shell, place.front) || (shell.volume < 0.0 && holds(shell, place.behind)); };
+    if (std::all_of(places.begin(), places.end(), held)) { best = &shell; }
+  }
+  return best;
+}
+
+HALFLIGHT_INLINE Component* Shells::shell_around_others() {
+  constexpr std::size_t most_asked = 1000;
+  for (Component& shell : components_) {
+    const raycast::Box box = shell.box.grown(mesh_.tolerance);
+    if (shell.role != Role::solid || shell.volume > 0.0 || !box.contains(bounds_.lo) || !box.contains(bounds_.hi)) { continue; }
+    const std::span<const Component> asked = std::span<const Component>(components_).first(std::min(components_.size(), most_asked));
+    const bool others = std::any_of(asked.begin(), asked.end(), [&](const Component& other) {
+      return &other != &shell && other.volume >= 0.0 && holds(shell, other.box.centre());
+    });
+    const bool inside_out = std::any_of(asked.begin(), asked.end(), [&](const Component& o) { return &o != &shell && o.volume < 0.0; });
+    if (others && !inside_out) { return &shell; }
+  }
+  return nullptr;
+}
+
+HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
+  constexpr std::size_t most_lamps = 64, most_points = 16;
+  std::vector<Component*> rooms;
+  std::size_t lamps = 0;
+  for (Component& component : components_) {
+    std::vector<Place> places;
+    for (const std::uint32_t f : component.faces) {
+      if (places.size() >= most_points || is_black(materials_[mesh_.faces[f].material].emission)) { continue; }
+      const std::span<const glm::dvec3> outline = mesh_.outline(mesh_.faces[f]);
+      const glm::dvec3 middle = brep::centroid(outline), off = 4.0 * mesh_.tolerance * glm::normalize(brep::vector_area(outline));
+      places.push_back({middle + off, middle - off});
+    }
+    if (places.empty() || ++lamps > most_lamps) { continue; }
+    rooms.push_back(innermost(places, &component));
+    if (component.volume < 0.0 && component.role == Role::solid) { rooms.push_back(&component); }  // it shines inwards
+  }
+  if (Component* const around = shell_around_others()) { rooms.push_back(around); }
+  for (const glm::dvec3& eye : options_.eyes) {
+    const Place place{eye, eye};
+    rooms.push_back(innermost(std::span(&place, 1), nullptr));
+  }
+  return rooms;
+}
+
+HALFLIGHT_INLINE void Shells::turn_shells() {
+  for (Component& component : components_) {
+    if (component.role == Role::nothing) { continue; }
+    const bool inwards = component.volume < 0.0;
+    if (component.role == Role::surface || (component.role == Role::room) == inwards) { continue; }
+    std::uint32_t first = none;
+    for (const std::uint32_t f : component.faces) { first = std::min(first, mesh_.faces[f].polygon); }
+    mesh_.changed(inwards ? ChangeKind::inside_out : ChangeKind::room, first);
+    component.volume = -component.volume;
+    turned_.resize(components_.size());
+    turned_[static_cast<std::size_t>(&component - components_.data())] = true;
+  }
+}
+
+HALFLIGHT_INLINE void Shells::hollow_solids() {
+  for (Component& component : components_) {
+    if (component.role != Role::room) { continue; }
+    const glm::dvec3& corner = mesh_.outline(mesh_.faces[component.faces[0]])[0];
+    const Place place{corner, corner};
+    Component* const around = innermost(std::span(&place, 1), &component);
+    if (around == nullptr || around->role != Role::solid || around->volume < -component.volume) { continue; }
+    component.role = Role::cavity;
+    around->cavities.insert(around->cavities.end(), component.faces.begin(), component.faces.end());
+  }
+}
+
+HALFLIGHT_INLINE void Shells::find_roles() {
+  const std::vector<Twins> twins = find_twins();
+  for (const Twins& t : twins) { t.outer->role = Role::surface; }
+  for (Component* const room : find_rooms()) {
+    if (room != nullptr) { room->role = Role::room; }
+  }
+  for (const Twins& t : twins) {
+    if (t.inner->role != Role::room) { settle(t); }
+  }
+  turn_shells();
+  hollow_solids();
+  for (Component& component : components_) {  // what is beyond the walls of a room would be buried
+    if (component.role != Role::room) { continue; }
+    const raycast::Box box = component.box.grown(mesh_.tolerance);
+    const bool all = glm::min(box.lo, bounds_.lo) == box.lo && glm::max(box.hi, bounds_.hi) == box.hi;
+    if (!all) { component.role = Role::surface; }
+  }
+  for (const Twins& t : twins) {
+    if (t.inner->role != Role::nothing) { settle(t); }
+  }
+}
+
+}  // namespace radiosity::intake

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the closed shells of a model are: solids, rooms, cavities of a solid around them, or one of two sides of the same walls. Orientation
+// alone does not tell, for half of the models in the world are inside out here or there; lamps, eyes, and what lies in what tell more.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+
+#include <radiosity/intake/intake.hpp>
+#include <radiosity/intake/topology.hpp>
+#include <radiosity/intake/working.hpp>
+#include <radiosity/scene/material.hpp>
+
+namespace radiosity::intake {
+
+// nothing: the other side of walls that are there already.
+enum class Role : unsigned char { surface, solid, room, cavity, nothing };
+
+// Faces that hang together.
+struct Component {
+  std::vector<std::uint32_t> faces;
+  raycast::Box box;
+  bool closed = true;
+  double volume = 0.0;  // of a closed one; negative when it looks inwards
+  Role role = Role::surface;
+  std::vector<std::uint32_t> cavities;  // of a solid: faces of the rooms in it
+};
+
+class Shells {
+ public:
+  Shells(Working& mesh, const Topology& topology, std::span<const Material> materials, const IntakeOptions& options);
+
+  // Tells what each component is, and turns shells that look the wrong way; what is turned or left out counts as a change.
+  void find_roles();
+
+  [[nodiscard]] std::span<const Component> components() const { return components_; }
+  [[nodiscard]] bool turned(std::uint32_t component) const { return !turned_.empty() && turned_[component]; }
+
+ private:
+  // Shells of the same place, of which one looks outwards and one inwards: walls that were given twice, for both sides.
+  struct Twins {
+    Component *outer = nullptr, *inner = nullptr;
+  };
+  // A point that must be seen, on either side of a lamp that may lie on a wall.
+  struct Place {
+    glm::dvec3 front{0.0}, behind{0.0};
+  };
+
+  [[nodiscard]] std::vector<Twins> find_twins();
+  // One side of the walls is seen; the other stays where it is neither clear that all lies within, nor that nothing does.
+  void settle(const Twins& twins);
+  // The part of all directions from the point in which the shell is seen from behind: 1 inside, 0 outside (van Oosterom, Strackee 1983).
+  [[nodiscard]] bool holds(const Component& shell, const glm::dvec3& point) const;
+  // The innermost shell that holds all these points. What lies on a shell is in it when its front is; or, of a shell that looks inwards,
+  // when its back is.
+  [[nodiscard]] Component* innermost(std::span<const Place> places, const Component* but);
+  // The shell that looks inwards at all the others, which do not look inwards themselves, as in a model that is inside out. Null: none.
+  [[nodiscard]] Component* shell_around_others();
+  // Shells around lamps, eyes and things. Some may be null.
+  [[nodiscard]] std::vector<Component*> find_rooms();
+  void turn_shells();
+  // Walls with a thickness: the room is a cavity of the solid around it.
+  void hollow_solids();
+
+  Working& mesh_;
+  std::span<const Material> materials_;
+  const IntakeOptions& options_;
+  std::vector<Component> components_;
+  std::vector<bool> turned_;  // of a component
+  raycast::Box bounds_;
+};
+
+}  // namespace radiosity::intake
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/intake/shells.cpp>
+#endif

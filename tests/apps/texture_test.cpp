@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Pictures on the surfaces of models: their mean colour counts, times the factor that stands beside them.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <random>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "apps/intake/texture.hpp"
+#include "apps/models.hpp"
+#include "apps/picture.hpp"
+#include "apps/png.hpp"
+#include "catch.hpp"
+
+namespace {
+
+struct Painted {
+  std::string file;  // a PNG
+  radiosity::Color mean{0.0};
+};
+
+// Of random levels: these are kept as they are, so the mean is known.
+Painted painted(unsigned seed, std::uint32_t width, std::uint32_t height) {
+  std::mt19937 random(seed);
+  apps::Picture picture(width, height);
+  Painted out;
+  for (std::size_t i = 0; i < picture.shown.size(); ++i) {
+    radiosity::Color c(0.0);
+    for (int k = 0; k < 3; ++k) {
+      const double v = static_cast<double>(random() % 256) / 255.0;
+      c[k] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    }
+    picture.set(i, c, c);
+    out.mean += c / static_cast<double>(picture.shown.size());
+  }
+  out.file = apps::to_png(picture);
+  return out;
+}
+
+std::string base64_of(const std::string& bytes) {
+  const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  std::uint32_t bits = 0, count = 0;
+  for (const char c : bytes) {
+    bits = bits << 8U | static_cast<unsigned char>(c);
+    for (count += 8; count >= 6; count -= 6) { text += letters[bits >> (count - 6) & 63U]; }
+  }
+  return count > 0 ? text + letters[bits << (6 - count) & 63U] : text;
+}
+
+bool near(const radiosity::Color& a, const radiosity::Color& b) { return glm::length(a - b) < 1e-6; }  // `shown` is in floats
+
+}  // namespace
+
+TEST_CASE("textures: the mean of a PNG is that of its pixels in linear light; what is cut or none is nothing") {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    INFO("seed " << seed);
+    const Painted picture = painted(seed, 5 + seed, 9);
+    const auto mean = apps::intake::mean_color(picture.file);
+    REQUIRE(mean);
+    CHECK(near(*mean, picture.mean));
+    CHECK_FALSE(apps::intake::mean_color(picture.file.substr(0, picture.file.size() / 3)));
+  }
+  CHECK_FALSE(apps::intake::mean_color(""));
+  CHECK_FALSE(apps::intake::mean_color("not a picture"));
+}
+
+TEST_CASE("textures: of OBJ and glTF they count times their factors, wherever they lie; unreadable ones are told") {
+  const Painted wood = painted(7, 8, 8), glow = painted(8, 3, 4);
+  const models::Files files{{"a.mtl",
+                             "newmtl wood\nmap_Kd -s 1 2 1 my/wood.png\nKd 0.5 0.5 0.25\nnewmtl plain\nKd 0 0 0\nmap_Kd my\\wood.png\n"
+                             "newmtl lamp\nKe 2\nmap_Ke glow 1.png\nnewmtl lost\nKd 0.3\nmap_Kd lost.png\n"},
+                            {"my/wood.png", wood.file},
+                            {"glow 1.png", glow.file}};
+  const apps::Model obj = models::read("a.obj",
+                                       "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\nusemtl plain\nf 1 2 3\nusemtl lamp\n"
+                                       "f 1 2 3\nusemtl lost\nf 1 2 3\n",
+                                       files);
+  REQUIRE(obj.materials.size() == 4);
+  CHECK(near(*obj.materials[0].reflectance, wood.mean * radiosity::Color(0.5, 0.5, 0.25)));
+  CHECK(near(*obj.materials[1].reflectance, wood.mean));
+  CHECK(near(obj.materials[2].emission / std::acos(-1.0), 2.0 * glow.mean));
+  CHECK(near(*obj.materials[3].reflectance, radiosity::Color(0.3)));
+  for (const char* const part : {"pictures on surfaces count with their mean colour", "textures are not read: Kd stands for the picture"}) {
+    CHECK(models::noted(obj.notes, part));
+  }
+
+  std::string positions(36, '\0');  // a triangle without size would do, but for the corners
+  const float numbers[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  for (std::size_t i = 0; i < 9; ++i) { std::memcpy(&positions[4 * i], &numbers[i], 4); }
+  const std::string bytes = positions + glow.file;
+  const apps::Model gltf = models::read(
+      "a.gltf",
+      "{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [{\"mesh\": 0}], \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}, "
+      "\"material\": 0}]}], \"buffers\": [{\"byteLength\": " + std::to_string(bytes.size()) + ", \"uri\": \"data:;base64," + base64_of(bytes) +
+      "\"}], \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}, {\"buffer\": 0, \"byteOffset\": 36, \"byteLength\": " +
+      std::to_string(glow.file.size()) + "}], \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": "
+      "\"VEC3\"}], \"images\": [{\"uri\": \"my/wood.png\"}, {\"bufferView\": 1, \"mimeType\": \"image/png\"}, {\"uri\": \"data:image/png;base64," +
+      base64_of(wood.file) + "\"}, {\"bufferView\": 9}], \"textures\": [{\"source\": 0}, {\"source\": 1}, {\"source\": 2}, {\"source\": 3}], "
+      "\"materials\": [{\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 0}}, \"emissiveFactor\": [1, 1, 0.5], "
+      "\"emissiveTexture\": {\"index\": 1}}, {\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 2}, \"baseColorFactor\": "
+      "[0.5, 1, 1, 1]}}, {\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 3}}}]}",
+      files);
+  REQUIRE(gltf.materials.size() == 3);
+  CHECK(near(*gltf.materials[0].reflectance, wood.mean));
+  CHECK(near(gltf.materials[0].emission / std::acos(-1.0), glow.mean * radiosity::Color(1, 1, 0.5)));
+  CHECK(near(*gltf.materials[1].reflectance, wood.mean * radiosity::Color(0.5, 1, 1)));
+  CHECK_FALSE(gltf.materials[2].reflectance);
+  CHECK(models::noted(gltf.notes, "textures are not read: the base colour factor stands for the picture"));
+}
