@@ -96,9 +96,12 @@ struct FRefinement {
         shown{of.hierarchy, [&](std::size_t i) { return of.hierarchy[i].area; }},
         light{of.input, of.view(), shown, to.light_epsilon, of.seed, proofs.buried()},
         min_area{to.min_area * light.scene_area()},
-  double light_min_area;
-  MeasuredLight measured;
-  NodePairs pairs;  // open
+        light_min_area{0.25 * min_area * finer_for_light(to) * finer_for_light(to)},
+        measured{of, proofs.buried(), light.scene_area(), to.light_epsilon, light_min_area / 16.0},
+        pairs(of.budget.arrays) {
+    result.linked = NodePairs(of.budget.arrays);
+    result.occluders = OccluderLists(of.budget.arrays);
+  }
 
   // Whether so many may be made; if not, the result says what they would need.
   [[nodiscard]] bool few_enough(std::uint64_t links) {
@@ -119,8 +122,8 @@ struct FRefinement {
   double min_area;  // in the squared unit of the frame
   double light_min_area;
   MeasuredLight measured;
-  NodePairs pairs;  // open
-  std::vector<bool> stuck;      // leaves that the BRep refused to split
+  NodePairs pairs;          // open
+  std::vector<bool> stuck;  // leaves that the BRep refused to split
   RefineResult result;
 };
 
@@ -213,8 +216,7 @@ HALFLIGHT_INLINE void tell(const FRefinement& state, const std::vector<Decision>
 }
 
 // The pairs of the children of `split` with the other node, or with each other.
-HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, std::uint32_t other, std::uint32_t list,
-                              NodePairs& pairs) {
+HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, std::uint32_t other, std::uint32_t list, NodePairs& pairs) {
   const std::uint32_t first = hierarchy[split].first_child;
   const std::uint32_t last = first + hierarchy[split].child_count;
   for (std::uint32_t a = first; a < last; ++a) {

@@ -48,7 +48,7 @@ HALFLIGHT_INLINE bool MeasuredLight::takes_whole_lamp(const NodePair& pair) cons
   return to != no_node && scene_->light_meshing->is_even_lamp(scene_->hierarchy[to == pair.p ? pair.q : pair.p]);
 }
 
-HALFLIGHT_INLINE void MeasuredLight::measure(const std::vector<NodePair>& pairs) {
+HALFLIGHT_INLINE void MeasuredLight::measure(const NodePairs& pairs) {
   if (!scene_->light_meshing) { return; }
   std::vector<std::uint32_t> nodes;
   for (const NodePair& pair : pairs) {

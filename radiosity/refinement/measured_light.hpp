@@ -31,7 +31,7 @@ class MeasuredLight {
   // Is the lamp's radiosity the same all over, so that a link takes it as a whole, however large the form factor is?
   [[nodiscard]] bool takes_whole_lamp(const NodePair& pair) const;
   // Measures what has not been yet.
-  void measure(const std::vector<NodePair>& pairs);
+  void measure(const NodePairs& pairs);
   // Of a pair with a receiver that was measured: split it, or link.
   [[nodiscard]] Decision operator()(const NodePair& pair) const;
 
