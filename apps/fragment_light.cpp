@@ -51,8 +51,9 @@ radiosity::LitRegion region_of(const radiosity::FinalGather& light, std::span<co
 constexpr std::array<std::uint32_t, 4> lattice{0, 2, 5, 7};
 constexpr std::array<std::uint32_t, block_side> cell_of{0, 0, 0, 1, 1, 1, 2, 2};  // of a coordinate: between lattice[c] and lattice[c + 1]
 
-// Is the shadow of a thin thing as thin as the thing? The penumbra is as wide as the lamp seems from the receiver, times the distance of what
-// is in between: blocks near that hold the thing itself and are not filled, and from a block's width on a wider lamp blurs some pixels.
+// Is the shadow of a thin thing as thin as the thing? The penumbra is as wide as the lamp seems from the receiver, times the distance of
+// what is in between: blocks near that hold the thing itself and are not filled, and from a block's width on a wider lamp blurs some
+// pixels.
 bool is_narrow(const radiosity::DirectLight::Lamp& lamp, const glm::dvec3& x) {
   constexpr double seems = 0.1;
   return 2.0 * lamp.radius < seems * glm::length(lamp.centre - x);

@@ -47,8 +47,8 @@ struct Hits16 {
   std::uint32_t met = 0;
 };
 
-// Another ray caster, asked in place of a Scene's own search (Scene::ask), from many threads at once. The rays carry the owners and sheets of
-// their ends; scene.hpp tells what stops a ray that begins or ends on a surface.
+// Another ray caster, asked in place of a Scene's own search (Scene::ask), from many threads at once. The rays carry the owners and sheets
+// of their ends; scene.hpp tells what stops a ray that begins or ends on a surface.
 struct OtherCaster {
   // The lanes whose segment is occluded, t in (0, 1).
   std::function<std::uint32_t(const Segments16&)> occluded16;

@@ -48,8 +48,8 @@ struct SplitSample {
 };
 
 // Calls found(lo, hi, rising, guess) for every sign change of f on [a, b], from left to right; f is monotone on [lo, hi] (or that is as
-// short as 4 u of the larger |end|), and `guess` is about where its chord is 0. f(s) -> SplitSample; a value of 0 counts as positive. Two sign changes between which |f| stays below
-// `negligible` may be left out. Typically 5 to 15 values.
+// short as 4 u of the larger |end|), and `guess` is about where its chord is 0. f(s) -> SplitSample; a value of 0 counts as positive. Two
+// sign changes between which |f| stays below `negligible` may be left out. Typically 5 to 15 values.
 template <class F, class Found>
 void sign_changes(F&& f, double a, double b, double negligible, Found&& found) {
   struct Part {

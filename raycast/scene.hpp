@@ -9,7 +9,8 @@
 //     concave solid still shadows itself further on. A polygon that is an owner is left out, and so is a convex object that owns both ends;
 //   - of every other object, a span is dropped when the end only touches it: the span begins at the end, up to a skin, and the end is no
 //     deeper behind the surface where the span ends than a skin; or when it begins and ends within the owner's own dropped span (up to the
-//     skin): a chord point inside its owner stands for the owner's surface, and what is sunk into the owner, or fills the same place, is not
+//     skin): a chord point inside its owner stands for the owner's surface, and what is sunk into the owner, or fills the same place, is
+// not
 //     in front of that.
 // A depth is measured across the surface, |t_crossing - t_end| |n.d|, so it does not depend on the angle of the ray. For a convex solid
 // it bounds how deep any point of the dropped part lies inside.

@@ -27,9 +27,8 @@ std::string one_line(std::string name) {
 std::string write_obj(const ExportMesh& mesh, const Tone& tone) {
   const bool turn = mesh.z_up && !mesh.as_given;
   const auto turned = [&](const glm::dvec3& v) { return turn ? glm::dvec3(v.x, v.z, -v.y) : v; };
-  std::string text =
-      "# halflight: x y z r g b, colours sRGB of radiance times " + shortest(tone.exposure) + ", tone " + name(tone.curve) + ", " +
-      (mesh.z_up && !turn ? "z" : "y") + " is up\n";
+  std::string text = "# halflight: x y z r g b, colours sRGB of radiance times " + shortest(tone.exposure) + ", tone " + name(tone.curve) +
+                     ", " + (mesh.z_up && !turn ? "z" : "y") + " is up\n";
   if (!mesh.coordinates.empty()) { text += "# texture coordinates: of the lightmap " + one_line(mesh.texture_name) + "\n"; }
   for (const ExportVertex& vertex : mesh.vertices) {
     text += 'v';

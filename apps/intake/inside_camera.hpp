@@ -11,8 +11,8 @@
 
 namespace apps {
 
-// From the far end of the room of the first lamp, across it. Nothing when the automatic camera sees something that a lamp shines on, or when
-// there is no place.
+// From the far end of the room of the first lamp, across it. Nothing when the automatic camera sees something that a lamp shines on, or
+// when there is no place.
 [[nodiscard]] std::optional<Camera> inside_camera(const radiosity::Scene& scene);
 
 }  // namespace apps

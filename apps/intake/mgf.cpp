@@ -159,7 +159,9 @@ class Reader {
       const double inner = value(2), outer = value(3);
       if (v != nullptr) { strip(v->position, v->position, v->normal, outer, inner, line); }
     } else if (word == "fh" || word == "ies") {
-      notes.add(word == "fh" ? "the entity 'fh' is not read: faces with holes are left out" : "the entity 'ies' is not read: lamps shine evenly", at());
+      notes.add(
+          word == "fh" ? "the entity 'fh' is not read: faces with holes are left out" : "the entity 'ies' is not read: lamps shine evenly",
+          at());
     } else if (word != "ir") {
       notes.add("the entity " + mesh_file::shown(word) + " is not read: passed over", at());
     }

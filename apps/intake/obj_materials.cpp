@@ -95,7 +95,9 @@ void read_obj_materials(const std::string& library, const SideFile& side_file, s
   }
   // A colour of 0 beside a picture is what programs write that know no factor.
   for (const auto& [of, mean] : means) {
-    if (mean[0]) { of->reflectance = radiosity::is_black(of->reflectance.value_or(radiosity::Color(0.0))) ? *mean[0] : *of->reflectance * *mean[0]; }
+    if (mean[0]) {
+      of->reflectance = radiosity::is_black(of->reflectance.value_or(radiosity::Color(0.0))) ? *mean[0] : *of->reflectance * *mean[0];
+    }
     if (mean[1]) { of->emission = radiosity::is_black(of->emission) ? std::numbers::pi * *mean[1] : of->emission * *mean[1]; }
   }
 }

@@ -10,8 +10,8 @@
 
 namespace apps::intake {
 
-// The mean of a PNG or JPEG file in linear light, each pixel weighted by how opaque it is. Nothing when it cannot be read, has more than 2^26
-// pixels, or lets all light through.
+// The mean of a PNG or JPEG file in linear light, each pixel weighted by how opaque it is. Nothing when it cannot be read, has more than
+// 2^26 pixels, or lets all light through.
 [[nodiscard]] std::optional<radiosity::Color> mean_color(std::string_view bytes);
 
 }  // namespace apps::intake

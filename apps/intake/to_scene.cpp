@@ -219,7 +219,8 @@ class SceneMaker {
   bool add_studio(std::vector<std::string>& faults) {
     const std::vector<std::string_view> known = names();
     const std::string advice = "--lamp MATERIAL, one of " + scene_file::list_of(known);
-    const auto room = std::find_if(file_.scene.objects.begin(), file_.scene.objects.end(), [](const auto& o) { return o.placement.inside; });
+    const auto room =
+        std::find_if(file_.scene.objects.begin(), file_.scene.objects.end(), [](const auto& o) { return o.placement.inside; });
     if (room != file_.scene.objects.end()) {
       const auto lamp = ceiling_lamp(file_.scene, *room);
       if (!lamp) {

@@ -46,8 +46,8 @@ struct ModelOptions {
 // The scene, or nothing and sentences that say why there is none.
 [[nodiscard]] std::optional<SceneFile> to_scene(Model model, UpAxis up, const ModelOptions& options, std::vector<std::string>& faults);
 
-// The objects and materials alone, in the file's own coordinates: without cameras and without a lamp that it does not have. `two_sided` as in
-// ModelOptions.
+// The objects and materials alone, in the file's own coordinates: without cameras and without a lamp that it does not have. `two_sided` as
+// in ModelOptions.
 [[nodiscard]] std::optional<SceneFile> to_part(Model model, bool two_sided, std::vector<std::string>& faults);
 
 }  // namespace apps

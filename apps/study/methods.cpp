@@ -163,9 +163,10 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
   all.push_back(accuracy_target("BF, accuracy target, clusters", with_clusters, clusters));
   Options discontinuities = faces;
   discontinuities.discontinuities = 1000;
-  all.push_back(hierarchical("F, discontinuities",
-                             "hierarchical F whose faces are cut along the edges of shadows and across their direct light, not into quarters",
-                             "epsilon", epsilons, discontinuities, set_epsilon));
+  all.push_back(
+      hierarchical("F, discontinuities",
+                   "hierarchical F whose faces are cut along the edges of shadows and across their direct light, not into quarters",
+                   "epsilon", epsilons, discontinuities, set_epsilon));
   Options separate = common(study);
   separate.topology = radiosity::Topology::separate;
   separate.indirect = radiosity::Indirect::links;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A renderer's own ray caster bakes: Embree knows the triangles anyhow, and answers the rays of the solver (radiosity/bake/own_rays.hpp). Built
-// where Embree 3 is found. `example_embree 40` has 40 balls in its room, and tells the times of both casters.
+// A renderer's own ray caster bakes: Embree knows the triangles anyhow, and answers the rays of the solver (radiosity/bake/own_rays.hpp).
+// Built where Embree 3 is found. `example_embree 40` has 40 balls in its room, and tells the times of both casters.
 
 #include <algorithm>
 #include <cmath>

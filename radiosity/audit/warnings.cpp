@@ -74,9 +74,9 @@ HALFLIGHT_INLINE std::vector<std::string> warnings(const Scene& scene, const Fra
     sentences.push_back("objects " + name(a) + " and " + name(b) + " are the same surface at the same place: duplicates; " + name(b) +
                         " is seen, being the later one, and " + name(a) + " is covered by it");
   } else if (!twins.empty()) {
-    sentences.push_back(
-        std::to_string(twins.size()) + " objects are duplicates, each covered by a later one that is the same surface at the same place: " +
-        detail::first_of(twins.size(), [&](std::size_t k) { return name(twins[k][0]) + " by " + name(twins[k][1]); }));
+    sentences.push_back(std::to_string(twins.size()) +
+                        " objects are duplicates, each covered by a later one that is the same surface at the same place: " +
+                        detail::first_of(twins.size(), [&](std::size_t k) { return name(twins[k][0]) + " by " + name(twins[k][1]); }));
   }
   std::vector<std::uint32_t> open;
   std::size_t edges = 0;

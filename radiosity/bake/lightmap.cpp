@@ -30,7 +30,9 @@ struct Shared {
 
   void add(const PolygonView& input, std::size_t p) {
     const std::size_t begin = corners.size();
-    for (std::size_t c = input.first_corner[p]; c < input.first_corner[p + 1]; ++c) { corners.push_back(input.positions[input.corners[c]]); }
+    for (std::size_t c = input.first_corner[p]; c < input.first_corner[p + 1]; ++c) {
+      corners.push_back(input.positions[input.corners[c]]);
+    }
     const std::span<const glm::dvec3> outline = std::span(corners).subspan(begin);
     normal += brep::vector_area(outline);
     for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -126,7 +128,9 @@ HALFLIGHT_INLINE Lightmap make_lightmap(const BakedLight& light, const PolygonVi
     if (first >= input.corners.size() || input.corners[first] >= input.positions.size()) { continue; }
     if (!light.radiosity(p, input.positions[input.corners[first]])) { continue; }  // a polygon with light has sound corners
     face_of[p] = faces.size();
-    if (const auto part = light.front(p)) { face_of[p] = face_of_sheet.emplace(std::pair(part->object, part->sheet), faces.size()).first->second; }
+    if (const auto part = light.front(p)) {
+      face_of[p] = face_of_sheet.emplace(std::pair(part->object, part->sheet), faces.size()).first->second;
+    }
     if (face_of[p] == faces.size()) { faces.emplace_back().first = p; }
     faces[face_of[p]].add(input, p);
   }

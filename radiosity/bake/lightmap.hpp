@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Baked light as a texture: an atlas in which every planar face has a rectangle of its own, and texture coordinates for the corners of polygons.
-// A face is what the intake has merged: the two triangles of a quadrilateral, a wall in a hundred parts. No surface has to be unwrapped: a
-// rectangle lies in the face's plane, along its longest side, its texels are squares of one size. It is a texel wider than the face all
-// around, and what lies beside the face has the light of the nearest place on it, so that bilinear filtering never reaches another
+// Baked light as a texture: an atlas in which every planar face has a rectangle of its own, and texture coordinates for the corners of
+// polygons. A face is what the intake has merged: the two triangles of a quadrilateral, a wall in a hundred parts. No surface has to be
+// unwrapped: a rectangle lies in the face's plane, along its longest side, its texels are squares of one size. It is a texel wider than the
+// face all around, and what lies beside the face has the light of the nearest place on it, so that bilinear filtering never reaches another
 // face. Rectangles are packed on shelves, the highest first (Coffman et al. 1980).
 //
 // Best for large faces: for each triangle of a finely meshed curved surface a rectangle is waste, and vertex colours say as much.

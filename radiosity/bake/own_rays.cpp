@@ -65,8 +65,8 @@ class CasterAdapter {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       const raycast::Segment segment = rays.at(i);
       if (!raycast::has_line(segment)) { continue; }
-      const CasterRay ray{frame_.to_scene(segment.origin), segment.direction / frame_.scale, cut(segment, rays.source[i], rays.source_sheet[i]),
-                          raycast::infinity};
+      const CasterRay ray{frame_.to_scene(segment.origin), segment.direction / frame_.scale,
+                          cut(segment, rays.source[i], rays.source_sheet[i]), raycast::infinity};
       const std::optional<TriangleHit> hit = caster_.closest(ray);
       if (!hit) { continue; }
       const std::optional<FoundSheet> found = sheet_at(segment, *hit);

@@ -9,7 +9,8 @@
 //     };
 //     options.rays = my_caster;    // BakeOptions; the caster must outlive the bake
 //
-// Rays lie in the coordinates of the mesh. Both functions are called from many threads at once. Which side of a triangle is met does not matter.
+// Rays lie in the coordinates of the mesh. Both functions are called from many threads at once. Which side of a triangle is met does not
+// matter.
 //
 // A caster in single precision finds the triangle on which a ray begins or ends, a little before it or behind. So rays begin and end a
 // skin above the surfaces on which they stand: what stands closer to a surface than that is not seen from it. The skin is
@@ -66,7 +67,8 @@ class AnyRayCaster {
   template <RayCaster Caster>
   AnyRayCaster(const Caster& caster, double precision = 1e-6)  // implicit, as references are
       : caster_{&caster},
-        blocked16_{[](const void* own, const RayPacket& rays) -> std::uint32_t { return static_cast<const Caster*>(own)->blocked16(rays); }},
+        blocked16_{
+            [](const void* own, const RayPacket& rays) -> std::uint32_t { return static_cast<const Caster*>(own)->blocked16(rays); }},
         closest_{[](const void* own, const CasterRay& ray) -> std::optional<TriangleHit> {
           return static_cast<const Caster*>(own)->closest(ray);
         }},

@@ -157,6 +157,7 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
     std::uint32_t sheet = 0;
     double strength = 0.0, area = 0.0;
   };
+  for (std::uint32_t o = 0; o < objects.size(); ++o) { slack_ = std::max(slack_, 2.0 * objects.object(o).slack()); }
   std::vector<Candidate> candidates;
   double total = 0.0;
   for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
@@ -193,8 +194,7 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
     const Facets::Facet& plane = lamp.facets.facets[0];
     for (std::uint32_t o = 0; o < bodies_.size() && lamp.flat; ++o) {
       lamp.behind[o] = std::any_of(bodies_[o].facets.facets.begin(), bodies_[o].facets.facets.end(), [&](const Facets::Facet& f) {
-        return std::any_of(f.contour.begin(), f.contour.end(),
-                           [&](const glm::dvec3& p) { return plane.height(p) < -detail::direct_slack; });
+        return std::any_of(f.contour.begin(), f.contour.end(), [&](const glm::dvec3& p) { return plane.height(p) < -slack_; });
       });
     }
   }

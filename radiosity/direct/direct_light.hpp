@@ -27,7 +27,7 @@ namespace radiosity {
 namespace detail {
 
 // Heights below this count as none, in a scene of size 1 to 2: a thousandth of what a picture or a leaf could tell, far above rounding.
-inline constexpr double direct_slack = 1e-9;
+inline constexpr double least_slack = 1e-9;
 
 }  // namespace detail
 
@@ -41,7 +41,8 @@ struct LampLimits {
 class DirectLight {
  public:
   DirectLight() = default;
-  // `surfaces`: the unrefined boundaries of the objects of the scene, one each, needed no more after this; `emission`: exitance of each input surface.
+  // `surfaces`: the unrefined boundaries of the objects of the scene, one each, needed no more after this; `emission`: exitance of each
+  // input surface.
   DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const std::vector<Color>& emission,
               const LampLimits& limits = {});
 
@@ -67,7 +68,8 @@ class DirectLight {
   [[nodiscard]] bool is_lamp(std::uint32_t surface) const { return surface < is_lamp_.size() && is_lamp_[surface]; }
 
   // What segments meet: the scene, in which open meshes stand in for curved objects that are slow to meet; two for each, the second ones
-  // behind all objects. The object that such a mesh belongs to, and how far points on it are lifted to be above its meshes; 0: none stand in.
+  // behind all objects. The object that such a mesh belongs to, and how far points on it are lifted to be above its meshes; 0: none stand
+  // in.
   [[nodiscard]] const raycast::Scene& objects() const { return *objects_; }
   [[nodiscard]] std::uint32_t whole(std::uint32_t o) const { return o < bodies_.size() ? o : whole_[o - bodies_.size()]; }
   [[nodiscard]] double lift(std::uint32_t o) const { return bodies_[o].lift; }
@@ -87,6 +89,7 @@ class DirectLight {
   [[nodiscard]] static Lamp make_lamp(const Surface& surface, std::uint32_t sheet, const Color& exitance);
 
   const raycast::Scene* objects_ = nullptr;
+  double slack_ = detail::least_slack;  // heights below count as none: twice what faces that are not quite plane are off, if that is more
   // Where meshes stand in, objects_ points to this.
   std::shared_ptr<const raycast::Scene> with_stand_ins_;
   std::vector<std::uint32_t> whole_;  // of those the objects that they are halves of

@@ -79,7 +79,7 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
   if (!reach.list.rooms_clear()) { candidates.insert(candidates.end(), light_->rooms_.begin(), light_->rooms_.end()); }
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-  constexpr double slack = detail::direct_slack;
+  const double slack = light_->slack_;
   // With a bulge the contour says too little, and all candidates are taken.
   std::vector<Shaft> shaft;
   if (shape.bulge == 0.0) { shaft.emplace_back(shape.contour, lamp.corners, slack); }
@@ -139,16 +139,16 @@ HALFLIGHT_INLINE void LitRegion::make_cone(const Reach::Outline& outline, const 
   cone_.clear();
   const auto& facets = outline.facets->facets;
   const Facets::Facet* plane = &facets[outline.nearest];
-  if (!(plane->height(x) > detail::direct_slack)) {
+  if (!(plane->height(x) > light_->slack_)) {
     plane = &*std::max_element(facets.begin(), facets.end(), [&](const auto& a, const auto& b) { return a.height(x) < b.height(x); });
-    if (!(plane->height(x) > detail::direct_slack)) { return; }
+    if (!(plane->height(x) > light_->slack_)) { return; }
   }
   const glm::dvec3 axis = -plane->normal;  // all corners lie ahead
   const auto [s, t] = orthonormal(axis);
   projected_.clear();
   for (const glm::dvec3& corner : outline.corners) {
     const glm::dvec3 d = corner - x;
-    const double ahead = std::max(glm::dot(d, axis), detail::direct_slack);
+    const double ahead = std::max(glm::dot(d, axis), light_->slack_);
     projected_.push_back({glm::dot(d, s) / ahead, glm::dot(d, t) / ahead, &corner});
   }
   std::sort(projected_.begin(), projected_.end(),
@@ -178,7 +178,7 @@ HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, 
   double sum = 0.0;
   for (const Facets::Facet& facet : lamp.facets.facets) {
     if (!(facet.height(x) > 0.0)) { continue; }
-    ShadowedTarget target{facet.contour, facet.normal, {}, detail::direct_slack};
+    ShadowedTarget target{facet.contour, facet.normal, {}, light_->slack_};
     target.look(x, n);
     for (const Blocker& face : reach.faces) {
       if (target.hidden()) { break; }

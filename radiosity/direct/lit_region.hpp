@@ -30,8 +30,8 @@ namespace radiosity {
 
 class LitRegion {
  public:
-  // Points of this shape, which the object `shape.owner` owns; its bulge is that of the points off the plane of the contour. `normal`: of all
-  // points, when it is the same, else 0. `light` must outlive this. Not for several threads at once.
+  // Points of this shape, which the object `shape.owner` owns; its bulge is that of the points off the plane of the contour. `normal`: of
+  // all points, when it is the same, else 0. `light` must outlive this. Not for several threads at once.
   LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal);
 
   // Lamps that some point may see.
@@ -41,7 +41,8 @@ class LitRegion {
   [[nodiscard]] double form_factor(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
     return reaches_[k].between == Between::nothing ? unhidden(k, x, n) : unhidden(k, x, n) * visible(k, x, n);
   }
-  // The same in two factors: the form factor if nothing stood between, and the share of it that is not hidden. The second is what takes time.
+  // The same in two factors: the form factor if nothing stood between, and the share of it that is not hidden. The second is what takes
+  // time.
   [[nodiscard]] double unhidden(std::size_t k, const glm::dvec3& x, const glm::dvec3& n);
   [[nodiscard]] double visible(std::size_t k, const glm::dvec3& x, const glm::dvec3& n);
   [[nodiscard]] bool may_be_hidden(std::size_t k) const { return reaches_[k].between != Between::nothing; }

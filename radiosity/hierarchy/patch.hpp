@@ -30,13 +30,13 @@ struct Patch {
   glm::dvec3 centre{0.0};  // mean of the corners
   glm::dvec3 normal{0.0};
   double area = 0.0;
-  double radius = 0.0;                               // greatest distance of a corner from the centre
-  glm::dvec3 centroid{0.0};                          // of the area
-  glm::dmat3 inverse_inertia{0.0};                   // inverse, in the plane, of the mean of (x - centroid)(x - centroid)'
+  double radius = 0.0;                            // greatest distance of a corner from the centre
+  glm::dvec3 centroid{0.0};                       // of the area
+  glm::dmat3 inverse_inertia{0.0};                // inverse, in the plane, of the mean of (x - centroid)(x - centroid)'
   BigArray<QuadraturePoint> rule2, rule3, rule4;  // 2x2, 3x3 and 4x4 Gauss points on each quadrilateral piece
-  bool bent = false;                                 // its surface is curved, and normals turn over it:
-  glm::dmat3 bend{0.0};                              // by this, a length (bend.hpp)
-  std::vector<Polygon> parts;                        // convex, of a contour that is not; holes are reached by bridges, run through twice
+  bool bent = false;                              // its surface is curved, and normals turn over it:
+  glm::dmat3 bend{0.0};                           // by this, a length (bend.hpp)
+  std::vector<Polygon> parts;                     // convex, of a contour that is not; holes are reached by bridges, run through twice
 };
 
 namespace detail {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// From faces to objects. A closed shell becomes a solid. One that holds a lamp or an eye is seen from inside: a cavity of the solid around it,
-// where there is one (walls with a thickness); a room, where everything else lies in it; or else a surface, for beyond its walls a room
+// From faces to objects. A closed shell becomes a solid. One that holds a lamp or an eye is seen from inside: a cavity of the solid around
+// it, where there is one (walls with a thickness); a room, where everything else lies in it; or else a surface, for beyond its walls a room
 // is solid. What is open becomes, of each group, one
 // surface; where it has two sides its back is a surface of its own at the same place.
 

@@ -75,7 +75,8 @@ HALFLIGHT_INLINE std::vector<Shells::Twins> Shells::find_twins() {
   constexpr std::size_t most_asked = 64;
   std::vector<Twins> twins;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    for (std::size_t k = i + 1; k < std::min(order.size(), i + most_asked) && left_end(order[k]) <= left_end(order[i]) + mesh_.tolerance; ++k) {
+    for (std::size_t k = i + 1; k < std::min(order.size(), i + most_asked) && left_end(order[k]) <= left_end(order[i]) + mesh_.tolerance;
+         ++k) {
       if (!same(*order[i], *order[k])) { continue; }
       twins.push_back(order[i]->volume > 0.0 ? Twins{order[i], order[k]} : Twins{order[k], order[i]});
     }
@@ -98,7 +99,8 @@ HALFLIGHT_INLINE void Shells::settle(const Twins& twins) {
 HALFLIGHT_INLINE Component* Shells::innermost(std::span<const Place> places, const Component* but) {
   Component* best = nullptr;
   for (Component& shell : components_) {
-    if (shell.role == Role::surface || shell.role == Role::nothing || &shell == but || (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume))) {
+    if (shell.role == Role::surface || shell.role == Role::nothing || &shell == but ||
+        (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume))) {
       continue;
     }
     const auto held = [&](const Place& place) { return holds(shell, place.front) || (shell.volume < 0.0 && holds(shell, place.behind)); };

@@ -85,8 +85,7 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
   const PatchEnd end_p = end(link.p);
   const PatchEnd end_q = end(link.q);
   const std::optional<VisibilityEstimate> measured = measured_visibility(link);
-  const VisibilityEstimate seen =
-      measured ? *measured : visibility(scene_, list, end_p, end_q, patch_rounds, Random{seed_, key});
+  const VisibilityEstimate seen = measured ? *measured : visibility(scene_, list, end_p, end_q, patch_rounds, Random{seed_, key});
   // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
   const double share = exposed_share(end_p, area_p, q) * exposed_share(end_q, area_q, p);
   link.exchange = static_cast<float>(unoccluded * seen.fraction * share);

@@ -92,8 +92,7 @@ HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::
   raycast::Segments16 rays;
   for (unsigned i = 0; i < directions.size(); ++i) { rays.set(i, {eye.position, directions[i]}, raycast::no_object, raycast::no_object); }
   pass_through(scene, rays, [&](unsigned i, const raycast::Hit& hit, const raycast::Segment& ray, int passed) -> std::optional<glm::dvec3> {
-    const Met found =
-        outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
+    const Met found = outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
     const bool from_air = eye.in_air && passed == 0;
     const bool shown = hit.front && (from_air || !objects().covered(found.point.position, found.point.normal, found.object));
     if (!shown) { return ray.at(hit.t); }

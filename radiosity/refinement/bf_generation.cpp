@@ -23,9 +23,9 @@
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/bf_refine.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/refinement/leaf_error.hpp>
 #include <radiosity/refinement/link_error.hpp>
-#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/solver/solve.hpp>
 #include <radiosity/solver/transport.hpp>

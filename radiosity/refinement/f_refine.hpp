@@ -32,7 +32,7 @@
 namespace radiosity {
 
 struct RefineResult {
-  NodePairs linked;     // pairs that are to be linked
+  NodePairs linked;                 // pairs that are to be linked
   OccluderLists occluders;          // of these pairs
   std::uint64_t pairs_tested = 0;   // questions to the oracle
   std::uint64_t pairs_dropped = 0;  // proven to face away from each other
@@ -57,8 +57,7 @@ namespace detail {
 // the others keep their list and are shown to `look(pair, list, decision)`, in parallel. Without shortcuts what would be dropped is linked,
 // but for patches of one curved convex solid (plan.hpp).
 template <class Ask, class Look>
-std::vector<Decision> decide(const DiscreteScene& scene, NodePairs& pairs, RefineResult& result, const Ask& ask,
-                             const Look& look) {
+std::vector<Decision> decide(const DiscreteScene& scene, NodePairs& pairs, RefineResult& result, const Ask& ask, const Look& look) {
   std::vector<Decision> decisions(pairs.size(), Decision::drop);
   const SceneView view = scene.view();
   constexpr std::size_t batch = 1 << 14;  // lists of full length that live at a time

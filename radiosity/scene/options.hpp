@@ -107,8 +107,8 @@ struct Options {
   // audit.shortage, or, when none is complete, without (Failure::Kind::out_of_memory): BF-refinement and error targets have one,
   // F-refinement has not.
   std::optional<std::uint64_t> memory;
-  // Where the arrays lie that grow with nodes, links, pairs and rays, those of the Solution among them (big_array.hpp); null: on the heap. It
-  // must outlive the Solution, and is used by several threads at once. What is left on the heap: BReps, contours, the mesh.
+  // Where the arrays lie that grow with nodes, links, pairs and rays, those of the Solution among them (big_array.hpp); null: on the heap.
+  // It must outlive the Solution, and is used by several threads at once. What is left on the heap: BReps, contours, the mesh.
   std::pmr::memory_resource* arrays = nullptr;
   std::uint64_t seed = 1;
 };

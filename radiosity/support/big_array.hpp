@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The arrays of a run that grow with its nodes, links, pairs and rays: where they lie is the caller's choice (Options::arrays). An array passes its
-// memory on when it is moved; a copy lies on the heap, so that it may outlive the memory of its original.
+// The arrays of a run that grow with its nodes, links, pairs and rays: where they lie is the caller's choice (Options::arrays). An array
+// passes its memory on when it is moved; a copy lies on the heap, so that it may outlive the memory of its original.
 
 #include <cstddef>
 #include <memory>

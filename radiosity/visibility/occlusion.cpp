@@ -35,7 +35,8 @@ HALFLIGHT_INLINE void Patches::extend(unsigned threads) {
     if (node.in_parts()) {
       for (std::uint32_t k = 0; k < node.child_count; ++k) { parts.push_back(contour(*surfaces_, *hierarchy_, node.first_child + k)); }
     }
-    Patch& patch = patches_[index] = make_patch(contour(*surfaces_, *hierarchy_, index), std::move(parts), patches_.get_allocator().memory());
+    Patch& patch = patches_[index] =
+        make_patch(contour(*surfaces_, *hierarchy_, index), std::move(parts), patches_.get_allocator().memory());
     const Surface& surface = (*surfaces_)[node.object];
     if (!(node.deviation > 0.0) || surface.topology == Topology::separate) { return; }
     patch.bent = true;

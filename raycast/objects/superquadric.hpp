@@ -114,8 +114,8 @@ class Superquadric final : public Object {
   // The nearest point to f >= 0. From planes of symmetry it is looked for at coordinates of `least`; 0 keeps it in a plane.
   [[nodiscard]] glm::dvec3 nearest_to(const glm::dvec3& f, const glm::dvec3& least) const;
   // Onto the surface from x >= 0 nearby: by Newton's steps along the normal, because the way to the centre is long where a blade runs
-  // along it, then exactly. A step keeps this share of each coordinate at least: beside a blade steps are too long, and with 0 they end in its
-  // plane, where the side is forgotten.
+  // along it, then exactly. A step keeps this share of each coordinate at least: beside a blade steps are too long, and with 0 they end in
+  // its plane, where the side is forgotten.
   [[nodiscard]] glm::dvec3 settle(glm::dvec3 x, double kept) const;
 
   glm::dvec3 centre_{0.0}, radii_{0.0}, limit_{1.0};

@@ -90,8 +90,8 @@ TEST_CASE("mgf: a chromaticity and its luminance come back from the colour") {
 // functions are off by 1 to 2 % of their maxima, which oscillates along the spectrum: .005 in x and y.
 TEST_CASE("mgf: spectra, temperatures and mixtures have the chromaticities that are known of them") {
   const auto reflects = [](const std::string& color) {
-    const apps::Model model = models::read("a.mgf", square + "c red =\n cxy .5 .35\nc blue =\n cxy .25 .25\nc it =\n " + color +
-                                                        "\nm a =\n c it\n rd .5\nf a b c d\n");
+    const apps::Model model = models::read(
+        "a.mgf", square + "c red =\n cxy .5 .35\nc blue =\n cxy .25 .25\nc it =\n " + color + "\nm a =\n c it\n rd .5\nf a b c d\n");
     REQUIRE(model.materials[0].reflectance);
     return *model.materials[0].reflectance;
   };
@@ -109,8 +109,9 @@ TEST_CASE("mgf: spectra, temperatures and mixtures have the chromaticities that 
   CHECK(glm::length(reflects("cmix 3 red 1 blue") - 0.25 * (3.0 * of(0.5, 0.35) + of(0.25, 0.25))) < 1e-12);
   CHECK(glm::length(reflects("cmix .2 red") - of(0.5, 0.35)) < 1e-12);
 
-  for (const char* const wrong : {"cct 0", "cct", "cspec 700 400 1 1", "cspec 400 700 1", "cspec 400 700 1 -1", "cspec 400 700 0 0 0",
-                                  "cspec 100 200 1 1", "cmix", "cmix 1", "cmix 1 red 2", "cmix 1 green", "cmix 0 red", "cmix -1 red 2 blue"}) {
+  for (const char* const wrong :
+       {"cct 0", "cct", "cspec 700 400 1 1", "cspec 400 700 1", "cspec 400 700 1 -1", "cspec 400 700 0 0 0", "cspec 100 200 1 1", "cmix",
+        "cmix 1", "cmix 1 red 2", "cmix 1 green", "cmix 0 red", "cmix -1 red 2 blue"}) {
     INFO(wrong);
     const apps::ModelResult result = models::result("a.mgf", square + "c red =\nc blue =\nc it =\n" + wrong + "\n");
     REQUIRE_FALSE(result.errors.empty());

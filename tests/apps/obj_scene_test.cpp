@@ -112,7 +112,8 @@ TEST_CASE("a model without a lamp stands in a studio; what is closed around it c
   const apps::SceneFile lit = scene("a.wrl", room);
   REQUIRE(lit.scene.objects.size() == 2);
   CHECK(lit.scene.objects[0].placement.inside);
-  CHECK(noted(lit.notes, "nothing shines in this closed room: a lamp of 100 W/m2 hangs under its ceiling; to have lamps of its own: --lamp"));
+  CHECK(
+      noted(lit.notes, "nothing shines in this closed room: a lamp of 100 W/m2 hangs under its ceiling; to have lamps of its own: --lamp"));
   // From -1 to 1 in each direction: under the middle of the ceiling.
   const raycast::Box lamp = lit.scene.objects[1].shape->bounds();
   CHECK(glm::length(glm::dvec2(lamp.centre())) < 1e-9);
@@ -122,7 +123,8 @@ TEST_CASE("a model without a lamp stands in a studio; what is closed around it c
 
 TEST_CASE("a house whose lamps are in its rooms is looked at from within, a room as a doll's house") {
   const std::string room =
-      "v 0 0 0\nv 4 0 0\nv 4 0 4\nv 0 0 4\nv 0 3 0\nv 4 3 0\nv 4 3 4\nv 0 3 4\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+      "v 0 0 0\nv 4 0 0\nv 4 0 4\nv 0 0 4\nv 0 3 0\nv 4 3 0\nv 4 3 4\nv 0 3 4\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 "
+      "1 5 8\n";
   const std::string lamp = "usemtl lamp\nv 1 2.9 1\nv 1 2.9 2\nv 2 2.9 2\nv 2 2.9 1\nf -4 -3 -2 -1\n";
   const std::string walls =
       "v -1 -1 -1\nv 5 -1 -1\nv 5 -1 5\nv -1 -1 5\nv -1 4 -1\nv 5 4 -1\nv 5 4 5\nv -1 4 5\n"
@@ -208,7 +210,8 @@ TEST_CASE("a mesh of a scene may be a file of another program; groups use it in 
   CHECK(objects[3].material == std::vector<std::uint32_t>{0});
   // A sheet has a back, too, when that is asked for; a material for all covers both.
   const auto sides = [&](const std::string& clauses) {
-    const auto one = apps::parse_scene(head + "mesh b file sheet.obj " + clauses + "\n", models::beside({{"sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"}}));
+    const auto one = apps::parse_scene(head + "mesh b file sheet.obj " + clauses + "\n",
+                                       models::beside({{"sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"}}));
     INFO(apps::to_text(one, "s"));
     REQUIRE(one.file);
     CHECK(radiosity::faults(one.file->scene).empty());

@@ -95,14 +95,18 @@ TEST_CASE("textures: of OBJ and glTF they count times their factors, wherever th
   const apps::Model gltf = models::read(
       "a.gltf",
       "{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [{\"mesh\": 0}], \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}, "
-      "\"material\": 0}]}], \"buffers\": [{\"byteLength\": " + std::to_string(bytes.size()) + ", \"uri\": \"data:;base64," + base64_of(bytes) +
-      "\"}], \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}, {\"buffer\": 0, \"byteOffset\": 36, \"byteLength\": " +
-      std::to_string(glow.file.size()) + "}], \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": "
-      "\"VEC3\"}], \"images\": [{\"uri\": \"my/wood.png\"}, {\"bufferView\": 1, \"mimeType\": \"image/png\"}, {\"uri\": \"data:image/png;base64," +
-      base64_of(wood.file) + "\"}, {\"bufferView\": 9}], \"textures\": [{\"source\": 0}, {\"source\": 1}, {\"source\": 2}, {\"source\": 3}], "
-      "\"materials\": [{\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 0}}, \"emissiveFactor\": [1, 1, 0.5], "
-      "\"emissiveTexture\": {\"index\": 1}}, {\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 2}, \"baseColorFactor\": "
-      "[0.5, 1, 1, 1]}}, {\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 3}}}]}",
+      "\"material\": 0}]}], \"buffers\": [{\"byteLength\": " +
+          std::to_string(bytes.size()) + ", \"uri\": \"data:;base64," + base64_of(bytes) +
+          "\"}], \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}, {\"buffer\": 0, \"byteOffset\": 36, \"byteLength\": " +
+          std::to_string(glow.file.size()) +
+          "}], \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": "
+          "\"VEC3\"}], \"images\": [{\"uri\": \"my/wood.png\"}, {\"bufferView\": 1, \"mimeType\": \"image/png\"}, {\"uri\": "
+          "\"data:image/png;base64," +
+          base64_of(wood.file) +
+          "\"}, {\"bufferView\": 9}], \"textures\": [{\"source\": 0}, {\"source\": 1}, {\"source\": 2}, {\"source\": 3}], "
+          "\"materials\": [{\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 0}}, \"emissiveFactor\": [1, 1, 0.5], "
+          "\"emissiveTexture\": {\"index\": 1}}, {\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 2}, \"baseColorFactor\": "
+          "[0.5, 1, 1, 1]}}, {\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 3}}}]}",
       files);
   REQUIRE(gltf.materials.size() == 3);
   CHECK(near(*gltf.materials[0].reflectance, wood.mean));

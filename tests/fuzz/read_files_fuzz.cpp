@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: the input is read as a scene, as a mesh and as a model of every format, and as the light of a solution; with
-// --format=obj (scene, light, or the ending of another format) as that alone. Nothing crashes; what is refused says why and where; a mesh that
-// is read and written reads back the same; what the intake makes of a model is a sound scene; light that is read is written as it was.
+// --format=obj (scene, light, or the ending of another format) as that alone. Nothing crashes; what is refused says why and where; a mesh
+// that is read and written reads back the same; what the intake makes of a model is a sound scene; light that is read is written as it was.
 
 #include <algorithm>
 #include <cstdint>
@@ -77,7 +77,9 @@ void read_as_light(std::string_view body) {
   const std::string bytes = signed_file(head + std::string(body));
   const apps::LightResult result = apps::read_light_file(bytes, scene);
   require(result.light.has_value() == result.reason.empty(), "either light or a reason");
-  if (result.light) { require(apps::to_light_file(result.light->mesh, result.light->frame, scene) == bytes, "light is written as it was read"); }
+  if (result.light) {
+    require(apps::to_light_file(result.light->mesh, result.light->frame, scene) == bytes, "light is written as it was read");
+  }
 }
 
 std::string_view asked_format;  // empty: all

@@ -87,12 +87,14 @@ TEST_CASE("memory of the caller: big arrays lie there, the result is the same to
         REQUIRE(on_heap.solution);
         REQUIRE(outcome.solution);
         CHECK(outcome.solution->radiosity == on_heap.solution->radiosity);
-        CHECK(memory.live >= outcome.solution->links.size() * sizeof(radiosity::Link) + outcome.solution->hierarchy.size() * sizeof(radiosity::Node));
+        CHECK(memory.live >=
+              outcome.solution->links.size() * sizeof(radiosity::Link) + outcome.solution->hierarchy.size() * sizeof(radiosity::Node));
         const radiosity::Links copy = outcome.solution->links;
         CHECK(copy.get_allocator().memory() == nullptr);
       }
       CHECK(memory.live == 0);
-      // Of the 2400 bytes of a node (MemoryBudget) some 1400 are its record, patch and quadrature points; links, pairs and rays lie there wholly.
+      // Of the 2400 bytes of a node (MemoryBudget) some 1400 are its record, patch and quadrature points; links, pairs and rays lie there
+      // wholly.
       const auto there = static_cast<double>(memory.peak);
       if (whole_before > 0.0) { CHECK(there - there_before > 0.5 * (whole - whole_before)); }
       whole_before = whole;
@@ -112,7 +114,8 @@ TEST_CASE("memory of the caller that runs out is an outcome") {
     for (std::size_t limit = memory.peak / 16; limit < memory.peak; limit += memory.peak / 8) {
       memory.limit = limit;
       const radiosity::Outcome outcome = radiosity::solve(scene, options);
-      CHECK((outcome.solution ? !outcome.solution->audit.shortage.empty() : outcome.failure.kind == radiosity::Failure::Kind::out_of_memory));
+      CHECK(
+          (outcome.solution ? !outcome.solution->audit.shortage.empty() : outcome.failure.kind == radiosity::Failure::Kind::out_of_memory));
     }
     CHECK(memory.live == 0);
   }

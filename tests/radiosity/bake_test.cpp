@@ -208,7 +208,8 @@ glm::dvec3 sample(const radiosity::Lightmap& map, const glm::dvec2& at) { return
 
 }  // namespace
 
-// Where the light is the same everywhere on a polygon and differs from polygon to polygon, any texel of a neighbour in the atlas would show.
+// Where the light is the same everywhere on a polygon and differs from polygon to polygon, any texel of a neighbour in the atlas would
+// show.
 TEST_CASE("lightmap: no polygon reaches into another one, wherever it is sampled; its texels fit") {
   for (const unsigned seed : {1U, 2U, 3U}) {
     INFO("seed " << seed);
@@ -248,7 +249,8 @@ TEST_CASE("lightmap: no polygon reaches into another one, wherever it is sampled
             at += weight * glm::dvec2(map.coordinates[c]);
             weights += weight;
           }
-          // Coordinates are floats: 2^-24 of the atlas, at most 8192 texels, is less than a thousandth of a texel, and the ring is one wide.
+          // Coordinates are floats: 2^-24 of the atlas, at most 8192 texels, is less than a thousandth of a texel, and the ring is one
+          // wide.
           CHECK(sample(map, at / weights).x == Approx(1.0 + static_cast<double>(p)).epsilon(1e-6));
         }
       }

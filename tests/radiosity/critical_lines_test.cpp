@@ -222,19 +222,18 @@ TEST_CASE("join_lines: pieces of one line become one, which covers them and no m
       low = std::min(low, from);
       high = std::max(high, reached);
     }
-    lines.push_back({(high + 0.1) * along, (high + 0.2) * along, 2});  // apart
+    lines.push_back({(high + 0.1) * along, (high + 0.2) * along, 2});                          // apart
     lines.push_back({0.01 * glm::cross(up, along), along + 0.01 * glm::cross(up, along), 2});  // beside
     const int lowest = std::min_element(lines.begin(), lines.begin() + 6, [](auto& a, auto& b) { return a.degree < b.degree; })->degree;
     std::rotate(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(random.bits() % lines.size()), lines.end());
     join_lines(lines, 1e-6);
     REQUIRE(lines.size() == 3);
-    const CriticalLine* const whole =
-        &*std::max_element(lines.begin(), lines.end(), [&](const CriticalLine& a, const CriticalLine& b) {
-          const auto on = [&](const CriticalLine& l) {
-            return std::abs(glm::dot(glm::cross(up, along), l.from)) < 1e-6 ? glm::length(l.to - l.from) : 0.0;
-          };
-          return on(a) < on(b);
-        });
+    const CriticalLine* const whole = &*std::max_element(lines.begin(), lines.end(), [&](const CriticalLine& a, const CriticalLine& b) {
+      const auto on = [&](const CriticalLine& l) {
+        return std::abs(glm::dot(glm::cross(up, along), l.from)) < 1e-6 ? glm::length(l.to - l.from) : 0.0;
+      };
+      return on(a) < on(b);
+    });
     CHECK(whole->degree == lowest);
     CHECK(std::min(glm::dot(whole->from, along), glm::dot(whole->to, along)) == test::Approx(low).margin(1e-12));
     CHECK(std::max(glm::dot(whole->from, along), glm::dot(whole->to, along)) == test::Approx(high).margin(1e-12));

@@ -2,10 +2,12 @@
 
 // Direct light at points: what the exact shadows, the outlines and the segments of LitRegion say is what many segments to the lamp say.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -180,6 +182,28 @@ TEST_CASE("direct light: shadows are those of segments, whatever stands between"
     const double own = (region.rays() > 0 ? 2.0 / 64.0 * open : 0.0) + 1e-9;
     CHECK(found >= truth.mean - 6.0 * truth.error - own);
     CHECK(found <= most.mean + 6.0 * most.error + own);
+  }
+}
+
+TEST_CASE("direct light: a face that is not quite plane is not shadowed by its own back", "[direct]") {
+  const std::uint64_t seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0, 0};
+  for (int i = 0; i < 20; ++i) {
+    Scene scene = floor_under_lamp(0.4);
+    const double off = std::pow(10.0, -9.0 + 3.0 * random.uniform()) / 2.0;  // of 1e-6 of the size at most, or it counts as bent
+    std::vector<glm::dvec3> corners{{-1, -1, off}, {1, -1, -off}, {1, 1, off}, {-1, 1, -off}};
+    scene.objects[0] = scenes::object("front", scenes::polygon(corners));
+    std::reverse(corners.begin(), corners.end());
+    scene.objects.push_back(scenes::object("back", scenes::polygon(corners)));
+    const World world{scene};
+    for (int k = 0; k < 20; ++k) {
+      const glm::dvec3 x{1.8 * random.uniform() - 0.9, 1.8 * random.uniform() - 0.9, 0.0};
+      auto region = world.region(x, 0.05);
+      REQUIRE(region.size() == 1);
+      INFO("off " << off << " at " << x.x << " " << x.y);
+      CHECK(region.visible(0, world.in_frame(x), {0, 0, 1}) > 1.0 - 1e-5);
+    }
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-// The error estimate tells the truth on curved objects. One convex object under a lamp that reflects nothing has a radiosity in closed form,
-// B = rho E F with the true normal at each point, so the error of a solution is known to quadrature and the estimate is compared with it.
+// The error estimate tells the truth on curved objects. One convex object under a lamp that reflects nothing has a radiosity in closed
+// form, B = rho E F with the true normal at each point, so the error of a solution is known to quadrature and the estimate is compared with
+// it.
 
 #include <algorithm>
 #include <cmath>
@@ -274,7 +275,8 @@ TEST_CASE("light through a hole of any size: the estimate is no less than a thir
     scene.materials = {{"plate", Color{rho}, Color{0.0}}, {"lamp", Color{0.0}, Color{1.0}}, {"black", Color{0.0}, Color{0.0}}};
     scene.objects = {scenes::square("plate", {0, 0, 0}, 1.0, true),
                      scenes::plate("lamp", down(x - side, y - side, x + side, y + side, h), 1),
-                     scenes::plate("a", down(-far, -far, x - hole, far, z), 2), scenes::plate("b", down(x + hole, -far, far, far, z), 2),
+                     scenes::plate("a", down(-far, -far, x - hole, far, z), 2),
+                     scenes::plate("b", down(x + hole, -far, far, far, z), 2),
                      scenes::plate("c", down(x - hole, -far, x + hole, y - hole, z), 2),
                      scenes::plate("d", down(x - hole, y + hole, x + hole, far, z), 2)};
     radiosity::Options options;

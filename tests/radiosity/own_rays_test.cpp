@@ -71,13 +71,14 @@ struct EveryTriangle {
 };
 static_assert(radiosity::RayCaster<EveryTriangle<float>>);
 
-// A room with boxes at random, some upon others, a sheet with two sides, and a lamp that lies on the ceiling; some triangles twice. In feet,
-// far from the origin.
+// A room with boxes at random, some upon others, a sheet with two sides, and a lamp that lies on the ceiling; some triangles twice. In
+// feet, far from the origin.
 soup::Soup furnished(unsigned seed, double far = 0.0) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   soup::Soup soup;
-  soup.materials = {{"grey", glm::dvec3(0.6), glm::dvec3(0.0)}, {"lamp", glm::dvec3(0.2), glm::dvec3(10.0)}, {"cloth", {0.7, 0.3, 0.1}, {}}};
+  soup.materials = {
+      {"grey", glm::dvec3(0.6), glm::dvec3(0.0)}, {"lamp", glm::dvec3(0.2), glm::dvec3(10.0)}, {"cloth", {0.7, 0.3, 0.1}, {}}};
   soup.two_sided = {0, 0, 1};
   soup::add_box(soup, {0, 0, 0}, {4, 3, 2.5}, 2, true);
   for (int i = 0; i < 4; ++i) {
@@ -116,8 +117,8 @@ double apart(const radiosity::BakeOutcome& a, const radiosity::BakeOutcome& b) {
 
 }  // namespace
 
-// Answers differ for rays that pass within a skin of an edge. A skin is 1e-5 of the room at most, rays pass some tens of edges: at most one in a
-// thousand differs, in either direction. Of N rays to a corner's light each weighs 1/N: off by 1e-3, and less for the means over many.
+// Answers differ for rays that pass within a skin of an edge. A skin is 1e-5 of the room at most, rays pass some tens of edges: at most one
+// in a thousand differs, in either direction. Of N rays to a corner's light each weighs 1/N: off by 1e-3, and less for the means over many.
 TEST_CASE("own rays: a caster of the same triangles gives the same light and the same audit") {
   for (const unsigned seed : {1U, 2U}) {
     for (const auto indirect : {radiosity::Indirect::links, radiosity::Indirect::rays}) {
