@@ -65,6 +65,10 @@ class Object {
   // whole plane, a cylinder's side goes on beyond its caps. Idempotent up to rounding.
   [[nodiscard]] virtual SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const = 0;
 
+  // Where a new vertex of a mesh comes to lie that is made at p between others on the sheet: nearest to p, but on an edge within the sheet if
+  // the others lie on it. There the sides of a blade are nearer than its edge, which would be lost.
+  [[nodiscard]] virtual glm::dvec3 vertex(std::uint32_t sheet, const glm::dvec3& p) const { return project(sheet, p).position; }
+
   // Traits with safe defaults.
   [[nodiscard]] virtual bool convex() const { return false; }  // the solid, or the flat polygon, is a convex set
   [[nodiscard]] virtual bool flat() const { return false; }    // every sheet is a plane

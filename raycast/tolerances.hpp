@@ -113,6 +113,9 @@ inline constexpr double tol_newton = 1e-3;
 // The step of project() of a superquadric, to its largest radius: its square, by which the distance is off, is below u. Points of a blade's
 // middle, where it has no tangent, are moved off it by the second, to its radii.
 inline constexpr double tol_project = 1e-8, off_blade = 1e-30;
+// From a plane of symmetry of a superquadric, to its size and place: a point nearer by lies in it. 2^10 u, for a point that was turned and
+// moved from the scene, a thousand times as large, into the coordinates of its object.
+inline constexpr double tol_symmetry = 0x1p-43;
 
 // --- Single precision: the fast lanes (compiled.hpp), where the scene lies in [-1,1]^3. ---
 

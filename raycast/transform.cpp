@@ -99,6 +99,10 @@ HALFLIGHT_INLINE SurfacePoint PlacedObject::project(std::uint32_t sheet, const g
   return result;
 }
 
+HALFLIGHT_INLINE glm::dvec3 PlacedObject::vertex(std::uint32_t sheet, const glm::dvec3& p) const {
+  return identity_ ? object_->vertex(sheet, p) : to_world(object_->vertex(sheet, inverse_ * (p - placement_.translation)));
+}
+
 HALFLIGHT_INLINE Box PlacedObject::world_box(const Box& box) const {
   if (identity_) { return box; }
   const glm::dvec3 centre = placement_.linear * box.centre() + placement_.translation, half = 0.5 * box.size();

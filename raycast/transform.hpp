@@ -99,6 +99,7 @@ class PlacedObject {
   // On the sheet always. The nearest point when the map keeps angles (rotation, uniform scale, mirror); otherwise the image of the
   // point that is nearest in object space, which is at most the map's condition number times as far away as the nearest one.
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const;
+  [[nodiscard]] glm::dvec3 vertex(std::uint32_t sheet, const glm::dvec3& p) const;
 
  private:
   [[nodiscard]] glm::dvec3 to_world(const glm::dvec3& p) const { return identity_ ? p : placement_.linear * p + placement_.translation; }

@@ -101,7 +101,7 @@ ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solut
     }
     for (std::uint32_t k = 0; k < face.corner_count; ++k) {
       const radiosity::MeshCorner& corner = mesh.corners[face.first_corner + k];
-      const glm::dvec3 normal = unit(objects[input.object].project(input.sheet, outline[k]).normal, flat);
+      const glm::dvec3 normal = unit(glm::dvec3{corner.normal}, flat);
       const ExportVertex vertex{outline[k], normal, corner.radiosity};
       std::uint32_t v = newest[corner.vertex];
       while (v != none && v >= out.groups.back().first_vertex &&

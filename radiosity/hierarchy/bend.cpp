@@ -16,6 +16,7 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/corner_normal.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 
 namespace radiosity {
@@ -26,7 +27,7 @@ HALFLIGHT_INLINE glm::dmat3 bend_of(const raycast::PlacedObject& object, std::ui
   glm::dvec2 mean{0.0};
   Polygon normals;
   for (const glm::dvec3& x : patch.contour) {
-    const glm::dvec3 n = object.project(sheet, x).normal;
+    const glm::dvec3 n = corner_normal(object, sheet, x, patch.centroid);
     normals.push_back(n);
     mean += glm::dvec2{glm::dot(n, t), glm::dot(n, s)} / static_cast<double>(patch.contour.size());
   }

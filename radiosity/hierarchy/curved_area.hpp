@@ -25,7 +25,7 @@ namespace radiosity {
   const auto area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return 0.5 * glm::length(glm::cross(b - a, c - a));
   };
-  const auto middle = [&](const glm::dvec3& a, const glm::dvec3& b) { return object.project(sheet, 0.5 * (a + b)).position; };
+  const auto middle = [&](const glm::dvec3& a, const glm::dvec3& b) { return object.vertex(sheet, 0.5 * (a + b)); };
   double chord = 0.0;
   double finer = 0.0;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {

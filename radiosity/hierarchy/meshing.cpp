@@ -32,7 +32,7 @@ HALFLIGHT_INLINE void place_on_object(const raycast::PlacedObject& object, Surfa
     const glm::dvec3 before = position;
     for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) {
       const std::uint32_t sheet = brep.data(brep.face(h)).sheet;
-      if (sheet != brep::no_sheet) { position = object.project(sheet, position).position; }
+      if (sheet != brep::no_sheet) { position = object.vertex(sheet, position); }
     }
     if (position == before) { return; }
   }

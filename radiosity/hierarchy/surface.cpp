@@ -34,6 +34,7 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/corner_normal.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/scene/options.hpp>
@@ -89,7 +90,7 @@ HALFLIGHT_INLINE Node make_leaf(Surface& surface, std::uint32_t object, brep::Fa
   if (!surface.object->flat()) {
     const std::uint32_t sheet = surface.brep.data(f).sheet;
     for (const glm::dvec3& p : polygon) {
-      const glm::dvec3 true_normal = surface.object->project(sheet, p).normal;
+      const glm::dvec3 true_normal = corner_normal(*surface.object, sheet, p, node.centre);
       node.deviation = std::max(node.deviation, std::min(1.0, glm::length(glm::cross(node.normal, true_normal))));
     }
   }

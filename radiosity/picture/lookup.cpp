@@ -42,10 +42,9 @@ HALFLIGHT_INLINE Lookup::Lookup(const Scene& scene, const Mesh& mesh, const Fram
   sheets_.resize(inputs.size());
   corners_.resize(mesh.corners.size());
   for (const MeshFace& face : mesh.faces) {
-    const InputSurface& input = inputs[face.surface];
     for (std::uint32_t c = face.first_corner; c < face.first_corner + face.corner_count; ++c) {
       const glm::dvec3 position = (mesh.positions[mesh.corners[c].vertex] - frame.centre) * frame.scale;
-      corners_[c] = {position, objects_.object(input.object).project(input.sheet, position).normal, mesh.corners[c].radiosity};
+      corners_[c] = {position, glm::dvec3{mesh.corners[c].normal}, mesh.corners[c].radiosity};
     }
     for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
       sheets_[face.surface].triangles.push_back({{face.first_corner, face.first_corner + k, face.first_corner + k + 1}});

@@ -24,6 +24,7 @@
 #include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
+#include <radiosity/hierarchy/corner_normal.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/result/mesh.hpp>
@@ -60,8 +61,14 @@ HALFLIGHT_INLINE void set_normals(const raycast::PlacedObject& object, SurfaceBR
   for (const brep::FaceId f : brep::faces(brep)) {
     const std::uint32_t sheet = brep.data(f).sheet;
     if (sheet == brep::no_sheet) { continue; }
+    glm::dvec3 middle{0.0};
+    double corners = 0.0;
     for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
-      brep.data(h).normal = object.project(sheet, brep.data(brep.vertex(h)).position).normal;
+      middle += brep.data(brep.vertex(h)).position;
+      corners += 1.0;
+    }
+    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
+      brep.data(h).normal = corner_normal(object, sheet, brep.data(brep.vertex(h)).position, middle / corners);
     }
   }
 }
@@ -167,8 +174,8 @@ HALFLIGHT_INLINE void add_face(const std::vector<Surface>& surfaces, const Surfa
       mesh.corners.push_back({position[brep.vertex(loop[k]).index], corner.radiosity, glm::vec3(corner.normal)});
       mean += brep.data(loop[k]).radiosity / static_cast<double>(corners.size());
     }
-    mesh.faces.push_back({first, static_cast<std::uint32_t>(corners.size()), light.hierarchy[node].surface, node,
-                          buried ? mean : light.radiosity[node]});
+    mesh.faces.push_back(
+        {first, static_cast<std::uint32_t>(corners.size()), light.hierarchy[node].surface, node, buried ? mean : light.radiosity[node]});
   };
   if (loop.size() == 4) {
     add({0, 1, 2, 3});

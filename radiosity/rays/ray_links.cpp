@@ -16,6 +16,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/rays/senders.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
@@ -23,9 +24,6 @@
 namespace radiosity {
 
 namespace detail {
-
-// The largest radius of an ancestor, relative to the length of a ray that is counted for it and to the distance of what is seen from it.
-inline constexpr double most_pooled = 0.4;
 
 // One ray, counted for two nodes.
 struct RayPart {

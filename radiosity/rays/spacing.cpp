@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/rays/leaf_locator.hpp>
+#include <radiosity/rays/senders.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
@@ -23,6 +25,8 @@
 namespace radiosity {
 
 namespace detail {
+
+[[nodiscard]] inline double brightest(const Color& channels) { return std::max({channels.x, channels.y, channels.z}); }
 
 // What each node reflects of the light that comes straight from the lamps: its brightest channel. Lamps count as dark.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<double> reflected_once(const DiscreteScene& scene, const Links& of_lamps) {
@@ -40,7 +44,7 @@ namespace detail {
     if (hierarchy[i].parent != no_node) { irradiance[i] += irradiance[hierarchy[i].parent]; }
     const Color reflected = scene.reflectance[hierarchy[i].surface] * irradiance[i];
     const bool shines = !is_black(scene.emission[hierarchy[i].surface]);
-    brightness[i] = shines ? 0.0 : std::max({reflected.x, reflected.y, reflected.z});
+    brightness[i] = shines ? 0.0 : brightest(reflected);
   }
   return brightness;
 }
@@ -88,6 +92,7 @@ class Spacing {
       const bool fine = varies * weight.mean * std::sqrt(node.area / area_) <= tolerance_;
       if (fine || (node.leaf() && !(node.area > least_area_))) {
         result.casters.push_back({i, weight.scatter});
+        views_.push_back(view(i, rays));
       } else {
         wanting.push_back(i);
         nodes += node.leaf() ? node.corners : 0;
@@ -104,11 +109,19 @@ class Spacing {
     return true;
   }
 
+  void split_as_senders(SpacingResult& result) const {
+    std::vector<double> brightness = brightness_;
+    for (double& of_node : brightness) { of_node /= root_mean_square_; }
+    result.casters = split_senders(scene_, std::move(result.casters), views_, brightness, tolerance_ / 3.0);
+  }
+
  private:
-  // 16 rays from each open node.
+  static constexpr std::uint32_t rays_each = std::tuple_size_v<decltype(View::rays)>;
+
+  // So many rays from each open node.
   [[nodiscard]] StoredRays cast(SpacingResult& result) const {
     std::vector<std::uint32_t> counts(scene_.hierarchy.size(), 0);
-    for (const std::uint32_t i : open_) { counts[i] = 16; }
+    for (const std::uint32_t i : open_) { counts[i] = rays_each; }
     StoredRays rays = cast_rays(scene_, LeafLocator{scene_.hierarchy, scene_.patches, scene_.inputs.size()}, counts);
     result.rays += rays.size();
     result.cancelled = scene_.control.cancelled();
@@ -130,9 +143,16 @@ class Spacing {
       square += brightness * brightness;
     }
     const auto count = static_cast<double>(rays.count(i));
-    const Color& reflectance = scene_.reflectance[scene_.hierarchy[i].surface];
-    const double most = std::max({reflectance.x, reflectance.y, reflectance.z});
+    const double most = brightest(scene_.reflectance[scene_.hierarchy[i].surface]);
     return {most * (1.5 * sum / count + 0.5), most * (1.5 * std::sqrt(square / count) + 0.5)};
+  }
+
+  [[nodiscard]] View view(std::uint32_t i, const StoredRays& rays) const {
+    View result{scene_.exposure.area[i] / area_, brightest(scene_.reflectance[scene_.hierarchy[i].surface]), {}};
+    std::transform(rays.of(i).begin(), rays.of(i).end(), result.rays.begin(), [](const StoredRay& ray) {
+      return View::Seen{ray.to, ray.length};
+    });
+    return result;
   }
 
   // Opens the children of nodes, and casts from those leaves that the BRep refuses to split.
@@ -157,6 +177,7 @@ class Spacing {
   double root_mean_square_ = 0.0;   // of that, over the scene
   double area_ = 0.0, least_area_ = 0.0;
   std::vector<std::uint32_t> open_;
+  std::vector<View> views_;  // of the casters
 };
 
 }  // namespace detail
@@ -169,6 +190,7 @@ HALFLIGHT_INLINE SpacingResult space_casters(DiscreteScene& scene, Links& of_lam
   detail::Spacing spacing{scene, of_lamps, tolerance, min_area};
   if (spacing.dark()) { return result; }
   while (spacing.step(result)) {}
+  spacing.split_as_senders(result);
   const auto split = [&](std::uint32_t i) { return was_leaf[i] && !scene.hierarchy[i].leaf(); };
   for (Link& link : of_lamps) {
     if (split(link.p) || split(link.q)) { set_gradients(link, variations(scene.patches[link.p], scene.patches[link.q])); }

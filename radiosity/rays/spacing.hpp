@@ -9,16 +9,10 @@
 #include <vector>
 
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/rays/senders.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 
 namespace radiosity {
-
-// A node from which rays are cast. No other lies above or below it.
-struct Caster {
-  std::uint32_t node = 0;
-  double weight =
-      0.0;  // how much the light of its rays scatters, reflected, relative to the RMS of what reflects the light of lamps; rough
-};
 
 struct SpacingResult {
   std::vector<Caster> casters;
@@ -31,7 +25,8 @@ struct SpacingResult {
 // Descends from the input faces, and splits leaves of more than `min_area` (relative to the exposed area of all input faces), until for
 // each node r / R times the light that it reflects, relative to the scene, times the root of its share of that area is at most
 // `tolerance`: what each adds to the L2 error is then about the same. R and that light are found by 16 rays. Lamps are left as they are,
-// and what is buried. `of_lamps`: evaluated links that carry the light of all lamps; an end that was a leaf and is split gets its gradient.
+// and what is buried. Then casters are split as senders (senders.hpp), to a third of the tolerance: what one sends is wrong for all that
+// see it in the same sense. `of_lamps`: evaluated links that carry the light of all lamps; an end that was a leaf and is split gets its gradient.
 [[nodiscard]] SpacingResult space_casters(DiscreteScene& scene, Links& of_lamps, double tolerance, double min_area);
 
 }  // namespace radiosity

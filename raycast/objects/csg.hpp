@@ -47,6 +47,7 @@ class Csg final : public Object {
   [[nodiscard]] std::uint32_t sheet_count() const override { return tree_->sheet_count(); }
   [[nodiscard]] std::string_view sheet_name(std::uint32_t sheet) const override { return tree_->sheet_name(sheet); }
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override { return tree_->project(sheet, p); }
+  [[nodiscard]] glm::dvec3 vertex(std::uint32_t sheet, const glm::dvec3& p) const override { return tree_->vertex(sheet, p); }
 
   void spans(const Segment& line, Spans& out) const override;
 

@@ -78,6 +78,11 @@ HALFLIGHT_INLINE double CsgTree::work() const {
   return 2.0 * sum;  // as much again to merge them
 }
 
+HALFLIGHT_INLINE glm::dvec3 CsgTree::vertex(std::uint32_t sheet, const glm::dvec3& p) const {
+  const Leaf& leaf = leaves_[leaf_of_sheet_[sheet]];
+  return leaf.solid.vertex(sheet - leaf.first_sheet, p);
+}
+
 HALFLIGHT_INLINE bool CsgTree::convex() const {
   return std::all_of(nodes_.begin(), nodes_.end(),
                      [](const Node& n) { return n.parts.size() <= 1 || n.operation == CsgOperation::intersect; }) &&

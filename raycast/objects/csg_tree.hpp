@@ -71,6 +71,7 @@ class CsgTree {
   [[nodiscard]] std::uint32_t sheet_count() const { return static_cast<std::uint32_t>(leaf_of_sheet_.size()); }
   [[nodiscard]] std::string_view sheet_name(std::uint32_t sheet) const { return names_[sheet]; }
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const;
+  [[nodiscard]] glm::dvec3 vertex(std::uint32_t sheet, const glm::dvec3& p) const;
   // What convex solids have in common is convex.
   [[nodiscard]] bool convex() const;
   [[nodiscard]] double work() const;  // as Object::work

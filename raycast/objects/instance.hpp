@@ -38,6 +38,7 @@ class Instance final : public Object {
   void spans(const Segment& line, Spans& out) const override { placed_.spans(line, out); }
   void approximate(double tolerance, brep::Builder& out) const override { placed_.approximate(tolerance, out); }
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override { return placed_.project(sheet, p); }
+  [[nodiscard]] glm::dvec3 vertex(std::uint32_t sheet, const glm::dvec3& p) const override { return placed_.vertex(sheet, p); }
 
   [[nodiscard]] bool convex() const override { return placed_.convex(); }
   [[nodiscard]] bool flat() const override { return placed_.flat(); }

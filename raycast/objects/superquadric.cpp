@@ -117,6 +117,22 @@ HALFLIGHT_INLINE SurfacePoint Superquadric::project(std::uint32_t, const glm::dv
     sign[k] = std::signbit(f[k]) ? -1.0 : 1.0;
     f[k] = std::abs(f[k]);
   }
+  const glm::dvec3 x = nearest_to(f, off_blade * radii_);
+  return {centre_ + sign * x, sign * normal(x)};
+}
+
+HALFLIGHT_INLINE glm::dvec3 Superquadric::vertex(std::uint32_t, const glm::dvec3& p) const {
+  const double in_plane = tol_symmetry * (std::max({radii_.x, radii_.y, radii_.z}) + Box{centre_, centre_}.magnitude());
+  glm::dvec3 sign{1.0}, f = p - centre_, least = off_blade * radii_;
+  for (int k = 0; k < 3; ++k) {
+    sign[k] = std::signbit(f[k]) ? -1.0 : 1.0;
+    f[k] = std::abs(f[k]);
+    if (f[k] <= in_plane) { f[k] = least[k] = 0.0; }
+  }
+  return centre_ + sign * nearest_to(f, least);
+}
+
+HALFLIGHT_INLINE glm::dvec3 Superquadric::nearest_to(const glm::dvec3& f, const glm::dvec3& least) const {
   glm::dvec3 x = onto(f);
   double distance = glm::length(f - x);
   const auto take_if_nearer = [&](const glm::dvec3& next) {
@@ -126,19 +142,23 @@ HALFLIGHT_INLINE SurfacePoint Superquadric::project(std::uint32_t, const glm::dv
     distance = there;
     return true;
   };
-  take_if_nearer(settle(f));
-  if (!around_.convex() || !profile_.convex()) {
-    take_if_nearer(settle(glm::max(f, off_blade * radii_)));  // out of the middle of a blade
-  }
+  take_if_nearer(settle(f, 0.0));
+  const bool pinched = !around_.convex() || !profile_.convex();
+  const double kept = pinched ? 0.1 : 0.0;
+  if (pinched) { take_if_nearer(settle(glm::max(f, least), kept)); }  // out of the middle of a blade, or down its side
   const double small = tol_project * std::max({radii_.x, radii_.y, radii_.z});
   for (int round = 0; round < 32; ++round) {
     // Along the tangent plane towards the foot of p, and back onto the surface; part of the way while that leads away.
     const glm::dvec3 n = normal(x);
     glm::dvec3 step = (f - x) - glm::dot(f - x, n) * n;
-    while (glm::length(step) > small && !take_if_nearer(settle(glm::max(x + step, glm::dvec3(0.0))))) { step *= 0.25; }
+    const auto go = [&] {
+      return take_if_nearer(settle(glm::max(x + step, glm::dvec3{0.0}), 0.0)) ||
+             (pinched && take_if_nearer(settle(glm::max(x + step, kept * x), kept)));
+    };
+    while (glm::length(step) > small && !go()) { step *= 0.25; }
     if (glm::length(step) <= small) { break; }
   }
-  return {centre_ + sign * x, sign * normal(x)};
+  return x;
 }
 
 HALFLIGHT_INLINE void Superquadric::approximate(double tolerance, brep::Builder& out) const {
@@ -278,12 +298,12 @@ HALFLIGHT_INLINE glm::dvec3 Superquadric::normal(const glm::dvec3& x) const {
   return length > 0.0 ? n / length : glm::dvec3(0.0, 0.0, 1.0);
 }
 
-HALFLIGHT_INLINE glm::dvec3 Superquadric::settle(glm::dvec3 x) const {
+HALFLIGHT_INLINE glm::dvec3 Superquadric::settle(glm::dvec3 x, double kept) const {
   for (int i = 0; i < 16; ++i) {
     const auto [value, gradient] = level(x);
     const double squared = glm::dot(gradient, gradient);
     if (std::abs(value) <= eps_gauge || !(squared > 0.0)) { break; }
-    x = glm::max(x - (value / squared) * gradient, glm::dvec3(0.0));
+    x = glm::max(x - (value / squared) * gradient, kept * x);
   }
   return onto(x);
 }

@@ -61,6 +61,8 @@ class Superquadric final : public Object {
   // towards p and that is no farther than the one where the way to the centre (of the profile) meets the surface. On an edge the normal
   // is the mean of both sides.
   [[nodiscard]] SurfacePoint project(std::uint32_t, const glm::dvec3& p) const override;
+  // In the planes of symmetry in which p lies: edges are curves in these.
+  [[nodiscard]] glm::dvec3 vertex(std::uint32_t, const glm::dvec3& p) const override;
 
   // A grid of trapezoids whose columns follow the superellipse about the axis and whose rows follow the profile, with triangles at the
   // poles of a superellipsoid. A chord point lies within the sum of both curves' chord errors of the surface, each scaled by the largest
@@ -109,9 +111,12 @@ class Superquadric final : public Object {
   // The gauge of the profile at x >= 0, less one, and its gradient. A coordinate 0 has no part in the gradient: the two sides cancel.
   [[nodiscard]] std::pair<double, glm::dvec3> level(const glm::dvec3& x) const;
   [[nodiscard]] glm::dvec3 normal(const glm::dvec3& x) const;
+  // The nearest point to f >= 0. From planes of symmetry it is looked for at coordinates of `least`; 0 keeps it in a plane.
+  [[nodiscard]] glm::dvec3 nearest_to(const glm::dvec3& f, const glm::dvec3& least) const;
   // Onto the surface from x >= 0 nearby: by Newton's steps along the normal, because the way to the centre is long where a blade runs
-  // along it, then exactly.
-  [[nodiscard]] glm::dvec3 settle(glm::dvec3 x) const;
+  // along it, then exactly. A step keeps this share of each coordinate at least: beside a blade steps are too long, and with 0 they end in its
+  // plane, where the side is forgotten.
+  [[nodiscard]] glm::dvec3 settle(glm::dvec3 x, double kept) const;
 
   glm::dvec3 centre_{0.0}, radii_{0.0}, limit_{1.0};
   Superellipse around_, profile_;

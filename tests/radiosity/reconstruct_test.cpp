@@ -15,6 +15,7 @@
 #include <raycast/object.hpp>
 #include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/sphere.hpp>
+#include <raycast/objects/superquadric.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/meshing.hpp>
@@ -199,6 +200,34 @@ TEST_CASE("corners of the mesh have the normals of the true surface, each side o
       const glm::dvec3 n{corner.normal};
       const bool side = std::abs(n.z) < 0.5;
       CHECK(glm::length(n - (side ? glm::normalize(glm::dvec3{p.x, p.y, 0.0}) : glm::dvec3{0, 0, p.z > 1.0 ? 1.0 : -1.0})) < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("corners of the mesh on the edges of blades have normals of their own side") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); };
+  for (int i = 0; i < 4; ++i) {
+    radiosity::Scene scene = lone(raycast::Superquadric::make({0, 0, 0}, {1, 1, 1}, uniform(0.8, 1.2), uniform(2.5, 3.5)).object);
+    scene.materials.push_back({"lamp", radiosity::Color{0.0}, radiosity::Color{10.0}});
+    scene.objects.push_back(scenes::object("lamp", scenes::polygon({{3, 3, 1}, {3, 4, 1}, {3, 4, -1}, {3, 3, -1}}), 1));
+    radiosity::Options options;
+    options.epsilon = 0.02;
+    options.audit_points = 0;
+    const auto outcome = radiosity::solve(scene, options);
+    REQUIRE(outcome.solution);
+    const radiosity::Mesh& mesh = outcome.solution->mesh;
+    for (const radiosity::MeshFace& face : mesh.faces) {
+      if (face.surface != 0) { continue; }
+      std::vector<glm::dvec3> corners;
+      for (std::uint32_t c = 0; c < face.corner_count; ++c) { corners.push_back(mesh.positions[mesh.corners[face.first_corner + c].vertex]); }
+      const glm::dvec3 flat = glm::normalize(radiosity::vector_area(corners));
+      if (std::abs(corners[0].z) > 0.5) { continue; }  // near the tips surfaces bend within a face, too
+      for (std::uint32_t c = 0; c < face.corner_count; ++c) {
+        CHECK(glm::dot(glm::dvec3{mesh.corners[face.first_corner + c].normal}, flat) > 0.5);
+      }
     }
   }
 }
