@@ -77,8 +77,9 @@ template <class Measured>
     const double needed = 1.2 * seen->variance / (off * off);
     const std::uint64_t rays = goal.wanted && seen->ratio <= target ? std::max(goal.rays, goal.rays_to_show) : goal.rays;
     // The noise of the paths falls with the square of their number, so more paths at fewer points pay until it is half of the variance.
-    // From few points its share is mostly seen too small. A target needs no more than to be met with the least number of points.
-    if (seen->noise_share > 0.2 && (!goal.wanted || needed > static_cast<double>(least)) && affordable(4.0, rays)) {
+    // From few points its share is mostly seen too small. Where the least number of points shows the target, they may cost no more than
+    // the solution.
+    if (seen->noise_share > 0.2 && affordable(4.0, needed > static_cast<double>(least) ? rays : goal.rays)) {
       paths *= 4;
       continue;
     }
