@@ -50,7 +50,8 @@ class Patches {
 
 class OccluderLists {
  public:
-  explicit OccluderLists(std::pmr::memory_resource* arrays = nullptr) : words_(arrays) {}
+  OccluderLists() = default;
+  explicit OccluderLists(std::pmr::memory_resource* arrays) : words_(arrays) {}
 
   // Indices that stand for no list: none has been made, or it was too long to keep; nothing stands between; proven to exchange nothing, and
   // linked all the same.

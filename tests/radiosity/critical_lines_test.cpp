@@ -55,15 +55,15 @@ Polygon random_polygon(Random& random, const glm::dvec3& centre, double radius, 
 }
 
 // A lamp above a blocker above the square |x|, |y| <= 1 in the plane z = 0, heights and sizes such that nothing is nearer than 0.3.
-struct World {
-  explicit World(std::uint64_t seed) {
+struct LitWorld {
+  explicit LitWorld(std::uint64_t seed) {
     Random random{seed, 0, 0};
     const auto offset = [&] { return 0.4 * random.uniform() - 0.2; };
     lamp = random_polygon(random, {offset(), offset(), 1.5 + 0.3 * random.uniform()}, 0.3 + 0.2 * random.uniform(), true);
     blocker = random_polygon(random, {offset(), offset(), 0.5 + 0.2 * random.uniform()}, 0.2 + 0.2 * random.uniform(), false);
     find();
   }
-  World(Polygon over, Polygon between) : lamp{std::move(over)}, blocker{std::move(between)} { find(); }
+  LitWorld(Polygon over, Polygon between) : lamp{std::move(over)}, blocker{std::move(between)} { find(); }
 
   void find() {
     add_critical_lines(face, sheet(lamp), sheet(blocker), 1e-9, lines);
@@ -103,7 +103,7 @@ TEST_CASE("critical lines: away from all of them the light is smooth") {
   CAPTURE(seed);
   std::size_t far = 0, kinks_of_others = 0;
   for (std::uint64_t k = 0; k < 40; ++k) {
-    const World world{seed + k};
+    const LitWorld world{seed + k};
     CAPTURE(k);
     Random random{seed, k, 1};
     for (int i = 0; i < 250; ++i) {
@@ -112,14 +112,14 @@ TEST_CASE("critical lines: away from all of them the light is smooth") {
       const glm::dvec3 d{std::cos(angle), std::sin(angle), 0.0};
       const double most = std::abs(world.fourth_difference(x, d));
       const bool near = std::any_of(world.lines.begin(), world.lines.end(),
-                                    [&](const CriticalLine& line) { return World::distance(line, x) <= 2.0 * World::h; });
+                                    [&](const CriticalLine& line) { return LitWorld::distance(line, x) <= 2.0 * LitWorld::h; });
       if (near) {
         kinks_of_others += most > smooth ? 1 : 0;
         continue;
       }
       ++far;
       CAPTURE(x.x, x.y);
-      CHECK((most <= smooth || std::abs(world.fourth_difference(x, d, 0.5 * World::h)) <= most / 8.0));
+      CHECK((most <= smooth || std::abs(world.fourth_difference(x, d, 0.5 * LitWorld::h)) <= most / 8.0));
     }
   }
   CHECK(far > 5000);
@@ -131,7 +131,7 @@ TEST_CASE("critical lines: across each the second derivative of the light jumps,
   CAPTURE(seed);
   std::size_t looked_at = 0;
   for (std::uint64_t k = 0; k < 40; ++k) {
-    const World world{seed + k};
+    const LitWorld world{seed + k};
     CAPTURE(k, world.lines.size());
     Random random{seed, k, 1};
     for (const CriticalLine& line : world.lines) {
@@ -141,11 +141,11 @@ TEST_CASE("critical lines: across each the second derivative of the light jumps,
       for (int i = 0; i < 10; ++i) {
         const glm::dvec3 x = line.from + (0.1 + 0.8 * random.uniform()) * (line.to - line.from);
         const bool alone = std::all_of(world.lines.begin(), world.lines.end(), [&](const CriticalLine& other) {
-          return &other == &line || World::distance(other, x) > 4.0 * World::h;
+          return &other == &line || LitWorld::distance(other, x) > 4.0 * LitWorld::h;
         });
         if (!alone) { continue; }
         ++asked;
-        most = std::max(most, std::abs(world.fourth_difference(x + World::h * across, across)));
+        most = std::max(most, std::abs(world.fourth_difference(x + LitWorld::h * across, across)));
       }
       if (asked < 5) { continue; }
       ++looked_at;
@@ -161,7 +161,7 @@ TEST_CASE("critical lines of parallel squares: the half-shadow's borders, of deg
     return down ? Polygon{{-r, -r, z}, {-r, r, z}, {r, r, z}, {r, -r, z}} : Polygon{{-r, -r, z}, {r, -r, z}, {r, r, z}, {-r, r, z}};
   };
   // Lamp of half the side 0.3 at 1.5, blocker 0.2 at 0.5: full shadow |x| < 0.15, half-shadow |x| < 0.45.
-  const World world{square(0.3, 1.5, true), square(0.2, 0.5, false)};
+  const LitWorld world{square(0.3, 1.5, true), square(0.2, 0.5, false)};
   CHECK(world.lines.size() == 8);
   for (const CriticalLine& line : world.lines) {
     CHECK(line.degree == 1);
@@ -175,7 +175,7 @@ TEST_CASE("critical lines of parallel squares: the half-shadow's borders, of deg
     glm::dvec3 middle = 0.5 * (line.from + line.to);
     middle[1 - axis] = 0.05;
     glm::dvec3 step{0.0};
-    step[axis] = World::h;
+    step[axis] = LitWorld::h;
     const auto second = [&](const glm::dvec3& x) { return std::abs(world.light(x + step) - 2.0 * world.light(x) + world.light(x - step)); };
     CHECK(second(middle) > 100.0 * std::max(second(middle + 3.0 * step), second(middle - 3.0 * step)));
   }

@@ -30,7 +30,7 @@ using radiosity::Solution;
 
 namespace {
 
-constexpr std::uint32_t thing = 0, lamp = 1;
+constexpr std::uint32_t thing_material = 0, lamp_material = 1;
 
 // A room, so that faces share edges, with a lamp below its ceiling, a box that stands on its floor and a plate that hangs askew.
 Scene random_room(std::uint64_t seed) {
@@ -41,8 +41,8 @@ Scene random_room(std::uint64_t seed) {
   const glm::dvec3 corner{between(0.2, 0.5), between(0.2, 0.5), between(0.4, 0.6)};
   const glm::dvec3 s{between(0.1, 0.3), between(0.0, 0.2), between(0.0, 0.1)};
   const glm::dvec3 t{between(-0.2, 0.0), between(0.1, 0.3), between(0.0, 0.1)};
-  scene.objects = {scenes::object("room", scenes::box({0, 0, 0}, {1, 1, 1}), thing, true),
-                   scenes::square("lamp", {between(0.3, 0.7), between(0.3, 0.7), 0.95}, between(0.05, 0.2), false, lamp),
+  scene.objects = {scenes::object("room", scenes::box({0, 0, 0}, {1, 1, 1}), thing_material, true),
+                   scenes::square("lamp", {between(0.3, 0.7), between(0.3, 0.7), 0.95}, between(0.05, 0.2), false, lamp_material),
                    scenes::object("box", scenes::box(foot, foot + glm::dvec3{between(0.1, 0.4), between(0.1, 0.4), between(0.1, 0.3)})),
                    scenes::plate("plate", {corner, corner + s, corner + s + t, corner + t})};
   return scene;
