@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -13,6 +14,7 @@
 
 #include <brep/polygon.hpp>
 #include <radiosity/bake/baked_light.hpp>
+#include <radiosity/hierarchy/corner_normal.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <raycast/box.hpp>
@@ -95,13 +97,14 @@ ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solut
     std::vector<glm::dvec3> outline;
     for (std::uint32_t k = 0; k < face.corner_count; ++k) { outline.push_back(mesh.positions[mesh.corners[face.first_corner + k].vertex]); }
     const glm::dvec3 flat = unit(brep::vector_area(outline), {0, 0, 1});
+    const glm::dvec3 middle = std::accumulate(outline.begin(), outline.end(), glm::dvec3{0.0}) / static_cast<double>(outline.size());
     for (std::uint32_t k = 0; k < face.corner_count; ++k) {
       if (!fixed[mesh.corners[face.first_corner + k].vertex]) { outline[k] -= behind * flat; }
       if (before[object]) { outline[k] += behind * flat; }
     }
     for (std::uint32_t k = 0; k < face.corner_count; ++k) {
       const radiosity::MeshCorner& corner = mesh.corners[face.first_corner + k];
-      const glm::dvec3 normal = unit(glm::dvec3{corner.normal}, flat);
+      const glm::dvec3 normal = unit(radiosity::corner_normal(objects[input.object], input.sheet, outline[k], middle), flat);
       const ExportVertex vertex{outline[k], normal, corner.radiosity};
       std::uint32_t v = newest[corner.vertex];
       while (v != none && v >= out.groups.back().first_vertex &&

@@ -34,6 +34,15 @@ int crossings(const std::string& svg) {
   return found;
 }
 
+// Images in base64 may hold any word.
+std::string without_images(std::string svg) {
+  for (std::size_t at = 0; (at = svg.find("base64,", at)) != std::string::npos;) {
+    at += 7;
+    svg.erase(at, svg.find_first_of("'\"", at) - at);
+  }
+  return svg;
+}
+
 }  // namespace
 
 TEST_CASE("figures: all eight are drawn from files of examples/, and say what they show") {
@@ -46,7 +55,7 @@ TEST_CASE("figures: all eight are drawn from files of examples/, and say what th
     CHECK(figure.file == "figure" + std::to_string(i + 1) + ".svg");
     CHECK(std::filesystem::exists(std::string(HALFLIGHT_SOURCE "/examples/") + figure.source));
     CHECK(figure.svg.find("</svg>") != std::string::npos);
-    CHECK(figure.svg.find("nan") == std::string::npos);
+    CHECK(without_images(figure.svg).find("nan") == std::string::npos);
     CHECK(figure.caption.size() > 60);
     CHECK(page.find("src='" + figure.file + "'") != std::string::npos);
   }
