@@ -58,6 +58,8 @@ HALFLIGHT_INLINE std::optional<ErrorEstimate> ErrorSums::estimate() const {
   result.relative_l2 = root(m->ratio);
   result.low = root(m->ratio - noise_of_mean * quantile(two_sided));
   result.high = std::max(result.relative_l2, root(m->ratio - noise_of_mean * quantile(-two_sided)));
+  // An error that is lost in the noise is not known to be smaller than the noise: a mean that chance took below 0 would say so.
+  if (result.low == 0.0) { result.high = std::max(result.high, root(std::max(0.0, m->ratio) + two_sided * noise_of_mean)); }
   // d sqrt(x) = dx / (2 sqrt(x)); where the error is lost in the noise, the noise itself bounds it.
   result.standard_error = m->ratio > noise_of_mean ? 0.5 * noise_of_mean / result.relative_l2 : std::sqrt(noise_of_mean);
   return result;
