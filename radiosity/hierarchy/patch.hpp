@@ -64,5 +64,4 @@ inline constexpr std::array<double, 4> gauss4_w{0.17392742256872692869, 0.326072
 
 #ifdef HALFLIGHT_HEADER_ONLY
 #include <radiosity/hierarchy/patch.cpp>
-#include <radiosity/support/big_array.hpp>
 #endif

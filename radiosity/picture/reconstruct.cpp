@@ -122,8 +122,8 @@ HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32
   return false;
 }
 
-// Does a face of a flat object lie on another flat object that faces the same way, corner by corner? There is then nothing of it to be seen:
-// not even slivers, as of a face that a curved object stands on.
+// Does a face of a flat object lie on another flat object that faces the same way, corner by corner? There is then nothing of it to be
+// seen: not even slivers, as of a face that a curved object stands on.
 [[nodiscard]] HALFLIGHT_INLINE bool lies_under(const Surface& own, brep::FaceId f, const std::vector<Surface>& surfaces) {
   if (!own.object->flat()) { return false; }
   Polygon corners;

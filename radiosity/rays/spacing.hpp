@@ -26,7 +26,8 @@ struct SpacingResult {
 // each node r / R times the light that it reflects, relative to the scene, times the root of its share of that area is at most
 // `tolerance`: what each adds to the L2 error is then about the same. R and that light are found by 16 rays. Lamps are left as they are,
 // and what is buried. Then casters are split as senders (senders.hpp), to a third of the tolerance: what one sends is wrong for all that
-// see it in the same sense. `of_lamps`: evaluated links that carry the light of all lamps; an end that was a leaf and is split gets its gradient.
+// see it in the same sense. `of_lamps`: evaluated links that carry the light of all lamps; an end that was a leaf and is split gets its
+// gradient.
 [[nodiscard]] SpacingResult space_casters(DiscreteScene& scene, Links& of_lamps, double tolerance, double min_area);
 
 }  // namespace radiosity

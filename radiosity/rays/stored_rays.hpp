@@ -17,6 +17,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/rays/leaf_locator.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/support/big_array.hpp>
 
 namespace radiosity {
 
@@ -57,5 +58,4 @@ inline constexpr std::uint64_t ray_limit = 400'000'000;
 
 #ifdef HALFLIGHT_HEADER_ONLY
 #include <radiosity/rays/stored_rays.cpp>
-#include <radiosity/support/big_array.hpp>
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `halflight explain` records is what the solver does: watching changes nothing, and every number on the page follows from the solution.
+// What `halflight explain` records is what the solver does: watching changes nothing, and every number on the page follows from the
+// solution.
 #include "catch.hpp"
 
 #include <cmath>

@@ -154,8 +154,8 @@ TEST_CASE("a buried leaf beside an exposed one takes the light of its neighbours
   }
 }
 
-// A square lamp lies in a square ceiling, both facing down, anywhere: over the edge, too. No face of the ceiling lies wholly under it, where two
-// faces in one plane would fight for each pixel. (Faces that reach under the lamp from beside it are whole.)
+// A square lamp lies in a square ceiling, both facing down, anywhere: over the edge, too. No face of the ceiling lies wholly under it,
+// where two faces in one plane would fight for each pixel. (Faces that reach under the lamp from beside it are whole.)
 TEST_CASE("the mesh has no face that lies wholly under one of the same plane") {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     CAPTURE(seed);
@@ -222,7 +222,9 @@ TEST_CASE("corners of the mesh on the edges of blades have normals of their own 
     for (const radiosity::MeshFace& face : mesh.faces) {
       if (face.surface != 0) { continue; }
       std::vector<glm::dvec3> corners;
-      for (std::uint32_t c = 0; c < face.corner_count; ++c) { corners.push_back(mesh.positions[mesh.corners[face.first_corner + c].vertex]); }
+      for (std::uint32_t c = 0; c < face.corner_count; ++c) {
+        corners.push_back(mesh.positions[mesh.corners[face.first_corner + c].vertex]);
+      }
       const glm::dvec3 flat = glm::normalize(radiosity::vector_area(corners));
       if (std::abs(corners[0].z) > 0.5) { continue; }  // near the tips surfaces bend within a face, too
       for (std::uint32_t c = 0; c < face.corner_count; ++c) {
