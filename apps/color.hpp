@@ -3,8 +3,8 @@
 
 // From radiosity to what a screen shows.
 //
-// A diffuse surface of radiosity B (W/m2) has the radiance B / pi (W/m2/sr) in every direction. The value shown is exposure * B / pi, passed
-// through the tone curve, clamped to [0,1] and encoded by the sRGB transfer function (IEC 61966-2-1), 8 bits per channel.
+// A diffuse surface of radiosity B (W/m2) has the radiance B / pi (W/m2/sr) in every direction. The value shown is exposure * B / pi,
+// passed through the tone curve, clamped to [0,1] and encoded by the sRGB transfer function (IEC 61966-2-1), 8 bits per channel.
 
 #include <algorithm>
 #include <array>
@@ -23,6 +23,11 @@ using Rgb8 = std::array<std::uint8_t, 3>;
 // Linear light in [0,1] to the encoded value in [0,1].
 [[nodiscard]] inline double srgb_encode(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+// And back.
+[[nodiscard]] inline double srgb_decode(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
 // linear: brightness is proportional to light up to 1. filmic: dark tones get more contrast, bright ones approach 1 slowly, as on film;

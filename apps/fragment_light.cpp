@@ -8,44 +8,18 @@
 #include <span>
 #include <vector>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-
-#include <raycast/shaft.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/lit_region.hpp>
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/scene/material.hpp>
-#include <radiosity/support/random.hpp>
 
 namespace apps {
 namespace {
 
 using radiosity::Color;
-
-// A flat rectangle around these fragments of one surface, with how far a curved one leaves it.
-radiosity::LitRegion region_of(const radiosity::FinalGather& light, std::span<const std::uint32_t> own,
-                               const std::vector<Fragment>& fragments) {
-  const radiosity::FinalGather::Place& first = fragments[own[0]].place;
-  glm::dvec3 n{0.0};
-  for (const std::uint32_t i : own) { n += fragments[i].place.point.normal; }
-  const bool flat = light.objects().object(first.object).flat();
-  n = flat ? first.point.normal : glm::length(n) > 0.0 ? glm::normalize(n) : first.point.normal;
-  const auto [s, t] = radiosity::orthonormal(n);
-  glm::dvec3 lo{0.0}, hi{0.0};
-  for (const std::uint32_t i : own) {
-    const glm::dvec3 d = fragments[i].place.point.position - first.point.position;
-    const glm::dvec3 at{glm::dot(d, s), glm::dot(d, t), glm::dot(d, n)};
-    lo = glm::min(lo, at);
-    hi = glm::max(hi, at);
-  }
-  const auto corner = [&, s = s, t = t](double u, double v) { return first.point.position + u * s + v * t; };
-  const std::array<glm::dvec3, 4> contour{corner(lo.x, lo.y), corner(hi.x, lo.y), corner(hi.x, hi.y), corner(lo.x, hi.y)};
-  const double bulge = flat ? 0.0 : std::max(hi.z, -lo.z);
-  return {light.direct(), {contour, first.object, bulge}, flat ? n : glm::dvec3{0.0}};
-}
 
 // Where a surface fills a block, shadows are found by every second to third of its pixels in either direction.
 constexpr std::array<std::uint32_t, 4> lattice{0, 2, 5, 7};
@@ -122,7 +96,9 @@ void add_lamp(radiosity::LitRegion& region, std::size_t k, std::span<const std::
 
 void add_direct_light(const radiosity::FinalGather& light, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
                       std::vector<Color>& irradiance) {
-  radiosity::LitRegion region = region_of(light, own, fragments);
+  std::vector<radiosity::FinalGather::Place> places;
+  for (const std::uint32_t i : own) { places.push_back(fragments[i].place); }
+  radiosity::LitRegion region = light.lit_region(places);
   for (std::size_t k = 0; k < region.size(); ++k) { add_lamp(region, k, own, fragments, irradiance); }
 }
 

@@ -28,11 +28,7 @@ namespace {
 
 using radiosity::Color;
 
-// Points of indirect light, by measurement: rays of each, and the share of its light at which they are enough; radius of its ball by the
-// harmonic mean distance of what it sees, and in pixels.
-constexpr std::uint32_t least_rays = 256, most_rays = 1024;
-constexpr double ray_error = 0.03;
-constexpr double part_of_distance = 0.2, least_pixels = 2.0, most_pixels = 20.0;
+constexpr double least_pixels = 2.0, most_pixels = 20.0;  // radius of the ball of a point of indirect light, by measurement
 
 constexpr float change_at_edge = 0.3f;  // of light, from one pixel to the next, or within one: an edge of a shadow, not only a slope
 
@@ -178,7 +174,8 @@ void Painter::look_closer(std::size_t block) {
 
 IndirectPoint Painter::gather_at(const Fragment& fragment) const {
   const std::uint64_t key = radiosity::scramble(std::size_t{fragment.y} * view_.size.width + fragment.x) ^ fragment.place.surface;
-  const auto found = light_.indirect(fragment.place, least_rays, most_rays, ray_error, key);
+  const auto found =
+      light_.indirect(fragment.place, radiosity::gather_rays.least, radiosity::gather_rays.most, radiosity::gather_rays.error, key);
   IndirectPoint point;
   point.position = fragment.place.point.position;
   point.normal = fragment.place.point.normal;
@@ -188,10 +185,13 @@ IndirectPoint Painter::gather_at(const Fragment& fragment) const {
   const double size = pixel_size_(point.position);
   const double facing = std::abs(glm::dot(point.normal, glm::normalize(point.position - eye_.position)));
   const double footprint = size / std::max(facing, 0.2);  // of a pixel; where it is slanted, at most five times as long
-  const double allowed = found.nearness > 0.0 ? part_of_distance / found.nearness : raycast::infinity;
+  const double allowed = found.nearness > 0.0 ? radiosity::gathered_part_of_distance / found.nearness : raycast::infinity;
   point.radius = std::clamp(allowed, least_pixels * footprint, most_pixels * footprint);
+  point.widest = radiosity::most_fit * point.radius;
   point.pixels = point.radius / size;
+  point.widest_pixels = point.widest / size;
   point.gathered = found.irradiance;
+  point.variance = found.variance;
   return point;
 }
 

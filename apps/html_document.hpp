@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A page of one file that is gone through step by step: its style, its elements, its data and the script that shows them, after what all pages
-// share (page/). No network, no library; it works from a folder.
+// What every page of the program has: one file, no network, no library; it works from a folder.
 
 #include <string>
 
@@ -11,18 +10,23 @@
 
 namespace apps {
 
-struct HtmlDocument {
-  std::string title, style, body;
-  std::string data;  // JSON; the script knows it as `data`
-  std::string script;
-};
+[[nodiscard]] inline std::string html_document(const std::string& title, const std::string& style, const std::string& body) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width\">\n<title>" +
+         escaped(title) + "</title>\n<style>" + style + "\n</style>\n</head>\n<body>" + body + "</body>\n</html>\n";
+}
 
-[[nodiscard]] inline std::string to_text(const HtmlDocument& page) {
+// The elements of a page, then its script, which knows the JSON as `data`.
+[[nodiscard]] inline std::string with_script(const std::string& elements, const std::string& json, const std::string& script) {
   std::string data;
-  for (const char c : page.data) { c == '<' ? data += "\\u003c" : data += c; }  // so that nothing in it ends the script element
-  return "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n<meta name='viewport' content='width=device-width'>\n<title>" +
-         escaped(page.title) + "</title>\n<style>" + embedded::page_common_css + page.style + "\n</style>\n</head>\n<body>" + page.body +
-         "<script>\n'use strict';\nconst data = " + data + ";" + embedded::page_common_js + page.script + "</script>\n</body>\n</html>\n";
+  for (const char c : json) { c == '<' ? data += "\\u003c" : data += c; }  // so that nothing in it ends the script element
+  return elements + "<script>\n'use strict';\nconst data = " + data + ";" + script + "</script>\n";
+}
+
+// A page that is gone through step by step, by the controls that all these share (page/).
+[[nodiscard]] inline std::string stepped_document(const std::string& title, const std::string& style, const std::string& elements,
+                                                  const std::string& json, const std::string& script) {
+  return html_document(title, embedded::page_common_css + style, with_script(elements, json, embedded::page_common_js + script));
 }
 
 }  // namespace apps

@@ -18,25 +18,26 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/scene/material.hpp>
 
-#include "apps/study/checksum.hpp"
+#include "apps/bytes.hpp"
+#include "apps/checksum.hpp"
 
 namespace apps {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "numbers are read as they lie in memory");
 
 constexpr std::string_view light_opening = "halflight light 1\n";
 constexpr std::size_t digits = 16;  // of a checksum
 
 std::string checksum_of_bytes(std::string_view bytes) {
-  study::Checksum sum;
+  Checksum sum;
   sum.add(bytes);
   return sum.text();
 }
 
 // Changes with everything that the light depends on: colours, and shapes by the corners of coarse approximations.
 std::string key_of(const radiosity::Scene& scene, const radiosity::Frame& frame) {
-  study::Checksum sum;
+  Checksum sum;
   const auto add = [&](const glm::dvec3& v) {
     for (int c = 0; c < 3; ++c) { sum.add(v[c]); }
   };
@@ -56,17 +57,6 @@ std::string key_of(const radiosity::Scene& scene, const radiosity::Frame& frame)
     for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) { add(builder.position(v)); }
   }
   return sum.text();
-}
-
-template <class Number>
-void append_raw(std::string& bytes, Number number) {
-  char raw[sizeof(Number)];
-  std::memcpy(raw, &number, sizeof(Number));
-  bytes.append(raw, sizeof(Number));
-}
-template <class Vector>
-void append_vector(std::string& bytes, const Vector& v) {
-  for (int c = 0; c < 3; ++c) { append_raw(bytes, v[c]); }
 }
 
 class LightReader {
@@ -118,20 +108,18 @@ bool consistent(const radiosity::Mesh& mesh, std::size_t surfaces) {
 
 std::string to_light_file(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Scene& scene) {
   std::string bytes = std::string(light_opening) + key_of(scene, frame) + "\n";
-  for (const std::size_t count : {mesh.positions.size(), mesh.corners.size(), mesh.faces.size()}) {
-    append_raw(bytes, std::uint64_t{count});
-  }
-  for (const glm::dvec3& p : mesh.positions) { append_vector(bytes, p); }
+  for (const std::size_t count : {mesh.positions.size(), mesh.corners.size(), mesh.faces.size()}) { put(bytes, std::uint64_t{count}); }
+  for (const glm::dvec3& p : mesh.positions) { put(bytes, p); }
   for (const radiosity::MeshCorner& corner : mesh.corners) {
-    append_raw(bytes, corner.vertex);
-    append_vector(bytes, corner.radiosity);
-    append_vector(bytes, corner.normal);
+    put(bytes, corner.vertex);
+    put(bytes, corner.radiosity);
+    put(bytes, corner.normal);
   }
   for (const radiosity::MeshFace& face : mesh.faces) {
-    append_raw(bytes, face.first_corner);
-    append_raw(bytes, face.corner_count);
-    append_raw(bytes, face.surface);
-    append_vector(bytes, face.radiosity);
+    put(bytes, face.first_corner);
+    put(bytes, face.corner_count);
+    put(bytes, face.surface);
+    put(bytes, face.radiosity);
   }
   return bytes + checksum_of_bytes(bytes);
 }

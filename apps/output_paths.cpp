@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/output_paths.hpp"
+#include "apps/text.hpp"
 
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <string_view>
 #include <system_error>
@@ -29,10 +29,8 @@ int descriptor_of(const fs::path& path) {
   if (name == "/dev/stderr") { return STDERR_FILENO; }
   for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
     if (!name.starts_with(folder)) { continue; }
-    int number = -1;
-    const char* const end = name.data() + name.size();
-    const auto [rest, code] = std::from_chars(name.data() + folder.size(), end, number);
-    if (code == std::errc() && rest == end && number >= 0) { return number; }
+    const auto number = number_in<int>(std::string_view(name).substr(folder.size()));
+    if (number && *number >= 0) { return *number; }
   }
   return -1;
 }

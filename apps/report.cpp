@@ -54,14 +54,22 @@ class Text {
     if (audit_.picture_error) { out_ += picture_error_text(*audit_.picture_error, report_.picture ? report_.picture->camera : ""); }
     if (report_.options.reconstruction != radiosity::Reconstruction::none) { row("surfaces", error_text(audit_.surface_error)); }
     row("leaf constants", error_text(audit_.leaf_error));
+    if (audit_.mesh) { mesh(*audit_.mesh); }
     if (audit_.estimated_error) {
       const bool picture = report_.options.reconstruction < radiosity::Reconstruction::constant;
       say("estimated from links", picture ? "{estimated_error} of the picture, {estimated_leaf_error} of the leaves" : "{estimated_error}",
           audit_.generations > 0 ? ", after " + std::to_string(audit_.generations) + " generations" : "");
-      if (!audit_.estimate_doubt.empty()) { say("", "no bound: {estimate_doubt}"); }
+      if (!audit_.estimate_doubt.empty()) { say("", "{estimate_doubt}"); }
       if (audit_.target_missed) { row("", "TARGET MISSED: the error is above " + percent(audit_.target)); }
     }
     say("path-traced points", "{error.points}, {error.rays} rays");
+  }
+
+  void mesh(const radiosity::MeshRefinement& mesh) {
+    const bool changed = mesh.after.relative_l2 != mesh.before.relative_l2;
+    row("mesh, against gather", error_text(mesh.before) + (changed ? " -> " + error_text(mesh.after) : ""));
+    row("", grouped(mesh.faces_before) + (changed ? " -> " + grouped(mesh.faces_after) : "") + " faces" +
+                (mesh.met ? "" : "; NOT within " + percent(mesh.wanted)));
   }
 
   void times() {
@@ -86,9 +94,12 @@ class Text {
     say("nodes, leaves", "{nodes}, {leaves}");
     say("proportions", "{proportion.min} to {proportion.max}, mean {proportion.mean} (regular polygon: 1)");
     if (audit_.imprinted) { edges(*audit_.imprinted); }
-    say("links", audit_.clusters > 0      ? "{links}, {cluster_links} of them with one of {clusters} clusters"
-                 : audit_.stored_rays > 0 ? "{links}, {ray_links} of them made of {stored_rays} stored rays"
-                                          : "{links}");
+    say("links",
+        audit_.stored_rays > 0 && audit_.clusters > 0
+            ? "{links}, {ray_links} of them made of {stored_rays} stored rays, {cluster_links} with one of {clusters} clusters of lamps"
+        : audit_.clusters > 0    ? "{links}, {cluster_links} of them with one of {clusters} clusters"
+        : audit_.stored_rays > 0 ? "{links}, {ray_links} of them made of {stored_rays} stored rays"
+                                 : "{links}");
     say("rays", "{rays} cast, {rays_avoided} avoided: {pairs_clear} pairs proven clear, {pairs_blocked} proven blocked");
     row("memory",
         facts_.text("{peak_bytes.process} at the peak of the process, ").value_or("") + *facts_.text("{bytes} held by the result"));

@@ -54,6 +54,14 @@ void add_errors(Facts& facts, const radiosity::Audit& audit) {
   facts.add("error.points", audit.audit_points);
   facts.add("error.rays", audit.audit_rays);
   add_error(facts, "error.leaf", *audit.leaf_error);
+  if (audit.mesh) {
+    add_error(facts, "error.mesh.before", audit.mesh->before);
+    add_error(facts, "error.mesh.after", audit.mesh->after);
+    facts.add("error.mesh.faces_before", audit.mesh->faces_before);
+    facts.add("error.mesh.faces_after", audit.mesh->faces_after);
+    facts.add("error.mesh.wanted", audit.mesh->wanted, "%");
+    facts.add("error.mesh.met", audit.mesh->met);
+  }
   if (audit.picture_error) { add_picture_error(facts, *audit.picture_error); }
 }
 

@@ -1,16 +1,37 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Numbers and columns as text, for what the commands print.
+// Numbers, lists and columns as text, for what the commands print; and text as numbers.
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 namespace apps {
+
+// The number that is the whole text, without sign '+' or blanks; nothing otherwise.
+template <class Number>
+[[nodiscard]] std::optional<Number> number_in(std::string_view text) {
+  Number number{};
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return code == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+// "a, b, c"; what is empty is left out.
+template <class List>
+[[nodiscard]] std::string joined(const List& items, std::string_view between = ", ") {
+  std::string text;
+  for (const std::string_view item : items) {
+    if (!item.empty()) { text.append(text.empty() ? "" : between).append(item); }
+  }
+  return text;
+}
 
 // By one printf conversion of a double: formatted("%.3g", x).
 [[nodiscard]] inline std::string formatted(const char* format, double x) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/view.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -27,6 +28,14 @@ glm::dvec3 View::ray(double x, double y) const {
 glm::dvec3 View::direction(double x, double y) const {
   const glm::dvec3 r = ray(x, y);
   return r.x * right + r.y * down + forward;
+}
+
+// A unit of area at distance r takes cos(theta) / r^2 of the directions, and 1 / cos(phi)^3 = (r / z)^3 as much of the plane z = 1 at the
+// angle phi off the axis.
+double View::share(const glm::dvec3& world, const glm::dvec3& normal) const {
+  const glm::dvec3 p = to_view(world);
+  if (!(p.z > 0.0) || std::abs(p.x) > half_width * p.z || std::abs(p.y) > half_height() * p.z) { return 0.0; }
+  return std::max(0.0, glm::dot(normal, eye - world)) / (p.z * p.z * p.z);
 }
 
 View make_view(const Camera& camera, const PictureSize& size) {

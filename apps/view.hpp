@@ -26,6 +26,9 @@ struct View {
   [[nodiscard]] glm::dvec3 ray(double x, double y) const;
   // and in this direction in the world, which goes 1 forward.
   [[nodiscard]] glm::dvec3 direction(double x, double y) const;
+  // The area of the image, in view space, that a unit of area takes at a place with this unit normal; 0 outside the picture or seen from
+  // behind.
+  [[nodiscard]] double share(const glm::dvec3& world, const glm::dvec3& normal) const;
 };
 
 // `camera` is sound: forward is not zero and up not parallel to it.

@@ -10,33 +10,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include <brep/builder_input.hpp>
+#include <brep/union_find.hpp>
 
 namespace brep::detail {
-
-// Sets that are merged (Tarjan 1975, with path halving); the smallest member represents a set.
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  [[nodiscard]] std::uint32_t find(std::uint32_t x) {
-    while (parent_[x] != x) { x = parent_[x] = parent_[parent_[x]]; }
-    return x;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 // Faces with fewer than three corners, with a corner that does not exist, or with a vertex that they visit twice.
 [[nodiscard]] inline std::vector<bool> unusable(const Builder& builder) {

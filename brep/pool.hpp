@@ -28,107 +28,10 @@
 #include <new>
 #include <type_traits>
 #include <utility>
-#include <vector>
+
+#include <brep/pages.hpp>
 
 namespace brep {
-
-inline constexpr unsigned page_shift = 10;  // 1024 elements a page: a box pays little, a million faces a short table
-
-// The default: the heap. (Not std::allocator, whose namespace would take part in the lookup of every function that is called on a BRep.)
-template <class T>
-struct HeapAllocator {
-  using value_type = T;
-
-  HeapAllocator() = default;
-  template <class U>
-  HeapAllocator(const HeapAllocator<U>&) {}  // implicit, as allocators are
-  [[nodiscard]] T* allocate(std::size_t count) { return std::allocator<T>().allocate(count); }
-  void deallocate(T* block, std::size_t count) { std::allocator<T>().deallocate(block, count); }
-  friend bool operator==(HeapAllocator, HeapAllocator) { return true; }
-};
-using DefaultAllocator = HeapAllocator<char>;
-
-// A growing array in pages of 2^Shift elements, which are constructed one by one: few elements touch only the first part of a page.
-template <class T, unsigned Shift, class Allocator>
-class Pages {
-  using ElementAllocator = typename std::allocator_traits<Allocator>::template rebind_alloc<T>;
-  using TableAllocator = typename std::allocator_traits<Allocator>::template rebind_alloc<T*>;
-  using Traits = std::allocator_traits<ElementAllocator>;
-
- public:
-  explicit Pages(const Allocator& allocator) : pages_(TableAllocator(allocator)) {}
-  Pages(Pages&& other) noexcept : pages_(std::move(other.pages_)), size_(std::exchange(other.size_, 0)) { other.pages_.clear(); }
-  Pages(const Pages& other) : Pages(other, std::allocator_traits<Allocator>::select_on_container_copy_construction(other.allocator())) {}
-  Pages(const Pages& other, const Allocator& allocator) : Pages(allocator) {
-    for (std::uint32_t i = 0; i < other.size_; ++i) { push_back(other[i]); }
-  }
-  Pages(Pages&& other, const Allocator& allocator) : Pages(allocator) {
-    if (pages_.get_allocator() != other.pages_.get_allocator()) {
-      for (std::uint32_t i = 0; i < other.size_; ++i) { push_back(std::move(other[i])); }
-      other.clear();
-    } else {
-      swap(other);
-    }
-  }
-  Pages& operator=(const Pages& other) {
-    Pages copy(other, allocator());
-    swap(copy);
-    return *this;
-  }
-  Pages& operator=(Pages&& other) noexcept {
-    Pages taken(std::move(other), allocator());
-    swap(taken);
-    return *this;
-  }
-  ~Pages() { clear(); }
-
-  [[nodiscard]] T& operator[](std::uint32_t i) {
-    assert(i < size_);
-    return pages_[i >> Shift][i & (page_size - 1)];
-  }
-  [[nodiscard]] const T& operator[](std::uint32_t i) const {
-    assert(i < size_);
-    return pages_[i >> Shift][i & (page_size - 1)];
-  }
-  template <class... Arguments>
-  void push_back(Arguments&&... arguments) {
-    if ((size_ & (page_size - 1)) == 0) { add_page(); }
-    ElementAllocator allocator(pages_.get_allocator());
-    Traits::construct(allocator, pages_.back() + (size_ & (page_size - 1)), std::forward<Arguments>(arguments)...);
-    ++size_;
-  }
-  [[nodiscard]] std::uint32_t size() const { return size_; }
-  [[nodiscard]] std::size_t bytes() const { return pages_.size() * page_size * sizeof(T) + pages_.capacity() * sizeof(T*); }
-  [[nodiscard]] Allocator allocator() const { return Allocator(pages_.get_allocator()); }
-
- private:
-  static constexpr std::uint32_t page_size = std::uint32_t{1} << Shift;
-
-  void add_page() {  // the table first: a page that it has no room for would be lost
-    if (pages_.size() == size_ >> Shift) { pages_.push_back(nullptr); }
-    if (pages_.back() != nullptr) { return; }
-    ElementAllocator allocator(pages_.get_allocator());
-    pages_.back() = Traits::allocate(allocator, page_size);
-  }
-  void clear() {
-    ElementAllocator allocator(pages_.get_allocator());
-    if constexpr (!std::is_trivially_destructible_v<T>) {
-      for (std::uint32_t i = 0; i < size_; ++i) { Traits::destroy(allocator, &(*this)[i]); }
-    }
-    for (T* page : pages_) {
-      if (page != nullptr) { Traits::deallocate(allocator, page, page_size); }
-    }
-    pages_.clear();
-    size_ = 0;
-  }
-  void swap(Pages& other) {  // of equal allocators
-    pages_.swap(other.pages_);
-    std::swap(size_, other.size_);
-  }
-
-  std::vector<T*, TableAllocator> pages_;
-  std::uint32_t size_ = 0;
-};
 
 // A growing array in one block. The records are plain words. The default allocator grows it by realloc, which moves large blocks by their
 // page tables alone, so an eighth more is enough each time; other allocators copy, and get twice the room.

@@ -7,10 +7,14 @@
 // the sentence is written when somebody asks for it. Reading the value of a refused result is a programming error
 // (asserted in debug builds).
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <brep/handles.hpp>
@@ -55,88 +59,60 @@ enum class Code : std::uint8_t {
   different_grids,     // csg: the operands stand on different grids
 };
 
+// What each refusal says: what was asked, what stands against it, and where it helps, what to do instead. %x and %y are its elements.
+inline constexpr std::pair<Code, std::string_view> refusal_sentences[] = {
+    {Code::none, "nothing was refused"},
+    {Code::dead, "%x does not exist: it was never made or is already killed"},
+    {Code::different_faces, "split_face: %x and %y lie on different faces"},
+    {Code::different_vertices, "split_vertex: %x and %y leave different vertices"},
+    {Code::same_face, "join_faces: both sides of %x are the face %y, there is nothing to join"},
+    {Code::same_vertex, "join_vertices: %x is a loop, both its ends are the vertex %y"},
+    {Code::one_face, "bridge: %x and %y lie on the same face; split_face connects them"},
+    {Code::two_faces, "cut: the sides of %x are different faces; join_faces removes it"},
+    {Code::spur, "cut: %y would be left without an edge; join_vertices removes %x"},
+    {Code::one_vertex, "weld: %x and %y leave the same vertex; split_vertex puts an edge between them"},
+    {Code::two_vertices, "unweld: the ends of %x are different vertices; join_vertices contracts it"},
+    {Code::one_edge_face, "unweld: %y has no edge but %x and would be left without; join_faces removes it"},
+    {Code::other_handle, "replay: this step made %x before and makes %y now; the BRep is not what the log started from"},
+    {Code::last_edge, "%x is the only edge of its shell, and a shell without edges does not exist"},
+    {Code::not_a_segment, "kill_segment: the shell of %x has more than one edge"},
+    {Code::full, "no handle is left: a BRep holds at most 2^31 half-edges"},
+    {Code::few_corners, "%x has fewer than three corners"},
+    {Code::level_limit, "refine: %x has already the last level, 255"},
+    {Code::irregular_levels, "refine: between the corner %x of %y and the next corner lie vertices, but none of the next level"},
+    {Code::degenerate_polygon, "%x has no area, or a coordinate that is not finite"},
+    {Code::not_planar, "%x is not planar"},
+    {Code::not_simple, "the boundary of %x crosses or touches itself at %y"},
+    {Code::not_on_face, "the split object answered with %x, which does not lie on %y"},
+    {Code::no_progress, "the split object answered with %x and %y, which are equal or adjacent: such a cut leaves a part as it was"},
+    {Code::not_on_edge, "the split object answered with a point that is not inside %x: the fraction must be at least 0 and below 1"},
+    {Code::vertex_limit, "the split object goes on to insert vertices into %x: the limit is reached before the condition holds"},
+    {Code::link_condition, "collapse_edge: both ends of %x have the neighbour %y, two edges between the same vertices would arise"},
+    {Code::cannot_flip, "flip_edge: %x does not lie between two faces that have a further edge each: see %y"},
+    {Code::equal_faces, "%x and %y lie on the same face, two faces are needed"},
+    {Code::different_degrees, "%x and %y lie on faces with different numbers of edges"},
+    {Code::outside_grid, "%x of %y does not lie within the box for which the grid was made, or is not finite"},
+    {Code::collapsed,
+     "%x has no area or an edge without length when its vertices are put on the grid; it needs a larger model or a smaller grid"},
+    {Code::self_intersecting, "%x and %y meet in more than common edges and vertices: the surface intersects or touches itself there"},
+    {Code::inside_out, "the shell of %x is inside out: its faces must look away from the solid"},
+    {Code::different_grids, "the operands stand on different grids: make all leaves of a tree with one grid"},
+};
+
 struct Refusal {
   Code code = Code::none;
   std::array<Element, 2> elements{};
 
-  // One sentence: what was asked, what stands against it, and where it helps, what to do instead.
   [[nodiscard]] std::string sentence() const {
-    const std::string x = to_string(elements[0]);
-    const std::string y = to_string(elements[1]);
-    switch (code) {
-      case Code::none:
-        return "nothing was refused";
-      case Code::dead:
-        return x + " does not exist: it was never made or is already killed";
-      case Code::different_faces:
-        return "split_face: " + x + " and " + y + " lie on different faces";
-      case Code::different_vertices:
-        return "split_vertex: " + x + " and " + y + " leave different vertices";
-      case Code::same_face:
-        return "join_faces: both sides of " + x + " are the face " + y + ", there is nothing to join";
-      case Code::same_vertex:
-        return "join_vertices: " + x + " is a loop, both its ends are the vertex " + y;
-      case Code::one_face:
-        return "bridge: " + x + " and " + y + " lie on the same face; split_face connects them";
-      case Code::two_faces:
-        return "cut: the sides of " + x + " are different faces; join_faces removes it";
-      case Code::spur:
-        return "cut: " + y + " would be left without an edge; join_vertices removes " + x;
-      case Code::one_vertex:
-        return "weld: " + x + " and " + y + " leave the same vertex; split_vertex puts an edge between them";
-      case Code::two_vertices:
-        return "unweld: the ends of " + x + " are different vertices; join_vertices contracts it";
-      case Code::one_edge_face:
-        return "unweld: " + y + " has no edge but " + x + " and would be left without; join_faces removes it";
-      case Code::other_handle:
-        return "replay: this step made " + x + " before and makes " + y + " now; the BRep is not what the log started from";
-      case Code::last_edge:
-        return x + " is the only edge of its shell, and a shell without edges does not exist";
-      case Code::not_a_segment:
-        return "kill_segment: the shell of " + x + " has more than one edge";
-      case Code::full:
-        return "no handle is left: a BRep holds at most 2^31 half-edges";
-      case Code::few_corners:
-        return x + " has fewer than three corners";
-      case Code::level_limit:
-        return "refine: " + x + " has already the last level, 255";
-      case Code::irregular_levels:
-        return "refine: between the corner " + x + " of " + y + " and the next corner lie vertices, but none of the next level";
-      case Code::degenerate_polygon:
-        return x + " has no area, or a coordinate that is not finite";
-      case Code::not_planar:
-        return x + " is not planar";
-      case Code::not_simple:
-        return "the boundary of " + x + " crosses or touches itself at " + y;
-      case Code::not_on_face:
-        return "the split object answered with " + x + ", which does not lie on " + y;
-      case Code::no_progress:
-        return "the split object answered with " + x + " and " + y + ", which are equal or adjacent: such a cut leaves a part as it was";
-      case Code::not_on_edge:
-        return "the split object answered with a point that is not inside " + x + ": the fraction must be at least 0 and below 1";
-      case Code::vertex_limit:
-        return "the split object goes on to insert vertices into " + x + ": the limit is reached before the condition holds";
-      case Code::link_condition:
-        return "collapse_edge: both ends of " + x + " have the neighbour " + y + ", two edges between the same vertices would arise";
-      case Code::cannot_flip:
-        return "flip_edge: " + x + " does not lie between two faces that have a further edge each: see " + y;
-      case Code::equal_faces:
-        return x + " and " + y + " lie on the same face, two faces are needed";
-      case Code::different_degrees:
-        return x + " and " + y + " lie on faces with different numbers of edges";
-      case Code::outside_grid:
-        return x + " of " + y + " does not lie within the box for which the grid was made, or is not finite";
-      case Code::collapsed:
-        return x +
-               " has no area or an edge without length when its vertices are put on the grid; it needs a larger model or a smaller grid";
-      case Code::self_intersecting:
-        return x + " and " + y + " meet in more than common edges and vertices: the surface intersects or touches itself there";
-      case Code::inside_out:
-        return "the shell of " + x + " is inside out: its faces must look away from the solid";
-      case Code::different_grids:
-        return "the operands stand on different grids: make all leaves of a tree with one grid";
+    const auto* const row =
+        std::find_if(std::begin(refusal_sentences), std::end(refusal_sentences), [&](const auto& r) { return r.first == code; });
+    if (row == std::end(refusal_sentences)) { return {}; }
+    std::string text{row->second};
+    for (const auto& [name, element] : {std::pair{"%x", elements[0]}, std::pair{"%y", elements[1]}}) {
+      const std::size_t at = text.find(name);
+      if (at != std::string::npos) { text.replace(at, 2, to_string(element)); }
     }
-    return {};
+    return text;
   }
 };
 

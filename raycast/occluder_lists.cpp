@@ -44,6 +44,28 @@ HALFLIGHT_INLINE std::array<glm::dvec3, 4> four_corners(std::span<const glm::dve
   return {at(u0, v0), at(u1, v0), at(u1, v1), at(u0, v1)};
 }
 
+// The corners of two patches as the kernels want them; none when they reach out of the compiled scene.
+HALFLIGHT_INLINE std::optional<Corners16> corners_for_kernels(const Compiled& compiled, Isa isa, const PatchShape& a, const PatchShape& b,
+                                                              const std::array<glm::dvec3, 4>& p, const std::array<glm::dvec3, 4>& q) {
+  Corners16 c;
+  float pf[3][4], qf[3][4];
+  double reach = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const glm::dvec3 o = compiled.local(p[i]), t = compiled.local(q[i]);
+    for (int k = 0; k < 3; ++k) {
+      pf[k][i] = static_cast<float>(o[k]), qf[k][i] = static_cast<float>(t[k]);
+      reach = std::max({reach, std::abs(o[k]), std::abs(t[k])});
+    }
+  }
+  const double bulge = std::max(a.bulge, b.bulge);
+  if (!(reach + bulge * compiled.scale < lane_reach)) { return std::nullopt; }
+  c.bulge = bulge > 0.0 ? static_cast<float>(bulge * compiled.scale) * length_up + unit_roundoff_single : 0.0f;
+  c.source = a.owner, c.target = b.owner;
+  c.source_sheet = a.sheet, c.target_sheet = b.sheet;
+  HALFLIGHT_DISPATCH(isa, spread_corners(pf, qf, c));
+  return c;
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE OccluderList Scene::occluders(const PatchShape& a, const PatchShape& b) const { return list_of(nullptr, a, b); }
@@ -54,25 +76,11 @@ HALFLIGHT_INLINE OccluderList Scene::filter(const OccluderList& parent, const Pa
 
 HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const PatchShape& a, const PatchShape& b) const {
   OccluderList list;
-  Corners16 c;
   const std::array<glm::dvec3, 4> p = detail::four_corners(a.contour), q = detail::four_corners(b.contour);
-  float pf[3][4], qf[3][4];
-  double reach = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const glm::dvec3 o = compiled_.local(p[i]), t = compiled_.local(q[i]);
-    for (int k = 0; k < 3; ++k) {
-      pf[k][i] = static_cast<float>(o[k]), qf[k][i] = static_cast<float>(t[k]);
-      reach = std::max({reach, std::abs(o[k]), std::abs(t[k])});
-    }
-  }
+  std::optional<Corners16> corners = detail::corners_for_kernels(compiled_, isa_, a, b, p, q);
+  if (!corners) { return list; }
+  Corners16& c = *corners;
   const double bulge = std::max(a.bulge, b.bulge);
-  if (!(reach + bulge * compiled_.scale < lane_reach)) {
-    return list;  // not in the compiled scene
-  }
-  c.bulge = bulge > 0.0 ? static_cast<float>(bulge * compiled_.scale) * length_up + unit_roundoff_single : 0.0f;
-  c.source = a.owner, c.target = b.owner;
-  c.source_sheet = a.sheet, c.target_sheet = b.sheet;
-  HALFLIGHT_DISPATCH(isa_, spread_corners(pf, qf, c));
   const bool faces_alone =
       parent && parent->known() && std::all_of(parent->shapes().begin(), parent->shapes().end(), [](std::uint32_t shape) {
         return kind_of(shape) == Kind::triangle || kind_of(shape) == Kind::quad;

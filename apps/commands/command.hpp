@@ -5,7 +5,6 @@
 // command_line.cpp reads the command line by these rows, and it alone knows CLI11. A new command is one file with a function that
 // returns a Command, declared below, and one line in halflight.cpp.
 
-#include <charconv>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -112,10 +111,9 @@ template <class Target>
 template <class Target>
 [[nodiscard]] Argument above_zero(std::string names, Target& target, double most, std::string description) {
   const auto take = [&target, most](const std::string& text) {
-    double value = 0.0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool good = code == std::errc() && end == text.data() + text.size() && value > 0.0 && value <= most;
-    if (good) { target = value; }
+    const auto value = number_in<double>(text);
+    const bool good = value && *value > 0.0 && *value <= most;
+    if (good) { target = *value; }
     return good ? std::string() : "expected a number above 0 and at most " + formatted("%g", most) + ", found '" + text + "'";
   };
   return {std::move(names), "NUMBER", std::move(description), take};
@@ -125,10 +123,9 @@ template <class Target>
 template <class Target>
 [[nodiscard]] Argument whole_number(std::string names, Target& target, std::uint64_t least, std::uint64_t most, std::string description) {
   const auto take = [&target, least, most](const std::string& text) {
-    std::uint64_t value = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool good = code == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
-    if (good) { target = static_cast<Target>(value); }
+    const auto value = number_in<std::uint64_t>(text);
+    const bool good = value && *value >= least && *value <= most;
+    if (good) { target = static_cast<Target>(*value); }
     return good ? std::string()
                 : "expected a whole number from " + std::to_string(least) + " to " + std::to_string(most) + ", found '" + text + "'";
   };

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/commands/common.hpp"
+#include "apps/text.hpp"
 #include "apps/version.hpp"
 
 namespace apps {
@@ -51,11 +52,10 @@ std::string no_command(const CLI::App& app, std::span<const char* const> argumen
 // Options and words that the command does not take.
 std::string not_expected(const CLI::App& command) {
   const std::vector<std::string> rest = command.remaining();
-  std::vector<std::string> known;
-  std::string takes;
+  std::vector<std::string> known, positional;
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) { known.push_back("--" + name); }
-    if (option->get_positional()) { takes += (takes.empty() ? "" : " ") + option->get_type_name(); }
+    if (option->get_positional()) { positional.push_back(option->get_type_name()); }
   }
   for (const std::string& word : rest) {
     if (!is_option(word)) { continue; }
@@ -64,7 +64,8 @@ std::string not_expected(const CLI::App& command) {
     return command.get_name() + " has no option '" + name + "'" + suggestion(one_dash ? "-" + name : name, known);
   }
   const std::string word = rest.empty() ? std::string() : rest.front();
-  return "'" + word + "' is one too many: " + command.get_name() + " takes " + (takes.empty() ? "options alone" : takes);
+  return "'" + word + "' is one too many: " + command.get_name() + " takes " +
+         (positional.empty() ? "options alone" : joined(positional, " "));
 }
 
 // "--size" of "--size: 1 required WxH missing" and "--output is required".

@@ -2,9 +2,7 @@
 // halflight factors SCENE: the form factors between the surfaces of a scene, each with its error.
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <initializer_list>
 #include <memory>
@@ -13,6 +11,8 @@
 #include <radiosity/factors/factor_run.hpp>
 #include <radiosity/factors/factors.hpp>
 #include <radiosity/factors/total_exchange.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 
@@ -41,10 +41,6 @@ struct Channel {
   std::string name;
   std::vector<double> emissivity;
   TotalExchange exchange;
-};
-
-struct Seconds {
-  double wall = 0.0, cpu = 0.0;
 };
 
 const char* name(radiosity::FactorMethod method) {
@@ -112,7 +108,7 @@ std::string table(const Factors& f, const Channel& channel) {
   return matrix + "largest error of a total exchange factor (" + channel.name + "): " + formatted("%.1e", worst(exchange.factor)) + "\n";
 }
 
-std::string summary(const Factors& f, const FactorsOptions& options, const Seconds& seconds) {
+std::string summary(const Factors& f, const FactorsOptions& options, const radiosity::StageTime& time) {
   const std::size_t n = f.surfaces.size();
   std::string text = options.scene + "\n" +
                      matrix_text(
@@ -127,7 +123,7 @@ std::string summary(const Factors& f, const FactorsOptions& options, const Secon
           std::to_string(f.rays) + " rays\n";
   text += "largest error of a factor: " + formatted("%.1e", worst(f.factor)) + ", wanted " + formatted("%.1e", options.error) +
           (f.converged ? "\n" : ": NOT REACHED\n");
-  return text + "time: " + formatted("%.3f", seconds.wall) + " s, CPU " + formatted("%.3f", seconds.cpu) + " s\n";
+  return text + "time: " + formatted("%.3f", time.wall_seconds) + " s, CPU " + formatted("%.3f", time.cpu_seconds) + " s\n";
 }
 
 // One line a surface: what is said of it, its factors, then their errors. A name has no comma (examples/scenes/README.md).
@@ -166,12 +162,12 @@ std::string csv(const Factors& f, const std::vector<Channel>& channels) {
   return text;
 }
 
-std::string json(const Factors& f, const std::vector<Channel>& channels, const FactorsOptions& options, const Seconds& seconds) {
+std::string json(const Factors& f, const std::vector<Channel>& channels, const FactorsOptions& options, const radiosity::StageTime& time) {
   JsonWriter out;
   const std::size_t n = f.surfaces.size();
   out.open_object();
   out.fields("scene", options.scene, "error_wanted", options.error, "error_reached", worst(f.factor), "converged", f.converged, "points",
-             f.points, "rays", f.rays, "wall_seconds", seconds.wall, "cpu_seconds", seconds.cpu);
+             f.points, "rays", f.rays, "wall_seconds", time.wall_seconds, "cpu_seconds", time.cpu_seconds);
   out.key("surfaces").list(f.surfaces, [&](const Factors::Surface& s) {
     out.object("name", s.name, "area", s.area.value, "area_error", s.area.error, "row_sum", s.row_sum.value, "row_sum_error",
                s.row_sum.error);
@@ -210,8 +206,8 @@ ExitCode run(const FactorsOptions& options) {
   if (code != ExitCode::ok) { return code; }
   const auto file = load_scene(options.scene, code, options.model);
   if (!file) { return code; }
-  const auto wall = std::chrono::steady_clock::now();
-  const std::clock_t cpu = std::clock();
+  std::vector<radiosity::StageTime> times;
+  radiosity::detail::Stopwatch watch(times);
   radiosity::FactorOptions settings;
   settings.error = options.error;
   settings.threads = options.threads;
@@ -227,13 +223,12 @@ ExitCode run(const FactorsOptions& options) {
     std::fprintf(stderr, "%s: error: no total exchange factors: %s\n", options.scene.c_str(), refusal.c_str());
     return ExitCode::invalid_input;
   }
-  const Seconds seconds{std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count(),
-                        static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC};
-  std::string text = summary(*result.factors, options, seconds);
+  watch.lap("factors");
+  std::string text = summary(*result.factors, options, times[0]);
   for (const Channel& channel : channels) { text += table(*result.factors, channel); }
   for (const auto& [path, bytes] :
        {std::pair{options.csv, csv(*result.factors)}, std::pair{options.total_exchange, csv(*result.factors, channels)},
-        std::pair{options.json, json(*result.factors, channels, options, seconds)}}) {
+        std::pair{options.json, json(*result.factors, channels, options, times[0])}}) {
     if (path.empty()) { continue; }
     if (!save(path, bytes)) { return ExitCode::failure; }
     text += "written: " + path + "\n";

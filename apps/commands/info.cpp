@@ -102,7 +102,7 @@ std::string plan(const radiosity::Scene& scene, const radiosity::Prepared& prepa
       "can stand between two others: " + std::to_string(plan.occluders) + " of " + std::to_string(prepared.surfaces.size()) + " objects\n";
   out += "left out when rendered, as far as known without solving:\n";
   for (const radiosity::LeftOut& item : plan.left_out) { out += "  " + item.what + ": " + item.why + "\n"; }
-  const radiosity::RayChoice rays = radiosity::choose_rays(faces, lamps, {});
+  const radiosity::RayChoice rays = radiosity::choose_rays(faces, lamps, lamps, {});
   const radiosity::ClusterChoice clusters = radiosity::choose_clusters(faces, {});
   if (!rays.cast) { out += "  stored rays for the light between surfaces that do not shine: " + rays.reason + "\n"; }
   if (rays.cast || !clusters.build) {

@@ -4,8 +4,6 @@
 // What can be known to fail is refused before the solver starts: extensions, folders, the camera's name. Outputs are
 // encoded in memory and then replace their files one by one, each whole (files.hpp).
 #include <algorithm>
-#include <charconv>
-#include <limits>
 #include <memory>
 
 #include <radiosity/audit/audit_effort.hpp>
@@ -20,6 +18,7 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/commands/model_arguments.hpp"
+#include "apps/commands/render_arguments.hpp"
 #include "apps/commands/render_outputs.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/interrupt.hpp"
@@ -31,34 +30,14 @@
 namespace apps {
 namespace {
 
-// WxH, each side from 1 to max_picture_side.
-std::optional<PictureSize> parse_size(std::string_view text) {
-  PictureSize size;
-  const char* const end = text.data() + text.size();
-  const auto [cross, width_code] = std::from_chars(text.data(), end, size.width);
-  if (width_code != std::errc() || cross == end || *cross != 'x') { return std::nullopt; }
-  const auto [rest, height_code] = std::from_chars(cross + 1, end, size.height);
-  if (height_code != std::errc() || rest != end) { return std::nullopt; }
-  const auto fits = [](std::uint32_t side) { return side >= 1 && side <= max_picture_side; };
-  return fits(size.width) && fits(size.height) ? std::optional(size) : std::nullopt;
-}
-
-std::string size_fault(const std::string& text) {
-  return "expected WIDTHxHEIGHT, each 1 to " + std::to_string(max_picture_side) + ", found '" + text + "'";
-}
-
-std::string exposure_fault(const std::string& text) {
-  return "expected a number above 0, or stops such as 1ev or -0.5ev, found '" + text + "'";
-}
-
 std::optional<Camera> choose_camera(const SceneFile& file, const std::string& name) {
   if (name.empty()) { return file.cameras.empty() ? automatic_camera(file.scene) : file.cameras.front(); }
-  std::string known;
+  std::vector<std::string> known;
   for (const Camera& camera : file.cameras) {
     if (camera.name == name) { return camera; }
-    known += (known.empty() ? "" : ", ") + camera.name;
+    known.push_back(camera.name);
   }
-  complain("there is no camera '" + name + "' in the scene; " + (known.empty() ? "it has none" : "it has: " + known));
+  complain("there is no camera '" + name + "' in the scene; " + (known.empty() ? "it has none" : "it has: " + joined(known)));
   return std::nullopt;
 }
 
@@ -93,6 +72,19 @@ ExitCode check(const RenderOptions& options) {
   }
   if (!options.lightmap.empty() && !is_picture(options.lightmap)) {
     complain("--lightmap " + options.lightmap + ": expected a name that ends with .hdr, .pfm or .png");
+    return ExitCode::usage;
+  }
+  const auto shows_mesh = [&](const std::string& path) {
+    const RenderFormat format = *render_format(path);
+    if (is_picture(path)) { return options.method == PictureMethod::mesh; }
+    return format == RenderFormat::html || (!options.onto_input && (format == RenderFormat::ply || options.lightmap.empty()));
+  };
+  if (options.solver.mesh_error && std::none_of(options.outputs.begin(), options.outputs.end(), shows_mesh)) {
+    complain("--mesh-error is about meshes, pages and pictures by --method mesh; there is none");
+    return ExitCode::usage;
+  }
+  if (options.error_of && !options.solver.error && !options.solver.mesh_error) {
+    complain("--error-of says what --error or --mesh-error is about; give one of them");
     return ExitCode::usage;
   }
   if (!options.light.empty() && (options.outputs.empty() || !std::all_of(options.outputs.begin(), options.outputs.end(), is_picture))) {
@@ -169,6 +161,34 @@ ExitCode draw_light(const RenderOptions& options, const SceneFile& file, const C
   return print(text, options.outputs) ? ExitCode::ok : ExitCode::failure;
 }
 
+// What is asked for of a solution, and the report.
+ExitCode write_solution(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
+                        const radiosity::Solution& solution, const radiosity::Options& settings, const radiosity::Control& control,
+                        Progress& progress) {
+  Report report;
+  report.scene = options.scene;
+  report.taken_in = file.notes;
+  report.options = settings;
+  report.audit = solution.audit;
+  leave_out_others(report.audit.stages);
+  const auto outputs = encode(options, file, camera, artist, solution, control, report);
+  progress.done();
+  if (!outputs) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
+  if (const ExitCode code = write_all(*outputs); code != ExitCode::ok) { return code; }
+  if (!print(to_text(report), all_outputs(options))) { return ExitCode::failure; }
+  if (!solution.audit.shortage.empty()) {
+    complain(solution.audit.shortage + "; the outputs show the best solution so far");
+    return ExitCode::not_converged;
+  }
+  if (report.audit.interrupted) {
+    complain("interrupted: the outputs show the best solution so far");
+    return ExitCode::not_converged;
+  }
+  if (solution.audit.converged) { return ExitCode::ok; }
+  complain("not converged: the outputs show what was reached");
+  return ExitCode::not_converged;
+}
+
 ExitCode run(const RenderOptions& options) {
   const std::atomic<bool>& cancel = watch_interrupts();
   if (options.solver.error && options.solver.audit_points == 0) {
@@ -206,130 +226,23 @@ ExitCode run(const RenderOptions& options) {
       return artist.audit(*picture, tone, goal, control);
     };
   }
+  const bool only_pictures = std::all_of(options.outputs.begin(), options.outputs.end(), is_picture);
+  if (settings.mesh_error && options.error_of.value_or(only_pictures ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
+    control.mesh_from = artist.viewpoint();
+  }
   const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
   if (outcome.solution && outcome.solution->audit.interrupted) { control = control.unstoppable(); }  // the best so far is drawn and written
   progress.done();
   if (!outcome.solution) { return report_failure(outcome.failure, options.scene); }
 
-  const radiosity::Solution& solution = *outcome.solution;
-  Report report;
-  report.scene = options.scene;
-  report.taken_in = file->notes;
-  report.options = settings;
-  report.audit = solution.audit;
-  leave_out_others(report.audit.stages);
-  const auto outputs = encode(options, *file, *camera, artist, solution, control, report);
-  progress.done();
-  if (!outputs) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
-  if (code = write_all(*outputs); code != ExitCode::ok) { return code; }
-  if (!print(to_text(report), all_outputs(options))) { return ExitCode::failure; }
-  if (!solution.audit.shortage.empty()) {
-    complain(solution.audit.shortage + "; the outputs show the best solution so far");
-    return ExitCode::not_converged;
-  }
-  if (report.audit.interrupted) {
-    complain("interrupted: the outputs show the best solution so far");
-    return ExitCode::not_converged;
-  }
-  if (solution.audit.converged) { return ExitCode::ok; }
-  complain("not converged: the outputs show what was reached");
-  return ExitCode::not_converged;
-}
-
-// What each option is, and where its value goes.
-std::vector<Argument> arguments(RenderOptions& options) {
-  radiosity::Options& solver = options.solver;
-  // BF-refinement is asked for by what ends it.
-  const auto bf = [&solver](Argument argument) {
-    argument.take = [&solver, keep = argument.take](const std::string& text) {
-      solver.refinement = radiosity::Refinement::a_posteriori;
-      return keep(text);
-    };
-    return argument;
-  };
-  const std::vector<std::string> ends{"--error", "--target", "--time"};  // of the refinement: one at most
-  using radiosity::Indirect, radiosity::Reconstruction, radiosity::Solver;
-  return {
-      scene_argument(options.scene),
-      texts("-o,--output", "FILE", options.outputs,
-            "what to write: a picture (.png; .hdr, .pfm: radiance), the light for further pictures (.light), a mesh with its light (.ply, "
-            ".glb, .obj) or a page that shows it (.html); repeat for more; without, the report alone",
-            Argument::Values::repeated),
-      flag("--onto-input", options.onto_input,
-           "with .ply, .glb and .obj: the polygons and vertices of the input file in its own order, each vertex with its light"),
-      text("--lightmap", "FILE", options.lightmap,
-           "with .glb and .obj: the light as a texture of them, too (.hdr, .pfm: radiance; .png), a rectangle for every face"),
-      above_zero("--texel", options.texel, 1e30, "side of a texel of the lightmap in metres (default: such that there are a million)")
-          .needing("--lightmap"),
-      text("--light", "FILE", options.light,
-           "a .light file of this scene: pictures are drawn from it, and nothing is solved; with the options of pictures alone")
-          .without({"--json", "--onto-input", "--lightmap", "--error", "--target", "--time", "--epsilon", "--min-area", "--light-epsilon",
-                    "--discontinuities", "--indirect", "--solver", "--reconstruction", "--no-shortcuts"}),
-      above_zero("--error", solver.error, 1.0, "refine until the measured relative L2 error is at most this"),
-      one_of<std::optional<ErrorOf>, ErrorOf>(
-          "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},
-          "what --error is about: picture, what the camera sees (the default with a .png), or surfaces, all of them by area")
-          .needing("--error"),
-      bf(above_zero(
-             "--target", solver.target, 1.0,
-             "BF-refinement (paper 4.4), split by the light that links carry, until the estimated relative L2 error is at most this"))
-          .without({"--error"}),
-      bf(above_zero("--time", solver.time, 1e6,
-                    "BF-refinement, what promises most first, for this many seconds; the audit and the picture come on top"))
-          .without({"--error", "--target"}),
-      above_zero("--epsilon", options.epsilon, 1.0,
-                 "largest form factor of a link (default " + formatted("%g", solver.epsilon) + "; of a picture by gather alone " +
-                     formatted("%g", gathered_epsilon) + ")")
-          .without(ends),
-      above_zero("--min-area", options.min_area, 1.0,
-                 "smallest patch, relative to the area of the scene (default " + formatted("%g", solver.min_area) +
-                     "; of a picture by gather alone " + formatted("%g", gathered_min_area) + ")")
-          .without(ends),
-      above_zero("--light-epsilon", solver.light_epsilon, 1.0,
-                 "share of the error that the light of a lamp may cause by varying over one patch (default: a quarter of epsilon)")
-          .without(ends),
-      whole_number("--discontinuities", solver.discontinuities, 0, 1'000'000,
-                   "cuts faces along the edges of shadows, at most so many on each, and across their direct light: half the error at equal "
-                   "leaves where lamps cause most of it (default: 0, regular refinement)"),
-      text("--camera", "TEXT", options.camera, "camera of the scene (default: the first; without any, an automatic view)"),
-      parsed("--size", "WxH", options.size, parse_size, size_fault, "picture size in pixels (default: the camera's, else 800x600)"),
-      one_of<PictureMethod, PictureMethod>(
-          "--method", options.method, {{"mesh", PictureMethod::mesh}, {"gather", PictureMethod::gather}},
-          "gather: the objects, in direct light found for each pixel and indirect light gathered from the solution (default); mesh: the "
-          "triangles of the solution"),
-      parsed("--exposure", "NUMBER", options.exposure, Exposure::parse, exposure_fault,
-             "factor from radiance to picture, or stops from the automatic one, such as 1ev or -0.5ev (default: automatic)"),
-      one_of<ToneCurve, ToneCurve>("--tone", options.tone, {{"linear", ToneCurve::linear}, {"filmic", ToneCurve::filmic}},
-                                   "linear: brightness proportional to light; filmic: bright tones are compressed as on film"),
-      whole_number("--threads", solver.threads, 1, most_threads, "threads (default: all); results do not depend on it"),
-      whole_number("--seed", solver.seed, 0, std::numeric_limits<std::uint64_t>::max(), "seed of all random choices"),
-      whole_number("--audit", solver.audit_points, 0, 100'000'000, "points at which the error is measured; 0: none"),
-      one_of<Indirect, Indirect>("--indirect", solver.indirect,
-                                 {{"auto", Indirect::automatic}, {"links", Indirect::links}, {"rays", Indirect::rays}},
-                                 "auto, links or rays: how light between surfaces that do not shine travels"),
-      one_of<Solver, Solver>("--solver", solver.solver,
-                             {{"cg", Solver::conjugate_gradients},
-                              {"gauss-seidel", Solver::gauss_seidel},
-                              {"jacobi", Solver::jacobi},
-                              {"southwell", Solver::southwell}},
-                             "cg, jacobi, gauss-seidel or southwell"),
-      one_of<Reconstruction, Reconstruction>(
-          "--reconstruction", solver.reconstruction,
-          {{"constant", Reconstruction::constant}, {"simple", Reconstruction::simple}, {"weighted", Reconstruction::weighted}},
-          "weighted or simple (paper fig. 5), or constant: one colour a leaf"),
-      flag("--no-shortcuts", solver.shortcuts, "do all that the report would tell as left out; the result is the same, to the bit", false),
-      parsed("--memory", "BYTES", options.memory, parse_memory, memory_fault,
-             "most memory that the program may hold, such as 500M or 2G; a run that would need more ends before"),
-      text("--json", "FILE", options.json, "write the report as JSON, too"),
-      flag("--quiet", options.quiet, "no narration and no progress bar"),
-  };
+  return write_solution(options, *file, *camera, artist, *outcome.solution, settings, control, progress);
 }
 
 }  // namespace
 
 Command render_command() {
   const auto options = std::make_shared<RenderOptions>();
-  return {"render", "solve a scene; write a picture or a mesh and the report", with_model_arguments(arguments(*options), options->model),
+  return {"render", "solve a scene; write a picture or a mesh and the report", render_arguments(*options),
           [options] { return run(*options); }};
 }
 

@@ -2,12 +2,8 @@
 #include "apps/commands/render_outputs.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include <radiosity/audit/audit_effort.hpp>
@@ -17,10 +13,10 @@
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
-#include <radiosity/support/memory.hpp>
 
 #include "apps/audited_picture.hpp"
 #include "apps/export/export_mesh.hpp"
@@ -38,18 +34,6 @@
 namespace apps {
 namespace {
 
-class Stopwatch {
- public:
-  [[nodiscard]] radiosity::StageTime stop(std::string name) const {
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_;
-    return {std::move(name), wall.count(), static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC, radiosity::peak_memory()};
-  }
-
- private:
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-  std::clock_t cpu_ = std::clock();
-};
-
 std::string encoded(const Picture& picture, RenderFormat format, const Tone& tone) {
   return format == RenderFormat::png ? to_png(picture, tone) : format == RenderFormat::hdr ? to_hdr(picture) : to_pfm(picture);
 }
@@ -57,7 +41,9 @@ std::string encoded(const Picture& picture, RenderFormat format, const Tone& ton
 // The mesh that is exported, with its lightmap among the outputs when one is asked for.
 std::optional<ExportMesh> exported_mesh(const RenderOptions& options, const SceneFile& file, const radiosity::Solution& solution,
                                         const Tone& tone, std::vector<RenderOutput>& outputs, Report& report) {
-  std::optional<ExportMesh> mesh = options.onto_input ? given_mesh(file, solution) : solution_mesh(file, solution);
+  std::optional<ExportMesh> mesh = options.onto_input
+                                       ? given_mesh(file, solution)
+                                       : solution_mesh(file, solution, options.lightmap.empty() ? solution.shown() : solution.mesh);
   if (!mesh || options.lightmap.empty()) { return mesh; }
   const std::optional<LightTexture> texture = options.onto_input ? given_texture(file, solution, tone, options.texel, *mesh)
                                                                  : solution_texture(solution, tone, options.texel, *mesh);
@@ -84,11 +70,10 @@ std::optional<Exposure> Exposure::parse(std::string_view text) {
   const bool stops = text.ends_with("ev") || text.ends_with("EV");
   if (stops) { text.remove_suffix(2); }
   if (stops && text.starts_with('+') && !text.starts_with("+-")) { text.remove_prefix(1); }
-  double value = 0.0;
-  const auto [rest, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc() || rest != text.data() + text.size() || !std::isfinite(value)) { return std::nullopt; }
-  if (stops) { return std::abs(value) <= 64.0 ? std::optional(Exposure{std::exp2(value), true}) : std::nullopt; }
-  return value > 0.0 ? std::optional(Exposure{value, false}) : std::nullopt;
+  const auto value = number_in<double>(text);
+  if (!value || !std::isfinite(*value)) { return std::nullopt; }
+  if (stops) { return std::abs(*value) <= 64.0 ? std::optional(Exposure{std::exp2(*value), true}) : std::nullopt; }
+  return *value > 0.0 ? std::optional(Exposure{*value, false}) : std::nullopt;
 }
 
 std::optional<RenderFormat> render_format(const std::string& path) {
@@ -156,6 +141,31 @@ std::vector<RenderOutput> encode(const RenderOptions& options, const Picture& pi
   return outputs;
 }
 
+namespace {
+
+// The picture, with its time and error in the report. Nothing when interrupted.
+std::optional<Picture> drawn(const RenderOptions& options, const Camera& camera, Artist& artist, const radiosity::Solution& solution,
+                             const Tone& tone, const radiosity::Control& control, Report& report) {
+  std::vector<radiosity::StageTime> stages;
+  radiosity::detail::Stopwatch watch(stages);
+  const radiosity::Mesh& mesh = options.method == PictureMethod::mesh ? solution.shown() : solution.mesh;
+  std::optional<Picture> picture = artist.draw(mesh, solution.frame, tone, control);
+  if (!picture) { return std::nullopt; }
+  report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
+  watch.lap("picture");
+  if (!report.audit.picture_error && options.solver.audit_points > 0) {
+    report.audit.picture_error = artist.audit(*picture, tone, radiosity::goal_to_know(report.audit, options.solver.audit_points), control);
+    watch.lap("picture audit");
+    report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, its error not measured
+  }
+  leave_out_others(stages);
+  report.picture_time = stages.front();
+  report.audit.stages.insert(report.audit.stages.end(), stages.begin() + 1, stages.end());
+  return picture;
+}
+
+}  // namespace
+
 std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
                                                 const radiosity::Solution& solution, const radiosity::Control& control, Report& report) {
   if (control.cancelled()) { return std::nullopt; }
@@ -164,27 +174,9 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
   report.exposure = tone.exposure;
   report.tone = tone.curve;
   report.automatic_exposure = !options.exposure || options.exposure->of_automatic;
-  std::vector<RenderOutput> pictures;  // in the order of the outputs
-  if (has_picture(options)) {
-    const Stopwatch watch;
-    const auto picture = artist.draw(solution.mesh, solution.frame, tone, control);
-    if (!picture) { return std::nullopt; }
-    pictures = encode(options, *picture, tone);
-    report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
-    std::vector<radiosity::StageTime> stages{watch.stop("picture")};
-    leave_out_others(stages);
-    report.picture_time = stages.front();
-    if (!report.audit.picture_error && options.solver.audit_points > 0) {
-      const Stopwatch audit_watch;
-      report.audit.picture_error =
-          artist.audit(*picture, tone, radiosity::goal_to_know(report.audit, options.solver.audit_points), control);
-      stages = {audit_watch.stop("picture audit")};
-      leave_out_others(stages);
-      report.audit.stages.push_back(stages.front());
-      report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, its error not measured
-    }
-  }
-  auto next_picture = pictures.begin();
+  const std::optional<Picture> picture =
+      has_picture(options) ? drawn(options, camera, artist, solution, tone, control, report) : std::nullopt;
+  if (has_picture(options) && !picture) { return std::nullopt; }
   std::optional<ExportMesh> exported;
   const auto is_exported = [&](const std::string& path) {
     return render_format(path) == RenderFormat::exported || (options.onto_input && has_ending(path, ".ply"));
@@ -198,14 +190,14 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
       case RenderFormat::png:
       case RenderFormat::hdr:
       case RenderFormat::pfm:
-        outputs.back() = std::move(*next_picture++);
+        outputs.back().bytes = encoded(*picture, *render_format(path), tone);
         break;
       case RenderFormat::light:
         outputs.back().bytes = to_light_file(solution.mesh, solution.frame, file.scene);
         break;
       case RenderFormat::ply:
         outputs.back().bytes =
-            options.onto_input && exported ? to_ply(*exported, tone) : to_ply(solution.mesh, radiosity::surfaces(file.scene), tone);
+            options.onto_input && exported ? to_ply(*exported, tone) : to_ply(solution.shown(), radiosity::surfaces(file.scene), tone);
         break;
       case RenderFormat::html:
         outputs.back().bytes = viewer_page(file, solution, camera, tone.exposure, options.scene, summary(solution));

@@ -31,12 +31,8 @@ const char* sign(Figure::Bound kind) { return kind == Figure::Bound::at_most ? "
 // What was done, from what happened.
 std::string done(const Findings& findings) {
   const auto count = [](std::size_t n, const char* what) { return n == 0 ? std::string{} : std::to_string(n) + " " + what; };
-  std::string text;
-  for (const std::string& part : {count(findings.solved(), findings.solved() == 1 ? "scene solved" : "scenes solved"),
-                                  count(findings.warnings().size(), "warned"), count(findings.refusals().size(), "refused")}) {
-    if (!part.empty()) { text += (text.empty() ? "" : ", ") + part; }
-  }
-  return text;
+  return joined(std::vector{count(findings.solved(), findings.solved() == 1 ? "scene solved" : "scenes solved"),
+                            count(findings.warnings().size(), "warned"), count(findings.refusals().size(), "refused")});
 }
 
 std::string to_text(const Case& which, const Findings& findings) {
@@ -72,9 +68,7 @@ std::vector<const Case*> choose(const std::vector<std::string>& names, bool& kno
     if (std::any_of(chosen.begin(), chosen.end(), [&](const Case* c) { return c->name == name; })) { continue; }
     std::vector<std::string_view> all;
     for (const Case& c : stress::cases()) { all.push_back(c.name); }
-    std::string known_names;
-    for (const std::string_view known_name : all) { known_names.append(known_names.empty() ? "" : ", ").append(known_name); }
-    complain("there is no case '" + name + "'" + scene_file::suggestion(name, all) + "; there are: " + known_names);
+    complain("there is no case '" + name + "'" + scene_file::suggestion(name, all) + "; there are: " + joined(all));
     known = false;
   }
   return chosen;
@@ -93,7 +87,7 @@ ExitCode run(const StressOptions& options) {
   if (const ExitCode code = check_outputs(outputs, {}); code != ExitCode::ok) { return code; }
   JsonWriter json;
   json.open_array();
-  std::string failed;
+  std::vector<std::string_view> failed;
   std::size_t figures = 0;
   const std::clock_t start = std::clock();
   for (const Case* c : chosen) {
@@ -102,12 +96,12 @@ ExitCode run(const StressOptions& options) {
     if (!print(to_text(*c, findings), outputs)) { return ExitCode::failure; }
     write(json, *c, findings);
     figures += findings.figures().size();
-    if (!findings.hold()) { failed += (failed.empty() ? "" : ", ") + std::string{c->name}; }
+    if (!findings.hold()) { failed.push_back(c->name); }
   }
   json.close();
   if (!options.json.empty() && !save(options.json, json.text())) { return ExitCode::failure; }
   const std::string total = std::to_string(chosen.size()) + " cases, " + std::to_string(figures) + " figures: ";
-  if (!print(total + (failed.empty() ? "all hold" : "FAILED: " + failed) + "\n", outputs)) { return ExitCode::failure; }
+  if (!print(total + (failed.empty() ? "all hold" : "FAILED: " + joined(failed)) + "\n", outputs)) { return ExitCode::failure; }
   std::fprintf(stderr, "CPU time %.1f s\n", static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);  // stdout is the same every time
   return failed.empty() ? ExitCode::ok : ExitCode::failure;
 }

@@ -181,6 +181,52 @@ std::string asked(const StudyOptions& options) {
          " " + std::to_string(options.memory.value_or(0));
 }
 
+// Two scenes of one name would write the same files.
+ExitCode check_names(const std::vector<std::string>& scenes) {
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (fs::path(scenes[i]).stem() == fs::path(scenes[k]).stem()) {
+        complain(scenes[i] + " and " + scenes[k] + " would write the same files; study them into two folders");
+        return ExitCode::usage;
+      }
+    }
+  }
+  return ExitCode::ok;
+}
+
+// Can what every study writes be written? The names of its pictures are known when it is done.
+ExitCode check_files(const StudyOptions& options) {
+  std::vector<std::string> names{"index.html", "results.csv", "results.json"};
+  if (options.part) { names = {study::part_file(*options.part)}; }
+  for (const std::string& scene : options.scenes) { names.push_back(fs::path(scene).stem().string() + ".reference.json"); }
+  for (std::string& name : names) { name = (fs::path(options.folder) / name).string(); }
+  return check_outputs(names, options.scenes);
+}
+
+// Measures what is this part's of each scene, until it is interrupted.
+study::Part measure(const StudyOptions& options, const radiosity::Control& control, Progress& progress, ExitCode& code) {
+  const std::vector<study::MethodPlan> methods = study::methods({options.threads, 1, options.memory});
+  study::Part part{options.part.value_or(study::PartNumber{}), asked(options), options.scenes.size(), methods.size(), {}, {}, {}};
+  part.study.machine = machine();
+  part.study.compiler = compiler();
+  part.study.version = version;
+  for (std::size_t i = 0; i < options.scenes.size() && !control.cancelled(); ++i) {
+    std::vector<study::MethodPlan> plans;
+    std::vector<std::size_t> which;
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      if (!part.number.has(i * methods.size() + m)) { continue; }
+      plans.push_back(methods[m]);
+      which.push_back(m);
+    }
+    study::SceneStudy scene;
+    if (plans.empty() || !study_scene(options.scenes[i], options, plans, control, progress, scene, code)) { continue; }
+    part.study.scenes.push_back(std::move(scene));
+    part.scenes.push_back(i);
+    part.methods.push_back(std::move(which));
+  }
+  return part;
+}
+
 ExitCode run(const StudyOptions& given) {
   StudyOptions options = given;
   if (options.quick) {
@@ -195,62 +241,26 @@ ExitCode run(const StudyOptions& given) {
     return ExitCode::failure;
   }
   if (!options.merge.empty()) { return merge(options); }
-  for (std::size_t i = 0; i < options.scenes.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (fs::path(options.scenes[i]).stem() == fs::path(options.scenes[k]).stem()) {
-        complain(options.scenes[i] + " and " + options.scenes[k] + " would write the same files; study them into two folders");
-        return ExitCode::usage;
-      }
-    }
-  }
-  const std::string folder = options.folder;
-  const auto in_folder = [&folder](std::vector<std::string> names) {
-    for (std::string& name : names) { name = (fs::path(folder) / name).string(); }
-    return names;
-  };
-  // What every study writes; the names of its pictures are known when it is done.
-  std::vector<std::string> names{"index.html", "results.csv", "results.json"};
-  if (options.part) { names = {study::part_file(*options.part)}; }
-  for (const std::string& scene : options.scenes) { names.push_back(fs::path(scene).stem().string() + ".reference.json"); }
-  if (const ExitCode fault = check_outputs(in_folder(names), options.scenes); fault != ExitCode::ok) { return fault; }
+  if (const ExitCode fault = check_names(options.scenes); fault != ExitCode::ok) { return fault; }
+  if (const ExitCode fault = check_files(options); fault != ExitCode::ok) { return fault; }
   Progress progress(options.quiet);
   radiosity::Control control;
   control.cancel = &watch_interrupts();
   control.progress = [&](std::string_view stage, double fraction) { progress.report(stage, fraction); };
-
-  const std::vector<study::MethodPlan> methods = study::methods({options.threads, 1, options.memory});
-  study::Part part{options.part.value_or(study::PartNumber{}), asked(options), options.scenes.size(), methods.size(), {}, {}, {}};
-  study::Study& study = part.study;
-  study.machine = machine();
-  study.compiler = compiler();
-  study.version = version;
   ExitCode code = ExitCode::ok;
-  for (std::size_t i = 0; i < options.scenes.size() && !control.cancelled(); ++i) {
-    std::vector<study::MethodPlan> plans;
-    std::vector<std::size_t> which;
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-      if (!part.number.has(i * methods.size() + m)) { continue; }
-      plans.push_back(methods[m]);
-      which.push_back(m);
-    }
-    study::SceneStudy scene;
-    if (plans.empty() || !study_scene(options.scenes[i], options, plans, control, progress, scene, code)) { continue; }
-    study.scenes.push_back(std::move(scene));
-    part.scenes.push_back(i);
-    part.methods.push_back(std::move(which));
-  }
+  const study::Part part = measure(options, control, progress, code);
   progress.done();
   if (control.cancelled()) {
-    complain(study.scenes.empty() ? "interrupted; nothing was written" : "interrupted; what was finished is written");
+    complain(part.study.scenes.empty() ? "interrupted; nothing was written" : "interrupted; what was finished is written");
     code = ExitCode::failure;
   }
   if (options.part) {
     if (code != ExitCode::ok) { return code; }  // half a part must not look like a whole one
-    const std::string path = (fs::path(folder) / study::part_file(part.number)).string();
+    const std::string path = (fs::path(options.folder) / study::part_file(part.number)).string();
     return save(path, study::to_bytes(part)) && print("written: " + path + "\n") ? ExitCode::ok : ExitCode::failure;
   }
-  if (study.scenes.empty()) { return code; }
-  const ExitCode written = write(study, folder, options.scenes);
+  if (part.study.scenes.empty()) { return code; }
+  const ExitCode written = write(part.study, options.folder, options.scenes);
   return written == ExitCode::ok ? code : written;
 }
 

@@ -65,8 +65,8 @@ std::string page(const Story& story) {
   json.open_object().fields("title", story.title, "introduction", story.introduction).key("frames").open_array();
   for (std::size_t i = 0; i < story.frames.size(); ++i) { write(json, story, i, layouts[i]); }
   json.close().close();
-  return to_text(HtmlDocument{story.title, embedded::euler_page_css + drawing_style(), embedded::euler_page_html, json.text(),
-                              embedded::euler_page_js});
+  return stepped_document(story.title, embedded::euler_page_css + drawing_style(), embedded::euler_page_html, json.text(),
+                          embedded::euler_page_js);
 }
 
 }  // namespace apps::euler

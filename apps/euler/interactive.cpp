@@ -29,6 +29,7 @@
 #include "apps/euler/words.hpp"
 #include "apps/files.hpp"
 #include "apps/output_paths.hpp"
+#include "apps/text.hpp"
 
 namespace apps::euler {
 namespace {
@@ -52,10 +53,7 @@ std::string help() {
   for (const brep::OperatorForm& row : brep::operator_forms) {
     std::string call = (row.result == 'h' ? "h = " : "") + std::string(row.name);
     call += row.arguments.size() == 2 ? " a b" : row.arguments.empty() ? "" : row.result == 'h' ? " a" : " h";
-    std::string textbook;
-    for (const std::string_view word : row.textbook) {
-      if (!word.empty()) { textbook += (textbook.empty() ? "" : ", ") + std::string(word); }
-    }
+    const std::string textbook = joined(row.textbook);
     std::array<char, 120> line{};
     std::snprintf(line.data(), line.size(), "%-12s %-23s %-37s %s", out.empty() ? "operators" : "", call.c_str(),
                   std::string(row.where).c_str(), textbook.c_str());

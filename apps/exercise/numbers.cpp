@@ -2,7 +2,6 @@
 #include "apps/exercise/numbers.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -13,6 +12,7 @@
 #include <radiosity/hierarchy/patch.hpp>
 
 #include "apps/scene_file/words.hpp"
+#include "apps/text.hpp"
 
 namespace apps::exercise {
 namespace {
@@ -48,10 +48,9 @@ Fault compare(const std::string& text, const std::vector<Answer>& answers) {
       return at + "nobody asked for '" + name + "'" + scene_file::suggestion(name, names);
     }
     if (value.empty()) { continue; }
-    double x = 0.0;
-    const auto [end, code] = std::from_chars(value.data(), value.data() + value.size(), x);
-    if (code != std::errc() || end != value.data() + value.size()) { return at + "'" + value + "' is no number"; }
-    given[name] = x;
+    const auto x = number_in<double>(value);
+    if (!x) { return at + "'" + value + "' is no number"; }
+    given[name] = *x;
   }
   for (const Answer& answer : answers) {
     const auto found = given.find(answer.name);

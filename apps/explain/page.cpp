@@ -100,8 +100,8 @@ std::string page(const Recording& r) {
   write_comparison(json, r.as_is);
   write_comparison(json, r.at_99);
   json.close().close();
-  return to_text(HtmlDocument{"explain " + r.scene, embedded::explain_page_css, embedded::explain_page_html, json.text(),
-                              std::string(embedded::explain_scene_js) + embedded::explain_page_js});
+  return stepped_document("explain " + r.scene, embedded::explain_page_css, embedded::explain_page_html, json.text(),
+                          std::string(embedded::explain_scene_js) + embedded::explain_page_js);
 }
 
 }  // namespace apps::explain

@@ -109,6 +109,25 @@ class Watch {
   std::map<std::uint64_t, std::uint32_t> by_ends_;
 };
 
+// Nodes, names and places, and of the channel with the most emission what each surface emits and reflects.
+void record_nodes(const Run& run, Recording& recording) {
+  recording.nodes = in_scene(run.scene.hierarchy, run.scene.frame);
+  recording.born.resize(recording.nodes.size(), recording.born.empty() ? 0 : recording.pairs.back().generation + 1);
+  recording.names = names_of(recording.nodes, run.scene.inputs);
+  recording.contours = contours_of(run);
+  recording.levels.assign(recording.nodes.size(), 0);
+  glm::dvec3 emitted{0.0};
+  for (const radiosity::Color& e : run.scene.emission) { emitted += e; }
+  recording.channel = emitted.y >= emitted.x && emitted.y >= emitted.z ? 1 : emitted.x >= emitted.z ? 0 : 2;
+  const auto of = [&](const std::vector<radiosity::Color>& surfaces) {
+    std::vector<double> values;
+    for (const radiosity::Node& node : recording.nodes) { values.push_back(surfaces[node.surface][recording.channel]); }
+    return values;
+  };
+  recording.emission = of(run.scene.emission);
+  recording.reflectance = of(run.scene.reflectance);
+}
+
 void record_links(Run& run, Recording& recording) {
   const radiosity::Frame& frame = run.scene.frame;
   for (const radiosity::Link& link : run.solution.links) {
@@ -167,6 +186,15 @@ void record_iterations(Run& run, Recording& recording) {
   }
 }
 
+void record_solvers(Run& run, Recording& recording) {
+  System system{*run.transport, run.scene.exposure.area, {}, {}};
+  for (const radiosity::Color& rho : run.scene.reflectance) { system.reflectance.push_back(rho[recording.channel]); }
+  for (const radiosity::Color& e : run.scene.emission) { system.emission.push_back(e[recording.channel]); }
+  recording.as_is = compare_solvers(system, false);
+  for (double& rho : system.reflectance) { rho = rho > 0.0 ? 0.99 : 0.0; }
+  recording.at_99 = compare_solvers(system, true);
+}
+
 void record_leaves(const Run& run, Recording& recording) {
   for (const radiosity::Surface& surface : run.scene.surfaces) {
     for (const brep::FaceId f : brep::faces(surface.brep)) {
@@ -200,6 +228,16 @@ void record_mesh(Run& run, Recording& recording) {
   }
 }
 
+// Of each generation the choices with the largest errors, and why they were made.
+void keep_worst(Recording& recording) {
+  for (BfGeneration& generation : recording.bf) {
+    std::stable_sort(generation.choices.begin(), generation.choices.end(),
+                     [](const BfChoice& a, const BfChoice& b) { return a.error_p + a.error_q > b.error_p + b.error_q; });
+    if (generation.choices.size() > 60) { generation.choices.resize(60); }
+    for (BfChoice& choice : generation.choices) { choice.sentence = sentence_of(recording, choice); }
+  }
+}
+
 // BF-refinement to its end, with what its oracle is asked, and then up to each of its generations in turn: a generation does not depend on
 // those after it.
 void record_bf(const radiosity::Scene& scene, Recording& recording) {
@@ -224,8 +262,8 @@ void record_bf(const radiosity::Scene& scene, Recording& recording) {
     radiosity::MemoryBudget budget;
     budget.last_generation = generation;
     Run run{scene, options, control, budget};
-    for (const auto next : {radiosity::stage::build, radiosity::stage::refine, radiosity::stage::expose, radiosity::stage::link,
-                            radiosity::stage::solve}) {
+    for (const auto next :
+         {radiosity::stage::build, radiosity::stage::refine, radiosity::stage::expose, radiosity::stage::link, radiosity::stage::solve}) {
       if (next(run)) { return; }
     }
     read(run);
@@ -234,6 +272,7 @@ void record_bf(const radiosity::Scene& scene, Recording& recording) {
   run_to(16, [&](Run& run) {
     last = run.solution.audit.generations;
     recording.bf_nodes = in_scene(run.scene.hierarchy, run.scene.frame);
+    recording.bf_names = names_of(recording.bf_nodes, run.scene.inputs);
     recording.bf_contours = contours_of(run);
   });
   options.oracle = nullptr;
@@ -251,6 +290,7 @@ void record_bf(const radiosity::Scene& scene, Recording& recording) {
       recording.bf.push_back(std::move(of));
     });
   }
+  keep_worst(recording);
 }
 
 RecordResult refused(std::string sentence) { return {std::nullopt, false, {std::move(sentence)}}; }
@@ -284,21 +324,7 @@ RecordResult record(const radiosity::Scene& scene, const std::string& name, cons
   for (const auto next : {radiosity::stage::expose, radiosity::stage::link, radiosity::stage::solve}) {
     if (const auto failure = next(run)) { return {std::nullopt, true, failure->sentences}; }
   }
-  recording.nodes = in_scene(run.scene.hierarchy, run.scene.frame);
-  recording.born.resize(recording.nodes.size(), recording.born.empty() ? 0 : recording.pairs.back().generation + 1);
-  recording.names = names_of(recording.nodes, run.scene.inputs);
-  recording.contours = contours_of(run);
-  recording.levels.assign(recording.nodes.size(), 0);
-  glm::dvec3 emitted{0.0};
-  for (const radiosity::Color& e : run.scene.emission) { emitted += e; }
-  recording.channel = emitted.y >= emitted.x && emitted.y >= emitted.z ? 1 : emitted.x >= emitted.z ? 0 : 2;
-  const auto of = [&](const std::vector<radiosity::Color>& surfaces) {
-    std::vector<double> values;
-    for (const radiosity::Node& node : recording.nodes) { values.push_back(surfaces[node.surface][recording.channel]); }
-    return values;
-  };
-  recording.emission = of(run.scene.emission);
-  recording.reflectance = of(run.scene.reflectance);
+  record_nodes(run, recording);
   for (const radiosity::Color& b : run.solution.radiosity) { recording.radiosity.push_back(b[recording.channel]); }
   for (Pair& pair : recording.pairs) { pair.sentence = sentence_of(recording, pair); }
   record_links(run, recording);
@@ -306,21 +332,9 @@ RecordResult record(const radiosity::Scene& scene, const std::string& name, cons
   record_iterations(run, recording);
   record_leaves(run, recording);
   recording.closure = run.solution.audit.closure;
-  System system{*run.transport, run.scene.exposure.area, {}, {}};
-  for (const radiosity::Color& rho : run.scene.reflectance) { system.reflectance.push_back(rho[recording.channel]); }
-  for (const radiosity::Color& e : run.scene.emission) { system.emission.push_back(e[recording.channel]); }
-  recording.as_is = compare_solvers(system, false);
-  for (double& rho : system.reflectance) { rho = rho > 0.0 ? 0.99 : 0.0; }
-  recording.at_99 = compare_solvers(system, true);
+  record_solvers(run, recording);
   record_mesh(run, recording);
   record_bf(scene, recording);
-  recording.bf_names = names_of(recording.bf_nodes, run.scene.inputs);
-  for (BfGeneration& generation : recording.bf) {
-    std::stable_sort(generation.choices.begin(), generation.choices.end(),
-                     [](const BfChoice& a, const BfChoice& b) { return a.error_p + a.error_q > b.error_p + b.error_q; });
-    if (generation.choices.size() > 60) { generation.choices.resize(60); }
-    for (BfChoice& choice : generation.choices) { choice.sentence = sentence_of(recording, choice); }
-  }
   return {std::move(recording), false, {}};
 }
 

@@ -68,8 +68,7 @@ bool is_covered(const radiosity::Solution& solution, std::uint32_t node) {
   return solution.area[node] < (1.0 - 1e-9) * solution.hierarchy[node].area;
 }
 
-ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution) {
-  const radiosity::Mesh& mesh = solution.mesh;
+ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh) {
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
   std::vector<raycast::PlacedObject> objects;
   for (const radiosity::SceneObject& object : file.scene.objects) { objects.emplace_back(object.shape, object.placement); }

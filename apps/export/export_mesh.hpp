@@ -15,6 +15,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>
 
@@ -54,9 +55,9 @@ struct ExportMesh {
 // Does another object cover the leaf, or a part of it? Where both lie in one plane the leaf must not show through.
 [[nodiscard]] bool is_covered(const radiosity::Solution& solution, std::uint32_t node);
 
-// The solution: a group an object, a face a leaf, a vertex for each normal and colour that a place has. Corners that only
+// A mesh of the solution: a group an object, a face a leaf, a vertex for each normal and colour that a place has. Corners that only
 // covered leaves have lie a little behind their places, lamps in the plane of a ceiling a little before theirs.
-[[nodiscard]] ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution);
+[[nodiscard]] ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh);
 
 // The user's polygons and vertices, all of them, in the order of the file; a vertex has the mean of its corners. Nothing when the scene
 // came from no file of polygons.

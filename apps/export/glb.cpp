@@ -4,7 +4,6 @@
 // the origin loses nothing; a node above turns z, which is up with us, to y. With a lightmap the colour is a texture in place of COLOR_0.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -13,6 +12,7 @@
 
 #include <brep/ears.hpp>
 
+#include "apps/bytes.hpp"
 #include "apps/color.hpp"
 #include "apps/export/export_mesh.hpp"
 #include "apps/json.hpp"
@@ -20,14 +20,6 @@
 
 namespace apps::exported {
 namespace {
-
-void put(std::string& bytes, std::uint32_t value) {
-  for (unsigned k = 0; k < 4; ++k) { bytes += static_cast<char>(value >> (8 * k) & 0xffU); }
-}
-template <glm::length_t n>
-void put(std::string& bytes, const glm::vec<n, float>& value) {
-  for (int k = 0; k < n; ++k) { put(bytes, std::bit_cast<std::uint32_t>(value[k])); }
-}
 
 class Writer {
  public:
@@ -142,23 +134,10 @@ class Writer {
     return {right.x, right.y, right.z, 0, up.x, up.y, up.z, 0, back.x, back.y, back.z, 0, e.x, e.y, e.z, 1};
   }
 
-  std::string description() {
+  // The root, then parts, then cameras.
+  void nodes(JsonWriter& json) const {
     const std::size_t parts = parts_.size(), cameras = mesh_.cameras.size();
-    JsonWriter json;
-    json.open_object();
-    json.key("asset").object("version", "2.0", "generator", std::string("halflight ") + version, "extras", [&](JsonWriter& extras) {
-      extras.open_object();
-      extras.fields("exposure", tone_.exposure, "tone", name(tone_.curve), textured() ? "texture" : "COLOR_0",
-                    "tone of radiosity / pi * exposure, linear, clamped to [0, 1]", "_RADIOSITY", "W/m2");
-      if (textured()) { extras.fields("radiance", mesh_.texture_name); }
-      extras.close();
-    });
-    json.key("extensionsUsed").open_array().string("KHR_materials_unlit").close();
-    json.fields("scene", 0);
-    json.key("scenes").open_array().open_object();
-    json.key("nodes").open_array().value(0).close().close().close();
-
-    json.key("nodes").open_array().open_object();  // the root, then parts, then cameras
+    json.key("nodes").open_array().open_object();
     json.fields("name", "halflight");
     if (mesh_.z_up) { json.fields("rotation", std::array<double, 4>{-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}); }
     if (parts + cameras > 0) {
@@ -174,39 +153,65 @@ class Writer {
       json.object("name", mesh_.cameras[i].name, "camera", i, "matrix", camera_matrix(mesh_.cameras[i]));
     }
     json.close();
+  }
 
-    if (cameras > 0) {
-      json.key("cameras").list(mesh_.cameras, [&](const Camera& camera) {
-        const PictureSize size = camera.size.value_or(PictureSize{});
-        const double aspect = static_cast<double>(size.width) / size.height,
-                     half = std::tan(camera.field_of_view * std::acos(-1.0) / 360.0);
-        json.object("name", camera.name, "type", "perspective", "perspective", [&](JsonWriter& perspective) {
-          perspective.object("aspectRatio", aspect, "yfov", 2.0 * std::atan(half / aspect), "znear", 5e-3 * size_);
-        });
+  void cameras(JsonWriter& json) const {
+    json.key("cameras").list(mesh_.cameras, [&](const Camera& camera) {
+      const PictureSize size = camera.size.value_or(PictureSize{});
+      const double aspect = static_cast<double>(size.width) / size.height, half = std::tan(camera.field_of_view * std::acos(-1.0) / 360.0);
+      json.object("name", camera.name, "type", "perspective", "perspective", [&](JsonWriter& perspective) {
+        perspective.object("aspectRatio", aspect, "yfov", 2.0 * std::atan(half / aspect), "znear", 5e-3 * size_);
       });
+    });
+  }
+
+  // One material for all, its light as it is.
+  void materials(JsonWriter& json) const {
+    json.key("materials").open_array().open_object();
+    json.fields("name", "baked light");
+    json.key("pbrMetallicRoughness").open_object();
+    if (textured()) { json.key("baseColorTexture").object("index", 0); }
+    json.fields("metallicFactor", 0, "roughnessFactor", 1).close();
+    json.key("extensions").object("KHR_materials_unlit", [](JsonWriter& unlit) { unlit.object(); });
+    json.close().close();
+    if (textured()) {  // linear filters without smaller copies, in which neighbours in the atlas would mix
+      json.key("textures").open_array().object("source", 0, "sampler", 0).close();
+      json.key("samplers").open_array().object("magFilter", 9729, "minFilter", 9729, "wrapS", 33071, "wrapT", 33071).close();
+      json.key("images").open_array().object("bufferView", 5, "mimeType", "image/png").close();
     }
-    if (parts > 0) {
-      json.key("materials").open_array().open_object();
-      json.fields("name", "baked light");
-      json.key("pbrMetallicRoughness").open_object();
-      if (textured()) { json.key("baseColorTexture").object("index", 0); }
-      json.fields("metallicFactor", 0, "roughnessFactor", 1).close();
-      json.key("extensions").object("KHR_materials_unlit", [](JsonWriter& unlit) { unlit.object(); });
-      json.close().close();
-      if (textured()) {  // linear filters without smaller copies, in which neighbours in the atlas would mix
-        json.key("textures").open_array().object("source", 0, "sampler", 0).close();
-        json.key("samplers").open_array().object("magFilter", 9729, "minFilter", 9729, "wrapS", 33071, "wrapT", 33071).close();
-        json.key("images").open_array().object("bufferView", 5, "mimeType", "image/png").close();
-      }
-      json.key("meshes").open_array();
-      for (std::size_t i = 0; i < parts; ++i) {
-        json.open_object().fields("name", mesh_.groups[parts_[i].group].name);
-        json.key("primitives").open_array().open_object();
-        json.key("attributes")
-            .object("POSITION", 5 * i, "NORMAL", 5 * i + 1, textured() ? "TEXCOORD_0" : "COLOR_0", 5 * i + 2, "_RADIOSITY", 5 * i + 3);
-        json.fields("indices", 5 * i + 4, "material", 0).close().close().close();
-      }
-      json.close();
+  }
+
+  void meshes(JsonWriter& json) const {
+    json.key("meshes").open_array();
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      json.open_object().fields("name", mesh_.groups[parts_[i].group].name);
+      json.key("primitives").open_array().open_object();
+      json.key("attributes")
+          .object("POSITION", 5 * i, "NORMAL", 5 * i + 1, textured() ? "TEXCOORD_0" : "COLOR_0", 5 * i + 2, "_RADIOSITY", 5 * i + 3);
+      json.fields("indices", 5 * i + 4, "material", 0).close().close().close();
+    }
+    json.close();
+  }
+
+  std::string description() const {
+    JsonWriter json;
+    json.open_object();
+    json.key("asset").object("version", "2.0", "generator", std::string("halflight ") + version, "extras", [&](JsonWriter& extras) {
+      extras.open_object();
+      extras.fields("exposure", tone_.exposure, "tone", name(tone_.curve), textured() ? "texture" : "COLOR_0",
+                    "tone of radiosity / pi * exposure, linear, clamped to [0, 1]", "_RADIOSITY", "W/m2");
+      if (textured()) { extras.fields("radiance", mesh_.texture_name); }
+      extras.close();
+    });
+    json.key("extensionsUsed").open_array().string("KHR_materials_unlit").close();
+    json.fields("scene", 0);
+    json.key("scenes").open_array().open_object();
+    json.key("nodes").open_array().value(0).close().close().close();
+    nodes(json);
+    if (!mesh_.cameras.empty()) { cameras(json); }
+    if (!parts_.empty()) {
+      materials(json);
+      meshes(json);
       json.key("accessors").open_array();
       for (const Part& part : parts_) { accessors(json, part); }
       json.close();

@@ -2,7 +2,6 @@
 #include "apps/export/viewer.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -14,19 +13,14 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/result/mesh.hpp>
 
+#include "apps/bytes.hpp"
 #include "apps/export/export_mesh.hpp"
-#include "apps/export/viewer_page.hpp"
+#include "apps/html_document.hpp"
 #include "apps/json.hpp"
-#include "apps/markup.hpp"
-#include "apps/study/base64.hpp"
+#include "embedded/export.hpp"
 
 namespace apps {
 namespace {
-
-template <class Number>
-void put(std::string& bytes, Number value) {
-  for (unsigned k = 0; k < sizeof(Number); ++k) { bytes += static_cast<char>(value >> (8 * k) & 0xffU); }
-}
 
 // The arrays that the script decodes, little-endian. Radiance times exposure as half floats: a screen shows no more.
 struct Arrays {
@@ -40,16 +34,11 @@ struct Arrays {
 
 std::array<double, 3> numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-std::string script_safe(std::string json) {  // nothing ends the script element early
-  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) { json.replace(at, 1, "\\u003c"); }
-  return json;
-}
-
 }  // namespace
 
 std::string viewer_page(const SceneFile& file, const radiosity::Solution& solution, const Camera& camera, double exposure,
                         const std::string& title, const std::string& sentence) {
-  const radiosity::Mesh& mesh = solution.mesh;
+  const radiosity::Mesh& mesh = solution.shown();
   glm::dvec3 lo(0.0), hi(0.0);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     lo = i == 0 ? mesh.positions[i] : glm::min(lo, mesh.positions[i]);
@@ -60,7 +49,7 @@ std::string viewer_page(const SceneFile& file, const radiosity::Solution& soluti
 
   Arrays arrays;
   for (const glm::dvec3& p : mesh.positions) {
-    for (int k = 0; k < 3; ++k) { put(arrays.positions, std::bit_cast<std::uint32_t>(static_cast<float>((p[k] - centre[k]) / size))); }
+    for (int k = 0; k < 3; ++k) { put(arrays.positions, static_cast<float>((p[k] - centre[k]) / size)); }
   }
   for (const radiosity::MeshFace& face : mesh.faces) {
     put(arrays.face_size, static_cast<std::uint8_t>(face.corner_count));
@@ -93,14 +82,12 @@ std::string viewer_page(const SceneFile& file, const radiosity::Solution& soluti
     if (c.name != camera.name) { add(c); }
   }
   json.close();
-  json.fields("metres", size, "positions", study::base64(arrays.positions), "cornerVertex", study::base64(arrays.corner_vertex),
-              "cornerLight", study::base64(arrays.corner_light), "faceSize", study::base64(arrays.face_size), "faceNode",
-              study::base64(arrays.face_node), "faceSeen", study::base64(arrays.face_seen), "parent", study::base64(arrays.parent));
+  json.fields("metres", size, "positions", base64(arrays.positions), "cornerVertex", base64(arrays.corner_vertex), "cornerLight",
+              base64(arrays.corner_light), "faceSize", base64(arrays.face_size), "faceNode", base64(arrays.face_node), "faceSeen",
+              base64(arrays.face_seen), "parent", base64(arrays.parent));
   json.close();
-  return std::string("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>") + escaped(title) +
-         "</title>\n<meta name=\"viewport\" content=\"width=device-width\">\n<style>" + viewer_style + "</style></head>\n<body>" +
-         viewer_body + "<script id=\"data\" type=\"application/json\">" + script_safe(json.text()) + "</script>\n<script>" + viewer_script +
-         "</script></body></html>\n";
+  return html_document(title, embedded::export_viewer_css,
+                       with_script(embedded::export_viewer_html, json.text(), embedded::export_viewer_js));
 }
 
 }  // namespace apps

@@ -12,12 +12,14 @@
 #include "apps/euler/html.hpp"
 #include "apps/euler/solid.hpp"
 #include "apps/euler/svg.hpp"
+#include "apps/html_document.hpp"
 #include "apps/markup.hpp"
 #include "apps/picture.hpp"
 #include "apps/png.hpp"
 #include "apps/scene_file.hpp"
 #include "apps/study/svg.hpp"
 #include "embedded/examples.hpp"
+#include "embedded/figures.hpp"
 
 namespace apps::figures {
 namespace {
@@ -103,33 +105,27 @@ std::vector<Figure> make() {
   return {
       {"figure1.svg", "euler/010_cube.euler",
        "A cube, and the same cube in the plane: the bottom face is pulled wide open and everything else is spread within it. Vertices, "
-       "edges "
-       "and faces keep their names, and no two edges cross.",
+       "edges and faces keep their names, and no two edges cross.",
        last_step(embedded::example("euler/010_cube.euler"))},
       {"figure2.svg", "figures/2_winged_edge.euler",
        "The halves of one edge, red. Each runs on the side of its own face and knows its origin, its face, its twin, and the half-edges "
-       "before "
-       "and behind it along the face; so all neighbours are one step away.",
+       "before and behind it along the face; so all neighbours are one step away.",
        last_step(embedded::example("figures/2_winged_edge.euler"), true)},
       {"figure3.svg", "figures/3_hierarchy.scene",
        "The hierarchy stands on the BRep. Nodes hold centre, normal and area; a leaf knows its face (dashed), and the faces know corners "
-       "and "
-       "neighbours. When a leaf is split, its face is split by Euler operators and the leaf becomes an inner node.",
+       "and neighbours. When a leaf is split, its face is split by Euler operators and the leaf becomes an inner node.",
        diagram(hierarchy_over_faces(embedded::example("figures/3_hierarchy.scene")), "a tree over the faces of a mesh")},
       {"figure4.svg", "figures/3_hierarchy.scene",
        "Level tags. A vertex has the level of the split that made it; a face of level l has corners of level l or less. A vertex of higher "
-       "level "
-       "on its border is a T-vertex and serves as the anchor of the next split.",
+       "level on its border is a T-vertex and serves as the anchor of the next split.",
        diagram(level_tags(embedded::example("figures/3_hierarchy.scene")), "a mesh with the levels of its vertices and faces")},
       {"figure5.svg", "figures/5_weights.scene",
        "Weighted reconstruction at a vertex on the rim of a cylinder: for the colour of one half-edge every face around the vertex counts "
-       "by "
-       "max(0, N_e . N_l). On the top all normals agree, the side counts nothing, and the edge stays sharp.",
+       "by max(0, N_e . N_l). On the top all normals agree, the side counts nothing, and the edge stays sharp.",
        diagram(weights_at_a_rim(embedded::example("figures/5_weights.scene")), "weights of the faces around a vertex on a rim")},
       {"figure6.svg", "scenes/paper_figure.scene",
        "A cylinder under a superquadric that shadows itself, reconstructed simply (left) and with weights (right): left the side's "
-       "darkness "
-       "bleeds over the rim into the top.",
+       "darkness bleeds over the rim into the top.",
        pictures({close.simple, close.weighted}, 240, 210)},
       {"figure7.svg", "scenes/room.scene",
        "A room reconstructed simply: colours bleed across every edge of an object, and foot and rim of the cylinder wear wrong shades.",
@@ -142,21 +138,15 @@ std::vector<Figure> make() {
 
 std::string page(const std::vector<Figure>& figures) {
   std::string out =
-      "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n<meta name='viewport' content='width=device-width'>\n"
-      "<title>The figures of the paper</title>\n<style>body{font:16px/1.5 'DejaVu Sans',Verdana,sans-serif;max-width:1000px;margin:2em "
-      "auto;padding:0 1em;"
-      "color:#222}figure{margin:2.4em 0;break-inside:avoid}img{max-width:100%;display:block;border:1px solid "
-      "#ddd}figcaption{margin-top:.5em}"
-      "code{color:#555}</style>\n</head>\n<body>\n<h1>The figures of the paper</h1>\n<p>After Bendels, Fellner, Sch\xc3\xa4"
-      "fer: Hierarchical "
-      "Radiosity on Topological Data Structures, 1996. Each is made by this program from the file that is named.</p>\n";
+      "\n<h1>The figures of the paper</h1>\n<p>After Bendels, Fellner, Sch\xc3\xa4"
+      "fer: Hierarchical Radiosity on Topological Data Structures, 1996. Each is made by this program from the file that is named.</p>\n";
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const Figure& figure = figures[i];
-    out += "<figure><img src='" + figure.file + "' alt='figure " + std::to_string(i + 1) + "'><figcaption><b>Figure " +
-           std::to_string(i + 1) + ".</b> " + escaped(figure.caption) + " <code>examples/" + figure.source +
-           "</code></figcaption></figure>\n";
+    const std::string number = std::to_string(i + 1);
+    out += "<figure><img src='" + figure.file + "' alt='figure " + number + "'><figcaption><b>Figure " + number + ".</b> " +
+           escaped(figure.caption) + " <code>examples/" + figure.source + "</code></figcaption></figure>\n";
   }
-  return out + "</body>\n</html>\n";
+  return html_document("The figures of the paper", embedded::figures_page_css, out);
 }
 
 }  // namespace apps::figures

@@ -5,6 +5,7 @@
 // -i N repeats what follows it N times. -a N makes N copies: what follows it acts 0, 1, ... N - 1 times.
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct Line {
   [[nodiscard]] std::string_view word(std::size_t i) const { return i < words.size() ? words[i] : std::string_view(); }
   [[nodiscard]] Place place(std::size_t i) const { return places[i < words.size() ? i : words.size()]; }
 };
+
+// For notes.
+[[nodiscard]] inline std::string at(const Line& line) { return "at line " + std::to_string(line.place(0).line); }
 
 // A finite number of at most max_number; an error otherwise, and 0.
 [[nodiscard]] double number(const Line& line, std::size_t word, Errors& errors);

@@ -2,19 +2,12 @@
 #include "apps/intake/texture.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
 
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#endif
+#include "apps/color.hpp"
+
 #if defined(__clang__)  // it shifts negative numbers
 #pragma clang attribute push(__attribute__((no_sanitize("undefined"))), apply_to = function)
 #endif
@@ -27,9 +20,6 @@
 #include <stb/stb_image.h>
 #if defined(__clang__)
 #pragma clang attribute pop
-#endif
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
 #endif
 
 namespace apps::intake {
@@ -45,17 +35,17 @@ std::optional<radiosity::Color> mean_color(std::string_view bytes) {
   if (pixels > most_pixels) { return std::nullopt; }
   const std::unique_ptr<stbi_uc, void (*)(void*)> image(stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
   if (!image) { return std::nullopt; }
-  std::array<double, 256> linear{};  // IEC 61966-2-1
-  for (std::size_t i = 0; i < linear.size(); ++i) {
-    const double v = static_cast<double>(i) / 255.0;
-    linear[i] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  }
+  return mean_of_pixels({image.get(), 4 * pixels});
+}
+
+std::optional<radiosity::Color> mean_of_pixels(std::span<const std::uint8_t> rgba) {
+  std::array<double, 256> linear{};
+  for (std::size_t i = 0; i < linear.size(); ++i) { linear[i] = srgb_decode(static_cast<double>(i) / 255.0); }
   radiosity::Color sum(0.0);
   double opaque = 0.0;
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const stbi_uc* const pixel = image.get() + 4 * i;
-    const double alpha = pixel[3] / 255.0;
-    sum += alpha * radiosity::Color(linear[pixel[0]], linear[pixel[1]], linear[pixel[2]]);
+  for (std::size_t i = 0; i + 3 < rgba.size(); i += 4) {
+    const double alpha = rgba[i + 3] / 255.0;
+    sum += alpha * radiosity::Color(linear[rgba[i]], linear[rgba[i + 1]], linear[rgba[i + 2]]);
     opaque += alpha;
   }
   if (!(opaque > 0.0)) { return std::nullopt; }

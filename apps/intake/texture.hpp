@@ -3,7 +3,9 @@
 
 // Pictures on surfaces: a radiosity solver needs their mean.
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include <radiosity/scene/material.hpp>
@@ -13,5 +15,8 @@ namespace apps::intake {
 // The mean of a PNG or JPEG file in linear light, each pixel weighted by how opaque it is. Nothing when it cannot be read, has more than
 // 2^26 pixels, or lets all light through.
 [[nodiscard]] std::optional<radiosity::Color> mean_color(std::string_view bytes);
+
+// The same of pixels of four bytes each: red, green, blue in sRGB, and how opaque.
+[[nodiscard]] std::optional<radiosity::Color> mean_of_pixels(std::span<const std::uint8_t> rgba);
 
 }  // namespace apps::intake

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -268,10 +267,8 @@ class SceneMaker {
 };
 
 std::optional<double> positive(std::string_view text, bool zero) {
-  double value = 0.0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool good = code == std::errc() && end == text.data() + text.size() && (value > 0.0 || (zero && value == 0.0)) && value <= 1e12;
-  return good ? std::optional(value) : std::nullopt;
+  const auto value = number_in<double>(text);
+  return value && (*value > 0.0 || (zero && *value == 0.0)) && *value <= 1e12 ? value : std::nullopt;
 }
 
 }  // namespace

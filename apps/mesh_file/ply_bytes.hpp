@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Writing PLY (Turk 1994), binary and little-endian: its header, and the bytes of its values.
+// Writing PLY (Turk 1994), binary and little-endian: its header. What follows it are bytes of numbers (bytes.hpp).
 
-#include <array>
-#include <bit>
-#include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
+
+#include "apps/bytes.hpp"
 
 namespace apps {
 
@@ -28,14 +25,6 @@ struct PlyElement {
     for (const std::string_view property : element.properties) { text.append("property ").append(property).append("\n"); }
   }
   return text + "end_header\n";
-}
-
-// The bytes of a number, the lowest first.
-template <class Number>
-void put(std::string& out, Number value) {
-  static_assert(std::is_arithmetic_v<Number> && std::numeric_limits<double>::is_iec559);
-  const auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(value);
-  std::endian::native == std::endian::little ? out.append(bytes.begin(), bytes.end()) : out.append(bytes.rbegin(), bytes.rend());
 }
 
 }  // namespace apps

@@ -2,7 +2,6 @@
 #include "apps/mesh_file/reading.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "apps/text.hpp"
@@ -22,10 +21,7 @@ std::uint32_t column(const char* start, const char* at) {
 template <class T>
 std::optional<T> parse(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') { word.remove_prefix(1); }
-  T value{};
-  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (code != std::errc() || end != word.data() + word.size()) { return std::nullopt; }
-  return value;
+  return number_in<T>(word);
 }
 
 }  // namespace

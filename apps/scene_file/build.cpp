@@ -2,7 +2,6 @@
 #include "apps/scene_file/build.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,6 +20,7 @@
 #include "apps/scene_file/groups.hpp"
 #include "apps/scene_file/uses.hpp"
 #include "apps/scene_file/words.hpp"
+#include "apps/text.hpp"
 
 namespace apps::scene_file {
 namespace {
@@ -238,9 +238,7 @@ std::uint32_t Builder::sheet_index(const Name& sheet, const raycast::Object& sha
   const std::uint32_t count = shape.sheet_count();
   const std::string_view text = sheet.text;
   if (const auto found = names.find(text); found != names.end()) { return found->second; }
-  std::uint32_t number = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (code == std::errc() && end == text.data() + text.size() && number < count) { return number; }
+  if (const auto number = number_in<std::uint32_t>(text); number && *number < count) { return *number; }
   std::vector<std::string_view> known;
   for (std::uint32_t i = 0; i < std::min(count, 100U); ++i) { known.push_back(shape.sheet_name(i)); }
   errors_.add(sheet.place,

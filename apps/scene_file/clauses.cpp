@@ -57,9 +57,7 @@ void Parser::color_clause(const Token& keyword, radiosity::Color& out, double mo
   }
   if (count == 1) { out = radiosity::Color(out[0]); }
   if (count == 0 || count == 2) {
-    error(token_.place, "'" + std::string(keyword.text) +
-                            "' takes one number or three (red green blue); expected "
-                            "number " +
+    error(token_.place, "'" + std::string(keyword.text) + "' takes one number or three (red green blue); expected number " +
                             std::to_string(count + 1) + ", found " + describe(token_));
   } else {
     no_more_numbers(keyword.text, "one number or three (red green blue)");

@@ -260,10 +260,8 @@ void Parser::group(SceneSyntax& out) {
         syntax.items.emplace_back(std::move(*read));
       }
     } else if (found.kind == Token::Kind::word && contains(statements(), found.text)) {
-      error(found.place, in_quotes(found.text) +
-                             " cannot stand inside a group; expected '}' to close the group "
-                             "that begins at " +
-                             to_string(opened));
+      error(found.place,
+            in_quotes(found.text) + " cannot stand inside a group; expected '}' to close the group that begins at " + to_string(opened));
       return keep();
     } else {
       unknown_statement();

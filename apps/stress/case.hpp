@@ -5,6 +5,7 @@
 // refused) is recorded as it happens; why that is right is what the case says of itself. Every figure depends on the scenes alone.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,7 +40,8 @@ class Findings {
     figures_.push_back({std::move(what), measured, Figure::Bound::exactly, bound});
   }
 
-  // The solution of a scene that has one. When there is none, or a radiosity is not finite, the case has failed, and what comes back is empty.
+  // The solution of a scene that has one. When there is none, or a radiosity is not finite, the case has failed, and what comes back is
+  // empty.
   radiosity::Solution solve(const radiosity::Scene& scene, const radiosity::Options& options, const radiosity::Control& control = {});
   // A scene, or an object, that must be refused with a sentence that contains `word`.
   void refuse(const std::string& what, const radiosity::Scene& scene, const radiosity::Options& options, std::string_view word);
@@ -67,10 +69,10 @@ struct Case {
   void (*run)(Findings&);
 };
 
-[[nodiscard]] std::vector<Case> light_cases();     // reflectance, emission, the linear system
-[[nodiscard]] std::vector<Case> contact_cases();   // what touches, coincides, overlaps
-[[nodiscard]] std::vector<Case> boundary_cases();  // shells, normals, what hides what
-[[nodiscard]] std::vector<Case> size_cases();      // scale, place, thinness, number and depth
+[[nodiscard]] std::span<const Case> light_cases();     // reflectance, emission, the linear system
+[[nodiscard]] std::span<const Case> contact_cases();   // what touches, coincides, overlaps
+[[nodiscard]] std::span<const Case> boundary_cases();  // shells, normals, what hides what
+[[nodiscard]] std::span<const Case> size_cases();      // scale, place, thinness, number and depth
 
 // All of them, in the order in which they are run.
 [[nodiscard]] const std::vector<Case>& cases();

@@ -14,6 +14,7 @@
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
 
+#include "apps/color.hpp"
 #include "apps/png.hpp"
 #include "apps/study/numbers.hpp"
 
@@ -27,10 +28,7 @@ constexpr double scale_height = 62.0;
 // Radiosity that draw() shows as exactly this tone at exposure 1: pi times the linear value.
 radiosity::Color shown_as(Tone tone) {
   radiosity::Color result(0.0);
-  for (int c = 0; c < 3; ++c) {
-    const double encoded = ((tone >> (16 - 8 * c)) & 255U) / 255.0;
-    result[c] = std::numbers::pi * (encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
-  }
+  for (int c = 0; c < 3; ++c) { result[c] = std::numbers::pi * apps::srgb_decode(((tone >> (16 - 8 * c)) & 255U) / 255.0); }
   return result;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "apps/study/methods.hpp"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -128,6 +131,35 @@ MethodPlan uniform(std::string name, std::string summary, const MethodOptions& s
   return method;
 }
 
+MethodPlan plain_program(const MethodOptions& study) {
+  MethodPlan method{"plain program",
+                    "every face cut evenly; quasi-random direct light, and for each leaf a stored list of what its cosine-distributed rays "
+                    "meet, iterated: what one would write without a hierarchy, on our ray caster",
+                    {}};
+  const std::array<std::uint32_t, 7> rays{32, 48, 64, 96, 128, 192, 256};  // of the largest leaf
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    const int leaves = 128 << k;
+    radiosity::UniformOptions options;
+    options.solver = radiosity::UniformSolver::gather_lists;
+    options.max_area = 1.0 / leaves;
+    options.max_leaves = 10'000'000;
+    options.lists = {rays[k] / 2, rays[k]};
+    options.residual = 1e-5;
+    options.compare = 0;
+    options.threads = study.threads;
+    options.seed = study.seed;
+    options.memory = study.memory;
+    radiosity::UniformOptions matrix = options;  // the dense solution of this mesh
+    matrix.solver = radiosity::UniformSolver::gauss_seidel;
+    method.settings.push_back(
+        {"area 1/" + std::to_string(leaves) + ", " + std::to_string(rays[k]) + " rays",
+         [options](const Scene& scene, const Control& control) { return radiosity::solve_uniform(scene, options, control); },
+         [matrix](const Scene& scene, const Solution&, const Control& control) { return radiosity::solve_uniform(scene, matrix, control); },
+         {}});
+  }
+  return method;
+}
+
 }  // namespace
 
 std::vector<MethodPlan> methods(const MethodOptions& study) {
@@ -180,6 +212,7 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
                         radiosity::UniformSolver::gauss_seidel));
   all.push_back(uniform("progressive", "every face cut evenly, the brightest leaf shoots (Cohen 1988); no matrix is stored", study,
                         radiosity::UniformSolver::progressive));
+  all.push_back(plain_program(study));
   return all;
 }
 

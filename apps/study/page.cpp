@@ -5,15 +5,16 @@
 
 #include <radiosity/support/left_out.hpp>
 
+#include "apps/bytes.hpp"
+#include "apps/html_document.hpp"
 #include "apps/markup.hpp"
 #include "apps/png.hpp"
-#include "apps/study/base64.hpp"
 #include "apps/study/error_picture.hpp"
 #include "apps/study/figures.hpp"
 #include "apps/study/outcome.hpp"
-#include "apps/study/page_style.hpp"
 #include "apps/study/svg.hpp"
 #include "apps/study/table.hpp"
+#include "embedded/study.hpp"
 
 namespace study {
 namespace {
@@ -27,15 +28,12 @@ class Page {
   std::string write() {
     const bool several = study_.scenes.size() > 1;
     const std::string title = several || study_.scenes.empty() ? "Work-precision study" : "Work-precision study: " + study_.scenes[0].scene;
-    text_ =
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-        "content=\"width=device-width\">\n<title>" +
-        escaped(title) + "</title>\n<style>" + page_style + "</style>\n</head>\n<body>\n<h1>" + escaped(title) + "</h1>\n";
+    text_ = "\n<h1>" + escaped(title) + "</h1>\n";
     introduction();
     if (several) { overview(); }
     for (std::size_t i = 0; i < study_.scenes.size(); ++i) { scene(study_.scenes[i], i); }
     reading();
-    return text_ + "</body>\n</html>\n";
+    return apps::html_document(title, apps::embedded::study_page_css, text_);
   }
 
  private:
@@ -44,8 +42,7 @@ class Page {
   void introduction() {
     paragraph(
         "How wrong is each method, and what does it cost? Every method solves the same scene at several settings, its error is measured "
-        "against the same "
-        "reference, and its time by the same clock. In the plots, lower and further left is better.");
+        "against the same reference, and its time by the same clock. In the plots, lower and further left is better.");
     text_ += "<dl>";
     const auto fact = [&](const char* name, const std::string& value) {
       text_ += std::string("<dt>") + name + "</dt><dd>" + escaped(value) + "</dd>";
@@ -132,15 +129,13 @@ class Page {
         run_table(s), "wide",
         "All runs: cost, and the relative L2 error of cell means and at points, in per cent, before and after reconstruction. “s saved” is "
         "about what the run would take longer if nothing were left out. † was stopped by a limit: the best it had by then, which stands in "
-        "no "
-        "plot and counts for no method. ★ and shade: on the Pareto front of error and CPU time.");
+        "no plot and counts for no method. ★ and shade: on the Pareto front of error and CPU time.");
     const Table parts = part_table(s);
     if (!parts.rows.empty()) {
       table(parts, "",
             "Where the error comes from, each a relative L2 error of its own at the reference's points, in per cent: a dense solution on "
-            "the run's "
-            "leaves against the reference; the run's links and visibility against that solution; the solver's residual; the picture "
-            "against the leaves.");
+            "the run's leaves against the reference; the run's links and visibility against that solution; the solver's residual; the "
+            "picture against the leaves.");
     }
     table(norm_table(s), "wide",
           "The other norms, in per cent: relative L1, and the worst cell or point relative to the brightest of the reference.");
@@ -164,14 +159,13 @@ class Page {
     for (const ErrorPicture& picture : s.pictures) {
       const std::string name = picture.method + ", " + picture.setting;
       text_ += "<figure><img alt=\"error picture: " + escaped(name) + "\" src=\"data:image/png;base64," +
-               base64(apps::to_png(error_picture(picture, s.camera, limit, 480))) + "\"><figcaption>" + escaped(name) +
+               apps::base64(apps::to_png(error_picture(picture, s.camera, limit, 480))) + "\"><figcaption>" + escaped(name) +
                "</figcaption></figure>\n";
     }
     text_ += "</div>\n<figure class=\"scale\">" + to_svg(error_scale(limit), "scale of the error pictures") + "<figcaption><b>Fig. " +
              std::to_string(++figures_) +
              ".</b> Error of each cell's mean in the picture, after weighted reconstruction, relative to the brightest cell of the "
-             "reference; one scale for all. "
-             "What is grey emits light or is no part of the scene.</figcaption></figure>\n";
+             "reference; one scale for all. What is grey emits light or is no part of the scene.</figcaption></figure>\n";
   }
 
   void table(const Table& table, const std::string& kind, const std::string& caption) {
@@ -198,25 +192,18 @@ class Page {
     text_ += "<h2>How this is measured</h2>\n";
     paragraph(
         "Methods are compared, in plots, in the first table and on the Pareto front, by one error: the relative L2 error of the cell "
-        "means, "
-        "before reconstruction. Errors are those of the radiosity of all surfaces that do not emit, weighted by area. L1 and L2 are "
-        "relative to the same norm of "
-        "the reference, the worst "
-        "is relative to the greatest value of the reference. “Cells” compares means over the cells of the reference, “points” the "
-        "radiosity at single points. "
-        "“Before” is the constant radiosity of the solution's leaves, “simple” and “weighted” are what a picture shows.");
+        "means, before reconstruction. Errors are those of the radiosity of all surfaces that do not emit, weighted by area. L1 and L2 are "
+        "relative to the same norm of the reference, the worst is relative to the greatest value of the reference. “Cells” compares means "
+        "over the cells of the reference, “points” the radiosity at single points. “Before” is the constant radiosity of the solution's "
+        "leaves, “simple” and “weighted” are what a picture shows.");
     paragraph(
         "A reference that was traced has noise of its own, which is also in the errors: the relative L2 norm of its standard errors. No "
-        "error is reported below it: a "
-        "hollow mark, and “<” in a "
-        "table, say that the error is at most the noise. A slope is the exponent p of error = c · costᵖ by least squares in log-log, with "
-        "its standard error, and needs "
-        "three runs that are not limited by noise. A run is on the Pareto front when no other run of any method is cheaper and no less "
-        "accurate.");
+        "error is reported below it: a hollow mark, and “<” in a table, say that the error is at most the noise. A slope is the exponent p "
+        "of error = c · costᵖ by least squares in log-log, with its standard error, and needs three runs that are not limited by noise. A "
+        "run is on the Pareto front when no other run of any method is cheaper and no less accurate.");
     paragraph(
         "After A. Willmott and P. Heckbert, An Empirical Comparison of Radiosity Algorithms, Carnegie Mellon University, CMU-CS-97-115, "
-        "1997. “Paper” is "
-        "H. Bendels, D. W. Fellner, S. Schäfer, Hierarchical Radiosity on Topological Data Structures, 1996.");
+        "1997. “Paper” is H. Bendels, D. W. Fellner, S. Schäfer, Hierarchical Radiosity on Topological Data Structures, 1996.");
   }
 
   const Study& study_;

@@ -6,7 +6,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "apps/study/checksum.hpp"
+#include "apps/checksum.hpp"
+#include "apps/text.hpp"
 
 namespace study {
 namespace {
@@ -58,7 +59,10 @@ class Reader {
 };
 
 template <class T>
-concept is_vector = requires(T x) { x.push_back(*x.begin()); } && !std::is_same_v<T, std::string>;
+concept is_vector = requires(T x) {
+  x.push_back(*x.begin());
+}
+&&!std::is_same_v<T, std::string>;
 
 // --- the fields
 template <class A, class T>
@@ -153,13 +157,11 @@ void Reader::take(T& value) {
 }  // namespace
 
 std::optional<PartNumber> parse_part(std::string_view text) {
-  PartNumber part;
-  const char* const end = text.data() + text.size();
-  const auto [slash, code] = std::from_chars(text.data(), end, part.index);
-  if (code != std::errc() || slash == end || *slash != '/') { return std::nullopt; }
-  const auto [rest, second] = std::from_chars(slash + 1, end, part.count);
-  const bool good = second == std::errc() && rest == end && part.index >= 1 && part.index <= part.count && part.count <= 100'000;
-  return good ? std::optional(part) : std::nullopt;
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto index = apps::number_in<std::size_t>(text.substr(0, slash));
+  const auto count = apps::number_in<std::size_t>(text.substr(std::min(slash + 1, text.size())));
+  const bool good = index && count && *index >= 1 && *index <= *count && *count <= 100'000;
+  return good ? std::optional(PartNumber{*index, *count}) : std::nullopt;
 }
 
 std::string part_fault(const std::string& text) { return "expected I/N with I from 1 to N, such as 3/8, found '" + text + "'"; }
@@ -171,7 +173,7 @@ std::string part_file(const PartNumber& number) {
 std::string to_bytes(const Part& part) {
   Writer writer;
   writer(part);
-  Checksum sum;
+  apps::Checksum sum;
   sum.add(std::string_view(writer.text));
   return std::string(magic) + sum.text() + "\n" + writer.text;
 }
@@ -179,7 +181,7 @@ std::string to_bytes(const Part& part) {
 std::optional<Part> read_part(std::string_view bytes) {
   if (!bytes.starts_with(magic) || bytes.size() < magic.size() + 17) { return std::nullopt; }
   const std::string_view sum = bytes.substr(magic.size(), 16), body = bytes.substr(magic.size() + 17);
-  Checksum checksum;
+  apps::Checksum checksum;
   checksum.add(body);
   if (checksum.text() != sum) { return std::nullopt; }
   Reader reader(body);
@@ -192,13 +194,13 @@ std::optional<Part> read_part(std::string_view bytes) {
 Merged merge(std::vector<Part> parts) {
   if (parts.empty()) { return {std::nullopt, "there is no part"}; }
   std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.number.index < b.number.index; });
-  std::string missing;
+  std::vector<std::string> missing, machines;
   const std::size_t count = parts.front().number.count;
   for (std::size_t i = 1, k = 0; i <= count; ++i) {
     if (k < parts.size() && parts[k].number.index == i) {
       ++k;
     } else {
-      missing += (missing.empty() ? "" : ", ") + std::to_string(i);
+      missing.push_back(std::to_string(i));
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -210,15 +212,14 @@ Merged merge(std::vector<Part> parts) {
       return {std::nullopt, "part " + std::to_string(part.number.index) + " is there twice"};
     }
   }
-  if (!missing.empty()) { return {std::nullopt, "of " + std::to_string(count) + " parts these are missing: " + missing}; }
+  if (!missing.empty()) { return {std::nullopt, "of " + std::to_string(count) + " parts these are missing: " + apps::joined(missing)}; }
 
   Study whole = parts.front().study;
   whole.scenes.clear();
-  std::string machines;
   for (const Part& part : parts) {
-    if (machines.find(part.study.machine) == machines.npos) { machines += (machines.empty() ? "" : "; ") + part.study.machine; }
+    if (std::find(machines.begin(), machines.end(), part.study.machine) == machines.end()) { machines.push_back(part.study.machine); }
   }
-  whole.machine = machines;
+  whole.machine = apps::joined(machines, "; ");
   for (std::size_t scene = 0; scene < parts.front().scene_count; ++scene) {
     SceneStudy merged;
     bool found = false;

@@ -23,7 +23,7 @@
 #include <radiosity/visibility/prepare.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
-#include "apps/study/checksum.hpp"
+#include "apps/checksum.hpp"
 
 namespace study {
 namespace {
@@ -201,7 +201,7 @@ std::optional<TrueRadiosity> reference_points(const radiosity::Scene& scene, con
 }
 
 std::string reference_key(std::string_view text, const TrueRadiosity& points, const ReferenceOptions& options) {
-  Checksum sum;
+  apps::Checksum sum;
   sum.add(text);
   sum.add(options.seed);
   sum.add(std::uint64_t{points.points.size()});

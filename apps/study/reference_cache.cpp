@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The file that keeps a reference: JSON in one fixed layout, so that a reader compares its head with the expected text and reads numbers.
 //
-// A study keeps it where nobody has asked for a file: beside the scene. So a file that is there already is replaced only when it begins with
-// this scene's key: then it is an older or a damaged copy of the same values.
+// A study keeps it where nobody has asked for a file: beside the scene. So a file that is there already is replaced only when it begins
+// with this scene's key: then it is an older or a damaged copy of the same values.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -10,9 +10,9 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/checksum.hpp"
 #include "apps/files.hpp"
 #include "apps/scene_file.hpp"
-#include "apps/study/checksum.hpp"
 #include "apps/study/reference.hpp"
 #include "apps/text.hpp"
 
@@ -31,7 +31,7 @@ std::string text_before_values(const std::string& key, const std::string& checks
 constexpr std::string_view tail = "]\n}\n";
 
 std::string checksum_of(std::uint64_t paths, std::string_view values) {
-  Checksum sum;
+  apps::Checksum sum;
   sum.add(paths);
   sum.add(values);
   return sum.text();

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdio>
 
+#include "apps/bytes.hpp"
 #include "apps/markup.hpp"
-#include "apps/study/base64.hpp"
 #include "apps/text.hpp"
 
 namespace study {
@@ -48,7 +48,7 @@ std::string element(const Label& label) {
 
 std::string element(const Image& image) {
   return "<image x=\"" + number(image.low.x) + "\" y=\"" + number(image.low.y) + "\" width=\"" + number(image.width) + "\" height=\"" +
-         number(image.height) + "\" href=\"data:image/png;base64," + base64(image.png) + "\"/>\n";
+         number(image.height) + "\" href=\"data:image/png;base64," + apps::base64(image.png) + "\"/>\n";
 }
 
 }  // namespace

@@ -22,6 +22,7 @@
 #include "apps/intake/model.hpp"
 #include "apps/mesh_file/reading.hpp"
 #include "apps/vrml/node_types.hpp"
+#include "apps/vrml/pictures.hpp"
 #include "apps/vrml/scene_graph.hpp"
 
 namespace apps::vrml {
@@ -33,7 +34,8 @@ constexpr int sides_of_part = 32;  // of a part of a cylinder or a cone that is 
 
 class ModelMaker final : public Visitor {
  public:
-  ModelMaker(const SideFile& side_file, Errors& errors, Notes& notes) : side_file_(side_file), errors_(errors), notes_(notes) {}
+  ModelMaker(const SideFile& side_file, Errors& errors, Notes& notes)
+      : side_file_(side_file), errors_(errors), notes_(notes), pictures_(side_file, notes) {}
 
   Model model;
 
@@ -52,8 +54,6 @@ class ModelMaker final : public Visitor {
       face_set(node, state);
     } else if (std::find(surfaceless.begin(), surfaceless.end(), node.type) != surfaceless.end()) {
       notes_.add("lines, points and texts have no surface: left out", at(node));
-    } else if (node.type == "Texture2") {
-      notes_.add("textures are not read: the diffuse colour stands for the picture", at(node));
     }
   }
 
@@ -123,7 +123,7 @@ class ModelMaker final : public Visitor {
     const std::size_t all = std::max({count("diffuseColor", 3), count("emissiveColor", 3), std::size_t{1}});
     index %= all;
     const auto [known, is_new] =
-        materials_.emplace(std::tuple(state.material, index, two_sided), static_cast<std::uint32_t>(model.materials.size()));
+        materials_.emplace(std::tuple(state.material, state.texture, index, two_sided), static_cast<std::uint32_t>(model.materials.size()));
     if (!is_new) { return known->second; }
     const auto color = [&](const char* field, const glm::dvec3& otherwise) {
       const std::size_t n = count(field, 3);
@@ -136,7 +136,8 @@ class ModelMaker final : public Visitor {
                 : state.material->name.empty() ? "material" + std::to_string(model.materials.size())
                                                : state.material->name;
     if (all > 1) { made.name += "." + std::to_string(index); }
-    made.reflectance = color("diffuseColor", glm::dvec3(0.8));
+    const auto picture = state.texture != nullptr ? pictures_.mean(*state.texture) : std::nullopt;
+    made.reflectance = color("diffuseColor", glm::dvec3(0.8)) * picture.value_or(glm::dvec3(1.0));
     made.emission = std::numbers::pi * color("emissiveColor", glm::dvec3(0.0));
     made.two_sided = two_sided;
     if (count("transparency", 1) > 0 && state.material->number("transparency", 0.0) > 0.0) {
@@ -299,7 +300,8 @@ class ModelMaker final : public Visitor {
   const SideFile& side_file_;
   Errors& errors_;
   Notes& notes_;
-  std::map<std::tuple<const Node*, std::size_t, bool>, std::uint32_t> materials_;
+  Pictures pictures_;
+  std::map<std::tuple<const Node*, const Node*, std::size_t, bool>, std::uint32_t> materials_;
   std::map<std::string, std::shared_ptr<const Node>> inlines_;
 };
 

@@ -63,6 +63,7 @@ struct State {
   glm::dmat4 transform{1.0};
   const Node* material = nullptr;     // null: the default one
   const Node* coordinates = nullptr;  // null: none
+  const Node* texture = nullptr;      // null: none
   Binding binding = Binding::overall;
   bool ordered = false, clockwise = false, solid = false, creased = false;  // ShapeHints; creased: with an angle above 0
 };

@@ -63,6 +63,8 @@ class Meaning {
       state.transform = state.transform * *transform;
     } else if (node.type == "Material") {
       state.material = &node;
+    } else if (node.type == "Texture2") {
+      state.texture = &node;
     } else if (node.type == "Coordinate3") {
       state.coordinates = &node;
     } else if (node.type == "MaterialBinding") {

@@ -21,11 +21,12 @@ struct AuditGoal {
   std::uint64_t rays = 0;          // at most, unless the least number of points takes more; as dear as among few polygons
   std::optional<double> wanted{};  // relative L2 that is to be shown, or shown to be missed; else the error is to be known to a quarter
   std::uint64_t rays_to_show = 0;  // at most when the pilot finds the error to be what is wanted: that is then all that is left to do
+  std::uint64_t rays_anyhow = 0;   // at least: a pilot may have met the few points that matter by chance, or missed them
 
   // The same where a ray costs `work` times as much (raycast::Scene::ray_work).
   [[nodiscard]] AuditGoal among_rays_of(double work) const {
     const auto fewer = [work](std::uint64_t count) { return static_cast<std::uint64_t>(static_cast<double>(count) / work); };
-    return {points, fewer(rays), wanted, fewer(rays_to_show)};
+    return {points, fewer(rays), wanted, fewer(rays_to_show), fewer(rays_anyhow)};
   }
 };
 
@@ -37,7 +38,8 @@ struct AuditGoal {
 
 // For an audit without a target: as long as the solution took, or 1000 rays a point.
 [[nodiscard]] inline AuditGoal goal_to_know(const Audit& audit, std::uint32_t points) {
-  return {points, std::max<std::uint64_t>(rays_worth(audit), 1000 * std::uint64_t{points})};
+  const std::uint64_t worth = rays_worth(audit);
+  return {points, std::max<std::uint64_t>(worth, 1000 * std::uint64_t{points}), {}, 0, worth / 2};
 }
 
 // `measure(points, paths, result)` adds that many fresh points to the result and returns false when it was cancelled; a Measured has
@@ -85,7 +87,8 @@ template <class Measured>
     }
     if (seen->noise_share < 1.0 / 32.0 && paths > 4) { paths /= 4; }
     const auto most = std::max(static_cast<double>(least), static_cast<double>(rays) / rays_a_point);
-    points = static_cast<std::uint64_t>(std::clamp(needed, static_cast<double>(least), most));
+    const double anyhow = std::min(most, static_cast<double>(goal.rays_anyhow) / rays_a_point);
+    points = static_cast<std::uint64_t>(std::clamp(needed, std::max(static_cast<double>(least), anyhow), most));
     break;
   }
   return measure(points, paths, result);

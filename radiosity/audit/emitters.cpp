@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -81,10 +82,24 @@ HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const
   return brightest * area <= 1.5 * power;
 }
 
+// How many flat faces shine alike.
+[[nodiscard]] HALFLIGHT_INLINE std::map<double, std::size_t> faces_by_exitance(const Surface& surface, const std::vector<Color>& emission) {
+  std::map<double, std::size_t> count;
+  for (const brep::FaceId f : brep::faces(surface.brep)) {
+    const std::uint32_t sheet = surface.brep.data(f).sheet;
+    if (sheet == brep::no_sheet || !surface.object->flat()) { continue; }
+    const Color& e = emission[surface.first_surface + sheet];
+    ++count[e.x + e.y + e.z];
+  }
+  return count;
+}
+
 HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
   if (even(surfaces, emission)) { return; }
   for (const Surface& surface : surfaces) {
     std::vector<std::vector<Polygon>> curved(surface.object->sheet_count());  // faces, by sheet
+    std::map<double, std::vector<Polygon>> bodies;                            // flat faces of an object that shine alike
+    const std::map<double, std::size_t> alike = faces_by_exitance(surface, emission);
     for (const brep::FaceId f : brep::faces(surface.brep)) {
       const std::uint32_t sheet = surface.brep.data(f).sheet;
       if (sheet == brep::no_sheet) { continue; }
@@ -94,11 +109,18 @@ HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const 
       for (const brep::HalfedgeId h : brep::halfedges_of(surface.brep, f)) {
         polygon.push_back(surface.brep.data(surface.brep.vertex(h)).position);
       }
-      if (surface.object->flat()) {
-        add_flat(surface.first_surface + sheet, polygon, exitance.x + exitance.y + exitance.z);
-      } else {
+      const double sum = exitance.x + exitance.y + exitance.z;
+      if (!surface.object->flat()) {
         curved[sheet].push_back(std::move(polygon));
+      } else if (alike.at(sum) <= most_single_faces) {
+        add_flat(surface.first_surface + sheet, polygon, sum);
+      } else {
+        bodies[sum].push_back(std::move(polygon));
       }
+    }
+    for (const auto& [sum, faces] : bodies) {
+      auto pieces = detail::compact_triangles(faces);
+      add_spheres(surface.first_surface, pieces, surface.object->slack(), sum);
     }
     for (std::uint32_t s = 0; s < curved.size(); ++s) {
       const Color& exitance = emission[surface.first_surface + s];

@@ -7,6 +7,8 @@
 //   flat emitters     the triangles of their faces; a point of a triangle, spread evenly over its area
 //   curved emitters   spheres around pieces of their faces, large enough for the true surface; a direction, spread evenly over the solid
 //                     angle of the sphere. The larger a piece is, the better it fills its sphere: one for the whole of a compact one.
+//   bodies of faces   many flat faces of one object that shine alike are taken like a curved emitter: a bulb of thousands of triangles
+//                     is one sphere.
 //
 // The shapes only propose directions: what a direction carries is found by a ray. So a shape may be larger than what it stands for,
 // overlap others or be hidden, and every direction has a density() that can be computed, which the balance heuristic needs (Veach and
@@ -18,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <optional>
@@ -58,6 +61,7 @@ class Emitters {
 
  private:
   static constexpr std::uint32_t none = 0xffffffff;
+  static constexpr std::size_t most_single_faces = 64;  // more of them are a body
 
   // Does nothing shine more than half as bright again as all surfaces do in the mean?
   [[nodiscard]] static bool even(const std::vector<Surface>& surfaces, const std::vector<Color>& emission);

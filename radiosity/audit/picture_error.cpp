@@ -77,7 +77,18 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
           measured)) {
     return std::nullopt;
   }
-  return summary(picture, measured);
+  const std::optional<ErrorEstimate> error = measured.sums.estimate();
+  if (!error) { return std::nullopt; }
+  PictureError result;
+  result.error = *error;
+  result.points = measured.sums.square.size();
+  result.rays = measured.rays;
+  result.audited = static_cast<double>(result.points) / static_cast<double>(measured.samples.size());
+  const auto [over2, over8] = shares_off(picture, measured);
+  result.over2 = over2;
+  result.over8 = over8;
+  result.worst = worst_tile(picture, measured);
+  return result;
 }
 
 HALFLIGHT_INLINE PictureAudit::PictureAudit(const Scene& scene, const LightUnit& unit, Prepared prepared)
@@ -148,55 +159,55 @@ HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const ShownPic
     const double off = level(0.5 * (light.all[0][c] + light.all[1][c])) - level(shown[c]);
     sample.levels = std::max(sample.levels, std::abs(off));
     sample.noise_in_levels = std::max(sample.noise_in_levels, std::abs(level(light.all[0][c]) - level(light.all[1][c])));
+    sample.square_in_levels += (level(light.all[0][c]) - level(shown[c])) * (level(light.all[1][c]) - level(shown[c]));
   }
   sample.valid = true;
   return sample;
 }
 
-HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::summary(const ShownPicture& picture, const Measured& measured) const {
-  const std::optional<ErrorEstimate> error = measured.sums.estimate();
-  if (!error) { return std::nullopt; }
-  PictureError result;
-  result.error = *error;
-  result.points = measured.sums.square.size();
-  result.rays = measured.rays;
-  result.audited = static_cast<double>(result.points) / static_cast<double>(measured.samples.size());
+HALFLIGHT_INLINE std::array<ShareBounds, 2> PictureAudit::shares_off(const ShownPicture& picture, const Measured& measured) {
   // Two standard errors of the mean of both estimates are the RMS difference between them, over the pixels of a tile. Three are taken: of a
   // hundred right pixels, two errors would show five to be wrong.
   std::array<double, 16> doubt{}, count{};
+  ErrorSums squares;
   for (const Sample& sample : measured.samples) {
     if (!sample.valid) { continue; }
     doubt[tile(picture, sample)] += sample.noise_in_levels * sample.noise_in_levels;
     count[tile(picture, sample)] += 1.0;
+    squares.add(sample.square_in_levels, 1.0, 0.0);
   }
   for (std::size_t t = 0; t < 16; ++t) { doubt[t] = count[t] > 0.0 ? 1.5 * std::sqrt(doubt[t] / count[t]) : 0.0; }
+  // However noisy a pixel: not more of them can be so far off than their mean square allows (Chebyshev).
+  const std::optional<ErrorEstimate> rms = squares.estimate();
+  const auto allowed = [&](double levels) { return rms ? rms->high * rms->high / (levels * levels) : 1.0; };
   const auto share = [&](double levels) {
     ShareBounds bounds;
+    const double one = 1.0 / static_cast<double>(squares.square.size());
     for (const Sample& sample : measured.samples) {
       if (!sample.valid) { continue; }
       const double by_noise = doubt[tile(picture, sample)];
-      bounds.least += (sample.levels - by_noise > levels ? 1.0 : 0.0) / static_cast<double>(result.points);
-      bounds.most += (sample.levels + by_noise > levels ? 1.0 : 0.0) / static_cast<double>(result.points);
+      bounds.least += sample.levels - by_noise > levels ? one : 0.0;
+      bounds.most += sample.levels + by_noise > levels ? one : 0.0;
     }
+    bounds.most = std::max(bounds.least, std::min(bounds.most, allowed(levels)));
     return bounds;
   };
-  result.over2 = share(2.0);
-  result.over8 = share(8.0);
-  const double mean_reference = [&] {
-    double sum = 0.0;
-    for (const double r : measured.sums.reference) { sum += r; }
-    return sum / static_cast<double>(result.points);
-  }();
+  return {share(2.0), share(8.0)};
+}
+
+HALFLIGHT_INLINE std::optional<PictureError::Tile> PictureAudit::worst_tile(const ShownPicture& picture, const Measured& measured) {
+  double mean_reference = 0.0;
+  for (const double r : measured.sums.reference) { mean_reference += r / static_cast<double>(measured.sums.reference.size()); }
   std::array<ErrorSums, 16> tiles;
   for (const Sample& sample : measured.samples) {
-    if (!sample.valid) { continue; }
-    tiles[tile(picture, sample)].add(sample.square, mean_reference, sample.noise);
+    if (sample.valid) { tiles[tile(picture, sample)].add(sample.square, mean_reference, sample.noise); }
   }
+  std::optional<PictureError::Tile> worst;
   for (std::uint32_t t = 0; t < tiles.size(); ++t) {
     const std::optional<ErrorEstimate> of_tile = tiles[t].square.size() >= 16 ? tiles[t].estimate() : std::nullopt;
-    if (of_tile && (!result.worst || of_tile->low > result.worst->error.low)) { result.worst = PictureError::Tile{t % 4, t / 4, *of_tile}; }
+    if (of_tile && (!worst || of_tile->low > worst->error.low)) { worst = PictureError::Tile{t % 4, t / 4, *of_tile}; }
   }
-  return result;
+  return worst;
 }
 
 }  // namespace radiosity

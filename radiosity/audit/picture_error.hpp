@@ -6,6 +6,7 @@
 // Pixels in which a lamp shows are left out, for its radiosity is exact by definition and would hide all else, unless every surface
 // emits; so are those that see nothing. Errors are relative to the reflected radiosity. It does not matter how the picture was made.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -52,6 +53,7 @@ class PictureAudit {
     std::uint32_t x = 0, y = 0;
     double square = 0.0, reference = 0.0, noise = 0.0;
     double levels = 0.0, noise_in_levels = 0.0;  // the largest difference of a channel; of its two estimates from each other
+    double square_in_levels = 0.0;               // as `square`, of all channels
     std::uint64_t rays = 0;
     bool valid = false;
   };
@@ -80,7 +82,9 @@ class PictureAudit {
     return 4 * (std::size_t{4} * sample.y / picture.height) + std::size_t{4} * sample.x / picture.width;
   }
 
-  [[nodiscard]] std::optional<PictureError> summary(const ShownPicture& picture, const Measured& measured) const;
+  // Shares of the pixels that are more than 2 and 8 levels off.
+  [[nodiscard]] static std::array<ShareBounds, 2> shares_off(const ShownPicture& picture, const Measured& measured);
+  [[nodiscard]] static std::optional<PictureError::Tile> worst_tile(const ShownPicture& picture, const Measured& measured);
 
   LightUnit unit_;
   std::unique_ptr<Prepared> prepared_;  // the tracer points into it

@@ -2,8 +2,11 @@
 #include <radiosity/clusters/clusters.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -101,10 +104,31 @@ class ClusterWriter {
     return static_cast<std::uint32_t>(faces_.size() + groups_.size() - 1);
   }
 
-  [[nodiscard]] Hierarchy write(std::uint32_t root) {
+  // The group of a grouping's items, which are `numbers`, without what flattening leaves out. Returns the number of its top.
+  std::uint32_t enter(const Grouping& tree, std::uint32_t top, const std::vector<std::uint32_t>& numbers) {
+    const std::vector<std::uint32_t> sizes = sizes_of(tree);
+    std::vector<std::uint32_t> order{top};  // groups that stay, parents first
+    std::vector<std::vector<std::uint32_t>> children;
+    std::vector<std::uint32_t> number_of(sizes.size());
+    if (!tree.is_group(top)) { return numbers[top]; }
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      children.push_back(children_of(tree, order[i], sizes));
+      for (const std::uint32_t c : children.back()) {
+        if (tree.is_group(c)) { order.push_back(c); }
+      }
+    }
+    for (std::size_t i = order.size(); i-- > 0;) {
+      for (std::uint32_t& c : children[i]) { c = tree.is_group(c) ? number_of[c] : numbers[c]; }
+      number_of[order[i]] = group(std::move(children[i]));
+    }
+    return number_of[top];
+  }
+
+  // All faces must be tops, or below them.
+  [[nodiscard]] Hierarchy write(const std::vector<std::uint32_t>& tops) {
     Hierarchy hierarchy(faces_.get_allocator());
-    std::vector<std::uint32_t> number{root};  // of each node
-    hierarchy.push_back(node_of(root, no_node));
+    std::vector<std::uint32_t> number{tops};  // of each node
+    for (const std::uint32_t top : tops) { hierarchy.push_back(node_of(top, no_node)); }
     for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
       if (number[i] < faces_.size()) { continue; }
       const std::vector<std::uint32_t>& members = groups_[number[i] - faces_.size()];
@@ -172,26 +196,6 @@ class ClusterWriter {
 
 HALFLIGHT_INLINE Hierarchy make_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots) {
   detail::ClusterWriter writer{surfaces, roots};
-  // Enters the tree of a grouping, its items being `numbers`; returns the number of its top.
-  const auto enter = [&](const Grouping& tree, std::uint32_t top, const std::vector<std::uint32_t>& numbers) {
-    const std::vector<std::uint32_t> sizes = detail::sizes_of(tree);
-    std::vector<std::uint32_t> order{top};  // groups that stay, parents first
-    std::vector<std::vector<std::uint32_t>> children;
-    std::vector<std::uint32_t> number(sizes.size());
-    if (!tree.is_group(top)) { return numbers[top]; }
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      children.push_back(detail::children_of(tree, order[i], sizes));
-      for (const std::uint32_t c : children.back()) {
-        if (tree.is_group(c)) { order.push_back(c); }
-      }
-    }
-    for (std::size_t i = order.size(); i-- > 0;) {
-      for (std::uint32_t& c : children[i]) { c = tree.is_group(c) ? number[c] : numbers[c]; }
-      number[order[i]] = writer.group(std::move(children[i]));
-    }
-    return number[top];
-  };
-
   std::vector<std::uint32_t> under_root;
   std::vector<std::uint32_t> parts;  // of objects that are no rooms
   std::vector<raycast::Box> boxes;   // their bounds
@@ -213,7 +217,7 @@ HALFLIGHT_INLINE Hierarchy make_clusters(std::vector<Surface>& surfaces, const H
       const Grouping tree = cluster_faces(surfaces[o], roots, numbers);
       const std::vector<raycast::Box> boxes_of_tree = detail::bounds_of(tree, roots, numbers);
       for (const std::uint32_t top : tree.tops) {
-        tops.push_back(enter(tree, top, numbers));
+        tops.push_back(writer.enter(tree, top, numbers));
         bounds.push_back(boxes_of_tree[top]);
       }
     }
@@ -227,9 +231,27 @@ HALFLIGHT_INLINE Hierarchy make_clusters(std::vector<Surface>& surfaces, const H
   }
   if (!parts.empty()) {
     const Grouping tree = detail::group_boxes(boxes);
-    under_root.push_back(enter(tree, tree.tops.front(), parts));
+    under_root.push_back(writer.enter(tree, tree.tops.front(), parts));
   }
-  return writer.write(writer.group(std::move(under_root)));
+  return writer.write({writer.group(std::move(under_root))});
+}
+
+HALFLIGHT_INLINE Hierarchy make_lamp_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots, const std::vector<double>& exitance) {
+  detail::ClusterWriter writer{surfaces, roots};
+  std::vector<std::uint32_t> tops;
+  std::map<int, std::vector<std::uint32_t>, std::greater<>> lamps;  // by brightness
+  for (std::uint32_t i = 0; i < roots.size(); ++i) {
+    if (roots[i].parent != no_node) { continue; }
+    const double e = exitance[roots[i].surface];
+    (e > 0.0 ? lamps[std::ilogb(e) / 2] : tops).push_back(i);
+  }
+  for (const auto& [brightness, numbers] : lamps) {
+    std::vector<raycast::Box> boxes;
+    for (const std::uint32_t i : numbers) { boxes.push_back({roots[i].centre - roots[i].radius, roots[i].centre + roots[i].radius}); }
+    const Grouping tree = detail::group_boxes(boxes);
+    tops.push_back(writer.enter(tree, tree.tops.front(), numbers));
+  }
+  return writer.write(tops);
 }
 
 HALFLIGHT_INLINE double ShownAreas::of(const Node& cluster, const Aim& towards) const {

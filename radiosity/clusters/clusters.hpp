@@ -39,6 +39,11 @@ std::vector<raycast::Box> bounds_of(const Grouping& tree, const Hierarchy& roots
 // Puts clusters above the roots that make_roots() gave. The faces of the surfaces know their new nodes afterwards. Requires two roots.
 [[nodiscard]] Hierarchy make_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots);
 
+// Puts clusters above the roots that shine alone: their light goes by links, that of the others does not (rays/). All other roots come
+// first and stay roots. `exitance`: of each input surface; 0 where it counts as none. One tree holds lamps whose exitances differ by a
+// factor of 4 at most.
+[[nodiscard]] Hierarchy make_lamp_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots, const std::vector<double>& exitance);
+
 // How much area each cluster shows in each direction of the lattice.
 class ShownAreas {
  public:

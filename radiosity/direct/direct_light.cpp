@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -42,6 +43,8 @@ namespace detail {
 inline constexpr double facet_tolerance = 0.002;
 inline constexpr double stand_in_tolerance = 0.0004;
 inline constexpr unsigned lamp_samples = 256;
+// Of all lamps together, where they were joined; none has less than one round. Each is a small part of the light then.
+inline constexpr std::size_t samples_of_joined = 1024;
 
 // A rectangle around points of a plane with this normal.
 [[nodiscard]] HALFLIGHT_INLINE std::array<glm::dvec3, 4> rectangle_around(const Facets& facets, const glm::dvec3& n) {
@@ -59,17 +62,19 @@ inline constexpr unsigned lamp_samples = 256;
   return {origin + u0 * u + v0 * v, origin + u1 * u + v0 * v, origin + u1 * u + v1 * v, origin + u0 * u + v1 * v};
 }
 
-// Points even over the area of the facets: Sobol's, mapped to the facets' triangles laid side by side.
-[[nodiscard]] HALFLIGHT_INLINE std::vector<DirectLight::Sample> samples_of(const Facets& facets) {
+// Points even over the area of the facets: Sobol's, mapped to the facets' triangles laid side by side. `owner`: of each facet.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<DirectLight::Sample> samples_of(const Facets& facets, const std::vector<std::uint32_t>& owner) {
   struct Triangle {
     glm::dvec3 a{0.0}, b{0.0}, c{0.0}, normal{0.0};
+    std::uint32_t owner = 0;
   };
   std::vector<Triangle> triangles;
   std::vector<double> until;  // cumulated area
   double total = 0.0;
-  for (const Facets::Facet& facet : facets.facets) {
+  for (std::size_t f = 0; f < facets.facets.size(); ++f) {
+    const Facets::Facet& facet = facets.facets[f];
     for (std::size_t i = 1; i + 1 < facet.contour.size(); ++i) {
-      const Triangle t{facet.contour[0], facet.contour[i], facet.contour[i + 1], facet.normal};
+      const Triangle t{facet.contour[0], facet.contour[i], facet.contour[i + 1], facet.normal, owner[f]};
       total += 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a));
       triangles.push_back(t);
       until.push_back(total);
@@ -85,7 +90,7 @@ inline constexpr unsigned lamp_samples = 256;
     const double before = i > 0 ? until[i - 1] : 0.0;
     const double root = std::sqrt(std::clamp((at - before) / (until[i] - before), 0.0, 1.0));
     const Triangle& t = triangles[i];
-    samples.push_back({t.a + root * (1.0 - u[1]) * (t.b - t.a) + root * u[1] * (t.c - t.a), t.normal});
+    samples.push_back({t.a + root * (1.0 - u[1]) * (t.b - t.a) + root * u[1] * (t.c - t.a), t.normal, t.owner});
   }
   return samples;
 }
@@ -117,22 +122,37 @@ inline constexpr unsigned lamp_samples = 256;
 
 }  // namespace detail
 
-HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const Surface& surface, std::uint32_t sheet, const Color& exitance) {
-  const raycast::PlacedObject& object = *surface.object;
+HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const std::vector<Surface>& surfaces, const Candidate& candidate) {
   Lamp lamp;
-  lamp.surface = surface.first_surface + sheet;
-  lamp.exitance = exitance;
-  lamp.facets = object.exact() ? facets_of(surface, sheet) : facets_of(object, detail::facet_tolerance * object.bounds().diameter(), sheet);
-  if (lamp.facets.empty()) { return lamp; }
-  const Facets::Facet& first = lamp.facets.facets[0];
-  lamp.flat = object.flat() && std::all_of(lamp.facets.facets.begin(), lamp.facets.facets.end(),
-                                           [&](const Facets::Facet& f) { return glm::dot(f.normal, first.normal) > 1.0 - 1e-12; });
+  lamp.exitance = candidate.exitance;
   raycast::Box box;
   double true_area = 0.0;
-  for (const Facets::Facet& facet : lamp.facets.facets) {
-    for (const glm::dvec3& p : facet.contour) { box.extend(p); }
-    true_area += object.flat() ? facet.area : curved_area(object, sheet, facet.contour);
+  bool flat = true;
+  std::vector<std::uint32_t> owner;  // of the samples on each facet
+  for (const Candidate::OfObject& part : candidate.parts) {
+    const Surface& surface = surfaces[part.object];
+    const raycast::PlacedObject& object = *surface.object;
+    const std::uint32_t sheet = part.sheets[0];
+    flat = flat && object.flat();
+    Facets facets = part.sheets.size() > 1 ? facets_of(surface, part.sheets)
+                    : object.exact()       ? facets_of(surface, sheet)
+                                           : facets_of(object, detail::facet_tolerance * object.bounds().diameter(), sheet);
+    for (const Facets::Facet& facet : facets.facets) {
+      for (const glm::dvec3& p : facet.contour) { box.extend(p); }
+      true_area += object.flat() ? facet.area : curved_area(object, sheet, facet.contour);
+    }
+    owner.insert(owner.end(), facets.facets.size(), object.flat() ? raycast::no_object : part.object);
+    append(lamp.facets, facets);
   }
+  lamp.surface = surfaces[candidate.parts[0].object].first_surface + candidate.parts[0].sheets[0];
+  lamp.object = candidate.parts.size() == 1 ? candidate.parts[0].object : raycast::no_object;
+  if (lamp.facets.empty()) { return lamp; }
+  const Facets::Facet& first = lamp.facets.facets[0];
+  const bool several = candidate.parts.size() > 1 || candidate.parts[0].sheets.size() > 1;
+  lamp.flat =
+      flat && std::all_of(lamp.facets.facets.begin(), lamp.facets.facets.end(), [&](const Facets::Facet& f) {
+        return glm::dot(f.normal, first.normal) > 1.0 - 1e-12 && (!several || std::abs(first.height(f.contour[0])) < detail::least_slack);
+      });
   lamp.correction = true_area / detail::area_of(lamp.facets);
   lamp.centre = box.centre();
   for (const Facets::Facet& facet : lamp.facets.facets) {
@@ -145,18 +165,13 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const Surface& surface
     lamp.corners = {c[0], c[1], c[2], c[c.size() > 3 ? 3 : 2]};
     lamp.bulge = 2.0 * lamp.radius;
   }
-  lamp.samples = detail::samples_of(lamp.facets);
+  lamp.samples = detail::samples_of(lamp.facets, owner);
   return lamp;
 }
 
 HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
                                           const std::vector<Color>& emission, const LampLimits& limits)
     : objects_{&objects}, is_lamp_(emission.size(), false), bodies_(objects.size()) {
-  struct Candidate {
-    std::uint32_t object = 0;
-    std::uint32_t sheet = 0;
-    double strength = 0.0, area = 0.0;
-  };
   for (std::uint32_t o = 0; o < objects.size(); ++o) { slack_ = std::max(slack_, 2.0 * objects.object(o).slack()); }
   std::vector<Candidate> candidates;
   double total = 0.0;
@@ -169,22 +184,29 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
     for (std::uint32_t sheet = 0; sheet < area.size(); ++sheet) {
       total += area[sheet];
       const Color& e = emission[surfaces[s].first_surface + sheet];
-      if (!is_black(e) && area[sheet] > 0.0) { candidates.push_back({s, sheet, std::max({e.x, e.y, e.z}), area[sheet]}); }
+      if (!is_black(e) && area[sheet] > 0.0) { candidates.push_back({{{s, {sheet}}}, e, brightest(e), area[sheet]}); }
     }
+  }
+  std::size_t samples = detail::lamp_samples;
+  if (limits.bodies && candidates.size() > limits.most) {
+    candidates = join_alike(candidates, objects, limits.most);
+    const std::size_t lamps = std::min<std::size_t>(candidates.size(), limits.most);
+    samples = std::clamp<std::size_t>(std::bit_floor(detail::samples_of_joined / lamps), 16, samples);
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
   double taken = 0.0;
   for (const Candidate& c : candidates) {
     if (lamps_.size() == limits.most) { break; }
-    const Surface& surface = surfaces[c.object];
-    Lamp lamp = make_lamp(surface, c.sheet, emission[surface.first_surface + c.sheet]);
+    Lamp lamp = make_lamp(surfaces, c);
     if (lamp.facets.empty()) { continue; }
+    if (lamp.samples.size() > samples) { lamp.samples.resize(samples); }  // those that are left are even as well
     if (!lamp.flat) {
       taken += c.area;
       if (taken > limits.most_curved * total) { continue; }
     }
-    lamp.object = c.object;
-    is_lamp_[lamp.surface] = true;
+    for (const Candidate::OfObject& part : c.parts) {
+      for (const std::uint32_t sheet : part.sheets) { is_lamp_[surfaces[part.object].first_surface + sheet] = true; }
+    }
     lamps_.push_back(std::move(lamp));
   }
   if (lamps_.empty()) { return; }
@@ -198,6 +220,54 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       });
     }
   }
+}
+
+HALFLIGHT_INLINE std::vector<DirectLight::Candidate> DirectLight::join_alike(const std::vector<Candidate>& singles,
+                                                                             const raycast::Scene& objects, std::uint32_t most) {
+  std::vector<Candidate> joined;  // flat sheets by object and exitance; the candidates come object by object
+  std::size_t first_of_object = 0;
+  for (const Candidate& single : singles) {
+    const std::uint32_t o = single.parts[0].object;
+    if (!joined.empty() && joined.back().parts[0].object != o) { first_of_object = joined.size(); }
+    const auto alike = std::find_if(joined.begin() + static_cast<std::ptrdiff_t>(first_of_object), joined.end(),
+                                    [&](const Candidate& c) { return c.exitance == single.exitance && objects.object(o).flat(); });
+    if (alike == joined.end()) {
+      joined.push_back(single);
+      continue;
+    }
+    alike->parts[0].sheets.push_back(single.parts[0].sheets[0]);
+    alike->area += single.area;
+  }
+  if (joined.size() <= most) { return joined; }
+  // Objects that shine alike, halved by place into groups of about the same number.
+  const auto before = [](const Color& a, const Color& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; };
+  std::stable_sort(joined.begin(), joined.end(), [&](const auto& a, const auto& b) { return before(a.exitance, b.exitance); });
+  const std::size_t of_one = (2 * joined.size() + most - 1) / most;
+  std::vector<Candidate> result;
+  const auto take = [&](const auto& self, std::span<Candidate> group) -> void {
+    if (group.size() <= of_one) {
+      Candidate sum = group[0];
+      for (const Candidate& c : group.subspan(1)) {
+        sum.parts.push_back(c.parts[0]);
+        sum.area += c.area;
+      }
+      result.push_back(std::move(sum));
+      return;
+    }
+    const auto centre = [&](const Candidate& c) { return objects.object(c.parts[0].object).bounds().centre(); };
+    raycast::Box centres;
+    for (const Candidate& c : group) { centres.extend(centre(c)); }
+    const glm::dvec3 extent = centres.hi - centres.lo;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    std::stable_sort(group.begin(), group.end(), [&](const auto& a, const auto& b) { return centre(a)[axis] < centre(b)[axis]; });
+    self(self, group.first(group.size() / 2));
+    self(self, group.subspan(group.size() / 2));
+  };
+  for (std::size_t begin = 0, end = 0; begin < joined.size(); begin = end) {
+    while (end < joined.size() && joined[end].exitance == joined[begin].exitance) { ++end; }
+    take(take, std::span{joined}.subspan(begin, end - begin));
+  }
+  return result;
 }
 
 HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfaces) {

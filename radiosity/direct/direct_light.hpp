@@ -3,9 +3,10 @@
 
 // The lamps of a scene, for direct light at points (LitRegion, lit_region.hpp), and how each object is taken out of their light.
 //
-// A lamp is one sheet of one object that emits. Without anything in between, the form factor from a point to a lamp is the contour integral
-// over the lamp's outline (facets.hpp): exact for flat lamps; a curved one is a polyhedron of the same area, its outline off by at most
-// 0.2 % of its diameter.
+// A lamp is one sheet of one object that emits, or, where such sheets are many and that is asked for, all that shine alike of one object
+// or of objects near each other: a bulb of a thousand triangles, a row of candles. Without anything in between, the form factor from a
+// point to a lamp is the contour integral over the lamp's outline (facets.hpp): exact for flat lamps; a curved one is a polyhedron of the
+// same area, its outline off by at most 0.2 % of its diameter.
 
 #include <array>
 #include <cstdint>
@@ -36,6 +37,8 @@ struct LampLimits {
   // is not met better one by one.
   std::uint32_t most = 64;
   double most_curved = 0.1;
+  // Where there are more sheets than that: are those that shine alike taken together?
+  bool bodies = false;
 };
 
 class DirectLight {
@@ -48,9 +51,10 @@ class DirectLight {
 
   struct Sample {
     glm::dvec3 position{0.0}, normal{0.0};
+    std::uint32_t owner = raycast::no_object;  // of a point of a curved object, which lies beside its surface: that object
   };
   struct Lamp {
-    std::uint32_t surface = 0, object = 0;  // of the input
+    std::uint32_t surface = 0, object = 0;  // of the input; of several surfaces the first; no_object for several objects
     Color exitance{0.0};
     Facets facets;
     bool flat = false;        // all facets lie in one plane
@@ -85,8 +89,21 @@ class DirectLight {
     raycast::Box bounds;
     double lift = 0.0;  // above 0: meshes stand in for it where segments are asked, and points on it are lifted above them by so much
   };
+  // Sheets that shine alike.
+  struct Candidate {
+    struct OfObject {
+      std::uint32_t object = 0;
+      std::vector<std::uint32_t> sheets;  // ascending
+    };
+    std::vector<OfObject> parts;
+    Color exitance{0.0};
+    double strength = 0.0, area = 0.0;
+  };
   void take_bodies(const std::vector<Surface>& surfaces);
-  [[nodiscard]] static Lamp make_lamp(const Surface& surface, std::uint32_t sheet, const Color& exitance);
+  // Takes candidates together until they are `most` at most, if that is possible.
+  [[nodiscard]] static std::vector<Candidate> join_alike(const std::vector<Candidate>& singles, const raycast::Scene& objects,
+                                                         std::uint32_t most);
+  [[nodiscard]] static Lamp make_lamp(const std::vector<Surface>& surfaces, const Candidate& candidate);
 
   const raycast::Scene* objects_ = nullptr;
   double slack_ = detail::least_slack;  // heights below count as none: twice what faces that are not quite plane are off, if that is more

@@ -63,12 +63,15 @@ class FacetCollector {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE Facets facets_of(const Surface& surface, std::uint32_t sheet) {
-  detail::FacetCollector collector;
+namespace detail {
+
+template <class Counts>
+[[nodiscard]] Facets facets_of(const Surface& surface, const Counts& counts) {
+  FacetCollector collector;
   std::vector<std::uint32_t> numbers;
   for (const brep::FaceId f : brep::faces(surface.brep)) {
     const std::uint32_t own = surface.brep.data(f).sheet;
-    if (own == brep::no_sheet || (sheet != Facets::none && own != sheet)) { continue; }
+    if (own == brep::no_sheet || !counts(own)) { continue; }
     Polygon contour;
     numbers.clear();
     for (const brep::HalfedgeId h : brep::halfedges_of(surface.brep, f)) {
@@ -79,6 +82,25 @@ HALFLIGHT_INLINE Facets facets_of(const Surface& surface, std::uint32_t sheet) {
     collector.add(numbers, std::move(contour));
   }
   return collector.take();
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE Facets facets_of(const Surface& surface, std::uint32_t sheet) {
+  return detail::facets_of(surface, [&](std::uint32_t s) { return sheet == Facets::none || s == sheet; });
+}
+HALFLIGHT_INLINE Facets facets_of(const Surface& surface, std::span<const std::uint32_t> sheets) {
+  return detail::facets_of(surface, [&](std::uint32_t s) { return std::binary_search(sheets.begin(), sheets.end(), s); });
+}
+
+HALFLIGHT_INLINE void append(Facets& facets, const Facets& more) {
+  const auto first = static_cast<std::uint32_t>(facets.facets.size());
+  facets.facets.insert(facets.facets.end(), more.facets.begin(), more.facets.end());
+  for (Facets::Edge edge : more.edges) {
+    edge.left += first;
+    if (edge.right != Facets::none) { edge.right += first; }
+    facets.edges.push_back(edge);
+  }
 }
 
 HALFLIGHT_INLINE Facets facets_of(const raycast::PlacedObject& object, double tolerance, std::uint32_t sheet) {

@@ -4,8 +4,8 @@
 // An object, or one sheet of it, as convex planar facets with the edges between them: what its outline from a point is made of.
 //
 // An edge belongs to the outline seen from x when one of its facets faces x and the other does not. So the form factor from x to all facets
-// that face it is the contour integral over the outline alone (Lambert 1760): edges between two facets that face x cancel. And what a convex
-// body hides from x is the cone over its outline, however many facets it has.
+// that face it is the contour integral over the outline alone (Lambert 1760): edges between two facets that face x cancel. And what a
+// convex body hides from x is the cone over its outline, however many facets it has.
 //
 // (Facets of a curved body need not be convex together, where corners of a quadrilateral are not in one plane; their corners are on it.)
 
@@ -41,8 +41,12 @@ struct Facets {
   [[nodiscard]] bool empty() const { return facets.empty(); }
 };
 
-// Of the faces of a boundary: of one sheet, or of all that have one.
+// Of the faces of a boundary: of one sheet, or of all that have one,
 [[nodiscard]] Facets facets_of(const Surface& surface, std::uint32_t sheet = Facets::none);
+// or of these sheets, in ascending order.
+[[nodiscard]] Facets facets_of(const Surface& surface, std::span<const std::uint32_t> sheets);
+// Both as one.
+void append(Facets& facets, const Facets& more);
 // Of a curved object, to a tolerance (a length) of the true surface.
 [[nodiscard]] Facets facets_of(const raycast::PlacedObject& object, double tolerance, std::uint32_t sheet = Facets::none);
 

@@ -32,7 +32,7 @@ namespace detail {
 
 // How far segments stay off the surfaces at their ends, in a scene of size 1 to 2: more than single precision's error.
 inline constexpr double off_surface = 1e-5;
-inline constexpr unsigned first_samples = 64;  // of a lamp: enough where they agree
+inline constexpr std::size_t many_facets = 64;  // of a lamp: a region looks once which of them may be on its outline
 
 }  // namespace detail
 
@@ -65,8 +65,34 @@ HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::P
         reach.between = reach.faces.empty() && reach.outlines.empty() ? Between::nothing : Between::bodies;
       }
     }
+    if (lamp.facets.facets.size() > detail::many_facets) { reach.outline = possible_outline(lamp.facets); }
     reaches_.push_back(std::move(reach));
   }
+}
+
+HALFLIGHT_INLINE Facets LitRegion::possible_outline(const Facets& facets) const {
+  Facets result;
+  std::vector<std::uint32_t> number(facets.facets.size(), Facets::none);
+  std::vector<signed char> side(facets.facets.size());  // 1: faces all of the region, -1: none of it, 0: some
+  const auto take = [&](std::uint32_t f) {
+    if (number[f] == Facets::none) {
+      number[f] = static_cast<std::uint32_t>(result.facets.size());
+      result.facets.push_back(facets.facets[f]);
+    }
+    return number[f];
+  };
+  for (std::uint32_t f = 0; f < facets.facets.size(); ++f) {
+    const double height = facets.facets[f].height(centre_);
+    side[f] = height > radius_ ? 1 : height < -radius_ ? -1 : 0;
+  }
+  for (const Facets::Edge& edge : facets.edges) {
+    const int left = side[edge.left];
+    const int right = edge.right == Facets::none ? -1 : side[edge.right];
+    if (left == right && left != 0) { continue; }
+    const std::uint32_t number_of_left = take(edge.left);
+    result.edges.push_back({edge.a, edge.b, number_of_left, edge.right == Facets::none ? Facets::none : take(edge.right)});
+  }
+  return result;
 }
 
 // What may stand between as faces and outlines; false when something is neither.
@@ -74,8 +100,13 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
   const raycast::Scene& objects = *light_->objects_;
   std::vector<std::uint32_t> candidates;
-  if (!reach.list.known()) { return false; }
-  for (const std::uint32_t s : reach.list.shapes()) { candidates.push_back(light_->whole(objects.object_of(s))); }
+  constexpr std::size_t most_objects = 64;
+  if (!reach.list.known() && light_->bodies_.size() > most_objects) { return false; }
+  if (reach.list.known()) {
+    for (const std::uint32_t s : reach.list.shapes()) { candidates.push_back(light_->whole(objects.object_of(s))); }
+  } else {  // few objects of many faces
+    for (std::uint32_t o = 0; o < light_->bodies_.size(); ++o) { candidates.push_back(o); }
+  }
   if (!reach.list.rooms_clear()) { candidates.insert(candidates.end(), light_->rooms_.begin(), light_->rooms_.end()); }
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
@@ -84,7 +115,7 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
   std::vector<Shaft> shaft;
   if (shape.bulge == 0.0) { shaft.emplace_back(shape.contour, lamp.corners, slack); }
   const auto misses = [&](std::span<const glm::dvec3> corners) { return !shaft.empty() && shaft[0].misses(corners); };
-  constexpr std::size_t most_faces = 48;
+  constexpr std::size_t most_faces = 128;
   for (const std::uint32_t o : candidates) {
     const DirectLight::Body& body = light_->bodies_[o];
     if (body.convex && o == owner_) { continue; }
@@ -131,7 +162,9 @@ HALFLIGHT_INLINE double LitRegion::unhidden(std::size_t k, const glm::dvec3& x, 
   const DirectLight::Lamp& lamp = this->lamp(k);
   const double height = glm::dot(n, lamp.centre - x);
   if (height <= -lamp.radius) { return 0.0; }
-  return lamp.correction * radiosity::form_factor(lamp.facets, x, n, height >= lamp.radius, facing_);
+  const bool above_horizon = height >= lamp.radius;
+  const Facets& facets = above_horizon && reaches_[k].outline ? *reaches_[k].outline : lamp.facets;
+  return lamp.correction * radiosity::form_factor(facets, x, n, above_horizon, facing_);
 }
 
 // The convex hull of the corners as they are seen from x (Andrew 1979): so it does not matter how a curved body was cut into facets.
@@ -200,8 +233,6 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
   const glm::dvec3 from = x + std::max(lift_, detail::off_surface) * n;
   const bool curved = owner_ != raycast::no_object && !light_->objects_->object(owner_).flat();  // and convex, or a mesh would stand in
   const std::uint32_t source = curved ? owner_ : raycast::no_object;
-  const double to_lift = lamp.flat ? detail::off_surface : 0.0;
-  const std::uint32_t target = lamp.flat ? raycast::no_object : lamp.object;
   double all = 0.0;
   double seen = 0.0;
   for (unsigned first = 0; first < lamp.samples.size(); first += 16) {
@@ -214,7 +245,8 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
       if (!(glm::dot(n, d) > 0.0) || !(cosines > 0.0)) { continue; }
       const double r2 = glm::dot(d, d);
       weight[k] = cosines / (r2 * r2);
-      segments.set(k, {from, sample.position + to_lift * sample.normal - from}, source, target);
+      const double to_lift = sample.owner == raycast::no_object ? detail::off_surface : 0.0;
+      segments.set(k, {from, sample.position + to_lift * sample.normal - from}, source, sample.owner);
     }
     rays_ += static_cast<unsigned>(std::popcount(segments.lanes));
     const std::uint32_t blocked = segments.lanes != 0 ? light_->objects_->occluded16(segments, reach.list, reach.hint) : 0;
@@ -222,7 +254,7 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
       all += weight[k];
       if ((blocked >> k & 1u) == 0) { seen += weight[k]; }
     }
-    if (first + 16 == detail::first_samples && (seen == 0.0 || seen == all)) { break; }
+    if (4 * (first + 16) == lamp.samples.size() && (seen == 0.0 || seen == all)) { break; }
   }
   return all > 0.0 ? seen / all : 0.0;
 }

@@ -8,13 +8,14 @@
 //   nothing             proven by the occluder lists of the scene (raycast/shaft.hpp) or by the shaft of both (polygon_shaft.hpp)
 //   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point
 //   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighed so
-//                       that only what is hidden is sampled, and they stop at 64 when these agree. In place of curved objects that are
-//                       slow or not convex segments meet meshes within 0.04 % of their diameter
+//                       that only what is hidden is sampled, and they stop at 64 when these agree (fewer where many lamps were joined).
+//                       In place of curved objects that are slow or not convex segments meet meshes within 0.04 % of their diameter
 // Curved lamps are always asked by segments where something may stand between. Nothing here is random: the result depends on the region and
 // the point alone.
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -67,9 +68,12 @@ class LitRegion {
       std::vector<glm::dvec3> corners;  // that may belong to the outline seen from the region
     };
     std::vector<Outline> outlines;
+    std::optional<Facets> outline;  // of a lamp of many facets: edges that may be on its outline seen from the region
     std::uint32_t hint = 0xffffffff;
   };
 
+  // The edges that are not known to lie between two facets that all of the region sees, or none of it, with their facets.
+  [[nodiscard]] Facets possible_outline(const Facets& facets) const;
   [[nodiscard]] bool take_bodies(Reach& reach, const raycast::PatchShape& shape) const;
   // The cone from x over a convex body; empty when x lies on the body's surface.
   void make_cone(const Reach::Outline& outline, const glm::dvec3& x);

@@ -163,21 +163,28 @@ HALFLIGHT_INLINE std::optional<double> LightMeshing::seen_share(const Hierarchy&
 }
 
 HALFLIGHT_INLINE ChildFaces LightMeshing::split(const LeafFace& leaf) {
-  if (!leaf.surface.object->flat()) { return RegularMeshing{}(leaf); }
   const std::uint32_t node = leaf.surface.brep.data(leaf.face).node;
-  const auto look = [&] { return look_at(leaf.surface, leaf.face, make_patch(corner_polygon(leaf.surface.brep, leaf.face))); };
-  const DirectVariation light = measured(node) ? measured_[node].variation : look();
-  const auto cut = [&](const CutPlane& plane) { return CutBy{brep::AlongPlane{plane.point, plane.normal}}(leaf); };
+  if (leaf.surface.object->flat() && measured(node)) { return cut(leaf, measured_[node].variation); }
+  return split_part(leaf);
+}
+
+HALFLIGHT_INLINE ChildFaces LightMeshing::split_part(const LeafFace& part) {
+  if (!part.surface.object->flat()) { return RegularMeshing{}(part); }
+  return cut(part, look_at(part.surface, part.face, make_patch(corner_polygon(part.surface.brep, part.face))));
+}
+
+HALFLIGHT_INLINE ChildFaces LightMeshing::cut(const LeafFace& leaf, const DirectVariation& light) {
+  const auto cut_by = [&](const CutPlane& plane) { return CutBy{brep::AlongPlane{plane.point, plane.normal}}(leaf); };
   if (light.along) {
     FaceLines& face = faces_[key(leaf.surface, leaf.face)];
     face.limited = face.limited || face.edges >= most_edges_;
-    ChildFaces parts = face.edges < most_edges_ ? cut(*light.along) : ChildFaces{};
+    ChildFaces parts = face.edges < most_edges_ ? cut_by(*light.along) : ChildFaces{};
     if (!parts.faces.empty()) {
       ++face.edges;
       return parts;
     }
   }
-  return light.halves ? cut(*light.halves) : ChildFaces{};
+  return light.halves ? cut_by(*light.halves) : ChildFaces{};
 }
 
 HALFLIGHT_INLINE ImprintedEdges LightMeshing::imprinted() const {

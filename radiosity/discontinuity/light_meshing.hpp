@@ -63,6 +63,8 @@ class LightMeshing {
 
   // The meshing strategy. Faces of curved objects are refined regularly.
   [[nodiscard]] ChildFaces split(const LeafFace& leaf);
+  // The same for a face that may be a part of that of its leaf.
+  [[nodiscard]] ChildFaces split_part(const LeafFace& part);
 
   [[nodiscard]] ImprintedEdges imprinted() const;
 
@@ -81,6 +83,7 @@ class LightMeshing {
 
   void find_lines(const std::vector<Surface>& surfaces);
   [[nodiscard]] FaceKey key(const Surface& surface, brep::FaceId face) const;
+  [[nodiscard]] ChildFaces cut(const LeafFace& leaf, const DirectVariation& light);
   [[nodiscard]] DirectVariation look_at(const Surface& surface, brep::FaceId face, const Patch& patch) const;
 
   DirectLight light_;

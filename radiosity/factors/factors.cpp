@@ -31,6 +31,71 @@ namespace radiosity {
 // More surfaces than this are refused: the matrix would need hundreds of megabytes.
 inline constexpr std::size_t most_surfaces = 2000;
 
+namespace detail {
+
+// The rows that are surfaces of the result: a sheet of which nothing is left is none; one that is buried has area 0.
+HALFLIGHT_INLINE std::vector<std::uint32_t> kept_rows(const FactorRun& run) {
+  std::vector<bool> exists(run.area.size(), false);
+  for (std::uint32_t o = 0; o < run.prepared.surfaces.size(); ++o) {
+    const SurfaceBRep& brep = run.prepared.surfaces[o].brep;
+    for (const brep::FaceId f : brep::faces(brep)) {
+      if (brep.data(f).sheet != brep::no_sheet) { exists[run.rows.row_of[o][brep.data(f).sheet]] = true; }
+    }
+  }
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i < run.area.size(); ++i) {
+    if (exists[i] || run.area[i].value > 0.0) { kept.push_back(i); }
+  }
+  return kept;
+}
+
+// The factors of both ends of each pair of kept rows, from their one exchange.
+HALFLIGHT_INLINE void write_factors(const FactorRun& run, const std::vector<std::shared_ptr<RayCounter>>& counters,
+                                    const std::vector<std::uint32_t>& kept, Factors& result) {
+  const std::size_t m = kept.size();
+  result.factor.resize(m * m);
+  result.method.resize(m * m, FactorMethod::rays);
+  for (std::size_t k = 0; k < m; ++k) {
+    for (std::size_t l = k; l < m; ++l) {
+      const std::uint32_t i = kept[k];
+      const std::uint32_t j = kept[l];
+      const bool faces = run.known(i, j);
+      const Estimate exchange = faces ? *run.exchange[i * run.area.size() + j] : weighted(counters, run.area, i, j);
+      const bool flat = run.rows.rows[i].exact && run.rows.rows[j].exact;
+      for (const auto& [at, area] : {std::pair{k * m + l, run.area[i]}, std::pair{l * m + k, run.area[j]}}) {
+        Estimate& factor = result.factor[at];
+        if (area.value > 0.0) {
+          factor.value = exchange.value / area.value;
+          factor.error = std::hypot(exchange.error / area.value, factor.value * area.error / area.value);
+        }
+        result.converged = result.converged && factor.error <= run.options.error;
+        if (faces) { result.method[at] = flat ? FactorMethod::faces : FactorMethod::meshes; }
+      }
+    }
+  }
+}
+
+// Names, areas and row sums of the kept rows, when their factors are known.
+HALFLIGHT_INLINE void write_surfaces(const FactorRun& run, const std::vector<std::uint32_t>& kept, Factors& result) {
+  const double unit = run.prepared.frame.to_scene_area(1.0);
+  const std::size_t m = kept.size();
+  for (std::size_t k = 0; k < m; ++k) {
+    const std::uint32_t i = kept[k];
+    const FactorRow& row = run.rows.rows[i];
+    Factors::Surface surface{row.name, {run.area[i].value * unit, run.area[i].error * unit}, {}, row.material};
+    double square = 0.0;
+    for (std::size_t l = 0; l < m; ++l) {
+      const Estimate& factor = result.factor[k * m + l];
+      surface.row_sum.value += factor.value;
+      square += factor.error * factor.error;
+    }
+    surface.row_sum.error = std::sqrt(square);
+    result.surfaces.push_back(std::move(surface));
+  }
+}
+
+}  // namespace detail
+
 HALFLIGHT_INLINE FactorsResult factors(const Scene& scene, const FactorOptions& options) {
   if (!(options.error > 0.0)) { return {std::nullopt, {"error is " + std::to_string(options.error) + "; it must be above 0"}}; }
   PrepareResult preparation = prepare(scene);
@@ -52,57 +117,14 @@ HALFLIGHT_INLINE FactorsResult factors(const Scene& scene, const FactorOptions& 
   run.by_meshes();
   const std::vector<std::shared_ptr<RayCounter>> counters = run.by_rays();
 
-  // A sheet of which nothing is left is no surface; one that is buried has area 0.
-  std::vector<bool> exists(n, false);
-  for (std::uint32_t o = 0; o < prepared.surfaces.size(); ++o) {
-    const SurfaceBRep& brep = prepared.surfaces[o].brep;
-    for (const brep::FaceId f : brep::faces(brep)) {
-      if (brep.data(f).sheet != brep::no_sheet) { exists[run.rows.row_of[o][brep.data(f).sheet]] = true; }
-    }
-  }
-  std::vector<std::uint32_t> kept;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    if (exists[i] || run.area[i].value > 0.0) { kept.push_back(i); }
-  }
-
-  const std::size_t m = kept.size();
+  const std::vector<std::uint32_t> kept = detail::kept_rows(run);
   Factors result;
   result.points = run.points;
-  result.factor.resize(m * m);
-  result.method.resize(m * m, FactorMethod::rays);
-  for (std::size_t k = 0; k < m; ++k) {
-    for (std::size_t l = k; l < m; ++l) {
-      const std::uint32_t i = kept[k];
-      const std::uint32_t j = kept[l];
-      const bool faces = run.known(i, j);
-      const Estimate exchange = faces ? *run.exchange[std::size_t{i} * n + j] : detail::weighted(counters, run.area, i, j);
-      const bool flat = run.rows.rows[i].exact && run.rows.rows[j].exact;
-      for (const auto& [at, area] : {std::pair{k * m + l, run.area[i]}, std::pair{l * m + k, run.area[j]}}) {
-        Estimate& factor = result.factor[at];
-        if (area.value > 0.0) {
-          factor.value = exchange.value / area.value;
-          factor.error = std::hypot(exchange.error / area.value, factor.value * area.error / area.value);
-        }
-        result.converged = result.converged && factor.error <= options.error;
-        if (faces) { result.method[at] = flat ? FactorMethod::faces : FactorMethod::meshes; }
-      }
-    }
-  }
-  const double unit = prepared.frame.to_scene_area(1.0);
-  for (std::size_t k = 0; k < m; ++k) {
-    const std::uint32_t i = kept[k];
-    const FactorRow& row = run.rows.rows[i];
-    Factors::Surface surface{row.name, {run.area[i].value * unit, run.area[i].error * unit}, {}, row.material};
-    double square = 0.0;
-    for (std::size_t l = 0; l < m; ++l) {
-      const Estimate& factor = result.factor[k * m + l];
-      surface.row_sum.value += factor.value;
-      square += factor.error * factor.error;
-    }
-    surface.row_sum.error = std::sqrt(square);
+  for (const std::uint32_t i : kept) {
     if (counters[i] != nullptr) { result.rays += counters[i]->rays(i); }
-    result.surfaces.push_back(std::move(surface));
   }
+  detail::write_factors(run, counters, kept, result);
+  detail::write_surfaces(run, kept, result);
   return {std::move(result), {}};
 }
 

@@ -50,81 +50,106 @@ HALFLIGHT_INLINE void add_product(const std::vector<double>& a, const std::vecto
   }
 }
 
+// The matrices of total_exchange.hpp on their way to K: row by row, n x n.
+struct ExchangeMatrices {
+  const Factors& factors;
+  std::span<const double> emissivity;
+  std::size_t n = factors.surfaces.size();
+  std::vector<double> exchange = std::vector<double>(n * n, 0.0);  // G, then K without the emissivities
+  std::vector<double> variance = std::vector<double>(n * n, 0.0);  // of the entries of `exchange`
+  std::vector<double> system = std::vector<double>(n * n, 0.0);    // T, then its Cholesky factor
+
+  // What is buried has no area and takes no part.
+  [[nodiscard]] double area(std::size_t i) const { return factors.surfaces[i].area.value > 0.0 ? factors.surfaces[i].area.value : 1.0; }
+  [[nodiscard]] double root(std::size_t i) const { return std::sqrt(1.0 - emissivity[i]); }
+
+  // G with its variances, and T.
+  void fill() {
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        // Both ends know the same exchange; their quotients by the areas differ by rounding.
+        const std::size_t from = std::min(i, j);
+        const std::size_t to = std::max(i, j);
+        exchange[i * n + j] = area(from) * factors(from, to).value;
+        const double error = std::max(area(i) * factors(i, j).error, area(j) * factors(j, i).error);
+        variance[i * n + j] = error * error * (i == j ? 1.0 : 2.0);  // G_ij and G_ji err together
+        system[i * n + j] = (i == j ? area(i) : 0.0) - root(i) * exchange[i * n + j] * root(j);
+      }
+    }
+  }
+
+  // After the Cholesky step: adds to G all that arrives after reflections, W^T W.
+  void add_reflected() {
+    std::vector<double> w(n * n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      double* const row = w.data() + i * n;
+      for (std::size_t j = 0; j < n; ++j) { row[j] = root(i) * exchange[i * n + j]; }
+      for (std::size_t l = 0; l < i; ++l) {
+        const double x = system[i * n + l];
+        for (std::size_t j = 0; j < n; ++j) { row[j] -= x * w[l * n + j]; }
+      }
+      for (std::size_t j = 0; j < n; ++j) { row[j] /= system[i * n + i]; }
+    }
+    for (std::size_t l = 0; l < n; ++l) {
+      const double* const row = w.data() + l * n;
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) { exchange[i * n + j] += row[i] * row[j]; }
+      }
+    }
+  }
+
+  // From the variances of G to those of K, by the squares of the entries of P and of its transpose.
+  void carry_variances() {
+    std::vector<double>& p = system;  // no longer needed
+    std::vector<double> transposed(n * n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        const double entry = (i == j ? 1.0 : 0.0) + exchange[i * n + j] * (1.0 - emissivity[j]) / area(j);
+        p[i * n + j] = transposed[j * n + i] = entry * entry;
+      }
+    }
+    std::vector<double> half(n * n, 0.0);
+    add_product(p, variance, half, n);
+    std::fill(variance.begin(), variance.end(), 0.0);
+    add_product(half, transposed, variance, n);
+  }
+
+  [[nodiscard]] TotalExchange result() const {
+    TotalExchange result;
+    result.factor.resize(n * n);
+    result.row_sum.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      double square = 0.0;
+      for (std::size_t j = 0; j < n; ++j) {
+        const double both = emissivity[i] * emissivity[j] / area(i);
+        const Estimate factor{both * exchange[i * n + j], both * std::sqrt(variance[i * n + j])};
+        result.factor[i * n + j] = factor;
+        result.row_sum[i].value += factor.value;
+        square += factor.error * factor.error;
+      }
+      result.row_sum[i].error = std::sqrt(square);
+    }
+    return result;
+  }
+};
+
 }  // namespace detail
 
 HALFLIGHT_INLINE TotalExchangeResult total_exchange(const Factors& factors, std::span<const double> emissivity) {
-  const std::size_t n = factors.surfaces.size();
-  if (emissivity.size() != n) { return {std::nullopt, "there must be one emissivity a surface"}; }
+  if (emissivity.size() != factors.surfaces.size()) { return {std::nullopt, "there must be one emissivity a surface"}; }
   for (const double e : emissivity) {
     if (!(e >= 0.0 && e <= 1.0)) { return {std::nullopt, "emissivity " + std::to_string(e) + " lies outside [0, 1]"}; }
   }
-  // What is buried has no area and takes no part.
-  const auto area = [&](std::size_t i) { return factors.surfaces[i].area.value > 0.0 ? factors.surfaces[i].area.value : 1.0; };
-  const auto root = [&](std::size_t i) { return std::sqrt(1.0 - emissivity[i]); };
-  std::vector<double> k(n * n, 0.0);  // G
-  std::vector<double> variance(n * n, 0.0);
-  std::vector<double> t(n * n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      // Both ends know the same exchange; their quotients by the areas differ by rounding.
-      const std::size_t from = std::min(i, j);
-      const std::size_t to = std::max(i, j);
-      k[i * n + j] = area(from) * factors(from, to).value;
-      const double error = std::max(area(i) * factors(i, j).error, area(j) * factors(j, i).error);
-      variance[i * n + j] = error * error * (i == j ? 1.0 : 2.0);  // G_ij and G_ji err together
-      t[i * n + j] = (i == j ? area(i) : 0.0) - root(i) * k[i * n + j] * root(j);
-    }
-  }
-  if (!detail::cholesky(t, n)) {
+  detail::ExchangeMatrices matrices{factors, emissivity};
+  matrices.fill();
+  if (!detail::cholesky(matrices.system, matrices.n)) {
     return {std::nullopt,
             "the surfaces emit and absorb too little (or nothing) of the light that goes round between them; "
             "there is no steady state, or no figure of it is certain"};
   }
-  std::vector<double> w(n * n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    double* const row = w.data() + i * n;
-    for (std::size_t j = 0; j < n; ++j) { row[j] = root(i) * k[i * n + j]; }
-    for (std::size_t l = 0; l < i; ++l) {
-      const double x = t[i * n + l];
-      for (std::size_t j = 0; j < n; ++j) { row[j] -= x * w[l * n + j]; }
-    }
-    for (std::size_t j = 0; j < n; ++j) { row[j] /= t[i * n + i]; }
-  }
-  for (std::size_t l = 0; l < n; ++l) {
-    const double* const row = w.data() + l * n;
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) { k[i * n + j] += row[i] * row[j]; }
-    }
-  }
-  // Squares of P and of its transpose; then the variances of K.
-  std::vector<double>& p = t;
-  std::vector<double>& q = w;
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      const double entry = (i == j ? 1.0 : 0.0) + k[i * n + j] * (1.0 - emissivity[j]) / area(j);
-      p[i * n + j] = q[j * n + i] = entry * entry;
-    }
-  }
-  std::vector<double> half(n * n, 0.0);
-  detail::add_product(p, variance, half, n);
-  std::fill(variance.begin(), variance.end(), 0.0);
-  detail::add_product(half, q, variance, n);
-
-  TotalExchange result;
-  result.factor.resize(n * n);
-  result.row_sum.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    double square = 0.0;
-    for (std::size_t j = 0; j < n; ++j) {
-      const double both = emissivity[i] * emissivity[j] / area(i);
-      const Estimate factor{both * k[i * n + j], both * std::sqrt(variance[i * n + j])};
-      result.factor[i * n + j] = factor;
-      result.row_sum[i].value += factor.value;
-      square += factor.error * factor.error;
-    }
-    result.row_sum[i].error = std::sqrt(square);
-  }
-  return {std::move(result), {}};
+  matrices.add_reflected();
+  matrices.carry_variances();
+  return {matrices.result(), {}};
 }
 
 }  // namespace radiosity

@@ -30,7 +30,7 @@ struct TotalExchangeResult {
 };
 
 // From form factors and an emissivity in [0, 1] for each surface. The errors are those of the form factors carried on, to first order:
-// d(A script-F) = e P dG P' e with P = 1 + K r / A. Cost: n^3, three matrices.
+// d(A script-F) = e P dG P' e with P = 1 + K r / A. Cost: n^3, five matrices.
 // Refused: emissivities that are too few or out of range; a scene in which light goes round for ever.
 [[nodiscard]] TotalExchangeResult total_exchange(const Factors& factors, std::span<const double> emissivity);
 

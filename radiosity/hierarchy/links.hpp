@@ -14,7 +14,8 @@
 // per cent however deep the hierarchy is. The gradient at a leaf has no effect.
 //
 // Where an end is a cluster the kernel is not linear: the faces of the cluster count by the area that they show towards the other end
-// (cluster_exchange.hpp). Such a link keeps the direction to the other end, at each end that is a cluster, and no gradients.
+// (cluster_exchange.hpp). Such a link keeps the direction to the other end, at each end that is a cluster, and no gradient but that of a
+// lamp over a patch (lamp_exchange.hpp).
 
 #include <array>
 #include <bit>
@@ -36,7 +37,7 @@ class EndShape {
   // Over a cluster: the other end lies in this direction (of length 1), towards which the cluster shows so much area.
   [[nodiscard]] static EndShape of_cluster(const glm::dvec3& direction, double shown) { return EndShape{glm::vec3{direction / shown}}; }
 
-  // 0 where either end is a cluster.
+  // 0 where the other end is a cluster, unless that is a lamp.
   [[nodiscard]] glm::dvec3 gradient() const { return vector(); }
   // The direction to the other end, over the area that the cluster shows towards it.
   [[nodiscard]] glm::dvec3 direction_over_shown() const { return vector(); }

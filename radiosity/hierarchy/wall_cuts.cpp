@@ -139,48 +139,62 @@ HALFLIGHT_INLINE void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vecto
       brep, face, place, [](const SurfaceBRep&, brep::FaceId) { return false; }, 1024);
 }
 
-}  // namespace detail
+// Objects with flat faces whose bounds meet.
+struct WallPairs {
+  std::vector<std::uint32_t> order;                  // what can be cut and can cut
+  std::vector<std::vector<std::uint32_t>> partners;  // of each object, ascending
+  std::size_t not_looked_at = 0;                     // objects, when there are too many pairs
+};
 
-HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double diameter, std::size_t most_pairs) {
-  const double tolerance = 1e-9 * diameter;
-  std::vector<std::uint32_t> order;
-  std::vector<std::vector<std::uint32_t>> partners(surfaces.size());
+HALFLIGHT_INLINE WallPairs wall_pairs(const std::vector<Surface>& surfaces, double tolerance, std::size_t most_pairs) {
+  WallPairs result;
+  result.partners.resize(surfaces.size());
   std::vector<bool> covered(surfaces.size(), false);
-  for (const auto& pair : detail::twins(surfaces)) { covered[pair[0]] = true; }
-  for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
-    if (surfaces[o].object->flat() && !covered[o]) { order.push_back(o); }
-  }
+  for (const auto& pair : twins(surfaces)) { covered[pair[0]] = true; }
   std::vector<raycast::Box> boxes;
-  for (const std::uint32_t o : order) { boxes.push_back(surfaces[o].object->bounds()); }
-  if (boxes.empty()) { return 0; }
+  for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
+    if (!surfaces[o].object->flat() || covered[o]) { continue; }
+    result.order.push_back(o);
+    boxes.push_back(surfaces[o].object->bounds());
+  }
+  if (boxes.empty()) { return result; }
   const raycast::Bvh tree{boxes};
   std::size_t pairs = 0;
   std::vector<std::uint32_t> stack;
-  std::size_t looked_at = 0;
-  for (; looked_at < order.size() && pairs < most_pairs; ++looked_at) {
-    const std::size_t i = looked_at;
+  std::size_t i = 0;
+  for (; i < boxes.size() && pairs < most_pairs; ++i) {
+    std::vector<std::uint32_t>& partners = result.partners[result.order[i]];
     stack.assign(1, 0);
     while (!stack.empty()) {
       const raycast::Bvh::Node& node = tree.nodes()[stack.back()];
       stack.pop_back();
-      if (!detail::boxes_meet(boxes[i], node.box, tolerance)) { continue; }
+      if (!boxes_meet(boxes[i], node.box, tolerance)) { continue; }
       if (node.count == 0) {
         stack.insert(stack.end(), {node.first, node.first + 1});
         continue;
       }
       for (const std::uint32_t k : tree.items(node)) {
-        if (k != i && detail::boxes_meet(boxes[i], boxes[k], tolerance)) { partners[order[i]].push_back(order[k]); }
+        if (k != i && boxes_meet(boxes[i], boxes[k], tolerance)) { partners.push_back(result.order[k]); }
       }
     }
-    pairs += partners[order[i]].size();
+    std::sort(partners.begin(), partners.end());
+    pairs += partners.size();
   }
-  std::size_t left_whole = order.size() - looked_at;
+  result.not_looked_at = boxes.size() - i;
+  return result;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double diameter, std::size_t most_pairs) {
+  const double tolerance = 1e-9 * diameter;
+  const auto [order, partners, not_looked_at] = detail::wall_pairs(surfaces, tolerance, most_pairs);
+  std::size_t left_whole = not_looked_at;
   std::vector<std::vector<detail::WallFace>> walls(surfaces.size());  // as they are before any cut
   for (const std::uint32_t o : order) {
     if (!partners[o].empty()) { walls[o] = detail::wall_faces(surfaces[o]); }
   }
   for (const std::uint32_t o : order) {
-    std::sort(partners[o].begin(), partners[o].end());
     SurfaceBRep& brep = surfaces[o].brep;
     std::vector<brep::FaceId> faces;
     for (const brep::FaceId f : brep::faces(brep)) {

@@ -62,6 +62,8 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
   const double area_q = exposure_->area[link.q];
   link.exchange = 0.0f;
   if (!(area_p > 0.0) || !(area_q > 0.0)) { return {}; }
+  const bool both = scene_.hierarchy[link.p].is_cluster() && scene_.hierarchy[link.q].is_cluster();
+  if (lamps_ != nullptr && !between_patches(link) && !both) { return evaluate_lamp_link(link, variation, doubt); }
   if (!between_patches(link)) {
     const Random random{seed_, (std::uint64_t{link.p} << 32) | link.q};
     const ClusterExchange seen = evaluate_cluster_link(sampler_, scene_.hierarchy, link, cluster_rounds, random);
@@ -106,6 +108,40 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
     variation->sampling = static_cast<float>(missed(unoccluded * share, *variation, seen.rays.cast));
   }
   if (doubt != nullptr) { *doubt = doubt_of(link, unoccluded * share, seen, light_varies); }
+  return seen.rays;
+}
+
+// What the lamp shows as a whole is known well, and so are the gradients over the patch. Which of its faces receive what comes back the
+// lattice of directions tells; as that errs alike for all that comes from near one direction, its errors add up.
+HALFLIGHT_INLINE RayCount LinkEvaluator::evaluate_lamp_link(Link& link, LinkVariation* variation, Doubt* doubt) const {
+  const LampExchange::Result seen = lamps_->evaluate(link, patch_rounds, Random{seed_, key_of(link)});
+  const bool p_shines = scene_.hierarchy[link.p].is_cluster();
+  VisibilityEstimate arrives;
+  arrives.fraction = seen.fraction;
+  arrives.rays = seen.rays;
+  const ClusterExchange exchange{seen.sent * seen.fraction, seen.fraction, 0.0, seen.rays.cast};
+  LinkVariation of_link = variation_of_cluster_link(link, exchange, variation != nullptr ? *variation : LinkVariation{});
+  if (exchange.exchange > 0.0) {
+    LinkVariation::End& end = p_shines ? of_link.q : of_link.p;
+    end.linear = static_cast<float>(seen.linear);
+    end.rest = static_cast<float>(seen.rest);
+    of_link.sampling = static_cast<float>(partly_seen(seen.sent, arrives));
+  } else if (seen.sent > 0.0) {
+    of_link.sampling = static_cast<float>(missed(seen.sent, variation != nullptr ? *variation : LinkVariation{}, seen.rays.cast));
+  } else {
+    of_link = {};
+  }
+  if (variation != nullptr) { *variation = of_link; }
+  if (doubt != nullptr && exchange.exchange > 0.0) {
+    const auto across = [&](std::uint32_t i, const LinkVariation::End& e) {
+      const bool matters = scene_.hierarchy[i].is_cluster() || !scene_.hierarchy[i].leaf();
+      return matters ? static_cast<float>(exchange.exchange * std::hypot(e.rest, e.shadow) / exposure_->area[i]) : 0.0f;
+    };
+    const double sampling = static_cast<double>(of_link.sampling) * static_cast<double>(of_link.sampling);
+    doubt->p = across(link.p, of_link.p);
+    doubt->q = across(link.q, of_link.q);
+    doubt->square = static_cast<float>(sampling / exposure_->area[link.p] + sampling / exposure_->area[link.q]);
+  }
   return seen.rays;
 }
 

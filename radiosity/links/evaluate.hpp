@@ -16,6 +16,7 @@
 
 #include <radiosity/clusters/cluster_exchange.hpp>
 #include <radiosity/clusters/clusters.hpp>
+#include <radiosity/clusters/lamp_exchange.hpp>
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/exchange/exchange.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
@@ -104,6 +105,9 @@ class LinkEvaluator {
   // Returns its segments. Depends on the ends of the link and the seed alone; `list` saves time.
   RayCount operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation = nullptr, Doubt* doubt = nullptr) const;
 
+  // Links of its clusters with patches are evaluated by it. It must outlive the evaluator.
+  void use(const LampExchange& lamps) { lamps_ = &lamps; }
+
   [[nodiscard]] bool between_patches(const Link& link) const {
     return !scene_.hierarchy[link.p].is_cluster() && !scene_.hierarchy[link.q].is_cluster();
   }
@@ -115,6 +119,7 @@ class LinkEvaluator {
 
  private:
   [[nodiscard]] std::optional<VisibilityEstimate> measured_visibility(const Link& link) const;
+  RayCount evaluate_lamp_link(Link& link, LinkVariation* variation, Doubt* doubt) const;
   // doubt.hpp. `sent`: what would arrive if nothing stood between.
   [[nodiscard]] Doubt doubt_of(const Link& link, double sent, const VisibilityEstimate& seen, const Variations& varies) const;
   // What a link may exchange of which none of these segments arrived, and none of those before (Laplace's mean); `sent`: if nothing
@@ -146,6 +151,7 @@ class LinkEvaluator {
   ClusterSampler sampler_;
   std::uint64_t seed_;
   const LightMeshing* light_ = nullptr;
+  const LampExchange* lamps_ = nullptr;
 };
 
 // Fits a cluster link to what its ends show now instead of `before`: exposed areas are known better where faces were split.

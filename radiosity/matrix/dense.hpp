@@ -47,6 +47,7 @@ struct DenseSolution {
   std::vector<Color> radiosity;  // of the leaves
   double residual = 0.0;         // || E + rho H(B) - B || / || E ||, area-weighted; of shooting: unshot power / emitted power
   std::uint64_t iterations = 0;  // sweeps; of shooting: shots
+  std::uint64_t exchanges = 0;   // of lists alone: rays that were kept
   RayCount rays;
   bool converged = false;
   bool cancelled = false;

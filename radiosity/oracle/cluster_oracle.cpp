@@ -18,9 +18,6 @@
 
 namespace radiosity {
 
-// Distance of the centres over the sum of the radii, at least.
-inline constexpr double cluster_separation = 1.5;
-
 HALFLIGHT_INLINE double most_shown(const Node& node, const ShownAreas& shown, const glm::dvec3& d, double spread) {
   if (!node.is_cluster()) { return node.area * std::clamp(glm::dot(node.normal, d) + spread, 0.0, 1.0); }
   const Aim towards = aim(d);

@@ -15,6 +15,9 @@
 
 namespace radiosity {
 
+// Distance of the centres over the sum of the radii, at least.
+inline constexpr double cluster_separation = 1.5;
+
 // What the node shows to places in the direction d (unit length), from above.
 [[nodiscard]] double most_shown(const Node& node, const ShownAreas& shown, const glm::dvec3& d, double spread);
 

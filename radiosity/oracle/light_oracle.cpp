@@ -59,6 +59,7 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& s
     }
     of_cluster_[node.cluster].mean = node.area > 0.0 ? sum / node.area : 0.0;
   }
+  if (!of_cluster_.empty() && !hierarchy[0].is_cluster()) { lamps_.emplace(scene, nullptr, shown); }
 }
 
 HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::uint32_t q, const raycast::OccluderList& list,
@@ -73,6 +74,7 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
   const double parts = from.is_cluster() ? 1.0 : nodes[input_face(nodes, lamp)].area / from.area;
   const double weight = emission(from) * std::sqrt(parts * to.area / scene_area_);
   if (!(weight > epsilon_)) { return no_node; }
+  if (lamps_ && from.is_cluster() && !to.is_cluster()) { return wants_split_by_lamp(receiver, lamp, weight, rays); }
   if (to.is_cluster() || from.is_cluster()) { return wants_cluster_split(receiver, lamp, weight, rays); }
 
   const Patch& patch = scene_.patches[receiver];
@@ -108,6 +110,42 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
     const double fraction = arrives / (round + 1.0);
     if (mean * std::sqrt(std::max(0.0, fraction * (1.0 - fraction))) > epsilon_) { return receiver; }
     if (seen.rays.cast == 0) { break; }  // proven
+  }
+  return no_node;
+}
+
+HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split_by_lamp(std::uint32_t receiver, std::uint32_t lamp, double weight,
+                                                                RayCount& rays) const {
+  const Node& to = scene_.hierarchy[receiver];
+  const Node& from = scene_.hierarchy[lamp];
+  double low = 1.0;
+  double high = 0.0;
+  const double tilt = std::asin(to.deviation);
+  const auto look = [&](const glm::dvec3& x) {
+    const glm::dvec3 d = from.centre - x;
+    const double r = glm::length(d);
+    const double angle = std::acos(std::clamp(glm::dot(to.normal, d) / r, -1.0, 1.0));
+    const double area = most_shown(from, *shown_, -d / r, 0.0);
+    const double facing = area / (std::numbers::pi * r * r + area);
+    low = std::min(low, facing * std::max(0.0, std::cos(angle + tilt)));
+    high = std::max(high, facing * std::max(0.0, std::cos(std::max(0.0, angle - tilt))));
+  };
+  for (const glm::dvec3& x : scene_.patches[receiver].contour) { look(x); }
+  look(nearest_point(to, from.centre));
+  if (weight * (high - low) > std::sqrt(12.0) * epsilon_) { return receiver; }
+  if (!(weight * high * 0.5 > epsilon_)) { return no_node; }
+  const double mean = weight * 0.5 * (low + high);
+  const double least = epsilon_ * epsilon_ / (mean * mean);
+  const double rounds = std::clamp(std::ceil(3.0 / (segments_per_round * least)), 1.0, 16.0);
+  double arrives = 0.0;
+  for (double round = 0.0; round < rounds; round += 1.0) {
+    const LampExchange::Result seen = (*lamps_)(
+        lamp, receiver, 1, Random{seed_, (std::uint64_t{receiver} << 32) | lamp, 0x736861646f77ull + static_cast<std::uint64_t>(round)});
+    rays += seen.rays;
+    arrives += seen.fraction;
+    const double fraction = arrives / (round + 1.0);
+    if (mean * std::sqrt(std::max(0.0, fraction * (1.0 - fraction))) > epsilon_) { return receiver; }
+    if (seen.rays.cast == 0) { break; }
   }
   return no_node;
 }

@@ -13,12 +13,14 @@
 // nearest to the farthest; how its faces are turned does not matter, because each applies its own cosine.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <raycast/shaft.hpp>
 
 #include <radiosity/clusters/cluster_exchange.hpp>
 #include <radiosity/clusters/clusters.hpp>
+#include <radiosity/clusters/lamp_exchange.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -54,11 +56,14 @@ class LightOracle {
     return node.is_cluster() ? of_cluster_[node.cluster].mean : emission_[node.surface];
   }
 
+  // Of a patch and a cluster of lamps; as of two patches.
+  [[nodiscard]] std::uint32_t wants_split_by_lamp(std::uint32_t receiver, std::uint32_t lamp, double weight, RayCount& rays) const;
   [[nodiscard]] std::uint32_t wants_cluster_split(std::uint32_t receiver, std::uint32_t source, double weight, RayCount& rays) const;
 
   SceneView scene_;
   const ShownAreas* shown_;
   ClusterSampler sampler_;
+  std::optional<LampExchange> lamps_;  // where lamps alone have clusters
   double epsilon_;
   std::uint64_t seed_;
   std::vector<double> emission_;  // one an input surface: the largest channel, relative to the mean over the scene's area

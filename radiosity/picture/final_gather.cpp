@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -25,6 +26,7 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lit_region.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/pass_through.hpp>
@@ -49,7 +51,7 @@ HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, 
     if (!made.surface) { return; }  // no solution of this scene
     boundaries.push_back(std::move(*made.surface));
   }
-  direct_ = DirectLight{objects(), boundaries, emission};
+  direct_ = DirectLight{objects(), boundaries, emission, {.bodies = true}};
 }
 
 HALFLIGHT_INLINE FinalGather::Met FinalGather::met(const raycast::Hit& hit, const raycast::Segment& ray) const {
@@ -117,6 +119,27 @@ HALFLIGHT_INLINE std::optional<FinalGather::Place> FinalGather::beside(const Pla
   return result;
 }
 
+HALFLIGHT_INLINE LitRegion FinalGather::lit_region(std::span<const Place> places) const {
+  const Place& first = places.front();
+  glm::dvec3 n{0.0};
+  for (const Place& place : places) { n += place.point.normal; }
+  const bool flat = objects().object(first.object).flat();
+  n = flat ? first.point.normal : glm::length(n) > 0.0 ? glm::normalize(n) : first.point.normal;
+  // A flat rectangle around the points, with how far those of a curved surface leave it.
+  const auto [s, t] = orthonormal(n);
+  glm::dvec3 lo{0.0}, hi{0.0};
+  for (const Place& place : places) {
+    const glm::dvec3 d = place.point.position - first.point.position;
+    const glm::dvec3 at{glm::dot(d, s), glm::dot(d, t), glm::dot(d, n)};
+    lo = glm::min(lo, at);
+    hi = glm::max(hi, at);
+  }
+  const auto corner = [&, s = s, t = t](double u, double v) { return first.point.position + u * s + v * t; };
+  const std::array<glm::dvec3, 4> contour{corner(lo.x, lo.y), corner(hi.x, lo.y), corner(hi.x, hi.y), corner(lo.x, hi.y)};
+  const double bulge = flat ? 0.0 : std::max(hi.z, -lo.z);
+  return {direct_, {contour, first.object, bulge}, flat ? n : glm::dvec3{0.0}};
+}
+
 HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error,
                                                              std::uint64_t key) const {
   const Sobol4 sequence{1, key};
@@ -129,12 +152,14 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
   std::array<double, 4> part{};  // of the rays, by fours of sixteen: their spread is the standard error
   double nearness = 0.0;
   std::uint32_t rays = 0;
-  const auto exact_enough = [&] {
+  const auto mean_of_parts = [&] { return (part[0] + part[1] + part[2] + part[3]) / 4.0; };
+  const auto variance_of_mean = [&] {
+    const double mean = mean_of_parts();
     double squares = 0.0;
-    const double mean = (part[0] + part[1] + part[2] + part[3]) / 4.0;
     for (const double p : part) { squares += (p - mean) * (p - mean) / 12.0; }
-    return squares <= error * error * mean * mean;
+    return squares;
   };
+  const auto exact_enough = [&] { return variance_of_mean() <= error * error * mean_of_parts() * mean_of_parts(); };
   for (; rays < least || (rays < most && (rays % 64 != 0 || !exact_enough())); rays += 16) {
     raycast::Segments16 segments;
     for (unsigned k = 0; k < 16; ++k) {
@@ -160,7 +185,8 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
     const Color added = sum - before;
     part[rays / 16 % 4] += added.x + added.y + added.z;
   }
-  return {sum / static_cast<double>(rays), nearness / static_cast<double>(rays)};
+  const double all = rays;
+  return {sum / all, 16.0 * variance_of_mean() / (all * all), nearness / all};
 }
 
 }  // namespace radiosity

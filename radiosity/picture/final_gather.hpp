@@ -21,6 +21,7 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lit_region.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/frame.hpp>
@@ -56,15 +57,20 @@ class FinalGather {
   // (lookup.hpp). `outlines`: where those are as they are, not as those of meshes that stand in for slow objects.
   [[nodiscard]] std::array<std::optional<Place>, 16> seen16(const Eye& eye, std::span<const glm::dvec3> directions, bool outlines) const;
 
-  // The point of the same sheet that is seen beside a place, in a direction that differs by part of a pixel; nothing where the sheet bends away.
+  // The point of the same sheet that is seen beside a place, in a direction that differs by part of a pixel; nothing where the sheet bends
+  // away.
   [[nodiscard]] std::optional<Place> beside(const Place& place, const Eye& eye, const glm::dvec3& direction) const;
+
+  // Of points of one surface: their direct light. The gather must outlive it.
+  [[nodiscard]] LitRegion lit_region(std::span<const Place> places) const;
 
   struct Indirect {
     Color irradiance{0.0};  // W/m2
+    double variance = 0.0;  // of the sum of its channels, by the spread of its rays
     double nearness = 0.0;  // 1 / harmonic mean distance of what is seen, in the frame
   };
-  // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a multiple of 64, or as many more, up to `most`, as it
-  // takes for the standard error to fall to this share of the light. `key` names the point: it fixes the rays.
+  // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a multiple of 64, or as many more, up to `most`,
+  // as it takes for the standard error to fall to this share of the light. `key` names the point: it fixes the rays.
   [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error, std::uint64_t key) const;
 
  private:

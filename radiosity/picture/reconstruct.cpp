@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <vector>
 
@@ -111,12 +112,12 @@ HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32
 }
 
 // Does a face of the same sheet with exposed area share a vertex with this one?
-[[nodiscard]] HALFLIGHT_INLINE bool touches_exposed(const SurfaceBRep& brep, brep::FaceId f, const Exposure& exposure) {
+template <class Exposed>
+[[nodiscard]] bool touches_exposed(const SurfaceBRep& brep, brep::FaceId f, const Exposed& exposed) {
   const std::uint32_t sheet = brep.data(f).sheet;
   for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
     for (const brep::HalfedgeId l : brep::halfedges_from(brep, brep.vertex(h))) {
-      const SurfaceFace& face = brep.data(brep.face(l));
-      if (face.sheet == sheet && exposure.area[face.node] > 0.0) { return true; }
+      if (brep.data(brep.face(l)).sheet == sheet && exposed(brep.face(l))) { return true; }
     }
   }
   return false;
@@ -152,12 +153,13 @@ HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32
 }
 
 // Adds a face whose half-edges have their colours. `position`: which of the mesh each vertex has, by its index.
-HALFLIGHT_INLINE void add_face(const std::vector<Surface>& surfaces, const Surface& surface, brep::FaceId f,
-                               const std::vector<std::uint32_t>& position, const LeafLight& light, Mesh& mesh) {
+template <class Exposed>
+void add_face(const std::vector<Surface>& surfaces, const Surface& surface, brep::FaceId f, const std::vector<std::uint32_t>& position,
+              const LeafLight& light, const Exposed& exposed, Mesh& mesh) {
   const SurfaceBRep& brep = surface.brep;
   const std::uint32_t node = brep.data(f).node;
-  const bool buried = !(light.exposure.area[node] > 0.0);
-  if (buried && (!touches_exposed(brep, f, light.exposure) || lies_under(surface, f, surfaces))) { return; }
+  const bool buried = !exposed(f);
+  if (buried && (!touches_exposed(brep, f, exposed) || lies_under(surface, f, surfaces))) { return; }
   // Four corners at most; T-vertex elimination leaves no others, the rest would be cut as a fan. Separate polygons keep their
   // T-vertices, and a leaf is shaded from its own corners.
   std::vector<brep::HalfedgeId> loop;
@@ -186,11 +188,14 @@ HALFLIGHT_INLINE void add_face(const std::vector<Surface>& surfaces, const Surfa
 
 }  // namespace detail
 
-HALFLIGHT_INLINE Mesh reconstruct(std::vector<Surface>& surfaces, const LeafLight& light, Reconstruction kind) {
+HALFLIGHT_INLINE Mesh read_mesh(std::vector<Surface>& surfaces, const LeafLight& light,
+                                const std::function<bool(std::size_t, brep::FaceId)>& exposed,
+                                const std::function<void(std::size_t)>& colour) {
   Mesh mesh;
-  for (Surface& surface : surfaces) {
-    SurfaceBRep& brep = surface.brep;
-    detail::set_normals(*surface.object, brep);
+  for (std::size_t o = 0; o < surfaces.size(); ++o) {
+    SurfaceBRep& brep = surfaces[o].brep;
+    detail::set_normals(*surfaces[o].object, brep);
+    colour(o);
     std::vector<std::uint32_t> position;  // of each vertex, by its index
     for (const brep::VertexId v : brep::vertices(brep)) {
       if (v.index >= position.size()) { position.resize(v.index + 1, 0); }
@@ -198,13 +203,23 @@ HALFLIGHT_INLINE Mesh reconstruct(std::vector<Surface>& surfaces, const LeafLigh
       mesh.positions.push_back(brep.data(v).position);
     }
     for (const brep::FaceId f : brep::faces(brep)) {
-      const std::uint32_t leaf = brep.data(f).node;
-      if (leaf == no_node) { continue; }
-      detail::colour_face(brep, f, leaf, light, kind);
-      detail::add_face(surfaces, surface, f, position, light, mesh);
+      if (brep.data(f).node == no_node) { continue; }
+      detail::add_face(
+          surfaces, surfaces[o], f, position, light, [&](brep::FaceId g) { return exposed(o, g); }, mesh);
     }
   }
   return mesh;
+}
+
+HALFLIGHT_INLINE Mesh reconstruct(std::vector<Surface>& surfaces, const LeafLight& light, Reconstruction kind) {
+  const auto exposed = [&](std::size_t o, brep::FaceId f) { return light.exposure.area[surfaces[o].brep.data(f).node] > 0.0; };
+  return read_mesh(surfaces, light, exposed, [&](std::size_t o) {
+    SurfaceBRep& brep = surfaces[o].brep;
+    for (const brep::FaceId f : brep::faces(brep)) {
+      const std::uint32_t leaf = brep.data(f).node;
+      if (leaf != no_node) { detail::colour_face(brep, f, leaf, light, kind); }
+    }
+  });
 }
 
 }  // namespace radiosity

@@ -15,8 +15,12 @@
 // are buried under another object, do not count; a corner with buried faces alone takes the mean of its face's others.
 // Constant, a buried face takes the mean of its weighted corners: a sliver of it may show at the foot of what buries it.
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
+
+#include <brep/handles.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
@@ -43,6 +47,11 @@ struct LeafLight {
 // between the two must not be a hole. Of flat ones that lie on each other only the one that is seen is there: a lamp, not the ceiling under
 // it.
 Mesh reconstruct(std::vector<Surface>& surfaces, const LeafLight& light, Reconstruction kind);
+
+// The same with colours and exposed faces by others: `colour(o)` gives the half-edges of surface o their colours, whose normals are known
+// then; `exposed(o, f)` is asked for faces with a leaf.
+Mesh read_mesh(std::vector<Surface>& surfaces, const LeafLight& light, const std::function<bool(std::size_t, brep::FaceId)>& exposed,
+               const std::function<void(std::size_t)>& colour);
 
 }  // namespace radiosity
 

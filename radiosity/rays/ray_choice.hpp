@@ -13,26 +13,35 @@ namespace radiosity {
 struct RayChoice {
   bool cast = false;
   std::string reason;  // why not
+  // Lamps are linked cluster by cluster, and what shines over much of the scene is no lamp: its light goes by rays, too.
+  bool many_lamps = false;
 };
+
+// So many faces that shine are linked one by one. More of them take longer than clusters of them.
+inline constexpr std::uint64_t most_single_lamps = 64;
+
+// What shines at most so much brighter than all surfaces do in the mean is no lamp where faces that shine are many: rays find it.
+inline constexpr double least_lamp_contrast = 4.0;
 
 // Rays pay from so many input faces on: the links among fewer are soon made, and have no noise. Measured on rooms of 19 to 10 000 faces.
 inline constexpr std::uint64_t rays_from = 100;
 
-// `faces`: input faces, `lamps` among them.
-[[nodiscard]] inline RayChoice choose_rays(std::uint64_t faces, std::uint64_t lamps, const Options& options) {
+// `faces`: input faces, `lamps` among them; `uncut`: these before long ones were cut, whose parts are linked one by one while they are few.
+[[nodiscard]] inline RayChoice choose_rays(std::uint64_t faces, std::uint64_t lamps, std::uint64_t uncut, const Options& options) {
   if (options.indirect == Indirect::links) { return {false, "all light was asked to go by links"}; }
   if (options.oracle) { return {false, "an oracle was supplied to choose all links"}; }
   if (options.refinement == Refinement::a_posteriori) { return {false, "BF-refinement splits links by what they carry"}; }
   if (options.solver == Solver::gauss_seidel || options.solver == Solver::southwell) {
     return {false, "Gauss-Seidel and Southwell go through the links of one patch at a time"};
   }
-  if (2 * lamps > faces) { return {false, "most input faces shine"}; }
-  constexpr std::uint64_t most_pairs = 4'000'000;
-  if (lamps * faces > most_pairs) { return {false, "the lamps have " + std::to_string(lamps) + " faces, too many to link each with all"}; }
   if (options.indirect == Indirect::automatic && faces < rays_from) {
     return {false, "they pay from some " + std::to_string(rays_from) + " input faces on, there are " + std::to_string(faces)};
   }
-  return {true, {}};
+  constexpr std::uint64_t most_pairs = 4'000'000;
+  if (options.indirect == Indirect::automatic && 2 * lamps > faces && lamps * faces <= most_pairs) {
+    return {false, "most input faces shine, and are few enough to be linked"};
+  }
+  return {true, {}, uncut > most_single_lamps || lamps * faces > most_pairs || 2 * lamps > faces};
 }
 
 }  // namespace radiosity

@@ -26,51 +26,76 @@ namespace radiosity {
 
 namespace detail {
 
-[[nodiscard]] inline double brightest(const Color& channels) { return std::max({channels.x, channels.y, channels.z}); }
-
-// What each node reflects of the light that comes straight from the lamps: its brightest channel. Lamps count as dark.
-[[nodiscard]] HALFLIGHT_INLINE std::vector<double> reflected_once(const DiscreteScene& scene, const Links& of_lamps) {
+// Mean emission of the lamps in each cluster, in the order of the nodes; 0 where a node is none.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<Color> emission_of_clusters(const DiscreteScene& scene) {
   const Hierarchy& hierarchy = scene.hierarchy;
+  std::vector<Color> emission(hierarchy.size(), Color{0.0});
+  for (std::size_t i = hierarchy.size(); i-- > 0;) {  // children before parents
+    const Node& node = hierarchy[i];
+    if (!node.is_cluster()) { continue; }
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
+      emission[i] += hierarchy[c].area / node.area * (hierarchy[c].is_cluster() ? emission[c] : scene.emission[hierarchy[c].surface]);
+    }
+  }
+  return emission;
+}
+
+// What is seen of each node but by links: the light that comes straight from the lamps, reflected, and what it emits itself if it is no
+// lamp; its brightest channel. Lamps count as dark.
+struct Brightness {
+  std::vector<double> of;
+  // RMS over the exposed leaves of what they reflect of the lamps, and of all else that shines as if that were even.
+  double reflected = 0.0;
+};
+[[nodiscard]] HALFLIGHT_INLINE Brightness brightness_without_lamps(const DiscreteScene& scene, const Links& of_lamps) {
+  const Hierarchy& hierarchy = scene.hierarchy;
+  const std::vector<Color> of_clusters = emission_of_clusters(scene);
   std::vector<Color> irradiance(hierarchy.size(), Color{0.0});
+  const auto emission = [&](std::uint32_t i) { return hierarchy[i].is_cluster() ? of_clusters[i] : scene.emission[hierarchy[i].surface]; };
   const auto shine = [&](std::uint32_t from, std::uint32_t to, double exchange) {
-    if (scene.exposure.area[to] > 0.0) { irradiance[to] += exchange / scene.exposure.area[to] * scene.emission[hierarchy[from].surface]; }
+    if (scene.exposure.area[to] > 0.0) { irradiance[to] += exchange / scene.exposure.area[to] * emission(from); }
   };
   for (const Link& link : of_lamps) {
     shine(link.p, link.q, static_cast<double>(link.exchange));
     shine(link.q, link.p, static_cast<double>(link.exchange));
   }
-  std::vector<double> brightness(hierarchy.size(), 0.0);
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
-    if (hierarchy[i].parent != no_node) { irradiance[i] += irradiance[hierarchy[i].parent]; }
-    const Color reflected = scene.reflectance[hierarchy[i].surface] * irradiance[i];
-    const bool shines = !is_black(scene.emission[hierarchy[i].surface]);
-    brightness[i] = shines ? 0.0 : brightest(reflected);
-  }
-  return brightness;
-}
-
-// Over the exposed leaves.
-[[nodiscard]] HALFLIGHT_INLINE double root_mean_square(const DiscreteScene& scene, const std::vector<double>& of) {
-  double square = 0.0;
+  Color glow{0.0};  // of all surfaces that are no lamps, in the mean
   double area = 0.0;
-  for (std::size_t i = 0; i < of.size(); ++i) {
-    if (!scene.hierarchy[i].leaf()) { continue; }
-    square += scene.exposure.area[i] * of[i] * of[i];
+  const auto counts = [&](std::size_t i) { return hierarchy[i].leaf() && scene.exposure.area[i] > 0.0; };
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    if (!counts(i)) { continue; }
     area += scene.exposure.area[i];
+    if (!scene.lamps[hierarchy[i].surface]) { glow += scene.exposure.area[i] * scene.emission[hierarchy[i].surface]; }
   }
-  return area > 0.0 ? std::sqrt(square / area) : 0.0;
+  if (!(area > 0.0)) { return {std::vector<double>(hierarchy.size(), 0.0)}; }
+  glow /= area;
+  Brightness brightness{std::vector<double>(hierarchy.size(), 0.0)};
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
+    const std::uint32_t parent = hierarchy[i].parent;
+    if (hierarchy[i].is_cluster()) { continue; }
+    if (parent != no_node && !hierarchy[parent].is_cluster()) { irradiance[i] += irradiance[parent]; }
+    const std::uint32_t surface = hierarchy[i].surface;
+    if (scene.lamps[surface]) { continue; }
+    brightness.of[i] = brightest(scene.emission[surface] + scene.reflectance[surface] * irradiance[i]);
+    const double reflected = brightest(scene.reflectance[surface] * (irradiance[i] + glow));
+    if (counts(i)) { brightness.reflected += scene.exposure.area[i] * reflected * reflected; }
+  }
+  brightness.reflected = std::sqrt(brightness.reflected / area);
+  return brightness;
 }
 
 // Splits nodes for light that comes from everywhere.
 class Spacing {
  public:
   Spacing(DiscreteScene& scene, const Links& of_lamps, double tolerance, double min_area)
-      : scene_{scene}, links_{of_lamps.size()}, tolerance_{tolerance}, brightness_{reflected_once(scene, of_lamps)} {
-    root_mean_square_ = root_mean_square(scene, brightness_);
+      : scene_{scene}, links_{of_lamps.size()}, tolerance_{tolerance} {
+    Brightness brightness = brightness_without_lamps(scene, of_lamps);
+    brightness_ = std::move(brightness.of);
+    root_mean_square_ = brightness.reflected;
     for (std::uint32_t i = 0; i < scene.hierarchy.size(); ++i) {
       if (!is_input_face(scene.hierarchy, i)) { continue; }
       area_ += scene.exposure.area[i];
-      if (is_black(scene.emission[scene.hierarchy[i].surface])) { open_.push_back(i); }
+      if (!scene.lamps[scene.hierarchy[i].surface]) { open_.push_back(i); }
     }
     least_area_ = min_area * area_;
   }
@@ -174,7 +199,7 @@ class Spacing {
   std::uint64_t links_;
   double tolerance_;
   std::vector<double> brightness_;  // of each node
-  double root_mean_square_ = 0.0;   // of that, over the scene
+  double root_mean_square_ = 0.0;   // of what is reflected, over the scene
   double area_ = 0.0, least_area_ = 0.0;
   std::vector<std::uint32_t> open_;
   std::vector<View> views_;  // of the casters
@@ -192,7 +217,8 @@ HALFLIGHT_INLINE SpacingResult space_casters(DiscreteScene& scene, Links& of_lam
   while (spacing.step(result)) {}
   spacing.split_as_senders(result);
   const auto split = [&](std::uint32_t i) { return was_leaf[i] && !scene.hierarchy[i].leaf(); };
-  for (Link& link : of_lamps) {
+  for (Link& link : of_lamps) {  // the link of a cluster has gradients anyhow
+    if (scene.hierarchy[link.p].is_cluster() || scene.hierarchy[link.q].is_cluster()) { continue; }
     if (split(link.p) || split(link.q)) { set_gradients(link, variations(scene.patches[link.p], scene.patches[link.q])); }
   }
   return result;

@@ -44,6 +44,7 @@ HALFLIGHT_INLINE void DiscreteScene::take(Prepared prepared) {
     materials.push_back(surface.material);
     reflectance.push_back(material.reflectance);
     emission.push_back(material.emission);
+    lamps.push_back(!is_black(material.emission));
   }
 }
 

@@ -11,6 +11,7 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/clusters/clusters.hpp>
+#include <radiosity/clusters/lamp_exchange.hpp>
 #include <radiosity/discontinuity/light_meshing.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/meshing.hpp>
@@ -45,6 +46,7 @@ struct DiscreteScene {
   void expose();
 
   [[nodiscard]] SceneView view() const { return {objects, plan, surfaces, hierarchy, patches}; }
+  // Is node 0 a cluster of all? Lamps may have clusters without that.
   [[nodiscard]] bool clustered() const { return !hierarchy.empty() && hierarchy[0].is_cluster(); }
   // What the clusters show by the exposed areas of now.
   [[nodiscard]] ShownAreas exposed_shown() const;
@@ -66,12 +68,14 @@ struct DiscreteScene {
   std::vector<InputSurface> inputs;
   std::vector<std::uint32_t> materials;      // of each input surface,
   std::vector<Color> reflectance, emission;  // and what these are
+  std::vector<bool> lamps;                   // where other light goes by stored rays: input surfaces whose light goes by links
 
   Hierarchy hierarchy;
   Patches patches;
   Exposure exposure;
   ShownAreas shown;  // by the clusters
   LinkEvaluator evaluator;
+  std::optional<LampExchange> lamp_exchange;  // the one in use
 };
 
 [[nodiscard]] inline SurfaceLight surface_light(const DiscreteScene& scene) {

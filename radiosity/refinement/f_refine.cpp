@@ -16,6 +16,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/oracle/lamp_oracle.hpp>
 #include <radiosity/oracle/light_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/oracle/proof_oracle.hpp>
@@ -38,7 +39,9 @@ HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const ProofOracle&
                                   RefineResult& result) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const auto count = static_cast<std::uint32_t>(hierarchy.size());
-  const auto counts = [&](std::uint32_t i) { return linked == Linked::all || !is_black(scene.emission[hierarchy[i].surface]); };
+  const auto counts = [&](std::uint32_t i) {
+    return linked == Linked::all || hierarchy[i].is_cluster() || scene.lamps[hierarchy[i].surface];
+  };
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!is_input_face(hierarchy, i) || proofs.buried(i) || !counts(i)) { continue; }
     const raycast::PlacedObject& object = *scene.surfaces[hierarchy[i].object].object;
@@ -48,10 +51,12 @@ HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const ProofOracle&
     pairs.push_back({0, 0});
     return;
   }
+  const auto on_top = [&](std::uint32_t i) { return hierarchy[i].parent == no_node; };
   for (std::uint32_t p = 0; p < count; ++p) {
-    if (!is_input_face(hierarchy, p) || !counts(p)) { continue; }
+    if (!on_top(p) || !counts(p)) { continue; }
+    if (hierarchy[p].is_cluster()) { pairs.push_back({p, p}); }
     for (std::uint32_t q = linked == Linked::all ? p + 1 : 0; q < count; ++q) {
-      if (!is_input_face(hierarchy, q) || q == p || (q < p && counts(q))) { continue; }
+      if (!on_top(q) || q == p || (q < p && counts(q))) { continue; }
       if (!proofs.convex(hierarchy[p], hierarchy[q])) {
         pairs.push_back({p, q});
       } else if (scene.plan.shortcuts || hierarchy[p].deviation > 0.0 || hierarchy[q].deviation > 0.0) {
@@ -147,7 +152,9 @@ HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
         const Question question{scene.hierarchy, p, q, state.shown, state.fineness.epsilon, state.min_area, &state.stuck};
         const Decision proven = state.proofs(question);
         if (state.measured.takes_whole_lamp({p, q})) { return proven; }
-        return proven == Decision::link ? within_min_area(question, state.fineness.oracle(question)) : proven;
+        if (proven != Decision::link) { return proven; }
+        const bool of_lamps = !scene.clustered() && (scene.hierarchy[p].is_cluster() || scene.hierarchy[q].is_cluster());
+        return within_min_area(question, of_lamps ? LampOracle{}(question) : state.fineness.oracle(question));
       },
       [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
         if (decision != Decision::link || !(state.fineness.light_epsilon > 0.0)) { return; }
@@ -271,6 +278,7 @@ HALFLIGHT_INLINE void descend_inner(FRefinement& state, NodePairs& next) {
 }  // namespace detail
 
 HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& fineness, Linked linked) {
+  scene.patches.extend(scene.threads);
   detail::FRefinement state{scene, fineness};
   RefineResult& result = state.result;
   const std::uint64_t all_pairs = scene.clustered() || linked == Linked::lamps ? 0 : scene.hierarchy.size() * scene.hierarchy.size() / 2;
@@ -282,7 +290,9 @@ HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& finen
     result.cancelled = scene.control.cancelled();
     if (result.cancelled || !state.few_enough(result.linked.size() + state.pairs.size())) { break; }
     std::vector<Decision> decisions = detail::ask_oracles(state);
-    if (result.generations == 0 && !scene.plan.closed && !scene.clustered()) { detail::drop_dark_pairs(state, decisions); }
+    if (result.generations == 0 && !scene.plan.closed && !scene.clustered() && linked == Linked::all) {
+      detail::drop_dark_pairs(state, decisions);
+    }
     if (scene.control.decided) { detail::tell(state, decisions); }
     if (!detail::split_leaves(state, decisions)) { break; }
     const std::optional<std::uint64_t> opened = detail::count_opened(state, decisions);

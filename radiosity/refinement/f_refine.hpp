@@ -105,7 +105,8 @@ struct Fineness {
   AnyOracle oracle = FOracle{};  // about the form factor
 };
 
-// Which pairs of input faces are linked: all, or those of which one shines. The latter need a hierarchy without clusters.
+// Which pairs of input faces are linked: all, or those of which one is a lamp (DiscreteScene::lamps). The latter need a hierarchy without
+// clusters, or with clusters of lamps alone (make_lamp_clusters()).
 enum class Linked { all, lamps };
 
 // Builds the links of the hierarchy, splitting leaves as needed.

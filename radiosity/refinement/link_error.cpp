@@ -190,7 +190,9 @@ struct LinkTables {
 // Those that hold a light at an end, and those that do not; nothing is measured yet.
 [[nodiscard]] HALFLIGHT_INLINE std::array<LinkSample, 2> lights_and_others(const DiscreteScene& scene, const LinkTables& links) {
   const Hierarchy& hierarchy = scene.hierarchy;
-  const auto emits = [&](std::uint32_t i) { return !hierarchy[i].is_cluster() && !is_black(scene.emission[hierarchy[i].surface]); };
+  const auto emits = [&](std::uint32_t i) {
+    return hierarchy[i].is_cluster() ? !scene.clustered() : !is_black(scene.emission[hierarchy[i].surface]);
+  };
   std::array<LinkSample, 2> samples;
   for (std::uint32_t i = 0; i < links.size(); ++i) { samples[emits(links[i].p) || emits(links[i].q) ? 0 : 1].from.push_back(i); }
   return samples;
@@ -287,7 +289,7 @@ HALFLIGHT_INLINE std::string estimate_doubt(const DiscreteScene& scene, Transpor
   const Hierarchy& hierarchy = scene.hierarchy;
   constexpr double most_unseen = 0.5;
   constexpr double most_growth = 5.0;
-  if (unseen > most_unseen) { return "most of it is light that may pass where no segment did"; }
+  if (unseen > most_unseen) { return "no bound: most of it is light that may pass where no segment did"; }
   if (closed) { return {}; }
   double once = 0.0;
   double all = 0.0;
@@ -305,7 +307,7 @@ HALFLIGHT_INLINE std::string estimate_doubt(const DiscreteScene& scene, Transpor
     }
   }
   if (!(all > most_growth * once)) { return {}; }
-  return "light is reflected many times, and errors grow with it";
+  return "no bound: light is reflected many times, and errors grow with it";
 }
 
 }  // namespace detail

@@ -38,6 +38,14 @@ struct StrayRays {
   double standard_error = 0.0;  // of either, at most
 };
 
+// What became of Options::mesh_error. Errors are relative L2 over the surfaces, of the colours of the mesh against gathered light.
+struct MeshRefinement {
+  double wanted = 0.0;
+  ErrorEstimate before, after;
+  std::uint64_t faces_before = 0, faces_after = 0;
+  bool met = false;
+};
+
 struct Audit {
   // time
   std::vector<StageTime> stages;
@@ -75,13 +83,14 @@ struct Audit {
   // error
   // Relative L2, by what links and leaves cannot express (link_error.hpp): of what was asked for, a picture or the leaves; of the leaves.
   std::optional<double> estimated_error, estimated_leaf_error;
-  std::string estimate_doubt;     // why the estimate is no bound of the error; empty where it may be taken for one
+  std::string estimate_doubt;     // why the estimate is no bound of the error, or far above it; empty where it may be taken for one
   bool target_missed = false;     // of BF-refinement: by the estimate, or by the audit beyond twice its standard error
   std::uint32_t generations = 0;  // of BF-refinement
   std::uint64_t audit_points = 0;
   std::optional<ErrorEstimate> leaf_error;     // over all surfaces, of the constant on each leaf
   std::optional<ErrorEstimate> surface_error;  // over all surfaces, of the reconstructed radiosity, which pictures show
   std::optional<PictureError> picture_error;   // of one picture
+  std::optional<MeshRefinement> mesh;          // when it was asked for
   std::optional<double> direct_share;          // of the square of surface_error: what is wrong in the light that was reflected once
   // what was done
   std::vector<LeftOut> left_out;

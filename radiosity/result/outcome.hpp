@@ -19,7 +19,8 @@
 namespace radiosity {
 
 struct Solution {
-  Mesh mesh;  // positions in the scene's own coordinates
+  Mesh mesh;                    // positions in the scene's own coordinates
+  std::optional<Mesh> refined;  // the same light in finer faces (Options::mesh_error), where that was needed
   Audit audit;
 
   // What stands behind the mesh, in the coordinates of the frame.
@@ -32,6 +33,9 @@ struct Solution {
   std::vector<Color> radiosity;  // W/m2, one a node
 
   std::optional<Comparison> comparison;  // when asked for
+
+  // What shows the light best as it is.
+  [[nodiscard]] const Mesh& shown() const { return refined ? *refined : mesh; }
 };
 
 struct Failure {

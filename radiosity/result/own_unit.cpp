@@ -30,6 +30,7 @@ HALFLIGHT_INLINE bool to_watts(Mesh& mesh, const LightUnit& unit) {
 }
 HALFLIGHT_INLINE bool to_watts(Solution& solution, const LightUnit& unit) {
   bool finite = to_watts(solution.mesh, unit);
+  if (solution.refined) { finite = to_watts(*solution.refined, unit) && finite; }
   for (Color& c : solution.radiosity) { finite = to_watts(c, unit) && finite; }
   for (SurfaceMean& mean : solution.audit.surfaces) { finite = to_watts(mean.radiosity, unit) && finite; }
   if (solution.comparison) {

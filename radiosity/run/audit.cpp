@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <optional>
+#include <string>
 
 #include <raycast/inline.hpp>
 
@@ -23,14 +25,14 @@ namespace radiosity {
 
 namespace detail {
 
-// Fills in the errors of the solution, whose mesh is still in the frame.
+// Fills in the errors of the solution, whose meshes are still in the frame.
 HALFLIGHT_INLINE void measure_errors(Run& run) {
   const Options& options = run.options;
   const Control& control = run.scene.control;
   const Solution& solution = run.solution;
   Audit& audit = run.solution.audit;
   SurfaceErrorMeter meter{run.scene.input,    run.scene.objects, *run.tracer,
-                          run.scene.exposure, solution.mesh,     run.direct ? &*run.direct : nullptr,
+                          run.scene.exposure, solution.shown(),  run.direct ? &*run.direct : nullptr,
                           options.seed};
   audit.ray_work = run.scene.objects.ray_work();
   const AuditGoal to_know = goal_to_know(audit, options.audit_points);
@@ -71,6 +73,21 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
   if (split > 0.0) { audit.direct_share = std::max(0.0, steering.direct) / split; }
 }
 
+// Says where the estimate from links is more than three times too small or too large for what path tracing found.
+HALFLIGHT_INLINE std::string contradiction(const std::optional<double>& estimate, const std::optional<ErrorEstimate>& measured,
+                                           std::uint64_t points) {
+  constexpr double most = 3.0;
+  constexpr std::uint64_t fewest_points = 250;  // fewer may miss what matters
+  if (!estimate || !measured || points < fewest_points) { return {}; }
+  const bool low = measured->low > most * *estimate;
+  const bool high = *estimate > most * measured->high;
+  if (!low && !high) { return {}; }
+  char text[80] = "";
+  std::snprintf(text, sizeof text, "%s %.2g %%", low ? "no bound: path tracing found at least" : "too high: path tracing found at most",
+                100.0 * (low ? measured->low : measured->high));
+  return text;
+}
+
 // Has BF-refinement met its target, by its own estimate and, where there is one, by the audit?
 HALFLIGHT_INLINE void check_target(Run& run) {
   Audit& audit = run.solution.audit;
@@ -95,6 +112,12 @@ HALFLIGHT_INLINE std::optional<Failure> audit(detail::Run& run) {
     if (control.picture_error) { audit.picture_error = PictureError{}; }
   } else if (options.audit_points > 0 && plan.traceable && !control.cancelled()) {
     detail::measure_errors(run);
+    // A mesh in gathered light is not what the links give.
+    const std::string of_picture =
+        run.solution.refined ? std::string{} : detail::contradiction(audit.estimated_error, audit.surface_error, audit.audit_points);
+    const std::string of_leaves = detail::contradiction(audit.estimated_leaf_error, audit.leaf_error, audit.audit_points);
+    const std::string& found = of_picture.empty() ? of_leaves : of_picture;
+    if (!found.empty()) { audit.estimate_doubt = found; }
     run.watch.lap("audit");
   }
   if (run.bf_refined() && !options.time && !options.error) { detail::check_target(run); }

@@ -8,7 +8,11 @@
 #include <optional>
 #include <vector>
 
+#include <brep/handles.hpp>
+
+#include <raycast/box.hpp>
 #include <raycast/inline.hpp>
+#include <raycast/scene.hpp>
 
 #include <radiosity/audit/warnings.hpp>
 #include <radiosity/clusters/clusters.hpp>
@@ -24,9 +28,41 @@
 #include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/run.hpp>
 #include <radiosity/run/stages.hpp>
+#include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 
 namespace radiosity {
+
+namespace detail {
+
+// Of each input surface: does it shine far brighter than all do in the mean? In the open the mean is that over the box around the scene:
+// rays seldom meet what is small in it.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<bool> choose_lamps(const DiscreteScene& scene) {
+  double area = 0.0;
+  double power = 0.0;
+  for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {
+    if (!is_input_face(scene.hierarchy, i)) { continue; }
+    area += scene.hierarchy[i].area;
+    power += scene.hierarchy[i].area * brightest(scene.emission[scene.hierarchy[i].surface]);
+  }
+  area = std::max(area, 2.0 * scene.objects.bounds().half_area());
+  std::vector<bool> lamps;
+  for (const Color& emission : scene.emission) { lamps.push_back(brightest(emission) * area > least_lamp_contrast * power); }
+  return lamps;
+}
+
+// Input faces.
+[[nodiscard]] HALFLIGHT_INLINE std::uint64_t faces_that_shine(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
+  std::uint64_t count = 0;
+  for (const Surface& surface : surfaces) {
+    for (const std::vector<brep::FaceId>& parts : input_faces(surface)) {
+      count += is_black(emission[surface.first_surface + surface.brep.data(parts.front()).sheet]) ? 0 : 1;
+    }
+  }
+  return count;
+}
+
+}  // namespace detail
 
 namespace stage {
 
@@ -51,6 +87,7 @@ HALFLIGHT_INLINE std::optional<Failure> build(detail::Run& run) {
   }
   audit.warnings = warnings(scene.input, scene.frame, boundaries);
   if (const std::size_t left = cut_at_walls(boundaries, scene.objects.diameter())) { audit.warnings.push_back(warning_of_uncut(left)); }
+  const std::uint64_t uncut_lamps = detail::faces_that_shine(boundaries, scene.emission);
   cut_long_faces(boundaries, options.min_area);
   scene.hierarchy = make_roots(boundaries, scene.budget.arrays);
   std::uint64_t faces = 0;
@@ -60,7 +97,15 @@ HALFLIGHT_INLINE std::optional<Failure> build(detail::Run& run) {
     ++faces;
     lamps += is_black(scene.emission[scene.hierarchy[i].surface]) ? 0 : 1;
   }
-  if (run.needs_links()) { run.rays = choose_rays(faces, lamps, options); }
+  if (run.needs_links()) { run.rays = choose_rays(faces, lamps, uncut_lamps, options); }
+  if (run.rays.many_lamps) {
+    scene.lamps = detail::choose_lamps(scene);
+    if (std::find(scene.lamps.begin(), scene.lamps.end(), true) != scene.lamps.end()) {
+      std::vector<double> exitance(scene.lamps.size(), 0.0);
+      for (std::size_t s = 0; s < exitance.size(); ++s) { exitance[s] = scene.lamps[s] ? brightest(scene.emission[s]) : 0.0; }
+      scene.hierarchy = make_lamp_clusters(boundaries, scene.hierarchy, exitance);
+    }
+  }
   run.clusters = run.rays.cast ? ClusterChoice{false, "between surfaces that do not shine light goes by stored rays"}
                                : choose_clusters(scene.hierarchy.size(), options);
   if (run.clusters.build) { scene.hierarchy = make_clusters(boundaries, scene.hierarchy); }

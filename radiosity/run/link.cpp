@@ -61,7 +61,11 @@ namespace stage {
 HALFLIGHT_INLINE std::optional<Failure> link(detail::Run& run) {
   DiscreteScene& scene = run.scene;
   if (run.f_refined()) {
-    if (run.clusters.build) { scene.shown = scene.exposed_shown(); }
+    if (run.solution.audit.clusters > 0) { scene.shown = scene.exposed_shown(); }
+    if (run.solution.audit.clusters > 0 && !scene.clustered()) {
+      scene.lamp_exchange.emplace(scene.view(), &scene.exposure, scene.shown);
+      scene.evaluator.use(*scene.lamp_exchange);
+    }
     run.evaluated = make_links({scene.evaluator, run.refined.occluders, scene.threads, scene.control},
                                std::exchange(run.refined.linked, {}), run.solution.links);
     if (run.evaluated.cancelled) { return detail::cancelled(); }

@@ -22,6 +22,7 @@ namespace stage {
 HALFLIGHT_INLINE std::optional<Failure> reconstruct(detail::Run& run) {
   DiscreteScene& scene = run.scene;
   const Options& options = run.options;
+  if (options.mesh_error) { run.leaf_faces = scene.surfaces; }
   const bool constant = options.reconstruction >= Reconstruction::constant;
   run.t_vertices = (!constant || !scene.plan.shortcuts) && eliminate_t_vertices(scene.surfaces) > 0;
   if (options.error && !scene.control.picture_error && run.f_refined()) {  // one step from E

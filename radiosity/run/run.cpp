@@ -49,6 +49,7 @@ HALFLIGHT_INLINE Mesh Run::picture(const std::vector<Color>& radiosity, Reconstr
 HALFLIGHT_INLINE Outcome Run::finish() {
   sum_times(solution.audit);
   to_scene(solution.mesh, scene.frame);
+  if (solution.refined) { to_scene(*solution.refined, scene.frame); }
   solution.hierarchy = std::move(scene.hierarchy);
   solution.area = scene.exposure.area;
   return {std::move(solution), {}};

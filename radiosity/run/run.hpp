@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/rays/ray_choice.hpp>
 #include <radiosity/rays/ray_links.hpp>
@@ -58,8 +59,9 @@ struct Run {
   EvaluateResult evaluated;
   double unseen = 0.0;  // part of the estimated error
   std::optional<Transport> transport;
-  bool t_vertices = false;     // some were eliminated
-  std::optional<Mesh> direct;  // of the light that was reflected once
+  bool t_vertices = false;          // some were eliminated
+  std::optional<Mesh> direct;       // of the light that was reflected once
+  std::vector<Surface> leaf_faces;  // before T-vertices were eliminated, when the mesh is to be refined
 };
 
 [[nodiscard]] inline std::optional<Failure> cancelled() {

@@ -26,7 +26,7 @@ namespace detail {
 HALFLIGHT_INLINE Outcome solve_at(const Scene& scene, const Options& options, const Control& control, const MemoryBudget& budget) {
   Run run{scene, options, control, budget};
   for (const auto next : {stage::build, stage::refine, stage::expose, stage::link, stage::solve, stage::compare_matrix, stage::reconstruct,
-                          stage::compare_picture, stage::summarise, stage::audit}) {
+                          stage::compare_picture, stage::refine_mesh, stage::summarise, stage::audit}) {
     if (std::optional<Failure> failure = next(run)) { return {std::nullopt, std::move(*failure)}; }
   }
   return run.finish();

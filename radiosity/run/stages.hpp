@@ -29,6 +29,8 @@ namespace stage {
 [[nodiscard]] std::optional<Failure> reconstruct(detail::Run& run);
 // and the mesh of the other reconstruction.
 [[nodiscard]] std::optional<Failure> compare_picture(detail::Run& run);
+// When asked for: a mesh in gathered light, split where that was not met by the mesh of the leaves.
+[[nodiscard]] std::optional<Failure> refine_mesh(detail::Run& run);
 // What the run did, what it held, and what it left out.
 [[nodiscard]] std::optional<Failure> summarise(detail::Run& run);
 // Measures the error of the solution by path tracing.
@@ -46,6 +48,7 @@ namespace stage {
 #include <radiosity/run/link.cpp>
 #include <radiosity/run/reconstruct.cpp>
 #include <radiosity/run/refine.cpp>
+#include <radiosity/run/refine_mesh.cpp>
 #include <radiosity/run/solve.cpp>
 #include <radiosity/run/summarise.cpp>
 #endif

@@ -16,8 +16,10 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/wall_cuts.hpp>
 #include <radiosity/matrix/dense.hpp>
+#include <radiosity/matrix/gather_lists.hpp>
 #include <radiosity/matrix/leaf_exchange.hpp>
 #include <radiosity/picture/reconstruct.hpp>
+#include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/comparison.hpp>
@@ -75,19 +77,28 @@ HALFLIGHT_INLINE std::optional<Failure> build_evenly(Run& run, const UniformOpti
   return std::nullopt;
 }
 
-// How many leaves there may be, and how much memory they may take.
-HALFLIGHT_INLINE std::optional<Failure> check_size(Run& run, const UniformOptions& options, const LeafExchange& exchange) {
-  const std::uint64_t n = exchange.size();
-  if (n > options.max_leaves) {
-    return Failure{Failure::Kind::invalid_options, {std::to_string(n) + " leaves; a larger max_area needs fewer"}};
+// How many leaves there may be, and how much memory they may take; `tables`: what the solver holds, in bytes.
+HALFLIGHT_INLINE std::optional<Failure> check_size(Run& run, const UniformOptions& options, std::uint64_t leaves, std::uint64_t tables) {
+  if (leaves > options.max_leaves) {
+    return Failure{Failure::Kind::invalid_options, {std::to_string(leaves) + " leaves; a larger max_area needs fewer"}};
   }
   MemoryBudget& budget = run.scene.budget;
-  budget.fixed = run.scene.objects.bytes() + exchange.bytes() + (options.solver == UniformSolver::gauss_seidel ? n * n * sizeof(float) : 0);
+  budget.fixed = run.scene.objects.bytes() + tables;
   if (!budget.allows({run.scene.hierarchy.size()})) {
     return Failure{Failure::Kind::out_of_memory,
                    {too_much_memory(budget.peak({run.scene.hierarchy.size()}), budget.allowed, "a larger max_area needs less")}};
   }
   return std::nullopt;
+}
+
+HALFLIGHT_INLINE void report(Run& run, const DenseSolution& solved) {
+  Audit& audit = run.solution.audit;
+  audit.iterations = static_cast<std::uint32_t>(solved.iterations);
+  audit.residual = solved.residual;
+  audit.converged = solved.converged;
+  audit.rays = solved.rays.cast;
+  audit.rays_avoided = solved.rays.avoided;
+  run.watch.lap("solve");
 }
 
 // Instead of links: all exchanges between leaves, kept in a matrix or made shot by shot.
@@ -113,14 +124,9 @@ HALFLIGHT_INLINE std::optional<Failure> solve_leaves(Run& run, const UniformOpti
     audit.links = solved.iterations * n;
   }
   if (scene.control.cancelled()) { return interrupted(); }
-  audit.iterations = static_cast<std::uint32_t>(solved.iterations);
-  audit.residual = solved.residual;
-  audit.converged = solved.converged;
-  audit.rays = solved.rays.cast;
-  audit.rays_avoided = solved.rays.avoided;
   run.solution.radiosity.assign(scene.hierarchy.size(), Color{0.0});
   for (std::size_t i = 0; i < n; ++i) { run.solution.radiosity[exchange.node(i)] = solved.radiosity[i]; }
-  run.watch.lap("solve");
+  report(run, solved);
   return std::nullopt;
 }
 
@@ -139,6 +145,32 @@ HALFLIGHT_INLINE std::optional<Failure> compare_leaves(Run& run, const UniformOp
   return std::nullopt;
 }
 
+HALFLIGHT_INLINE std::optional<Failure> solve_by_exchanges(Run& run, const UniformOptions& options) {
+  const DiscreteScene& scene = run.scene;
+  const LeafExchange exchange{scene};
+  const LeafMaterials leaves = leaf_materials(exchange, scene);
+  const std::uint64_t n = exchange.size(), matrix = options.solver == UniformSolver::gauss_seidel ? n * n * sizeof(float) : 0;
+  std::optional<Failure> failure = check_size(run, options, n, exchange.bytes() + matrix);
+  if (!failure) { failure = solve_leaves(run, options, exchange, leaves); }
+  if (!failure) { failure = compare_leaves(run, options, exchange, leaves); }
+  run.solution.audit.bytes += exchange.bytes();
+  return failure;
+}
+
+// Instead of exchanges: each leaf gathers over rays of its own.
+HALFLIGHT_INLINE std::optional<Failure> solve_by_lists(Run& run, const UniformOptions& options) {
+  const DiscreteScene& scene = run.scene;
+  const std::uint64_t n = exposed_leaves(scene.hierarchy, scene.exposure);
+  const std::uint64_t rays = n * options.lists.rays * (sizeof(StoredRay) + sizeof(std::uint32_t));
+  if (std::optional<Failure> failure = check_size(run, options, n, rays)) { return failure; }
+  DenseSolution solved = gather_by_lists(scene, options.lists, options.residual, 1000);
+  if (scene.control.cancelled()) { return interrupted(); }
+  run.solution.audit.links = solved.exchanges;
+  run.solution.radiosity = std::move(solved.radiosity);
+  report(run, solved);
+  return stage::compare_matrix(run);
+}
+
 // The pictures, as after links, but T-vertices are eliminated for all of them.
 HALFLIGHT_INLINE void reconstruct_leaves(Run& run) {
   eliminate_t_vertices(run.scene.surfaces);
@@ -153,19 +185,15 @@ HALFLIGHT_INLINE Outcome solve_uniform_in_unit(const Scene& scene, const Uniform
   const auto ended = [](std::optional<Failure>& failure) { return Outcome{std::nullopt, std::move(*failure)}; };
   std::optional<Failure> failure = build_evenly(run, options);
   if (failure) { return ended(failure); }
-  const DiscreteScene& cut = run.scene;
-  const LeafExchange exchange{cut};
-  const LeafMaterials leaves = leaf_materials(exchange, cut);
-  failure = check_size(run, options, exchange);
-  if (!failure) { failure = solve_leaves(run, options, exchange, leaves); }
-  if (!failure) { failure = compare_leaves(run, options, exchange, leaves); }
+  failure = options.solver == UniformSolver::gather_lists ? solve_by_lists(run, options) : solve_by_exchanges(run, options);
   if (failure) { return ended(failure); }
+  const DiscreteScene& cut = run.scene;
   reconstruct_leaves(run);
   (void)stage::compare_picture(run);
   Audit& audit = run.solution.audit;
   audit.nodes = cut.hierarchy.size();
-  audit.leaves = exchange.size();
-  audit.bytes += cut.hierarchy.capacity() * sizeof(Node) + exchange.bytes() + cut.bytes();
+  audit.leaves = exposed_leaves(cut.hierarchy, cut.exposure);
+  audit.bytes += cut.hierarchy.capacity() * sizeof(Node) + cut.bytes();
   return run.finish();
 }
 

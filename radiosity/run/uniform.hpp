@@ -2,25 +2,28 @@
 #pragma once
 
 // Radiosity as it was before the hierarchy: every input face is cut evenly, whatever the light does, and every leaf exchanges light
-// with every other, by a full matrix (Goral et al. 1984, here with Gauss-Seidel) or by shooting (Cohen et al. 1988). The
-// path to the solution is that of radiosity.hpp with other refinement and other solvers; the result has the same form.
+// with every other, by a full matrix (Goral et al. 1984, here with Gauss-Seidel) or by shooting (Cohen et al. 1988); or it gathers over
+// rays of its own, as a plain program would do (gather_lists.hpp). The path to the solution is that of radiosity.hpp with other refinement
+// and other solvers; the result has the same form.
 
 #include <cstdint>
 #include <optional>
 
+#include <radiosity/matrix/gather_lists.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
 
 namespace radiosity {
 
-enum class UniformSolver { gauss_seidel, progressive };
+enum class UniformSolver { gauss_seidel, progressive, gather_lists };
 
 struct UniformOptions {
   UniformSolver solver = UniformSolver::gauss_seidel;
   double max_area = 1e-3;            // largest leaf, relative to the total area of the scene
-  double residual = 1e-8;            // of Gauss-Seidel, relative to the emission
+  double residual = 1e-8;            // of Gauss-Seidel and gather_lists, relative to the emission
   double unshot = 1e-2;              // of shooting: power at which it ends, relative to the emitted power
+  ListEffort lists;                  // of gather_lists
   std::uint32_t max_leaves = 20000;  // more are refused: the matrix takes 4 bytes a pair
   Reconstruction reconstruction = Reconstruction::weighted;
   std::optional<std::uint32_t> compare;  // as in Options
@@ -29,7 +32,8 @@ struct UniformOptions {
   std::optional<std::uint64_t> memory;  // as in Options
 };
 
-// `links` of the audit counts the entries of the matrix, or the exchanges that were made and not kept. There is no error estimate.
+// `links` of the audit counts the entries of the matrix, the exchanges that were made and not kept, or the stored rays. There is no error
+// estimate.
 [[nodiscard]] Outcome solve_uniform(const Scene& scene, const UniformOptions& options, const Control& control = {});
 
 }  // namespace radiosity

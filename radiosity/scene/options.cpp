@@ -40,6 +40,13 @@ HALFLIGHT_INLINE std::vector<std::string> faults(const Options& options) {
     check("error", *options.error, *options.error > 0.0, "above 0");
     if (options.audit_points == 0) { sentences.emplace_back("an error target needs the audit as its witness; give it some points"); }
   }
+  if (options.mesh_error) {
+    check("mesh_error", *options.mesh_error, *options.mesh_error > 0.0, "above 0");
+    if (options.error) { sentences.emplace_back("an error target and a mesh error exclude each other; give one"); }
+    if (options.topology == Topology::separate || options.reconstruction >= Reconstruction::constant) {
+      sentences.emplace_back("a mesh error needs faces that share their vertices, and a reconstruction that is weighted or simple");
+    }
+  }
   return sentences;
 }
 

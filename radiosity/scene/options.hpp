@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 namespace raycast {
 class Scene;
 struct OtherCaster;
@@ -72,6 +74,10 @@ struct Options {
   // picture when Control::picture_error is given, else that over all surfaces.
   std::optional<double> error;
 
+  // The mesh is made once more in gathered light (picture/mesh_refiner.hpp), with faces split until its colours are off by at most this
+  // relative L2 error: Solution::refined. Needs faces that share their vertices, and colours at these.
+  std::optional<double> mesh_error;
+
   // Automatic: rays from some 100 input faces on.
   Indirect indirect = Indirect::automatic;
 
@@ -116,6 +122,14 @@ struct Options {
 // A sentence for every option that makes no sense; empty when a run can begin.
 [[nodiscard]] std::vector<std::string> faults(const Options& options);
 
+// A camera, for errors that count by its picture.
+struct Viewpoint {
+  glm::dvec3 eye{0.0};  // in the scene's coordinates, as all here
+  // How much of the picture a unit of area takes at a position with this normal, if nothing stands between; 0 for what is not in the
+  // picture.
+  std::function<double(const glm::dvec3& position, const glm::dvec3& normal)> share;
+};
+
 // How the caller watches and stops a run. `progress` is called from the thread that called solve().
 struct Control {
   // Once true the run ends soon: with the best solution that it has, which says so by audit.interrupted, or, when none is complete, without
@@ -133,9 +147,12 @@ struct Control {
   // is split. Nothing is kept for it: a run that nobody watches pays nothing.
   std::function<void(const Question&, Decision)> decided = {};
 
+  // With Options::mesh_error: the error of the mesh is that of its picture from here.
+  std::optional<Viewpoint> mesh_from = {};
+
   [[nodiscard]] bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
   // The same, but nothing stops the run.
-  [[nodiscard]] Control unstoppable() const { return {nullptr, progress, after_generation, picture_error, decided}; }
+  [[nodiscard]] Control unstoppable() const { return {nullptr, progress, after_generation, picture_error, decided, mesh_from}; }
   void report(std::string_view stage, double fraction) const {
     if (progress) { progress(stage, fraction); }
   }

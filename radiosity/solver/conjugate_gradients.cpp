@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <brep/union_find.hpp>
+
 #include <raycast/inline.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
@@ -29,19 +31,14 @@ struct Rooms {
 HALFLIGHT_INLINE Rooms rooms_of(const Channel& channel) {
   const Hierarchy& hierarchy = *channel.hierarchy;
   const std::size_t n = hierarchy.size();
+  const auto unknown = [&](std::size_t i) { return channel.counts(i) && channel.reflectance[i] > 0.0; };
   std::vector<std::uint32_t> root(n);
-  std::vector<std::uint32_t> up(n);  // of a root: towards the first root of its room
   std::vector<bool> reflects(n, false);
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t parent = hierarchy[i].parent;
     root[i] = parent == no_node || hierarchy[parent].is_cluster() ? i : root[parent];
-    up[i] = i;
-    if (channel.counts(i) && channel.reflectance[i] > 0.0) { reflects[root[i]] = true; }
+    if (unknown(i)) { reflects[root[i]] = true; }
   }
-  const auto first = [&](std::uint32_t i) {
-    while (up[i] != i) { i = up[i] = up[up[i]]; }
-    return i;
-  };
   for (std::size_t i = n; i-- > 0;) {  // a cluster reflects when anything in it does
     if (hierarchy[i].parent != no_node && reflects[root[i]]) { reflects[root[hierarchy[i].parent]] = true; }
   }
@@ -50,72 +47,101 @@ HALFLIGHT_INLINE Rooms rooms_of(const Channel& channel) {
   channel.transport->each_link([&](const Link& link) {
     for (const std::uint32_t i : {link.p, link.q}) { joined[i] = joined[i] || hierarchy[i].is_cluster(); }
   });
+  brep::detail::UnionFind sets(n);
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t parent = hierarchy[i].parent;
     if (parent == no_node || !joined[parent]) { continue; }
     joined[i] = hierarchy[i].is_cluster();
-    if (!reflects[i]) { continue; }
-    const std::uint32_t a = first(parent);
-    const std::uint32_t b = first(i);
-    up[std::max(a, b)] = std::min(a, b);
+    if (reflects[i]) { sets.unite(parent, i); }
   }
   channel.transport->each_link([&](const Link& link) {
-    const std::uint32_t p = root[link.p];
-    const std::uint32_t q = root[link.q];
-    if (!reflects[p] || !reflects[q]) { return; }
-    const std::uint32_t a = first(p);
-    const std::uint32_t b = first(q);
-    up[std::max(a, b)] = std::min(a, b);
+    if (reflects[root[link.p]] && reflects[root[link.q]]) { sets.unite(root[link.p], root[link.q]); }
   });
   Rooms rooms;
   rooms.of.assign(n, no_node);
   for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t room = first(root[i]);  // not after its members
+    const std::uint32_t room = sets.find(root[i]);  // not after its members
     if (rooms.of[room] == no_node) {
       rooms.of[room] = rooms.count++;
       rooms.weight.push_back(0.0);
     }
     rooms.of[i] = rooms.of[room];
-    if (channel.counts(i) && channel.reflectance[i] > 0.0) { rooms.weight[rooms.of[i]] += (*channel.area)[i] / channel.reflectance[i]; }
+    if (unknown(i)) { rooms.weight[rooms.of[i]] += (*channel.area)[i] / channel.reflectance[i]; }
   }
   return rooms;
 }
 
-HALFLIGHT_INLINE LinearSolution conjugate_gradients(const Channel& channel, double wanted, std::uint32_t max_iterations) {
-  const std::size_t n = channel.emission.size();
-  const std::vector<double>& area = *channel.area;
-  std::vector<double> weight(n, 0.0);  // A / rho where unknown, 0 where B = E is known
-  for (std::size_t i = 0; i < n; ++i) {
-    if (channel.counts(i) && channel.reflectance[i] > 0.0) { weight[i] = area[i] / channel.reflectance[i]; }
-  }
-  const auto inner = [&](const std::vector<double>& x, const std::vector<double>& y) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < n; ++i) { sum += weight[i] * x[i] * y[i]; }
-    return sum;
-  };
-  const auto apply = [&](const std::vector<double>& x, std::vector<double>& y) {  // y := x - rho H(x), the preconditioned system
-    channel.transport->apply(x, y);
-    for (std::size_t i = 0; i < n; ++i) { y[i] = weight[i] > 0.0 ? x[i] - y[i] / weight[i] : 0.0; }
-  };
-  const Rooms rooms = rooms_of(channel);
-  std::vector<double> constant(n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) { constant[i] = weight[i] > 0.0 ? 1.0 : 0.0; }
-  std::vector<double> image_of_constant;
-  apply(constant, image_of_constant);
-  // Of each room: the inner product of the image of the constant with x.
-  const auto along_constant = [&](const std::vector<double>& x, std::vector<double>& sums) {
-    sums.assign(rooms.count, 0.0);
+// The system x - rho H(x) of the leaves that reflect, in the inner product of weights A / rho, in which it is symmetric and positive
+// definite; and the constant of each room, which is taken out of the residual and of the steps (deflation).
+class DeflatedSystem {
+ public:
+  explicit DeflatedSystem(const Channel& channel) : channel_{channel}, weight_(channel.emission.size(), 0.0), rooms_{rooms_of(channel)} {
+    const std::size_t n = weight_.size();
+    std::vector<double> constant(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
-      if (weight[i] > 0.0) { sums[rooms.of[i]] += weight[i] * image_of_constant[i] * x[i]; }
+      if (!channel.counts(i) || !(channel.reflectance[i] > 0.0)) { continue; }
+      weight_[i] = (*channel.area)[i] / channel.reflectance[i];
+      constant[i] = 1.0;
     }
-  };
-  std::vector<double> stiffness;
-  std::vector<double> amount;
-  along_constant(constant, stiffness);
-  for (std::size_t k = 0; k < rooms.count; ++k) {  // what is not positive beyond rounding has no steady state, and is not deflated
-    if (!(stiffness[k] > 1e-14 * rooms.weight[k])) { stiffness[k] = std::numeric_limits<double>::infinity(); }
+    apply(constant, image_of_constant_);
+    stiffness_ = along_constants(constant);
+    for (std::size_t k = 0; k < rooms_.count; ++k) {  // what is not positive beyond rounding has no steady state, and is not deflated
+      if (!(stiffness_[k] > 1e-14 * rooms_.weight[k])) { stiffness_[k] = std::numeric_limits<double>::infinity(); }
+    }
   }
 
+  [[nodiscard]] double inner(const std::vector<double>& x, const std::vector<double>& y) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) { sum += weight_[i] * x[i] * y[i]; }
+    return sum;
+  }
+
+  // y := x - rho H(x), the preconditioned system.
+  void apply(const std::vector<double>& x, std::vector<double>& y) const {
+    channel_.transport->apply(x, y);
+    for (std::size_t i = 0; i < x.size(); ++i) { y[i] = weight_[i] > 0.0 ? x[i] - y[i] / weight_[i] : 0.0; }
+  }
+
+  // Adds to b the constant of each room after which the residual r has no part along it.
+  void correct(std::vector<double>& b, std::vector<double>& r) const {
+    std::vector<double> amount(rooms_.count, 0.0);
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (weight_[i] > 0.0) { amount[rooms_.of[i]] += weight_[i] * r[i]; }
+    }
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (!(weight_[i] > 0.0)) { continue; }
+      b[i] += amount[rooms_.of[i]] / stiffness_[rooms_.of[i]];
+      r[i] -= amount[rooms_.of[i]] / stiffness_[rooms_.of[i]] * image_of_constant_[i];
+    }
+  }
+
+  // The next direction: the residual without its part along the constants, and `along` times the last one.
+  void turn(std::vector<double>& step, const std::vector<double>& r, double along) const {
+    const std::vector<double> amount = along_constants(r);
+    step.resize(r.size(), 0.0);
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      step[i] = (weight_[i] > 0.0 ? r[i] - amount[rooms_.of[i]] / stiffness_[rooms_.of[i]] : 0.0) + along * step[i];
+    }
+  }
+
+ private:
+  // Of each room: the inner product of the image of its constant with x.
+  [[nodiscard]] std::vector<double> along_constants(const std::vector<double>& x) const {
+    std::vector<double> sums(rooms_.count, 0.0);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (weight_[i] > 0.0) { sums[rooms_.of[i]] += weight_[i] * image_of_constant_[i] * x[i]; }
+    }
+    return sums;
+  }
+
+  const Channel& channel_;
+  std::vector<double> weight_;  // A / rho where unknown, 0 where B = E is known
+  Rooms rooms_;
+  std::vector<double> image_of_constant_, stiffness_;
+};
+
+HALFLIGHT_INLINE LinearSolution conjugate_gradients(const Channel& channel, double wanted, std::uint32_t max_iterations) {
+  const DeflatedSystem system(channel);
   std::vector<double> b(channel.emission);
   std::vector<double> r;
   std::vector<double> step;
@@ -123,18 +149,9 @@ HALFLIGHT_INLINE LinearSolution conjugate_gradients(const Channel& channel, doub
   Progress progress{channel.norm(b), b};
   double square = 0.0;
   for (std::uint32_t iteration = 0;; ++iteration) {
-    // The true residual is formed every 16 steps; rounding in the recurrence does not build up.
-    if (iteration % 16 == 0) {
+    if (iteration % 16 == 0) {  // the true residual, so that rounding in the recurrence does not build up
       channel.residual(b, r);
-      amount.assign(rooms.count, 0.0);
-      for (std::size_t i = 0; i < n; ++i) {
-        if (weight[i] > 0.0) { amount[rooms.of[i]] += weight[i] * r[i]; }
-      }
-      for (std::size_t i = 0; i < n; ++i) {
-        if (!(weight[i] > 0.0)) { continue; }
-        b[i] += amount[rooms.of[i]] / stiffness[rooms.of[i]];
-        r[i] -= amount[rooms.of[i]] / stiffness[rooms.of[i]] * image_of_constant[i];
-      }
+      system.correct(b, r);
     }
     const double norm = channel.norm(r);
     progress.offer(b, norm);
@@ -142,21 +159,16 @@ HALFLIGHT_INLINE LinearSolution conjugate_gradients(const Channel& channel, doub
         iteration == max_iterations) {
       return finish(channel, std::move(progress), iteration, wanted);
     }
-    const double next_square = inner(r, r);
-    const double along = step.empty() ? 0.0 : next_square / square;
-    along_constant(r, amount);
-    step.resize(n, 0.0);
-    for (std::size_t i = 0; i < n; ++i) {
-      step[i] = (weight[i] > 0.0 ? r[i] - amount[rooms.of[i]] / stiffness[rooms.of[i]] : 0.0) + along * step[i];
-    }
+    const double next_square = system.inner(r, r);
+    system.turn(step, r, step.empty() ? 0.0 : next_square / square);
     square = next_square;
-    apply(step, image);
-    const double curvature = inner(step, image);
+    system.apply(step, image);
+    const double curvature = system.inner(step, image);
     if (!(curvature > 0.0)) {  // rho times a row sum is 1 or more: there is no steady state
       return finish(channel, std::move(progress), iteration, wanted);
     }
     const double length = square / curvature;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < b.size(); ++i) {
       b[i] += length * step[i];
       r[i] -= length * image[i];
     }

@@ -220,7 +220,7 @@ HALFLIGHT_INLINE void Transport::hand_out_from_cluster(std::size_t i) {
 }
 
 HALFLIGHT_INLINE double Transport::sent_by(std::uint32_t i, const EndShape& shape) {
-  if (!is_cluster(i)) { return sent_[i].value; }
+  if (!is_cluster(i)) { return sent_[i].value + glm::dot(shape.gradient(), sent_[i].slope); }
   const Aim at = aim(shape.direction_over_shown());
   const double* const from = bins(sent_bins_, i);
   return at.weight[0] * from[at.direction[0]] + at.weight[1] * from[at.direction[1]] + at.weight[2] * from[at.direction[2]];
@@ -229,6 +229,7 @@ HALFLIGHT_INLINE double Transport::sent_by(std::uint32_t i, const EndShape& shap
 HALFLIGHT_INLINE void Transport::arrive_at(std::uint32_t i, const EndShape& shape, double power) {
   if (!is_cluster(i)) {
     arrived_[i].value += power;
+    arrived_[i].slope += power * shape.gradient();
     return;
   }
   const Aim at = aim(shape.direction_over_shown());

@@ -8,9 +8,6 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
-#include <numeric>
-#include <optional>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,6 +18,7 @@
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>
 #include <brep/handles.hpp>
+#include <brep/union_find.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
@@ -30,13 +28,11 @@
 
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/visibility/edge_sum.hpp>
 
 namespace radiosity {
 
 namespace detail {
-
-inline constexpr double enclosure_slack = 1e-9;  // of the scene
-inline constexpr std::size_t most_enclosure_parts = 1000;
 
 // A convex face.
 struct FrontFace {
@@ -55,74 +51,6 @@ HALFLIGHT_INLINE void add_fronts(const Surface& surface, std::uint32_t object, s
     if (length > 0.0) { faces.push_back({std::move(contour), area / length, object}); }
   }
 }
-
-// Sums up the edges of faces with their direction; what does not cancel is the border.
-class EdgeSum {
- public:
-  void add(std::span<const glm::dvec3> contour) {
-    for (std::size_t i = 0; i < contour.size(); ++i) { add(corner(contour[i]), corner(contour[(i + 1) % contour.size()])); }
-  }
-  // Corners of the same number are one.
-  [[nodiscard]] std::uint32_t corner(const glm::dvec3& p) {
-    const auto [at, is_new] = corners_.try_emplace(
-        {std::llround(std::ldexp(p.x, 30)), std::llround(std::ldexp(p.y, 30)), std::llround(std::ldexp(p.z, 30))}, positions_.size());
-    if (is_new) { positions_.push_back(p); }
-    return static_cast<std::uint32_t>(at->second);
-  }
-  using Edge = std::array<std::uint32_t, 2>;
-  // The edges of which a part does not cancel, when each is cut at the corners of others that lie on it; nothing when there are too many to
-  // look at.
-  [[nodiscard]] std::optional<std::set<Edge>> border() const {
-    std::vector<std::pair<Edge, int>> rest;
-    std::vector<std::uint32_t> ends;
-    for (const auto& [edge, times] : times_) {
-      if (times == 0) { continue; }
-      rest.push_back({edge, times});
-      ends.insert(ends.end(), edge.begin(), edge.end());
-    }
-    if (rest.size() > most_enclosure_parts) { return {}; }
-    EdgeSum pieces;
-    std::map<Edge, std::vector<Edge>> owners;
-    for (const auto& [edge, times] : rest) {
-      const glm::dvec3 a = positions_[edge[0]];
-      const glm::dvec3 along = positions_[edge[1]] - a;
-      const double square = glm::dot(along, along);
-      std::vector<std::pair<double, std::uint32_t>> on{{0.0, edge[0]}, {1.0, edge[1]}};
-      for (const std::uint32_t c : ends) {
-        const double t = glm::dot(positions_[c] - a, along) / square;
-        if (c == edge[0] || c == edge[1] || t <= 0.0 || t >= 1.0) { continue; }
-        if (glm::length(positions_[c] - a - t * along) <= enclosure_slack) { on.push_back({t, c}); }
-      }
-      std::sort(on.begin(), on.end());
-      on.erase(std::unique(on.begin(), on.end()), on.end());
-      for (std::size_t k = 1; k < on.size(); ++k) {
-        pieces.add(on[k - 1].second, on[k].second, times);
-        owners[between(on[k - 1].second, on[k].second)].push_back(edge);
-      }
-    }
-    std::set<Edge> border;
-    for (const auto& [piece, times] : pieces.times_) {
-      if (times != 0) { border.insert(owners[piece].begin(), owners[piece].end()); }
-    }
-    return border;
-  }
-  [[nodiscard]] bool touches(const std::set<Edge>& border, std::span<const glm::dvec3> contour) {
-    for (std::size_t i = 0; i < contour.size(); ++i) {
-      if (border.contains(between(corner(contour[i]), corner(contour[(i + 1) % contour.size()])))) { return true; }
-    }
-    return false;
-  }
-
- private:
-  static Edge between(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
-  void add(std::uint32_t a, std::uint32_t b, int times = 1) {
-    if (a != b) { times_[between(a, b)] += a < b ? times : -times; }
-  }
-
-  std::map<std::array<long long, 3>, std::size_t> corners_;
-  std::vector<glm::dvec3> positions_;
-  std::map<Edge, int> times_;
-};
 
 // Does an edge of `a` pass through the inside of `b`? What touches does not.
 [[nodiscard]] HALFLIGHT_INLINE bool pierces(const FrontFace& a, const FrontFace& b) {
@@ -210,8 +138,8 @@ class EdgeSum {
 
 // One face of each set of faces that hang together by edges of which each belongs to two faces.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<std::size_t> one_of_each_part(const std::vector<FrontFace>& faces, EdgeSum& corners) {
-  std::map<std::array<std::uint32_t, 2>, std::vector<std::size_t>> of_edge;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
+  std::map<std::array<std::uint32_t, 2>, std::vector<std::uint32_t>> of_edge;
+  for (std::uint32_t i = 0; i < faces.size(); ++i) {
     const Polygon& contour = faces[i].contour;
     for (std::size_t k = 0; k < contour.size(); ++k) {
       const std::uint32_t a = corners.corner(contour[k]);
@@ -219,21 +147,13 @@ class EdgeSum {
       of_edge[{std::min(a, b), std::max(a, b)}].push_back(i);
     }
   }
-  std::vector<std::size_t> up(faces.size());
-  std::iota(up.begin(), up.end(), std::size_t{0});
-  const auto first = [&](std::size_t i) {
-    while (up[i] != i) { i = up[i] = up[up[i]]; }
-    return i;
-  };
+  brep::detail::UnionFind sets(faces.size());
   for (const auto& [edge, of] : of_edge) {
-    if (of.size() != 2) { continue; }
-    const std::size_t a = first(of[0]);
-    const std::size_t b = first(of[1]);
-    up[std::max(a, b)] = std::min(a, b);
+    if (of.size() == 2) { sets.unite(of[0], of[1]); }
   }
   std::vector<std::size_t> parts;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (up[i] == i) { parts.push_back(i); }
+  for (std::uint32_t i = 0; i < faces.size(); ++i) {
+    if (sets.find(i) == i) { parts.push_back(i); }
   }
   return parts;
 }
@@ -278,6 +198,63 @@ HALFLIGHT_INLINE bool lies_on(const Surface& surface, const std::vector<const Su
   return true;
 }
 
+namespace detail {
+
+HALFLIGHT_INLINE std::vector<FrontFace> fronts_of(const std::vector<Surface>& surfaces, const std::vector<std::uint32_t>& objects) {
+  std::vector<FrontFace> faces;
+  for (const std::uint32_t o : objects) { add_fronts(surfaces[o], o, faces); }
+  return faces;
+}
+
+HALFLIGHT_INLINE EdgeSum edges_of(const std::vector<FrontFace>& faces) {
+  EdgeSum sum;
+  for (const FrontFace& face : faces) { sum.add(face.contour); }
+  return sum;
+}
+
+// Faces without a border that are all or nearly all of these sheets; those at a border may lie on the others. Empty when there are none.
+HALFLIGHT_INLINE std::vector<FrontFace> closed_walls(const std::vector<Surface>& surfaces, const std::vector<std::uint32_t>& sheets) {
+  std::vector<FrontFace> faces = fronts_of(surfaces, sheets);
+  if (faces.size() < 4) { return {}; }
+  EdgeSum sum = edges_of(faces);
+  const auto border = sum.border();
+  if (!border) { return {}; }
+  if (border->empty()) { return faces; }
+  std::vector<std::uint32_t> walls;
+  std::vector<std::uint32_t> others;
+  for (const std::uint32_t o : sheets) {
+    const auto of_object = [&](const FrontFace& face) { return face.object == o && sum.touches(*border, face.contour); };
+    (std::any_of(faces.begin(), faces.end(), of_object) ? others : walls).push_back(o);
+  }
+  if (others.size() > 64) { return {}; }
+  std::vector<const Surface*> behind;
+  for (const std::uint32_t o : walls) { behind.push_back(&surfaces[o]); }
+  if (!std::all_of(others.begin(), others.end(), [&](std::uint32_t o) { return lies_on(surfaces[o], behind); })) { return {}; }
+  faces = fronts_of(surfaces, walls);
+  const auto rest = edges_of(faces).border();
+  if (faces.size() < 4 || !rest || !rest->empty()) { return {}; }
+  return faces;
+}
+
+// Does a solid lie within the walls, on or before them? Then its faces, or those of its bounds, are added to `all`.
+HALFLIGHT_INLINE bool add_within(const Surface& solid, std::uint32_t number, std::span<const FrontFace> walls,
+                                 std::vector<FrontFace>& all) {
+  std::vector<FrontFace> own;
+  if (solid.object->flat()) { add_fronts(solid, number, own); }
+  if (own.empty() || own.size() > 100) { own = faces_of_box(solid.object->bounds(), number); }
+  double most = 0.0;
+  for (const FrontFace& face : own) {
+    const double around = winding(walls, middle_of(face));
+    if (around < 0.49) { return false; }
+    most = std::max(most, around);
+  }
+  if (most < 0.99) { return false; }
+  all.insert(all.end(), own.begin(), own.end());
+  return true;
+}
+
+}  // namespace detail
+
 HALFLIGHT_INLINE bool enclosed_by_sheets(const std::vector<Surface>& surfaces) {
   std::vector<std::uint32_t> sheets;
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
@@ -286,61 +263,21 @@ HALFLIGHT_INLINE bool enclosed_by_sheets(const std::vector<Surface>& surfaces) {
     if (!surfaces[o].object->flat()) { return false; }
     sheets.push_back(o);
   }
-  const auto faces_of = [&](const std::vector<std::uint32_t>& objects) {
-    std::vector<detail::FrontFace> faces;
-    for (const std::uint32_t o : objects) { detail::add_fronts(surfaces[o], o, faces); }
-    return faces;
-  };
-  const auto sum_of = [](const std::vector<detail::FrontFace>& faces) {
-    detail::EdgeSum sum;
-    for (const detail::FrontFace& face : faces) { sum.add(face.contour); }
-    return sum;
-  };
-  std::vector<detail::FrontFace> faces = faces_of(sheets);
-  if (faces.size() < 4) { return false; }
-  detail::EdgeSum sum = sum_of(faces);
-  auto border = sum.border();
-  if (!border) { return false; }
-  if (!border->empty()) {  // what has a border may lie on a wall
-    std::vector<std::uint32_t> walls;
-    std::vector<std::uint32_t> others;
-    for (const std::uint32_t o : sheets) {
-      const auto of_object = [&](const detail::FrontFace& face) { return face.object == o && sum.touches(*border, face.contour); };
-      (std::any_of(faces.begin(), faces.end(), of_object) ? others : walls).push_back(o);
-    }
-    if (others.size() > 64) { return false; }
-    std::vector<const Surface*> behind;
-    for (const std::uint32_t o : walls) { behind.push_back(&surfaces[o]); }
-    if (!std::all_of(others.begin(), others.end(), [&](std::uint32_t o) { return lies_on(surfaces[o], behind); })) { return false; }
-    faces = faces_of(walls);
-    sum = sum_of(faces);
-    border = sum.border();
-    if (faces.size() < 4 || !border || !border->empty()) { return false; }
-  }
-  const std::vector<std::size_t> parts = detail::one_of_each_part(faces, sum);
+  const std::vector<detail::FrontFace> walls = detail::closed_walls(surfaces, sheets);
+  if (walls.empty()) { return false; }
+  detail::EdgeSum corners = detail::edges_of(walls);
+  const std::vector<std::size_t> parts = detail::one_of_each_part(walls, corners);
   if (parts.size() > detail::most_enclosure_parts) { return false; }
-  const std::span<const detail::FrontFace> walls{faces};
   for (const std::size_t part : parts) {
-    if (std::abs(detail::winding(walls, detail::middle_of(faces[part])) - 0.5) > 0.01) { return false; }
+    if (std::abs(detail::winding(walls, detail::middle_of(walls[part])) - 0.5) > 0.01) { return false; }
   }
-  std::vector<detail::FrontFace> all = faces;
+  std::vector<detail::FrontFace> all = walls;
   std::size_t looked_at = 0;
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
     if (!surfaces[o].object->solid()) { continue; }
-    if (++looked_at > detail::most_enclosure_parts) { return false; }
-    std::vector<detail::FrontFace> own;
-    if (surfaces[o].object->flat()) { detail::add_fronts(surfaces[o], o, own); }
-    if (own.empty() || own.size() > 100) { own = detail::faces_of_box(surfaces[o].object->bounds(), o); }
-    double most = 0.0;
-    for (const detail::FrontFace& face : own) {
-      const double around = detail::winding(walls, detail::middle_of(face));
-      if (around < 0.49) { return false; }
-      most = std::max(most, around);
-    }
-    if (most < 0.99) { return false; }
-    all.insert(all.end(), own.begin(), own.end());
+    if (++looked_at > detail::most_enclosure_parts || !detail::add_within(surfaces[o], o, walls, all)) { return false; }
   }
-  return !detail::any_crossing(all, faces.size());
+  return !detail::any_crossing(all, walls.size());
 }
 
 }  // namespace radiosity

@@ -129,9 +129,18 @@ class CellCounts {
                            [&](const glm::dvec3& a, const glm::dvec3& b) { return height(a) < height(b); });
 }
 
+// Does what is highest of each patch above the other see each other? For patches of which no sample is above both horizons.
+[[nodiscard]] HALFLIGHT_INLINE bool highest_corners_clear(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p,
+                                                          const PatchEnd& q) {
+  const glm::dvec3 x = highest_corner(*p.patch, *q.patch);
+  raycast::Segments16 segment;
+  segment.set(0, {x, highest_corner(*q.patch, *p.patch) - x}, p.object, q.object, p.sheet, q.sheet);
+  std::uint32_t last_occluder = raycast::no_shape;
+  return scene.objects.occluded16(segment, list, last_occluder) == 0;
+}
+
 HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p,
-                                               const PatchEnd& q, std::uint32_t rounds, Random random,
-                                               std::vector<CastSegment>* seen) {
+                                               const PatchEnd& q, std::uint32_t rounds, Random random, std::vector<CastSegment>* seen) {
   VisibilityEstimate estimate;
   estimate.proven = list.clear();
   if (scene.plan.shortcuts && estimate.proven) {
@@ -182,11 +191,7 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const ray
     estimate.fraction = arrived / total;
     return estimate;
   }
-  // No sample is above both horizons: what is highest above them decides.
-  const glm::dvec3 x = highest_corner(*p.patch, *q.patch);
-  raycast::Segments16 segment;
-  segment.set(0, {x, highest_corner(*q.patch, *p.patch) - x}, p.object, q.object, p.sheet, q.sheet);
-  estimate.fraction = scene.objects.occluded16(segment, known, last_occluder) != 0 ? 0.0 : 1.0;
+  estimate.fraction = highest_corners_clear(scene, known, p, q) ? 1.0 : 0.0;
   ++estimate.rays.cast;
   return estimate;
 }

@@ -12,12 +12,12 @@
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/options.hpp>
 
+#include "apps/checksum.hpp"
 #include "apps/gather_picture.hpp"
 #include "apps/light_file.hpp"
 #include "apps/picture.hpp"
 #include "apps/program.hpp"
 #include "apps/scene_file.hpp"
-#include "apps/study/checksum.hpp"
 
 namespace {
 
@@ -99,7 +99,7 @@ TEST_CASE("a damaged light file is refused, and one of wrong numbers under a rig
     const std::size_t at = body + (turn < 100 ? random() % 24 : random() % (changed.size() - body - 4));
     const auto word = static_cast<std::uint32_t>(random());
     std::memcpy(changed.data() + at, &word, sizeof(word));
-    study::Checksum sum;
+    apps::Checksum sum;
     sum.add(changed);
     const auto read = apps::read_light_file(changed + sum.text(), scene);
     if (turn < 100) { CHECK_FALSE(read.light); }  // the counts

@@ -87,7 +87,7 @@ TEST_CASE("lightmap: each face has its own light up to its borders, flat or curv
   const apps::SceneFile file = model_of(text.str());
   const radiosity::Solution solution = solution_of(file.scene);
   for (const double texel : {0.02, 0.3}) {
-    apps::ExportMesh mesh = apps::solution_mesh(file, solution);
+    apps::ExportMesh mesh = apps::solution_mesh(file, solution, solution.mesh);
     const auto texture = apps::solution_texture(solution, {}, texel, mesh);
     REQUIRE(texture);
     REQUIRE(mesh.coordinates.size() == mesh.corners.size());
@@ -106,7 +106,7 @@ TEST_CASE("lightmap: the finer its texels, the closer to the light of the mesh, 
   const radiosity::Solution solution = solution_of(file.scene);
   std::vector<double> off;
   for (const double texel : {0.04, 0.01}) {
-    apps::ExportMesh mesh = apps::solution_mesh(file, solution);
+    apps::ExportMesh mesh = apps::solution_mesh(file, solution, solution.mesh);
     const auto texture = apps::solution_texture(solution, {}, texel, mesh);
     REQUIRE(texture);
     std::mt19937 random(7);

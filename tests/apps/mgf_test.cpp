@@ -2,6 +2,7 @@
 // MGF: entities, contexts, transforms with copies, and what light it makes.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <random>
 #include <string>
@@ -15,6 +16,7 @@
 #include "apps/intake/mgf_color.hpp"
 #include "apps/models.hpp"
 #include "catch.hpp"
+#include "radiosity/polygon_soup.hpp"
 
 namespace {
 
@@ -196,10 +198,42 @@ TEST_CASE("mgf: included files are placed, know what is defined, and are told wh
   CHECK(models::error("a.mgf", "o x\ni bad.mgf\n", files) == ":2:3: error: in bad.mgf:2:4: error: expected a number, found 'x'");
 }
 
+// The area of a face with holes is that of its outline without theirs, whichever way round they are given.
+TEST_CASE("mgf: faces have holes") {
+  for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+    const auto vertex = [](const std::string& name, double x, double y) {
+      return "v " + name + " =\n p " + std::to_string(x) + " 0 " + std::to_string(y) + "\n";
+    };
+    std::string text = "sides 1\n" + vertex("a", 0, 0) + vertex("b", 9, 0) + vertex("c", 9, 3) + vertex("d", 0, 3), face = "fh a b c d";
+    double left = 27.0;
+    const int holes = 1 + static_cast<int>(seed);
+    for (int k = 0; k < holes; ++k) {  // rectangles beside each other
+      const double x = 0.2 + 9.0 * k / holes, y = number(0.1, 1.0), width = number(0.2, 9.0 / holes - 0.4), height = number(0.3, 1.8);
+      const std::string n = std::to_string(k);
+      const auto exact = [](double v) { return std::stod(std::to_string(v)); };
+      text +=
+          vertex("e" + n, x, y) + vertex("f" + n, x, y + height) + vertex("g" + n, x + width, y + height) + vertex("h" + n, x + width, y);
+      face += random() % 2 == 0 ? " - e" + n + " f" + n + " g" + n + " h" + n : " - h" + n + " g" + n + " f" + n + " e" + n;
+      left -= (exact(x + width) - exact(x)) * (exact(y + height) - exact(y));
+    }
+    const apps::SceneFile file = models::scene("a.mgf", text + face + "\n");
+    std::vector<radiosity::SceneObject> faces;  // without the studio around them
+    std::copy_if(file.scene.objects.begin(), file.scene.objects.end(), std::back_inserter(faces),
+                 [](const radiosity::SceneObject& object) { return object.name.starts_with("mgf"); });
+    CHECK(soup::measure(faces).area == Approx(left).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("mgf: what is wrong is told with its place, what is not read is told") {
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"v a =\n p 0 0\n", ":2:7: error: expected a number, found the end of the line"},
       {square + "f a b\n", ":9:6: error: a face has at least three vertices"},
+      {square + "fh a b c - d\n", ":9:13: error: a face, and each of its holes, has at least three vertices"},
+      {square + "fh a b c d -\n", ":9:13: error: a face, and each of its holes, has at least three vertices"},
+      {square + "fh a b c - a b e\n", ":9:16: error: there is no vertex 'e'"},
       {square + "f a b e\n", ":9:7: error: there is no vertex 'e'"},
       {"m x = y\n", ":1:7: error: there is no material 'y'"},
       {"xf -t 1 1 1\n", ":1:1: error: this xf is not ended by one without arguments"},

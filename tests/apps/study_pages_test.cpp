@@ -9,7 +9,7 @@
 #include <map>
 #include <sstream>
 
-#include "apps/study/base64.hpp"
+#include "apps/bytes.hpp"
 #include "apps/study/error_picture.hpp"
 #include "apps/study/outcome.hpp"
 #include "apps/study/page.hpp"
@@ -239,6 +239,7 @@ TEST_CASE("the scale of error pictures holds 98 % of the cells and is 1, 2 or 5 
 }
 
 TEST_CASE("base64 as in RFC 4648") {
+  using apps::base64;
   CHECK(base64("").empty());
   CHECK(base64("f") == "Zg==");
   CHECK(base64("fo") == "Zm8=");

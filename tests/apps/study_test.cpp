@@ -262,7 +262,7 @@ TEST_CASE("halflight study: every method at six settings or more, the parts of a
   CHECK(noise > 0.0);
   CHECK(scene["methods"].size() >= 6);
   for (const std::string name : {"hierarchical F", "F, clusters", "hierarchical BF", "BF, clusters", "BF, accuracy target",
-                                 "BF, accuracy target, clusters", "F, separate polygons"}) {
+                                 "BF, accuracy target, clusters", "F, separate polygons", "plain program"}) {
     CAPTURE(name);
     const auto& all = scene["methods"].array();
     CHECK(std::count_if(all.begin(), all.end(), [&](const json::Value& method) { return method["name"].string() == name; }) == 1);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -114,4 +115,53 @@ TEST_CASE("textures: of OBJ and glTF they count times their factors, wherever th
   CHECK(near(*gltf.materials[1].reflectance, wood.mean * radiosity::Color(0.5, 1, 1)));
   CHECK_FALSE(gltf.materials[2].reflectance);
   CHECK(models::noted(gltf.notes, "textures are not read: the base colour factor stands for the picture"));
+}
+
+TEST_CASE("textures: of VRML they count times the diffuse colour until the next one, from files and from pixels of each kind") {
+  const Painted wood = painted(9, 6, 5);
+  const auto linear = [](double level) {
+    const double v = level / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  };
+  const std::string head = "#VRML V1.0 ascii\n";
+  const apps::Model model =
+      models::read("a.wrl",
+                   head +
+                       "Material { diffuseColor 0.5 1 0.25 } Cube { } Separator { Texture2 { filename \"wood.png\" } Cube { } } Cube { }\n"
+                       "Texture2 { image 2 1 3 0xFF8000 0x0040ff } Cube { }\n"
+                       "Texture2 { image 1 2 1 0x80 0x20 } Cube { }\n"
+                       "Texture2 { image 2 1 2 0x80ff 0xff00 } Cube { }\n"
+                       "Texture2 { image 1 1 4 0x80402080 } Cube { }\n"
+                       "Texture2 { } Cube { }\n",
+                   {{"wood.png", wood.file}});
+  const radiosity::Color diffuse(0.5, 1.0, 0.25);
+  const auto grey = [&](double level) { return radiosity::Color(linear(level)); };
+  const std::vector<radiosity::Color> expected{
+      radiosity::Color(1.0),
+      wood.mean,
+      radiosity::Color(1.0),
+      0.5 * radiosity::Color(linear(255) + linear(0), linear(128) + linear(64), linear(0) + linear(255)),
+      0.5 * (grey(128) + grey(32)),
+      grey(128),
+      {linear(128), linear(64), linear(32)},
+      radiosity::Color(1.0)};
+  REQUIRE(model.objects.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    INFO("cube " << i);
+    CHECK(near(*model.materials[model.objects[i].material[0]].reflectance, diffuse * expected[i]));
+  }
+  CHECK(models::noted(model.notes, "pictures on surfaces count with their mean colour"));
+
+  // What is wrong with a picture is told, and the diffuse colour stands for it.
+  for (const std::string field :
+       {"filename \"lost.png\"", "filename \"http://a/b.png\"", "image 1 1 5 7", "image 1 1 0 0", "image 1 1 1 256", "image 1 1 1 -1",
+        "image 1 1 3 0.5", "image 1 1 2 0xff00", "image -1 -1 1 3", "image 0.5 2 1 3"}) {
+    INFO(field);
+    const apps::Model wrong = models::read("a.wrl", head + "Texture2 { " + field + " } Cube { }");
+    CHECK(near(*wrong.materials.at(0).reflectance, radiosity::Color(0.8)));
+    CHECK(models::noted(wrong.notes, "textures are not read: the diffuse colour stands for the picture"));
+  }
+  CHECK(models::error("a.wrl", head + "Texture2 { image 2 1 1 0xFF } Cube { }").find("expected a number for 'image'") != std::string::npos);
+  CHECK(models::error("a.wrl", head + "Texture2 { image 1e300 1e300 1 0 } Cube { }").find("expected a number for 'image'") !=
+        std::string::npos);
 }

@@ -13,12 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "apps/checksum.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/intake/to_scene.hpp"
 #include "apps/light_file.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/scene_file.hpp"
-#include "apps/study/checksum.hpp"
 
 #include <brep/builder_input.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -69,7 +69,7 @@ void read_as_light(std::string_view body) {
     return file.substr(0, file.size() - 3 * 8 - 16);  // without counts and checksum
   }();
   const auto signed_file = [](std::string bytes) {
-    study::Checksum checksum;
+    apps::Checksum checksum;
     checksum.add(bytes);
     return bytes + checksum.text();
   };

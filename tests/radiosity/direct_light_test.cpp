@@ -16,6 +16,7 @@
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/cone.hpp>
 #include <raycast/objects/cylinder.hpp>
+#include <raycast/objects/mesh.hpp>
 #include <raycast/objects/polygon.hpp>
 #include <raycast/objects/sphere.hpp>
 #include <raycast/objects/torus.hpp>
@@ -182,6 +183,40 @@ TEST_CASE("direct light: shadows are those of segments, whatever stands between"
     const double own = (region.rays() > 0 ? 2.0 / 64.0 * open : 0.0) + 1e-9;
     CHECK(found >= truth.mean - 6.0 * truth.error - own);
     CHECK(found <= most.mean + 6.0 * most.error + own);
+  }
+}
+
+// One object of more faces than an occluder list holds: it is known face by face all the same, and the share of the lamp that is seen past
+// them has no noise.
+TEST_CASE("direct light: an object of many faces is cut out of the lamp, too", "[direct]") {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    CAPTURE(seed);
+    radiosity::Random random{seed, 0};
+    constexpr int side = 18;
+    std::vector<glm::dvec3> positions;
+    std::vector<std::vector<std::uint32_t>> faces;
+    for (int j = 0; j < side; ++j) {
+      for (int i = 0; i < side; ++i) {  // two of three cells of a grid, each a square that faces down
+        if (random.uniform() > 2.0 / 3.0) { continue; }
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        const double x = -0.63 + 0.07 * i, y = -0.63 + 0.07 * j;
+        for (const glm::dvec3& p : {glm::dvec3{x, y, 0.7}, {x, y + 0.06, 0.7}, {x + 0.06, y + 0.06, 0.7}, {x + 0.06, y, 0.7}}) {
+          positions.push_back(p);
+        }
+        faces.push_back({first, first + 1, first + 2, first + 3});
+      }
+    }
+    Scene scene = floor_under_lamp(0.9);
+    scene.objects.push_back(scenes::object("grid", raycast::Mesh::make(positions, faces).object, 0));
+    const World world{scene};
+    for (int k = 0; k < 5; ++k) {
+      const glm::dvec3 x{0.2 * random.uniform() - 0.1, 0.2 * random.uniform() - 0.1, 0.0};
+      auto region = world.region(x, 0.01);
+      const Estimate segments = by_segments(world, x, 0.9, 1024, seed + static_cast<std::uint64_t>(100 * k));
+      REQUIRE(region.size() == 1);
+      CHECK(std::abs(region.form_factor(0, world.in_frame(x), {0, 0, 1}) - segments.mean) < 5.0 * segments.error + 1e-9);
+      CHECK(region.rays() == 0);
+    }
   }
 }
 

@@ -19,6 +19,7 @@
 #include <radiosity/visibility/prepare.hpp>
 
 #include "catch.hpp"
+#include "many_scene.hpp"
 #include "scenes.hpp"
 
 using radiosity::Color;
@@ -72,6 +73,7 @@ TEST_CASE("emitters: samples over their density give the solid angle in which th
   scene.objects.push_back(scenes::object("ball", raycast::Sphere::make({-0.4, 0.3, 0.6}, 0.25).object, 1));
   scene.objects.push_back(scenes::object("ring", raycast::Torus::make({0, -0.5, 0.8}, {0, 0.3, 1}, 0.4, 0.05).object, 2));
   scene.objects.push_back(scenes::object("tube", raycast::Cylinder::make({-0.9, -0.9, 0.2}, {1.8, 0, 0}, 0.02).object, 1));
+  scene.objects.push_back(scenes::object("bulb", scenes::ball({0.6, -0.4, 0.7}, 0.15, 6), 1));  // of 120 triangles
   const radiosity::Prepared p = prepare_scene(scene);
   std::vector<Color> emission;
   for (const auto& s : radiosity::surfaces(scene)) { emission.push_back(scene.materials[s.material].emission); }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -216,6 +217,33 @@ TEST_CASE("a torus under a lamp: a target is reached, or said to be missed; esti
     CHECK(*audit.estimated_error > (audit.leaf_error->relative_l2 - 4.0 * audit.leaf_error->standard_error) / 3.0);
     CHECK(audit.estimate_doubt.empty());
   }
+}
+
+TEST_CASE("where path tracing contradicts the estimate by more than a factor of 3, the report says so") {
+  // Balls close to the floor of random rooms, few of them closed, at coarse settings: estimates of all kinds.
+  INFO("seed 97");
+  radiosity::Random random{97, 0};
+  int contradicted = 0;
+  for (int k = 0; k < 12; ++k) {
+    radiosity::Scene scene = scenes::two_plates(0.05 + random.uniform());
+    const auto material = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.push_back({"ball", Color{0.3 + 0.6 * random.uniform()}, Color{0.0}});
+    const double radius = 0.05 + 0.2 * random.uniform();
+    scene.objects.push_back({"ball", raycast::Sphere::make({random.uniform(), random.uniform(), radius}, radius).object, {}, {material}});
+    radiosity::Options options;
+    options.epsilon = std::pow(10.0, -3.0 + 2.0 * random.uniform());
+    options.audit_points = 1000;
+    options.threads = 1;
+    const radiosity::Audit audit = scenes::solved(scene, options).audit;
+    REQUIRE(audit.leaf_error);
+    const double estimate = audit.estimated_leaf_error.value_or(0.0);
+    CAPTURE(k, estimate, audit.leaf_error->low, audit.leaf_error->high, audit.estimate_doubt);
+    const bool low = audit.leaf_error->low > 3.0 * estimate, high = estimate > 3.0 * audit.leaf_error->high;
+    if (low) { CHECK(audit.estimate_doubt.starts_with("no bound")); }
+    if (high) { CHECK(audit.estimate_doubt.starts_with("too high")); }
+    contradicted += low || high ? 1 : 0;
+  }
+  CHECK(contradicted > 0);
 }
 
 TEST_CASE("a run that its own estimate or its own audit contradicts has not converged") {

@@ -20,21 +20,11 @@
 #include "radiosity/polygon_soup.hpp"
 
 using radiosity::ChangeKind;
+using soup::check_sound;
 using soup::count_of;
 using soup::measure;
 using soup::size_of;
 using soup::Soup;
-
-namespace {
-
-// What take_in() promises of every input.
-void check_sound(const Soup& soup, const radiosity::Intake& intake) {
-  radiosity::Scene scene{soup.materials, intake.objects};
-  if (scene.objects.empty()) { return; }
-  for (const std::string& fault : radiosity::faults(scene)) { FAIL_CHECK(fault); }
-}
-
-}  // namespace
 
 TEST_CASE("intake: a box of loose triangles becomes one solid of six faces") {
   Soup soup;
@@ -217,159 +207,6 @@ TEST_CASE("intake: a wall with a window becomes few convex faces, of each materi
   CHECK(measure(intake.objects).area == Approx(area).epsilon(1e-12));
   CHECK(intake.faces <= 12);
   CHECK(std::count(intake.objects[0].material.begin(), intake.objects[0].material.end(), 1U) == 1);
-}
-
-TEST_CASE("intake: a closed shell around a lamp is a room, whichever way it looked") {
-  for (const bool inwards : {false, true}) {
-    Soup soup;
-    soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, 1, inwards);
-    soup.polygon({{1, 1, 2.9}, {1, 2, 2.9}, {2, 2, 2.9}, {2, 1, 2.9}}, 1);
-    const radiosity::Intake intake = soup.take_in();
-    check_sound(soup, intake);
-    const soup::Measure m = measure(intake.objects);
-    CHECK(m.rooms == 1);
-    CHECK(m.surfaces == 1);
-    CHECK(count_of(intake, ChangeKind::room) == (inwards ? 0 : 1));
-
-    // Where something is beyond its walls it is a surface: a room would bury what is there.
-    soup::add_box(soup, {10, 0, 0}, {11, 1, 1});
-    const radiosity::Intake two = soup.take_in();
-    check_sound(soup, two);
-    CHECK(measure(two.objects).rooms == 0);
-    CHECK(measure(two.objects).solids == 1);
-    CHECK(measure(two.objects).area == Approx(m.area + 6.0).epsilon(1e-12));
-  }
-  // The upper half of a lamp is let into a slab: that is no room.
-  Soup soup;
-  soup::add_box(soup, {0, 0, 2}, {4, 4, 2.5});
-  soup::add_box(soup, {1, 1, 1.9}, {2, 2, 2.1}, 1, false, 1);
-  CHECK(measure(soup.take_in().objects).rooms == 0);
-  // An empty shell that looks inwards was meant to be seen from outside.
-  Soup empty;
-  soup::add_box(empty, {0, 0, 0}, {1, 1, 1}, 1, true);
-  CHECK(measure(empty.take_in().objects).volume == Approx(1.0).epsilon(1e-12));
-  CHECK(count_of(empty.take_in(), ChangeKind::inside_out) == 1);
-  radiosity::IntakeOptions options;
-  options.eyes = {{0.5, 0.5, 0.5}};
-  CHECK(measure(empty.take_in(options).objects).rooms == 1);
-}
-
-// Whether the lamp's middle is inside the shell is rounding's choice; that it shines into it is not.
-TEST_CASE("intake: a closed shell on whose walls lamps lie is a room, wherever it stands") {
-  const unsigned seed = 20261123;
-  INFO("seed " << seed);
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  for (int round = 0; round < 40; ++round) {
-    const bool inwards = round % 2 == 0, face_up = round % 4 == 2;  // a lamp with its back to an inward shell
-    const double size = std::exp(6.0 * unit(random));
-    Soup soup, solid;
-    soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, round % 3 == 0 ? 3 : 1, inwards);  // by 2 a lamp's edge is one of three faces: no shell
-    soup::add_box(soup, {1, 1, 0}, {2, 2, 1});
-    std::vector<glm::dvec3> lamp{{1, 1, 3}, {1, 2, 3}, {2, 2, 3}, {2, 1, 3}};  // faces down
-    if (face_up) { std::reverse(lamp.begin(), lamp.end()); }
-    soup.polygon(lamp, 1);
-    // A lamp that lies on a table and faces up does not shine into it.
-    soup::add_box(solid, {0, 0, 0}, {4, 4, 3});
-    solid.polygon({{1, 1, 3}, {2, 1, 3}, {2, 2, 3}, {1, 2, 3}}, 1);
-    const glm::dvec3 by{10.0 * unit(random), 10.0 * unit(random), 10.0 * unit(random)};
-    for (Soup* const s : {&soup, &solid}) {
-      for (glm::dvec3& p : s->positions) { p = size * (p + by); }
-    }
-    CHECK(measure(soup.take_in().objects).rooms == 1);
-    CHECK(measure(solid.take_in().objects).rooms == 0);
-    CHECK(measure(solid.take_in().objects).solids == 1);
-  }
-}
-
-// What is in a solid is buried, so a room within walls must not be in one.
-TEST_CASE("intake: walls with a thickness around a room are a solid with a cavity") {
-  for (const bool outwards : {false, true}) {  // how the inner shell looked
-    Soup soup;
-    soup::add_box(soup, {-0.1, -0.1, -0.1}, {8.1, 4.1, 3.1}, 2);
-    soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, 1, !outwards);
-    soup::add_box(soup, {4.1, 0, 0}, {8, 4, 3}, 1, !outwards);
-    for (const double x : {1.0, 5.0}) {
-      soup::add_box(soup, {x, 1, 0.5}, {x + 1, 2, 1});
-      soup.polygon({{x, 1, 2.9}, {x, 2, 2.9}, {x + 1, 2, 2.9}, {x + 1, 1, 2.9}}, 1);
-    }
-    soup::add_box(soup, {9, 0, 0}, {10, 1, 1});  // outside
-    const radiosity::Intake intake = soup.take_in();
-    check_sound(soup, intake);
-    const soup::Measure m = measure(intake.objects);
-    CHECK(m.rooms == 0);
-    CHECK(m.solids == 4);
-    CHECK(m.volume == Approx(8.2 * 4.2 * 3.2 - 4.0 * 4.0 * 3.0 - 3.9 * 4.0 * 3.0 + 0.5 + 0.5 + 1.0).epsilon(1e-9));
-    CHECK(count_of(intake, ChangeKind::room) == (outwards ? 2 : 0));
-  }
-}
-
-// As programs write them that know no material with two sides.
-TEST_CASE("intake: walls that were given twice, for both sides, bury nothing") {
-  for (const bool inwards_first : {false, true}) {
-    const auto twice = [&](Soup& soup, const glm::dvec3& lo, const glm::dvec3& hi) {
-      soup::add_box(soup, lo, hi, 1, inwards_first);
-      soup::add_box(soup, lo, hi, 1, !inwards_first);
-    };
-    Soup room;
-    twice(room, {0, 0, 0}, {4, 4, 3});
-    twice(room, {1, 1, 0}, {2, 2, 1});
-    room.polygon({{1, 1, 2.9}, {1, 2, 2.9}, {2, 2, 2.9}, {2, 1, 2.9}}, 1);
-    const radiosity::Intake lit = room.take_in();
-    CHECK(measure(lit.objects).rooms == 1);
-    CHECK(measure(lit.objects).solids == 1);
-    CHECK(count_of(lit, ChangeKind::duplicate) == 24);
-    CHECK(lit.faces == 13);
-    // With something beyond them both sides are seen.
-    soup::add_box(room, {10, 0, 0}, {11, 1, 1});
-    const radiosity::Intake outside = room.take_in();
-    CHECK(measure(outside.objects).rooms == 0);
-    CHECK(measure(outside.objects).solids == 2);
-    CHECK(outside.faces == 6 + 6 + 6 + 6 + 1);
-    radiosity::Scene scene{room.materials, outside.objects};
-    CHECK(radiosity::faults(scene).empty());
-  }
-}
-
-TEST_CASE("intake: solids that touch in an edge or a vertex stay solids") {
-  Soup soup;
-  soup::add_box(soup, {0, 0, 0}, {1, 1, 1});
-  soup::add_box(soup, {1, 1, 0}, {2, 2, 1});
-  soup::add_box(soup, {2, 2, 1}, {3, 3, 2});
-  const radiosity::Intake intake = soup.take_in();
-  check_sound(soup, intake);
-  CHECK(measure(intake.objects).solids == 3);
-  CHECK(measure(intake.objects).volume == Approx(3.0).epsilon(1e-12));
-  CHECK(count_of(intake, ChangeKind::nonmanifold) == 0);
-}
-
-TEST_CASE("intake: sheets have two sides where the caller, the material or the file's own disorder says so") {
-  Soup soup;
-  soup.polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
-  CHECK(measure(soup.take_in().objects).area == Approx(1.0));
-  radiosity::IntakeOptions options;
-  options.two_sided = true;
-  CHECK(measure(soup.take_in(options).objects).area == Approx(2.0));
-  soup.two_sided = {1, 0};
-  CHECK(measure(soup.take_in().objects).area == Approx(2.0));
-  // Both sides are in the file: nothing is added, nothing is taken away.
-  soup.two_sided.clear();
-  soup.polygon({{0, 1, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 0}});
-  CHECK(measure(soup.take_in().objects).area == Approx(2.0));
-  check_sound(soup, soup.take_in());
-
-  Soup strip;  // Moebius: 12 quadrilaterals, half a turn
-  const auto at = [](int i, double side) {
-    const double a = 2.0 * std::numbers::pi * i / 12, half = a / 2.0;
-    const glm::dvec3 out(std::cos(a), std::sin(a), 0.0);
-    return 2.0 * out + side * (std::cos(half) * out + std::sin(half) * glm::dvec3(0, 0, 1));
-  };
-  for (int i = 0; i < 12; ++i) { strip.polygon({at(i, -0.3), at(i + 1, -0.3), at(i + 1, 0.3), at(i, 0.3)}); }
-  const radiosity::Intake intake = strip.take_in();
-  check_sound(strip, intake);
-  CHECK(count_of(intake, ChangeKind::moebius) >= 1);
-  CHECK(count_of(intake, ChangeKind::both_sides) == 1);
-  CHECK(measure(intake.objects).area == Approx(measure(strip.take_in(options).objects).area));  // as if all were asked for
 }
 
 TEST_CASE("intake: what cannot be used is counted, not followed") {

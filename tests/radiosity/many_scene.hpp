@@ -39,6 +39,36 @@ inline std::shared_ptr<const raycast::Object> bumpy_torus(std::uint32_t count) {
   return raycast::Mesh::make(positions, faces).object;
 }
 
+// A ball of 4 n (n - 1) triangles with the area of the sphere of radius r.
+inline std::shared_ptr<const raycast::Object> ball(const glm::dvec3& centre, double r, std::uint32_t n) {
+  std::vector<glm::dvec3> positions{{0, 0, -1}};
+  std::vector<std::vector<std::uint32_t>> faces;
+  const std::uint32_t sides = 2 * n;
+  for (std::uint32_t i = 1; i < n; ++i) {
+    const double t = std::numbers::pi * i / n;
+    for (std::uint32_t k = 0; k < sides; ++k) {
+      const double u = 2.0 * std::numbers::pi * k / sides;
+      positions.push_back({std::sin(t) * std::cos(u), std::sin(t) * std::sin(u), -std::cos(t)});
+    }
+  }
+  positions.push_back({0, 0, 1});
+  const auto at = [&](std::uint32_t i, std::uint32_t k) { return 1 + (i - 1) * sides + k % sides; };
+  for (std::uint32_t k = 0; k < sides; ++k) {
+    faces.push_back({0, at(1, k + 1), at(1, k)});
+    faces.push_back({at(n - 1, k), at(n - 1, k + 1), static_cast<std::uint32_t>(positions.size() - 1)});
+    for (std::uint32_t i = 1; i + 1 < n; ++i) {
+      faces.push_back({at(i, k), at(i, k + 1), at(i + 1, k + 1)});
+      faces.push_back({at(i, k), at(i + 1, k + 1), at(i + 1, k)});
+    }
+  }
+  double area = 0.0;
+  for (const auto& f : faces) {
+    area += 0.5 * glm::length(glm::cross(positions[f[1]] - positions[f[0]], positions[f[2]] - positions[f[0]]));
+  }
+  for (glm::dvec3& p : positions) { p = centre + r * std::sqrt(4.0 * std::numbers::pi / area) * p; }
+  return raycast::Mesh::make(positions, faces).object;
+}
+
 enum class Things { boxes, polygons, mesh };
 
 // A unit room with a lamp in its ceiling and, in it, k - 7 polygons: boxes or single ones turned and placed at random, of total area 2

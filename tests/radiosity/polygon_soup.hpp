@@ -19,6 +19,9 @@
 #include <brep/polygon.hpp>
 
 #include <radiosity/intake/intake.hpp>
+#include <radiosity/scene/scene.hpp>
+
+#include "catch.hpp"
 
 namespace soup {
 
@@ -144,6 +147,13 @@ inline double size_of(const radiosity::Intake& intake, radiosity::ChangeKind kin
     if (change.kind == kind) { return change.size; }
   }
   return 0.0;
+}
+
+// What take_in() promises of every input.
+inline void check_sound(const Soup& soup, const radiosity::Intake& intake) {
+  radiosity::Scene scene{soup.materials, intake.objects};
+  if (scene.objects.empty()) { return; }
+  for (const std::string& fault : radiosity::faults(scene)) { FAIL_CHECK(fault); }
 }
 
 }  // namespace soup

@@ -1,45 +1,5 @@
-// SPDX-License-Identifier: MIT
-#pragma once
-
-// The fixed parts of the viewer's page: style, elements and the script. viewer.cpp puts the data between them.
-
-namespace apps {
-
-inline constexpr const char* viewer_style = R"~(
-*{box-sizing:border-box}
-html,body{margin:0;height:100%;overflow:hidden;background:#111;color:#ddd;font:14px/1.4 'Segoe UI','DejaVu Sans',Verdana,sans-serif}
-canvas{display:block;width:100vw;height:100vh;touch-action:none;cursor:grab}
-#panel{position:fixed;left:12px;top:12px;max-width:300px;padding:10px 14px;background:#000b;border-radius:6px}
-h1{font-size:15px;margin:0 0 2px;overflow-wrap:anywhere}
-p{margin:0 0 8px;color:#aaa;font-size:12px}
-label{display:grid;grid-template-columns:78px 1fr 48px;gap:8px;align-items:center;margin:4px 0}
-output{text-align:right;font-variant-numeric:tabular-nums;color:#aaa}
-select,input{width:100%;font:inherit;background:#222;color:#ddd;border:1px solid #444;border-radius:3px}
-input[type=range]{padding:0;border:0}
-details{color:#aaa;font-size:12px;margin-top:6px}
-#fault{display:none;position:fixed;inset:0;margin:auto;width:26em;height:5em;text-align:center;font-size:17px}
-)~";
-
-inline constexpr const char* viewer_body = R"~(
-<canvas id="canvas" tabindex="0"></canvas>
-<div id="panel"><h1 id="title"></h1><p id="sentence"></p>
-<label>camera<select id="camera"></select><span></span></label>
-<label>exposure<input id="exposure" type="range" min="-6" max="6" step="0.1" value="0"><output id="exposureText"></output></label>
-<label>show<select id="show"><option value="light">light</option><option value="flat">light of each leaf</option>
-<option value="patches">patches</option></select><span></span></label>
-<label>borders<select id="borders"><option value="none">none</option><option value="level">of the level</option></select>
-<span></span></label>
-<label>level<input id="level" type="range" min="0" max="1" step="1" value="1"><output id="levelText"></output></label>
-<label>backs<select id="backs"><option value="hide">see through</option><option value="show">dark</option></select><span></span></label>
-<details><summary>keys</summary>drag: turn around the scene; right button or shift: move it; wheel: nearer.
-W A S D, Q E: walk, down and up; then drag looks around. Digits 1 to 9: cameras. H: hide this.</details></div>
-<div id="fault"></div>
-)~";
-
-inline constexpr const char* viewer_script = R"~(
-'use strict';
+// The scene by WebGL: arrays of the page's data become buffers, and controls, pointer and keys move the eye.
 const $ = id => document.getElementById(id);
-const data = JSON.parse($('data').textContent);
 const bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer;
 const positions = new Float32Array(bytes(data.positions)), cornerVertex = new Uint32Array(bytes(data.cornerVertex));
 const cornerLight = new Uint16Array(bytes(data.cornerLight)), faceSize = new Uint8Array(bytes(data.faceSize));
@@ -302,6 +262,3 @@ for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
   if (key === 'test') { window.halflightTest = true; } else if ($(key) && 'value' in $(key)) { $(key).value = value; }
 }
 texts(); chooseLevel(+$('level').value); take(+$('camera').value || 0); draw();
-)~";
-
-}  // namespace apps

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace study {
+namespace apps {
 
 class Checksum {
  public:
@@ -32,4 +32,4 @@ class Checksum {
   std::uint64_t state_ = 0xcbf29ce484222325ull;
 };
 
-}  // namespace study
+}  // namespace apps

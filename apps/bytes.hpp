@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Numbers as bytes of a file, and bytes as text of a page.
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include <glm/vec3.hpp>
+
+namespace apps {
+
+// The bytes of a number, the lowest first.
+template <class Number>
+void put(std::string& out, Number value) {
+  static_assert(std::is_arithmetic_v<Number> && std::numeric_limits<double>::is_iec559);
+  const auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(value);
+  std::endian::native == std::endian::little ? out.append(bytes.begin(), bytes.end()) : out.append(bytes.rbegin(), bytes.rend());
+}
+template <glm::length_t n, class Number>
+void put(std::string& out, const glm::vec<n, Number>& vector) {
+  for (glm::length_t k = 0; k < n; ++k) { put(out, vector[k]); }
+}
+
+// RFC 4648.
+[[nodiscard]] inline std::string base64(std::string_view bytes) {
+  static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U; };
+    const unsigned bits = (byte(0) << 16U) | (byte(1) << 8U) | byte(2);
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += i + k <= bytes.size() ? digits[(bits >> (18U - 6U * static_cast<unsigned>(k))) & 63U] : '=';
+    }
+  }
+  return text;
+}
+
+}  // namespace apps

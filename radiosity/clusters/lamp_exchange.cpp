@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/clusters/lamp_exchange.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/bundle.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/scene.hpp>
+
+#include <radiosity/geometry/direction_lattice.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/visibility.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE LampExchange::LampExchange(const SceneView& scene, const Exposure* exposure, const ShownAreas& shown)
+    : scene_{scene}, exposure_{exposure}, shown_{&shown} {
+  const Hierarchy& nodes = scene.hierarchy;
+  first_.push_back(0);
+  std::vector<std::uint32_t> faces, open;
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {  // clusters are numbered in their order
+    if (!nodes[i].is_cluster()) { continue; }
+    faces.clear();
+    open.assign(1, i);
+    while (!open.empty()) {
+      const std::uint32_t top = open.back();
+      open.pop_back();
+      if (!nodes[top].is_cluster()) {
+        if (area(top) > 0.0) { faces.push_back(top); }
+        continue;
+      }
+      for (std::uint32_t k = nodes[top].child_count; k-- > 0;) { open.push_back(nodes[top].first_child + k); }
+    }
+    add_points(faces);
+    first_.push_back(points_.size());
+  }
+}
+
+HALFLIGHT_INLINE void LampExchange::add_points(const std::vector<std::uint32_t>& faces) {
+  std::size_t gauss = 0;
+  double all = 0.0;
+  for (const std::uint32_t f : faces) {
+    gauss += scene_.patches[f].rule2.size();
+    all += area(f);
+  }
+  if (gauss <= most_points) {
+    for (const std::uint32_t f : faces) {
+      const Patch& patch = scene_.patches[f];
+      const double exposed = area(f) / patch.area;
+      for (const QuadraturePoint& x : patch.rule2) { points_.push_back({x.position, patch.normal, exposed * x.weight, f}); }
+    }
+    return;
+  }
+  const auto add = [&](std::uint32_t f, double of_area) {
+    points_.push_back({exposure_ != nullptr ? exposure_->centroid[f] : scene_.patches[f].centroid, scene_.patches[f].normal, of_area, f});
+  };
+  if (faces.size() <= most_points) {
+    for (const std::uint32_t f : faces) { add(f, area(f)); }
+    return;
+  }
+  double until = 0.0;
+  std::size_t next = 0;
+  for (const std::uint32_t f : faces) {  // neighbours in the tree are neighbours in space
+    until += area(f);
+    for (; next < most_points && (static_cast<double>(next) + 0.5) * all < until * most_points; ++next) { add(f, all / most_points); }
+  }
+}
+
+HALFLIGHT_INLINE std::span<const LampExchange::Point> LampExchange::points_of(std::uint32_t lamp) const {
+  const std::uint32_t number = scene_.hierarchy[lamp].cluster;
+  return std::span{points_}.subspan(first_[number], first_[number + 1] - first_[number]);
+}
+
+HALFLIGHT_INLINE PatchEnd LampExchange::end(std::uint32_t i) const {
+  return {&scene_.patches[i], scene_.hierarchy[i].object, exposure_ != nullptr ? exposure_->points(i) : nullptr, scene_.sheet(i)};
+}
+
+namespace detail {
+
+[[nodiscard]] HALFLIGHT_INLINE double point_kernel(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& y, const glm::dvec3& m) {
+  const glm::dvec3 d = y - x;
+  const double leaves = glm::dot(n, d);
+  const double arrives = -glm::dot(m, d);
+  if (!(leaves > 0.0 && arrives > 0.0)) { return 0.0; }
+  const double r2 = glm::dot(d, d);
+  return leaves * arrives / (std::numbers::pi * r2 * r2);
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE LampExchange::Result LampExchange::operator()(std::uint32_t lamp, std::uint32_t to, std::uint32_t rounds,
+                                                               Random random) const {
+  Result result;
+  const Patch& patch = scene_.patches[to];
+  const std::span<const Point> points = points_of(lamp);
+  if (!(patch.area > 0.0) || !(area(to) > 0.0)) { return result; }
+  std::vector<double> until(points.size(), 0.0);  // what the points send, summed up
+  std::vector<double> light;                      // at the Gauss points
+  light.reserve(patch.rule2.size());
+  glm::dvec3 moment{0.0};
+  for (const QuadraturePoint& x : patch.rule2) {
+    double arrives = 0.0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const double part = points[k].area * detail::point_kernel(x.position, patch.normal, points[k].position, points[k].normal);
+      until[k] += x.weight * part;
+      arrives += part;
+    }
+    light.push_back(arrives);
+    result.sent += x.weight * arrives;
+    moment += x.weight * arrives * (x.position - patch.centroid);
+  }
+  if (!(result.sent > 0.0)) { return result; }
+  result.slope = patch.inverse_inertia * (moment / result.sent);
+  double lowest = 0.0;
+  for (const glm::dvec3& x : patch.contour) { lowest = std::min(lowest, glm::dot(result.slope, x - patch.centroid)); }
+  if (lowest < -1.0) { result.slope /= -lowest; }  // what arrives is positive
+  const double mean = result.sent / patch.area;
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const double linear = glm::dot(result.slope, patch.rule2[i].position - patch.centroid);
+    const double rest = light[i] / mean - 1.0 - linear;
+    result.linear += patch.rule2[i].weight / patch.area * linear * linear;
+    result.rest += patch.rule2[i].weight / patch.area * rest * rest;
+  }
+  result.linear = std::sqrt(result.linear);
+  result.rest = std::sqrt(result.rest);
+  if (exposure_ != nullptr) { result.sent *= area(to) / patch.area; }
+  if (rounds == 0) { return result; }
+  for (std::size_t k = 1; k < until.size(); ++k) { until[k] += until[k - 1]; }
+  see(result, points, until, to, rounds, random);
+  return result;
+}
+
+HALFLIGHT_INLINE void LampExchange::see(Result& result, std::span<const Point> points, const std::vector<double>& until, std::uint32_t to,
+                                        std::uint32_t rounds, Random random) const {
+  const Patch& patch = scene_.patches[to];
+  const PatchEnd ground = end(to);
+  double all = 0.0;
+  double arrived = 0.0;
+  std::uint32_t hint = raycast::no_shape;
+  for (std::uint32_t round = 0; round < rounds; ++round) {
+    const auto shift = static_cast<std::uint32_t>(random.bits() & 15u);
+    raycast::Segments16 segments;
+    std::array<double, 16> weights{};
+    for (std::uint32_t i = 0; i < 16; ++i) {
+      const double at = (i + random.uniform()) / 16.0 * until.back();
+      const auto k = std::min<std::size_t>(static_cast<std::size_t>(std::upper_bound(until.begin(), until.end(), at) - until.begin()),
+                                           points.size() - 1);
+      const std::uint32_t face = points[k].face;
+      const glm::dvec3 y = draw_exposed(end(face), static_cast<std::uint32_t>(random.bits() & 15u), random);
+      const glm::dvec3 x = draw_exposed(ground, (i * 5u ^ shift) % 16u, random);
+      const double share = until[k] - (k > 0 ? until[k - 1] : 0.0);
+      if (!(share > 0.0)) { continue; }
+      weights[i] = detail::point_kernel(x, patch.normal, y, scene_.patches[face].normal) * points[k].area / share;
+      if (!(weights[i] > 0.0)) { continue; }
+      segments.set(i, {x, y - x}, ground.object, scene_.hierarchy[face].object, ground.sheet, scene_.sheet(face));
+    }
+    const std::uint32_t occluded = scene_.objects.occluded16(segments, hint);
+    for (std::uint32_t i = 0; i < 16; ++i) {
+      if (!(weights[i] > 0.0)) { continue; }
+      ++result.rays.cast;
+      all += weights[i];
+      if ((occluded >> i & 1u) == 0) { arrived += weights[i]; }
+    }
+    if (arrived == all || arrived == 0.0) { break; }
+  }
+  result.fraction = all > 0.0 ? arrived / all : 0.0;
+}
+
+HALFLIGHT_INLINE LampExchange::Result LampExchange::evaluate(Link& link, std::uint32_t rounds, Random random) const {
+  const Hierarchy& nodes = scene_.hierarchy;
+  const bool p_shines = nodes[link.p].is_cluster();
+  const std::uint32_t lamp = p_shines ? link.p : link.q;
+  const std::uint32_t to = p_shines ? link.q : link.p;
+  const Result result = (*this)(lamp, to, rounds, random);
+  link.exchange = static_cast<float>(result.sent * result.fraction);
+  if (!(link.exchange > 0.0f)) { return result; }
+  const glm::dvec3 direction = EndShape::stored_direction(glm::normalize(nodes[to].centre - nodes[lamp].centre));
+  const double shown = shown_->of(nodes[lamp], aim(direction));
+  if (!(shown > 0.0)) {
+    link.exchange = 0.0f;
+    return result;
+  }
+  const EndShape shape = EndShape::of_cluster(direction, shown);
+  // The stored shape is rounded, by up to .4 % and alike for all patches in one direction: what it makes too little is added here.
+  link.exchange = static_cast<float>(result.sent * result.fraction / shown_->of(nodes[lamp], aim(shape.direction_over_shown())));
+  (p_shines ? link.shape_p : link.shape_q) = shape;
+  (p_shines ? link.shape_q : link.shape_p) = EndShape::of_patch(glm::vec3{result.slope});
+  return result;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/picture/gathered_point.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/scene/material.hpp>
+#include <radiosity/support/random.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+inline constexpr double inner_ball = 0.7;           // part of a ball's radius
+inline constexpr double same_way = 0.9;             // cosine of two normals between which light is carried over
+inline constexpr double out_of_plane = 0.2;         // of a ball's radius: what is farther off its tangent plane is another surface
+inline constexpr double explained_by_noise = 1.25;  // squares of what a plane leaves over, in those that the noise would leave
+
+// A plane through the light of the points in a ball.
+struct PlaneFit {
+  Color light{0.0}, by_u{0.0}, by_v{0.0};  // at the middle, and its changes by one radius
+  double misfit = 0.0;                     // squares that it leaves over, in those that the noise of the points would leave
+};
+
+[[nodiscard]] HALFLIGHT_INLINE PlaneFit fit_plane(const GatheredPoint& point, double ball, std::span<const GatheredPoint* const> near) {
+  // Sums of weights times (1, u, v) (1, u, v)' and times the light, with u, v in radii.
+  double w = 0.0, u1 = 0.0, v1 = 0.0, uu = 0.0, uv = 0.0, vv = 0.0;
+  Color e{0.0}, eu{0.0}, ev{0.0};
+  const auto each = [&](const auto& use) {
+    for (const GatheredPoint* other : near) {
+      const double own = point.weight(other->position, other->normal, other->object, ball);
+      if (!(own > 0.0)) { continue; }
+      const glm::dvec3 d = (other->position - point.position) / ball;
+      use(own, glm::dot(d, point.s), glm::dot(d, point.t), *other);
+    }
+  };
+  each([&](double own, double u, double v, const GatheredPoint& other) {
+    w += own, u1 += own * u, v1 += own * v, uu += own * u * u, uv += own * u * v, vv += own * v * v;
+    e += own * other.gathered, eu += own * u * other.gathered, ev += own * v * other.gathered;
+  });
+  // About the weighted mean; what holds the slopes down where points are few or in line is small beside the ball.
+  const double mu = u1 / w, mv = v1 / w;
+  const Color mean = e / w;
+  const double hold = 0.001 * w;
+  const double a = uu - w * mu * mu + hold, b = uv - w * mu * mv, c = vv - w * mv * mv + hold;
+  const Color ru = eu - e * mu, rv = ev - e * mv;
+  const double determinant = a * c - b * b;
+  PlaneFit plane;
+  plane.by_u = (ru * c - rv * b) / determinant;
+  plane.by_v = (rv * a - ru * b) / determinant;
+  plane.light = mean - plane.by_u * mu - plane.by_v * mv;
+  double left = 0.0, noise = 0.0;
+  each([&](double own, double u, double v, const GatheredPoint& other) {
+    const Color rest = other.gathered - plane.light - u * plane.by_u - v * plane.by_v;
+    left += own * (rest.x + rest.y + rest.z) * (rest.x + rest.y + rest.z);
+    noise += own * other.variance;
+  });
+  plane.misfit = left > 0.0 ? left / noise : 0.0;
+  return plane;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE double GatheredPoint::weight(const glm::dvec3& place, const glm::dvec3& normal_there, std::uint32_t object_there,
+                                              double ball) const {
+  if (object != object_there) { return 0.0; }
+  const glm::dvec3 d = place - position;
+  const double part = glm::dot(d, d) / (ball * ball);
+  if (!(part < 1.0)) { return 0.0; }
+  const double cosine = glm::dot(normal, normal_there);
+  if (!(cosine > detail::same_way) || std::abs(glm::dot(d, normal)) > detail::out_of_plane * ball) { return 0.0; }
+  const double turned = (cosine - detail::same_way) / (1.0 - detail::same_way);
+  return (1.0 - part) * (1.0 - part) * turned;
+}
+
+HALFLIGHT_INLINE bool GatheredPoint::covers(const glm::dvec3& place, const glm::dvec3& normal_there, std::uint32_t object_there) const {
+  constexpr double least = (1.0 - detail::inner_ball * detail::inner_ball) * (1.0 - detail::inner_ball * detail::inner_ball);
+  return weight(place, normal_there, object_there) >= least;
+}
+
+HALFLIGHT_INLINE Color GatheredPoint::at(const glm::dvec3& place) const {
+  const glm::dvec3 d = place - position;
+  return light + glm::dot(d, s) * by_s + glm::dot(d, t) * by_t;
+}
+
+HALFLIGHT_INLINE void fit(GatheredPoint& point, std::span<const GatheredPoint* const> near) {
+  const auto [s, t] = orthonormal(point.normal);
+  point.s = s;
+  point.t = t;
+  constexpr double step = 1.5;
+  double ball = point.widest;
+  detail::PlaneFit plane = detail::fit_plane(point, ball, near);
+  while (ball > point.radius && !(plane.misfit <= detail::explained_by_noise)) {
+    ball = std::max(point.radius, ball / step);
+    plane = detail::fit_plane(point, ball, near);
+  }
+  point.light = glm::max(plane.light, Color{0.0});
+  point.by_s = plane.by_u / ball;
+  point.by_t = plane.by_v / ball;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Indirect light anywhere on the surfaces of a scene from points that lie apart (gathered_point.hpp): close together in corners and at
+// contacts, far apart on open walls. Points are looked for in the cells of grids, one for each power of two of the balls' radii.
+//
+// It grows with the places that are asked for; what it says then depends on these and their order alone, not on the number of threads.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include <radiosity/picture/final_gather.hpp>
+#include <radiosity/picture/gathered_point.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+
+namespace radiosity {
+
+class IrradianceCache {
+ public:
+  // `light` must outlive this.
+  IrradianceCache(const FinalGather& light, unsigned threads) : light_{&light}, threads_{threads} {}
+
+  struct Wanted {
+    FinalGather::Place place;
+    double least_radius = 0.0, most_radius = 0.0;  // of the ball of a point that is made for it; in the frame
+  };
+  // Gathers so many more points that one is near each of these places. False when cancelled.
+  [[nodiscard]] bool extend(std::span<const Wanted> wanted, const Control& control);
+
+  // Near a place for which it was extended. W/m2.
+  [[nodiscard]] std::optional<Color> at(const FinalGather::Place& place) const;
+
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+
+ private:
+  [[nodiscard]] bool covered(const FinalGather::Place& place) const;
+  [[nodiscard]] GatheredPoint gather(const Wanted& wanted) const;
+  void add(const GatheredPoint& point);
+  void fit_all();
+  // Calls visit(index) for the points that may say something about a place, and for some others.
+  template <class Visit>
+  void each_near(const glm::dvec3& position, const Visit& visit) const;
+
+  const FinalGather* light_;
+  unsigned threads_;
+  std::vector<GatheredPoint> points_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;  // by the hash of grid and cell
+  std::vector<int> grids_;                                               // exponents of two, ascending
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/picture/irradiance_cache.cpp>
+#endif

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/picture/mesh_error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+
+#include <radiosity/direct/lit_region.hpp>
+#include <radiosity/picture/final_gather.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/picture/viewpoint.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/parallel.hpp>
+#include <radiosity/support/random.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalGather& light, const Mesh& mesh, std::uint64_t points,
+                                                std::uint64_t seed, unsigned threads, const Control& control)
+    : scene_{&scene}, light_{&light} {
+  struct Triangle {
+    std::uint32_t surface;
+    glm::dvec3 a{0.0}, b{0.0}, c{0.0};  // in the frame
+    double share;                       // about, of the picture by area
+    double area;                        // times the share
+    double light;                       // square of what is reflected
+    double until;                       // part of the points that fall on it or on one before
+  };
+  const std::vector<InputSurface> inputs = surfaces(scene);
+  std::vector<Triangle> triangles;
+  double all_area = 0.0, all_light = 0.0;
+  for (const MeshFace& face : mesh.faces) {
+    const auto corner = [&](std::uint32_t k) {
+      return (mesh.positions[mesh.corners[face.first_corner + k].vertex] - light.frame().centre) * light.frame().scale;
+    };
+    const Material& material = light.material(face.surface);
+    if (is_black(material.reflectance)) { continue; }
+    const Color reflected = face.radiosity - material.emission;
+    for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
+      Triangle t{face.surface, corner(0), corner(k), corner(k + 1), 1.0, 0.0, glm::dot(reflected, reflected), 0.0};
+      const glm::dvec3 doubled = glm::cross(t.b - t.a, t.c - t.a);
+      t.area = 0.5 * glm::length(doubled);
+      if (control.mesh_from && t.area > 0.0) {  // the part of the picture that it takes at most, as its middle sees it
+        t.share = 0.0;
+        for (const glm::dvec3& p : {t.a, t.b, t.c, (t.a + t.b + t.c) / 3.0}) {
+          t.share = std::max(t.share, control.mesh_from->share(light.frame().to_scene(p), doubled / (2.0 * t.area)));
+        }
+        t.area *= t.share;
+      }
+      all_area += t.area;
+      all_light += t.area * t.light;
+      triangles.push_back(t);
+    }
+  }
+  if (!(all_area > 0.0)) { return; }
+  const auto density = [&](const Triangle& t) { return all_light > 0.0 ? 0.5 / all_area + 0.5 * t.light / all_light : 1.0 / all_area; };
+  double before = 0.0;
+  for (Triangle& t : triangles) { before = t.until = before + t.area * density(t); }
+
+  std::vector<Sample> samples(points);
+  constexpr std::size_t batch = 512;  // between two looks at the cancel flag
+  for (std::size_t first = 0; first < points; first += batch) {
+    if (control.cancelled()) { return; }
+    const auto measure = [&](std::size_t offset) {
+      const std::size_t i = first + offset;
+      Random random{seed, i, 0x6d657368ull};
+      const double at = (static_cast<double>(i) + random.uniform()) / static_cast<double>(points);
+      auto t = std::upper_bound(triangles.begin(), triangles.end(), at, [](double a, const Triangle& b) { return a < b.until; });
+      if (t == triangles.end()) { --t; }
+      const double root = std::sqrt(random.uniform()), v = random.uniform();
+      const glm::dvec3 chord = (1.0 - root) * t->a + root * (1.0 - v) * t->b + root * v * t->c;
+      const InputSurface& input = inputs[t->surface];
+      Sample& sample = samples[i];
+      sample.place = {light.objects().object(input.object).project(input.sheet, chord), input.object, t->surface};
+      if (light.objects().covered(sample.place.point.position, sample.place.point.normal, input.object)) { return; }
+      sample.weight = 1.0 / (all_area * density(*t));
+      if (control.mesh_from) {
+        sample.weight *= seen_share(control.mesh_from, light, sample.place) / t->share;
+        if (!(sample.weight > 0.0)) { return; }
+      }
+      const Material& material = light.material(t->surface);
+      LitRegion region = light.lit_region(std::span(&sample.place, 1));
+      const Color direct = region.irradiance(sample.place.point.position, sample.place.point.normal);
+      for (std::uint64_t half = 0; half < 2; ++half) {
+        constexpr std::uint32_t rays = 512;  // of each half: their noise takes no more from the estimate than the choice of points
+        const auto indirect = light.indirect(sample.place, rays, rays, 0.0, random.bits());
+        sample.light[half] = material.emission + material.reflectance * (direct + indirect.irradiance);
+      }
+    };
+    parallel_for(std::min(batch, points - first), threads, measure, 4);
+    control.report("mesh audit", static_cast<double>(std::min(first + batch, points)) / static_cast<double>(points));
+  }
+  samples_ = std::move(samples);
+}
+
+HALFLIGHT_INLINE std::optional<ErrorEstimate> MeshErrorMeter::measure(const Mesh& mesh) const {
+  const Lookup lookup{*scene_, mesh, light_->frame()};
+  ErrorSums sums;
+  for (const Sample& sample : samples_) {
+    if (!(sample.weight > 0.0)) { continue; }
+    const std::uint32_t sheet = sample.place.surface - lookup.surface(sample.place.object, 0);
+    const std::optional<Color> shown = lookup.at(sample.place.object, sheet, sample.place.point);
+    if (!shown) { continue; }
+    const Color& emission = light_->material(sample.place.surface).emission;
+    const auto& [a, b] = sample.light;
+    const double half_square = 0.5 * glm::dot(a - b, a - b);
+    sums.add(sample.weight * glm::dot(a - *shown, b - *shown), sample.weight * glm::dot(a - emission, b - emission),
+             sample.weight * sample.weight * half_square * half_square / 3.0);
+  }
+  return sums.estimate();
+}
+
+}  // namespace radiosity

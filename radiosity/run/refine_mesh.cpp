@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+
+// Stage: a mesh in gathered light, split until it shows that light as well as it was asked for (mesh_refiner.hpp). The solution and its own
+// mesh stay as they are.
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/discontinuity/light_meshing.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
+#include <radiosity/picture/final_gather.hpp>
+#include <radiosity/picture/mesh_error.hpp>
+#include <radiosity/picture/mesh_refiner.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
+#include <radiosity/run/run.hpp>
+#include <radiosity/run/stages.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/support/memory.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// As many faces as memory allows, and not more than other programs like to open. Of each face: its share of two BReps (800 bytes), where it
+// is looked at (900) and two meshes (600).
+[[nodiscard]] HALFLIGHT_INLINE std::uint64_t most_mesh_faces(const Run& run) {
+  constexpr std::uint64_t most = 1'000'000, bytes = 2300;
+  const MemoryBudget& budget = run.scene.budget;
+  if (!budget.limited()) { return most; }
+  const std::uint64_t held = budget.peak({run.scene.hierarchy.size(), run.solution.links.size() + run.solution.ray_links.size()});
+  return std::min(most, (budget.allowed - std::min(budget.allowed, held)) / bytes);
+}
+
+// Splits until the error is at most `wanted` or nothing more can be split; false when cancelled. The error by the points of the faces says
+// how far to go, that of the meter, which knows what these points have missed, when to end.
+HALFLIGHT_INLINE bool refine_to(double wanted, std::uint64_t most, const MeshErrorMeter& meter, MeshRefiner& refiner,
+                                MeshRefinement& refinement, std::optional<Mesh>& refined, const Frame& frame) {
+  if (!refiner.gather()) { return false; }
+  double goal = 0.9 * wanted;
+  double last = std::numeric_limits<double>::infinity();  // measured error
+  for (;;) {
+    const bool wants_more = refiner.error() > goal;
+    const bool split = wants_more && refiner.split(goal, most) > 0;
+    if (split) {
+      if (!refiner.gather()) { return false; }
+      continue;
+    }
+    Mesh mesh = refiner.mesh();
+    Mesh in_scene = mesh;
+    to_scene(in_scene, frame);
+    const std::optional<ErrorEstimate> error = meter.measure(in_scene);
+    if (!error) { return true; }
+    refinement.after = *error;
+    refinement.faces_after = mesh.faces.size();
+    refined = std::move(mesh);
+    refinement.met = error->relative_l2 <= wanted;
+    const bool hopeless = error->relative_l2 > 0.95 * last;  // what is left is not between the corners
+    last = error->relative_l2;
+    if (refinement.met || wants_more || hopeless || !(refiner.error() > 0.0)) { return true; }
+    goal = std::min(0.8 * goal, 0.9 * refiner.error());
+  }
+}
+
+}  // namespace detail
+
+namespace stage {
+
+HALFLIGHT_INLINE std::optional<Failure> refine_mesh(detail::Run& run) {
+  const Options& options = run.options;
+  DiscreteScene& scene = run.scene;
+  if (!options.mesh_error || !scene.plan.lit || !scene.plan.reflects || scene.control.cancelled()) { return std::nullopt; }
+  Mesh shown = run.solution.mesh;
+  detail::to_scene(shown, scene.frame);
+  const FinalGather light{scene.input, shown, scene.frame};
+  constexpr std::uint64_t points = 2000;  // their choice makes the estimate uncertain by a tenth of itself, where few edges of shadows err
+  const MeshErrorMeter meter{scene.input, light, shown, points, scene.seed, scene.threads, scene.control};
+  const std::optional<ErrorEstimate> before = meter.measure(shown);
+  if (before) {
+    MeshRefinement refinement{*options.mesh_error, *before, *before, shown.faces.size(), shown.faces.size(), false};
+    refinement.met = before->relative_l2 <= refinement.wanted;
+    if (!refinement.met) {
+      Meshing meshing = scene.meshing;
+      if (scene.light_meshing) {
+        meshing = [&](const LeafFace& leaf) { return scene.light_meshing->split_part(leaf); };
+      }
+      const LeafLight leaves{scene.hierarchy, scene.exposure, run.solution.radiosity, scene.materials};
+      MeshRefiner refiner{light, std::move(run.leaf_faces), leaves, meshing, scene.threads, scene.control};
+      if (!detail::refine_to(refinement.wanted, detail::most_mesh_faces(run), meter, refiner, refinement, run.solution.refined,
+                             scene.frame)) {
+        run.solution.refined.reset();
+      }
+    }
+    if (refinement.met || run.solution.refined) { run.solution.audit.mesh = refinement; }
+  }
+  run.watch.lap("mesh");
+  return std::nullopt;
+}
+
+}  // namespace stage
+
+}  // namespace radiosity
