@@ -73,7 +73,7 @@ TEST_CASE("the two sides of a sheet glued to each other vanish; the sides of a s
   CHECK(glue_faces(s, h, twin(h)).refusal().code == Code::equal_faces);
 }
 
-TEST_CASE("glue_faces on every pair of half-edges of random maps is what the definition says: faces gone, half-edges beyond joined") {
+TEST_CASE("glue_faces is what the definition says: faces gone, half-edges beyond joined, for every pair of half-edges of random maps") {
   std::size_t glued = 0, handles = 0, joined = 0, fell = 0, vanished = 0;
   for (std::uint32_t seed = 1; seed <= 400; ++seed) {
     INFO("seed " << seed);

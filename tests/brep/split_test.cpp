@@ -73,7 +73,7 @@ TEST_CASE("split and condition objects combine: at most four edges by nice split
   CHECK(shapes::records(m) == before);
 }
 
-TEST_CASE("every condition object with every split object on stars, spirals and staircases: covered, inherited, met or reported") {
+TEST_CASE("conditions and split objects: every pair on stars, spirals and staircases covers, inherits, meets or reports") {
   for (std::uint32_t seed = 1; seed <= 25; ++seed) {
     INFO("seed " << seed);
     for (const Points& p : {outlines::star_shaped(seed), outlines::rectilinear(seed), outlines::spiral(1 + seed % 3)}) {

@@ -189,7 +189,7 @@ TEST_CASE("a wall cuts the faces on which it stands, and what does not divide th
   CHECK(faces_of(corner)[0] == 1);
 }
 
-TEST_CASE("a plate in the plane of a wall, but beyond the wall, does not pass for lying on it: the scene is not proven closed") {
+TEST_CASE("closure: a plate in the plane of a wall, but beyond the wall, does not pass for lying on it") {
   // An L of unit arms, two high; the notch is x, y > 1. The plate lies in the plane of the wall y = 2.
   const auto plate_from = [](double x0, double x1) {
     Scene scene;

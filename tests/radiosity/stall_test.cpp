@@ -134,7 +134,7 @@ TEST_CASE("long rooms: the number of links does not grow with the proportion") {
   }
 }
 
-TEST_CASE("of objects at one place or inside each other only those that show are refined: pairs grow like their number") {
+TEST_CASE("pairs grow like the number of objects: of those at one place or inside each other only what shows is refined") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
@@ -217,7 +217,7 @@ TEST_CASE("superquadrics of any exponents that are accepted are refined into a b
   CHECK(!raycast::Superquadric::make({0, 0, 0}, {1, 1, 1}, 0.001, 20.0));
 }
 
-TEST_CASE("inside a ring no crossing is looked for where the line passes the tube once: the answer is that of the spans") {
+TEST_CASE("rings: no crossing is looked for where the line passes the tube once, and the answer is that of the spans") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
