@@ -19,6 +19,7 @@
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/prepare.hpp>
 #include <raycast/objects/mesh.hpp>
+#include <raycast/objects/sphere.hpp>
 
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
@@ -217,5 +218,26 @@ TEST_CASE("closure: a plate in the plane of a wall, but beyond the wall, does no
     const radiosity::Solution solution = plate_from(x, x + 0.6);
     CHECK_FALSE(solution.audit.closure);
     for (const radiosity::SurfaceMean& surface : solution.audit.surfaces) { CHECK((surface.name == "lamp" || surface.radiosity.x == 0.0)); }
+  }
+}
+
+TEST_CASE("an object much smaller than the scene is solved, or refused where its shape would be lost in rounding") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };
+  for (int i = 0; i < 200; ++i) {
+    const double size = std::pow(10.0, uniform(-30.0, -1.0));
+    // At the origin: it is the scene's other object that its coordinates are small beside.
+    Scene scene;
+    scene.materials = {{"white", Color{0.7}, Color{0.0}}, {"lamp", Color{0.0}, Color{5.0}}};
+    scene.objects = {i % 2 == 0 ? scenes::object("small", raycast::Sphere::make({0, 0, 0}, size).object)
+                                : scenes::object("small", scenes::box(glm::dvec3{-size}, glm::dvec3{size})),
+                     scenes::plate("lamp", {{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}}, 1)};
+    INFO("size " << size);
+    const radiosity::PrepareResult made = radiosity::prepare(scene);
+    if (size > 1e-11) { CHECK(made.prepared); }
+    if (size < 1e-13) { CHECK_FALSE(made.prepared); }
+    if (!made.prepared) { CHECK_THAT(made.faults.at(0), Catch::Contains("'small' is smaller than 1e-12 of the scene")); }
   }
 }
