@@ -60,8 +60,8 @@ class Text {
       say("estimated from links", picture ? "{estimated_error} of the picture, {estimated_leaf_error} of the leaves" : "{estimated_error}",
           audit_.generations > 0 ? ", after " + std::to_string(audit_.generations) + " generations" : "");
       if (!audit_.estimate_doubt.empty()) { say("", "{estimate_doubt}"); }
-      if (audit_.target_missed) { row("", "TARGET MISSED: the error is above " + percent(audit_.target)); }
     }
+    if (audit_.target_missed) { row("", "TARGET MISSED: the error is above " + percent(report_.options.error.value_or(audit_.target))); }
     say("path-traced points", "{error.points}, {error.rays} rays");
   }
 
@@ -133,7 +133,7 @@ class Text {
     say("open scene",
         "{stray_rays.escaping} of the rays from its surfaces meet nothing, {stray_rays.to_backs} a black back (+- "
         "{stray_rays.standard_error})");
-    say("residual", "{residual} after {iterations} iterations",
+    say("residual", "{residual} after {iterations} iteration" + std::string(audit_.iterations == 1 ? "" : "s"),
         audit_.converged           ? ""
         : audit_.interrupted       ? " - INTERRUPTED, the best so far"
         : !audit_.shortage.empty() ? " - OUT OF MEMORY, the best so far"

@@ -97,7 +97,9 @@ HALFLIGHT_INLINE Outcome solve_to_error(const Options& options, bool of_picture,
       if (!met && !over) { continue; }
     }
     Audit& audit = best.solution->audit;
-    audit.converged = audit.converged && !audit.interrupted && audit.shortage.empty() && best_error && best_error->within(wanted);
+    const bool ended_early = audit.interrupted || !audit.shortage.empty();
+    audit.target_missed = !ended_early && !(best_error && best_error->within(wanted));
+    audit.converged = audit.converged && !ended_early && !audit.target_missed;
     audit.stages = std::move(stages);
     sum_times(audit);
     return best;

@@ -84,7 +84,7 @@ struct Audit {
   // Relative L2, by what links and leaves cannot express (link_error.hpp): of what was asked for, a picture or the leaves; of the leaves.
   std::optional<double> estimated_error, estimated_leaf_error;
   std::string estimate_doubt;     // why the estimate is no bound of the error, or far above it; empty where it may be taken for one
-  bool target_missed = false;     // of BF-refinement: by the estimate, or by the audit beyond twice its standard error
+  bool target_missed = false;     // Options::error, by the audit; Options::target, by the estimate or the audit
   std::uint32_t generations = 0;  // of BF-refinement
   std::uint64_t audit_points = 0;
   std::optional<ErrorEstimate> leaf_error;     // over all surfaces, of the constant on each leaf

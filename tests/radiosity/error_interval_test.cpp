@@ -203,6 +203,7 @@ TEST_CASE("error target: a tighter one never ends with a worse solution, and one
       REQUIRE(audit.surface_error);
       CAPTURE(wanted, audit.links, links, audit.surface_error->low, audit.surface_error->high);
       CHECK(audit.converged == audit.surface_error->within(wanted));
+      CHECK(audit.target_missed != audit.surface_error->within(wanted));
       CHECK(audit.links >= links);
       CHECK(audit.surface_error->low <= high);  // as far as both intervals can tell
       links = audit.links;
