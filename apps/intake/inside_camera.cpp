@@ -25,12 +25,20 @@ struct LampPoint {
   raycast::SurfacePoint at;
 };
 
-// A point of each of the first lamps.
+// A point of each of the first lamps. What shines less than a hundredth as bright as the brightest is no lamp: many programs give every
+// material a little light of its own.
 std::vector<LampPoint> lamp_points(const radiosity::Scene& scene, const raycast::Scene& objects) {
   constexpr std::size_t most = 16;
+  const std::vector<radiosity::InputSurface> surfaces = radiosity::surfaces(scene);
+  const auto exitance = [&](const radiosity::InputSurface& surface) {
+    const radiosity::Color& emission = scene.materials[surface.material].emission;
+    return std::max({emission.r, emission.g, emission.b});
+  };
+  double brightest = 0.0;
+  for (const radiosity::InputSurface& surface : surfaces) { brightest = std::max(brightest, exitance(surface)); }
   std::vector<LampPoint> points;
-  for (const radiosity::InputSurface& surface : radiosity::surfaces(scene)) {
-    if (points.size() >= most || radiosity::is_black(scene.materials[surface.material].emission)) { continue; }
+  for (const radiosity::InputSurface& surface : surfaces) {
+    if (points.size() >= most || !(exitance(surface) > 0.01 * brightest)) { continue; }
     const raycast::PlacedObject& object = objects.object(surface.object);
     points.push_back({surface.object, object.project(surface.sheet, object.bounds().centre())});
   }

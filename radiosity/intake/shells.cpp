@@ -124,6 +124,19 @@ HALFLIGHT_INLINE Component* Shells::shell_around_others() {
   return nullptr;
 }
 
+HALFLIGHT_INLINE bool Shells::holds_another(const Component& shell) const {
+  constexpr std::size_t most_asked = 1000;
+  const std::span<const Component> asked = std::span<const Component>(components_).first(std::min(components_.size(), most_asked));
+  return std::any_of(asked.begin(), asked.end(),
+                     [&](const Component& other) { return &other != &shell && holds(shell, other.box.centre()); });
+}
+
+HALFLIGHT_INLINE bool Shells::shines_inwards(const Component& lamp, const Component* around) const {
+  if (lamp.role != Role::solid || lamp.volume > 0.0) { return false; }
+  if (holds_another(lamp)) { return true; }
+  return around != nullptr ? around->volume > 0.0 : components_.size() == 1;
+}
+
 HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
   constexpr std::size_t most_lamps = 64, most_points = 16;
   std::vector<Component*> rooms;
@@ -137,8 +150,8 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
       places.push_back({middle + off, middle - off});
     }
     if (places.empty() || ++lamps > most_lamps) { continue; }
-    rooms.push_back(innermost(places, &component));
-    if (component.volume < 0.0 && component.role == Role::solid) { rooms.push_back(&component); }  // it shines inwards
+    Component* const around = innermost(places, &component);
+    rooms.push_back(shines_inwards(component, around) ? &component : around);
   }
   if (Component* const around = shell_around_others()) { rooms.push_back(around); }
   for (const glm::dvec3& eye : options_.eyes) {

@@ -62,6 +62,10 @@ class Shells {
   [[nodiscard]] Component* innermost(std::span<const Place> places, const Component* but);
   // The shell that looks inwards at all the others, which do not look inwards themselves, as in a model that is inside out. Null: none.
   [[nodiscard]] Component* shell_around_others();
+  [[nodiscard]] bool holds_another(const Component& shell) const;
+  // Is a lamp that looks inwards a room with shining walls? It is when something is in it, when it is alone, or when the innermost shell
+  // around it looks outwards, as walls do around their room. Else it is a lamp, a bulb for instance, that is inside out.
+  [[nodiscard]] bool shines_inwards(const Component& lamp, const Component* around) const;
   // Shells around lamps, eyes and things. Some may be null.
   [[nodiscard]] std::vector<Component*> find_rooms();
   void turn_shells();

@@ -137,6 +137,11 @@ TEST_CASE("a house whose lamps are in its rooms is looked at from within, a room
   CHECK(noted(house.notes, "the camera stands in the room of a lamp"));
   const glm::dvec3 eye = house.cameras[0].eye;  // y was up
   CHECK((eye.x > 0.0 && eye.x < 4.0 && eye.y < 0.0 && eye.y > -4.0 && eye.z > 0.0 && eye.z < 3.0));
+  // Walls that shine less than a hundredth as bright as a lamp are no lamps to look at, from outside.
+  options.lamps.push_back({"paint", 0.05});
+  const apps::SceneFile painted = scene("a.obj", "usemtl paint\n" + room + walls + lamp, {}, options);
+  REQUIRE(painted.cameras.size() == 1);
+  CHECK(painted.cameras[0].eye == eye);
 }
 
 // Rooms without lamps as models have them: looking inwards, with things in them, some up to the ceiling, turned and of any size.

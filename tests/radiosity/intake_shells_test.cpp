@@ -2,6 +2,7 @@
 // The intake: which shells become rooms, solids or sheets, and which sides of them are seen.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -83,6 +84,61 @@ TEST_CASE("intake: a closed shell on whose walls lamps lie is a room, wherever i
     CHECK(measure(solid.take_in().objects).rooms == 0);
     CHECK(measure(solid.take_in().objects).solids == 1);
   }
+}
+
+// A bulb whose faces were given clockwise must not become a room that lights only itself.
+TEST_CASE("intake: a closed lamp shines into its room, whichever way it looked") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 20; ++round) {
+    const glm::dvec3 lo = glm::dvec3(0.2, 0.2, 1.5) + 0.5 * glm::dvec3(unit(random), unit(random), unit(random));
+    const glm::dvec3 hi = lo + 0.1 + 0.3 * glm::dvec3(unit(random), unit(random), unit(random));
+    const bool thick = round % 4 > 1;
+    std::array<soup::Measure, 2> found;
+    for (const bool inwards : {false, true}) {
+      Soup soup;
+      soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, 1, true);
+      if (thick) { soup::add_box(soup, {-0.2, -0.2, -0.2}, {4.2, 4.2, 3.2}); }
+      soup::add_box(soup, {1, 1, 0.1}, {2, 2, 1});
+      soup::add_box(soup, lo, hi, 1 + round % 3, inwards, 1);
+      const radiosity::Intake intake = soup.take_in();
+      check_sound(soup, intake);
+      CHECK(count_of(intake, ChangeKind::inside_out) == (inwards ? 1 : 0));
+      found[inwards ? 1 : 0] = measure(intake.objects);
+    }
+    CHECK(found[1].rooms == found[0].rooms);
+    CHECK(found[1].rooms == (thick ? 0 : 1));
+    CHECK(found[1].solids == found[0].solids);
+    CHECK(found[1].volume == Approx(found[0].volume).epsilon(1e-12));
+  }
+}
+
+// Many programs give every material a little light of its own. It must not turn the outer side of the walls into the room.
+TEST_CASE("intake: walls that shine stay what walls that do not shine are") {
+  for (const bool furnished : {false, true}) {
+    std::array<soup::Measure, 2> found;
+    for (const std::uint32_t material : {0U, 1U}) {
+      Soup soup;
+      soup::add_box(soup, {-0.2, -0.2, -0.2}, {4.2, 4.2, 3.2}, 1, false, material);
+      soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, 1, true, material);
+      if (furnished) { soup::add_box(soup, {1, 1, 0.1}, {2, 2, 1}, 1, false, material); }
+      radiosity::IntakeOptions inside;
+      inside.eyes = {{0.5, 0.5, 0.5}};
+      const radiosity::Intake intake = soup.take_in(inside);
+      check_sound(soup, intake);
+      CHECK(count_of(intake, ChangeKind::room) == 0);
+      CHECK(count_of(intake, ChangeKind::inside_out) == 0);
+      found[material] = measure(intake.objects);
+    }
+    CHECK(found[1].rooms == 0);
+    CHECK(found[1].solids == found[0].solids);
+    CHECK(found[1].volume == Approx(found[0].volume).epsilon(1e-12));
+  }
+  Soup furnace;  // alone, it is a room
+  soup::add_box(furnace, {0, 0, 0}, {1, 1, 1}, 1, true, 1);
+  CHECK(measure(furnace.take_in().objects).rooms == 1);
 }
 
 // What is in a solid is buried, so a room within walls must not be in one.
