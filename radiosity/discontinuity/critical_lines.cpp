@@ -158,7 +158,7 @@ namespace detail {
 struct JoinedLine {
   explicit JoinedLine(const CriticalLine& l) : line{l}, length{glm::length(l.to - l.from)}, along{(l.to - l.from) / length} {}
 
-  // Takes another line that lies beside no point of this one's carrier by more than the tolerance, and meets it. False when it does not.
+  // Joins another line that lies within the tolerance of this one's straight line, and meets or overlaps it; false when it does not.
   [[nodiscard]] bool take(const CriticalLine& other, double tolerance) {
     const glm::dvec3 to_from = other.from - line.from, to_to = other.to - line.from;
     const auto beside = [&](const glm::dvec3& d) {
