@@ -70,6 +70,9 @@ class Text {
     row("mesh, against gather", error_text(mesh.before) + (changed ? " -> " + error_text(mesh.after) : ""));
     row("", grouped(mesh.faces_before) + (changed ? " -> " + grouped(mesh.faces_after) : "") + " faces" +
                 (mesh.met ? "" : "; NOT within " + percent(mesh.wanted)));
+    if (mesh.outlines_before > 0.0) {
+      row("  of that by outlines", percent(mesh.outlines_before) + (changed ? " -> " + percent(mesh.outlines_after) : ""));
+    }
   }
 
   void times() {

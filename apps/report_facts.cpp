@@ -59,6 +59,8 @@ void add_errors(Facts& facts, const radiosity::Audit& audit) {
     add_error(facts, "error.mesh.after", audit.mesh->after);
     facts.add("error.mesh.faces_before", audit.mesh->faces_before);
     facts.add("error.mesh.faces_after", audit.mesh->faces_after);
+    facts.add("error.mesh.outlines_before", audit.mesh->outlines_before, "%");
+    facts.add("error.mesh.outlines_after", audit.mesh->outlines_after, "%");
     facts.add("error.mesh.wanted", audit.mesh->wanted, "%");
     facts.add("error.mesh.met", audit.mesh->met);
   }

@@ -20,6 +20,7 @@ struct View {
   double half_width = 1.0;
   PictureSize size;
 
+  [[nodiscard]] double pixel_area() const { return 4.0 * half_width * half_width / size.width / size.width; }  // of the image
   [[nodiscard]] double half_height() const { return half_width * size.height / size.width; }
   [[nodiscard]] glm::dvec3 to_view(const glm::dvec3& world) const;
   // What falls on the point (x, y) of the picture, in pixels from its top left corner, lies along this ray of view space, whose z is 1,

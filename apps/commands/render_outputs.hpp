@@ -81,7 +81,7 @@ class Artist {
   [[nodiscard]] Tone tone(const radiosity::Mesh& mesh) const;
   [[nodiscard]] PictureSize size() const { return view_.size; }
   [[nodiscard]] radiosity::Viewpoint viewpoint() const {
-    return {view_.eye, [view = view_](const glm::dvec3& p, const glm::dvec3& n) { return view.share(p, n); }};
+    return {view_.eye, [view = view_](const glm::dvec3& p, const glm::dvec3& n) { return view.share(p, n); }, view_.pixel_area()};
   }
   // Nothing when interrupted.
   [[nodiscard]] std::optional<Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const Tone& tone,

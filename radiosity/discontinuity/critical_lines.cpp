@@ -152,40 +152,53 @@ HALFLIGHT_INLINE void add_contact_lines(const ReceivingFace& face, const Facets&
   }
 }
 
+namespace detail {
+
+// A line with what is asked of it again and again.
+struct JoinedLine {
+  explicit JoinedLine(const CriticalLine& l) : line{l}, length{glm::length(l.to - l.from)}, along{(l.to - l.from) / length} {}
+
+  // Joins another line that lies within the tolerance of this one's straight line, and meets or overlaps it; false when it does not.
+  [[nodiscard]] bool take(const CriticalLine& other, double tolerance) {
+    const glm::dvec3 to_from = other.from - line.from, to_to = other.to - line.from;
+    const auto beside = [&](const glm::dvec3& d) {
+      const glm::dvec3 across = glm::cross(along, d);
+      return glm::dot(across, across) > tolerance * tolerance;
+    };
+    if (beside(to_from) || beside(to_to)) { return false; }
+    const double from = glm::dot(along, to_from), to = glm::dot(along, to_to);
+    const double low = std::min(from, to), high = std::max(from, to);
+    if (low > length + tolerance || high < -tolerance) { return false; }
+    if (low >= 0.0 && high <= length) { return true; }
+    const glm::dvec3 start = line.from;
+    if (low < 0.0) { line.from = start + low * along; }
+    if (high > length) { line.to = start + high * along; }
+    *this = JoinedLine{line};
+    return true;
+  }
+
+  CriticalLine line;
+  double length;
+  glm::dvec3 along;
+};
+
+}  // namespace detail
+
 HALFLIGHT_INLINE void join_lines(std::vector<CriticalLine>& lines, double tolerance) {
   const auto length = [](const CriticalLine& line) { return glm::length(line.to - line.from); };
   const auto before = [&](const CriticalLine& a, const CriticalLine& b) {
     return a.degree != b.degree ? a.degree < b.degree : length(a) > length(b);
   };
   std::stable_sort(lines.begin(), lines.end(), before);
-  std::vector<CriticalLine> joined;
-  for (bool again = true; again; lines = joined) {
-    again = false;
-    joined.clear();
+  for (bool again = true; again;) {
+    std::vector<detail::JoinedLine> joined;
     for (const CriticalLine& line : lines) {
-      bool found = false;
-      for (CriticalLine& other : joined) {
-        const double long_one = length(other);
-        const glm::dvec3 along = (other.to - other.from) / long_one;
-        const auto beside = [&](const glm::dvec3& p) { return glm::length(glm::cross(along, p - other.from)); };
-        if (beside(line.from) > tolerance || beside(line.to) > tolerance) { continue; }
-        const double from = glm::dot(along, line.from - other.from);
-        const double to = glm::dot(along, line.to - other.from);
-        const double low = std::min(from, to);
-        const double high = std::max(from, to);
-        if (low > long_one + tolerance || high < -tolerance) { continue; }
-        const glm::dvec3 start = other.from;
-        if (low < 0.0) { other.from = start + low * along; }
-        if (high > long_one) { other.to = start + high * along; }
-        found = true;
-        break;
-      }
-      if (found) {
-        again = true;
-      } else {
-        joined.push_back(line);
-      }
+      const auto takes = [&](detail::JoinedLine& other) { return other.take(line, tolerance); };
+      if (std::none_of(joined.begin(), joined.end(), takes)) { joined.emplace_back(line); }
     }
+    again = joined.size() < lines.size();
+    lines.clear();
+    for (const detail::JoinedLine& line : joined) { lines.push_back(line.line); }
   }
   std::stable_sort(lines.begin(), lines.end(), before);
 }

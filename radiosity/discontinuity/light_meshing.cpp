@@ -68,6 +68,12 @@ inline constexpr double least_share_of_chord = 0.3;
   return to > from ? std::max(0.0, std::min(to, length) - std::max(from, 0.0)) / (to - from) : 0.0;
 }
 
+// Does the line come within the radius of the point? Most lines of a face stay away from a patch of it, and this is soon said.
+[[nodiscard]] HALFLIGHT_INLINE bool comes_near(const CriticalLine& line, const glm::dvec3& point, double square_of_radius) {
+  const glm::dvec3 along = line.to - line.from, d = point - line.from, across = glm::cross(along, d);
+  return glm::dot(across, across) <= square_of_radius * glm::dot(along, along);
+}
+
 [[nodiscard]] HALFLIGHT_INLINE std::optional<ReceivingFace> receiving_face(const Surface& surface, brep::FaceId f) {
   if (surface.brep.data(f).sheet == brep::no_sheet) { return std::nullopt; }
   ReceivingFace face{corner_polygon(surface.brep, f), {}};
@@ -132,7 +138,10 @@ HALFLIGHT_INLINE DirectVariation LightMeshing::look_at(const Surface& surface, b
   LitRegion region{light_, {patch.contour, object_of_[surface.first_surface], 0.0, sheet}, patch.normal};
   std::vector<CriticalLine> crossing;
   if (const auto found = faces_.find(key(surface, face)); found != faces_.end()) {
+    double square = 0.0;  // of the patch's radius
+    for (const glm::dvec3& p : patch.contour) { square = std::max(square, glm::dot(p - patch.centroid, p - patch.centroid)); }
     for (const CriticalLine& line : found->second.lines) {
+      if (!detail::comes_near(line, patch.centroid, square)) { continue; }
       if (detail::share_of_chord(patch.contour, patch.normal, line) >= detail::least_share_of_chord) { crossing.push_back(line); }
     }
   }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include <brep/handles.hpp>
 #include <brep/refine.hpp>
 #include <brep/ring.hpp>
+#include <brep/small_list.hpp>
 
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
@@ -24,22 +26,25 @@
 
 namespace radiosity {
 
-// Moves a vertex to the sheets of the faces around it: onto the surface, or onto the curve where two sheets meet.
-HALFLIGHT_INLINE void place_on_object(const raycast::PlacedObject& object, SurfaceBRep& brep, brep::VertexId v) {
-  if (object.flat()) { return; }
-  glm::dvec3& position = brep.data(v).position;
+HALFLIGHT_INLINE glm::dvec3 on_sheets(const raycast::PlacedObject& object, std::span<const std::uint32_t> sheets, glm::dvec3 p) {
   for (int round = 0; round < 8; ++round) {
-    const glm::dvec3 before = position;
-    for (const brep::HalfedgeId h : brep::halfedges_from(brep, v)) {
-      const std::uint32_t sheet = brep.data(brep.face(h)).sheet;
-      if (sheet != brep::no_sheet) { position = object.vertex(sheet, position); }
+    const glm::dvec3 before = p;
+    for (const std::uint32_t sheet : sheets) {
+      if (sheet != brep::no_sheet) { p = object.vertex(sheet, p); }
     }
-    if (position == before) { return; }
+    if (p == before) { break; }
   }
+  return p;
 }
 
 HALFLIGHT_INLINE void LeafFace::place(brep::VertexId v) const {
-  if (surface.topology == Topology::shared) { place_on_object(*surface.object, surface.brep, v); }
+  if (surface.topology != Topology::shared || surface.object->flat()) { return; }
+  brep::SmallList<std::uint32_t> sheets;
+  for (const brep::HalfedgeId h : brep::halfedges_from(surface.brep, v)) {
+    sheets.push_back(surface.brep.data(surface.brep.face(h)).sheet);
+  }
+  glm::dvec3& position = surface.brep.data(v).position;
+  position = on_sheets(*surface.object, std::span{sheets.data(), sheets.size()}, position);
 }
 
 HALFLIGHT_INLINE ChildFaces RegularMeshing::operator()(const LeafFace& leaf) const {

@@ -15,13 +15,18 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include <brep/handles.hpp>
 #include <brep/split.hpp>
 #include <brep/split_objects.hpp>
+
+#include <raycast/transform.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
@@ -36,6 +41,9 @@ struct LeafFace {
   // Moves a new vertex onto the object, or onto the curve where two of its sheets meet. Polygons of their own stay flat.
   void place(brep::VertexId v) const;
 };
+
+// The point near p of a curved object at which these sheets meet, or that of the one sheet; backs (brep::no_sheet) do not count.
+[[nodiscard]] glm::dvec3 on_sheets(const raycast::PlacedObject& object, std::span<const std::uint32_t> sheets, glm::dvec3 p);
 
 struct ChildFaces {
   std::vector<brep::FaceId> faces;  // none: the face cannot be split, and nothing has changed
@@ -65,9 +73,7 @@ class CutBy {
     const unsigned level = brep.data(leaf.face).level + 1u;
     if (level > 255) { return {}; }
     bool cut = false;
-    const auto once = [&](const SurfaceBRep& b, brep::FaceId f) {
-      return std::exchange(cut, true) ? brep::Cut{} : split_(b, f);
-    };
+    const auto once = [&](const SurfaceBRep& b, brep::FaceId f) { return std::exchange(cut, true) ? brep::Cut{} : split_(b, f); };
     const auto finished = [&](const SurfaceBRep&, brep::FaceId) { return cut; };
     const auto parts = brep::split_recursively(brep, leaf.face, once, finished);
     if (!parts || parts->faces.size() < 2) { return {}; }

@@ -57,6 +57,11 @@ class FinalGather {
   // (lookup.hpp). `outlines`: where those are as they are, not as those of meshes that stand in for slow objects.
   [[nodiscard]] std::array<std::optional<Place>, 16> seen16(const Eye& eye, std::span<const glm::dvec3> directions, bool outlines) const;
 
+  // What the mesh of the solution shows at a place, W/m2; nothing where it has no face.
+  [[nodiscard]] std::optional<Color> solved(const Place& place) const {
+    return lookup_.at(place.object, place.surface - lookup_.surface(place.object, 0), place.point);
+  }
+
   // The point of the same sheet that is seen beside a place, in a direction that differs by part of a pixel; nothing where the sheet bends
   // away.
   [[nodiscard]] std::optional<Place> beside(const Place& place, const Eye& eye, const glm::dvec3& direction) const;

@@ -105,6 +105,16 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
     control.report("mesh audit", static_cast<double>(std::min(first + batch, points)) / static_cast<double>(points));
   }
   samples_ = std::move(samples);
+  area_ = all_area;
+}
+
+HALFLIGHT_INLINE double MeshErrorMeter::square() const {
+  double sum = 0.0;
+  for (const Sample& sample : samples_) {
+    const Color emission = sample.weight > 0.0 ? light_->material(sample.place.surface).emission : Color{0.0};
+    sum += sample.weight * glm::dot(sample.light[0] - emission, sample.light[1] - emission);
+  }
+  return samples_.empty() ? 0.0 : std::max(0.0, sum * area_ / static_cast<double>(samples_.size()));
 }
 
 HALFLIGHT_INLINE std::optional<ErrorEstimate> MeshErrorMeter::measure(const Mesh& mesh) const {

@@ -27,6 +27,8 @@ class MeshErrorMeter {
 
   // Of another mesh of the same surfaces. Nothing without points, or when they see no light.
   [[nodiscard]] std::optional<ErrorEstimate> measure(const Mesh& mesh) const;
+  // The square of the reflected light, integrated over the surfaces, in the frame, or over the picture.
+  [[nodiscard]] double square() const;
 
  private:
   struct Sample {
@@ -37,6 +39,7 @@ class MeshErrorMeter {
   const Scene* scene_;
   const FinalGather* light_;
   std::vector<Sample> samples_;
+  double area_ = 0.0;  // of all triangles, or what they take of the picture
 };
 
 }  // namespace radiosity

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -28,6 +29,7 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/picture/irradiance_cache.hpp>
+#include <radiosity/picture/outlines.hpp>
 #include <radiosity/picture/reconstruct.hpp>
 #include <radiosity/picture/viewpoint.hpp>
 #include <radiosity/result/mesh.hpp>
@@ -73,6 +75,17 @@ HALFLIGHT_INLINE MeshRefiner::MeshRefiner(const FinalGather& light, std::vector<
     }
   }
   faces_ = fresh_.size();
+  measure_outlines();
+}
+
+HALFLIGHT_INLINE void MeshRefiner::measure_outlines() {
+  if (control_->mesh_from) { outlines_ = outline_errors(*light_, surfaces_, *control_->mesh_from, threads_); }
+}
+
+HALFLIGHT_INLINE double MeshRefiner::outlines() const {
+  double sum = 0.0;
+  for (const std::vector<double>& of : outlines_) { sum = std::accumulate(of.begin(), of.end(), sum); }
+  return sum;
 }
 
 HALFLIGHT_INLINE MeshRefiner::Places MeshRefiner::places_of(const Face& face) const {
@@ -172,11 +185,12 @@ HALFLIGHT_INLINE bool MeshRefiner::gather() {
     parallel_for(std::min(batch, fresh_.size() - first), threads_, light, 8);
   }
   fresh_.clear();
+  measure_outlines();
   return true;
 }
 
 HALFLIGHT_INLINE double MeshRefiner::error() const {
-  double error = 0.0, square = 0.0;
+  double error = outlines(), square = 0.0;
   for (const std::vector<Cell>& of : cells_) {
     for (const Cell& cell : of) { error += cell.error, square += cell.square; }
   }
@@ -193,9 +207,10 @@ HALFLIGHT_INLINE std::size_t MeshRefiner::split(double wanted, std::uint64_t mos
   for (std::uint32_t o = 0; o < surfaces_.size(); ++o) {
     for (std::uint32_t f = 0; f < cells_[o].size(); ++f) {
       const Cell& cell = cells_[o][f];
-      rest += cell.error;
+      const double error = cell.error + (outlines_.empty() ? 0.0 : outlines_[o][f]);
+      rest += error;
       square += cell.square;
-      if (cell.error > 0.0) { candidates.push_back({cell.error, {o, brep::FaceId{f}}}); }
+      if (error > 0.0) { candidates.push_back({error, {o, brep::FaceId{f}}}); }
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.error > b.error; });

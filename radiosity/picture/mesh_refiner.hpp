@@ -10,7 +10,8 @@
 // at a thousandth of its face inside that face, so that at the foot of a box it has the light of its own side. Where faces around a vertex
 // agree, it has one colour.
 //
-// Errors: direct and indirect light at some random points of each face, against what its corners say there.
+// Errors: direct and indirect light at some random points of each face, against what its corners say there; for a camera also what facets
+// of curved objects have wrong at their outlines (outlines.hpp).
 
 #include <cstddef>
 #include <cstdint>
@@ -41,8 +42,10 @@ class MeshRefiner {
 
   // Gathers the light of the faces that are new since the last call. False when cancelled.
   [[nodiscard]] bool gather();
-  // Relative L2 error over all surfaces by the points of the faces.
+  // Relative L2 error over all surfaces by the points of the faces, and the outlines.
   [[nodiscard]] double error() const;
+  // The squared error at outlines, integrated over the picture; 0 without a camera. Light need not be gathered for it.
+  [[nodiscard]] double outlines() const;
   [[nodiscard]] std::uint64_t faces() const { return faces_; }  // that are exposed
   // Splits the faces with the largest errors, until the others together would be half of the error that is wanted, or there are `most`.
   // Returns how many it has split.
@@ -76,6 +79,7 @@ class MeshRefiner {
   };
   [[nodiscard]] Places places_of(const Face& face) const;
   [[nodiscard]] Cell light_of(const Face& face, const Places& places) const;
+  void measure_outlines();
   void unite_colours(Surface& surface, const std::vector<Cell>& cells, const std::vector<brep::FaceId>& origin) const;
 
   const FinalGather* light_;
@@ -85,7 +89,8 @@ class MeshRefiner {
   unsigned threads_;
   const Control* control_;
   IrradianceCache indirect_;
-  std::vector<std::vector<Cell>> cells_;  // of each surface, by the index of the face
+  std::vector<std::vector<Cell>> cells_;       // of each surface, by the index of the face,
+  std::vector<std::vector<double>> outlines_;  // and the squared error at its outlines
   std::vector<Face> fresh_;
   std::uint64_t faces_ = 0;
   double total_area_ = 0.0;

@@ -38,10 +38,12 @@ struct StrayRays {
   double standard_error = 0.0;  // of either, at most
 };
 
-// What became of Options::mesh_error. Errors are relative L2 over the surfaces, of the colours of the mesh against gathered light.
+// What became of Options::mesh_error. Errors are relative L2 over the surfaces, of the colours of the mesh against gathered light; or over
+// the picture, with what its facets have wrong at the outlines of curved objects.
 struct MeshRefinement {
   double wanted = 0.0;
   ErrorEstimate before, after;
+  double outlines_before = 0.0, outlines_after = 0.0;  // by the outlines alone
   std::uint64_t faces_before = 0, faces_after = 0;
   bool met = false;
 };

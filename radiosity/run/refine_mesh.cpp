@@ -4,6 +4,7 @@
 // mesh stay as they are.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -41,6 +42,19 @@ namespace detail {
   return std::min(most, (budget.allowed - std::min(budget.allowed, held)) / bytes);
 }
 
+// What the outlines of the mesh alone make wrong in the picture, relative L2.
+[[nodiscard]] HALFLIGHT_INLINE double outline_error(const MeshRefiner& refiner, const MeshErrorMeter& meter) {
+  const double square = meter.square();
+  return square > 0.0 ? std::sqrt(refiner.outlines() / square) : 0.0;
+}
+
+// The error of the colours, and at the outlines. Nothing is left to chance at the latter.
+[[nodiscard]] HALFLIGHT_INLINE ErrorEstimate with_outlines(const ErrorEstimate& colours, double outlines) {
+  const double all = std::hypot(colours.relative_l2, outlines);
+  const double slope = all > 0.0 ? colours.relative_l2 / all : 1.0;
+  return {all, slope * colours.standard_error, std::hypot(colours.low, outlines), std::hypot(colours.high, outlines)};
+}
+
 // Splits until the error is at most `wanted` or nothing more can be split; false when cancelled. The error by the points of the faces says
 // how far to go, that of the meter, which knows what these points have missed, when to end.
 HALFLIGHT_INLINE bool refine_to(double wanted, std::uint64_t most, const MeshErrorMeter& meter, MeshRefiner& refiner,
@@ -58,14 +72,15 @@ HALFLIGHT_INLINE bool refine_to(double wanted, std::uint64_t most, const MeshErr
     Mesh mesh = refiner.mesh();
     Mesh in_scene = mesh;
     to_scene(in_scene, frame);
-    const std::optional<ErrorEstimate> error = meter.measure(in_scene);
-    if (!error) { return true; }
-    refinement.after = *error;
+    const std::optional<ErrorEstimate> colours = meter.measure(in_scene);
+    if (!colours) { return true; }
+    refinement.outlines_after = outline_error(refiner, meter);
+    refinement.after = with_outlines(*colours, refinement.outlines_after);
     refinement.faces_after = mesh.faces.size();
     refined = std::move(mesh);
-    refinement.met = error->relative_l2 <= wanted;
-    const bool hopeless = error->relative_l2 > 0.95 * last;  // what is left is not between the corners
-    last = error->relative_l2;
+    refinement.met = refinement.after.relative_l2 <= wanted;
+    const bool hopeless = refinement.after.relative_l2 > 0.95 * last;  // what is left is not between the corners
+    last = refinement.after.relative_l2;
     if (refinement.met || wants_more || hopeless || !(refiner.error() > 0.0)) { return true; }
     goal = std::min(0.8 * goal, 0.9 * refiner.error());
   }
@@ -84,21 +99,20 @@ HALFLIGHT_INLINE std::optional<Failure> refine_mesh(detail::Run& run) {
   const FinalGather light{scene.input, shown, scene.frame};
   constexpr std::uint64_t points = 2000;  // their choice makes the estimate uncertain by a tenth of itself, where few edges of shadows err
   const MeshErrorMeter meter{scene.input, light, shown, points, scene.seed, scene.threads, scene.control};
-  const std::optional<ErrorEstimate> before = meter.measure(shown);
-  if (before) {
-    MeshRefinement refinement{*options.mesh_error, *before, *before, shown.faces.size(), shown.faces.size(), false};
-    refinement.met = before->relative_l2 <= refinement.wanted;
-    if (!refinement.met) {
-      Meshing meshing = scene.meshing;
-      if (scene.light_meshing) {
-        meshing = [&](const LeafFace& leaf) { return scene.light_meshing->split_part(leaf); };
-      }
-      const LeafLight leaves{scene.hierarchy, scene.exposure, run.solution.radiosity, scene.materials};
-      MeshRefiner refiner{light, std::move(run.leaf_faces), leaves, meshing, scene.threads, scene.control};
-      if (!detail::refine_to(refinement.wanted, detail::most_mesh_faces(run), meter, refiner, refinement, run.solution.refined,
-                             scene.frame)) {
-        run.solution.refined.reset();
-      }
+  if (const std::optional<ErrorEstimate> colours = meter.measure(shown)) {
+    Meshing meshing = scene.meshing;
+    if (scene.light_meshing) {
+      meshing = [&](const LeafFace& leaf) { return scene.light_meshing->split_part(leaf); };
+    }
+    const LeafLight leaves{scene.hierarchy, scene.exposure, run.solution.radiosity, scene.materials};
+    MeshRefiner refiner{light, std::move(run.leaf_faces), leaves, meshing, scene.threads, scene.control};
+    const double outlines = detail::outline_error(refiner, meter);
+    const ErrorEstimate before = detail::with_outlines(*colours, outlines);
+    MeshRefinement refinement{*options.mesh_error, before, before, outlines, outlines, shown.faces.size(), shown.faces.size(), false};
+    refinement.met = before.relative_l2 <= refinement.wanted;
+    if (!refinement.met && !detail::refine_to(refinement.wanted, detail::most_mesh_faces(run), meter, refiner, refinement,
+                                              run.solution.refined, scene.frame)) {
+      run.solution.refined.reset();
     }
     if (refinement.met || run.solution.refined) { run.solution.audit.mesh = refinement; }
   }

@@ -128,6 +128,8 @@ struct Viewpoint {
   // How much of the picture a unit of area takes at a position with this normal, if nothing stands between; 0 for what is not in the
   // picture.
   std::function<double(const glm::dvec3& position, const glm::dvec3& normal)> share;
+  // How much of the picture a pixel takes, in the same unit; 0: its pixels are points.
+  double pixel = 0.0;
 };
 
 // How the caller watches and stops a run. `progress` is called from the thread that called solve().
