@@ -38,9 +38,8 @@ namespace detail {
 HALFLIGHT_INLINE std::uint64_t bytes_of(const Solution& solution) {
   const Mesh& mesh = solution.mesh;
   return solution.hierarchy.capacity() * (sizeof(Node) + sizeof(Color) + 2 * sizeof(double)) +
-         (solution.links.capacity() + solution.ray_links.capacity()) * sizeof(Link) +
-         mesh.positions.capacity() * sizeof(glm::dvec3) + mesh.corners.capacity() * sizeof(MeshCorner) +
-         mesh.faces.capacity() * sizeof(MeshFace);
+         (solution.links.capacity() + solution.ray_links.capacity()) * sizeof(Link) + mesh.positions.capacity() * sizeof(glm::dvec3) +
+         mesh.corners.capacity() * sizeof(MeshCorner) + mesh.faces.capacity() * sizeof(MeshFace);
 }
 
 HALFLIGHT_INLINE Outcome solve_to_error(const Options& options, bool of_picture,

@@ -46,8 +46,9 @@ struct PrepareResult {
   for (std::uint32_t o = 0; o < prepared.objects.size(); ++o) {
     const raycast::Box box = prepared.objects.object(o).bounds();
     if (!(glm::length(box.hi - box.lo) > raycast::tol_vanishing)) {  // the frame has a size between 1 and 2
-      sentences.push_back("object '" + scene.objects[o].name +
-                          "' is smaller than 1e-12 of the scene: beside the scene's coordinates its shape is lost in rounding; leave it out");
+      sentences.push_back(
+          "object '" + scene.objects[o].name +
+          "' is smaller than 1e-12 of the scene: beside the scene's coordinates its shape is lost in rounding; leave it out");
       continue;
     }
     SurfaceResult made = make_surface(prepared.objects.object(o), first_surface);
