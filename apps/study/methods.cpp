@@ -106,27 +106,37 @@ MethodPlan accuracy_target(std::string name, std::string summary, const Options&
   return method;
 }
 
+radiosity::UniformOptions uniform_options(const MethodOptions& study, radiosity::UniformSolver solver, int leaves) {
+  radiosity::UniformOptions options;
+  options.solver = solver;
+  options.max_area = 1.0 / leaves;
+  options.compare = 0;
+  options.threads = study.threads;
+  options.seed = study.seed;
+  options.memory = study.memory;
+  return options;
+}
+
+// With the dense solution of the same mesh, which tells the parts of the error apart.
+Setting uniform_setting(std::string name, const radiosity::UniformOptions& options) {
+  radiosity::UniformOptions matrix = options;
+  matrix.solver = radiosity::UniformSolver::gauss_seidel;
+  return {
+      std::move(name),
+      [options](const Scene& scene, const Control& control) { return radiosity::solve_uniform(scene, options, control); },
+      [matrix](const Scene& scene, const Solution&, const Control& control) { return radiosity::solve_uniform(scene, matrix, control); },
+      {}};
+}
+
 MethodPlan uniform(std::string name, std::string summary, const MethodOptions& study, radiosity::UniformSolver solver) {
   MethodPlan method{std::move(name), std::move(summary), {}};
   double unshot = 0.16;
   for (const int leaves : {32, 64, 128, 256, 512, 1024, 2048}) {
-    radiosity::UniformOptions options;
-    options.solver = solver;
-    options.max_area = 1.0 / leaves;
+    radiosity::UniformOptions options = uniform_options(study, solver, leaves);
     options.unshot = unshot /= 2.0;
-    options.compare = 0;
-    options.threads = study.threads;
-    options.seed = study.seed;
-    options.memory = study.memory;
-    radiosity::UniformOptions matrix = options;  // the dense solution of this mesh
-    matrix.solver = radiosity::UniformSolver::gauss_seidel;
     std::string setting = "area 1/" + std::to_string(leaves);
     if (solver == radiosity::UniformSolver::progressive) { setting += text(", unshot", unshot); }
-    method.settings.push_back(
-        {std::move(setting),
-         [options](const Scene& scene, const Control& control) { return radiosity::solve_uniform(scene, options, control); },
-         [matrix](const Scene& scene, const Solution&, const Control& control) { return radiosity::solve_uniform(scene, matrix, control); },
-         {}});
+    method.settings.push_back(uniform_setting(std::move(setting), options));
   }
   return method;
 }
@@ -139,23 +149,11 @@ MethodPlan plain_program(const MethodOptions& study) {
   const std::array<std::uint32_t, 7> rays{32, 48, 64, 96, 128, 192, 256};  // of the largest leaf
   for (std::size_t k = 0; k < rays.size(); ++k) {
     const int leaves = 128 << k;
-    radiosity::UniformOptions options;
-    options.solver = radiosity::UniformSolver::gather_lists;
-    options.max_area = 1.0 / leaves;
+    radiosity::UniformOptions options = uniform_options(study, radiosity::UniformSolver::gather_lists, leaves);
     options.max_leaves = 10'000'000;
     options.lists = {rays[k] / 2, rays[k]};
     options.residual = 1e-5;
-    options.compare = 0;
-    options.threads = study.threads;
-    options.seed = study.seed;
-    options.memory = study.memory;
-    radiosity::UniformOptions matrix = options;  // the dense solution of this mesh
-    matrix.solver = radiosity::UniformSolver::gauss_seidel;
-    method.settings.push_back(
-        {"area 1/" + std::to_string(leaves) + ", " + std::to_string(rays[k]) + " rays",
-         [options](const Scene& scene, const Control& control) { return radiosity::solve_uniform(scene, options, control); },
-         [matrix](const Scene& scene, const Solution&, const Control& control) { return radiosity::solve_uniform(scene, matrix, control); },
-         {}});
+    method.settings.push_back(uniform_setting("area 1/" + std::to_string(leaves) + ", " + std::to_string(rays[k]) + " rays", options));
   }
   return method;
 }
