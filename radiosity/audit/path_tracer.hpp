@@ -8,8 +8,12 @@
 // light is found twice, in a direction towards an emitter (emitters.hpp) and in the cosine-distributed one in which the path goes
 // on; the balance heuristic weighs the two (Veach and Guibas 1995). With p the density of the first per solid angle, light that
 // arrives in a direction at the angle t to the normal counts E / (p + cos t / pi) * cos t / pi: never more than E, so that no lamp,
-// however small, near or bright beside others, makes a rare path count much. Paths end by Russian roulette with the largest channel
-// of rho, but not at their first point; they take 1 / (1 - rho) bounces on average: see most_bounces.
+// however small, near or bright beside others, makes a rare path count much.
+//
+// A path ends by Russian roulette, but only once it carries little: as soon as the reflectances that it met multiply to less than a tenth,
+// or less than 1 - rho of the scene's brightest surface where that is more. If each bounce played for the path's life, the light of a white
+// closed room would be as uncertain as the length of its paths, which is of the order of 1 / (1 - rho) with a standard deviation as large.
+// The bounces that come for certain cost 3.3 times as many rays at most, and the variance of that length falls to a hundredth.
 
 #include <algorithm>
 #include <cstdint>
@@ -84,7 +88,8 @@ class PathTracer {
         if (hit) { arrives(throughput * emission(*hit) * balance(lamp->density, glm::dot(n, lamp->direction))); }
       }
       if (!first) {
-        const double survival = std::min(1.0 - 1.0 / most_bounces, std::max({rho.x, rho.y, rho.z}));
+        const double carried = std::max({throughput.x, throughput.y, throughput.z});
+        const double survival = std::min(1.0 - 1.0 / most_bounces, carried / std::max(0.1, 1.0 - brightest_));
         if (!(random.uniform() < survival)) { return result; }
         throughput /= survival;
       }
