@@ -151,6 +151,10 @@ class Text {
       row("refinement", audit_.target > 0.0 ? "bf, estimate at most " + formatted("%.3g", audit_.target) : "bf, until the time was used");
     } else {
       say("refinement", "f, epsilon {settings.epsilon}, min area {settings.min_area}, of lights {settings.light_epsilon}");
+      if (audit_.reflected_share && *audit_.reflected_share < 0.25) {
+        row("",
+            "of lights finer: the reflected light is " + formatted("%.2g", *audit_.reflected_share) + " as bright as the mean emission");
+      }
     }
     say("channels, threads, seed", "{settings.channels}, {settings.threads}, {settings.seed}");
     if (report_.options.reconstruction != radiosity::Reconstruction::none) {

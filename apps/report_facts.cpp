@@ -115,6 +115,7 @@ void add_settings(Facts& facts, const Report& report) {
   facts.add("settings.epsilon", audit.epsilon, "%.3g");
   facts.add("settings.min_area", audit.min_area, "%.3g");
   facts.add("settings.light_epsilon", audit.light_epsilon, "%.3g");
+  facts.add("settings.reflected_share", audit.reflected_share, "%.2g");
   facts.add("settings.error_target", report.options.error);
   facts.add("settings.solver", std::string(name(report.options.solver)));
   facts.add("settings.reconstruction", std::string(name(report.options.reconstruction)));

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -39,11 +41,18 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& s
     emission_.push_back(std::max({emission.x, emission.y, emission.z}));
   }
   double power = 0.0;
+  std::map<std::pair<std::uint32_t, double>, double> alike;  // area of what shines alike, by object
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
     if (!is_input_face(hierarchy, i) || (i < buried.size() && buried[i])) { continue; }
     const Node& root = hierarchy[i];
     power += root.area * emission_[root.surface];
     scene_area_ += root.area;
+    alike[{root.object, emission_[root.surface]}] += root.area;
+  }
+  lamp_area_.resize(emission_.size());
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+    const Node& root = hierarchy[i];
+    if (is_input_face(hierarchy, i)) { lamp_area_[root.surface] = alike[{root.object, emission_[root.surface]}]; }
   }
   for (double& e : emission_) { e = power > 0.0 ? e / power * scene_area_ : 0.0; }
   for (std::size_t i = hierarchy.size(); i-- > 0;) {
@@ -70,8 +79,9 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
   const std::uint32_t lamp = q_shines ? q : p;
   const Node& to = nodes[receiver];
   const Node& from = nodes[lamp];
-  // A light that was split into k parts has k links here, whose variations add up to between sqrt k and k of one.
-  const double parts = from.is_cluster() ? 1.0 : nodes[input_face(nodes, lamp)].area / from.area;
+  // A light of k parts, be they faces of one bulb or pieces of a face, has k links here; their variations add up to between sqrt k and k
+  // of one.
+  const double parts = from.is_cluster() ? 1.0 : lamp_area_[from.surface] / from.area;
   const double weight = emission(from) * std::sqrt(parts * to.area / scene_area_);
   if (!(weight > epsilon_)) { return no_node; }
   if (lamps_ && from.is_cluster() && !to.is_cluster()) { return wants_split_by_lamp(receiver, lamp, weight, rays); }

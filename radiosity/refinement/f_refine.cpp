@@ -89,8 +89,13 @@ HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, con
   return sends;
 }
 
+// How far the light of a lamp may vary, relative to the mean emission.
+[[nodiscard]] HALFLIGHT_INLINE double light_epsilon_of_emission(const Fineness& to) { return to.reflected * to.light_epsilon; }
+
 // By how much the light is to be resolved finer than epsilon says by itself.
-[[nodiscard]] HALFLIGHT_INLINE double finer_for_light(const Fineness& to) { return std::min(1.0, to.light_epsilon / (0.25 * to.epsilon)); }
+[[nodiscard]] HALFLIGHT_INLINE double finer_for_light(const Fineness& to) {
+  return std::min(1.0, light_epsilon_of_emission(to) / (0.25 * to.epsilon));
+}
 
 // F-refinement between two generations.
 struct FRefinement {
@@ -99,7 +104,7 @@ struct FRefinement {
         fineness{to},
         proofs{of.surfaces, of.hierarchy},
         shown{of.hierarchy, [&](std::size_t i) { return of.hierarchy[i].area; }},
-        light{of.input, of.view(), shown, to.light_epsilon, of.seed, proofs.buried()},
+        light{of.input, of.view(), shown, light_epsilon_of_emission(to), of.seed, proofs.buried()},
         min_area{to.min_area * light.scene_area()},
         light_min_area{0.25 * min_area * finer_for_light(to) * finer_for_light(to)},
         measured{of, proofs.buried(), light.scene_area(), to.light_epsilon, light_min_area / 16.0},
@@ -158,7 +163,7 @@ HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
       },
       [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
         if (decision != Decision::link || !(state.fineness.light_epsilon > 0.0)) { return; }
-        Question question{scene.hierarchy, state.pairs[i].p, state.pairs[i].q, state.shown, state.fineness.light_epsilon};
+        Question question{scene.hierarchy, state.pairs[i].p, state.pairs[i].q, state.shown, light_epsilon_of_emission(state.fineness)};
         question.min_area = state.light_min_area;
         question.between = &list;
         question.rays = &rays[i];

@@ -101,7 +101,9 @@ std::vector<Decision> decide(const DiscreteScene& scene, NodePairs& pairs, Refin
 // How fine the links are. `min_area` is relative to the area of all roots that are not buried; the light oracle is not asked when its
 // `light_epsilon` is 0.
 struct Fineness {
-  double epsilon = 0.0, min_area = 0.0, light_epsilon = 0.0;
+  double epsilon = 0.0, min_area = 0.0;
+  double light_epsilon = 0.0;    // relative to the reflected light,
+  double reflected = 1.0;        // which is about as bright as this times the mean emission
   AnyOracle oracle = FOracle{};  // about the form factor
 };
 

@@ -66,7 +66,8 @@ struct Options {
   double epsilon = 0.005;
   // or when both patches are no larger than min_area, relative to the total area of the scene.
   double min_area = 6e-5;
-  // Where a light shines a patch is split, too, while the light varies across it by more than this share of the relative L2 error; down
+  // Where a light shines a patch is split, too, while the light varies across it by more than this share of the relative L2 error (which is
+  // relative to the reflected light, where that is less than a quarter as bright as the mean emission: audit/reflected_light.hpp); down
   // to a quarter of min_area, for shadows have sharper edges than all other light, or below by the square of what this is finer than a
   // quarter of epsilon. Default: a quarter of epsilon.
   std::optional<double> light_epsilon;

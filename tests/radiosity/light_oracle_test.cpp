@@ -78,6 +78,78 @@ TEST_CASE("light oracle: over a leaf of a sphere the light of a lamp varies by n
   CHECK(leaves > 200);
 }
 
+namespace {
+
+// A room of walls, of which the one at y = 0 has a window, and a lamp outside. Reflectance .7; material 1 shines.
+radiosity::Scene room_with_window(radiosity::Random& random, radiosity::Color emission) {
+  const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
+  radiosity::Scene scene;
+  scene.materials = {{"white", radiosity::Color{0.7}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, emission}};
+  const double w = between(4.0, 7.0), d = between(3.0, 6.0), h = between(2.4, 3.5);
+  const double x0 = between(0.5, 1.5), x1 = x0 + between(0.8, 2.0), z0 = between(0.4, 1.0), z1 = between(1.6, 2.2);
+  const auto wall = [&](std::string name, std::vector<glm::dvec3> corners) {
+    scene.objects.push_back(scenes::object(std::move(name), scenes::polygon(std::move(corners)), 0));
+  };
+  wall("floor", {{0, 0, 0}, {w, 0, 0}, {w, d, 0}, {0, d, 0}});
+  wall("ceiling", {{0, 0, h}, {0, d, h}, {w, d, h}, {w, 0, h}});
+  wall("back", {{0, d, 0}, {w, d, 0}, {w, d, h}, {0, d, h}});
+  wall("left", {{0, 0, 0}, {0, d, 0}, {0, d, h}, {0, 0, h}});
+  wall("right", {{w, d, 0}, {w, 0, 0}, {w, 0, h}, {w, d, h}});
+  wall("beside 1", {{0, 0, 0}, {0, 0, h}, {x0, 0, h}, {x0, 0, 0}});
+  wall("beside 2", {{x1, 0, 0}, {x1, 0, h}, {w, 0, h}, {w, 0, 0}});
+  wall("below", {{x0, 0, 0}, {x0, 0, z0}, {x1, 0, z0}, {x1, 0, 0}});
+  wall("above", {{x0, 0, z1}, {x0, 0, h}, {x1, 0, h}, {x1, 0, z1}});
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a lamp behind a window: what the lamp sends elsewhere makes no error larger") {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    radiosity::Random random{seed, 0x73756eull};
+    radiosity::Scene scene = room_with_window(random, radiosity::Color{100.0});
+    // A sun whose light comes in by a thousandth or less, as a sphere or as a mesh of few faces.
+    const glm::dvec3 centre{1.0 + 3.0 * random.uniform(), -8.0 - 8.0 * random.uniform(), 4.0 + 6.0 * random.uniform()};
+    const double radius = 0.5 + 1.5 * random.uniform();
+    scene.objects.push_back(seed % 2 == 0 ? scenes::object("sun", raycast::Sphere::make(centre, radius).object, 1)
+                                          : scenes::object("sun", scenes::box(centre - radius, centre + radius), 1));
+    radiosity::Options options;
+    options.epsilon = 0.02;
+    options.min_area = 2e-4;
+    options.audit_points = 1000;
+    const radiosity::Audit audit = scenes::solved(scene, options).audit;
+    REQUIRE(audit.leaf_error);
+    CAPTURE(seed, *audit.reflected_share, audit.leaf_error->relative_l2, audit.leaf_error->low, audit.leaf_error->high);
+    CHECK(*audit.reflected_share < 0.05);
+    CHECK(audit.leaf_error->low < 0.08);
+  }
+}
+
+TEST_CASE("a lamp behind a window is resolved alike, however much light goes elsewhere") {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    double leaves[2] = {};
+    for (const bool also_away : {false, true}) {
+      radiosity::Random random{seed, 0x61776179ull};
+      radiosity::Scene scene = room_with_window(random, radiosity::Color{100.0});
+      scene.objects.push_back(scenes::object("lamp", scenes::polygon({{1, -3, 1}, {2, -3, 1}, {2, -2.6, 2}, {1, -2.6, 2}}), 1));
+      if (also_away) {  // thirty times as much, into the open
+        scene.objects.push_back(scenes::object("away", scenes::polygon({{-9, -6, 0}, {-3, -6, 0}, {-3, -6, 5}, {-9, -6, 5}}), 1));
+      } else {  // of the same size, so that areas relative to the scene's are the same
+        scene.objects.push_back(scenes::object("black", scenes::polygon({{-9, -6, 0}, {-3, -6, 0}, {-3, -6, 5}, {-9, -6, 5}}), 0));
+      }
+      radiosity::Options options;
+      options.epsilon = 0.1;  // the light of the lamp alone splits
+      options.min_area = 1e-4;
+      options.light_epsilon = 0.002;
+      options.audit_points = 0;
+      leaves[also_away ? 1 : 0] = static_cast<double>(scenes::solved(scene, options).audit.leaves);
+    }
+    CAPTURE(seed, leaves[0], leaves[1]);
+    CHECK(leaves[1] < 1.4 * leaves[0]);
+    CHECK(leaves[1] > leaves[0] / 1.4);
+  }
+}
+
 TEST_CASE("path tracing: the light that was reflected once is rho E F, whether lamps are sampled or met by chance") {
   for (const double side : {0.2, 1.0}) {  // one lamp is a 25th of the wall, the other as large
     CAPTURE(side);
