@@ -17,7 +17,7 @@ namespace apps {
           [view](double x, double y) {
             return raycast::Segment{view.eye, view.direction(x, y)};
           },
-          [&picture](std::uint32_t x, std::uint32_t y) { return radiosity::Color(picture.radiosity[std::size_t{y} * picture.width + x]); },
+          [&picture](std::uint32_t x, std::uint32_t y) { return picture.radiosity[std::size_t{y} * picture.width + x]; },
           [tone](double radiosity) { return 255.0 * srgb_encode(tone(radiosity)); }};
 }
 

@@ -31,15 +31,15 @@ namespace apps {
 struct Picture {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::vector<glm::vec3> shown;      // linear values from 0 to 1, rows from the top
-  std::vector<glm::vec3> radiosity;  // mean over each pixel, W/m2: the same before exposure and clamping
+  std::vector<glm::vec3> shown;       // linear values from 0 to 1, rows from the top
+  std::vector<glm::dvec3> radiosity;  // mean over each pixel, W/m2: the same before exposure and clamping, however weak the light is
 
   Picture(std::uint32_t width_, std::uint32_t height_)
       : width{width_}, height{height_}, shown(std::size_t{width_} * height_), radiosity(std::size_t{width_} * height_) {}
 
   void set(std::size_t pixel, const radiosity::Color& shown_, const radiosity::Color& radiosity_) {
     shown[pixel] = glm::vec3(shown_);
-    radiosity[pixel] = glm::vec3(radiosity_);
+    radiosity[pixel] = radiosity_;
   }
   [[nodiscard]] Rgb8 pixel(std::uint32_t x, std::uint32_t y) const { return to_rgb8(radiosity::Color(shown[std::size_t{y} * width + x])); }
 };

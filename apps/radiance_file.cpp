@@ -15,8 +15,8 @@ namespace {
 std::vector<float> radiance(const Picture& picture) {
   std::vector<float> values;
   values.reserve(3 * picture.radiosity.size());
-  for (const glm::vec3& b : picture.radiosity) {
-    for (int c = 0; c < 3; ++c) { values.push_back(static_cast<float>(double{b[c]} * std::numbers::inv_pi)); }
+  for (const glm::dvec3& b : picture.radiosity) {
+    for (int c = 0; c < 3; ++c) { values.push_back(static_cast<float>(b[c] * std::numbers::inv_pi)); }
   }
   return values;
 }

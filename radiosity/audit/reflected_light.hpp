@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How bright the reflected light of a scene is, before anything is solved: some paths at points spread evenly over its surfaces. Errors are
-// relative to that light. As a rule it is about as bright as what the lamps emit is in the mean over all surfaces; where most of their
-// light gets lost (a sun before a window, a lamp under the open sky) or the surfaces are dark, it may be a thousandth of that.
+// How bright the reflected light of a scene is, before anything is solved: some paths at points spread evenly over its surfaces, and at
+// those that rays from the lamps meet. The former find what a far lamp lights of a large scene, the latter a bright spot before a near
+// one; each misses what the other finds, so the larger is taken.
+//
+// Errors are relative to that light. As a rule it is about as bright as what the lamps emit is in the mean over all surfaces; where most
+// of their light gets lost (a sun before a window, a lamp under the open sky) or the surfaces are dark, it may be a thousandth of that.
 
 #include <cstdint>
 
@@ -17,8 +20,8 @@ struct ReflectedLight {
   std::uint64_t rays = 0;
 };
 
-// Of the input faces, with their patches, of a scene whose paths end: to some 25 %, by 256 points as a rule, where little is lit by up to
-// 4096. Where none of them is lit, the share that so many points might have missed.
+// Of the input faces, with their patches, of a scene whose paths end: to some 25 %, by 256 points and 256 rays as a rule, where little is
+// lit by up to 4096 of each. Where none of them finds light, the share that so many might have missed.
 [[nodiscard]] ReflectedLight reflected_light(const DiscreteScene& scene, const PathTracer& tracer);
 
 }  // namespace radiosity

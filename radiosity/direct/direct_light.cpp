@@ -116,6 +116,16 @@ inline constexpr std::size_t samples_of_joined = 1024;
   return {first.object, second.object};
 }
 
+// Is the point in front of more than half of the area?
+[[nodiscard]] HALFLIGHT_INLINE bool surrounds(const Facets& facets, const glm::dvec3& point) {
+  double in_front = 0.0, total = 0.0;
+  for (const Facets::Facet& f : facets.facets) {
+    total += f.area;
+    in_front += f.height(point) > least_slack ? f.area : 0.0;
+  }
+  return in_front > 0.5 * total;
+}
+
 [[nodiscard]] HALFLIGHT_INLINE double area_of(const Facets& facets) {
   return std::accumulate(facets.facets.begin(), facets.facets.end(), 0.0, [](double sum, const Facets::Facet& f) { return sum + f.area; });
 }
@@ -200,9 +210,9 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
     Lamp lamp = make_lamp(surfaces, c);
     if (lamp.facets.empty()) { continue; }
     if (lamp.samples.size() > samples) { lamp.samples.resize(samples); }  // those that are left are even as well
-    if (!lamp.flat) {
+    if (detail::surrounds(lamp.facets, lamp.centre)) {
       taken += c.area;
-      if (taken > limits.most_curved * total) { continue; }
+      if (taken > limits.most_surrounding * total) { continue; }
     }
     for (const Candidate::OfObject& part : c.parts) {
       for (const std::uint32_t sheet : part.sheets) { is_lamp_[surfaces[part.object].first_surface + sheet] = true; }

@@ -33,10 +33,10 @@ inline constexpr double least_slack = 1e-9;
 }  // namespace detail
 
 struct LampLimits {
-  // The strongest sheets are taken, up to this number; curved ones up to this share of the scene's area: what shines all around a point
-  // is not met better one by one.
+  // The strongest sheets are taken, up to this number; those that surround their middle (a bright dome) up to this share of the scene's
+  // area: what shines all around a point is not met better one by one.
   std::uint32_t most = 64;
-  double most_curved = 0.1;
+  double most_surrounding = 0.1;
   // Where there are more sheets than that: are those that shine alike taken together?
   bool bodies = false;
 };

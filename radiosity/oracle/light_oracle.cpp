@@ -32,6 +32,33 @@
 
 namespace radiosity {
 
+namespace detail {
+
+// Does the light that arrives, from `low` to `high` where nothing stands between, vary by more than epsilon (RMS)? see(round) casts
+// segments and tells which part of them arrives.
+template <class See>
+[[nodiscard]] bool varies(double low, double high, double epsilon, RayCount& rays, const See& see) {
+  const double variation = (high - low) / std::sqrt(12.0);
+  if (!(std::max(variation, 0.5 * high) > epsilon)) { return false; }  // sqrt(V (1 - V)) is at most one half
+  // The smallest shadow that matters covers this part of the patch. Segments enough to meet it three times are cast, unless they are too
+  // many or their first have told.
+  const double mean = 0.5 * (low + high);
+  const double least = epsilon * epsilon / (mean * mean);
+  const double rounds = std::clamp(std::ceil(3.0 / (segments_per_round * least)), 1.0, 16.0);
+  double arrives = 0.0;
+  for (std::uint64_t round = 0; static_cast<double>(round) < rounds; ++round) {
+    const auto [fraction_of_round, cast] = see(round);
+    rays += cast;
+    arrives += fraction_of_round;
+    const double fraction = arrives / static_cast<double>(round + 1);
+    if (std::max(variation * fraction, mean * std::sqrt(std::max(0.0, fraction * (1.0 - fraction)))) > epsilon) { return true; }
+    if (cast.cast == 0) { return false; }  // proven
+  }
+  return false;
+}
+
+}  // namespace detail
+
 HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& scene, const ShownAreas& shown, double epsilon,
                                           std::uint64_t seed, const std::vector<bool>& buried)
     : scene_{scene}, shown_{&shown}, sampler_{scene, nullptr, shown}, epsilon_{epsilon}, seed_{seed} {
@@ -101,27 +128,13 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
   };
   for (const glm::dvec3& x : patch.contour) { look(x); }
   look(nearest_point(to, from.centre));
-  if (weight * (high - low) > std::sqrt(12.0) * epsilon_) { return receiver; }
-  if (!(weight * high * 0.5 > epsilon_)) { return no_node; }  // sqrt(V (1 - V)) is at most one half
-
   const auto end_at = [&](std::uint32_t i) { return PatchEnd{&scene_.patches[i], nodes[i].object, nullptr, scene_.sheet(i)}; };
-  // The smallest shadow that matters covers this part of the patch. Segments enough to meet it three times are cast, unless they are too
-  // many or their first have told.
-  const double mean = weight * 0.5 * (low + high);
-  const double least = epsilon_ * epsilon_ / (mean * mean);
-  const double rounds = std::clamp(std::ceil(3.0 / (segments_per_round * least)), 1.0, 16.0);
-  double arrives = 0.0;
-  for (double round = 0.0; round < rounds; round += 1.0) {
+  const bool split = detail::varies(weight * low, weight * high, epsilon_, rays, [&](std::uint64_t round) {
     const VisibilityEstimate seen =
-        visibility(scene_, list, end_at(receiver), end_at(lamp), 1,
-                   Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull + static_cast<std::uint64_t>(round)});
-    rays += seen.rays;
-    arrives += seen.fraction;
-    const double fraction = arrives / (round + 1.0);
-    if (mean * std::sqrt(std::max(0.0, fraction * (1.0 - fraction))) > epsilon_) { return receiver; }
-    if (seen.rays.cast == 0) { break; }  // proven
-  }
-  return no_node;
+        visibility(scene_, list, end_at(receiver), end_at(lamp), 1, Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull + round});
+    return std::pair{seen.fraction, seen.rays};
+  });
+  return split ? receiver : no_node;
 }
 
 HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split_by_lamp(std::uint32_t receiver, std::uint32_t lamp, double weight,
@@ -142,22 +155,12 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split_by_lamp(std::uint32_t re
   };
   for (const glm::dvec3& x : scene_.patches[receiver].contour) { look(x); }
   look(nearest_point(to, from.centre));
-  if (weight * (high - low) > std::sqrt(12.0) * epsilon_) { return receiver; }
-  if (!(weight * high * 0.5 > epsilon_)) { return no_node; }
-  const double mean = weight * 0.5 * (low + high);
-  const double least = epsilon_ * epsilon_ / (mean * mean);
-  const double rounds = std::clamp(std::ceil(3.0 / (segments_per_round * least)), 1.0, 16.0);
-  double arrives = 0.0;
-  for (double round = 0.0; round < rounds; round += 1.0) {
-    const LampExchange::Result seen = (*lamps_)(
-        lamp, receiver, 1, Random{seed_, (std::uint64_t{receiver} << 32) | lamp, 0x736861646f77ull + static_cast<std::uint64_t>(round)});
-    rays += seen.rays;
-    arrives += seen.fraction;
-    const double fraction = arrives / (round + 1.0);
-    if (mean * std::sqrt(std::max(0.0, fraction * (1.0 - fraction))) > epsilon_) { return receiver; }
-    if (seen.rays.cast == 0) { break; }
-  }
-  return no_node;
+  const bool split = detail::varies(weight * low, weight * high, epsilon_, rays, [&](std::uint64_t round) {
+    const LampExchange::Result seen =
+        (*lamps_)(lamp, receiver, 1, Random{seed_, (std::uint64_t{receiver} << 32) | lamp, 0x736861646f77ull + round});
+    return std::pair{seen.fraction, seen.rays};
+  });
+  return split ? receiver : no_node;
 }
 
 HALFLIGHT_INLINE std::uint32_t LightOracle::wants_cluster_split(std::uint32_t receiver, std::uint32_t source, double weight,

@@ -2,6 +2,7 @@
 // The program as its user meets it: exit codes, streams, files.
 #include "catch.hpp"
 
+#include <cstdlib>
 #include <sstream>
 #include <string>
 
@@ -124,6 +125,28 @@ TEST_CASE("without an output nothing is reconstructed; the report tells the erro
   }
   CHECK(pictured["error"]["leaf"]["low"].number() < report["error"]["leaf"]["high"].number());
   CHECK(report["error"]["leaf"]["low"].number() < pictured["error"]["leaf"]["high"].number());
+}
+
+TEST_CASE("the error of a picture does not depend on the unit of light") {
+  const Place place;
+  double error[3] = {};
+  const char* exponents[3] = {"1", "1p-600", "1p600"};  // powers of two
+  for (int k = 0; k < 3; ++k) {
+    std::ostringstream emission;
+    emission.precision(17);
+    emission << std::strtod((std::string("0x") + exponents[k]).c_str(), nullptr);
+    place.write("a.scene", "material white  reflectance 0.5\nmaterial lamp  reflectance 0  emission " + emission.str() +
+                               "\nbox room  from 0 0 0  to 1 1 1  inside  material white { sheet z1 material lamp }\n"
+                               "camera eye  eye 0.5 0.1 0.5  target 0.5 1 0.4  fov 70\n");
+    const Run run = place.run("render a.scene -o a.png --json a.json --size 40x30 --audit 100 --epsilon 0.1 --quiet --method mesh");
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    error[k] = json::parse(place.read("a.json"))["error"]["picture"]["relative_l2"].number();
+  }
+  CHECK(error[0] > 0.0);
+  CHECK(error[0] < 0.2);
+  CHECK(error[1] == error[0]);
+  CHECK(error[2] == error[0]);
 }
 
 TEST_CASE("info says what is in a scene") {

@@ -242,20 +242,23 @@ TEST_CASE("direct light: a face that is not quite plane is not shadowed by its o
   }
 }
 
-TEST_CASE("direct light: the strongest lamps are taken, within the limits; flat ones however large", "[direct]") {
+TEST_CASE("direct light: the strongest lamps are taken, within the limits; flat ones and bodies however large", "[direct]") {
   Scene scene = floor_under_lamp(0.2);
   scene.objects.push_back(scenes::object("ball", raycast::Sphere::make({0, 0, 0.5}, 0.2).object, 1));
+  scene.objects.push_back(scenes::object("dome", raycast::Sphere::make({0, 0, 0.5}, 3.0).object, 1));
+  scene.objects.back().placement.inside = true;
   const auto prepared = std::move(*radiosity::prepare(scene).prepared);
-  const std::vector<Color> emission{Color{0.1}, Color{1.0}, Color{2.0}};  // of the floor, the square, the ball
+  const std::vector<Color> emission{Color{0.1}, Color{1.0}, Color{2.0}, Color{0.5}};  // of the floor, the square, the ball, the dome
   const auto lamps = [&](const radiosity::LampLimits& limits) {
     return radiosity::DirectLight{prepared.objects, prepared.surfaces, emission, limits};
   };
-  const radiosity::DirectLight flat = lamps({64, 0.01});  // the ball is a tenth of the scene's area
-  REQUIRE(flat.lamps().size() == 2);
-  CHECK(flat.is_lamp(0));
-  CHECK(flat.is_lamp(1));
-  CHECK_FALSE(flat.is_lamp(2));
-  CHECK(lamps({64, 1.0}).lamps().size() == 3);
+  const radiosity::DirectLight all = lamps({64, 0.01});
+  REQUIRE(all.lamps().size() == 3);
+  CHECK(all.is_lamp(0));
+  CHECK(all.is_lamp(1));
+  CHECK(all.is_lamp(2));
+  CHECK_FALSE(all.is_lamp(3));  // shines all around, and is more than a hundredth of the scene's area
+  CHECK(lamps({64, 1.0}).lamps().size() == 4);
   REQUIRE(lamps({1, 1.0}).lamps().size() == 1);
   CHECK(lamps({1, 1.0}).is_lamp(2));
 }
