@@ -92,9 +92,11 @@ HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, con
 // How far the light of a lamp may vary, relative to the mean emission.
 [[nodiscard]] HALFLIGHT_INLINE double light_epsilon_of_emission(const Fineness& to) { return to.reflected * to.light_epsilon; }
 
-// By how much the light is to be resolved finer than epsilon says by itself.
+// By how much the light is to be resolved finer than epsilon says by itself. Where it is dim, hardly more: light through a pinhole varies
+// everywhere by more than it is.
 [[nodiscard]] HALFLIGHT_INLINE double finer_for_light(const Fineness& to) {
-  return std::min(1.0, light_epsilon_of_emission(to) / (0.25 * to.epsilon));
+  const double dim = std::max(0.5, to.reflected);
+  return std::min(1.0, dim * to.light_epsilon / (0.25 * to.epsilon));
 }
 
 // F-refinement between two generations.

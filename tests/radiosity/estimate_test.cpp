@@ -59,6 +59,7 @@ double true_error(const radiosity::Scene& scene, const radiosity::Solution& solu
   const double h = 0.5 * side;
   const radiosity::Polygon lamp{{-h, h, height}, {h, h, height}, {h, -h, height}, {-h, -h, height}};
   const radiosity::Mesh& mesh = solution.mesh;
+  radiosity::Polygon above;  // the horizon
   double error = 0.0;
   double norm = 0.0;
   for (const radiosity::MeshFace& face : mesh.faces) {
@@ -73,7 +74,10 @@ double true_error(const radiosity::Scene& scene, const radiosity::Solution& solu
         if (u + v > 1.0) { u = 1.0 - u, v = 1.0 - v; }
         const glm::dvec3 on_mesh = (a + u * ab + v * ac - solution.frame.centre) * solution.frame.scale;
         const raycast::SurfacePoint p = objects.object(1).project(sheet, on_mesh);
-        const double b = rho * radiosity::point_to_polygon(solution.frame.to_scene(p.position), p.normal, lamp);
+        const glm::dvec3 x = solution.frame.to_scene(p.position);
+        above.clear();
+        radiosity::clip_to_horizon(lamp, x, p.normal, above);
+        const double b = rho * radiosity::point_to_polygon(x, p.normal, above);
         error += area / 36.0 * (b - face.radiosity.x) * (b - face.radiosity.x);
         norm += area / 36.0 * b * b;
       }
