@@ -73,7 +73,9 @@ double true_error(const radiosity::Scene& scene, const radiosity::Solution& solu
         if (u + v > 1.0) { u = 1.0 - u, v = 1.0 - v; }
         const glm::dvec3 on_mesh = (a + u * ab + v * ac - solution.frame.centre) * solution.frame.scale;
         const raycast::SurfacePoint p = objects.object(1).project(sheet, on_mesh);
-        const double b = rho * radiosity::point_to_polygon(solution.frame.to_scene(p.position), p.normal, lamp);
+        radiosity::Polygon above;
+        radiosity::clip_to_horizon(lamp, solution.frame.to_scene(p.position), p.normal, above);
+        const double b = above.size() < 3 ? 0.0 : rho * radiosity::point_to_polygon(solution.frame.to_scene(p.position), p.normal, above);
         error += area / 36.0 * (b - face.radiosity.x) * (b - face.radiosity.x);
         norm += area / 36.0 * b * b;
       }
