@@ -76,6 +76,7 @@ HALFLIGHT_INLINE float LeafExchange::operator()(std::size_t i, std::size_t j, Ra
   const raycast::OccluderList list = occluders_.of(link.p, link.q, index, scene_->view());
   if (list.blocked()) { return 0.0f; }
   rays += scene_->evaluator(link, list, nullptr, doubt);
+  if (doubt != nullptr) { doubt->p = doubt->q = 0.0f; }
   return link.exchange;
 }
 
