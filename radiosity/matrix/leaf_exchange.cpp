@@ -60,8 +60,7 @@ HALFLIGHT_INLINE LeafExchange::LeafExchange(const DiscreteScene& scene) : scene_
         index = OccluderLists::none;
         continue;
       }
-      const raycast::OccluderList list =
-          occluders_.of(root_nodes[p], root_nodes[q], OccluderLists::none, scene.view());
+      const raycast::OccluderList list = occluders_.of(root_nodes[p], root_nodes[q], OccluderLists::none, scene.view());
       if (list.blocked() || face_away(roots[p], roots[q])) { continue; }
       index = lists_[q * count_ + p] = occluders_.keep(list, OccluderLists::none);
     }
