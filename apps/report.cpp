@@ -94,7 +94,8 @@ class Text {
   void sizes() {
     out_ += "size\n";
     say("input polygons", "{polygons}");
-    say("nodes, leaves", "{nodes}, {leaves}");
+    say("nodes, leaves",
+        audit_.leaf_splits > 0 ? "{nodes}, {leaves}; {leaf_splits} split for the light of links that they had" : "{nodes}, {leaves}");
     say("proportions", "{proportion.min} to {proportion.max}, mean {proportion.mean} (regular polygon: 1)");
     if (audit_.imprinted) { edges(*audit_.imprinted); }
     say("links",

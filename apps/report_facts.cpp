@@ -177,6 +177,7 @@ Facts facts_of(const Report& report) {
   facts.add("polygons", audit.polygons);
   facts.add("nodes", audit.nodes);
   facts.add("leaves", audit.leaves);
+  facts.add("leaf_splits", audit.leaf_splits);
   if (audit.imprinted) {
     facts.add("discontinuities.edges", audit.imprinted->edges);
     facts.add("discontinuities.faces", audit.imprinted->faces);

@@ -9,6 +9,8 @@
 
 #include <raycast/inline.hpp>
 
+#include <radiosity/hierarchy/hierarchy.hpp>
+
 namespace radiosity {
 
 HALFLIGHT_INLINE void DoubtSum::add(std::uint32_t p, std::uint32_t q, const Doubt& doubt) {
@@ -29,16 +31,17 @@ HALFLIGHT_INLINE void DoubtSum::add(const DoubtSum& other) {
   depth_ = std::max(depth_, other.depth_);
 }
 
-HALFLIGHT_INLINE double DoubtSum::rms(const std::vector<double>& area, double total) const {
+HALFLIGHT_INLINE double DoubtSum::rms(const Hierarchy& hierarchy, const std::vector<double>& area, double total) const {
   double sum = square_ + chord_ * depth_;
-  for (std::size_t i = 0; i < across_.size(); ++i) { sum += area[i] * across_[i] * across_[i]; }
+  for (std::size_t i = 0; i < across_.size(); ++i) { sum += hierarchy[i].leaf() ? 0.0 : area[i] * across_[i] * across_[i]; }
   return total > 0.0 ? std::sqrt(sum / total) : 0.0;
 }
 
-HALFLIGHT_INLINE double DoubtSum::alike(const std::vector<double>& area) const {
+HALFLIGHT_INLINE double DoubtSum::alike(const Hierarchy& hierarchy, const std::vector<double>& area) const {
   double sum = 0.0;
   double apart = 0.0;
   for (std::size_t i = 0; i < across_.size(); ++i) {
+    if (hierarchy[i].leaf()) { continue; }
     sum += area[i] * across_[i] * across_[i];
     apart += area[i] * squares_[i];
   }

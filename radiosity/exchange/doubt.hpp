@@ -7,13 +7,15 @@
 // The row sum of a leaf is the sum of what the links above it bring, and each link is off
 //   - on a patch with children, by what its linear kernel leaves of the light's change across the patch (rest), and of the shadow's: RMS
 //     values over the patch, times G / A. The links of one node err alike, as in a corner of a room, so here they add up as they are;
-//     from node to node their squares do;
+//     from node to node their squares do. A leaf has one value, so these errors count at nodes that have children at last;
 //   - by what is not known of its visible fraction, of n segments of which k arrive: variance (k + 1)(n - k + 1) / ((n + 2)^2 (n + 3))
 //     (Laplace 1774), and of the exposed area of its other end, of 256 points: independent, squares add up;
 //   - on curved objects, by the chord: all links err alike there, and add up as they are.
 
 #include <cstdint>
 #include <vector>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
 
 namespace radiosity {
 
@@ -31,10 +33,10 @@ class DoubtSum {
   void add(const DoubtSum& other);
   // Expected RMS error of the row sums; `area` of each node, `total` of the scene. The mean of what the chords take, times the most that
   // they can take, bounds its mean square.
-  [[nodiscard]] double rms(const std::vector<double>& area, double total) const;
+  [[nodiscard]] double rms(const Hierarchy& hierarchy, const std::vector<double>& area, double total) const;
 
   // How much more the squared errors across nodes are than if the links of one node erred independently.
-  [[nodiscard]] double alike(const std::vector<double>& area) const;
+  [[nodiscard]] double alike(const Hierarchy& hierarchy, const std::vector<double>& area) const;
 
  private:
   void add(std::uint32_t node, double error);
@@ -46,8 +48,9 @@ class DoubtSum {
 // The largest RMS correction by which a scene is closed: what its links explain with a margin of one half, and the error
 // of a form factor (exchange.hpp). Measured, corrections are .24 to 1.16 times what is expected (the rooms of `halflight stress`, 1200 to
 // 154 000 links).
-[[nodiscard]] inline double explained_closure(const DoubtSum& doubt, const std::vector<double>& area, double total) {
-  return 1.5 * doubt.rms(area, total) + 2e-5;
+[[nodiscard]] inline double explained_closure(const DoubtSum& doubt, const Hierarchy& hierarchy, const std::vector<double>& area,
+                                              double total) {
+  return 1.5 * doubt.rms(hierarchy, area, total) + 2e-5;
 }
 
 // Variance of the visible fraction when `fraction` of `segments` arrived.

@@ -107,7 +107,7 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
   if (variation != nullptr && !(seen.fraction > 0.0)) {
     variation->sampling = static_cast<float>(missed(unoccluded * share, *variation, seen.rays.cast));
   }
-  if (doubt != nullptr) { *doubt = doubt_of(link, unoccluded * share, seen, light_varies); }
+  if (doubt != nullptr) { *doubt = doubt_of(link, unoccluded * share, seen, light_varies, variation == nullptr); }
   return seen.rays;
 }
 
@@ -134,8 +134,7 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::evaluate_lamp_link(Link& link, LinkVari
   if (variation != nullptr) { *variation = of_link; }
   if (doubt != nullptr && exchange.exchange > 0.0) {
     const auto across = [&](std::uint32_t i, const LinkVariation::End& e) {
-      const bool matters = scene_.hierarchy[i].is_cluster() || !scene_.hierarchy[i].leaf();
-      return matters ? static_cast<float>(exchange.exchange * std::hypot(e.rest, e.shadow) / exposure_->area[i]) : 0.0f;
+      return static_cast<float>(exchange.exchange * std::hypot(e.rest, e.shadow) / exposure_->area[i]);
     };
     const double sampling = static_cast<double>(of_link.sampling) * static_cast<double>(of_link.sampling);
     doubt->p = across(link.p, of_link.p);
@@ -159,8 +158,8 @@ HALFLIGHT_INLINE std::optional<VisibilityEstimate> LinkEvaluator::measured_visib
   return std::nullopt;
 }
 
-HALFLIGHT_INLINE Doubt LinkEvaluator::doubt_of(const Link& link, double sent, const VisibilityEstimate& seen,
-                                               const Variations& varies) const {
+HALFLIGHT_INLINE Doubt LinkEvaluator::doubt_of(const Link& link, double sent, const VisibilityEstimate& seen, const Variations& varies,
+                                               bool at_leaves) const {
   const auto square = [](double x) { return x * x; };
   const Node& p = scene_.hierarchy[link.p];
   const Node& q = scene_.hierarchy[link.q];
@@ -168,7 +167,8 @@ HALFLIGHT_INLINE Doubt LinkEvaluator::doubt_of(const Link& link, double sent, co
   const double area_q = exposure_->area[link.q];
   const double arrives = sent * seen.fraction;
   const auto across = [&](const Node& node, const Variation& v, double spread, double area) {
-    return node.leaf() ? 0.0f : static_cast<float>(std::sqrt(square(arrives * v.rest) + square(sent * spread)) / area);
+    if (node.leaf() && !at_leaves) { return 0.0f; }
+    return static_cast<float>(std::sqrt(square(arrives * v.rest) + square(sent * spread)) / area);
   };
   const double unseen = seen.proven ? 0.0 : square(sent) * visibility_variance(seen.fraction, static_cast<double>(seen.rays.cast));
   const auto buried = [&](std::uint32_t i, double area) {  // variance of the exposed area, relative

@@ -120,8 +120,9 @@ class LinkEvaluator {
  private:
   [[nodiscard]] std::optional<VisibilityEstimate> measured_visibility(const Link& link) const;
   RayCount evaluate_lamp_link(Link& link, LinkVariation* variation, Doubt* doubt) const;
-  // doubt.hpp. `sent`: what would arrive if nothing stood between.
-  [[nodiscard]] Doubt doubt_of(const Link& link, double sent, const VisibilityEstimate& seen, const Variations& varies) const;
+  // doubt.hpp. `sent`: what would arrive if nothing stood between. `at_leaves`: leaves may be split while the link stays as it is.
+  [[nodiscard]] Doubt doubt_of(const Link& link, double sent, const VisibilityEstimate& seen, const Variations& varies,
+                               bool at_leaves) const;
   // What a link may exchange of which none of these segments arrived, and none of those before (Laplace's mean); `sent`: if nothing
   // stood between.
   [[nodiscard]] static double missed(double sent, const LinkVariation& before, std::uint64_t segments) {

@@ -48,7 +48,7 @@ HALFLIGHT_INLINE DenseMatrix make_matrix(const LeafExchange& exchange, unsigned 
 HALFLIGHT_INLINE double explained_closure(const DenseMatrix& matrix, const LeafExchange& exchange) {
   double total = 0.0;
   for (std::size_t i = 0; i < matrix.size; ++i) { total += exchange.area(i); }
-  return explained_closure(matrix.doubt, {}, total);
+  return explained_closure(matrix.doubt, {}, {}, total);
 }
 
 HALFLIGHT_INLINE std::optional<double> close_rows(DenseMatrix& matrix, const LeafExchange& exchange, double limit) {

@@ -60,8 +60,7 @@ HALFLIGHT_INLINE LeafExchange::LeafExchange(const DiscreteScene& scene) : scene_
         index = OccluderLists::none;
         continue;
       }
-      const raycast::OccluderList list =
-          occluders_.of(root_nodes[p], root_nodes[q], OccluderLists::none, scene.view());
+      const raycast::OccluderList list = occluders_.of(root_nodes[p], root_nodes[q], OccluderLists::none, scene.view());
       if (list.blocked() || face_away(roots[p], roots[q])) { continue; }
       index = lists_[q * count_ + p] = occluders_.keep(list, OccluderLists::none);
     }
@@ -76,6 +75,7 @@ HALFLIGHT_INLINE float LeafExchange::operator()(std::size_t i, std::size_t j, Ra
   const raycast::OccluderList list = occluders_.of(link.p, link.q, index, scene_->view());
   if (list.blocked()) { return 0.0f; }
   rays += scene_->evaluator(link, list, nullptr, doubt);
+  if (doubt != nullptr) { doubt->p = doubt->q = 0.0f; }
   return link.exchange;
 }
 

@@ -124,8 +124,9 @@ template <class Exposed>
 }
 
 // Does a face of a flat object lie on another flat object that faces the same way, corner by corner? There is then nothing of it to be
-// seen: not even slivers, as of a face that a curved object stands on.
-[[nodiscard]] HALFLIGHT_INLINE bool lies_under(const Surface& own, brep::FaceId f, const std::vector<Surface>& surfaces) {
+// seen: not even slivers, as of a face that a curved object stands on. `from`: the first object that counts.
+[[nodiscard]] HALFLIGHT_INLINE bool lies_under(const Surface& own, brep::FaceId f, const std::vector<Surface>& surfaces,
+                                               std::size_t from = 0) {
   if (!own.object->flat()) { return false; }
   Polygon corners;
   raycast::Box box;
@@ -134,7 +135,7 @@ template <class Exposed>
     box.extend(corners.back());
   }
   const glm::dvec3 normal = glm::normalize(vector_area(corners));
-  return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& other) {
+  return std::any_of(surfaces.begin() + static_cast<std::ptrdiff_t>(from), surfaces.end(), [&](const Surface& other) {
     if (other.object == own.object || !other.object->flat()) { return false; }
     const raycast::Box bounds = other.object->bounds();
     const double touch = 256.0 * raycast::unit_roundoff * bounds.magnitude() +
@@ -160,6 +161,8 @@ void add_face(const std::vector<Surface>& surfaces, const Surface& surface, brep
   const std::uint32_t node = brep.data(f).node;
   const bool buried = !exposed(f);
   if (buried && (!touches_exposed(brep, f, exposed) || lies_under(surface, f, surfaces))) { return; }
+  // T-vertex elimination may cut a leaf where that goes under a later object, which covers it.
+  if (light.exposure.partly_buried[node] && lies_under(surface, f, surfaces, light.hierarchy[node].object + 1)) { return; }
   // Four corners at most; T-vertex elimination leaves no others, the rest would be cut as a fan. Separate polygons keep their
   // T-vertices, and a leaf is shaded from its own corners.
   std::vector<brep::HalfedgeId> loop;

@@ -23,7 +23,6 @@ namespace radiosity {
 
 namespace detail {
 
-// Mean over a patch of the square of g . (x - c).
 HALFLIGHT_INLINE double mean_square(const Patch& patch, const glm::dvec3& g) {
   double sum = 0.0;
   for (const QuadraturePoint& x : patch.rule3) {

@@ -12,8 +12,11 @@
 #include <algorithm>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 
@@ -30,6 +33,9 @@ struct LeafErrors {
   // The gradients of links at one place add up or cancel (in a scene of uniform radiosity they cancel), and so do their other errors.
   [[nodiscard]] double alike() const { return apart > 0.0 ? std::clamp(sum / apart, 1e-4, 1e2) : 1.0; }
 };
+
+// Mean over a patch of the square of g . (x - c), c its centroid.
+[[nodiscard]] double mean_square(const Patch& patch, const glm::dvec3& g);
 
 // Of links that have their gradients, at leaves too.
 LeafErrors estimate_leaf_errors(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity);

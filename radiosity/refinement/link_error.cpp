@@ -274,7 +274,7 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, co
   const LeafErrors leaves = sampled_leaf_errors(scene, {&of_lights, &others}, links.size(), radiosity);
   ErrorEstimation result;
   result.of_leaves = leaves.sum;
-  const AlikeErrors alike{std::sqrt(evaluated.doubt.alike(scene.exposure.area)), leaves.alike()};
+  const AlikeErrors alike{std::sqrt(evaluated.doubt.alike(scene.hierarchy, scene.exposure.area)), leaves.alike()};
   for (const LinkSample* sample : {&of_lights, &others}) {
     const ErrorEstimation errors = estimate_link_errors(alike, scene, sample->links, radiosity);
     result.of_links += sample->each * errors.of_links;

@@ -55,6 +55,7 @@ struct Audit {
   // size
   std::uint64_t polygons = 0;  // input faces: the roots of the hierarchy, whatever their number of corners and holes
   std::uint64_t nodes = 0, leaves = 0, links = 0, rays = 0;
+  std::uint64_t leaf_splits = 0;  // of the nodes: leaves that were split once links were there, for light that varies over them
   std::uint64_t ray_links = 0, stored_rays = 0;     // among the links, made of rays; these
   std::uint64_t clusters = 0, cluster_links = 0;    // among the nodes; among the links, with one at an end
   std::optional<ImprintedEdges> imprinted;          // of discontinuity meshing, where that was done

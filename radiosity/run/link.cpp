@@ -17,6 +17,7 @@
 #include <radiosity/rays/spacing.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/refinement/leaf_splits.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/run.hpp>
@@ -54,6 +55,15 @@ namespace detail {
   return std::nullopt;
 }
 
+// Leaves that were cut along the edges of shadows stay as they are.
+HALFLIGHT_INLINE void split_leaves_once_more(Run& run) {
+  DiscreteScene& scene = run.scene;
+  if (scene.light_meshing) { return; }
+  run.leaf_splits =
+      split_leaves_by_light(scene, run.solution.links, {run.solution.audit.light_epsilon, run.options.min_area}, run.evaluated.doubt);
+  if (run.leaf_splits.count > 0 && scene.control.after_generation) { scene.control.after_generation(scene.surfaces); }
+}
+
 }  // namespace detail
 
 namespace stage {
@@ -69,6 +79,7 @@ HALFLIGHT_INLINE std::optional<Failure> link(detail::Run& run) {
     run.evaluated = make_links({scene.evaluator, run.refined.occluders, scene.threads, scene.control},
                                std::exchange(run.refined.linked, {}), run.solution.links);
     if (run.evaluated.cancelled) { return detail::cancelled(); }
+    detail::split_leaves_once_more(run);
     if (run.rays.cast) {
       if (std::optional<Failure> failure = detail::link_by_rays(run)) { return failure; }
     }

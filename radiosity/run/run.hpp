@@ -16,6 +16,7 @@
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/f_refine.hpp>
+#include <radiosity/refinement/leaf_splits.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
@@ -57,6 +58,7 @@ struct Run {
   std::uint64_t rays_of_spacing = 0;
   RayLinks ray_links;  // their links go into the solution
   EvaluateResult evaluated;
+  LeafSplits leaf_splits;
   double unseen = 0.0;  // part of the estimated error
   std::optional<Transport> transport;
   bool t_vertices = false;          // some were eliminated

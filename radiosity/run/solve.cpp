@@ -57,7 +57,8 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
   if (scene.plan.closed && solution.links.size() + solution.ray_links.size() > 0) {
     double exposed = 0.0;
     for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }
-    audit.closure_limit = explained_closure(run.evaluated.doubt, area, exposed);  // the noise of rays is out of the row sums by now
+    // The noise of rays is out of the row sums by now.
+    audit.closure_limit = explained_closure(run.evaluated.doubt, scene.hierarchy, area, exposed);
     audit.closure = transport.close(audit.closure_limit);
   }
   solution.row_sum = transport.row_sums();

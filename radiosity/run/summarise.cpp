@@ -35,6 +35,7 @@ HALFLIGHT_INLINE std::optional<Failure> summarise(detail::Run& run) {
   for (std::size_t i = 0; i < hierarchy.size(); ++i) { audit.polygons += is_input_face(hierarchy, i) ? 1 : 0; }
   audit.nodes = hierarchy.size();
   audit.leaves = static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.leaf(); }));
+  audit.leaf_splits = run.leaf_splits.count;
   audit.links = links.size() + run.solution.ray_links.size();
   audit.ray_links = run.solution.ray_links.size();
   audit.stored_rays = run.ray_links.rays;
@@ -52,6 +53,9 @@ HALFLIGHT_INLINE std::optional<Failure> summarise(detail::Run& run) {
   report_left_out(audit, scene, run.refined, run.evaluated, options, link_cost(scene.evaluator, links));
   if (!run.t_vertices && options.reconstruction < Reconstruction::constant && options.topology == Topology::shared) {
     audit.left_out.push_back({"T-vertex elimination", "no leaf has a finer neighbour", ""});
+  }
+  if (run.leaf_splits.too_large > 0) {
+    audit.left_out.push_back({"splitting leaves over which light varies", "memory would not suffice", ""});
   }
   if (run.needs_links() && !run.rays.cast) {
     audit.left_out.push_back({"stored rays for the light between surfaces that do not shine", run.rays.reason, ""});

@@ -112,13 +112,13 @@ double error_by_rays(const radiosity::FinalGather& light, const std::vector<radi
       const glm::dvec3 direction = camera.forward + s * camera.right + t * camera.up;
       const auto truth = light.seen16(eye, std::array{direction}, true)[0];
       const auto facet = hit_facets(surfaces[1], facets, eye.position, direction);
-      const std::optional<std::uint32_t> of_truth = truth && truth->object == 1 ? std::optional{truth->surface} : std::nullopt;
-      const std::optional<std::uint32_t> of_facet = facet ? std::optional{surfaces[1].first_surface + facet->sheet} : std::nullopt;
+      const std::uint32_t of_truth = truth && truth->object == 1 ? truth->surface : radiosity::no_node;
+      const std::uint32_t of_facet = facet ? surfaces[1].first_surface + facet->sheet : radiosity::no_node;
       if (of_truth == of_facet) { continue; }
       Color shown{0.0};
       if (facet) {
         const auto point = surfaces[1].object->project(facet->sheet, facet->point);
-        shown = light.solved({point, 1, *of_facet}).value_or(Color{0.0});
+        shown = light.solved({point, 1, of_facet}).value_or(Color{0.0});
       } else {  // the floor, or nothing
         const glm::dvec3 floor = (glm::dvec3{0.0} - light.frame().centre) * light.frame().scale;
         const glm::dvec3 p = eye.position + (floor.z - eye.position.z) / direction.z * direction;

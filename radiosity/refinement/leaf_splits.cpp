@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/refinement/leaf_splits.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/clusters/clusters.hpp>
+#include <radiosity/exchange/doubt.hpp>
+#include <radiosity/exchange/exchange.hpp>
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/links/evaluate.hpp>
+#include <radiosity/refinement/coarse_light.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/refinement/leaf_error.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/support/memory.hpp>
+#include <radiosity/support/parallel.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// How the light from one patch changes over another: relative change per length of the kernel between their centres, and about how far the
+// light may be from that linear function, RMS relative to the mean. Where they are too near to say, all of it.
+struct RoughVariation {
+  glm::dvec3 gradient{0.0};
+  double rest = 1.0;
+};
+
+// ln (cos cos / r^2) changes by 4 d / r^2, as the place rises above the other's plane by n / height, and as its own normal turns. The rest
+// is of second order in what that makes at most over the patch.
+[[nodiscard]] HALFLIGHT_INLINE RoughVariation rough_variation(const Node& over, const Patch& patch, const Node& from) {
+  const glm::dvec3 d = from.centre - over.centre;
+  const double r = glm::length(d);
+  const double near = r - from.radius;
+  const double height = -glm::dot(from.normal, d);     // of this one above the other's plane
+  const double own_height = glm::dot(over.normal, d);  // of the other above this one's
+  if (!(near > over.radius) || !(height > 0.0) || !(own_height > 0.0)) { return {}; }
+  const double most = 0.5 * (over.radius * (4.0 / near + 1.0 / height) + over.deviation * r / own_height);
+  if (!(most < 1.0)) { return {}; }
+  glm::dvec3 gradient = 4.0 / (r * r) * d + from.normal / height;
+  if (patch.bent) { gradient += glm::transpose(patch.bend) * d / own_height; }
+  gradient -= glm::dot(gradient, over.normal) * over.normal;
+  return {gradient, most * most};
+}
+
+// One call of split_leaves_by_light().
+class LeafSplitting {
+ public:
+  LeafSplitting(DiscreteScene& scene, Links& links, const LeafSplitRule& rule)
+      : scene_{scene}, hierarchy_{scene.hierarchy}, area_{scene.exposure.area}, links_{links}, light_{coarse_light(scene, links, 3)} {
+    const double share = 0.25 * rule.light_epsilon;
+    least_error_ = share * share * light_.reflected_square;
+    double total = 0.0;
+    for (std::size_t i = 0; i < hierarchy_.size(); ++i) {
+      if (is_input_face(hierarchy_, i) && area_[i] > 0.0) { total += hierarchy_[i].area; }
+    }
+    least_area_ = rule.min_area * total;
+  }
+
+  [[nodiscard]] LeafSplits operator()(DoubtSum& doubt) {
+    choose_candidates();
+    set_gradients_at_candidates(doubt);
+    LeafSplits result;
+    std::vector<Wanted> wanted = find_wanted();
+    if (wanted.empty() || scene_.control.cancelled()) { return result; }
+    const MemoryBudget::Counts needed{most_nodes(wanted), links_.size()};
+    if (!scene_.budget.allows(needed)) {
+      result.too_large = scene_.budget.peak(needed);
+      return result;
+    }
+    const std::vector<double> area_before = area_;
+    result.count = split(std::move(wanted));
+    scene_.expose();
+    fit_links(area_before);
+    return result;
+  }
+
+ private:
+  // A leaf and the square of its error.
+  struct Wanted {
+    std::uint32_t node = no_node;
+    double error = 0.0;
+    bool again = true;  // its children may be split, too
+  };
+
+  [[nodiscard]] double reflectance(std::size_t i) const { return light_.reflectance[hierarchy_[i].surface]; }
+  // Links of lamps' clusters are not made for parts of these.
+  [[nodiscard]] bool may_split(std::size_t i) const {
+    const Node& node = hierarchy_[i];
+    return node.leaf() && node.area > least_area_ && area_[i] > 0.0 && !scene_.exposure.partly_buried[i] && reflectance(i) > 0.0 &&
+           !(scene_.lamp_exchange && scene_.lamps[node.surface]);
+  }
+  [[nodiscard]] bool between_leaves(const Link& link) const { return hierarchy_[link.p].leaf() && hierarchy_[link.q].leaf(); }
+  // Calls visit(link, i, j, shape) for each end i of a link that is a patch and may have a gradient, j the other end: links of clusters
+  // have none, but those of clusters of lamps alone.
+  template <class Visit>
+  void each_end(const Visit& visit) const {
+    for (const Link& link : links_) {
+      const bool p_cluster = hierarchy_[link.p].is_cluster(), q_cluster = hierarchy_[link.q].is_cluster();
+      if (scene_.clustered() && (p_cluster || q_cluster)) { continue; }
+      if (!p_cluster && area_[link.p] > 0.0) { visit(link, link.p, link.q, link.shape_p); }
+      if (!q_cluster && area_[link.q] > 0.0) { visit(link, link.q, link.p, link.shape_q); }
+    }
+  }
+  // What falls on a node by a link from another one, per area.
+  [[nodiscard]] double irradiance(const Link& link, std::uint32_t on, std::uint32_t from) const {
+    return static_cast<double>(link.exchange) / area_[on] * light_.radiosity[from];
+  }
+  // What falls on a node by links of its ancestors has their gradients, too. Parents first.
+  void inherit(std::vector<glm::dvec3>& gradient, std::uint32_t i) const {
+    const Node& node = hierarchy_[i];
+    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { gradient[c] += gradient[i]; }
+  }
+
+  // Leaves whose error may be large.
+  void choose_candidates() {
+    std::vector<glm::dvec3> gradient(hierarchy_.size(), glm::dvec3{0.0});
+    std::vector<double> rest(hierarchy_.size(), 0.0);
+    each_end([&](const Link& link, std::uint32_t i, std::uint32_t j, const EndShape& shape) {
+      const double light = irradiance(link, i, j);
+      if (!between_leaves(link)) {
+        gradient[i] += light * shape.gradient();
+      } else if (hierarchy_[i].area > least_area_) {
+        const RoughVariation varies = rough_variation(hierarchy_[i], scene_.patches[i], hierarchy_[j]);
+        gradient[i] += light * varies.gradient;
+        rest[i] += light * varies.rest;
+      }
+    });
+    candidate_.assign(hierarchy_.size(), 0);
+    for (std::uint32_t i = 0; i < hierarchy_.size(); ++i) {
+      inherit(gradient, i);
+      if (!may_split(i)) { continue; }
+      const double most = reflectance(i) * (rest[i] + 0.5 * hierarchy_[i].radius * glm::length(gradient[i]));
+      candidate_[i] = area_[i] * most * most > least_error_ ? 1 : 0;
+    }
+  }
+
+  // Gives links between leaves their gradients where one of these is a candidate. What these leave at a leaf counts once it is split.
+  void set_gradients_at_candidates(DoubtSum& doubt) {
+    constexpr std::size_t batch = 1 << 15;
+    std::vector<std::size_t> touched;
+    std::vector<Doubt> doubts;
+    for (std::size_t first = 0; first < links_.size() && !scene_.control.cancelled(); first += batch) {
+      touched.clear();
+      for (std::size_t k = first; k < std::min(links_.size(), first + batch); ++k) {
+        const Link& link = links_[k];
+        if (between_leaves(link) && (candidate_[link.p] != 0 || candidate_[link.q] != 0)) { touched.push_back(k); }
+      }
+      doubts.assign(touched.size(), {});
+      parallel_for(touched.size(), scene_.threads, [&](std::size_t k) {
+        Link& link = links_[touched[k]];
+        const Variations light = variations(scene_.patches[link.p], scene_.patches[link.q]);
+        set_gradients(link, light);
+        doubts[k].p = static_cast<float>(static_cast<double>(link.exchange) * light.p.rest / area_[link.p]);
+        doubts[k].q = static_cast<float>(static_cast<double>(link.exchange) * light.q.rest / area_[link.q]);
+      });
+      for (std::size_t k = 0; k < touched.size(); ++k) { doubt.add(links_[touched[k]].p, links_[touched[k]].q, doubts[k]); }
+    }
+  }
+
+  [[nodiscard]] std::vector<Wanted> find_wanted() const {
+    std::vector<glm::dvec3> gradient(hierarchy_.size(), glm::dvec3{0.0});
+    each_end([&](const Link& link, std::uint32_t i, std::uint32_t j, const EndShape& shape) {
+      if (candidate_[i] != 0 || !hierarchy_[i].leaf()) { gradient[i] += irradiance(link, i, j) * shape.gradient(); }
+    });
+    std::vector<Wanted> wanted;
+    for (std::uint32_t i = 0; i < hierarchy_.size(); ++i) {
+      inherit(gradient, i);
+      if (candidate_[i] == 0) { continue; }
+      const double error = area_[i] * reflectance(i) * reflectance(i) * mean_square(scene_.patches[i], gradient[i]);
+      if (error > least_error_) { wanted.push_back({i, error}); }
+    }
+    return wanted;
+  }
+
+  // What is left of the error of a leaf in a part with this share of its area, where light changes linearly.
+  [[nodiscard]] static double part_of(double error, double share) { return error * share * share; }
+  [[nodiscard]] bool worth(const Wanted& leaf) const { return leaf.error > least_error_ && hierarchy_[leaf.node].area > least_area_; }
+
+  [[nodiscard]] std::uint64_t most_nodes(const std::vector<Wanted>& wanted) const {
+    std::uint64_t nodes = hierarchy_.size();
+    for (const Wanted& leaf : wanted) {
+      const std::uint64_t children = hierarchy_[leaf.node].corners;
+      nodes += children * (part_of(leaf.error, 0.25) > least_error_ ? 1 + children : 1);
+    }
+    return nodes;
+  }
+
+  // Has a leaf of a curved object an edge sharper than a right angle, as a blade has? A new vertex there lies off the edge of the leaf on
+  // the other side, which stays whole where it is dark, and a face of the mesh between the two would show the wrong side.
+  [[nodiscard]] bool at_blade(std::uint32_t i) const {
+    const Surface& surface = scene_.surfaces[hierarchy_[i].object];
+    if (surface.object->flat() || surface.topology != Topology::shared) { return false; }
+    for (const brep::HalfedgeId h : brep::halfedges_of(surface.brep, hierarchy_[i].face)) {
+      const std::uint32_t other = surface.brep.data(surface.brep.face(brep::twin(h))).node;
+      if (other != no_node && glm::dot(hierarchy_[i].normal, hierarchy_[other].normal) < -0.1) { return true; }
+    }
+    return false;
+  }
+
+  std::uint64_t split(std::vector<Wanted> wanted) {
+    std::uint64_t count = 0;
+    for (std::size_t k = 0; k < wanted.size(); ++k) {  // it grows
+      const Wanted leaf = wanted[k];
+      if (at_blade(leaf.node) || !subdivide(scene_.surfaces, hierarchy_, leaf.node, scene_.meshing)) { continue; }
+      ++count;
+      const Node& node = hierarchy_[leaf.node];
+      for (std::uint32_t c = node.first_child; leaf.again && c < node.first_child + node.child_count; ++c) {
+        const Wanted child{c, part_of(leaf.error, hierarchy_[c].area / node.area), false};
+        if (worth(child)) { wanted.push_back(child); }
+      }
+    }
+    return count;
+  }
+
+  // As if the links had been evaluated with the areas of now: those of curved leaves are sums over their children.
+  void fit_links(const std::vector<double>& area_before) {
+    const auto grown = [&](std::uint32_t i) { return area_before[i] > 0.0 ? area_[i] / area_before[i] : 1.0; };
+    const auto is_new = [&](std::uint32_t i) { return std::abs(grown(i) - 1.0) > 1e-12; };
+    for (Link& link : links_) {
+      if (!scene_.evaluator.between_patches(link) || (!is_new(link.p) && !is_new(link.q))) { continue; }
+      link.exchange = static_cast<float>(static_cast<double>(link.exchange) * grown(link.p) * grown(link.q));
+    }
+    if (!scene_.clustered()) { return; }
+    ShownAreas now = scene_.exposed_shown();
+    for (Link& link : links_) {
+      if (!scene_.evaluator.between_patches(link)) { refit_cluster_link(hierarchy_, link, scene_.shown, now); }
+    }
+    scene_.shown = std::move(now);
+  }
+
+  DiscreteScene& scene_;
+  Hierarchy& hierarchy_;
+  const std::vector<double>& area_;
+  Links& links_;
+  CoarseLight light_;
+  double least_error_ = 0.0;  // squared, of a leaf that is split
+  double least_area_ = 0.0;
+  std::vector<char> candidate_;  // of each node
+};
+
+}  // namespace detail
+
+HALFLIGHT_INLINE LeafSplits split_leaves_by_light(DiscreteScene& scene, Links& links, const LeafSplitRule& rule, DoubtSum& doubt) {
+  if (scene.control.cancelled()) { return {}; }
+  return detail::LeafSplitting{scene, links, rule}(doubt);
+}
+
+}  // namespace radiosity
