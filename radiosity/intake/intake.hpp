@@ -8,9 +8,11 @@
 //
 // The steps, each in a file of its own:
 //     weld       vertices within `weld` of each other become one                              weld.hpp
+//     backs      two faces at one place that look opposite ways become one with two sides      backs.hpp
 //     clean      repeated corners, faces without area, slivers, duplicates; what is not        clean.hpp
 //                planar or crosses itself is cut along the best diagonals
 //     t_joints   a vertex on the edge of another face becomes a corner of that face            t_joints.hpp
+//     join       groups whose borders match, and which close a shell together, are one shell   join.hpp
 //     topology   faces are turned alike; where that cannot be, or more than two faces meet,    topology.hpp
 //                the surface is cut
 //     merge      coplanar neighbours of one material become one face (fewer input faces)       merge.hpp
@@ -27,6 +29,8 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
 
 #include <radiosity/scene/scene.hpp>
 
@@ -60,7 +64,7 @@ enum class ChangeKind : unsigned char {
   welded,       // vertices that lay within the tolerance of another one: made one; size: the largest distance
   no_area,      // polygons without area: left out
   sliver,       // polygons narrower than the tolerance: left out; size: the largest width
-  duplicate,    // polygons that lay on another one, facing the same way: left out
+  duplicate,    // polygons that lay on another one, or on its back where that is not seen: left out
   not_planar,   // polygons cut into triangles; size: the largest distance of a corner from its plane
   crossing,     // polygons that crossed or touched themselves, or had too many corners: cut into triangles
   flattened,    // vertices that were moved into the planes of their polygons; size: the largest distance
@@ -104,8 +108,15 @@ struct PolygonParts {
   }
 };
 
+// A closed shell that is seen from inside, whatever became of it: an object, a cavity of one, or surfaces of several groups.
+struct Room {
+  raycast::Box bounds;
+  bool within_walls = false;  // a closed shell that is seen from outside surrounds it
+};
+
 struct Intake {
   std::vector<SceneObject> objects;  // empty when nothing had an area
+  std::vector<Room> rooms;
   PolygonParts parts;
   std::vector<Change> changes;  // in the order of ChangeKind, those that occurred
   std::size_t polygons = 0;     // of the input

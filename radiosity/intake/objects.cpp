@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <radiosity/intake/backs.hpp>
 #include <radiosity/intake/objects.hpp>
 #include <radiosity/intake/shells.hpp>
 
@@ -33,6 +34,10 @@ class ObjectMaker {
               const IntakeOptions& options)
       : mesh_(mesh), topology_(topology), input_(input), options_(options), shells_(mesh, topology, materials, options) {
     local_.assign(topology.vertices, none);
+    face_of_.resize(topology.mate.size());
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      for (std::uint32_t s = topology.first[f]; s < topology.first[f + 1]; ++s) { face_of_[s] = f; }
+    }
     shells_.find_roles();
   }
 
@@ -45,15 +50,20 @@ class ObjectMaker {
     for (const Component& component : shells_.components()) {
       if (component.role == Role::cavity || component.role == Role::nothing) { continue; }
       const std::uint32_t g = mesh_.faces[component.faces[0]].group;
-      if (g >= groups.size()) { groups.resize(g + 1); }
+      for (const std::uint32_t f : component.faces) { groups.resize(std::max<std::size_t>(groups.size(), mesh_.faces[f].group + 1)); }
       if (component.role != Role::surface) {
         groups[g].closed.push_back(&component);
         continue;
       }
       bool mixed = false;
       for (const std::uint32_t f : component.faces) {
-        groups[g].front.push_back(f);
-        if (has_back(mesh_.faces[f])) { groups[g].back.push_back(f); }
+        Group& group = groups[mesh_.faces[f].group];
+        group.front.push_back(f);
+        if (component.one_sided) {
+          if (mesh_.faces[f].back != none) { leave_out_backs(mesh_, mesh_.faces[f]); }
+          continue;
+        }
+        if (has_back(mesh_.faces[f])) { group.back.push_back(f); }
         if (mesh_.faces[f].mixed) { mesh_.changed(ChangeKind::both_sides, mesh_.faces[f].polygon, 0.0, mixed ? 0 : 1); }
         mixed = mixed || mesh_.faces[f].mixed;
       }
@@ -62,7 +72,13 @@ class ObjectMaker {
       const std::size_t first = objects_.size();
       for (const Component* const component : groups[g].closed) {
         std::vector<std::uint32_t> faces = component->faces;
-        faces.insert(faces.end(), component->cavities.begin(), component->cavities.end());
+        for (const std::uint32_t cavity : component->cavities) {
+          const std::span<const std::uint32_t> walls = shells_.components()[cavity].faces;
+          faces.insert(faces.end(), walls.begin(), walls.end());
+        }
+        for (const std::uint32_t f : faces) {
+          if (mesh_.faces[f].back != none) { leave_out_backs(mesh_, mesh_.faces[f]); }
+        }
         add(faces, component->role, false);
       }
       add_surface(groups[g].front, false);
@@ -72,21 +88,22 @@ class ObjectMaker {
         objects_[i].name = objects_.size() == first + 1 ? name : name + "." + std::to_string(i - first + 1);
       }
     }
-    return {std::move(objects_), std::move(sheets_)};
+    return {std::move(objects_), std::move(sheets_), {shells_.rooms().begin(), shells_.rooms().end()}};
   }
 
  private:
   [[nodiscard]] bool is_turned(std::uint32_t face) const { return shells_.turned(topology_.component[face]); }
 
   [[nodiscard]] bool has_back(const Face& face) const {
-    return options_.two_sided || face.mixed || (face.material < input_.two_sided.size() && input_.two_sided[face.material] != 0);
+    return options_.two_sided || face.mixed || face.back != none || (face.material < input_.two_sided.size() && input_.two_sided[face.material] != 0);
   }
 
   // A surface without a border would be a solid: one of its faces becomes an object of its own.
   void add_surface(std::vector<std::uint32_t> faces, bool back) {
     const auto on_border = [&](std::uint32_t f) {
       for (std::uint32_t s = topology_.first[f]; s < topology_.first[f + 1]; ++s) {
-        if (topology_.mate[s] == none) { return true; }
+        const std::uint32_t mate = topology_.mate[s];
+        if (mate == none || mesh_.faces[face_of_[mate]].group != mesh_.faces[f].group) { return true; }
       }
       return false;
     };
@@ -104,7 +121,8 @@ class ObjectMaker {
     std::vector<std::uint32_t> material, used;
     for (const std::uint32_t f : faces) {
       corners.emplace_back();
-      material.push_back(mesh_.faces[f].material);
+      const bool shows_back = mesh_.faces[f].back != none && back != is_turned(f);
+      material.push_back(shows_back ? mesh_.faces[f].back : mesh_.faces[f].material);
       for (std::uint32_t s = topology_.first[f]; s < topology_.first[f + 1]; ++s) {
         const std::uint32_t v = topology_.vertex[s];
         if (local_[v] == none) {
@@ -148,7 +166,8 @@ class ObjectMaker {
   const PolygonView& input_;
   const IntakeOptions& options_;
   Shells shells_;
-  std::vector<std::uint32_t> local_;  // of a vertex, in the object that is made
+  std::vector<std::uint32_t> local_;    // of a vertex, in the object that is made
+  std::vector<std::uint32_t> face_of_;  // of a side
   std::vector<SceneObject> objects_;
   std::vector<SheetOrigin> sheets_;
 };

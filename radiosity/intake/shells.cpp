@@ -26,6 +26,7 @@ HALFLIGHT_INLINE Shells::Shells(Working& mesh, const Topology& topology, std::sp
   for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
     Component& component = components_[topology.component[f]];
     component.faces.push_back(f);
+    component.several = component.several || mesh_.faces[f].group != mesh_.faces[component.faces[0]].group;
     for (const std::uint32_t v : mesh_.faces[f].corners) { component.box.extend(mesh_.positions[v]); }
     for (std::uint32_t s = topology.first[f]; s < topology.first[f + 1]; ++s) {
       component.closed = component.closed && topology.mate[s] != none;
@@ -181,9 +182,26 @@ HALFLIGHT_INLINE void Shells::hollow_solids() {
     const glm::dvec3& corner = mesh_.outline(mesh_.faces[component.faces[0]])[0];
     const Place place{corner, corner};
     Component* const around = innermost(std::span(&place, 1), &component);
-    if (around == nullptr || around->role != Role::solid || around->volume < -component.volume) { continue; }
+    const bool within_walls = around != nullptr && around->role == Role::solid && around->volume >= -component.volume;
+    rooms_.push_back({component.box, within_walls});
+    if (!within_walls) { continue; }
     component.role = Role::cavity;
-    around->cavities.insert(around->cavities.end(), component.faces.begin(), component.faces.end());
+    around->cavities.push_back(static_cast<std::uint32_t>(&component - components_.data()));
+  }
+}
+
+HALFLIGHT_INLINE void Shells::part_groups() {
+  const auto part = [](Component& component) {
+    component.role = Role::surface;
+    component.one_sided = true;
+  };
+  for (Component& component : components_) {
+    const bool any = std::any_of(component.cavities.begin(), component.cavities.end(), [&](auto c) { return components_[c].several; });
+    if (component.role == Role::surface || component.role == Role::nothing || !(component.several || any)) { continue; }
+    if (component.role == Role::cavity) { continue; }  // with the solid around it
+    part(component);
+    for (const std::uint32_t cavity : component.cavities) { part(components_[cavity]); }
+    component.cavities.clear();
   }
 }
 
@@ -198,6 +216,7 @@ HALFLIGHT_INLINE void Shells::find_roles() {
   }
   turn_shells();
   hollow_solids();
+  part_groups();
   for (Component& component : components_) {  // what is beyond the walls of a room would be buried
     if (component.role != Role::room) { continue; }
     const raycast::Box box = component.box.grown(mesh_.tolerance);

@@ -29,7 +29,9 @@ struct Component {
   bool closed = true;
   double volume = 0.0;  // of a closed one; negative when it looks inwards
   Role role = Role::surface;
-  std::vector<std::uint32_t> cavities;  // of a solid: faces of the rooms in it
+  bool several = false;                 // of several groups
+  bool one_sided = false;               // of a surface: it encloses something, so its backs are not seen
+  std::vector<std::uint32_t> cavities;  // of a solid: the rooms in it, as components
 };
 
 class Shells {
@@ -40,6 +42,7 @@ class Shells {
   void find_roles();
 
   [[nodiscard]] std::span<const Component> components() const { return components_; }
+  [[nodiscard]] std::span<const Room> rooms() const { return rooms_; }
   [[nodiscard]] bool turned(std::uint32_t component) const { return !turned_.empty() && turned_[component]; }
 
  private:
@@ -71,12 +74,15 @@ class Shells {
   void turn_shells();
   // Walls with a thickness: the room is a cavity of the solid around it.
   void hollow_solids();
+  // An object is of one group, so shells of several groups become surfaces, and with them what they are the walls or the cavities of.
+  void part_groups();
 
   Working& mesh_;
   std::span<const Material> materials_;
   const IntakeOptions& options_;
   std::vector<Component> components_;
   std::vector<bool> turned_;  // of a component
+  std::vector<Room> rooms_;
   raycast::Box bounds_;
 };
 
