@@ -53,6 +53,8 @@ inline constexpr std::array<Wording, static_cast<std::size_t>(ChangeKind::merged
      "# closed shells looked inwards with no lamp or camera in them: turned"},
     {"1 closed shell around a lamp or a camera looked outwards: turned, as a room",
      "# closed shells around lamps or cameras looked outwards: turned, as rooms"},
+    {"1 vertex of a lamp lay beside a wall, by @: moved onto it", "# vertices of lamps lay beside walls, by up to @: moved onto them"},
+    {"1 lamp lay on a surface and looked into it: turned", "# lamps lay on surfaces and looked into them: turned"},
     {"1 surface has polygons of both orientations: it reflects on both sides",
      "# surfaces have polygons of both orientations: they reflect on both sides"},
     {"1 polygon became part of a coplanar neighbour", "# polygons became parts of coplanar neighbours"},

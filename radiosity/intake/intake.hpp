@@ -16,6 +16,7 @@
 //     topology   faces are turned alike; where that cannot be, or more than two faces meet,    topology.hpp
 //                the surface is cut
 //     merge      coplanar neighbours of one material become one face (fewer input faces)       merge.hpp
+//     lamps      what lies flush in a wall shines away from it                                 lamps.hpp
 //     objects    closed shells become solids or rooms, all else surfaces with one or two       objects.hpp
 //                sides
 //
@@ -75,6 +76,8 @@ enum class ChangeKind : unsigned char {
   loose,        // polygons that fit to none of their neighbours: surfaces of their own
   inside_out,   // closed shells with nothing in them that looked inwards: turned
   room,         // closed shells around a lamp or an eye that looked outwards: turned, as rooms
+  lamp_laid,    // vertices of lamps that lay beside a wall: moved onto it; size: the largest distance
+  lamp_turned,  // lamps that lay on a wall and looked into it: turned
   both_sides,   // surfaces of mixed orientation: made to reflect on both sides
   merged        // polygons that became part of a larger one; size: none
 };

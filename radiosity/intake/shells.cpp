@@ -205,6 +205,13 @@ HALFLIGHT_INLINE void Shells::part_groups() {
   }
 }
 
+HALFLIGHT_INLINE void Shells::lay_lamp(std::uint32_t component, bool turn, bool one_sided) {
+  components_[component].flush = true;
+  components_[component].one_sided = one_sided;
+  turned_.resize(components_.size());
+  turned_[component] = turn;
+}
+
 HALFLIGHT_INLINE void Shells::find_roles() {
   const std::vector<Twins> twins = find_twins();
   for (const Twins& t : twins) { t.outer->role = Role::surface; }

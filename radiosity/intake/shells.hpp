@@ -30,7 +30,8 @@ struct Component {
   double volume = 0.0;  // of a closed one; negative when it looks inwards
   Role role = Role::surface;
   bool several = false;                 // of several groups
-  bool one_sided = false;               // of a surface: it encloses something, so its backs are not seen
+  bool one_sided = false;               // of a surface: its backs are not seen, for it encloses something, or lies on something
+  bool flush = false;                   // a lamp that lies on something (lamps.hpp)
   std::vector<std::uint32_t> cavities;  // of a solid: the rooms in it, as components
 };
 
@@ -42,6 +43,9 @@ class Shells {
   void find_roles();
 
   [[nodiscard]] std::span<const Component> components() const { return components_; }
+  // The component is a lamp that lies on a surface. `turn`: away from that. `one_sided`: what looks into it is not seen.
+  void lay_lamp(std::uint32_t component, bool turn, bool one_sided);
+
   [[nodiscard]] std::span<const Room> rooms() const { return rooms_; }
   [[nodiscard]] bool turned(std::uint32_t component) const { return !turned_.empty() && turned_[component]; }
 
