@@ -31,9 +31,8 @@ inline std::vector<FacePair> opposite_faces(const Working& mesh) {
     reversed = canonical(std::move(reversed));
     entries.push_back({mesh.faces[f].shell, f, std::min(ahead, reversed)});
   }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return std::tie(a.shell, a.corners, a.face) < std::tie(b.shell, b.corners, b.face);
-  });
+  std::sort(entries.begin(), entries.end(),
+            [](const Entry& a, const Entry& b) { return std::tie(a.shell, a.corners, a.face) < std::tie(b.shell, b.corners, b.face); });
   std::vector<FacePair> pairs;
   for (std::size_t i = 1; i < entries.size(); ++i) {
     const Entry &a = entries[i - 1], &b = entries[i];

@@ -85,9 +85,8 @@ HALFLIGHT_INLINE std::vector<FlushFace> lay_lamps(Working& mesh, const Topology&
       return false;
     }));
   }
-  std::sort(found.begin(), found.end(), [](const FlushFace& a, const FlushFace& b) {
-    return a.lamp != b.lamp ? a.lamp < b.lamp : a.under < b.under;
-  });
+  std::sort(found.begin(), found.end(),
+            [](const FlushFace& a, const FlushFace& b) { return a.lamp != b.lamp ? a.lamp < b.lamp : a.under < b.under; });
   return found;
 }
 

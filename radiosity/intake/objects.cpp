@@ -33,11 +33,7 @@ class ObjectMaker {
  public:
   ObjectMaker(Working& mesh, const Topology& topology, const PolygonView& input, std::span<const Material> materials,
               const IntakeOptions& options, std::span<const FlushFace> flush)
-      : mesh_(mesh),
-        topology_(topology),
-        input_(input),
-        options_(options),
-        shells_(mesh, topology, materials, options) {
+      : mesh_(mesh), topology_(topology), input_(input), options_(options), shells_(mesh, topology, materials, options) {
     local_.assign(topology.vertices, none);
     face_of_.resize(topology.mate.size());
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
@@ -127,7 +123,8 @@ class ObjectMaker {
   [[nodiscard]] bool is_turned(std::uint32_t face) const { return shells_.turned(topology_.component[face]); }
 
   [[nodiscard]] bool has_back(const Face& face) const {
-    return options_.two_sided || face.mixed || face.back != none || (face.material < input_.two_sided.size() && input_.two_sided[face.material] != 0);
+    return options_.two_sided || face.mixed || face.back != none ||
+           (face.material < input_.two_sided.size() && input_.two_sided[face.material] != 0);
   }
 
   [[nodiscard]] std::vector<bool> faces_with_backs() const {

@@ -125,6 +125,55 @@ HALFLIGHT_INLINE Component* Shells::shell_around_others() {
   return nullptr;
 }
 
+HALFLIGHT_INLINE std::uint32_t Shells::around(const Component& shell) const {
+  std::uint32_t best = none;
+  for (std::uint32_t c = 0; c < components_.size(); ++c) {
+    const Component& other = components_[c];
+    if (&other == &shell || other.role == Role::surface || other.role == Role::nothing) { continue; }
+    const double volume = std::abs(other.volume);
+    if (!(volume > std::abs(shell.volume)) || (best != none && volume >= std::abs(components_[best].volume))) { continue; }
+    const raycast::Box box = other.box.grown(mesh_.tolerance);
+    if (box.contains(shell.box.lo) && box.contains(shell.box.hi) && holds(other, shell.box.centre())) { best = c; }
+  }
+  return best;
+}
+
+HALFLIGHT_INLINE void Shells::find_nested_rooms(bool room_known) {
+  constexpr std::size_t most_asked = 1000;
+  if (components_.size() > most_asked) { return; }
+  struct Nest {
+    std::vector<std::uint32_t> inner;
+    double filled = 0.0;
+  };
+  std::vector<Nest> nests(components_.size());
+  for (std::uint32_t c = 0; c < components_.size(); ++c) {
+    if (components_[c].role != Role::solid && components_[c].role != Role::room) { continue; }
+    const std::uint32_t outer = around(components_[c]);
+    if (outer == none) { continue; }
+    nests[outer].inner.push_back(c);
+    nests[outer].filled += std::abs(components_[c].volume / components_[outer].volume);
+  }
+  for (std::uint32_t c = 0; c < components_.size(); ++c) {
+    Component& outer = components_[c];
+    const auto opposite = [&](std::uint32_t i) { return (components_[i].volume > 0.0) != (outer.volume > 0.0); };
+    const std::vector<std::uint32_t>& inner = nests[c].inner;
+    if (outer.role != Role::solid || inner.empty()) { continue; }
+    if (nests[c].filled >= 0.5) {
+      for (const std::uint32_t i : inner) {
+        const bool room = opposite(i) || !nests[i].inner.empty();
+        if (room && components_[i].role == Role::solid && !shines(components_[i])) { components_[i].role = Role::room; }
+      }
+    } else if (!room_known && outer.volume > 0.0 && std::all_of(inner.begin(), inner.end(), opposite)) {
+      outer.role = Role::room;
+    }
+  }
+}
+
+HALFLIGHT_INLINE bool Shells::shines(const Component& shell) const {
+  return std::any_of(shell.faces.begin(), shell.faces.end(),
+                     [&](std::uint32_t f) { return !is_black(materials_[mesh_.faces[f].material].emission); });
+}
+
 HALFLIGHT_INLINE bool Shells::holds_another(const Component& shell) const {
   constexpr std::size_t most_asked = 1000;
   const std::span<const Component> asked = std::span<const Component>(components_).first(std::min(components_.size(), most_asked));
@@ -154,7 +203,6 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
     Component* const around = innermost(places, &component);
     rooms.push_back(shines_inwards(component, around) ? &component : around);
   }
-  if (Component* const around = shell_around_others()) { rooms.push_back(around); }
   for (const glm::dvec3& eye : options_.eyes) {
     const Place place{eye, eye};
     rooms.push_back(innermost(std::span(&place, 1), nullptr));
@@ -215,9 +263,15 @@ HALFLIGHT_INLINE void Shells::lay_lamp(std::uint32_t component, bool turn, bool 
 HALFLIGHT_INLINE void Shells::find_roles() {
   const std::vector<Twins> twins = find_twins();
   for (const Twins& t : twins) { t.outer->role = Role::surface; }
+  bool room_known = false;
   for (Component* const room : find_rooms()) {
-    if (room != nullptr) { room->role = Role::room; }
+    if (room == nullptr) { continue; }
+    room->role = Role::room;
+    room_known = true;
   }
+  find_nested_rooms(room_known);
+  room_known = std::any_of(components_.begin(), components_.end(), [](const Component& c) { return c.role == Role::room; });
+  if (Component* const around = room_known ? nullptr : shell_around_others()) { around->role = Role::room; }
   for (const Twins& t : twins) {
     if (t.inner->role != Role::room) { settle(t); }
   }

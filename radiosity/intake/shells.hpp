@@ -69,11 +69,18 @@ class Shells {
   [[nodiscard]] Component* innermost(std::span<const Place> places, const Component* but);
   // The shell that looks inwards at all the others, which do not look inwards themselves, as in a model that is inside out. Null: none.
   [[nodiscard]] Component* shell_around_others();
+  // The smallest shell that holds this one, or none.
+  [[nodiscard]] std::uint32_t around(const Component& shell) const;
+  // Rooms that no lamp and no eye tells of. What fills at least half of a shell is no furniture: that shell is walls, and what looks the
+  // other way in it, or has things in it, is a room. Where less is filled, a shell that looks outwards at things which all look inwards is
+  // a room of a model that is inside out; this only where no other room is known.
+  void find_nested_rooms(bool room_known);
+  [[nodiscard]] bool shines(const Component& shell) const;
   [[nodiscard]] bool holds_another(const Component& shell) const;
   // Is a lamp that looks inwards a room with shining walls? It is when something is in it, when it is alone, or when the innermost shell
   // around it looks outwards, as walls do around their room. Else it is a lamp, a bulb for instance, that is inside out.
   [[nodiscard]] bool shines_inwards(const Component& lamp, const Component* around) const;
-  // Shells around lamps, eyes and things. Some may be null.
+  // Shells around lamps and eyes. Some may be null.
   [[nodiscard]] std::vector<Component*> find_rooms();
   void turn_shells();
   // Walls with a thickness: the room is a cavity of the solid around it.
