@@ -18,7 +18,7 @@ namespace apps {
 class LightViews {
  public:
   // Less than this share of what a camera sees, lit by no lamp directly, is next to nothing.
-  static constexpr double tol_dark = 0.05;
+  static constexpr double tol_dark = 0.02;
 
   explicit LightViews(const radiosity::Scene& scene);
 
