@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -23,6 +24,8 @@
 
 namespace radiosity::intake {
 namespace detail {
+
+inline constexpr double tol_flush = 1e-3;  // of a lamp's size: what lies as near to a wall is meant to lie on it
 
 inline bool shines(const Face& face, std::span<const Material> materials) {
   const auto is_lamp = [&](std::uint32_t m) { return m != none && !is_black(materials[m].emission); };
@@ -42,51 +45,74 @@ inline std::vector<bool> open_lamps(const Working& mesh, const Topology& topolog
   return lamp;
 }
 
+// A face on which, or beside which, the middle of a lamp lies, within a thousandth of the lamp's size and parallel to it.
+struct Wall {
+  std::uint32_t face = 0;
+  raycast::Plane plane;
+  double height = 0.0;    // of the lamp's middle above it
+  bool opposite = false;  // they look opposite ways
+};
+
+// Not those before which the lamp hangs free and looks away from them.
+inline std::vector<Wall> walls_beside(Working& mesh, const Topology& topology, const raycast::Bvh& bvh, std::uint32_t lamp) {
+  const double size = std::sqrt(brep::area(mesh.outline(mesh.faces[lamp]))), reach = std::max(4.0 * mesh.tolerance, tol_flush * size);
+  const glm::dvec3 normal = raycast::plane_of(mesh.outline(mesh.faces[lamp])).normal,
+                   middle = brep::centroid(mesh.outline(mesh.faces[lamp]));
+  const raycast::Segment through{middle - reach * normal, 2.0 * reach * normal};
+  std::vector<Wall> walls;
+  static_cast<void>(raycast::any_along(bvh, raycast::SlabTest(through), 0.0, 1.0, [&](std::uint32_t face) {
+    if (topology.component[face] == topology.component[lamp]) { return false; }
+    const raycast::Plane plane = raycast::plane_of(mesh.outline(mesh.faces[face]));
+    const auto height = [&](const glm::dvec3& p) { return glm::dot(p - plane.point, plane.normal); };
+    const std::vector<std::uint32_t>& corners = mesh.faces[lamp].corners;
+    const bool parallel =
+        std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return std::abs(height(mesh.positions[v])) <= reach; });
+    const Wall wall{face, plane, height(middle), glm::dot(plane.normal, normal) < 0.0};
+    if (!parallel || (!wall.opposite && wall.height > 4.0 * mesh.tolerance)) { return false; }
+    if (raycast::RayFrame(through).winding(mesh.outline(mesh.faces[face])) != 0) { walls.push_back(wall); }
+    return false;
+  }));
+  return walls;
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE std::vector<FlushFace> lay_lamps(Working& mesh, const Topology& topology, std::span<const Material> materials) {
   const std::vector<bool> lamp = detail::open_lamps(mesh, topology, materials);
   std::vector<FlushFace> found;
   if (std::none_of(lamp.begin(), lamp.end(), [](bool is) { return is; })) { return found; }
-  const double reach = 4.0 * mesh.tolerance;
   std::vector<raycast::Box> boxes;
-  std::vector<std::uint32_t> component(mesh.positions.size(), none), others(mesh.positions.size(), 0);  // that has a vertex; more that do
+  std::vector<std::uint32_t> component(mesh.positions.size(), none);
+  std::vector<bool> shared(mesh.positions.size(), false);  // by components
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     boxes.emplace_back();
     for (const std::uint32_t v : mesh.faces[f].corners) {
       boxes.back().extend(mesh.positions[v]);
-      if (component[v] != none && component[v] != topology.component[f]) { others[v] = 1; }
+      shared[v] = shared[v] || (component[v] != none && component[v] != topology.component[f]);
       component[v] = topology.component[f];
     }
-    boxes.back() = boxes.back().grown(reach);
+    boxes.back() = boxes.back().grown(mesh.tolerance);
   }
   const raycast::Bvh bvh(boxes);
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     if (!lamp[f]) { continue; }
-    const raycast::Plane plane = raycast::plane_of(mesh.outline(mesh.faces[f]));
-    const glm::dvec3 middle = brep::centroid(mesh.outline(mesh.faces[f]));
-    const raycast::Segment through{middle - reach * plane.normal, 2.0 * reach * plane.normal};
-    static_cast<void>(raycast::any_along(bvh, raycast::SlabTest(through), 0.0, 1.0, [&](std::uint32_t under) {
-      if (topology.component[under] == topology.component[f] || lamp[under]) { return false; }
-      const raycast::Plane wall = raycast::plane_of(mesh.outline(mesh.faces[under]));
-      const auto off = [&](const glm::dvec3& p) { return glm::dot(p - wall.point, wall.normal); };
-      const std::vector<std::uint32_t>& corners = mesh.faces[f].corners;
-      if (!std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return std::abs(off(mesh.positions[v])) <= reach; }) ||
-          raycast::RayFrame(through).winding(mesh.outline(mesh.faces[under])) == 0) {
-        return false;
-      }
-      found.push_back({f, under, glm::dot(wall.normal, plane.normal) < 0.0});
-      for (const std::uint32_t v : corners) {
-        const double height = off(mesh.positions[v]);
-        if (others[v] != 0 || height == 0.0) { continue; }
-        mesh.positions[v] -= height * wall.normal;
-        if (std::abs(height) > 1e-3 * mesh.tolerance) { mesh.changed(ChangeKind::lamp_laid, mesh.faces[f].polygon, std::abs(height)); }
-      }
-      return false;
-    }));
+    std::vector<detail::Wall> walls = detail::walls_beside(mesh, topology, bvh, f);
+    std::erase_if(walls, [&](const detail::Wall& wall) { return lamp[wall.face]; });
+    if (walls.empty()) { continue; }
+    std::sort(walls.begin(), walls.end(), [](const detail::Wall& a, const detail::Wall& b) {
+      return std::tuple(std::abs(a.height), a.face) < std::tuple(std::abs(b.height), b.face);
+    });
+    const raycast::Plane nearest = walls[0].plane;
+    const double same = std::abs(walls[0].height) + 4.0 * mesh.tolerance;
+    std::erase_if(walls, [&](const detail::Wall& wall) { return std::abs(wall.height) > same; });
+    for (const detail::Wall& wall : walls) { found.push_back({f, wall.face, wall.opposite}); }
+    for (const std::uint32_t v : mesh.faces[f].corners) {
+      const double height = glm::dot(mesh.positions[v] - nearest.point, nearest.normal);
+      if (shared[v] || height == 0.0) { continue; }
+      mesh.positions[v] -= height * nearest.normal;
+      if (std::abs(height) > 1e-3 * mesh.tolerance) { mesh.changed(ChangeKind::lamp_laid, mesh.faces[f].polygon, std::abs(height)); }
+    }
   }
-  std::sort(found.begin(), found.end(),
-            [](const FlushFace& a, const FlushFace& b) { return a.lamp != b.lamp ? a.lamp < b.lamp : a.under < b.under; });
   return found;
 }
 

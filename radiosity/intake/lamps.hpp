@@ -22,8 +22,9 @@ struct FlushFace {
   bool opposite = false;  // they look opposite ways
 };
 
-// Finds all of them within four tolerances of welding, which is as far as the rounding of six digits may take a corner and a plane apart.
-// Moves the vertices of the lamp, as far as no other face has them, into the plane of the face that it lies on.
+// Finds all of them, where the lamp lies on the other face within four tolerances of welding, which is as far as the rounding of six digits
+// may take a corner and a plane apart, or within a thousandth of its own size behind it or with its front to it. Moves the vertices of the
+// lamp, as far as no other surface has them, into the plane of the nearest.
 [[nodiscard]] std::vector<FlushFace> lay_lamps(Working& mesh, const Topology& topology, std::span<const Material> materials);
 
 // Lamps more than half of which lies on something shine away from it, on that side alone. Where they lie between two sides, as of a wall
