@@ -49,7 +49,55 @@ void each_edge_of(const Face& face, const Visit& visit) {
   }
 }
 
+// The triangles of a mesh by their corners, in their order, and by their sides.
+struct Triangles {
+  using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // shell, corners or the ends of a side
+  std::map<Key, std::uint32_t> by_corners, by_side;
+
+  explicit Triangles(const Working& mesh) {
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      const std::vector<std::uint32_t> c = canonical(mesh.faces[f].corners);
+      if (c.size() != 3) { continue; }
+      by_corners.emplace(Key{mesh.faces[f].shell, c[0], c[1], c[2]}, f);
+      for (std::size_t i = 0; i < 3; ++i) { by_side.emplace(Key{mesh.faces[f].shell, c[i], c[(i + 1) % 3], 0}, f); }
+    }
+  }
+  [[nodiscard]] std::uint32_t with_corners(std::uint32_t shell, std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    const std::vector<std::uint32_t> k = canonical({a, b, c});
+    const auto found = by_corners.find(Key{shell, k[0], k[1], k[2]});
+    return found == by_corners.end() ? none : found->second;
+  }
+  [[nodiscard]] std::uint32_t with_side(std::uint32_t shell, std::uint32_t a, std::uint32_t b) const {
+    const auto found = by_side.find(Key{shell, a, b, 0});
+    return found == by_side.end() ? none : found->second;
+  }
+};
+
 }  // namespace detail
+
+HALFLIGHT_INLINE void match_diagonals(Working& mesh) {
+  const detail::Triangles triangles(mesh);
+  std::vector<bool> done(mesh.faces.size(), false);
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    for (std::size_t i = 0; i < 3 && mesh.faces[f].corners.size() == 3 && !done[f]; ++i) {
+      Face& first = mesh.faces[f];
+      const std::uint32_t x = first.corners[i], y = first.corners[(i + 1) % 3], p = first.corners[(i + 2) % 3];
+      const std::uint32_t g = triangles.with_side(first.shell, y, x);
+      if (g == none || g == f || done[g] || mesh.faces[g].material != first.material) { continue; }
+      Face& second = mesh.faces[g];  // x, y are the diagonal; p and q the ends of the other one
+      const auto opposite = std::find_if(second.corners.begin(), second.corners.end(), [&](auto v) { return v != x && v != y; });
+      if (opposite == second.corners.end() || *opposite == p) { continue; }
+      const std::uint32_t q = *opposite, a = triangles.with_corners(first.shell, x, p, q), b = triangles.with_corners(first.shell, p, y, q);
+      if (a == none || b == none || done[a] || done[b]) { continue; }
+      done[f] = done[g] = done[a] = done[b] = true;
+      const Face before = first;
+      first.corners = {x, q, p};
+      second.corners = {q, y, p};
+      first.stand_for(second);  // each of the two polygons lies on both
+      second.stand_for(before);
+    }
+  }
+}
 
 HALFLIGHT_INLINE void join_backs(Working& mesh) {
   const std::vector<detail::FacePair> pairs = detail::opposite_faces(mesh);

@@ -10,6 +10,10 @@
 
 namespace radiosity::intake {
 
+// Two triangles whose quadrilateral was given again for its back, but cut along the other diagonal, are cut along that one, too. Programs
+// that cut polygons into triangles from their first corner on write both sides so.
+void match_diagonals(Working& mesh);
+
 // Of two faces of one shell with the same corners in opposite order, the later is left out and the earlier gets it as its back; but not
 // where solids touch in that face, so that an edge of it would keep more than two.
 void join_backs(Working& mesh);

@@ -100,6 +100,7 @@ HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Materi
   intake::weld(input, materials.size(), options.weld, mesh);
   intake::drop_degenerate(mesh);
   intake::drop_duplicates(mesh);
+  intake::match_diagonals(mesh);
   intake::join_backs(mesh);
   intake::close_t_joints(mesh);
   intake::drop_duplicates(mesh);  // those that had no joint

@@ -231,6 +231,10 @@ HALFLIGHT_INLINE PolygonParts parts_of(const Working& mesh, std::span<const Shee
     for (const Source& source : face.more) { add(source); }
   }
   std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  const auto same = [](const auto& a, const auto& b) {
+    return a.first == b.first && a.second.object == b.second.object && a.second.sheet == b.second.sheet && a.second.back == b.second.back;
+  };
+  list.erase(std::unique(list.begin(), list.end(), same), list.end());  // a sheet may have come to one polygon twice
   PolygonParts result;
   result.first.assign(polygons + 1, 0);
   for (const auto& [polygon, part] : list) {
