@@ -9,6 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/polygon.hpp>
+
 #include <raycast/inline.hpp>
 
 namespace radiosity::intake {
@@ -89,6 +94,9 @@ HALFLIGHT_INLINE void match_diagonals(Working& mesh) {
       if (opposite == second.corners.end() || *opposite == p) { continue; }
       const std::uint32_t q = *opposite, a = triangles.with_corners(first.shell, x, p, q), b = triangles.with_corners(first.shell, p, y, q);
       if (a == none || b == none || done[a] || done[b]) { continue; }
+      const glm::dvec3 up = brep::vector_area(mesh.outline(first));
+      const auto looks = [&](std::uint32_t face) { return glm::dot(brep::vector_area(mesh.outline(mesh.faces[face])), up); };
+      if (!(looks(g) > 0.0 && looks(a) < 0.0 && looks(b) < 0.0)) { continue; }
       done[f] = done[g] = done[a] = done[b] = true;
       const Face before = first;
       first.corners = {x, q, p};

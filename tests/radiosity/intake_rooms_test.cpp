@@ -3,6 +3,7 @@
 // a thickness without a lamp: each must become what the sound model becomes.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
@@ -142,6 +143,13 @@ TEST_CASE("intake: backs that were cut along the other diagonal change no light 
     CHECK(taken.faces == sound.faces);
     CHECK(count_of(taken, ChangeKind::nonmanifold) == 0);
     check_same_light(light_of(room, sound), light_of(doubled, taken));
+    Soup sheet;  // open
+    const std::vector<glm::dvec3> c{{0, 0, 0}, {number_in(random, 1.0, 2.0), 0, 0}, {1, 1, 0}, {0, number_in(random, 0.6, 1.4), 0}};
+    for (const auto& [i, j, k] : {std::array{0, 1, 2}, std::array{0, 2, 3}, std::array{1, 0, 3}, std::array{3, 2, 1}}) {
+      sheet.polygon({c[static_cast<std::size_t>(i)], c[static_cast<std::size_t>(j)], c[static_cast<std::size_t>(k)]});
+    }
+    CHECK(sheet.take_in().faces == 2);
+    CHECK(soup::measure(sheet.take_in().objects).area == Approx(sheet.area()).epsilon(1e-9));
     for (std::size_t f = 0; f < doubled.count(); ++f) {
       REQUIRE(taken.parts.of(f).size() == 1);
       CHECK(taken.parts.of(f)[0].back == (f >= room.count()));
