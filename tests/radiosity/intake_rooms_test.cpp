@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The intake: rooms as strangers write them. Walls, floor and ceiling in groups of their own, polygons given again for their back, walls with
-// a thickness without a lamp: each must become what the sound model becomes.
+// The intake: rooms as strangers write them. Walls, floor and ceiling in groups of their own, polygons given again for their back, walls
+// with a thickness without a lamp: each must become what the sound model becomes.
 
 #include <algorithm>
 #include <array>
