@@ -14,8 +14,6 @@
 #include <raycast/scene.hpp>
 #include <raycast/transform.hpp>
 
-#include "apps/bounds.hpp"
-
 namespace apps {
 namespace {
 
@@ -27,11 +25,10 @@ double free_way(const raycast::Scene& scene, const glm::dvec3& from, const glm::
 
 }  // namespace
 
-std::shared_ptr<const raycast::Object> ceiling_lamp(const radiosity::Scene& scene, const radiosity::SceneObject& room) {
+std::shared_ptr<const raycast::Object> ceiling_lamp(const radiosity::Scene& scene, const raycast::Box& box) {
   std::vector<raycast::PlacedObject> placed;
   for (const radiosity::SceneObject& object : scene.objects) { placed.emplace_back(object.shape, object.placement); }
   const raycast::Scene objects(std::move(placed));
-  const raycast::Box box = placed_bounds(*room.shape, room.placement);
   constexpr int steps = 9;  // odd: the middle of the room among others
   glm::dvec3 best{0.0};
   double most = 0.0;

@@ -3,16 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/object.hpp>
-#include <raycast/scene.hpp>
+#include <radiosity/scene/material.hpp>
+#include <raycast/box.hpp>
 #include <raycast/transform.hpp>
 
 #include "apps/view.hpp"
@@ -20,72 +22,83 @@
 namespace apps {
 namespace {
 
-struct LampPoint {
-  std::uint32_t object = 0;
-  raycast::SurfacePoint at;
-};
-
-// A point of each of the first lamps. What shines less than a hundredth as bright as the brightest is no lamp: many programs give every
-// material a little light of its own.
-std::vector<LampPoint> lamp_points(const radiosity::Scene& scene, const raycast::Scene& objects) {
-  constexpr std::size_t most = 16;
-  const std::vector<radiosity::InputSurface> surfaces = radiosity::surfaces(scene);
-  const auto exitance = [&](const radiosity::InputSurface& surface) {
-    const radiosity::Color& emission = scene.materials[surface.material].emission;
-    return std::max({emission.r, emission.g, emission.b});
-  };
-  double brightest = 0.0;
-  for (const radiosity::InputSurface& surface : surfaces) { brightest = std::max(brightest, exitance(surface)); }
-  std::vector<LampPoint> points;
-  for (const radiosity::InputSurface& surface : surfaces) {
-    if (points.size() >= most || !(exitance(surface) > 0.01 * brightest)) { continue; }
-    const raycast::PlacedObject& object = objects.object(surface.object);
-    points.push_back({surface.object, object.project(surface.sheet, object.bounds().centre())});
-  }
-  return points;
-}
-
-// Does the light of a lamp come straight to this camera by way of a surface, or does it see the lamp?
-bool sees_light(const Camera& camera, const radiosity::Scene& scene, const raycast::Scene& objects, const std::vector<LampPoint>& lamps) {
-  const glm::dvec3 forward = glm::normalize(camera.forward), right = glm::normalize(glm::cross(forward, camera.up)),
-                   up = glm::cross(right, forward);
-  const double half = std::tan(0.5 * camera.field_of_view * std::numbers::pi / 180.0);
-  constexpr int across = 24, down = 18;
-  const std::vector<radiosity::InputSurface> surfaces = radiosity::surfaces(scene);
-  for (int i = 0; i < across * down; ++i) {
-    const double x = 2.0 * (i % across + 0.5) / across - 1.0, y = 0.75 * (1.0 - 2.0 * (i / across + 0.5) / down);
-    const auto hit = objects.closest({camera.eye, forward + half * (x * right + y * up)});
-    if (!hit || !hit->front) { continue; }
-    const raycast::SurfacePoint at =
-        objects.object(hit->object).project(hit->sheet, camera.eye + hit->t * (forward + half * (x * right + y * up)));
-    for (const LampPoint& lamp : lamps) {
-      if (lamp.object == hit->object) { return true; }
-      const glm::dvec3 way = lamp.at.position - at.position;
-      if (glm::dot(way, at.normal) > 0.0 && glm::dot(way, lamp.at.normal) < 0.0 &&
-          !objects.occluded({at.position, way}, hit->object, lamp.object)) {
-        return true;
-      }
-    }
-  }
-  return false;
+raycast::Scene placed(const radiosity::Scene& scene) {
+  std::vector<raycast::PlacedObject> objects;
+  for (const radiosity::SceneObject& object : scene.objects) { objects.emplace_back(object.shape, object.placement); }
+  return raycast::Scene(std::move(objects));
 }
 
 }  // namespace
 
-std::optional<Camera> inside_camera(const radiosity::Scene& scene) {
-  std::vector<raycast::PlacedObject> placed;
-  for (const radiosity::SceneObject& object : scene.objects) { placed.emplace_back(object.shape, object.placement); }
-  const raycast::Scene objects(std::move(placed));
-  const std::vector<LampPoint> lamps = lamp_points(scene, objects);
-  if (lamps.empty() || sees_light(automatic_camera(scene), scene, objects, lamps)) { return std::nullopt; }
-  const auto free_way = [&](const glm::dvec3& from, const glm::dvec3& direction) {
-    const auto hit = objects.closest({from, direction});
-    return hit && hit->front ? hit->t : 0.0;
+// What shines less than a hundredth as bright as the brightest is no lamp: many programs give every material a little light of its own.
+LightViews::LightViews(const radiosity::Scene& scene) : objects_(placed(scene)) {
+  const std::vector<radiosity::InputSurface> surfaces = radiosity::surfaces(scene);
+  const auto exitance = [&](const radiosity::InputSurface& s) { return radiosity::brightest(scene.materials[s.material].emission); };
+  double most = 0.0;
+  for (const radiosity::InputSurface& surface : surfaces) { most = std::max(most, exitance(surface)); }
+  std::vector<const radiosity::InputSurface*> shining;
+  std::vector<double> power(scene.objects.size(), 0.0);  // about
+  for (const radiosity::InputSurface& surface : surfaces) {
+    if (!(exitance(surface) > 0.01 * most)) { continue; }
+    shining.push_back(&surface);
+    const double across = objects_.object(surface.object).bounds().diameter();
+    power[surface.object] = std::max(power[surface.object], exitance(surface) * across * across);
+  }
+  constexpr std::size_t most_points = 16;
+  for (std::size_t i = 0; i < std::min(most_points, shining.size()); ++i) {
+    const radiosity::InputSurface& surface = *shining[i * shining.size() / std::min(most_points, shining.size())];
+    const raycast::PlacedObject& object = objects_.object(surface.object);
+    points_.push_back({surface.object, object.project(surface.sheet, object.bounds().centre())});
+  }
+  for (std::uint32_t o = 0; o < power.size(); ++o) {
+    if (power[o] > 0.0) { lamps_.push_back(o); }
+  }
+  const auto rank = [&](std::uint32_t o) {
+    const glm::dvec3 centre = objects_.object(o).bounds().centre();
+    return std::tuple(-power[o], centre.x, centre.y, centre.z);
   };
-  glm::dvec3 middle = lamps[0].at.position + 1e-4 * objects.diameter() * lamps[0].at.normal;
+  std::sort(lamps_.begin(), lamps_.end(), [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
+}
+
+bool LightViews::lit(std::uint32_t object, const raycast::SurfacePoint& at) const {
+  return std::any_of(points_.begin(), points_.end(), [&](const LampPoint& lamp) {
+    const glm::dvec3 way = lamp.at.position - at.position;
+    return lamp.object == object || (glm::dot(way, at.normal) > 0.0 && glm::dot(way, lamp.at.normal) < 0.0 &&
+                                     !objects_.occluded({at.position, way}, object, lamp.object));
+  });
+}
+
+double LightViews::lit_share(const Camera& camera) const {
+  const glm::dvec3 forward = glm::normalize(camera.forward), right = glm::normalize(glm::cross(forward, camera.up)),
+                   up = glm::cross(right, forward);
+  const double half = std::tan(0.5 * camera.field_of_view * std::numbers::pi / 180.0);
+  constexpr int across = 24, down = 18, most_passed = 64;
+  int met = 0, bright = 0;
+  for (int i = 0; i < across * down; ++i) {
+    const double x = 2.0 * (i % across + 0.5) / across - 1.0, y = 0.75 * (1.0 - 2.0 * (i / across + 0.5) / down);
+    const glm::dvec3 direction = forward + half * (x * right + y * up);
+    glm::dvec3 from = camera.eye;
+    auto hit = objects_.closest({from, direction});
+    for (int passed = 0; passed < most_passed && hit && !hit->front; ++passed) {
+      from += hit->t * direction;
+      hit = objects_.closest({from, direction}, hit->object, hit->sheet);
+    }
+    if (!hit || !hit->front) { continue; }
+    ++met;
+    bright += lit(hit->object, objects_.object(hit->object).project(hit->sheet, from + hit->t * direction)) ? 1 : 0;
+  }
+  return met > 0 ? static_cast<double>(bright) / met : 0.0;
+}
+
+double LightViews::free_way(const glm::dvec3& from, const glm::dvec3& direction) const {
+  const auto hit = objects_.closest({from, direction});
+  return hit && hit->front ? hit->t : 0.0;
+}
+
+std::optional<Camera> LightViews::across_room(glm::dvec3 middle) const {
   middle.z -= 0.4 * free_way(middle, {0, 0, -1});
   glm::dvec3 away{0.0};
-  double most = 0.01 * objects.diameter();
+  double most = 0.01 * objects_.diameter();
   constexpr int directions = 16;
   for (int i = 0; i < directions; ++i) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.3) / directions;
@@ -103,6 +116,29 @@ std::optional<Camera> inside_camera(const radiosity::Scene& scene) {
   camera.forward = -away;
   camera.field_of_view = 80.0;
   return camera;
+}
+
+std::optional<Camera> LightViews::inside() const {
+  constexpr std::size_t most_lamps = 8;
+  constexpr double enough = 0.5;
+  std::optional<Camera> best;
+  double most = 0.0;
+  const auto look = [&](const glm::dvec3& middle) {
+    const std::optional<Camera> camera = across_room(middle);
+    const double share = camera && most < enough ? lit_share(*camera) : 0.0;
+    if (share > most) {
+      most = share;
+      best = camera;
+    }
+  };
+  const double off = 1e-4 * objects_.diameter();
+  for (std::size_t i = 0; i < std::min(most_lamps, lamps_.size()); ++i) {
+    const raycast::Box box = objects_.object(lamps_[i]).bounds();
+    look({box.centre().x, box.centre().y, box.lo.z - off});
+    look({box.centre().x, box.centre().y, box.hi.z + off});
+  }
+  for (const LampPoint& lamp : points_) { look(lamp.at.position + off * lamp.at.normal); }
+  return best;
 }
 
 }  // namespace apps

@@ -1,18 +1,49 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A camera for a model without one whose light cannot be seen from outside: a house with lamps in its rooms.
+// What cameras see of a model's light, and a camera where the automatic one sees next to none of it: a house with lamps in its rooms.
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <radiosity/scene/scene.hpp>
+#include <raycast/object.hpp>
+#include <raycast/scene.hpp>
 
 #include "apps/scene_file.hpp"
 
 namespace apps {
 
-// From the far end of the room of the first lamp, across it. Nothing when the automatic camera sees something that a lamp shines on, or
-// when there is no place.
-[[nodiscard]] std::optional<Camera> inside_camera(const radiosity::Scene& scene);
+class LightViews {
+ public:
+  // Less than this share of what a camera sees, lit by no lamp directly, is next to nothing.
+  static constexpr double tol_dark = 0.02;
+
+  explicit LightViews(const radiosity::Scene& scene);
+
+  // Of the rays of a coarse picture that meet a surface, the share that meet a lamp or what a lamp shines on directly. As in pictures, rays
+  // go on past the backs of surfaces.
+  [[nodiscard]] double lit_share(const Camera& camera) const;
+
+  // From the far end of the room of one of the brightest lamps, across it: of these views the one that sees most of the light. Nothing when
+  // there is no lamp, or no place. Does not depend on the order of the polygons of a lamp.
+  [[nodiscard]] std::optional<Camera> inside() const;
+
+ private:
+  struct LampPoint {
+    std::uint32_t object = 0;
+    raycast::SurfacePoint at;
+  };
+
+  [[nodiscard]] bool lit(std::uint32_t object, const raycast::SurfacePoint& at) const;
+  // How far it is to the first surface; 0 where that shows its back.
+  [[nodiscard]] double free_way(const glm::dvec3& from, const glm::dvec3& direction) const;
+  [[nodiscard]] std::optional<Camera> across_room(glm::dvec3 middle) const;
+
+  raycast::Scene objects_;
+  std::vector<LampPoint> points_;     // of some of the lamps
+  std::vector<std::uint32_t> lamps_;  // objects, those of the largest power first
+};
 
 }  // namespace apps

@@ -2,7 +2,6 @@
 #include "apps/intake/to_scene.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -46,14 +45,8 @@ class SceneMaker {
     given_z_up_ = options_.up.value_or(up) == UpAxis::z;
     place(to_metres(options_.up.value_or(up), options_.metres));
     if (!part(faults)) { return std::nullopt; }
-    if (!shines()) {
-      if (!add_studio(faults)) { return std::nullopt; }
-    } else if (file_.cameras.empty()) {
-      if (auto camera = inside_camera(file_.scene)) {
-        file_.cameras.push_back(std::move(*camera));
-        note("from outside nothing is seen of its light: the camera stands in the room of a lamp");
-      }
-    }
+    if (!shines() && !add_studio(faults)) { return std::nullopt; }
+    look_for_light();
     note(std::string(1, "xyz"[static_cast<std::size_t>(options_.up.value_or(up))]) + " is taken as up (--up), one unit as " +
          radiosity::length_text(options_.metres) + " (--units)");
     return std::move(file_);
@@ -70,6 +63,8 @@ class SceneMaker {
     if (!take_lamps(faults)) { return false; }
     take_polygons();
     for (std::size_t i = 0; i < model_.objects.size(); ++i) {
+      const radiosity::SceneObject& object = model_.objects[i];
+      if (object.placement.inside) { rooms_.push_back({placed_bounds(*object.shape, object.placement), false}); }
       file_.scene.objects.push_back(std::move(model_.objects[i]));
       file_.origins.push_back(model_.origins[i]);
     }
@@ -167,6 +162,7 @@ class SceneMaker {
     note(counted(intake.polygons, "polygon") + " became " + counted(intake.faces, "face") + " of " +
          counted(intake.objects.size(), "object"));
     file_.scene.objects = std::move(intake.objects);
+    rooms_ = std::move(intake.rooms);
     if (!given_positions_.empty()) {
       file_.given =
           std::make_shared<GivenPolygons>(GivenPolygons{std::move(given_positions_), std::move(model_.positions), std::move(model_.corners),
@@ -213,26 +209,71 @@ class SceneMaker {
     return false;
   }
 
+  // Where what cameras see is not lit, one is added that stands in the light.
+  void look_for_light() {
+    constexpr std::size_t most_cameras = 16;
+    const LightViews views(file_.scene);
+    std::vector<std::string> dark;
+    for (std::size_t i = 0; i < std::min(most_cameras, file_.cameras.size()); ++i) {
+      if (views.lit_share(file_.cameras[i]) < LightViews::tol_dark) { dark.push_back("'" + file_.cameras[i].name + "'"); }
+      if (file_.cameras[i].name == "inside") { return; }
+    }
+    if (file_.cameras.empty() ? views.lit_share(automatic_camera(file_.scene)) >= LightViews::tol_dark : dark.empty()) { return; }
+    auto camera = views.inside();
+    if (!camera || views.lit_share(*camera) < LightViews::tol_dark) { camera.reset(); }
+    if (file_.cameras.empty()) {
+      if (camera) { note("from outside next to nothing is seen of its light: the camera stands in the room of a lamp"); }
+    } else {
+      note((dark.size() == 1 ? "camera " + dark[0] + " sees" : counted(dark.size(), "camera") + " see") +
+           " next to nothing that a lamp shines on" + (camera ? "; --camera inside stands in the room of a lamp" : ""));
+    }
+    if (camera) { file_.cameras.push_back(std::move(*camera)); }
+  }
+
+  // The closed rooms that are seen: from outside, as a doll's house, unless there are walls with a thickness around them; else from within,
+  // by a camera of the file, or by one that is put there because there is none.
+  [[nodiscard]] std::vector<raycast::Box> rooms_to_light() const {
+    std::vector<raycast::Box> rooms;
+    const auto seen = [&](const radiosity::Room& room) {
+      return !room.within_walls || file_.cameras.empty() ||
+             std::any_of(file_.cameras.begin(), file_.cameras.end(), [&](const Camera& c) { return room.bounds.contains(c.eye); });
+    };
+    const bool any = std::any_of(rooms_.begin(), rooms_.end(), seen);
+    for (const radiosity::Room& room : rooms_) {
+      if (any) { rooms.push_back(room.bounds); }
+    }
+    return rooms;
+  }
+
+  bool add_room_lamps(const std::vector<raycast::Box>& rooms, std::vector<std::string>& faults, const std::string& advice) {
+    constexpr std::size_t most_lamps = 64;
+    std::vector<std::shared_ptr<const raycast::Object>> lamps;
+    for (std::size_t i = 0; i < std::min(most_lamps, rooms.size()); ++i) {
+      if (auto lamp = ceiling_lamp(file_.scene, rooms[i])) { lamps.push_back(std::move(lamp)); }
+    }
+    if (lamps.empty()) {
+      faults.push_back("nothing shines in this closed room; say which material does: " + advice);
+      return false;
+    }
+    const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());
+    file_.scene.materials.push_back({"room lamp", radiosity::Color(0.0), radiosity::Color(100.0)});
+    for (auto& lamp : lamps) {
+      file_.scene.objects.push_back({"room lamp", std::move(lamp), {}, {material}});
+      file_.origins.push_back({"polygon", {}});
+    }
+    note((rooms.size() == 1 ? std::string("nothing shines in this closed room: a lamp of 100 W/m2 hangs under its ceiling")
+                            : "nothing shines in these " + std::to_string(rooms.size()) +
+                                  " closed rooms: lamps of 100 W/m2 hang under the ceilings of " + std::to_string(lamps.size())) +
+         "; to have lamps of its own: " + advice);
+    return true;
+  }
+
   // Who only wants to see a model gets a studio around it: floor, walls, and a lamp in the ceiling. In a closed room its light would not
   // arrive.
   bool add_studio(std::vector<std::string>& faults) {
     const std::vector<std::string_view> known = names();
     const std::string advice = "--lamp MATERIAL, one of " + scene_file::list_of(known);
-    const auto room =
-        std::find_if(file_.scene.objects.begin(), file_.scene.objects.end(), [](const auto& o) { return o.placement.inside; });
-    if (room != file_.scene.objects.end()) {
-      const auto lamp = ceiling_lamp(file_.scene, *room);
-      if (!lamp) {
-        faults.push_back("nothing shines in this closed room; say which material does: " + advice);
-        return false;
-      }
-      const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());
-      file_.scene.materials.push_back({"room lamp", radiosity::Color(0.0), radiosity::Color(100.0)});
-      file_.scene.objects.push_back({"room lamp", lamp, {}, {material}});
-      file_.origins.push_back({"polygon", {}});
-      note("nothing shines in this closed room: a lamp of 100 W/m2 hangs under its ceiling; to have lamps of its own: " + advice);
-      return true;
-    }
+    if (const std::vector<raycast::Box> rooms = rooms_to_light(); !rooms.empty()) { return add_room_lamps(rooms, faults, advice); }
     if (file_.cameras.empty()) { file_.cameras.push_back(automatic_camera(file_.scene)); }
     const raycast::Box bounds = scene_bounds(file_.scene);
     const double size = bounds.diameter();
@@ -264,39 +305,10 @@ class SceneMaker {
   std::vector<std::uint8_t> two_sided_;
   std::vector<glm::dvec3> given_positions_;  // before they were placed
   bool given_z_up_ = false;
+  std::vector<radiosity::Room> rooms_;
 };
 
-std::optional<double> positive(std::string_view text, bool zero) {
-  const auto value = number_in<double>(text);
-  return value && (*value > 0.0 || (zero && *value == 0.0)) && *value <= 1e12 ? value : std::nullopt;
-}
-
 }  // namespace
-
-std::string ModelOptions::key() const {
-  std::string text =
-      formatted("%.17g", reflectance) + formatted(" %.17g", metres) + (two_sided ? " two-sided" : "") + (merge ? "" : " as given");
-  if (up) { text += " up " + std::to_string(static_cast<int>(*up)); }
-  for (const Lamp& lamp : lamps) { text += " lamp " + lamp.material + formatted("=%.17g", lamp.exitance); }
-  return text;
-}
-
-std::optional<Lamp> parse_lamp(std::string_view text) {
-  const std::size_t equals = text.rfind('=');
-  if (equals == std::string_view::npos) { return text.empty() ? std::nullopt : std::optional(Lamp{std::string(text)}); }
-  const auto value = positive(text.substr(equals + 1), true);
-  if (!value || equals == 0) { return std::nullopt; }
-  return Lamp{std::string(text.substr(0, equals)), *value};
-}
-
-std::optional<double> parse_unit(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, double>, 6> units{
-      {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"km", 1e3}, {"in", 0.0254}, {"ft", 0.3048}}};
-  for (const auto& [name, metres] : units) {
-    if (name == text) { return metres; }
-  }
-  return positive(text, false);
-}
 
 std::optional<SceneFile> to_scene(Model model, UpAxis up, const ModelOptions& options, std::vector<std::string>& faults) {
   return SceneMaker(std::move(model), options).scene(up, faults);

@@ -137,6 +137,26 @@ HALFLIGHT_INLINE std::vector<std::string> warnings_of_buried(const Scene& scene,
   return sentences;
 }
 
+HALFLIGHT_INLINE std::string warning_of_lost_light(const DiscreteScene& scene, const std::vector<Color>& radiosity) {
+  double emitted = 0.0, reflected = 0.0;
+  bool reflects = false;
+  for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {
+    const std::uint32_t surface = scene.hierarchy[i].surface;
+    const double area = scene.exposure.area[i];
+    if (!scene.hierarchy[i].leaf() || !(area > 0.0)) { continue; }
+    const Color& emission = scene.emission[surface];
+    emitted += area * (emission.x + emission.y + emission.z);
+    const Color rest = radiosity[i] - emission;
+    reflected += area * (rest.x + rest.y + rest.z);
+    reflects = reflects || (is_black(emission) && !is_black(scene.reflectance[surface]));
+  }
+  if (!reflects || !(emitted > 0.0) || reflected >= 1e-6 * emitted) { return {}; }
+  return std::string(reflected > 0.0 ? "less than a millionth" : "nothing") +
+         " of the light that is emitted is reflected by any surface: lamps may look away from what they should light, or lie behind a "
+         "wall, "
+         "or what they shine on shows its back; turn their polygons, or give them two sides";
+}
+
 HALFLIGHT_INLINE StrayRays stray_rays(const DiscreteScene& scene, std::uint32_t rays) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const Patches& patches = scene.patches;

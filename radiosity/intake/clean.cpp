@@ -50,12 +50,6 @@ inline double width(std::span<const glm::dvec3> p) {
   return longest > 0.0 ? (p.size() == 3 ? 2.0 : 1.0) * brep::area(p) / longest : 0.0;
 }
 
-// The corners from the least on, in their order.
-inline std::vector<std::uint32_t> canonical(std::vector<std::uint32_t> corners) {
-  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-  return corners;
-}
-
 inline bool nearly_planar(const raycast::Plane& plane, std::span<const glm::dvec3> outline, double tolerance) {
   return plane.slack <= std::min(tolerance, 1e-4 * brep::extent(outline));
 }
@@ -83,13 +77,15 @@ HALFLIGHT_INLINE void drop_degenerate(Working& mesh) {
 
 HALFLIGHT_INLINE void drop_duplicates(Working& mesh) {
   std::vector<std::pair<std::vector<std::uint32_t>, std::uint32_t>> keys;
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) { keys.emplace_back(detail::canonical(mesh.faces[f].corners), f); }
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) { keys.emplace_back(canonical(mesh.faces[f].corners), f); }
   std::sort(keys.begin(), keys.end());
   std::vector<bool> gone(mesh.faces.size(), false);
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
     if (keys[i].first != keys[i + 1].first) { continue; }
     gone[keys[i].second] = true;
-    mesh.faces[keys[i + 1].second].stand_for(mesh.faces[keys[i].second]);
+    Face& later = mesh.faces[keys[i + 1].second];
+    later.stand_for(mesh.faces[keys[i].second]);
+    if (later.back == none) { later.back = mesh.faces[keys[i].second].back; }
     mesh.changed(ChangeKind::duplicate, mesh.faces[keys[i].second].polygon);
   }
   std::erase_if(mesh.faces, [&](const Face& face) { return gone[static_cast<std::size_t>(&face - mesh.faces.data())]; });
@@ -122,8 +118,8 @@ HALFLIGHT_INLINE void split_faulty(Working& mesh, bool strict) {
       mesh.changed(flat ? ChangeKind::crossing : ChangeKind::not_planar, face.polygon, flat ? 0.0 : slack);
     }
     for (const auto& [a, b, c] : brep::ears(outline)) {
-      Face triangle{
-          {face.corners[a], face.corners[b], face.corners[c]}, face.material, face.group, face.polygon, face.turned, face.mixed, face.more};
+      Face triangle = face;
+      triangle.corners = {face.corners[a], face.corners[b], face.corners[c]};
       if (!raycast::polygon_fault(mesh.outline(triangle))) { faces.push_back(std::move(triangle)); }
     }
   }

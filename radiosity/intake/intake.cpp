@@ -14,7 +14,9 @@
 
 #include <raycast/inline.hpp>
 
+#include <radiosity/intake/backs.hpp>
 #include <radiosity/intake/clean.hpp>
+#include <radiosity/intake/join.hpp>
 #include <radiosity/intake/merge.hpp>
 #include <radiosity/intake/objects.hpp>
 #include <radiosity/intake/t_joints.hpp>
@@ -51,6 +53,8 @@ inline constexpr std::array<Wording, static_cast<std::size_t>(ChangeKind::merged
      "# closed shells looked inwards with no lamp or camera in them: turned"},
     {"1 closed shell around a lamp or a camera looked outwards: turned, as a room",
      "# closed shells around lamps or cameras looked outwards: turned, as rooms"},
+    {"1 vertex of a lamp lay beside a wall, by @: moved onto it", "# vertices of lamps lay beside walls, by up to @: moved onto them"},
+    {"1 lamp lay on a surface and looked into it: turned", "# lamps lay on surfaces and looked into them: turned"},
     {"1 surface has polygons of both orientations: it reflects on both sides",
      "# surfaces have polygons of both orientations: they reflect on both sides"},
     {"1 polygon became part of a coplanar neighbour", "# polygons became parts of coplanar neighbours"},
@@ -96,17 +100,24 @@ HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Materi
   intake::weld(input, materials.size(), options.weld, mesh);
   intake::drop_degenerate(mesh);
   intake::drop_duplicates(mesh);
+  intake::match_diagonals(mesh);
+  intake::join_backs(mesh);
   intake::close_t_joints(mesh);
   intake::drop_duplicates(mesh);  // those that had no joint
+  intake::join_backs(mesh);
+  intake::join_groups(mesh);
   intake::split_faulty(mesh, false);
   intake::orient(mesh);
-  if (options.merge) { intake::merge_coplanar(mesh, intake::topology_of(mesh, false)); }
+  const intake::Topology before = intake::topology_of(mesh, false);
+  intake::settle_backs(mesh, before);
+  if (options.merge) { intake::merge_coplanar(mesh, before); }
   intake::flatten(mesh);
   intake::split_faulty(mesh, true);
   const intake::Topology topology = intake::topology_of(mesh, true);
   Intake result;
   intake::MadeObjects made = intake::make_objects(mesh, topology, input, materials, options);
   result.objects = std::move(made.objects);
+  result.rooms = std::move(made.rooms);
   result.parts = intake::parts_of(mesh, made.sheets, input.count());
   result.polygons = input.count();
   for (const SceneObject& object : result.objects) { result.faces += object.shape->sheet_count(); }

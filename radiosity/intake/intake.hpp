@@ -8,12 +8,15 @@
 //
 // The steps, each in a file of its own:
 //     weld       vertices within `weld` of each other become one                              weld.hpp
+//     backs      two faces at one place that look opposite ways become one with two sides      backs.hpp
 //     clean      repeated corners, faces without area, slivers, duplicates; what is not        clean.hpp
 //                planar or crosses itself is cut along the best diagonals
 //     t_joints   a vertex on the edge of another face becomes a corner of that face            t_joints.hpp
+//     join       groups whose borders match, and which close a shell together, are one shell   join.hpp
 //     topology   faces are turned alike; where that cannot be, or more than two faces meet,    topology.hpp
 //                the surface is cut
 //     merge      coplanar neighbours of one material become one face (fewer input faces)       merge.hpp
+//     lamps      what lies flush in a wall shines away from it                                 lamps.hpp
 //     objects    closed shells become solids or rooms, all else surfaces with one or two       objects.hpp
 //                sides
 //
@@ -27,6 +30,8 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
 
 #include <radiosity/scene/scene.hpp>
 
@@ -60,7 +65,7 @@ enum class ChangeKind : unsigned char {
   welded,       // vertices that lay within the tolerance of another one: made one; size: the largest distance
   no_area,      // polygons without area: left out
   sliver,       // polygons narrower than the tolerance: left out; size: the largest width
-  duplicate,    // polygons that lay on another one, facing the same way: left out
+  duplicate,    // polygons that lay on another one, or on its back where that is not seen: left out
   not_planar,   // polygons cut into triangles; size: the largest distance of a corner from its plane
   crossing,     // polygons that crossed or touched themselves, or had too many corners: cut into triangles
   flattened,    // vertices that were moved into the planes of their polygons; size: the largest distance
@@ -71,6 +76,8 @@ enum class ChangeKind : unsigned char {
   loose,        // polygons that fit to none of their neighbours: surfaces of their own
   inside_out,   // closed shells with nothing in them that looked inwards: turned
   room,         // closed shells around a lamp or an eye that looked outwards: turned, as rooms
+  lamp_laid,    // vertices of lamps that lay beside a wall: moved onto it; size: the largest distance
+  lamp_turned,  // lamps that lay on a wall and looked into it: turned
   both_sides,   // surfaces of mixed orientation: made to reflect on both sides
   merged        // polygons that became part of a larger one; size: none
 };
@@ -104,8 +111,15 @@ struct PolygonParts {
   }
 };
 
+// A closed shell that is seen from inside, whatever became of it: an object, a cavity of one, or surfaces of several groups.
+struct Room {
+  raycast::Box bounds;
+  bool within_walls = false;  // a closed shell that is seen from outside surrounds it
+};
+
 struct Intake {
   std::vector<SceneObject> objects;  // empty when nothing had an area
+  std::vector<Room> rooms;
   PolygonParts parts;
   std::vector<Change> changes;  // in the order of ChangeKind, those that occurred
   std::size_t polygons = 0;     // of the input

@@ -70,7 +70,9 @@ class Merger {
     const double height = std::min(mesh_.tolerance, 1e-4 * brep::extent(mesh_.outline(first)));
     const auto fits = [&](std::uint32_t f) {
       const Face& face = mesh_.faces[f];
-      if (face.material != first.material || face.mixed != first.mixed) { return false; }
+      if (face.material != first.material || face.back != first.back || face.group != first.group || face.mixed != first.mixed) {
+        return false;
+      }
       const glm::dvec3& normal = planes_[f].normal;
       if (!(glm::dot(normal, plane.normal) > 0.0 && glm::length(glm::cross(normal, plane.normal)) < raycast::tol_plane_angle)) {
         return false;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <radiosity/intake/backs.hpp>
+#include <radiosity/intake/lamps.hpp>
 #include <radiosity/intake/objects.hpp>
 #include <radiosity/intake/shells.hpp>
 
@@ -30,63 +32,113 @@ namespace detail {
 class ObjectMaker {
  public:
   ObjectMaker(Working& mesh, const Topology& topology, const PolygonView& input, std::span<const Material> materials,
-              const IntakeOptions& options)
+              const IntakeOptions& options, std::span<const FlushFace> flush)
       : mesh_(mesh), topology_(topology), input_(input), options_(options), shells_(mesh, topology, materials, options) {
     local_.assign(topology.vertices, none);
+    face_of_.resize(topology.mate.size());
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      for (std::uint32_t s = topology.first[f]; s < topology.first[f + 1]; ++s) { face_of_[s] = f; }
+    }
     shells_.find_roles();
+    const std::vector<bool> two_sided = faces_with_backs();
+    turn_lamps(mesh, topology, materials, flush, two_sided, shells_);
   }
 
   MadeObjects run() {
-    struct Group {
-      std::vector<const Component*> closed;
-      std::vector<std::uint32_t> front, back;
-    };
+    std::vector<Group> groups = sort_by_group();
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {
+      group_ = g;
+      for (const Component* const component : groups[g].closed) { add_closed(*component); }
+      add_surface(groups[g].front, false);
+      add_surface(groups[g].back, true);
+    }
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {  // after what they lie on, so that they cover it
+      group_ = g;
+      add_surface(groups[g].flush_front, false);
+      add_surface(groups[g].flush_back, true);
+    }
+    name_objects();
+    return {std::move(objects_), std::move(sheets_), {shells_.rooms().begin(), shells_.rooms().end()}};
+  }
+
+ private:
+  struct Group {
+    std::vector<const Component*> closed;
+    std::vector<std::uint32_t> front, back, flush_front, flush_back;
+  };
+
+  [[nodiscard]] std::vector<Group> sort_by_group() {
     std::vector<Group> groups(std::max<std::size_t>(input_.names.size(), 1));
     for (const Component& component : shells_.components()) {
       if (component.role == Role::cavity || component.role == Role::nothing) { continue; }
       const std::uint32_t g = mesh_.faces[component.faces[0]].group;
-      if (g >= groups.size()) { groups.resize(g + 1); }
+      for (const std::uint32_t f : component.faces) { groups.resize(std::max<std::size_t>(groups.size(), mesh_.faces[f].group + 1)); }
       if (component.role != Role::surface) {
         groups[g].closed.push_back(&component);
         continue;
       }
       bool mixed = false;
       for (const std::uint32_t f : component.faces) {
-        groups[g].front.push_back(f);
-        if (has_back(mesh_.faces[f])) { groups[g].back.push_back(f); }
+        Group& group = groups[mesh_.faces[f].group];
+        (component.flush ? group.flush_front : group.front).push_back(f);
+        if (component.one_sided) {
+          if (mesh_.faces[f].back != none) { leave_out_backs(mesh_, mesh_.faces[f]); }
+          continue;
+        }
+        if (has_back(mesh_.faces[f])) { (component.flush ? group.flush_back : group.back).push_back(f); }
         if (mesh_.faces[f].mixed) { mesh_.changed(ChangeKind::both_sides, mesh_.faces[f].polygon, 0.0, mixed ? 0 : 1); }
         mixed = mixed || mesh_.faces[f].mixed;
       }
     }
-    for (std::uint32_t g = 0; g < groups.size(); ++g) {
-      const std::size_t first = objects_.size();
-      for (const Component* const component : groups[g].closed) {
-        std::vector<std::uint32_t> faces = component->faces;
-        faces.insert(faces.end(), component->cavities.begin(), component->cavities.end());
-        add(faces, component->role, false);
-      }
-      add_surface(groups[g].front, false);
-      add_surface(groups[g].back, true);
-      const std::string name = g < input_.names.size() ? input_.names[g] : std::string("mesh");
-      for (std::size_t i = first; i < objects_.size(); ++i) {
-        objects_[i].name = objects_.size() == first + 1 ? name : name + "." + std::to_string(i - first + 1);
-      }
-    }
-    return {std::move(objects_), std::move(sheets_)};
+    return groups;
   }
 
- private:
+  void add_closed(const Component& component) {
+    std::vector<std::uint32_t> faces = component.faces;
+    for (const std::uint32_t cavity : component.cavities) {
+      const std::span<const std::uint32_t> walls = shells_.components()[cavity].faces;
+      faces.insert(faces.end(), walls.begin(), walls.end());
+    }
+    for (const std::uint32_t f : faces) {
+      if (mesh_.faces[f].back != none) { leave_out_backs(mesh_, mesh_.faces[f]); }
+    }
+    add(faces, component.role, false);
+  }
+
+  // That of the group; with a number where it has several objects.
+  void name_objects() {
+    std::vector<std::size_t> count(std::max<std::size_t>(input_.names.size(), 1)), number(count.size());
+    for (const std::uint32_t g : group_of_) {
+      count.resize(std::max<std::size_t>(count.size(), g + 1));
+      number.resize(count.size());
+      ++count[g];
+    }
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      const std::uint32_t g = group_of_[i];
+      const std::string name = g < input_.names.size() ? input_.names[g] : std::string("mesh");
+      objects_[i].name = count[g] == 1 ? name : name + "." + std::to_string(++number[g]);
+    }
+  }
+
   [[nodiscard]] bool is_turned(std::uint32_t face) const { return shells_.turned(topology_.component[face]); }
 
   [[nodiscard]] bool has_back(const Face& face) const {
-    return options_.two_sided || face.mixed || (face.material < input_.two_sided.size() && input_.two_sided[face.material] != 0);
+    return options_.two_sided || face.mixed || face.back != none ||
+           (face.material < input_.two_sided.size() && input_.two_sided[face.material] != 0);
+  }
+
+  [[nodiscard]] std::vector<bool> faces_with_backs() const {
+    std::vector<bool> result;
+    for (const Face& face : mesh_.faces) { result.push_back(has_back(face)); }
+    return result;
   }
 
   // A surface without a border would be a solid: one of its faces becomes an object of its own.
   void add_surface(std::vector<std::uint32_t> faces, bool back) {
     const auto on_border = [&](std::uint32_t f) {
       for (std::uint32_t s = topology_.first[f]; s < topology_.first[f + 1]; ++s) {
-        if (topology_.mate[s] == none) { return true; }
+        const std::uint32_t mate = topology_.mate[s];
+        if (mate == none || mesh_.faces[face_of_[mate]].group != mesh_.faces[f].group) { return true; }
       }
       return false;
     };
@@ -104,7 +156,8 @@ class ObjectMaker {
     std::vector<std::uint32_t> material, used;
     for (const std::uint32_t f : faces) {
       corners.emplace_back();
-      material.push_back(mesh_.faces[f].material);
+      const bool shows_back = mesh_.faces[f].back != none && back != is_turned(f);
+      material.push_back(shows_back ? mesh_.faces[f].back : mesh_.faces[f].material);
       for (std::uint32_t s = topology_.first[f]; s < topology_.first[f + 1]; ++s) {
         const std::uint32_t v = topology_.vertex[s];
         if (local_[v] == none) {
@@ -123,6 +176,7 @@ class ObjectMaker {
       for (std::uint32_t sheet = 0; sheet < faces.size(); ++sheet) { came_from(faces[sheet], sheet, back); }
       if (std::all_of(material.begin(), material.end(), [&](auto m) { return m == material[0]; })) { material.resize(1); }
       objects_.push_back({{}, std::move(made.object), placement, std::move(material)});
+      group_of_.push_back(group_);
       return;
     }
     for (std::size_t i = 0; i < corners.size(); ++i) {  // no surface after all: polygons
@@ -135,6 +189,7 @@ class ObjectMaker {
       if (!made) { continue; }
       came_from(faces[i], 0, back);
       objects_.push_back({{}, std::move(made.object), {}, {material[i]}});
+      group_of_.push_back(group_);
     }
   }
 
@@ -148,8 +203,11 @@ class ObjectMaker {
   const PolygonView& input_;
   const IntakeOptions& options_;
   Shells shells_;
-  std::vector<std::uint32_t> local_;  // of a vertex, in the object that is made
+  std::vector<std::uint32_t> local_;    // of a vertex, in the object that is made
+  std::vector<std::uint32_t> face_of_;  // of a side
   std::vector<SceneObject> objects_;
+  std::vector<std::uint32_t> group_of_;  // of an object
+  std::uint32_t group_ = 0;              // whose objects are made
   std::vector<SheetOrigin> sheets_;
 };
 
@@ -157,7 +215,8 @@ class ObjectMaker {
 
 HALFLIGHT_INLINE MadeObjects make_objects(Working& mesh, const Topology& topology, const PolygonView& input,
                                           std::span<const Material> materials, const IntakeOptions& options) {
-  return detail::ObjectMaker(mesh, topology, input, materials, options).run();
+  const std::vector<FlushFace> flush = lay_lamps(mesh, topology, materials);  // before shells are measured
+  return detail::ObjectMaker(mesh, topology, input, materials, options, flush).run();
 }
 
 HALFLIGHT_INLINE PolygonParts parts_of(const Working& mesh, std::span<const SheetOrigin> sheets, std::size_t polygons) {
@@ -172,6 +231,10 @@ HALFLIGHT_INLINE PolygonParts parts_of(const Working& mesh, std::span<const Shee
     for (const Source& source : face.more) { add(source); }
   }
   std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  const auto same = [](const auto& a, const auto& b) {
+    return a.first == b.first && a.second.object == b.second.object && a.second.sheet == b.second.sheet && a.second.back == b.second.back;
+  };
+  list.erase(std::unique(list.begin(), list.end(), same), list.end());  // a sheet may have come to one polygon twice
   PolygonParts result;
   result.first.assign(polygons + 1, 0);
   for (const auto& [polygon, part] : list) {

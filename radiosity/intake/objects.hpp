@@ -3,8 +3,9 @@
 
 // From faces to objects. A closed shell becomes a solid. One that holds a lamp or an eye is seen from inside: a cavity of the solid around
 // it, where there is one (walls with a thickness); a room, where everything else lies in it; or else a surface, for beyond its walls a room
-// is solid. What is open becomes, of each group, one
-// surface; where it has two sides its back is a surface of its own at the same place.
+// is solid. So is what several groups close together (join.hpp), for
+// an object is of one group. What is open becomes, of each group, one surface; where it has two sides its back is a surface of its own at
+// the same place.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +27,7 @@ struct SheetOrigin {
 struct MadeObjects {
   std::vector<SceneObject> objects;
   std::vector<SheetOrigin> sheets;
+  std::vector<Room> rooms;
 };
 
 [[nodiscard]] MadeObjects make_objects(Working& mesh, const Topology& topology, const PolygonView& input,

@@ -26,6 +26,7 @@ HALFLIGHT_INLINE Shells::Shells(Working& mesh, const Topology& topology, std::sp
   for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
     Component& component = components_[topology.component[f]];
     component.faces.push_back(f);
+    component.several = component.several || mesh_.faces[f].group != mesh_.faces[component.faces[0]].group;
     for (const std::uint32_t v : mesh_.faces[f].corners) { component.box.extend(mesh_.positions[v]); }
     for (std::uint32_t s = topology.first[f]; s < topology.first[f + 1]; ++s) {
       component.closed = component.closed && topology.mate[s] != none;
@@ -124,6 +125,55 @@ HALFLIGHT_INLINE Component* Shells::shell_around_others() {
   return nullptr;
 }
 
+HALFLIGHT_INLINE std::uint32_t Shells::around(const Component& shell) const {
+  std::uint32_t best = none;
+  for (std::uint32_t c = 0; c < components_.size(); ++c) {
+    const Component& other = components_[c];
+    if (&other == &shell || other.role == Role::surface || other.role == Role::nothing) { continue; }
+    const double volume = std::abs(other.volume);
+    if (!(volume > std::abs(shell.volume)) || (best != none && volume >= std::abs(components_[best].volume))) { continue; }
+    const raycast::Box box = other.box.grown(mesh_.tolerance);
+    if (box.contains(shell.box.lo) && box.contains(shell.box.hi) && holds(other, shell.box.centre())) { best = c; }
+  }
+  return best;
+}
+
+HALFLIGHT_INLINE void Shells::find_nested_rooms(bool room_known) {
+  constexpr std::size_t most_asked = 1000;
+  if (components_.size() > most_asked) { return; }
+  struct Nest {
+    std::vector<std::uint32_t> inner;
+    double filled = 0.0;
+  };
+  std::vector<Nest> nests(components_.size());
+  for (std::uint32_t c = 0; c < components_.size(); ++c) {
+    if (components_[c].role != Role::solid && components_[c].role != Role::room) { continue; }
+    const std::uint32_t outer = around(components_[c]);
+    if (outer == none) { continue; }
+    nests[outer].inner.push_back(c);
+    nests[outer].filled += std::abs(components_[c].volume / components_[outer].volume);
+  }
+  for (std::uint32_t c = 0; c < components_.size(); ++c) {
+    Component& outer = components_[c];
+    const auto opposite = [&](std::uint32_t i) { return (components_[i].volume > 0.0) != (outer.volume > 0.0); };
+    const std::vector<std::uint32_t>& inner = nests[c].inner;
+    if (outer.role != Role::solid || inner.empty()) { continue; }
+    if (nests[c].filled >= 0.5) {
+      for (const std::uint32_t i : inner) {
+        const bool room = opposite(i) || !nests[i].inner.empty();
+        if (room && components_[i].role == Role::solid && !shines(components_[i])) { components_[i].role = Role::room; }
+      }
+    } else if (!room_known && outer.volume > 0.0 && std::all_of(inner.begin(), inner.end(), opposite)) {
+      outer.role = Role::room;
+    }
+  }
+}
+
+HALFLIGHT_INLINE bool Shells::shines(const Component& shell) const {
+  return std::any_of(shell.faces.begin(), shell.faces.end(),
+                     [&](std::uint32_t f) { return !is_black(materials_[mesh_.faces[f].material].emission); });
+}
+
 HALFLIGHT_INLINE bool Shells::holds_another(const Component& shell) const {
   constexpr std::size_t most_asked = 1000;
   const std::span<const Component> asked = std::span<const Component>(components_).first(std::min(components_.size(), most_asked));
@@ -153,7 +203,6 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
     Component* const around = innermost(places, &component);
     rooms.push_back(shines_inwards(component, around) ? &component : around);
   }
-  if (Component* const around = shell_around_others()) { rooms.push_back(around); }
   for (const glm::dvec3& eye : options_.eyes) {
     const Place place{eye, eye};
     rooms.push_back(innermost(std::span(&place, 1), nullptr));
@@ -181,23 +230,54 @@ HALFLIGHT_INLINE void Shells::hollow_solids() {
     const glm::dvec3& corner = mesh_.outline(mesh_.faces[component.faces[0]])[0];
     const Place place{corner, corner};
     Component* const around = innermost(std::span(&place, 1), &component);
-    if (around == nullptr || around->role != Role::solid || around->volume < -component.volume) { continue; }
+    const bool within_walls = around != nullptr && around->role == Role::solid && around->volume >= -component.volume;
+    rooms_.push_back({component.box, within_walls});
+    if (!within_walls) { continue; }
     component.role = Role::cavity;
-    around->cavities.insert(around->cavities.end(), component.faces.begin(), component.faces.end());
+    around->cavities.push_back(static_cast<std::uint32_t>(&component - components_.data()));
   }
+}
+
+HALFLIGHT_INLINE void Shells::part_groups() {
+  const auto part = [](Component& component) {
+    component.role = Role::surface;
+    component.one_sided = true;
+  };
+  for (Component& component : components_) {
+    const bool any = std::any_of(component.cavities.begin(), component.cavities.end(), [&](auto c) { return components_[c].several; });
+    if (component.role == Role::surface || component.role == Role::nothing || !(component.several || any)) { continue; }
+    if (component.role == Role::cavity) { continue; }  // with the solid around it
+    part(component);
+    for (const std::uint32_t cavity : component.cavities) { part(components_[cavity]); }
+    component.cavities.clear();
+  }
+}
+
+HALFLIGHT_INLINE void Shells::lay_lamp(std::uint32_t component, bool turn, bool one_sided) {
+  components_[component].flush = true;
+  components_[component].one_sided = one_sided;
+  turned_.resize(components_.size());
+  turned_[component] = turn;
 }
 
 HALFLIGHT_INLINE void Shells::find_roles() {
   const std::vector<Twins> twins = find_twins();
   for (const Twins& t : twins) { t.outer->role = Role::surface; }
+  bool room_known = false;
   for (Component* const room : find_rooms()) {
-    if (room != nullptr) { room->role = Role::room; }
+    if (room == nullptr) { continue; }
+    room->role = Role::room;
+    room_known = true;
   }
+  find_nested_rooms(room_known);
+  room_known = std::any_of(components_.begin(), components_.end(), [](const Component& c) { return c.role == Role::room; });
+  if (Component* const around = room_known ? nullptr : shell_around_others()) { around->role = Role::room; }
   for (const Twins& t : twins) {
     if (t.inner->role != Role::room) { settle(t); }
   }
   turn_shells();
   hollow_solids();
+  part_groups();
   for (Component& component : components_) {  // what is beyond the walls of a room would be buried
     if (component.role != Role::room) { continue; }
     const raycast::Box box = component.box.grown(mesh_.tolerance);

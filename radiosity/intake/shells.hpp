@@ -29,7 +29,10 @@ struct Component {
   bool closed = true;
   double volume = 0.0;  // of a closed one; negative when it looks inwards
   Role role = Role::surface;
-  std::vector<std::uint32_t> cavities;  // of a solid: faces of the rooms in it
+  bool several = false;                 // of several groups
+  bool one_sided = false;               // of a surface: its backs are not seen, for it encloses something, or lies on something
+  bool flush = false;                   // a lamp that lies on something (lamps.hpp)
+  std::vector<std::uint32_t> cavities;  // of a solid: the rooms in it, as components
 };
 
 class Shells {
@@ -40,6 +43,10 @@ class Shells {
   void find_roles();
 
   [[nodiscard]] std::span<const Component> components() const { return components_; }
+  // The component is a lamp that lies on a surface. `turn`: away from that. `one_sided`: what looks into it is not seen.
+  void lay_lamp(std::uint32_t component, bool turn, bool one_sided);
+
+  [[nodiscard]] std::span<const Room> rooms() const { return rooms_; }
   [[nodiscard]] bool turned(std::uint32_t component) const { return !turned_.empty() && turned_[component]; }
 
  private:
@@ -62,21 +69,31 @@ class Shells {
   [[nodiscard]] Component* innermost(std::span<const Place> places, const Component* but);
   // The shell that looks inwards at all the others, which do not look inwards themselves, as in a model that is inside out. Null: none.
   [[nodiscard]] Component* shell_around_others();
+  // The smallest shell that holds this one, or none.
+  [[nodiscard]] std::uint32_t around(const Component& shell) const;
+  // Rooms that no lamp and no eye tells of. What fills at least half of a shell is no furniture: that shell is walls, and what looks the
+  // other way in it, or has things in it, is a room. Where less is filled, a shell that looks outwards at things which all look inwards is
+  // a room of a model that is inside out; this only where no other room is known.
+  void find_nested_rooms(bool room_known);
+  [[nodiscard]] bool shines(const Component& shell) const;
   [[nodiscard]] bool holds_another(const Component& shell) const;
   // Is a lamp that looks inwards a room with shining walls? It is when something is in it, when it is alone, or when the innermost shell
   // around it looks outwards, as walls do around their room. Else it is a lamp, a bulb for instance, that is inside out.
   [[nodiscard]] bool shines_inwards(const Component& lamp, const Component* around) const;
-  // Shells around lamps, eyes and things. Some may be null.
+  // Shells around lamps and eyes. Some may be null.
   [[nodiscard]] std::vector<Component*> find_rooms();
   void turn_shells();
   // Walls with a thickness: the room is a cavity of the solid around it.
   void hollow_solids();
+  // An object is of one group, so shells of several groups become surfaces, and with them what they are the walls or the cavities of.
+  void part_groups();
 
   Working& mesh_;
   std::span<const Material> materials_;
   const IntakeOptions& options_;
   std::vector<Component> components_;
   std::vector<bool> turned_;  // of a component
+  std::vector<Room> rooms_;
   raycast::Box bounds_;
 };
 

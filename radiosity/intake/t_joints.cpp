@@ -21,20 +21,21 @@ namespace radiosity::intake {
 namespace detail {
 
 struct Side {
-  std::uint32_t group, low, high;  // its vertices
+  std::uint32_t shell, low, high;  // its vertices
   std::uint32_t face, corner;      // it begins at this corner
 
-  [[nodiscard]] auto key() const { return std::tie(group, low, high); }
+  [[nodiscard]] auto key() const { return std::tie(shell, low, high); }
 };
 
 // The sides of all faces, those of an edge after each other.
-inline std::vector<Side> sides_of(const Working& mesh) {
+inline std::vector<Side> sides_of(const Working& mesh, std::uint32_t first_shell) {
   std::vector<Side> edges;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    if (mesh.faces[f].shell < first_shell) { continue; }
     const std::vector<std::uint32_t>& corners = mesh.faces[f].corners;
     for (std::uint32_t i = 0; i < corners.size(); ++i) {
       const auto [low, high] = std::minmax(corners[i], corners[i + 1 < corners.size() ? i + 1 : 0]);
-      edges.push_back({mesh.faces[f].group, low, high, f, i});
+      edges.push_back({mesh.faces[f].shell, low, high, f, i});
     }
   }
   std::sort(edges.begin(), edges.end(),
@@ -50,20 +51,20 @@ struct Joint {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE void close_t_joints(Working& mesh) {
-  const std::vector<detail::Side> edges = detail::sides_of(mesh);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;  // group, vertex: of edges with one face
+HALFLIGHT_INLINE void close_t_joints(Working& mesh, std::uint32_t first_shell) {
+  const std::vector<detail::Side> edges = detail::sides_of(mesh, first_shell);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;  // shell, vertex: of edges with one face
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const detail::Side& e = edges[i];
     if ((i > 0 && edges[i - 1].key() == e.key()) || (i + 1 < edges.size() && edges[i + 1].key() == e.key())) { continue; }
-    ends.emplace_back(e.group, e.low);
-    ends.emplace_back(e.group, e.high);
+    ends.emplace_back(e.shell, e.low);
+    ends.emplace_back(e.shell, e.high);
   }
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   if (ends.empty()) { return; }
   std::vector<raycast::Box> boxes;
-  for (const auto& [group, v] : ends) { boxes.push_back(raycast::Box{mesh.positions[v], mesh.positions[v]}.grown(mesh.tolerance)); }
+  for (const auto& [shell, v] : ends) { boxes.push_back(raycast::Box{mesh.positions[v], mesh.positions[v]}.grown(mesh.tolerance)); }
   const raycast::Bvh bvh(boxes);
 
   std::vector<detail::Joint> joints;
@@ -74,11 +75,11 @@ HALFLIGHT_INLINE void close_t_joints(Working& mesh) {
     const double length = glm::length(along);
     if (!(length > 2.0 * mesh.tolerance)) { continue; }
     static_cast<void>(raycast::any_along(bvh, raycast::SlabTest({a, along}), 0.0, 1.0, [&](std::uint32_t i) {
-      const auto [group, v] = ends[i];
+      const auto [shell, v] = ends[i];
       const glm::dvec3 p = mesh.positions[v] - a;
       const double t = glm::dot(p, along) / (length * length), beside = glm::length(p - t * along);
       const bool inner = t * length > mesh.tolerance && (1.0 - t) * length > mesh.tolerance;
-      if (group != e.group || !inner || beside > mesh.tolerance || std::find(corners.begin(), corners.end(), v) != corners.end()) {
+      if (shell != e.shell || !inner || beside > mesh.tolerance || std::find(corners.begin(), corners.end(), v) != corners.end()) {
         return false;
       }
       joints.push_back({e.face, e.corner, t, v});

@@ -9,13 +9,16 @@
 //      |       |/            |       |/
 //      *-------*             *-------*
 //
-// Only the vertices of edges with a face on one side are looked at, each group by itself.
+// Only the vertices of edges with a face on one side are looked at, each shell by itself (working.hpp).
+
+#include <cstdint>
 
 #include <radiosity/intake/working.hpp>
 
 namespace radiosity::intake {
 
-void close_t_joints(Working& mesh);
+// Of the shells from this one on.
+void close_t_joints(Working& mesh, std::uint32_t first_shell = 0);
 
 }  // namespace radiosity::intake
 

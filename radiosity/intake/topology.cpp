@@ -25,11 +25,11 @@ namespace detail {
 
 // A side of a face, as a use of the edge between two vertices.
 struct Use {
-  std::uint32_t group, low, high;
+  std::uint32_t shell, low, high;
   std::uint32_t side, face;
   bool up;  // runs from low to high
 
-  [[nodiscard]] auto key() const { return std::tie(group, low, high); }
+  [[nodiscard]] auto key() const { return std::tie(shell, low, high); }
 };
 
 // All uses, those of an edge after each other; and the first side of each face.
@@ -41,7 +41,7 @@ inline std::vector<Use> uses_of(const Working& mesh, std::vector<std::uint32_t>&
     first.push_back(static_cast<std::uint32_t>(uses.size()));
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const std::uint32_t a = corners[i], b = corners[i + 1 < corners.size() ? i + 1 : 0];
-      uses.push_back({mesh.faces[f].group, std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(uses.size()), f, a < b});
+      uses.push_back({mesh.faces[f].shell, std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(uses.size()), f, a < b});
     }
   }
   first.push_back(static_cast<std::uint32_t>(uses.size()));
@@ -69,12 +69,6 @@ inline bool back_to_back(const Face& a, const Face& b) {
     if (a.corners[i] != b.corners[(shift + n - i) % n]) { return false; }
   }
   return true;
-}
-
-inline void turn(Face& face) {
-  std::reverse(face.corners.begin(), face.corners.end());
-  face.turned = !face.turned;
-  for (Source& source : face.more) { source.turned = !source.turned; }
 }
 
 // Union-find with path halving.
@@ -263,7 +257,7 @@ HALFLIGHT_INLINE void orient(Working& mesh) {
     bool one_sided = false;
     for (std::size_t i = 0; i < component.size(); ++i) {
       const std::uint32_t at = component[i];
-      (side[at] > 0 ? along : against) += brep::area(mesh.outline(mesh.faces[at]));
+      if (mesh.faces[at].back == none) { (side[at] > 0 ? along : against) += brep::area(mesh.outline(mesh.faces[at])); }
       for (const auto& [next, alike] : neighbours[at]) {
         const auto wanted = static_cast<signed char>(alike ? side[at] : -side[at]);
         if (side[next] == 0) {
@@ -279,8 +273,8 @@ HALFLIGHT_INLINE void orient(Working& mesh) {
     for (const std::uint32_t at : component) {
       mesh.faces[at].mixed = mixed;
       if ((side[at] > 0) == (along >= against)) { continue; }
-      detail::turn(mesh.faces[at]);
-      mesh.changed(ChangeKind::turned, mesh.faces[at].polygon);
+      mesh.faces[at].turn();
+      if (mesh.faces[at].back == none) { mesh.changed(ChangeKind::turned, mesh.faces[at].polygon); }
     }
   }
 }

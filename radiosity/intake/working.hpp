@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -24,6 +25,7 @@ inline constexpr std::uint32_t none = 0xffffffff;
 struct Source {
   std::uint32_t polygon = 0;
   bool turned = false;  // against the input
+  bool back = false;    // it was given for the other side of the face
 };
 
 struct Face {
@@ -33,12 +35,27 @@ struct Face {
   bool turned = false;            // against the input
   bool mixed = false;             // belongs to a surface of which it is not known which side was meant to be seen
   std::vector<Source> more = {};  // besides `polygon`: its duplicates, and those that were merged
+  std::uint32_t shell = group;    // faces of one shell may be neighbours: a group, or groups that close a shell together (join.hpp)
+  std::uint32_t back = none;      // the material of the polygons for its other side (backs.hpp)
 
   void stand_for(const Face& other) {
     more.push_back({other.polygon, other.turned});
     more.insert(more.end(), other.more.begin(), other.more.end());
   }
+  // Makes it look the other way.
+  void turn() {
+    std::reverse(corners.begin(), corners.end());
+    turned = !turned;
+    for (Source& source : more) { source.turned = !source.turned; }
+    if (back != none) { std::swap(material, back); }
+  }
 };
+
+// The corners from the least on, in their order.
+inline std::vector<std::uint32_t> canonical(std::vector<std::uint32_t> corners) {
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
 
 struct Working {
   std::vector<glm::dvec3> positions;

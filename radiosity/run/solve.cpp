@@ -11,6 +11,7 @@
 #include <raycast/inline.hpp>
 
 #include <radiosity/audit/summary.hpp>
+#include <radiosity/audit/warnings.hpp>
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
@@ -113,6 +114,9 @@ HALFLIGHT_INLINE std::optional<Failure> solve(detail::Run& run) {
   detail::solve_system(run);
   detail::estimate_error(run);
   balance_energy(audit, scene, *run.transport, run.solution.radiosity);
+  if (std::string sentence = warning_of_lost_light(scene, run.solution.radiosity); !sentence.empty()) {
+    audit.warnings.push_back(std::move(sentence));
+  }
   summarise_surfaces(audit, scene, run.solution.radiosity);
   run.watch.lap("solve");
   return std::nullopt;

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // OBJ with MTL, PLY and OFF as scenes; what the command line may say about files of other programs.
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -119,77 +116,6 @@ TEST_CASE("a model without a lamp stands in a studio; what is closed around it c
   CHECK(glm::length(glm::dvec2(lamp.centre())) < 1e-9);
   CHECK((lamp.hi.z > 0.5 && lamp.hi.z < 1.0));
   CHECK(lit.scene.objects[1].shape->project(0, lamp.centre()).normal.z == test::Approx(-1.0));
-}
-
-TEST_CASE("a house whose lamps are in its rooms is looked at from within, a room as a doll's house") {
-  const std::string room =
-      "v 0 0 0\nv 4 0 0\nv 4 0 4\nv 0 0 4\nv 0 3 0\nv 4 3 0\nv 4 3 4\nv 0 3 4\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 "
-      "1 5 8\n";
-  const std::string lamp = "usemtl lamp\nv 1 2.9 1\nv 1 2.9 2\nv 2 2.9 2\nv 2 2.9 1\nf -4 -3 -2 -1\n";
-  const std::string walls =
-      "v -1 -1 -1\nv 5 -1 -1\nv 5 -1 5\nv -1 -1 5\nv -1 4 -1\nv 5 4 -1\nv 5 4 5\nv -1 4 5\n"
-      "f -8 -7 -6 -5\nf -4 -1 -2 -3\nf -8 -4 -3 -7\nf -7 -3 -2 -6\nf -6 -2 -1 -5\nf -5 -1 -4 -8\n";
-  apps::ModelOptions options;
-  options.lamps = {{"lamp", 10.0}};
-  const apps::SceneFile doll = scene("a.obj", room + lamp, {}, options), house = scene("a.obj", room + walls + lamp, {}, options);
-  CHECK(doll.cameras.empty());
-  REQUIRE(house.cameras.size() == 1);
-  CHECK(noted(house.notes, "the camera stands in the room of a lamp"));
-  const glm::dvec3 eye = house.cameras[0].eye;  // y was up
-  CHECK((eye.x > 0.0 && eye.x < 4.0 && eye.y < 0.0 && eye.y > -4.0 && eye.z > 0.0 && eye.z < 3.0));
-  // Walls that shine less than a hundredth as bright as a lamp are no lamps to look at, from outside.
-  options.lamps.push_back({"paint", 0.05});
-  const apps::SceneFile painted = scene("a.obj", "usemtl paint\n" + room + walls + lamp, {}, options);
-  REQUIRE(painted.cameras.size() == 1);
-  CHECK(painted.cameras[0].eye == eye);
-}
-
-// Rooms without lamps as models have them: looking inwards, with things in them, some up to the ceiling, turned and of any size.
-TEST_CASE("a closed room in which nothing shines gets a lamp in its air") {
-  const unsigned seed = 7;
-  INFO("seed " << seed);
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  for (int round = 0; round < 20; ++round) {
-    const double size = std::exp(8.0 * unit(random) - 4.0);
-    const glm::dvec3 extent{4.0 * size, 3.0 * size, 2.5 * size};
-    apps::Model model;
-    model.groups = {"room"};
-    model.materials = {{"grey", radiosity::Color(0.5)}};
-    const auto box = [&](const glm::dvec3& lo, const glm::dvec3& hi, bool inwards) {
-      constexpr int sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-      const auto first = static_cast<std::uint32_t>(model.positions.size());
-      for (int i = 0; i < 8; ++i) {
-        model.positions.emplace_back((i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y, (i & 4) != 0 ? hi.z : lo.z);
-      }
-      for (const auto& side : sides) {
-        std::vector<std::uint32_t> corners;
-        for (const int c : side) { corners.push_back(first + static_cast<std::uint32_t>(c)); }
-        if (inwards) { std::reverse(corners.begin(), corners.end()); }
-        model.polygon(corners, 0, 0);
-      }
-    };
-    box(glm::dvec3(0.0), extent, true);
-    for (int i = 0; i < 5; ++i) {
-      const glm::dvec3 lo = extent * glm::dvec3(0.05 + 0.7 * unit(random), 0.05 + 0.7 * unit(random), 0.02);
-      box(lo, lo + extent * glm::dvec3(0.05 + 0.15 * unit(random), 0.05 + 0.15 * unit(random), i == 0 ? 0.97 : 0.9 * unit(random)), false);
-    }
-    std::vector<std::string> faults;
-    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
-    REQUIRE(file);
-    CHECK(radiosity::faults(file->scene).empty());
-    CHECK(noted(file->notes, "hangs under its ceiling"));
-    const radiosity::SceneObject& lamp = file->scene.objects.back();
-    std::vector<raycast::PlacedObject> placed;
-    for (const auto& object : file->scene.objects) { placed.emplace_back(object.shape, object.placement); }
-    const raycast::Scene objects(std::move(placed));
-    const auto index = static_cast<std::uint32_t>(file->scene.objects.size() - 1);
-    CHECK_FALSE(objects.covered(lamp.shape->bounds().centre(), {0, 0, -1}, index));
-    const auto below = objects.closest({lamp.shape->bounds().centre(), {0, 0, -1}}, index, 0);
-    REQUIRE(below);
-    CHECK(below->front);
-    CHECK(below->t > 0.05 * size);
-  }
 }
 
 TEST_CASE("a mesh of a scene may be a file of another program; groups use it in many places") {

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/intake/lamps.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/polygon.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/line_query.hpp>
+#include <raycast/planar.hpp>
+#include <raycast/ray.hpp>
+
+namespace radiosity::intake {
+namespace detail {
+
+inline constexpr double tol_flush = 1e-3;  // of a lamp's size: what lies as near to a wall is meant to lie on it
+
+inline bool shines(const Face& face, std::span<const Material> materials) {
+  const auto is_lamp = [&](std::uint32_t m) { return m != none && !is_black(materials[m].emission); };
+  return is_lamp(face.material) || is_lamp(face.back);
+}
+
+// Of each face: does it shine, and does it belong to an open component?
+inline std::vector<bool> open_lamps(const Working& mesh, const Topology& topology, std::span<const Material> materials) {
+  std::vector<bool> open(topology.components, false);
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    for (std::uint32_t s = topology.first[f]; s < topology.first[f + 1]; ++s) {
+      if (topology.mate[s] == none) { open[topology.component[f]] = true; }
+    }
+  }
+  std::vector<bool> lamp(mesh.faces.size(), false);
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) { lamp[f] = open[topology.component[f]] && shines(mesh.faces[f], materials); }
+  return lamp;
+}
+
+// A face on which, or beside which, the middle of a lamp lies, within a thousandth of the lamp's size and parallel to it.
+struct Wall {
+  std::uint32_t face = 0;
+  raycast::Plane plane;
+  double height = 0.0;    // of the lamp's middle above it
+  bool opposite = false;  // they look opposite ways
+};
+
+// Not those before which the lamp hangs free and looks away from them.
+inline std::vector<Wall> walls_beside(Working& mesh, const Topology& topology, const raycast::Bvh& bvh, std::uint32_t lamp) {
+  const double size = std::sqrt(brep::area(mesh.outline(mesh.faces[lamp]))), reach = std::max(4.0 * mesh.tolerance, tol_flush * size);
+  const glm::dvec3 normal = raycast::plane_of(mesh.outline(mesh.faces[lamp])).normal,
+                   middle = brep::centroid(mesh.outline(mesh.faces[lamp]));
+  const raycast::Segment through{middle - reach * normal, 2.0 * reach * normal};
+  std::vector<Wall> walls;
+  static_cast<void>(raycast::any_along(bvh, raycast::SlabTest(through), 0.0, 1.0, [&](std::uint32_t face) {
+    if (topology.component[face] == topology.component[lamp]) { return false; }
+    const raycast::Plane plane = raycast::plane_of(mesh.outline(mesh.faces[face]));
+    const auto height = [&](const glm::dvec3& p) { return glm::dot(p - plane.point, plane.normal); };
+    const std::vector<std::uint32_t>& corners = mesh.faces[lamp].corners;
+    const bool parallel =
+        std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return std::abs(height(mesh.positions[v])) <= reach; });
+    const Wall wall{face, plane, height(middle), glm::dot(plane.normal, normal) < 0.0};
+    if (!parallel || (!wall.opposite && wall.height > 4.0 * mesh.tolerance)) { return false; }
+    if (raycast::RayFrame(through).winding(mesh.outline(mesh.faces[face])) != 0) { walls.push_back(wall); }
+    return false;
+  }));
+  return walls;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE std::vector<FlushFace> lay_lamps(Working& mesh, const Topology& topology, std::span<const Material> materials) {
+  const std::vector<bool> lamp = detail::open_lamps(mesh, topology, materials);
+  std::vector<FlushFace> found;
+  if (std::none_of(lamp.begin(), lamp.end(), [](bool is) { return is; })) { return found; }
+  std::vector<raycast::Box> boxes;
+  std::vector<std::uint32_t> component(mesh.positions.size(), none);
+  std::vector<bool> shared(mesh.positions.size(), false);  // by components
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    boxes.emplace_back();
+    for (const std::uint32_t v : mesh.faces[f].corners) {
+      boxes.back().extend(mesh.positions[v]);
+      shared[v] = shared[v] || (component[v] != none && component[v] != topology.component[f]);
+      component[v] = topology.component[f];
+    }
+    boxes.back() = boxes.back().grown(mesh.tolerance);
+  }
+  const raycast::Bvh bvh(boxes);
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    if (!lamp[f]) { continue; }
+    std::vector<detail::Wall> walls = detail::walls_beside(mesh, topology, bvh, f);
+    std::erase_if(walls, [&](const detail::Wall& wall) { return lamp[wall.face]; });
+    if (walls.empty()) { continue; }
+    std::sort(walls.begin(), walls.end(), [](const detail::Wall& a, const detail::Wall& b) {
+      return std::tuple(std::abs(a.height), a.face) < std::tuple(std::abs(b.height), b.face);
+    });
+    const raycast::Plane nearest = walls[0].plane;
+    const double same = std::abs(walls[0].height) + 4.0 * mesh.tolerance;
+    std::erase_if(walls, [&](const detail::Wall& wall) { return std::abs(wall.height) > same; });
+    for (const detail::Wall& wall : walls) { found.push_back({f, wall.face, wall.opposite}); }
+    for (const std::uint32_t v : mesh.faces[f].corners) {
+      const double height = glm::dot(mesh.positions[v] - nearest.point, nearest.normal);
+      if (shared[v] || height == 0.0) { continue; }
+      mesh.positions[v] -= height * nearest.normal;
+      if (std::abs(height) > 1e-3 * mesh.tolerance) { mesh.changed(ChangeKind::lamp_laid, mesh.faces[f].polygon, std::abs(height)); }
+    }
+  }
+  return found;
+}
+
+HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::span<const Material> materials,
+                                 std::span<const FlushFace> flush, const std::vector<bool>& backs, Shells& shells) {
+  struct Lamp {
+    double area = 0.0, front = 0.0, back = 0.0;  // of what shines; of that with something right before, behind it
+    bool one_sided = true;
+    std::uint32_t polygon = none;
+  };
+  std::map<std::uint32_t, Lamp> lamps;  // by component
+  for (std::size_t first = 0, end = 0; first < flush.size(); first = end) {
+    bool front = false, back = false;
+    const std::uint32_t face = flush[first].lamp;
+    for (; end < flush.size() && flush[end].lamp == face; ++end) {
+      const std::uint32_t under = flush[end].under, component = topology.component[under];
+      const Component& shell = shells.components()[component];
+      if (shell.role == Role::nothing) { continue; }
+      const bool both = shell.role == Role::surface && !shell.one_sided && backs[under];
+      const bool opposite = flush[end].opposite != shells.turned(component);
+      front = front || both || opposite;
+      back = back || both || !opposite;
+    }
+    Lamp& lamp = lamps[topology.component[face]];
+    const double area = brep::area(mesh.outline(mesh.faces[face]));
+    lamp.front += front ? area : 0.0;
+    lamp.back += back ? area : 0.0;
+  }
+  for (auto& [component, lamp] : lamps) {
+    for (const std::uint32_t f : shells.components()[component].faces) {
+      if (!detail::shines(mesh.faces[f], materials)) { continue; }
+      lamp.area += brep::area(mesh.outline(mesh.faces[f]));
+      lamp.one_sided = lamp.one_sided && !backs[f];
+      lamp.polygon = std::min(lamp.polygon, mesh.faces[f].polygon);
+    }
+    const bool front = 2.0 * lamp.front > lamp.area, back = 2.0 * lamp.back > lamp.area;
+    if (shells.components()[component].role != Role::surface || (!front && !back)) { continue; }
+    const bool turn = front && !back;
+    shells.lay_lamp(component, turn, !(front && back));
+    if (turn && lamp.one_sided) { mesh.changed(ChangeKind::lamp_turned, lamp.polygon); }
+  }
+}
+
+}  // namespace radiosity::intake

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// The intake: lamps that lie flush in a ceiling or on a wall, and what a run says whose light is lost.
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include <radiosity/intake/intake.hpp>
+#include <radiosity/radiosity.hpp>
+
+#include "catch.hpp"
+#include "radiosity/foreign_rooms.hpp"
+#include "radiosity/polygon_soup.hpp"
+
+using radiosity::ChangeKind;
+using rooms::check_same_light;
+using rooms::furnished_room;
+using rooms::light_of;
+using rooms::number_in;
+using rooms::RandomRooms;
+using soup::count_of;
+using soup::Soup;
+
+// Which way up such a lamp was given, where rounding has put it, and whether it comes before or after its room in the file: all the same.
+TEST_CASE("intake: a lamp that lies flush in a ceiling shines into the room") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  RandomRooms random(seed);
+  for (int round = 0; round < 8; ++round) {
+    const Soup room = furnished_room(random, round % 2 == 1, 0.0);
+    const auto wanted = light_of(room, room.take_in());
+    const double tolerance = radiosity::IntakeOptions{}.weld * 5.0, size = std::exp(number_in(random, -5.0, 5.0));
+    const bool face_up = round % 4 < 2, two_sided = round % 3 == 2;
+    // Within the tolerance, or, where it would light the ceiling from below or from behind, within a thousandth of its size, .6 m or more.
+    const double far = face_up ? number_in(random, -4e-4, 4e-4) : number_in(random, 0.0, 4e-4);
+    const double beside = round % 3 == 1 ? far : number_in(random, -2.0, 2.0) * tolerance;
+    const std::size_t lamp = room.count() - 1;
+    Soup moved;
+    moved.names = room.names;
+    if (two_sided) { moved.two_sided = {0, 1}; }
+    const auto add = [&](std::size_t f) {
+      std::vector<glm::dvec3> outline = room.outline(f);
+      if (f == lamp && face_up) { std::reverse(outline.begin(), outline.end()); }
+      for (glm::dvec3& p : outline) { p = size * (p + glm::dvec3(0, 0, f == lamp ? beside : 0.0)); }
+      moved.polygon(outline, room.material[f]);
+      moved.group.back() = room.group[f];
+    };
+    add(lamp);
+    for (std::size_t f = 0; f < lamp; ++f) { add(f); }
+    const radiosity::Intake taken = moved.take_in();
+    soup::check_sound(moved, taken);
+    CHECK(count_of(taken, ChangeKind::lamp_turned) == (face_up && !two_sided ? 1 : 0));
+    CHECK(count_of(taken, ChangeKind::lamp_laid) > 0);
+    CHECK(taken.faces == room.take_in().faces);
+    check_same_light(wanted, light_of(moved, taken));
+  }
+}
+
+TEST_CASE("intake: a lamp on a wall without a thickness shines to its own side") {
+  for (const bool down : {false, true}) {
+    Soup soup;
+    soup.two_sided = {1, 0};
+    soup.names = {"sheet"};
+    soup.polygon({{0, 0, 1}, {4, 0, 1}, {4, 4, 1}, {0, 4, 1}});
+    soup.names.push_back("lamp");
+    std::vector<glm::dvec3> lamp{{1, 1, 1}, {2, 1, 1}, {2, 2, 1}, {1, 2, 1}};
+    if (down) { std::reverse(lamp.begin(), lamp.end()); }
+    soup.polygon(lamp, 1);
+    const radiosity::Intake intake = soup.take_in();
+    CHECK(count_of(intake, ChangeKind::lamp_turned) == 0);
+    CHECK(intake.objects.back().name == "lamp");
+    CHECK((intake.objects.back().shape->project(0, {1.5, 1.5, 1}).normal.z > 0.0) != down);
+  }
+}
+
+TEST_CASE("a run whose light reaches nothing says so") {
+  RandomRooms random(3);
+  for (const double under : {0.1, -0.1}) {  // the lamp lies above the ceiling
+    const Soup room = furnished_room(random, false, under);
+    radiosity::Options options;
+    options.epsilon = 0.05;
+    options.audit_points = 0;
+    radiosity::IntakeOptions inside;
+    inside.eyes = {{1, 1, 1}};
+    const radiosity::Outcome outcome = radiosity::solve({room.materials, room.take_in(inside).objects}, options);
+    REQUIRE(outcome.solution);
+    const std::vector<std::string>& warnings = outcome.solution->audit.warnings;
+    const bool said =
+        std::any_of(warnings.begin(), warnings.end(), [](const auto& s) { return s.find("reflected by any surface") != s.npos; });
+    CHECK(said == (under < 0.0));
+  }
+}
