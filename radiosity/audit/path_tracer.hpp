@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -66,14 +67,15 @@ class PathTracer {
     Color direct{0.0};  // the part of it that is emitted, or was reflected once
   };
   // One estimate of B at the point x of a surface with unit normal n, away from the solid. `random` gives numbers by uniform(): independent
-  // ones, or those of a path of an even sequence (sobol.hpp).
+  // ones, or those of a path of an even sequence (sobol.hpp). Light that was reflected more than `most` times is left out.
   template <class Numbers>
-  [[nodiscard]] Light radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Numbers& random,
-                                std::uint64_t& rays) const {
+  [[nodiscard]] Light radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Numbers& random, std::uint64_t& rays,
+                                std::uint32_t most = std::numeric_limits<std::uint32_t>::max()) const {
     const Material* material = &materials_[surface(object, sheet)];
     Light result{material->emission, material->emission};
     Color throughput{1.0};
-    for (bool first = true;; first = false) {
+    for (std::uint32_t reflections = 0; reflections < most; ++reflections) {
+      const bool first = reflections == 0;
       const auto arrives = [&](const Color& light) {
         result.all += light;
         if (first) { result.direct += light; }
@@ -107,6 +109,7 @@ class PathTracer {
       sheet = hit->sheet;
       material = &materials_[surface(object, sheet)];
     }
+    return result;
   }
 
  private:

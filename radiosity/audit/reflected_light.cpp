@@ -91,80 +91,69 @@ struct Mean {
   [[nodiscard]] double doubt(double count) const { return std::sqrt(std::max(0.0, squares / count - value(count) * value(count)) / count); }
 };
 
-// What one point tells of the mean square of the reflected radiosity, and the rays that it took.
-struct SquareSample {
-  double value = 0.0;
+// One estimate of the radiosity that was reflected once.
+[[nodiscard]] HALFLIGHT_INLINE Color reflected_once(const PathTracer& tracer, const raycast::SurfacePoint& at, std::uint32_t object,
+                                                    std::uint32_t sheet, Random& random) {
   std::uint64_t rays = 0;
-};
-
-// At a point spread evenly over the area: the product of two independent estimates, in which the noise of paths cancels on average.
-[[nodiscard]] HALFLIGHT_INLINE SquareSample of_area(const DiscreteScene& scene, const PathTracer& tracer, const FacePoints& area,
-                                                    double share, Random random) {
-  SquareSample sample;
-  const FacePoints::Point point = area.point(scene, share, random);
-  if (point.covered) { return sample; }
-  const Node& node = scene.hierarchy[point.node];
-  Color product{1.0};
-  for (int k = 0; k < 2; ++k) {
-    const auto light =
-        tracer.radiosity(point.at.position, point.at.normal, node.object, scene.inputs[node.surface].sheet, random, sample.rays);
-    product *= light.all - scene.emission[node.surface];
-  }
-  sample.value = brightest(product);
-  return sample;
+  const auto light = tracer.radiosity(at.position, at.normal, object, sheet, random, rays, 1);
+  return light.direct - tracer.material(tracer.surface(object, sheet)).emission;
 }
 
-// Where a ray from a lamp arrives, which is often where the light is: the radiosity there, times what such rays bring in the mean over the
-// scene's area, `power`. Light that comes from other surfaces is left out, so the mean of it is too small rather than too large.
-[[nodiscard]] HALFLIGHT_INLINE SquareSample of_lamp(const DiscreteScene& scene, const PathTracer& tracer, const FacePoints& lamps,
-                                                    double power, double share, Random random) {
-  SquareSample sample;
+// At a point spread evenly over the area: the product of two independent estimates, in which the noise of paths cancels on average.
+[[nodiscard]] HALFLIGHT_INLINE double square_at_point(const DiscreteScene& scene, const PathTracer& tracer, const FacePoints& area,
+                                                      double share, Random random) {
+  const FacePoints::Point point = area.point(scene, share, random);
+  if (point.covered) { return 0.0; }
+  const Node& node = scene.hierarchy[point.node];
+  Color product{1.0};
+  for (int k = 0; k < 2; ++k) { product *= reflected_once(tracer, point.at, node.object, scene.inputs[node.surface].sheet, random); }
+  return brightest(product);
+}
+
+// Where a ray from a lamp arrives, which is often where the light is: the radiosity there times what such rays bring in the mean over the
+// scene's area, `power`.
+[[nodiscard]] HALFLIGHT_INLINE double square_by_lamp(const DiscreteScene& scene, const PathTracer& tracer, const FacePoints& lamps,
+                                                     double power, double share, Random random) {
   const FacePoints::Point from = lamps.point(scene, share, random);
-  if (from.covered) { return sample; }
+  if (from.covered) { return 0.0; }
   const Node& lamp = scene.hierarchy[from.node];
   const double u = random.uniform();
   const raycast::Segment ray{from.at.position, cosine_direction(from.at.normal, u, random.uniform()) * scene.objects.diameter()};
-  ++sample.rays;
   const auto hit = scene.objects.closest(ray, lamp.object, scene.inputs[lamp.surface].sheet);
-  if (!hit || !hit->front) { return sample; }
+  if (!hit || !hit->front) { return 0.0; }
   const raycast::SurfacePoint at = scene.objects.object(hit->object).project(hit->sheet, ray.at(hit->t));
-  const Material& material = tracer.material(tracer.surface(hit->object, hit->sheet));
-  const auto light = tracer.radiosity(at.position, at.normal, hit->object, hit->sheet, random, sample.rays);
-  sample.value = power * brightest(material.reflectance * (light.all - material.emission));
-  return sample;
+  const Color& rho = tracer.material(tracer.surface(hit->object, hit->sheet)).reflectance;
+  return power * brightest(rho * reflected_once(tracer, at, hit->object, hit->sheet, random));
 }
 
 }  // namespace detail
 
-HALFLIGHT_INLINE ReflectedLight reflected_light(const DiscreteScene& scene, const PathTracer& tracer) {
+HALFLIGHT_INLINE double reflected_light(const DiscreteScene& scene, const PathTracer& tracer) {
   constexpr std::size_t batch = 256, most = 4096;
   const detail::FacePoints area{scene, [](const Node&) { return 1.0; }};
   const detail::FacePoints lamps{scene, [&](const Node& node) { return brightest(scene.emission[node.surface]); }};
-  ReflectedLight result;
-  if (!(area.total() > 0.0) || !(lamps.total() > 0.0)) { return result; }
+  if (!(area.total() > 0.0) || !(lamps.total() > 0.0)) { return 1.0; }
   const double emitted = lamps.total() / area.total();
-  detail::Mean of_area, of_lamps;
-  std::vector<detail::SquareSample> samples(2 * batch);
+  double result = 1.0;
+  detail::Mean at_points, by_lamps;
+  std::vector<double> samples(2 * batch);
   for (std::size_t points = 0; points < most && !scene.control.cancelled();) {
     parallel_for(
         samples.size(), scene.threads,
         [&](std::size_t i) {
           Random random{scene.seed, points + i / 2, i % 2 == 0 ? 0x7265666c65637473ull : 0x6c616d7072617973ull};
           const double share = (static_cast<double>(i / 2) + random.uniform()) / static_cast<double>(batch);
-          samples[i] = i % 2 == 0 ? detail::of_area(scene, tracer, area, share, random)
-                                  : detail::of_lamp(scene, tracer, lamps, emitted, share, random);
+          samples[i] = i % 2 == 0 ? detail::square_at_point(scene, tracer, area, share, random)
+                                  : detail::square_by_lamp(scene, tracer, lamps, emitted, share, random);
         },
         16);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      (i % 2 == 0 ? of_area : of_lamps).add(samples[i].value);
-      result.rays += samples[i].rays;
-    }
+    for (std::size_t i = 0; i < samples.size(); ++i) { (i % 2 == 0 ? at_points : by_lamps).add(samples[i]); }
     points += batch;
     const auto count = static_cast<double>(points);
-    const detail::Mean& larger = of_area.sum >= of_lamps.sum ? of_area : of_lamps;
+    const detail::Mean& larger = at_points.sum >= by_lamps.sum ? at_points : by_lamps;
     const double square = larger.value(count), doubt = larger.doubt(count);
     const double least = emitted * emitted / (count * count);
-    result.share = std::sqrt(std::max(square, least)) / emitted;
+    result = std::sqrt(std::max(square, least)) / emitted;
     const bool known = square > least && doubt < 0.5 * square;  // a quarter of the root
     if (known || square - doubt > emitted * emitted) { break; }
   }

@@ -1,28 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How bright the reflected light of a scene is, before anything is solved: some paths at points spread evenly over its surfaces, and at
-// those that rays from the lamps meet. The former find what a far lamp lights of a large scene, the latter a bright spot before a near
-// one; each misses what the other finds, so the larger is taken.
+// How bright the light is that surfaces reflect for the first time, before anything is solved: some rays at points spread evenly over the
+// surfaces, and at those that rays from the lamps meet. The former find what a far lamp lights of a large scene, the latter a bright spot
+// before a near one; each misses what the other finds, so the larger is taken.
 //
-// Errors are relative to that light. As a rule it is about as bright as what the lamps emit is in the mean over all surfaces; where most
-// of their light gets lost (a sun before a window, a lamp under the open sky) or the surfaces are dark, it may be a thousandth of that.
-
-#include <cstdint>
+// Errors are relative to the reflected light. As a rule it is about as bright as what the lamps emit is in the mean over all surfaces;
+// where most of their light gets lost (a sun before a window, a lamp under the open sky) or the surfaces are dark, it may be a thousandth
+// of that.
 
 #include <radiosity/audit/path_tracer.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 
 namespace radiosity {
 
-struct ReflectedLight {
-  double share = 1.0;  // RMS of the reflected radiosity over the area, relative to the mean emission, each in its brightest channel
-  std::uint64_t rays = 0;
-};
-
-// Of the input faces, with their patches, of a scene whose paths end: to some 25 %, by 256 points and 256 rays as a rule, where little is
-// lit by up to 4096 of each. Where none of them finds light, the share that so many might have missed.
-[[nodiscard]] ReflectedLight reflected_light(const DiscreteScene& scene, const PathTracer& tracer);
+// Its RMS radiosity over the area of the input faces, whose patches must be there, relative to their mean emission, each in its brightest
+// channel: to some 25 %, by 256 points and 256 rays as a rule, where little is lit by up to 4096 of each. Where none of them finds light,
+// the share that so many might have missed.
+[[nodiscard]] double reflected_light(const DiscreteScene& scene, const PathTracer& tracer);
 
 }  // namespace radiosity
 

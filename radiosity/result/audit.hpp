@@ -101,7 +101,7 @@ struct Audit {
   std::optional<StrayRays> stray;     // of a scene that is not proven closed
   std::vector<SurfaceMean> surfaces;
   double epsilon = 0.0, min_area = 0.0, light_epsilon = 0.0;  // as used
-  std::optional<double> reflected_share;  // RMS of the reflected radiosity relative to the mean emission, before anything was solved
+  std::optional<double> reflected_share;  // RMS of the radiosity that is reflected once, relative to the mean emission: reflected_light.hpp
   double target = 0.0;                    // of BF-refinement; 0 when the time was the limit
   unsigned threads = 1, channels = 3;
   std::uint64_t seed = 0;

@@ -38,28 +38,20 @@ HALFLIGHT_INLINE std::string too_large(const Run& run, std::uint64_t needed) {
                              : "a larger epsilon or min_area needs less, and BF-refinement ends with the best that fits");
 }
 
-// What light of lamps is judged by: the reflected light, of a room with its lamp about as bright as the mean emission.
-[[nodiscard]] HALFLIGHT_INLINE std::optional<ReflectedLight> reference_light(Run& run) {
-  const Plan& plan = run.scene.plan;
-  if (!plan.lit || !plan.reflects || !plan.traceable) { return std::nullopt; }
-  run.scene.patches.extend(run.scene.threads);
-  return reflected_light(run.scene, *run.tracer);
-}
-
 HALFLIGHT_INLINE void refine_by_forms(Run& run) {
   const Options& options = run.options;
+  const Plan& plan = run.scene.plan;
   Audit& audit = run.solution.audit;
   Fineness fineness{options.epsilon, options.min_area, audit.light_epsilon};
   if (options.oracle) { fineness.oracle = options.oracle; }
-  const std::optional<ReflectedLight> reflected = reference_light(run);
-  if (reflected) {
-    audit.reflected_share = reflected->share;
+  if (plan.lit && plan.reflects) {
+    run.scene.patches.extend(run.scene.threads);
+    audit.reflected_share = reflected_light(run.scene, *run.tracer);
     // By measurement: scenes that are open to the sky keep about what they cost, and light through a window, of which the lamp sends
     // elsewhere a thousand times as much, is as exact as theirs.
-    fineness.reflected = std::min(1.0, std::pow(4.0 * reflected->share, 1.25));
+    fineness.reflected = std::min(1.0, std::pow(4.0 * *audit.reflected_share, 1.25));
   }
   run.refined = radiosity::refine(run.scene, fineness, run.rays.cast ? Linked::lamps : Linked::all);
-  run.refined.rays.cast += reflected ? reflected->rays : 0;
 }
 
 HALFLIGHT_INLINE void refine_by_solutions(Run& run) {

@@ -77,7 +77,7 @@ TEST_CASE("furnace: the gathered picture shows E / (1 - rho) everywhere") {
       "camera within eye 0.5 0.4 0.3 look 3 2 1 fov 90\n");
   const apps::View view = apps::make_view(solved.file.cameras.front(), {40, 30});
   const apps::Picture picture = gathered(solved, view);
-  for (const glm::vec3& b : picture.radiosity) { CHECK(double{b.x} == test::Approx(2.0).epsilon(2e-3)); }
+  for (const glm::dvec3& b : picture.radiosity) { CHECK(double{b.x} == test::Approx(2.0).epsilon(2e-3)); }
 }
 
 // Floor and lamp reflect nothing but the floor's first bounce, so that all light is direct; the mesh is as coarse as it can be. A parallel square
