@@ -17,6 +17,7 @@
 
 #include <radiosity/audit/path_tracer.hpp>
 #include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/buried.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
@@ -31,12 +32,11 @@ namespace detail {
 // The triangles of the input faces, to choose points on them with a density that is even over each face.
 class FacePoints {
  public:
-  // `density`: of a face, by its node.
+  // `density`: of a face, by the index of its node.
   template <class Density>
   FacePoints(const DiscreteScene& scene, const Density& density) {
-    const Hierarchy& nodes = scene.hierarchy;
-    for (std::uint32_t i = 0; i < nodes.size(); ++i) {
-      const double of_face = is_input_face(nodes, i) ? density(nodes[i]) : 0.0;
+    for (std::uint32_t i = 0; i < scene.hierarchy.size(); ++i) {
+      const double of_face = is_input_face(scene.hierarchy, i) ? density(i) : 0.0;
       if (!(of_face > 0.0)) { continue; }
       const Patch& patch = scene.patches[i];
       if (patch.parts.empty()) { add(i, patch.contour, of_face); }
@@ -130,8 +130,10 @@ struct Mean {
 
 HALFLIGHT_INLINE double reflected_light(const DiscreteScene& scene, const PathTracer& tracer) {
   constexpr std::size_t batch = 256, most = 4096;
-  const detail::FacePoints area{scene, [](const Node&) { return 1.0; }};
-  const detail::FacePoints lamps{scene, [&](const Node& node) { return brightest(scene.emission[node.surface]); }};
+  const std::vector<bool> buried = buried_nodes(scene.surfaces, scene.hierarchy);
+  const auto counts = [&](std::uint32_t i) { return i < buried.size() && buried[i] ? 0.0 : 1.0; };
+  const detail::FacePoints area{scene, counts};
+  const detail::FacePoints lamps{scene, [&](std::uint32_t i) { return counts(i) * brightest(scene.emission[scene.hierarchy[i].surface]); }};
   if (!(area.total() > 0.0) || !(lamps.total() > 0.0)) { return 1.0; }
   const double emitted = lamps.total() / area.total();
   double result = 1.0;

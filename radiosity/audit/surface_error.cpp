@@ -34,11 +34,15 @@ HALFLIGHT_INLINE SurfaceErrorMeter::SurfaceErrorMeter(const Scene& scene, const 
   const auto corner = [&](std::uint32_t c) -> const glm::dvec3& { return mesh.positions[mesh.corners[c].vertex]; };
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     const MeshFace& face = mesh.faces[f];
-    const Color reflected = face.radiosity - tracer.material(face.surface).emission;
+    const Color& emission = tracer.material(face.surface).emission;
+    const auto square = [&](const Color& shown) { return glm::dot(shown - emission, shown - emission); };
     for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
       const std::uint32_t a = face.first_corner;
       const double area = 0.5 * glm::length(glm::cross(corner(a + k) - corner(a), corner(a + k + 1) - corner(a)));
-      triangles_.push_back({f, a + k, a + k + 1, area, glm::dot(reflected, reflected)});
+      // A corner knows the light of the leaves around it: beside a lit one a dark leaf may be wrong.
+      double light = 0.5 * square(face.radiosity);
+      for (const std::uint32_t c : {a, a + k, a + k + 1}) { light += square(mesh.corners[c].radiosity) / 6.0; }
+      triangles_.push_back({f, a + k, a + k + 1, area, light});
       total_ += area;
       light_ += area * triangles_.back().light;
     }

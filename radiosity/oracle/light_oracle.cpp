@@ -79,7 +79,9 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& s
   lamp_area_.resize(emission_.size());
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
     const Node& root = hierarchy[i];
-    if (is_input_face(hierarchy, i)) { lamp_area_[root.surface] = alike[{root.object, emission_[root.surface]}]; }
+    if (!is_input_face(hierarchy, i)) { continue; }
+    const bool room = scene.objects.object(root.object).inside();  // its faces are no parts of one lamp: they shine all around
+    lamp_area_[root.surface] = room ? 0.0 : alike[{root.object, emission_[root.surface]}];
   }
   for (double& e : emission_) { e = power > 0.0 ? e / power * scene_area_ : 0.0; }
   for (std::size_t i = hierarchy.size(); i-- > 0;) {
@@ -108,7 +110,7 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
   const Node& from = nodes[lamp];
   // A light of k parts, be they faces of one bulb or pieces of a face, has k links here; their variations add up to between sqrt k and k
   // of one.
-  const double parts = from.is_cluster() ? 1.0 : lamp_area_[from.surface] / from.area;
+  const double parts = from.is_cluster() ? 1.0 : std::max(lamp_area_[from.surface], nodes[input_face(nodes, lamp)].area) / from.area;
   const double weight = emission(from) * std::sqrt(parts * to.area / scene_area_);
   if (!(weight > epsilon_)) { return no_node; }
   if (lamps_ && from.is_cluster() && !to.is_cluster()) { return wants_split_by_lamp(receiver, lamp, weight, rays); }

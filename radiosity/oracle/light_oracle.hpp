@@ -68,7 +68,7 @@ class LightOracle {
   double epsilon_;
   std::uint64_t seed_;
   std::vector<double> emission_;   // one an input surface: the largest channel, relative to the mean over the scene's area
-  std::vector<double> lamp_area_;  // one an input surface: of all that shines like it and belongs to the same object
+  std::vector<double> lamp_area_;  // one an input surface: of all that shines like it and is of the same body; 0 in a room
   struct ClusterLight {
     double mean = 0.0, brightest = 0.0;  // of its faces
   };
