@@ -35,11 +35,11 @@ namespace radiosity {
 namespace detail {
 
 // Does the light that arrives, from `low` to `high` where nothing stands between, vary by more than epsilon (RMS)? see(round) casts
-// segments and tells which part of them arrives.
+// segments and tells which part of them arrives. `small`: edges of shadows do not count, and the rest a quarter.
 template <class See>
-[[nodiscard]] bool varies(double low, double high, double epsilon, RayCount& rays, const See& see) {
-  const double variation = (high - low) / std::sqrt(12.0);
-  if (!(std::max(variation, 0.5 * high) > epsilon)) { return false; }  // sqrt(V (1 - V)) is at most one half
+[[nodiscard]] bool varies(double low, double high, double epsilon, bool small, RayCount& rays, const See& see) {
+  const double variation = (small ? 0.25 : 1.0) * (high - low) / std::sqrt(12.0);
+  if (!(std::max(variation, small ? 0.0 : 0.5 * high) > epsilon)) { return false; }  // sqrt(V (1 - V)) is at most one half
   // The smallest shadow that matters covers this part of the patch. Segments enough to meet it three times are cast, unless they are too
   // many or their first have told.
   const double mean = 0.5 * (low + high);
@@ -51,7 +51,8 @@ template <class See>
     rays += cast;
     arrives += fraction_of_round;
     const double fraction = arrives / static_cast<double>(round + 1);
-    if (std::max(variation * fraction, mean * std::sqrt(std::max(0.0, fraction * (1.0 - fraction)))) > epsilon) { return true; }
+    const double edges = small ? 0.0 : mean * std::sqrt(std::max(0.0, fraction * (1.0 - fraction)));
+    if (std::max(variation * fraction, edges) > epsilon) { return true; }
     if (cast.cast == 0) { return false; }  // proven
   }
   return false;
@@ -100,9 +101,10 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& s
   if (!of_cluster_.empty() && !hierarchy[0].is_cluster()) { lamps_.emplace(scene, nullptr, shown); }
 }
 
-HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::uint32_t q, const raycast::OccluderList& list,
-                                                        RayCount& rays) const {
+HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(const Question& question) const {
   const Hierarchy& nodes = scene_.hierarchy;
+  const std::uint32_t p = question.p, q = question.q;
+  RayCount& rays = *question.rays;
   const bool q_shines = emission(nodes[q]) >= emission(nodes[p]);
   const std::uint32_t receiver = q_shines ? p : q;
   const std::uint32_t lamp = q_shines ? q : p;
@@ -113,8 +115,14 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
   const double parts = from.is_cluster() ? 1.0 : std::max(lamp_area_[from.surface], nodes[input_face(nodes, lamp)].area) / from.area;
   const double weight = emission(from) * std::sqrt(parts * to.area / scene_area_);
   if (!(weight > epsilon_)) { return no_node; }
-  if (lamps_ && from.is_cluster() && !to.is_cluster()) { return wants_split_by_lamp(receiver, lamp, weight, rays); }
-  if (to.is_cluster() || from.is_cluster()) { return wants_cluster_split(receiver, lamp, weight, rays); }
+  const bool by_lamp = lamps_ && from.is_cluster() && !to.is_cluster();
+  if (!by_lamp && (to.is_cluster() || from.is_cluster())) {
+    const std::uint32_t split = wants_cluster_split(receiver, lamp, weight, rays);
+    return split != no_node && nodes[split].area > question.min_area ? split : no_node;
+  }
+  const bool small = !(to.area > question.min_area);
+  if (!(to.area > question.min_area / 16.0)) { return no_node; }
+  if (by_lamp) { return varies_by_lamp(receiver, lamp, weight, small, rays) ? receiver : no_node; }
 
   const Patch& patch = scene_.patches[receiver];
   double low = 1.0;
@@ -131,16 +139,16 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(std::uint32_t p, std::ui
   for (const glm::dvec3& x : patch.contour) { look(x); }
   look(nearest_point(to, from.centre));
   const auto end_at = [&](std::uint32_t i) { return PatchEnd{&scene_.patches[i], nodes[i].object, nullptr, scene_.sheet(i)}; };
-  const bool split = detail::varies(weight * low, weight * high, epsilon_, rays, [&](std::uint64_t round) {
-    const VisibilityEstimate seen =
-        visibility(scene_, list, end_at(receiver), end_at(lamp), 1, Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull + round});
+  const bool split = detail::varies(weight * low, weight * high, epsilon_, small, rays, [&](std::uint64_t round) {
+    const VisibilityEstimate seen = visibility(scene_, *question.between, end_at(receiver), end_at(lamp), 1,
+                                               Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull + round});
     return std::pair{seen.fraction, seen.rays};
   });
   return split ? receiver : no_node;
 }
 
-HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split_by_lamp(std::uint32_t receiver, std::uint32_t lamp, double weight,
-                                                                RayCount& rays) const {
+HALFLIGHT_INLINE bool LightOracle::varies_by_lamp(std::uint32_t receiver, std::uint32_t lamp, double weight, bool small,
+                                                  RayCount& rays) const {
   const Node& to = scene_.hierarchy[receiver];
   const Node& from = scene_.hierarchy[lamp];
   double low = 1.0;
@@ -157,12 +165,11 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split_by_lamp(std::uint32_t re
   };
   for (const glm::dvec3& x : scene_.patches[receiver].contour) { look(x); }
   look(nearest_point(to, from.centre));
-  const bool split = detail::varies(weight * low, weight * high, epsilon_, rays, [&](std::uint64_t round) {
+  return detail::varies(weight * low, weight * high, epsilon_, small, rays, [&](std::uint64_t round) {
     const LampExchange::Result seen =
         (*lamps_)(lamp, receiver, 1, Random{seed_, (std::uint64_t{receiver} << 32) | lamp, 0x736861646f77ull + round});
     return std::pair{seen.fraction, seen.rays};
   });
-  return split ? receiver : no_node;
 }
 
 HALFLIGHT_INLINE std::uint32_t LightOracle::wants_cluster_split(std::uint32_t receiver, std::uint32_t source, double weight,

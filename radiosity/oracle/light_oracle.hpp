@@ -42,23 +42,23 @@ class LightOracle {
   [[nodiscard]] double scene_area() const { return scene_area_; }
 
   // Asked once it is known what can stand between the two. Splits the end whose light varies too much because of the other, down to
-  // min_area.
+  // min_area; where F varies by more than four times as much, down to a sixteenth of that: beside a bright lamp that touches a wall the
+  // light changes within a hand's breadth, and such places are few.
   [[nodiscard]] Decision operator()(const Question& question) const {
-    const std::uint32_t split = wants_split(question.p, question.q, *question.between, *question.rays);
-    if (split == no_node || !(question.hierarchy[split].area > question.min_area)) { return Decision::link; }
+    const std::uint32_t split = wants_split(question);
+    if (split == no_node) { return Decision::link; }
     return split == question.p ? Decision::split_p : Decision::split_q;
   }
 
  private:
-  // The end of the pair that should be split because of the light of the other, or no_node. Adds its segments to `rays`.
-  // `list` is that of the pair.
-  [[nodiscard]] std::uint32_t wants_split(std::uint32_t p, std::uint32_t q, const raycast::OccluderList& list, RayCount& rays) const;
+  // The end of the pair that should be split because of the light of the other, or no_node. Adds its segments to the question's rays.
+  [[nodiscard]] std::uint32_t wants_split(const Question& question) const;
   [[nodiscard]] double emission(const Node& node) const {
     return node.is_cluster() ? of_cluster_[node.cluster].mean : emission_[node.surface];
   }
 
   // Of a patch and a cluster of lamps; as of two patches.
-  [[nodiscard]] std::uint32_t wants_split_by_lamp(std::uint32_t receiver, std::uint32_t lamp, double weight, RayCount& rays) const;
+  [[nodiscard]] bool varies_by_lamp(std::uint32_t receiver, std::uint32_t lamp, double weight, bool small, RayCount& rays) const;
   [[nodiscard]] std::uint32_t wants_cluster_split(std::uint32_t receiver, std::uint32_t source, double weight, RayCount& rays) const;
 
   SceneView scene_;

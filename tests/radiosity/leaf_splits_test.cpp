@@ -142,7 +142,8 @@ TEST_CASE("split leaves: none below min_area, none that is partly buried, and tw
   CHECK(linked.split().count > 10);
   double total = 0.0;
   for (std::size_t i = 0; i < linked.hierarchy.size(); ++i) {
-    if (radiosity::is_input_face(linked.hierarchy, i)) { total += linked.hierarchy[i].area; }
+    const bool buried = !(linked.exposure.area[i] > 0.0);
+    if (radiosity::is_input_face(linked.hierarchy, i) && !buried) { total += linked.hierarchy[i].area; }
   }
   const Hierarchy& now = linked.run.scene.hierarchy;
   for (std::size_t i = linked.hierarchy.size(); i < now.size(); ++i) {
