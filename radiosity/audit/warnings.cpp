@@ -152,9 +152,8 @@ HALFLIGHT_INLINE std::string warning_of_lost_light(const DiscreteScene& scene, c
   }
   if (!reflects || !(emitted > 0.0) || reflected >= 1e-6 * emitted) { return {}; }
   return std::string(reflected > 0.0 ? "less than a millionth" : "nothing") +
-         " of the light that is emitted is reflected by any surface: lamps may look away from what they should light, or lie behind a "
-         "wall, "
-         "or what they shine on shows its back; turn their polygons, or give them two sides";
+         " of the light that is emitted is reflected by any surface: lamps may look away from what they should light, or lie behind "
+         "a wall, or what they shine on shows its back; turn their polygons, or give them two sides";
 }
 
 HALFLIGHT_INLINE StrayRays stray_rays(const DiscreteScene& scene, std::uint32_t rays) {

@@ -15,8 +15,8 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/audit.hpp>
-#include <radiosity/scene/material.hpp>
 #include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/visibility/exposure.hpp>
 

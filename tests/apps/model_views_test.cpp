@@ -23,27 +23,29 @@ using models::scene;
 
 namespace {
 
+// A box of group 0 and material 0 that looks inwards, as a room does, or outwards.
+void add_box(apps::Model& model, const glm::dvec3& lo, const glm::dvec3& hi, bool inwards) {
+  constexpr int sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  const auto first = static_cast<std::uint32_t>(model.positions.size());
+  for (int i = 0; i < 8; ++i) {
+    model.positions.emplace_back((i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y, (i & 4) != 0 ? hi.z : lo.z);
+  }
+  for (const auto& side : sides) {
+    std::vector<std::uint32_t> corners;
+    for (const int c : side) { corners.push_back(first + static_cast<std::uint32_t>(c)); }
+    if (inwards) { std::reverse(corners.begin(), corners.end()); }
+    model.polygon(corners, 0, 0);
+  }
+}
+
 // As small a house as has what matters: a room with a thing in it, no lamp; walls of a thickness around it, or not.
 apps::Model house_without_lamp(bool walls) {
   apps::Model model;
   model.groups = {"house"};
   model.materials = {{"grey", radiosity::Color(0.5)}};
-  const auto box = [&](const glm::dvec3& lo, const glm::dvec3& hi, bool inwards) {
-    constexpr int sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    const auto first = static_cast<std::uint32_t>(model.positions.size());
-    for (int i = 0; i < 8; ++i) {
-      model.positions.emplace_back((i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y, (i & 4) != 0 ? hi.z : lo.z);
-    }
-    for (const auto& side : sides) {
-      std::vector<std::uint32_t> corners;
-      for (const int c : side) { corners.push_back(first + static_cast<std::uint32_t>(c)); }
-      if (inwards) { std::reverse(corners.begin(), corners.end()); }
-      model.polygon(corners, 0, 0);
-    }
-  };
-  box({0, 0, 0}, {4, 4, 3}, true);
-  box({2, 2, 0.1}, {3, 3, 1}, false);
-  if (walls) { box({-0.2, -0.2, -0.2}, {4.2, 4.2, 3.2}, false); }
+  add_box(model, {0, 0, 0}, {4, 4, 3}, true);
+  add_box(model, {2, 2, 0.1}, {3, 3, 1}, false);
+  if (walls) { add_box(model, {-0.2, -0.2, -0.2}, {4.2, 4.2, 3.2}, false); }
   return model;
 }
 
@@ -84,23 +86,11 @@ TEST_CASE("a closed room in which nothing shines gets a lamp in its air") {
     apps::Model model;
     model.groups = {"room"};
     model.materials = {{"grey", radiosity::Color(0.5)}};
-    const auto box = [&](const glm::dvec3& lo, const glm::dvec3& hi, bool inwards) {
-      constexpr int sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-      const auto first = static_cast<std::uint32_t>(model.positions.size());
-      for (int i = 0; i < 8; ++i) {
-        model.positions.emplace_back((i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y, (i & 4) != 0 ? hi.z : lo.z);
-      }
-      for (const auto& side : sides) {
-        std::vector<std::uint32_t> corners;
-        for (const int c : side) { corners.push_back(first + static_cast<std::uint32_t>(c)); }
-        if (inwards) { std::reverse(corners.begin(), corners.end()); }
-        model.polygon(corners, 0, 0);
-      }
-    };
-    box(glm::dvec3(0.0), extent, true);
+    add_box(model, glm::dvec3(0.0), extent, true);
     for (int i = 0; i < 5; ++i) {
       const glm::dvec3 lo = extent * glm::dvec3(0.05 + 0.7 * unit(random), 0.05 + 0.7 * unit(random), 0.02);
-      box(lo, lo + extent * glm::dvec3(0.05 + 0.15 * unit(random), 0.05 + 0.15 * unit(random), i == 0 ? 0.97 : 0.9 * unit(random)), false);
+      add_box(model, lo,
+              lo + extent * glm::dvec3(0.05 + 0.15 * unit(random), 0.05 + 0.15 * unit(random), i == 0 ? 0.97 : 0.9 * unit(random)), false);
     }
     std::vector<std::string> faults;
     const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
