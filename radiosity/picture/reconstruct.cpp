@@ -171,15 +171,17 @@ void add_face(const std::vector<Surface>& surfaces, const Surface& surface, brep
   } else {
     for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) { loop.push_back(h); }
   }
-  // At the edge of a blade T-vertex elimination may leave a sliver between the edge and a chord of it, which shows the wrong side.
-  const auto turned_over = [&](std::initializer_list<std::size_t> corners) {
+  // At the edge of a blade T-vertex elimination may leave a sliver between the edge and a chord of it, which stands on the surface or
+  // shows the wrong side.
+  const auto turned_away = [&](std::initializer_list<std::size_t> corners) {
     Polygon contour;
     for (const std::size_t k : corners) { contour.push_back(brep.data(brep.vertex(loop[k])).position); }
     const glm::dvec3 flat = vector_area(contour);
-    return std::all_of(corners.begin(), corners.end(), [&](std::size_t k) { return glm::dot(flat, brep.data(loop[k]).normal) < 0.0; });
+    const double least = 0.1 * glm::length(flat);
+    return std::all_of(corners.begin(), corners.end(), [&](std::size_t k) { return glm::dot(flat, brep.data(loop[k]).normal) < least; });
   };
   const auto add = [&](std::initializer_list<std::size_t> corners) {
-    if (!surface.object->flat() && turned_over(corners)) { return; }
+    if (!surface.object->flat() && turned_away(corners)) { return; }
     const auto first = static_cast<std::uint32_t>(mesh.corners.size());
     Color mean{0.0};
     for (const std::size_t k : corners) {
