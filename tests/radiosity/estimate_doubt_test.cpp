@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+
+// An estimate of the error that is no bound is said to be none: light that the links may miss, and what path tracing finds.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <raycast/objects/sphere.hpp>
+
+#include "catch.hpp"
+#include "scenes.hpp"
+#include "solved.hpp"
+
+TEST_CASE("where path tracing contradicts the estimate by more than a factor of 3, the report says so") {
+  // Balls close to the floor of random rooms, few of them closed, at coarse settings: estimates of all kinds.
+  INFO("seed 97");
+  radiosity::Random random{97, 0};
+  int contradicted = 0;
+  for (int k = 0; k < 12 || (contradicted == 0 && k < 60); ++k) {
+    radiosity::Scene scene = scenes::two_plates(0.05 + random.uniform());
+    const auto material = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.push_back({"ball", radiosity::Color{0.3 + 0.6 * random.uniform()}, radiosity::Color{0.0}});
+    const double radius = 0.05 + 0.2 * random.uniform();
+    scene.objects.push_back({"ball", raycast::Sphere::make({random.uniform(), random.uniform(), radius}, radius).object, {}, {material}});
+    radiosity::Options options;
+    options.epsilon = std::pow(10.0, -3.0 + 2.0 * random.uniform());
+    options.audit_points = 1000;
+    options.threads = 1;
+    const radiosity::Audit audit = scenes::solved(scene, options).audit;
+    REQUIRE(audit.leaf_error);
+    const double estimate = audit.estimated_leaf_error.value_or(0.0);
+    CAPTURE(k, estimate, audit.leaf_error->low, audit.leaf_error->high, audit.estimate_doubt);
+    const bool low = audit.leaf_error->low > 3.0 * estimate, high = estimate > 3.0 * audit.leaf_error->high;
+    if (low) { CHECK(audit.estimate_doubt.starts_with("no bound")); }
+    if (high) { CHECK(audit.estimate_doubt.starts_with("too high")); }
+    contradicted += low || high ? 1 : 0;
+  }
+  CHECK(contradicted > 0);
+}
+
+TEST_CASE("light through a hole of any size: the estimate is no less than a third of the error, or says that it is no bound") {
+  // A plate under a black screen with a square hole, a lamp close above that: what a point sees of the lamp is a rectangle.
+  INFO("seed 83");
+  radiosity::Random random{83, 0};
+  const auto down = [](double x0, double y0, double x1, double y1, double z) {
+    return radiosity::Polygon{{x0, y0, z}, {x0, y1, z}, {x1, y1, z}, {x1, y0, z}};
+  };
+  constexpr double reflectance = 0.5;
+  int doubted = 0;
+  for (int k = 0; k < 12; ++k) {
+    const double hole = std::pow(10.0, -3.5 + 3.0 * (k + random.uniform()) / 12.0), z = 0.3 + 0.5 * random.uniform(), h = z + 1.0;
+    const double x = random.uniform() - 0.5, y = random.uniform() - 0.5, side = 0.2 + 0.6 * random.uniform(), far = 4.0;
+    radiosity::Scene scene;
+    scene.materials = {{"plate", radiosity::Color{reflectance}, radiosity::Color{0.0}},
+                       {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}},
+                       {"black", radiosity::Color{0.0}, radiosity::Color{0.0}}};
+    scene.objects = {scenes::square("plate", {0, 0, 0}, 1.0, true),
+                     scenes::plate("lamp", down(x - side, y - side, x + side, y + side, h), 1),
+                     scenes::plate("a", down(-far, -far, x - hole, far, z), 2),
+                     scenes::plate("b", down(x + hole, -far, far, far, z), 2),
+                     scenes::plate("c", down(x - hole, -far, x + hole, y - hole, z), 2),
+                     scenes::plate("d", down(x - hole, y + hole, x + hole, far, z), 2)};
+    radiosity::Options options;
+    options.epsilon = 0.02;
+    options.min_area = 1e-4;
+    options.audit_points = 16;
+    options.threads = 1;
+    const radiosity::Solution solution = scenes::solved(scene, options);
+    const auto truth_at = [&](const glm::dvec3& p) {
+      const auto seen = [&](double at, double from) { return from + h / z * (at - from); };  // an edge of the hole in the plane of the lamp
+      const double x0 = std::max(x - side, seen(x - hole, p.x)), x1 = std::min(x + side, seen(x + hole, p.x));
+      const double y0 = std::max(y - side, seen(y - hole, p.y)), y1 = std::min(y + side, seen(y + hole, p.y));
+      return x0 < x1 && y0 < y1 ? reflectance * radiosity::point_to_polygon(p, {0, 0, 1}, down(x0, y0, x1, y1, h)) : 0.0;
+    };
+    double error = 0.0, norm = 0.0;
+    for (const radiosity::MeshFace& face : solution.mesh.faces) {
+      if (face.surface != 0) { continue; }
+      for (std::uint32_t c = 1; c + 1 < face.corner_count; ++c) {
+        const auto corner = [&](std::uint32_t i) { return solution.mesh.positions[solution.mesh.corners[face.first_corner + i].vertex]; };
+        const glm::dvec3 a = corner(0), ab = corner(c) - a, ac = corner(c + 1) - a;
+        const double area = 0.5 * glm::length(glm::cross(ab, ac));
+        for (int i = 0; i < 64; ++i) {
+          double u = (i % 8 + 0.5) / 8.0, v = (i / 8 + 0.5) / 8.0;
+          if (u + v > 1.0) { u = 1.0 - u, v = 1.0 - v; }
+          const double b = truth_at(a + u * ab + v * ac);
+          error += area * (b - face.radiosity.x) * (b - face.radiosity.x);
+          norm += area * b * b;
+        }
+      }
+    }
+    REQUIRE(norm > 0.0);
+    const double truth = std::sqrt(error / norm);
+    const radiosity::Audit& audit = solution.audit;
+    CAPTURE(k, hole, truth, audit.leaves, audit.estimate_doubt);
+    // Of a plate that seems dark there is no relative error to estimate.
+    const double estimate = audit.estimated_leaf_error.value_or(0.0);
+    CAPTURE(estimate);
+    CHECK((estimate > truth / 3.0 || !audit.estimate_doubt.empty()));
+    doubted += audit.estimate_doubt.empty() ? 0 : 1;
+    if (hole > 0.1) { CHECK(audit.estimate_doubt.empty()); }
+  }
+  CHECK(doubted > 0);
+}
