@@ -30,6 +30,7 @@ struct Node {
   double area = 0.0;
   double radius = 0.0;     // greatest distance of a corner from the centre
   double deviation = 0.0;  // sine of the largest angle to the true normals at the corners; 0 on planes
+  double rim = 0.0;        // how far finer parts may leave the contour within its plane, where its border is curved
   std::uint32_t parent = no_node;
   std::uint32_t surface = 0;        // index of the input surface
   std::uint32_t object = 0;         // index of the object and of its Surface

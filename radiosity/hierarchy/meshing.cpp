@@ -26,17 +26,6 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE glm::dvec3 on_sheets(const raycast::PlacedObject& object, std::span<const std::uint32_t> sheets, glm::dvec3 p) {
-  for (int round = 0; round < 8; ++round) {
-    const glm::dvec3 before = p;
-    for (const std::uint32_t sheet : sheets) {
-      if (sheet != brep::no_sheet) { p = object.vertex(sheet, p); }
-    }
-    if (p == before) { break; }
-  }
-  return p;
-}
-
 HALFLIGHT_INLINE void LeafFace::place(brep::VertexId v) const {
   if (surface.topology != Topology::shared || surface.object->flat()) { return; }
   brep::SmallList<std::uint32_t> sheets;

@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
-#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -41,9 +40,6 @@ struct LeafFace {
   // Moves a new vertex onto the object, or onto the curve where two of its sheets meet. Polygons of their own stay flat.
   void place(brep::VertexId v) const;
 };
-
-// The point near p of a curved object at which these sheets meet, or that of the one sheet; backs (brep::no_sheet) do not count.
-[[nodiscard]] glm::dvec3 on_sheets(const raycast::PlacedObject& object, std::span<const std::uint32_t> sheets, glm::dvec3 p);
 
 struct ChildFaces {
   std::vector<brep::FaceId> faces;  // none: the face cannot be split, and nothing has changed

@@ -4,7 +4,7 @@
 // The geometry of one patch as the form factor and the visibility test want it: contour, plane, size, and the
 // points of quadrature rules. One is made of every node of the hierarchy and lives until the end of the run (Patches, occlusion.hpp),
 // because the node takes part in many links: about 1.4 kB for a quadrilateral, 304 bytes here and the rest its corners and points, where
-// the node itself, with the centre, normal and area of paper 4.2, takes 104. So patches are most of what a run holds while it has few
+// the node itself, with the centre, normal and area of paper 4.2, takes 112. So patches are most of what a run holds while it has few
 // links a node.
 
 #include <array>

@@ -79,6 +79,38 @@ HALFLIGHT_INLINE Polygon corner_polygon(const SurfaceBRep& brep, brep::FaceId f)
   return polygon;
 }
 
+HALFLIGHT_INLINE glm::dvec3 on_sheets(const raycast::PlacedObject& object, std::span<const std::uint32_t> sheets, glm::dvec3 p) {
+  for (int round = 0; round < 8; ++round) {
+    const glm::dvec3 before = p;
+    for (const std::uint32_t sheet : sheets) {
+      if (sheet != brep::no_sheet) { p = object.vertex(sheet, p); }
+    }
+    if (p == before) { break; }
+  }
+  return p;
+}
+
+// How far the border of a face on a plane leaves the chords between its corners, where that runs between two sheets of a curved object:
+// twice what it does at their middles, which is enough for arcs of ellipses.
+[[nodiscard]] HALFLIGHT_INLINE double rim(const Surface& surface, brep::FaceId f) {
+  if (surface.topology != Topology::shared) { return 0.0; }
+  const SurfaceBRep& brep = surface.brep;
+  const auto position = [&](brep::HalfedgeId h) { return brep.data(brep.vertex(h)).position; };
+  const std::uint32_t own = brep.data(f).sheet;
+  const auto corners = brep::corners(brep, f);
+  double result = 0.0;
+  for (auto h = corners.begin(); h != corners.end();) {
+    const std::uint32_t across = brep.data(brep.face(brep::twin(*h))).sheet;
+    const glm::dvec3 from = position(*h);
+    ++h;
+    const glm::dvec3 to = position(h != corners.end() ? *h : *corners.begin());
+    if (across == own) { continue; }
+    const glm::dvec3 middle = 0.5 * (from + to);
+    result = std::max(result, 2.0 * glm::length(on_sheets(*surface.object, std::array{own, across}, middle) - middle));
+  }
+  return result;
+}
+
 HALFLIGHT_INLINE Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, std::uint32_t parent, std::uint32_t index) {
   const Polygon polygon = corner_polygon(surface.brep, f);
   Node node;
@@ -93,6 +125,7 @@ HALFLIGHT_INLINE Node make_leaf(Surface& surface, std::uint32_t object, brep::Fa
       const glm::dvec3 true_normal = corner_normal(*surface.object, sheet, p, node.centre);
       node.deviation = std::max(node.deviation, std::min(1.0, glm::length(glm::cross(node.normal, true_normal))));
     }
+    if (node.deviation < 1e-9) { node.rim = rim(surface, f); }
   }
   node.parent = parent;
   node.object = object;

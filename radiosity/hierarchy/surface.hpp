@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,9 @@ struct SurfaceResult {
 
 // Corner positions of a face, corner 0 first, T-vertices left out.
 [[nodiscard]] Polygon corner_polygon(const SurfaceBRep& brep, brep::FaceId f);
+
+// The point near p of a curved object at which these sheets meet, or that of the one sheet; backs (brep::no_sheet) do not count.
+[[nodiscard]] glm::dvec3 on_sheets(const raycast::PlacedObject& object, std::span<const std::uint32_t> sheets, glm::dvec3 p);
 
 // Faces that belong to a sheet: those that give and receive light.
 [[nodiscard]] std::size_t radiating_faces(const Surface& surface);

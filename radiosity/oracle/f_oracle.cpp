@@ -55,7 +55,7 @@ HALFLIGHT_INLINE double form_factor_estimate(const Node& p, const Node& q) {
 
 HALFLIGHT_INLINE bool face_away(const Node& p, const Node& q) {
   const double slack = 1e-9 * (p.radius + q.radius + glm::length(q.centre - p.centre));
-  return reach_above(p, q) <= slack || reach_above(q, p) <= slack;
+  return reach_above(p, q) + q.rim <= slack || reach_above(q, p) + p.rim <= slack;
 }
 
 HALFLIGHT_INLINE Decision f_rule(const Node& p, const Node& q, double epsilon, double min_area) {

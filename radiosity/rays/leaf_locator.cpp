@@ -54,8 +54,8 @@ HALFLIGHT_INLINE LeafLocator::LeafLocator(const Hierarchy& hierarchy, const Patc
     for (const std::uint32_t i : faces.nodes) {
       raycast::Box box;
       for (const glm::dvec3& p : patches[i].contour) { box.extend(p); }
-      // A curved surface leaves its patch by no more than the tilt of its normals over the radius.
-      boxes.push_back(box.grown(hierarchy[i].radius * (hierarchy[i].deviation + 1e-9)));
+      // A curved surface leaves its patch by no more than the tilt of its normals over the radius, a curved border its chords by the rim.
+      boxes.push_back(box.grown(hierarchy[i].radius * (hierarchy[i].deviation + 1e-9) + hierarchy[i].rim));
     }
     faces.tree = raycast::Bvh{boxes};
   }

@@ -50,7 +50,7 @@ struct MemoryBudget {
     std::uint64_t rays = 0;       // stored
   };
 
-  // Bytes at the peak. Of each node: itself (104), its patch (1400), its faces, edges and vertices (350), what its exposure (70), the
+  // Bytes at the peak. Of each node: itself (112), its patch (1400), its faces, edges and vertices (350), what its exposure (70), the
   // solution (150) and the mesh (300) add. Of each link: itself (24), and the pair from which it is made (12), whose table may be half
   // empty (24); of BF-refinement its record (84), which is copied as the table grows, and its error: 178 in all. Of each pair: itself, the
   // decision, the rays; and a batch of occluder lists at full length. Of each stored ray: itself (32), its part of a link (40), its place

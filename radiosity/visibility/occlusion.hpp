@@ -36,10 +36,11 @@ class Patches {
   [[nodiscard]] bool is_cluster(std::uint32_t i) const { return (*hierarchy_)[i].is_cluster(); }
   [[nodiscard]] bool is_curved(std::uint32_t i) const { return (*hierarchy_)[i].deviation > 0.0; }
 
-  // The patch as the occluder lists see it. Its descendants leave its plane by at most the tilt of the true surface over its radius.
+  // The patch as the occluder lists see it. Its descendants leave its plane by at most the tilt of the true surface over its radius, and
+  // its contour by the bow of its border.
   [[nodiscard]] raycast::PatchShape shape(std::uint32_t i) const {
     const Node& node = (*hierarchy_)[i];
-    return {patches_[i].contour, node.object, node.radius * node.deviation, node.surface - (*surfaces_)[node.object].first_surface};
+    return {patches_[i].contour, node.object, node.radius * node.deviation + node.rim, node.surface - (*surfaces_)[node.object].first_surface};
   }
 
  private:
