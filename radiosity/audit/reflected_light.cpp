@@ -129,7 +129,7 @@ struct Mean {
 }  // namespace detail
 
 HALFLIGHT_INLINE double reflected_light(const DiscreteScene& scene, const PathTracer& tracer) {
-  constexpr std::size_t batch = 256, most = 4096;
+  constexpr std::size_t batch = 256, most = 16384;
   const std::vector<bool> buried = buried_nodes(scene.surfaces, scene.hierarchy);
   const auto counts = [&](std::uint32_t i) { return i < buried.size() && buried[i] ? 0.0 : 1.0; };
   const detail::FacePoints area{scene, counts};
@@ -156,7 +156,7 @@ HALFLIGHT_INLINE double reflected_light(const DiscreteScene& scene, const PathTr
     const double square = larger.value(count), doubt = larger.doubt(count);
     const double least = emitted * emitted / (count * count);
     result = std::sqrt(std::max(square, least)) / emitted;
-    const bool known = square > least && doubt < 0.5 * square;  // a quarter of the root
+    const bool known = square > least && doubt < 0.2 * square;  // a tenth of the root
     if (known || square - doubt > emitted * emitted) { break; }
   }
   return result;

@@ -67,6 +67,7 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& s
   for (const InputSurface& surface : radiosity::surfaces(input)) {
     const Color& emission = input.materials[surface.material].emission;
     emission_.push_back(std::max({emission.x, emission.y, emission.z}));
+    shows_.push_back(std::min(1.0, 2.0 * brightest(input.materials[surface.material].reflectance)));
   }
   double power = 0.0;
   std::map<std::pair<std::uint32_t, double>, double> alike;  // area of what shines alike, by object
@@ -113,7 +114,8 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(const Question& question
   // A light of k parts, be they faces of one bulb or pieces of a face, has k links here; their variations add up to between sqrt k and k
   // of one.
   const double parts = from.is_cluster() ? 1.0 : std::max(lamp_area_[from.surface], nodes[input_face(nodes, lamp)].area) / from.area;
-  const double weight = emission(from) * std::sqrt(parts * to.area / scene_area_);
+  const double shown = to.is_cluster() ? 1.0 : shows_[to.surface];
+  const double weight = shown * emission(from) * std::sqrt(parts * to.area / scene_area_);
   if (!(weight > epsilon_)) { return no_node; }
   const bool by_lamp = lamps_ && from.is_cluster() && !to.is_cluster();
   if (!by_lamp && (to.is_cluster() || from.is_cluster())) {

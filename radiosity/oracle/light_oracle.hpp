@@ -7,11 +7,12 @@
 //
 //     E * RMS variation of F V over the patch * sqrt(area of the patch / area of the scene)  >  epsilon * mean emission
 //
-// the patch's share of the relative L2 error where the reflected light is about as bright as the mean emission; where it is much darker,
-// F-refinement hands in a smaller epsilon (Fineness). F varies as the disk estimate does between the corners and the point nearest
-// to the light, with the normals tilted by the deviation of the patch from a curved object (linear between extremes: RMS = difference /
-// sqrt 12); V is all or nothing at a point: RMS = sqrt(V (1 - V)). Of a cluster F is what the light shows to the places in it, from the
-// nearest to the farthest; how its faces are turned does not matter, because each applies its own cosine.
+// times 2 rho on the left where a patch reflects less than half, because what errs is what it reflects: the patch's share of the relative
+// L2 error where the reflected light is about as bright as the mean emission; where it is much darker, F-refinement hands in a smaller
+// epsilon (Fineness). F varies as the disk estimate does between the corners and the point nearest to the light, with the normals tilted by
+// the deviation of the patch from a curved object (linear between extremes: RMS = difference / sqrt 12); V is all or nothing at a point:
+// RMS = sqrt(V (1 - V)). Of a cluster F is what the light shows to the places in it, from the nearest to the farthest; how its faces are
+// turned does not matter, because each applies its own cosine.
 
 #include <cstdint>
 #include <optional>
@@ -68,6 +69,7 @@ class LightOracle {
   double epsilon_;
   std::uint64_t seed_;
   std::vector<double> emission_;   // one an input surface: the largest channel, relative to the mean over the scene's area
+  std::vector<double> shows_;      // one an input surface: how much it shows of the light that arrives, beside one that reflects half
   std::vector<double> lamp_area_;  // one an input surface: of all that shines like it and is of the same body; 0 in a room
   struct ClusterLight {
     double mean = 0.0, brightest = 0.0;  // of its faces
