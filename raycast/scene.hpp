@@ -49,6 +49,7 @@
 
 namespace raycast {
 
+struct Corners16;
 struct Rays16;
 struct Entries;
 
@@ -150,6 +151,7 @@ class Scene {
   [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const std::uint32_t* list, std::uint32_t count, bool rooms_clear,
                                          std::uint32_t& hint) const;
   [[nodiscard]] OccluderList list_of(const OccluderList* parent, const PatchShape& a, const PatchShape& b) const;
+  void drop_guards(OccluderList& list, const Corners16& corners) const;
   [[nodiscard]] bool within(std::uint32_t object, std::span<const glm::dvec3> points) const;
   [[nodiscard]] bool rooms_clear(const PatchShape& a, const PatchShape& b) const;
   // Is the point in the convex polyhedral room number r, or on its wall as well as rounding can tell? False for other rooms.
