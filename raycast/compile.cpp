@@ -18,12 +18,15 @@
 #include <brep/ears.hpp>
 #include <brep/polygon.hpp>
 
+#include <raycast/air_cells.hpp>
 #include <raycast/box.hpp>
 #include <raycast/circle.hpp>
 #include <raycast/compiled.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/spans.hpp>
 #include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
@@ -90,9 +93,7 @@ HALFLIGHT_INLINE void Compiler::face(std::uint32_t number, std::span<const glm::
     pieces(number, sheet, length > tol_sliver * extent ? area / length : glm::dvec3{0.0}, true);
   } else {
     const Plane plane = plane_of(world_);
-    const double extent = brep::extent(world_);
-    const bool exact = plane.slack == 0.0 && glm::length(brep::vector_area(world_)) > tol_sliver * extent * extent;
-    pieces(number, sheet, exact ? plane.normal : glm::dvec3{0.0}, brep::is_convex(world_));
+    pieces(number, sheet, known(plane) ? plane.normal : glm::dvec3{0.0}, brep::is_convex(world_));
   }
 }
 
@@ -102,7 +103,13 @@ HALFLIGHT_INLINE Compiler::Compiler(Compiled& out, const Box& bounds, double ski
   int exponent = 0;
   std::frexp(0.5 * std::max({size.x, size.y, size.z}), &exponent);
   out_.scale = std::ldexp(1.0, -exponent);
-  out_.margin = static_cast<float>(eps_height + 4 * skin * out_.scale);
+  skin_ = skin * out_.scale;
+  out_.margin = static_cast<float>(eps_height + 4 * skin_);
+}
+
+HALFLIGHT_INLINE bool Compiler::known(const Plane& plane) const {
+  const double extent = brep::extent(world_);
+  return plane.slack <= 0.5 * skin_ && glm::length(brep::vector_area(world_)) > tol_sliver * extent * extent;
 }
 
 HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& object, std::span<const glm::dvec3> outline,
@@ -134,9 +141,7 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
   if (!outline.empty()) {
     world_.clear();
     for (const glm::dvec3& p : outline) { world_.push_back(out_.local(p)); }
-    const double extent = brep::extent(world_);
-    const bool exact = object.slack() == 0.0 && glm::length(brep::vector_area(world_)) > tol_sliver * extent * extent;
-    pieces(0, 0, exact ? normal : glm::dvec3{0.0}, object.convex());
+    pieces(0, 0, known({world_[0], normal, out_.scale * object.slack()}) ? normal : glm::dvec3{0.0}, object.convex());
   } else {
     object.object().compile(*this);
   }
@@ -147,8 +152,30 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
   } else if (items_.size() == before) {
     add_object_box(Kind::other, 0);
   } else if (face_count_ > faces_before && outline.empty()) {
-    add_object_box(Kind::guard, 0);
+    add_object_box(Kind::guard, static_cast<std::uint32_t>(guards_.size()));
+    guards_.push_back({index, object.solid() ? air_cells(before) : AirCells{}});
   }
+}
+
+HALFLIGHT_INLINE AirCells Compiler::air_cells(std::size_t first_item) const {
+  // A room of a dozen walls is to have cells of air in its middle, and a lattice between its bars; a million faces a megabyte at most.
+  const std::size_t wanted = std::clamp<std::size_t>(32 * (items_.size() - first_item), 1024, std::size_t{1} << 18);
+  AirCells cells(out_.bounds.back().lo, out_.bounds.back().hi, wanted);
+  for (std::size_t i = first_item; i < items_.size(); ++i) {
+    cells.meet({items_[i].box.lo, items_[i].box.hi, faces_[items_[i].data].row[0]}, out_.margin);
+  }
+  cells.finish([&](float x, float y, float z) {
+    const glm::dvec3 p = glm::dvec3(x, y, z) / out_.scale + out_.centre;
+    for (int k = 0; k < 3; ++k) {
+      Segment line{p, glm::dvec3{0.0}};
+      line.direction[k] = 1.0 / out_.scale;
+      Spans spans;
+      object_->spans(line, spans);
+      if (std::any_of(spans.begin(), spans.end(), [](const Span& s) { return s.in.t <= 0.0 && s.out.t >= 0.0; })) { return false; }
+    }
+    return true;
+  });
+  return cells;
 }
 
 HALFLIGHT_INLINE FloatBox Compiler::rounded(const Box& b) const {  // grown by the margin, outwards
@@ -253,7 +280,7 @@ HALFLIGHT_INLINE std::uint32_t Compiler::emit(Kind kind, std::span<const Item> i
     case Kind::form:
       return append(out_.forms, [&](const Item& item) { return forms_[item.data]; });
     case Kind::guard:
-      return append(out_.guards, [&](const Item& item) { return item.object; });
+      return append(out_.guards, [&](const Item& item) { return guards_[item.data]; });
     default:
       return append(out_.others, [&](const Item& item) { return item.object; });
   }

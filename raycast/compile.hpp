@@ -14,6 +14,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <raycast/air_cells.hpp>
 #include <raycast/box.hpp>
 #include <raycast/circle.hpp>
 #include <raycast/compiled.hpp>
@@ -71,10 +72,18 @@ class Compiler {
   [[nodiscard]] Box scaled(const Box& b) const { return {out_.local(b.lo), out_.local(b.hi)}; }
   [[nodiscard]] FloatBox rounded(const Box& b) const;
   void add(const Box& box, Kind kind, std::uint32_t data) { items_.push_back({rounded(box), kind, index_, data}); }
+  // The faces listed from this item on bound a solid: which cells over it are air?
+  [[nodiscard]] AirCells air_cells(std::size_t first_item) const;
   void add_object_box(Kind kind, std::uint32_t data) { items_.push_back({out_.bounds.back(), kind, index_, data}); }
 
   // What double precision computes in the shape's coordinates must be better than the margin there: so not under very uneven maps.
   void form(FormKind kind, const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring, double eps);
+
+  // Is the mean plane of `world_` known well enough for single precision? A corner that is off the plane by s moves the outline that a
+  // segment sees by s length / (|from| + |to|) across the plane, with heights of the ends as in face() of shapes.inc. The tolerance there
+  // holds 12 skins times that factor, because the margin holds 4; so half a skin is far within it. A skin contains two slacks of any object:
+  // only what is nearly a line is not known.
+  [[nodiscard]] bool known(const Plane& plane) const;
 
   // Cuts the polygon `world_` into pieces of at most four corners. Where the plane is not known (normal 0), or no triangles are found, the
   // rows of the whole stay zero: neither in nor out, double precision decides.
@@ -109,12 +118,13 @@ class Compiler {
   std::vector<Body> bodies_;
   std::vector<CylinderShape> cylinders_;
   std::vector<Form> forms_;
+  std::vector<Guard> guards_;
   std::vector<glm::dvec3> world_;
   std::uint32_t face_count_ = 0;
   // Of the object being added:
   const PlacedObject* object_ = nullptr;
   std::uint32_t index_ = 0, room_body_ = no_shape;
-  double stretch_ = 1.0;
+  double stretch_ = 1.0, skin_ = 0.0;  // skin_: in the compiled scene
   bool mirrored_ = false, similar_ = true;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 
 #include <raycast/inline.hpp>
 
@@ -22,7 +23,7 @@ HALFLIGHT_INLINE std::uint32_t Compiled::object_of(std::uint32_t shape) const {
     case Kind::cylinder:
       return cylinders[i].object;
     case Kind::guard:
-      return guards[i];
+      return guards[i].object;
     case Kind::form:
       return forms[i].object;
     default:
@@ -31,10 +32,12 @@ HALFLIGHT_INLINE std::uint32_t Compiled::object_of(std::uint32_t shape) const {
 }
 
 HALFLIGHT_INLINE std::size_t Compiled::bytes() const {
+  const auto cells = [](std::size_t sum, const Guard& guard) { return sum + guard.air.bytes(); };
   return nodes.capacity() * sizeof(Node) + triangles.capacity() * sizeof(FaceBlock<3>) + quads.capacity() * sizeof(FaceBlock<4>) +
          spheres.capacity() * sizeof(SphereBlock) + bodies.capacity() * sizeof(Body) + planes.capacity() * 16 +
          cylinders.capacity() * sizeof(CylinderShape) + forms.capacity() * sizeof(Form) +
-         (guards.capacity() + others.capacity() + leaves.capacity() + rooms.capacity() + room_bodies.capacity()) * sizeof(std::uint32_t) +
+         std::accumulate(guards.begin(), guards.end(), guards.capacity() * sizeof(Guard), cells) +
+         (others.capacity() + leaves.capacity() + rooms.capacity() + room_bodies.capacity()) * sizeof(std::uint32_t) +
          (first_sheet.capacity() + 4 * sheets.capacity()) * sizeof(std::uint32_t) + roles.capacity() + bounds.capacity() * sizeof(FloatBox);
 }
 

@@ -19,6 +19,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <raycast/air_cells.hpp>
 #include <raycast/tolerances.hpp>
 
 namespace raycast {
@@ -50,6 +51,11 @@ struct Body {
 struct CylinderShape {
   float base[3], axis[3], height, radius;
   std::uint32_t object;
+};
+
+struct Guard {
+  std::uint32_t object;
+  AirCells air;  // of a solid
 };
 
 // A shape about the origin of its own coordinates, and the affine map into them. `slop` bounds how far a point's coordinates are off there:
@@ -107,7 +113,8 @@ struct Compiled {
   std::vector<std::array<float, 4>> planes;
   std::vector<CylinderShape> cylinders;
   std::vector<Form> forms;
-  std::vector<std::uint32_t> guards, others;  // objects
+  std::vector<Guard> guards;
+  std::vector<std::uint32_t> others;  // objects
   std::vector<std::uint32_t> leaves;  // of a scene of few shapes, where occlusion is a loop over them: all leaves, with shapes of their own
   std::vector<Role> roles;            // by object
   std::vector<FloatBox> bounds;       // by object, grown by the margin; everything for a room

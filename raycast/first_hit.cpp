@@ -2,14 +2,15 @@
 
 // The first hit of one ray and of sixteen: the search of kernels/first.inc in front of the law of scene.hpp.
 //
-// The search goes through the part of the ray that lies in a cube around the compiled scene. Polygons and faces of open surfaces that are
-// crossed for certain and faces of solids that are entered for certain it leaves over, with bounds of the parameter; mostly one is left,
-// whose place is then computed in double precision, as the law does. Of everything else the law is asked.
+// The search goes through the part of the ray that lies in a cube around the compiled scene. Polygons that are crossed for certain, and
+// faces of open surfaces and of solids that may be, it leaves over, with bounds of the parameter; mostly one is left, whose place is then
+// computed in double precision, as the law does. Of everything else the law is asked.
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -59,8 +60,32 @@ struct Scene::Asker {
   }
 };
 
-// Of what the search has left over, which is complete up to `limit`. A solid's first entry is that of its spans if no face is left before
-// it is passed: then these pair with it.
+// Where the ray meets the object of entry i first, as its spans have it; t is infinite where it does not, and nothing says that only the
+// spans tell. A solid's first entry is that of its spans if no face is left before it is passed: then these pair with it. Of an open surface
+// all crossings count, so the first of them is known once one lies before `limit`, up to which no face is missing.
+HALFLIGHT_INLINE std::optional<Crossing> Scene::first_crossing(const Search& search, const Entries& entries, unsigned i,
+                                                               float limit) const {
+  if (!entries.complete) { return std::nullopt; }
+  const std::uint32_t object = entries.entry[i].object;
+  const bool solid = compiled_.roles[object] == Role::solid, only = entries.count == 1 && entries.entry[0].sure;
+  Crossing first{infinity, 0};
+  bool known = only;
+  for (unsigned j = i; j < entries.count; ++j) {
+    const Entries::Entry& e = entries.entry[j];
+    if (e.object != object) { continue; }
+    const bool before = e.timed && e.to <= limit;
+    if (solid && !only && !(before && e.to < entries.exit)) { return std::nullopt; }
+    if (solid && !e.sure && objects_[object].winding(search.ray, e.face) >= 0) { continue; }
+    const Crossing at = objects_[object].crossing(search.ray, e.face);
+    if (!solid && !e.sure && !meets_face(search.ray, search.source, object, e.face, at)) { continue; }
+    known = known || solid || before;
+    if (at.t < first.t || (at.t == first.t && at.sheet < first.sheet)) { first = at; }
+  }
+  if (!known && first.t < infinity) { return std::nullopt; }
+  return first;
+}
+
+// Of what the search has left over, which is complete up to `limit`.
 HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, float limit) const {
   const Segment& ray = search.ray;
   Nearest& nearest = search.nearest;
@@ -73,22 +98,12 @@ HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, floa
       if (t <= nearest.limit) { offer(ray, Hit{t, object, 0, step < 0.0}, nearest); }
       continue;
     }
-    const bool solid = compiled_.roles[object] == Role::solid;
-    Crossing first{infinity, 0};
-    bool by_spans = !entries.complete;
-    const bool only = entries.count == 1 && entries.entry[0].sure;
-    for (unsigned j = i; j < entries.count && !by_spans; ++j) {
-      const Entries::Entry& e = entries.entry[j];
-      if (e.object != object) { continue; }
-      by_spans = !only && !(e.timed && (e.to < entries.exit || !solid) && e.to <= limit);
-      if (by_spans || !(e.sure || objects_[object].enters(ray, e.face))) { continue; }  // of an open surface all are sure
-      const Crossing at = objects_[object].crossing(ray, e.face);
-      if (at.t < first.t || (at.t == first.t && at.sheet < first.sheet)) { first = at; }
-    }
-    if (by_spans) {
+    const std::optional<Crossing> first = first_crossing(search, entries, i, limit);
+    if (!first) {
       approach(Line(ray), search.source, object, nearest);
-    } else if (first.t > 0.0 && first.t < infinity && first.t <= nearest.limit) {
-      offer(ray, Hit{first.t, object, first.sheet, solid || along(object, ray, first) < 0.0}, nearest);
+    } else if (first->t > 0.0 && first->t < infinity && first->t <= nearest.limit) {
+      const bool front = compiled_.roles[object] == Role::solid || along(object, ray, *first) < 0.0;
+      offer(ray, Hit{first->t, object, first->sheet, front}, nearest);
     }
   }
   if (entries.complete) { return; }

@@ -110,10 +110,11 @@ struct Entries {
   }
 };
 
-// Which lanes are undecided about which object.
+// Which lanes are undecided about which object; of an open surface, about which face.
 struct Pending {
   static constexpr unsigned capacity = 24;
-  std::uint32_t object[capacity], lanes[capacity];
+  static constexpr std::uint32_t whole = 0xffffffff;  // in place of a face: the object
+  std::uint32_t object[capacity], face[capacity], lanes[capacity];
   unsigned count = 0;
 };
 

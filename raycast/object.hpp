@@ -90,8 +90,9 @@ class Object {
   // Of objects that compile to faces: where the line crosses the face, which it is known to do, and the sheet that the face belongs to.
   // Bit for bit what spans() says.
   [[nodiscard]] virtual Crossing crossing(const Segment&, std::uint32_t face) const { return {0.0, face}; }
-  // Of solids that compile to faces: does the line, which comes near the face, enter through it? Bit for bit what spans() says.
-  [[nodiscard]] virtual bool enters(const Segment&, std::uint32_t) const { return false; }
+  // Of objects that compile to faces: -1 where the line, which comes near the face, enters through it, 1 where it leaves, 0 where it passes
+  // beside. Bit for bit what spans() says.
+  [[nodiscard]] virtual int winding(const Segment&, std::uint32_t) const { return 0; }
 
   // A single planar polygon returns its corners, counter-clockwise seen from the air, and a scene keeps it in array form.
   // Everything else returns nothing.

@@ -117,9 +117,26 @@ HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const P
   } else if (count <= OccluderList::capacity) {
     list.state_ = OccluderList::State::listed;
     list.count_ = count;
+    drop_guards(list, c);
   }
   list.rooms_clear_ = (parent && parent->rooms_clear_) || rooms_clear(a, b);
   return list;
+}
+
+// Of a solid none of whose faces is in the list the segments cross none. So all are within it or none is, and one point in the air tells.
+HALFLIGHT_INLINE void Scene::drop_guards(OccluderList& list, const Corners16& corners) const {
+  const std::array<std::uint32_t, OccluderList::capacity> shapes = list.shapes_;
+  const auto* const end = shapes.begin() + list.count_;
+  const auto matters = [&](std::uint32_t guard) {
+    const std::uint32_t object = compiled_.object_of(guard);
+    const auto face = [&](std::uint32_t shape) { return shape != guard && compiled_.object_of(shape) == object; };
+    return std::any_of(shapes.begin(), end, face) ||
+           HALFLIGHT_DISPATCH(isa_, not_in_air(compiled_.guards[index_of(guard)].air, corners.rays, 0xffffu)) == 0xffffu;
+  };
+  list.count_ = 0;
+  for (const auto* shape = shapes.begin(); shape != end; ++shape) {
+    if (kind_of(*shape) != Kind::guard || matters(*shape)) { list.shapes_[list.count_++] = *shape; }
+  }
 }
 
 // Are all points on or in the convex object, as well as rounding can tell? Then so is their hull.

@@ -55,16 +55,18 @@ HALFLIGHT_INLINE bool clip(const Compiled& scene, const Segment& segment, unsign
 
 }  // namespace detail
 
-// Asks the law about one object for some lanes.
+// Asks the law about one object, or about one face of an open surface, for some lanes.
 struct Scene::Exact {
   const Scene& scene;
   const Segments16& segments;
 
-  std::uint32_t operator()(std::uint32_t object, std::uint32_t lanes) const {
+  std::uint32_t operator()(std::uint32_t object, std::uint32_t face, std::uint32_t lanes) const {
     std::uint32_t result = 0;
     for (std::uint32_t rest = lanes; rest; rest &= rest - 1) {
       const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-      if (scene.blocks(Line(segments.at(lane)), scene.end_at(segments.source[lane]), scene.end_at(segments.target[lane]), object)) {
+      const Segment s = segments.at(lane);
+      const End source = scene.end_at(segments.source[lane]), target = scene.end_at(segments.target[lane]);
+      if (face == Pending::whole ? scene.blocks(Line(s), source, target, object) : scene.blocks_by_face(s, source, target, object, face)) {
         result |= 1u << lane;
       }
     }
@@ -83,7 +85,10 @@ struct Scene::ExactOne {
   const Segment& segment;
   End source, target;
 
-  std::uint32_t operator()(std::uint32_t object, std::uint32_t) const { return scene.blocks(Line(segment), source, target, object); }
+  std::uint32_t operator()(std::uint32_t object, std::uint32_t face, std::uint32_t) const {
+    return face == Pending::whole ? scene.blocks(Line(segment), source, target, object)
+                                  : scene.blocks_by_face(segment, source, target, object, face);
+  }
   [[nodiscard]] bool touches(unsigned, bool at_source, std::uint32_t object, std::uint32_t sheet) const {
     return scene.touches(at_source ? segment.origin : segment.at(1.0), at_source ? source : target, object, sheet);
   }
@@ -117,7 +122,7 @@ HALFLIGHT_INLINE std::uint32_t Scene::blocked_by_rooms(const Segments16& segment
       const Segment s = segments.at(i);
       if (((from >> i & 1u) || in_room(r, s.origin)) && ((to >> i & 1u) || in_room(r, s.at(1.0)))) { ask &= ~(1u << i); }
     }
-    if (ask) { blocked |= exact(room, ask); }
+    if (ask) { blocked |= exact(room, Pending::whole, ask); }
   }
   return blocked;
 }
@@ -137,7 +142,7 @@ HALFLIGHT_INLINE std::uint32_t Scene::occluded16(const Segments16& segments, con
       const Box ends{compiled_.local(s.origin), compiled_.local(s.at(1.0))};
       if (!(std::max(Box{ends.lo, ends.lo}.magnitude(), Box{ends.hi, ends.hi}.magnitude()) < farthest_cut)) {
         for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-          if (exact(i, 1u << lane)) {
+          if (exact(i, Pending::whole, 1u << lane)) {
             blocked |= 1u << lane;
             break;
           }
@@ -173,7 +178,7 @@ HALFLIGHT_INLINE bool Scene::occluded(const Segment& segment, std::uint32_t sour
     const std::uint32_t room = compiled_.rooms[r];
     const bool clear = objects_[room].convex() && (source_owner == room || in_room(r, segment.origin)) &&
                        (target_owner == room || in_room(r, segment.at(1.0)));
-    if (!clear && exact(room, 1u) != 0) { return true; }
+    if (!clear && exact(room, Pending::whole, 1u) != 0) { return true; }
   }
   return false;
 }

@@ -105,36 +105,54 @@ HALFLIGHT_INLINE bool Scene::blocks(const Line& line, const End& a, const End& b
   if (i == a.owner && i == b.owner && (object.convex() || (object.inside() && object.passes_once(line.segment)))) { return false; }
   double entry = 0.0;
   if (!object.inside() && !line.slabs(object.bounds(), 0.0, 1.0, entry)) { return false; }
-  return blocks_by_spans(line, a, b, i);
+  return blocks_by_spans(line.segment, a, b, i);
 }
 
-HALFLIGHT_INLINE bool Scene::blocks_by_spans(const Line& line, const End& a, const End& b, std::uint32_t i) const {
-  const PlacedObject& object = objects_[i];
-  const Segment& s = line.segment;
-  Spans spans;
-  object.spans_of_segment(s, spans);
-  if (spans.empty()) { return false; }
-  const double skin_a = skin(a, i), skin_b = skin(b, i);
+// Does a span of object i stop the segment?
+struct Scene::Stops {
+  const Scene& scene;
+  const Segment& s;
+  const End &a, &b;
+  std::uint32_t i;
+  double skin_a = scene.skin(a, i), skin_b = scene.skin(b, i);
   // An end out of the bounds, skin included, cannot touch: the common case, decided without normals.
-  const bool near_a = object.inside() || object.bounds().contains(s.origin, skin_a);
-  const bool near_b = object.inside() || object.bounds().contains(s.at(1.0), skin_b);
-  for (const Span& span : spans) {
+  bool near_a = scene.objects_[i].inside() || scene.objects_[i].bounds().contains(s.origin, skin_a);
+  bool near_b = scene.objects_[i].inside() || scene.objects_[i].bounds().contains(s.at(1.0), skin_b);
+
+  [[nodiscard]] double depth(const Crossing& at, double dt) const { return scene.depth(i, s, at, dt); }
+  [[nodiscard]] bool operator()(const Span& span) const {
     const Crossing &in = span.in, &out = span.out;
-    if (out.t <= 0.0) { continue; }
-    if (in.t >= 1.0) { break; }
-    if (i == a.owner && in.t <= 0.0) { continue; }
-    if (i == b.owner && out.t >= 1.0) { continue; }
-    const auto begins = [&] { return in.t <= 0.0 || depth(i, s, in, in.t) <= skin_a; };
-    const auto ends = [&] { return out.t >= 1.0 || depth(i, s, out, 1.0 - out.t) <= skin_b; };
-    if (near_a && depth(i, s, out, out.t) <= skin_a && begins()) { continue; }
-    if (near_b && depth(i, s, in, 1.0 - in.t) <= skin_b && ends()) { continue; }
+    if (out.t <= 0.0 || in.t >= 1.0) { return false; }
+    if (i == a.owner && in.t <= 0.0) { return false; }
+    if (i == b.owner && out.t >= 1.0) { return false; }
+    const auto begins = [&] { return in.t <= 0.0 || depth(in, in.t) <= skin_a; };
+    const auto ends = [&] { return out.t >= 1.0 || depth(out, 1.0 - out.t) <= skin_b; };
+    if (near_a && depth(out, out.t) <= skin_a && begins()) { return false; }
+    if (near_b && depth(in, 1.0 - in.t) <= skin_b && ends()) { return false; }
     // The owner's own span that begins in the skin of the source (a corner of a box, by rounding), and likewise at the target.
-    if (near_a && i == a.owner && depth(i, s, in, in.t) <= skin_a) { continue; }
-    if (near_b && i == b.owner && depth(i, s, out, 1.0 - out.t) <= skin_b) { continue; }
-    if (within_owner(s, a, true, span, i) || within_owner(s, b, false, span, i)) { continue; }
-    return true;
+    if (near_a && i == a.owner && depth(in, in.t) <= skin_a) { return false; }
+    if (near_b && i == b.owner && depth(out, 1.0 - out.t) <= skin_b) { return false; }
+    return !scene.within_owner(s, a, true, span, i) && !scene.within_owner(s, b, false, span, i);
   }
-  return false;
+};
+
+HALFLIGHT_INLINE bool Scene::blocks_by_spans(const Segment& s, const End& a, const End& b, std::uint32_t i) const {
+  Spans spans;
+  objects_[i].spans_of_segment(s, spans);
+  return !spans.empty() && std::any_of(spans.begin(), spans.end(), Stops{*this, s, a, b, i});
+}
+
+HALFLIGHT_INLINE bool Scene::blocks_by_face(const Segment& s, const End& a, const End& b, std::uint32_t i, std::uint32_t face) const {
+  if (objects_[i].winding(s, face) == 0) { return false; }
+  const Crossing at = objects_[i].crossing(s, face);
+  return Stops{*this, s, a, b, i}(Span{at, at});
+}
+
+HALFLIGHT_INLINE bool Scene::meets_face(const Segment& ray, const End& source, std::uint32_t i, std::uint32_t face,
+                                        const Crossing& at) const {
+  if (!(at.t > 0.0) || objects_[i].winding(ray, face) == 0) { return false; }
+  const double near = skin(source, i);
+  return !objects_[i].bounds().contains(ray.origin, near) || depth(i, ray, at, at.t) > near;
 }
 
 HALFLIGHT_INLINE bool Scene::touches(const glm::dvec3& p, const End& end, std::uint32_t object, std::uint32_t sheet) const {

@@ -49,6 +49,7 @@
 
 namespace raycast {
 
+struct Corners16;
 struct Rays16;
 struct Entries;
 
@@ -150,6 +151,7 @@ class Scene {
   [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const std::uint32_t* list, std::uint32_t count, bool rooms_clear,
                                          std::uint32_t& hint) const;
   [[nodiscard]] OccluderList list_of(const OccluderList* parent, const PatchShape& a, const PatchShape& b) const;
+  void drop_guards(OccluderList& list, const Corners16& corners) const;
   [[nodiscard]] bool within(std::uint32_t object, std::span<const glm::dvec3> points) const;
   [[nodiscard]] bool rooms_clear(const PatchShape& a, const PatchShape& b) const;
   // Is the point in the convex polyhedral room number r, or on its wall as well as rounding can tell? False for other rooms.
@@ -182,13 +184,19 @@ class Scene {
     return line.frame.winding(std::span(corners_).subspan(polygon.first_corner, polygon.corner_count)) != 0;
   }
   [[nodiscard]] bool blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const;
-  [[nodiscard]] bool blocks_by_spans(const Line& line, const End& a, const End& b, std::uint32_t i) const;
+  [[nodiscard]] bool blocks_by_spans(const Segment& s, const End& a, const End& b, std::uint32_t i) const;
+  // Of an open surface every crossing stands for itself: it blocks where one of its faces does.
+  [[nodiscard]] bool blocks_by_face(const Segment& s, const End& a, const End& b, std::uint32_t i, std::uint32_t face) const;
+  struct Stops;
+  // Does the ray meet this face of an open surface, other than by the skin at its source?
+  [[nodiscard]] bool meets_face(const Segment& ray, const End& source, std::uint32_t i, std::uint32_t face, const Crossing& at) const;
   // Does the point at an end of a segment lie on the plane of this sheet, well within the skin?
   [[nodiscard]] bool touches(const glm::dvec3& p, const End& end, std::uint32_t object, std::uint32_t sheet) const;
   [[nodiscard]] bool within_owner(const Segment& s, const End& end, bool source, const Span& span, std::uint32_t i) const;
   [[nodiscard]] std::uint32_t met_by_other(const Segments16& rays, Hits16& hits) const;
   void approach(const Line& line, const End& a, std::uint32_t i, Nearest& nearest) const;
   void approach_bounded(Search& search) const;
+  [[nodiscard]] std::optional<Crossing> first_crossing(const Search& search, const Entries& entries, unsigned i, float limit) const;
   void decide(Search& search, const Entries& entries, float limit) const;
   void offer(const Segment& ray, const Hit& hit, Nearest& nearest) const;
 

@@ -82,6 +82,8 @@ class Spans {
     }
     spans_.push(span);
   }
+  // Appends a crossing of a surface without inside, no earlier than the last one: each stands for itself, where two meet as well.
+  void push(const Crossing& crossing) { spans_.push(Span{crossing, crossing}); }
   void clear() { spans_.clear(); }
   [[nodiscard]] std::size_t size() const { return spans_.size(); }
   [[nodiscard]] bool empty() const { return spans_.empty(); }

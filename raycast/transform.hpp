@@ -88,7 +88,7 @@ class PlacedObject {
 
   [[nodiscard]] std::uint32_t sheet_of(std::uint32_t face) const { return object_->sheet_of(face); }
   [[nodiscard]] Crossing crossing(const Segment& line, std::uint32_t face) const { return object_->crossing(to_object(line), face); }
-  [[nodiscard]] bool enters(const Segment& line, std::uint32_t face) const { return object_->enters(to_object(line), face); }
+  [[nodiscard]] int winding(const Segment& line, std::uint32_t face) const { return object_->winding(to_object(line), face); }
 
   // The corners of a single planar polygon in the world, counter-clockwise seen from the air; empty for everything else.
   [[nodiscard]] std::vector<glm::dvec3> outline() const;

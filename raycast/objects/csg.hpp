@@ -58,7 +58,7 @@ class Csg final : public Object {
   [[nodiscard]] Crossing crossing(const Segment& line, std::uint32_t face) const override {
     return {mesh_->crossing(line, face).t, polygons_.sheet(face)};
   }
-  [[nodiscard]] bool enters(const Segment& line, std::uint32_t face) const override { return mesh_->enters(line, face); }
+  [[nodiscard]] int winding(const Segment& line, std::uint32_t face) const override { return mesh_->winding(line, face); }
 
   // Faces are convex where they lie on flat sheets.
   void approximate(double tolerance, brep::Builder& out) const override;

@@ -107,7 +107,7 @@ HALFLIGHT_INLINE void Mesh::spans_between(const Segment& line, double t0, double
   std::sort(leave.begin(), leave.end(), earlier);
   for (std::size_t i = 0; i < in.size(); ++i) {
     if (!solid()) {
-      out.push(Span{in[i], in[i]});
+      out.push(in[i]);
     } else if (i < leave.size()) {
       out.push(Span{in[i], leave[i]});
     }

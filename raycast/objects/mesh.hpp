@@ -82,9 +82,9 @@ class Mesh final : public Object {
   void compile(Compiler& compiler) const override;
 
   [[nodiscard]] Crossing crossing(const Segment& line, std::uint32_t face) const override;
-  [[nodiscard]] bool enters(const Segment& line, std::uint32_t face) const override {
+  [[nodiscard]] int winding(const Segment& line, std::uint32_t face) const override {
     double shift = 0.0;
-    return winding(RayFrame(nearer(line, shift)), face) < 0;
+    return winding(RayFrame(nearer(line, shift)), face);
   }
 
   // The mesh itself, whatever the tolerance; each border loop is closed by one face of brep::no_sheet.
