@@ -13,6 +13,7 @@
 
 #include <radiosity/audit/reflected_light.hpp>
 #include <radiosity/geometry/direction_lattice.hpp>
+#include <radiosity/rays/ray_choice.hpp>
 #include <radiosity/refinement/bf_refine.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/f_refine.hpp>
@@ -50,6 +51,8 @@ HALFLIGHT_INLINE void refine_by_forms(Run& run) {
     // By measurement: scenes that are open to the sky keep about what they cost, and light through a window, of which the lamp sends
     // elsewhere a thousand times as much, is as exact as theirs.
     fineness.reflected = std::min(1.0, std::pow(4.0 * *audit.reflected_share, 1.25));
+    const bool beside_lamps = *audit.reflected_share > least_share_beside_lamps;
+    if (run.rays.few && beside_lamps && !run.clusters.build) { run.rays = RayChoice{true, {}}; }
   }
   run.refined = radiosity::refine(run.scene, fineness, run.rays.cast ? Linked::lamps : Linked::all);
 }
