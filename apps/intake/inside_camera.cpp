@@ -96,7 +96,8 @@ double LightViews::free_way(const glm::dvec3& from, const glm::dvec3& direction)
 }
 
 std::optional<Camera> LightViews::across_room(glm::dvec3 middle) const {
-  middle.z -= 0.4 * free_way(middle, {0, 0, -1});
+  constexpr double eye_height = 0.6;  // of the way from what is below to what is above
+  middle.z -= (1.0 - eye_height) * free_way(middle, {0, 0, -1});
   glm::dvec3 away{0.0};
   double most = 0.01 * objects_.diameter();
   constexpr int directions = 16;
@@ -113,6 +114,9 @@ std::optional<Camera> LightViews::across_room(glm::dvec3 middle) const {
   Camera camera;
   camera.name = "inside";
   camera.eye = middle + 0.9 * most * away;
+  // Between a lamp and the ceiling close above it the way was found under the ceiling; the eye stands between floor and ceiling.
+  const double below = free_way(camera.eye, {0, 0, -1}), above = free_way(camera.eye, {0, 0, 1});
+  if (below > 0.0 && above > 0.0) { camera.eye.z += eye_height * (below + above) - below; }
   camera.forward = -away;
   camera.field_of_view = 80.0;
   return camera;

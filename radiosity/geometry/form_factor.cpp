@@ -45,4 +45,16 @@ HALFLIGHT_INLINE double point_to_polygon(const glm::dvec3& x, const glm::dvec3& 
   return std::max(0.0, sum / (2.0 * std::numbers::pi));
 }
 
+HALFLIGHT_INLINE glm::dvec3 light_vector(const glm::dvec3& x, std::span<const glm::dvec3> polygon) {
+  glm::dvec3 sum{0.0};
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 a = polygon[i] - x;
+    const glm::dvec3 b = polygon[(i + 1) % polygon.size()] - x;
+    const glm::dvec3 cross = glm::cross(b, a);
+    const double sine = glm::length(cross);
+    if (sine > 0.0) { sum += std::atan2(sine, glm::dot(a, b)) / sine * cross; }
+  }
+  return sum / (2.0 * std::numbers::pi);
+}
+
 }  // namespace radiosity

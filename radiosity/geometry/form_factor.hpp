@@ -33,6 +33,9 @@ void clip_to_horizon(std::span<const glm::dvec3> polygon, const glm::dvec3& p, c
 // this accuracy for edges that subtend more than a right angle.
 [[nodiscard]] double point_to_polygon(const glm::dvec3& x, const glm::dvec3& n, std::span<const glm::dvec3> polygon);
 
+// The same for all normals at once: the vector v with F = n . v, for each unit normal n whose horizon the polygon lies above.
+[[nodiscard]] glm::dvec3 light_vector(const glm::dvec3& x, std::span<const glm::dvec3> polygon);
+
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY

@@ -58,6 +58,89 @@ template <class See>
   return false;
 }
 
+// About the least and the greatest form factor of a patch to a lamp: at its corners and at the point nearest to the lamp, with the normals
+// tilted by the deviation of the patch.
+struct FactorRange {
+  // At a point of which the lamp covers this much in front; `cosine`: of the angle between the normal and the lamp.
+  void add(double facing, double cosine, double tilt) {
+    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+    low = std::min(low, facing * std::max(0.0, std::cos(angle + tilt)));
+    high = std::max(high, facing * std::max(0.0, std::cos(std::max(0.0, angle - tilt))));
+  }
+  double low = 1.0, high = 0.0;
+};
+
+[[nodiscard]] HALFLIGHT_INLINE FactorRange factors_to_disk(const Node& to, const Patch& patch, const Node& lamp) {
+  FactorRange range;
+  const double tilt = std::asin(to.deviation);
+  const auto look = [&](const glm::dvec3& x) {
+    const glm::dvec3 d = lamp.centre - x;
+    const double r = std::sqrt(glm::dot(d, d));
+    range.add(disk_estimate(x, d / r, lamp.centre, lamp.normal, lamp.area), glm::dot(to.normal, d) / r, tilt);
+  };
+  for (const glm::dvec3& x : patch.contour) { look(x); }
+  look(nearest_point(to, lamp.centre));
+  return range;
+}
+
+// No disk stands for a tube beside a wall: most of the wall that it lights is far from its middle.
+[[nodiscard]] HALFLIGHT_INLINE bool is_near_and_long(const Node& lamp, const Node& to, const Patch& outline) {
+  constexpr double most = 4.0;  // area of the disk around it, relative to its own: that of a rectangle of 5 : 1
+  const bool is_long = std::numbers::pi * lamp.radius * lamp.radius > most * lamp.area;
+  // From four radii on the kernel of its centre is within a quarter of that of a line.
+  return is_long && outline.parts.empty() && glm::length(lamp.centre - to.centre) < 4.0 * lamp.radius + to.radius;
+}
+
+// The point of the outline of a polygon that is nearest to x.
+[[nodiscard]] HALFLIGHT_INLINE glm::dvec3 nearest_on_outline(const Polygon& polygon, const glm::dvec3& x) {
+  glm::dvec3 nearest = polygon.front();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3& a = polygon[i];
+    const glm::dvec3 edge = polygon[(i + 1) % polygon.size()] - a;
+    const double square = glm::dot(edge, edge);
+    const glm::dvec3 y = square > 0.0 ? a + std::clamp(glm::dot(x - a, edge) / square, 0.0, 1.0) * edge : a;
+    if (glm::dot(y - x, y - x) < glm::dot(nearest - x, nearest - x)) { nearest = y; }
+  }
+  return nearest;
+}
+
+// The middle of the part of a convex polygon that lies over a patch; else the point of its outline that is nearest to the centre. Where a
+// lamp touches the patch along an edge, the middle is lit most, and its outline tells nothing.
+[[nodiscard]] HALFLIGHT_INLINE glm::dvec3 nearest_of_lamp(const Node& to, const Patch& patch, const Polygon& outline) {
+  Polygon over = outline, part;
+  for (std::size_t i = 0; i < patch.contour.size() && over.size() > 2; ++i) {
+    part.clear();
+    const glm::dvec3 edge = patch.contour[(i + 1) % patch.contour.size()] - patch.contour[i];
+    clip_to_horizon(over, patch.contour[i], glm::cross(patch.normal, edge), part);
+    std::swap(over, part);
+  }
+  if (over.size() < 3 || !patch.parts.empty()) { return nearest_on_outline(outline, to.centre); }
+  glm::dvec3 middle{0.0};
+  for (const glm::dvec3& p : over) { middle += p / static_cast<double>(over.size()); }
+  return middle;
+}
+
+[[nodiscard]] HALFLIGHT_INLINE FactorRange factors_to_outline(const Node& to, const Patch& patch, const Node& from, const Patch& lamp) {
+  FactorRange range;
+  const double tilt = std::asin(to.deviation);
+  Polygon outline;
+  if (to.deviation > 0.0) {
+    outline = lamp.contour;
+  } else {
+    clip_to_horizon(lamp.contour, to.centre, to.normal, outline);
+  }
+  if (outline.size() < 3) { return {0.0, 0.0}; }
+  const auto look = [&](const glm::dvec3& x) {
+    const bool in_front = glm::dot(from.normal, x - from.centre) > 0.0;
+    const glm::dvec3 light = in_front ? light_vector(x, outline) : glm::dvec3{0.0};
+    const double facing = glm::length(light);
+    range.add(facing, facing > 0.0 ? glm::dot(to.normal, light) / facing : 0.0, tilt);
+  };
+  for (const glm::dvec3& x : patch.contour) { look(x); }
+  look(nearest_point(to, nearest_of_lamp(to, patch, outline)));
+  return range;
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& scene, const ShownAreas& shown, double epsilon,
@@ -126,22 +209,11 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(const Question& question
   if (!(to.area > question.min_area / 16.0)) { return no_node; }
   if (by_lamp) { return varies_by_lamp(receiver, lamp, weight, small, rays) ? receiver : no_node; }
 
-  const Patch& patch = scene_.patches[receiver];
-  double low = 1.0;
-  double high = 0.0;
-  const double tilt = std::asin(to.deviation);
-  const auto look = [&](const glm::dvec3& x) {
-    const glm::dvec3 d = from.centre - x;
-    const double r2 = glm::dot(d, d);
-    const double angle = std::acos(std::clamp(glm::dot(to.normal, d) / std::sqrt(r2), -1.0, 1.0));
-    const double facing = disk_estimate(x, d / std::sqrt(r2), from.centre, from.normal, from.area);
-    low = std::min(low, facing * std::max(0.0, std::cos(angle + tilt)));
-    high = std::max(high, facing * std::max(0.0, std::cos(std::max(0.0, angle - tilt))));
-  };
-  for (const glm::dvec3& x : patch.contour) { look(x); }
-  look(nearest_point(to, from.centre));
+  const detail::FactorRange factor = detail::is_near_and_long(from, to, scene_.patches[lamp])
+                                         ? detail::factors_to_outline(to, scene_.patches[receiver], from, scene_.patches[lamp])
+                                         : detail::factors_to_disk(to, scene_.patches[receiver], from);
   const auto end_at = [&](std::uint32_t i) { return PatchEnd{&scene_.patches[i], nodes[i].object, nullptr, scene_.sheet(i)}; };
-  const bool split = detail::varies(weight * low, weight * high, epsilon_, small, rays, [&](std::uint64_t round) {
+  const bool split = detail::varies(weight * factor.low, weight * factor.high, epsilon_, small, rays, [&](std::uint64_t round) {
     const VisibilityEstimate seen = visibility(scene_, *question.between, end_at(receiver), end_at(lamp), 1,
                                                Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull + round});
     return std::pair{seen.fraction, seen.rays};

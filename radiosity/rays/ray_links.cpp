@@ -188,20 +188,26 @@ HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const Store
   return result;
 }
 
-HALFLIGHT_INLINE std::vector<double> RayLinks::row_sums(const DiscreteScene& scene, const std::vector<double>& computed) const {
+HALFLIGHT_INLINE std::vector<double> RayLinks::row_sums(const DiscreteScene& scene, const std::vector<double>& computed,
+                                                        const std::vector<double>& of_lamps) const {
   const std::vector<double>& area = scene.exposure.area;
   const auto counts = [&](std::size_t i) { return scene.hierarchy[i].leaf() && caster[i] != no_node; };
-  std::vector<double> mean(computed.size(), 0.0);  // of the leaves of each node that casts
+  const auto left = [&](std::size_t i) { return computed[i] * left_by_lamps(of_lamps[i]); };
+  std::vector<double> mean(computed.size(), 0.0), mean_left(computed.size(), 0.0);  // of the leaves of each node that casts
   for (std::size_t i = 0; i < computed.size(); ++i) {
-    if (counts(i)) { mean[caster[i]] += area[i] / area[caster[i]] * computed[i]; }
+    if (!counts(i)) { continue; }
+    const double part = area[i] / area[caster[i]];
+    mean[caster[i]] += part * computed[i];
+    mean_left[caster[i]] += part * left(i);
   }
   std::vector<double> rows(computed.size(), 0.0);
   for (std::size_t i = 0; i < computed.size(); ++i) {
-    if (!counts(i) || !(mean[caster[i]] > 0.0)) { continue; }
+    if (!counts(i) || !(mean_left[caster[i]] > 0.0)) { continue; }
     // The variance of the share s of n rays is s (1 - s) / n; that of the computed mean, which counts rays in both directions, some s / 2n.
     // Each counts by the inverse of its variance.
     const double trust = 1.0 / (3.0 - 2.0 * share[caster[i]]);
-    rows[i] = computed[i] * (1.0 + trust * (share[caster[i]] / mean[caster[i]] - 1.0));
+    const double wanted = mean[caster[i]] + trust * (share[caster[i]] - mean[caster[i]]);
+    rows[i] = left(i) * wanted / mean_left[caster[i]];
   }
   return rows;
 }

@@ -16,6 +16,7 @@
 // light change within it. The link of two such ancestors pools all the rays between them, and the places where they start give its
 // gradients. Rays are few for each node that casts and many for each link.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,10 @@
 
 namespace radiosity {
 
+// What lamps leave of a row of form factors for other light. Never nothing, for no scale (Transport::scale_sampled) makes a row 0: under a
+// lamp that touches a surface rows sum up to 1 within the rounding of links.
+[[nodiscard]] inline double left_by_lamps(double of_lamps) { return std::max(1e-3, 1.0 - of_lamps); }
+
 struct RayLinks {
   Links links;
   std::uint64_t rays = 0;             // they were made of
@@ -34,9 +39,11 @@ struct RayLinks {
   std::vector<double> share;          // of the rays of each node: those that links stand for
   std::vector<double> density;        // of the rays that start on each node, by its area
 
-  // What the row sums of the leaves should be where nothing else is known, given those that the links sum up to: as far from these as the
-  // share of the node's own rays tells.
-  [[nodiscard]] std::vector<double> row_sums(const DiscreteScene& scene, const std::vector<double>& computed) const;
+  // What the row sums of the leaves should be where nothing else is known, given those that the links sum up to, and those of the links of
+  // lamps. In the mean over a node that casts: as far from what the links sum up to as the share of its own rays tells. Within it: by what
+  // lamps leave of the horizon of each leaf, for a ray that a lamp stops meets nothing else.
+  [[nodiscard]] std::vector<double> row_sums(const DiscreteScene& scene, const std::vector<double>& computed,
+                                             const std::vector<double>& of_lamps) const;
   // What the noise of the rays adds to the squared L2 error of a solution. The mean of what arrives at a node is known, by its own rays;
   // which of the others it comes from is not. `made`: the links, wherever they are now.
   [[nodiscard]] double noise(const DiscreteScene& scene, const Links& made, const std::vector<Color>& radiosity) const;

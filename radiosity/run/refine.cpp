@@ -13,6 +13,7 @@
 
 #include <radiosity/audit/reflected_light.hpp>
 #include <radiosity/geometry/direction_lattice.hpp>
+#include <radiosity/rays/ray_choice.hpp>
 #include <radiosity/refinement/bf_refine.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/f_refine.hpp>
@@ -56,6 +57,8 @@ HALFLIGHT_INLINE void refine_by_forms(Run& run) {
     run.scene.patches.extend(run.scene.threads);
     audit.reflected_share = reflected_light(run.scene, *run.tracer);
     fineness.reflected = brightness_of_reflected(*audit.reflected_share);
+    const bool beside_lamps = *audit.reflected_share > least_share_beside_lamps;
+    if (run.rays.few && beside_lamps && !run.clusters.build) { run.rays = RayChoice{true, {}}; }
   }
   run.refined = radiosity::refine(run.scene, fineness, run.rays.cast ? Linked::lamps : Linked::all);
 }

@@ -41,8 +41,8 @@ HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run) {
   run.transport->add_sampled(run.solution.ray_links);
   const std::vector<double> computed = run.transport->row_sums();
   std::vector<double> wanted(computed.size(), 0.0);
-  for (std::size_t i = 0; i < wanted.size(); ++i) { wanted[i] = closed ? std::max(0.0, 1.0 - of_lamps[i]) : computed[i] - of_lamps[i]; }
-  if (!closed) { wanted = made.row_sums(run.scene, wanted); }
+  for (std::size_t i = 0; i < wanted.size(); ++i) { wanted[i] = closed ? left_by_lamps(of_lamps[i]) : computed[i] - of_lamps[i]; }
+  if (!closed) { wanted = made.row_sums(run.scene, wanted, of_lamps); }
   run.solution.audit.ray_correction = run.transport->scale_sampled(wanted);
   return computed;
 }

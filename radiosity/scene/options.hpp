@@ -79,7 +79,7 @@ struct Options {
   // relative L2 error: Solution::refined. Needs faces that share their vertices, and colours at these.
   std::optional<double> mesh_error;
 
-  // Automatic: rays from some 100 input faces on.
+  // Automatic: rays from some 100 input faces on, and where most light is reflected close beside a lamp (ray_choice.hpp).
   Indirect indirect = Indirect::automatic;
 
   // Refinement asks this oracle (oracle.hpp: what it is asked, and what it must promise) in place of its own. Of F-refinement that is the

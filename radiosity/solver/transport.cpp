@@ -165,7 +165,7 @@ HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& want
     y.assign(x.size(), 0.0);
     apply(part, x, y);
   };
-  const std::vector<double> scale = balance(apply_part, power, {.most = 4.0, .tolerance = 1e-6});
+  const std::vector<double> scale = balance(apply_part, power, {.most = 16.0, .tolerance = 1e-6});
   std::vector<double> before, after;
   apply_part(std::vector<double>(power.size(), 1.0), before);
   apply_part(scale, after);

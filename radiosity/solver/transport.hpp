@@ -39,7 +39,7 @@ class Transport {
 
   // Adds links that were sampled, between patches, once. They must outlive the operator, which arranges them.
   void add_sampled(Links& links);
-  // Makes their row sums those of `rows`, one a node, read at the leaves, within 1e-6 (balance.hpp), with D between 1/4 and 4.
+  // Makes their row sums those of `rows`, one a node, read at the leaves, within 1e-6 (balance.hpp), with D between 1/16 and 16.
   // Returns the area-weighted RMS by which their row sums changed, relative to the RMS of these: where an open scene has row sums near 0,
   // D may be far from 1 and change nothing.
   double scale_sampled(const std::vector<double>& rows);

@@ -16,6 +16,8 @@
 #include <radiosity/scene/scene.hpp>
 #include <raycast/scene.hpp>
 
+#include "apps/intake/inside_camera.hpp"
+
 #include "models.hpp"
 
 using models::noted;
@@ -23,8 +25,8 @@ using models::scene;
 
 namespace {
 
-// A box of group 0 and material 0 that looks inwards, as a room does, or outwards.
-void add_box(apps::Model& model, const glm::dvec3& lo, const glm::dvec3& hi, bool inwards) {
+// A box that looks inwards, as a room does, or outwards. Group 1 is of material 1, others of material 0.
+void add_box(apps::Model& model, const glm::dvec3& lo, const glm::dvec3& hi, bool inwards, std::uint32_t group = 0) {
   constexpr int sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   const auto first = static_cast<std::uint32_t>(model.positions.size());
   for (int i = 0; i < 8; ++i) {
@@ -34,7 +36,7 @@ void add_box(apps::Model& model, const glm::dvec3& lo, const glm::dvec3& hi, boo
     std::vector<std::uint32_t> corners;
     for (const int c : side) { corners.push_back(first + static_cast<std::uint32_t>(c)); }
     if (inwards) { std::reverse(corners.begin(), corners.end()); }
-    model.polygon(corners, 0, 0);
+    model.polygon(corners, group == 1 ? 1 : 0, group);
   }
 }
 
@@ -72,6 +74,44 @@ TEST_CASE("a house whose lamps are in its rooms is looked at from within, a room
   const apps::SceneFile painted = scene("a.obj", "usemtl paint\n" + room + walls + lamp, {}, options);
   REQUIRE(painted.cameras.size() == 1);
   CHECK(painted.cameras[0].eye == eye);
+}
+
+// Flat boxes close under the ceiling, as ceiling lamps are, over furniture.
+TEST_CASE("the camera in a house stands at the height of an eye and sees what lamps shine on") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 20; ++round) {
+    const double size = std::exp(8.0 * unit(random) - 4.0);
+    const glm::dvec3 extent = size * glm::dvec3(3.0 + 3.0 * unit(random), 3.0 + 2.0 * unit(random), 2.3 + unit(random));
+    apps::Model model;
+    model.groups = {"house", "lamp", "thing"};
+    model.materials = {{"grey", radiosity::Color(0.5)}, {"lamp", radiosity::Color(0.1), radiosity::Color(100.0)}};
+    add_box(model, {0, 0, 0}, extent, true);
+    add_box(model, glm::dvec3(-0.2 * size), extent + 0.2 * size, false);
+    const double gap = size * std::exp(-6.0 + 5.0 * unit(random)), thick = size * (0.01 + 0.1 * unit(random));
+    const glm::dvec3 lamp = extent * glm::dvec3(0.2 + 0.5 * unit(random), 0.2 + 0.5 * unit(random), 1.0) - glm::dvec3(0, 0, gap + thick);
+    add_box(model, lamp, lamp + glm::dvec3(0.4 * size, 0.4 * size, thick), false, 1);
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 lo = extent * glm::dvec3(0.05 + 0.7 * unit(random), 0.05 + 0.7 * unit(random), 0.0) + glm::dvec3(0, 0, 0.01 * size);
+      add_box(model, lo, lo + size * glm::dvec3(0.3 + 0.4 * unit(random), 0.3 + 0.4 * unit(random), 0.3 + 0.6 * unit(random)), false, 2);
+    }
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    REQUIRE(file->cameras.size() == 1);
+    std::vector<raycast::PlacedObject> placed;
+    for (const auto& object : file->scene.objects) { placed.emplace_back(object.shape, object.placement); }
+    const raycast::Scene objects(std::move(placed));
+    const apps::Camera& camera = file->cameras[0];
+    const auto below = objects.closest({camera.eye, {0, 0, -1}}), above = objects.closest({camera.eye, {0, 0, 1}});
+    CAPTURE(round, size, gap / size, camera.eye.z / extent.z);
+    REQUIRE((below && above));
+    CHECK(below->t > 0.2 * (below->t + above->t));
+    CHECK(above->t > 0.2 * (below->t + above->t));
+    CHECK(apps::LightViews(file->scene).lit_share(camera) > 0.2);
+  }
 }
 
 // Rooms without lamps as models have them: looking inwards, with things in them, some up to the ceiling, turned and of any size.

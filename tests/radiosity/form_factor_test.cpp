@@ -146,6 +146,21 @@ TEST_CASE("Lambert's contour: a point sees a half space of 1 and a quarter of 1/
   CHECK(radiosity::point_to_polygon(1e-3 * X, Z, rectangle({0.0, -far, 0.0}, 2.0 * far * Y, far * Z)) == test::Approx(0.5).epsilon(1e-8));
 }
 
+TEST_CASE("the light vector gives Lambert's contour for every normal") {
+  std::mt19937_64 engine{20240612};
+  INFO("seed 20240612");
+  std::uniform_real_distribution<double> uniform{-1.0, 1.0};
+  const glm::dvec3 x{0.1, -0.2, 0.3};
+  for (int trial = 0; trial < 50; ++trial) {
+    const glm::dvec3 n = glm::normalize(glm::dvec3{uniform(engine), uniform(engine), 1.5});
+    const glm::dvec3 a = x + 3.0 * n + glm::dvec3{uniform(engine), uniform(engine), 0.0};
+    const Polygon lamp = rectangle(a, glm::dvec3{-0.1, 0.4 + uniform(engine) * 0.3, 0.0}, glm::dvec3{1.0 + uniform(engine), 0.0, 0.1});
+    const double expected = radiosity::point_to_polygon(x, n, lamp);
+    CHECK(expected > 0.0);
+    CHECK(std::abs(glm::dot(n, radiosity::light_vector(x, lamp)) - expected) < 1e-14);
+  }
+}
+
 TEST_CASE("the disk estimate is never above 1 and tends to the contour value far away") {
   for (const double h : {1e-6, 1e-3, 1.0, 10.0, 100.0}) {
     const double estimate = radiosity::disk_estimate({0.5, 0.5, 0.0}, Z, {0.5, 0.5, h}, -Z, 1.0);

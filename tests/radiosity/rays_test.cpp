@@ -244,6 +244,40 @@ TEST_CASE("rays of small things are as good beside something far away") {
   for (std::size_t i = 1; i < near.size(); ++i) { CHECK(std::abs(near[i] - far[i]) <= 1e-4 * near[i]); }
 }
 
+// Two stacks of plates at gaps that are a hundredth to half of their width.
+TEST_CASE("narrow gaps: rows of form factors near 1 before they are closed, and the light of a closed room") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  const auto between = [&](double lo, double hi) { return std::uniform_real_distribution<double>{lo, hi}(random); };
+  for (int round = 0; round < 3; ++round) {
+    radiosity::Scene scene;
+    scene.materials = {{"wall", radiosity::Color{0.7}, radiosity::Color{0.0}},
+                       {"plate", radiosity::Color{0.8}, radiosity::Color{0.0}},
+                       {"lamp", radiosity::Color{0.1}, radiosity::Color{20.0}}};
+    scene.objects = {scenes::object("room", scenes::box({0, 0, 0}, {4, 3, 2.5}), 0, true),
+                     scenes::object("lamp", scenes::polygon({{1.6, 1.2, 2.5}, {1.6, 1.8, 2.5}, {2.4, 1.8, 2.5}, {2.4, 1.2, 2.5}}), 2)};
+    const double width = between(0.3, 0.7), gap = width * std::exp(between(std::log(0.01), std::log(0.5))), thick = between(0.002, 0.02);
+    for (int row = 0; row < 2; ++row) {
+      for (int k = 0; k < 8; ++k) {
+        const glm::dvec3 lo{0.5 + k * (gap + thick), 0.6 + 1.2 * row * width, 0.5};
+        scene.objects.push_back(scenes::object("plate", scenes::box(lo, lo + glm::dvec3{thick, width, width}), 1));
+      }
+    }
+    Options options;
+    options.epsilon = 0.02;
+    options.min_area = 2e-4;
+    options.audit_points = 500;
+    const radiosity::Audit audit = scenes::solved(scene, options).audit;
+    REQUIRE(audit.leaf_error);
+    CAPTURE(round, width, gap / width, audit.stored_rays, audit.leaf_error->relative_l2, audit.leaf_error->low, audit.leaf_error->high);
+    CHECK(audit.computed_row_sum.min > 0.5);
+    CHECK(audit.computed_row_sum.max < 1.5);
+    CHECK(std::abs(audit.computed_row_sum.mean - 1.0) < 0.01);
+    CHECK(audit.leaf_error->low < 0.12);
+  }
+}
+
 TEST_CASE("which runs cast rays") {
   const radiosity::Scene few = scenes::room_with_box();
   const radiosity::Scene many = scenes::many(150, scenes::Things::boxes);
