@@ -81,8 +81,8 @@ class Compiler {
 
   // Is the mean plane of `world_` known well enough for single precision? A corner that is off the plane by s moves the outline that a
   // segment sees by s length / (|from| + |to|) across the plane, with heights of the ends as in face() of shapes.inc. The tolerance there
-  // holds 12 skins times that factor, because the margin holds 4; so half a skin is far within it. A skin contains two slacks of any object:
-  // only what is nearly a line is not known.
+  // holds 12 skins times that factor, because the margin holds 4; so half a skin is far within it. A skin contains two slacks of any
+  // object: only what is nearly a line is not known.
   [[nodiscard]] bool known(const Plane& plane) const;
 
   // Cuts the polygon `world_` into pieces of at most four corners. Where the plane is not known (normal 0), or no triangles are found, the

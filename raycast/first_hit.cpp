@@ -61,8 +61,8 @@ struct Scene::Asker {
 };
 
 // Where the ray meets the object of entry i first, as its spans have it; t is infinite where it does not, and nothing says that only the
-// spans tell. A solid's first entry is that of its spans if no face is left before it is passed: then these pair with it. Of an open surface
-// all crossings count, so the first of them is known once one lies before `limit`, up to which no face is missing.
+// spans tell. A solid's first entry is that of its spans if no face is left before it is passed: then these pair with it. Of an open
+// surface all crossings count, so the first of them is known once one lies before `limit`, up to which no face is missing.
 HALFLIGHT_INLINE std::optional<Crossing> Scene::first_crossing(const Search& search, const Entries& entries, unsigned i,
                                                                float limit) const {
   if (!entries.complete) { return std::nullopt; }

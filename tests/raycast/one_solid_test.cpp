@@ -163,3 +163,30 @@ TEST_CASE("in the hollow of a thick wall a pair is clear, without a ray; within 
   CHECK_FALSE(pair(0.85, 0.95).clear());
   CHECK_FALSE(pair(0.0, 0.9).clear());
 }
+
+TEST_CASE("the first hit of an open surface is the first crossing of the whole line, bit for bit, at edges and corners, too") {
+  SEEDED(random);
+  std::size_t met = 0;
+  for (int turn = 0; turn < 30; ++turn) {
+    const auto n = 1 + random.below(30);
+    const PlacedObject sheet = placed(wavy_sheet(random, n, std::pow(10.0, random.uniform(-4, -0.5))));
+    std::vector<Scene> scenes;
+    for (const Isa isa : instruction_sets()) scenes.emplace_back(std::vector<PlacedObject>{sheet}, isa);
+    for (int i = 0; i < 300; ++i) {
+      dvec3 at = random.in_cube();
+      if (random.below(2)) at = glm::round(0.5 * n * (at + 1.0)) / (0.5 * n) - 1.0;  // over an edge
+      const dvec3 eye{0.9 * random.in_cube().x, 0.9 * random.in_cube().y, random.below(2) ? 0.9 : -0.9};
+      const Segment ray = between(eye, {at.x, at.y, 0.0});
+      std::optional<Crossing> first;
+      for (const Span& span : spans(sheet, ray))
+        if (!first && span.in.t > 0.0) first = span.in;
+      for (const Scene& scene : scenes) {
+        const std::optional<Hit> hit = scene.closest(ray);
+        REQUIRE(hit.has_value() == first.has_value());
+        if (hit) REQUIRE((hit->t == first->t && hit->sheet == first->sheet));
+      }
+      met += first.has_value();
+    }
+  }
+  CHECK(met > 1000);
+}
