@@ -192,7 +192,7 @@ HALFLIGHT_INLINE std::vector<double> RayLinks::row_sums(const DiscreteScene& sce
                                                         const std::vector<double>& of_lamps) const {
   const std::vector<double>& area = scene.exposure.area;
   const auto counts = [&](std::size_t i) { return scene.hierarchy[i].leaf() && caster[i] != no_node; };
-  const auto left = [&](std::size_t i) { return computed[i] * left_by_lamps(of_lamps[i]); };
+  const auto left = [&](std::size_t i) { return computed[i] * std::max(0.0, 1.0 - of_lamps[i]); };
   std::vector<double> mean(computed.size(), 0.0), mean_left(computed.size(), 0.0);  // of the leaves of each node that casts
   for (std::size_t i = 0; i < computed.size(); ++i) {
     if (!counts(i)) { continue; }

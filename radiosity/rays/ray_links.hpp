@@ -16,7 +16,6 @@
 // light change within it. The link of two such ancestors pools all the rays between them, and the places where they start give its
 // gradients. Rays are few for each node that casts and many for each link.
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -27,10 +26,6 @@
 #include <radiosity/scene/material.hpp>
 
 namespace radiosity {
-
-// What lamps leave of a row of form factors for other light. Never nothing, for no scale (Transport::scale_sampled) makes a row 0: under a
-// lamp that touches a surface rows sum up to 1 within the rounding of links.
-[[nodiscard]] inline double left_by_lamps(double of_lamps) { return std::max(1e-3, 1.0 - of_lamps); }
 
 struct RayLinks {
   Links links;

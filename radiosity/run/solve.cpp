@@ -40,10 +40,11 @@ HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run) {
   run.solution.ray_links = std::move(run.ray_links.links);
   run.transport->add_sampled(run.solution.ray_links);
   const std::vector<double> computed = run.transport->row_sums();
+  constexpr double least = 1e-3;  // under a lamp that touches a surface: no scale makes a row 0
   std::vector<double> wanted(computed.size(), 0.0);
-  for (std::size_t i = 0; i < wanted.size(); ++i) { wanted[i] = closed ? left_by_lamps(of_lamps[i]) : computed[i] - of_lamps[i]; }
+  for (std::size_t i = 0; i < wanted.size(); ++i) { wanted[i] = closed ? std::max(least, 1.0 - of_lamps[i]) : computed[i] - of_lamps[i]; }
   if (!closed) { wanted = made.row_sums(run.scene, wanted, of_lamps); }
-  run.solution.audit.ray_correction = run.transport->scale_sampled(wanted);
+  run.solution.audit.ray_correction = run.transport->scale_sampled(wanted, closed ? 16.0 : 4.0);
   return computed;
 }
 

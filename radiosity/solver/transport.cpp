@@ -156,7 +156,7 @@ HALFLIGHT_INLINE double Transport::root_mean_square(const std::vector<double>& s
   return total > 0.0 ? std::sqrt(square / total) : 0.0;
 }
 
-HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& wanted) {
+HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& wanted, double most) {
   Part& part = parts_.back();
   std::vector<double> power(wanted);
   for (std::size_t i = 0; i < power.size(); ++i) { power[i] *= exposure_->area[i]; }
@@ -165,7 +165,7 @@ HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& want
     y.assign(x.size(), 0.0);
     apply(part, x, y);
   };
-  const std::vector<double> scale = balance(apply_part, power, {.most = 16.0, .tolerance = 1e-6});
+  const std::vector<double> scale = balance(apply_part, power, {.most = most, .tolerance = 1e-6});
   std::vector<double> before, after;
   apply_part(std::vector<double>(power.size(), 1.0), before);
   apply_part(scale, after);

@@ -39,10 +39,10 @@ class Transport {
 
   // Adds links that were sampled, between patches, once. They must outlive the operator, which arranges them.
   void add_sampled(Links& links);
-  // Makes their row sums those of `rows`, one a node, read at the leaves, within 1e-6 (balance.hpp), with D between 1/16 and 16.
+  // Makes their row sums those of `rows`, one a node, read at the leaves, within 1e-6 (balance.hpp), with D between 1 / most and most.
   // Returns the area-weighted RMS by which their row sums changed, relative to the RMS of these: where an open scene has row sums near 0,
   // D may be far from 1 and change nothing.
-  double scale_sampled(const std::vector<double>& rows);
+  double scale_sampled(const std::vector<double>& rows, double most = 4.0);
 
   // Light on its way, of a node: what it sends (mean of B over its area, and of B (x - c)), or what arrives at it (irradiance at the
   // centroid c, and its gradient).
