@@ -154,7 +154,9 @@ TEST_CASE("the light vector gives Lambert's contour for every normal") {
   for (int trial = 0; trial < 50; ++trial) {
     const glm::dvec3 n = glm::normalize(glm::dvec3{uniform(engine), uniform(engine), 1.5});
     const glm::dvec3 a = x + 3.0 * n + glm::dvec3{uniform(engine), uniform(engine), 0.0};
-    const Polygon lamp = rectangle(a, glm::dvec3{-0.1, 0.4 + uniform(engine) * 0.3, 0.0}, glm::dvec3{1.0 + uniform(engine), 0.0, 0.1});
+    const glm::dvec3 along{-0.1, 0.4 + 0.3 * uniform(engine), 0.0};
+    const glm::dvec3 across{1.5 + 0.5 * uniform(engine), 0.0, 0.1};
+    const Polygon lamp = rectangle(a, along, across);  // all of it above the horizon, and turned to x
     const double expected = radiosity::point_to_polygon(x, n, lamp);
     CHECK(expected > 0.0);
     CHECK(std::abs(glm::dot(n, radiosity::light_vector(x, lamp)) - expected) < 1e-14);
