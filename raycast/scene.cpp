@@ -5,9 +5,11 @@
 #include <raycast/scene.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -80,11 +82,17 @@ HALFLIGHT_INLINE double Scene::ray_work() const {
     const glm::dvec3 d = box.hi - box.lo;
     return d.x * d.y + d.y * d.z + d.z * d.x;
   };
+  const auto key = [](const PlacedObject& object) {
+    const Box box = object.bounds();
+    return std::array<double, 6>{box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z};
+  };
+  std::map<std::array<double, 6>, std::uint32_t> at_place;
+  for (const PlacedObject& object : objects_) { ++at_place[key(object)]; }
   const double whole = surface(bounds_);
   double work = 1.0;
   for (const PlacedObject& object : objects_) {
-    // Faces that the search decides by itself cost next to nothing.
-    if (object.flat() && !object.inside()) { continue; }
+    // Faces that the search decides by itself cost next to nothing. It cannot tell faces that coincide, as of duplicates, from each other.
+    if (object.flat() && !object.inside() && at_place[key(object)] == 1) { continue; }
     work += object.object().work() * (whole > 0.0 && !object.inside() ? std::min(1.0, surface(object.bounds()) / whole) : 1.0);
   }
   return work;

@@ -228,3 +228,15 @@ TEST_CASE("far away: a scene moved by 1e5 sizes answers as at home") {
   }
   CHECK(differ == 0);
 }
+
+TEST_CASE("work of a ray: boxes cost next to nothing, unless they lie at one place, where each is asked") {
+  const auto work = [](int boxes, double apart) {
+    std::vector<PlacedObject> objects{placed(BoxObject::make({-1, -1, -1}, {60, 2, 2}), room())};
+    for (int i = 0; i < boxes; ++i) { objects.push_back(placed(BoxObject::make({i * apart, 0, 0}, {i * apart + 0.5, 1, 1}))); }
+    return Scene(std::move(objects)).ray_work();
+  };
+  CHECK(work(50, 1.0) == work(1, 1.0));
+  const double of_ten = work(10, 0.0) - work(1, 0.0);
+  CHECK(of_ten > 0.0);
+  CHECK(work(50, 0.0) - work(1, 0.0) == test::Approx(5.0 * of_ten));
+}
