@@ -15,7 +15,7 @@
 namespace radiosity {
 
 // Its RMS radiosity over the area of the input faces that are not buried, whose patches must be there, relative to their mean emission,
-// each in its brightest channel: to some 25 %, by 256 points and 256 rays as a rule, where little is lit by up to 4096 of each. Where none
+// each in its brightest channel: to some 10 %, by 256 points and 256 rays or more, where little is lit by up to 16384 of each. Where none
 // of them finds light, the share that so many might have missed.
 [[nodiscard]] double reflected_light(const DiscreteScene& scene, const PathTracer& tracer);
 

@@ -200,8 +200,8 @@ HALFLIGHT_INLINE std::vector<bool> buried_nodes(const std::vector<Surface>& surf
   for (std::size_t i = hierarchy.size(); i-- > 0;) {  // children come after their parents
     const Node& node = hierarchy[i];
     if (is_input_face(hierarchy, i)) {
-      buried[i] = covered[node.object] ||
-                  solids.hold(contour(surfaces, hierarchy, static_cast<std::uint32_t>(i)), node.radius * node.deviation + node.rim, node.object);
+      buried[i] = covered[node.object] || solids.hold(contour(surfaces, hierarchy, static_cast<std::uint32_t>(i)),
+                                                      node.radius * node.deviation + node.rim, node.object);
     } else if (node.is_cluster()) {
       buried[i] = true;
       for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { buried[i] = buried[i] && buried[c]; }

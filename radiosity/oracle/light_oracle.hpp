@@ -10,9 +10,10 @@
 // times 2 rho on the left where a patch reflects less than half, because what errs is what it reflects: the patch's share of the relative
 // L2 error where the reflected light is about as bright as the mean emission; where it is much darker, F-refinement hands in a smaller
 // epsilon (Fineness). F varies as the disk estimate does between the corners and the point nearest to the light, with the normals tilted by
-// the deviation of the patch from a curved object (linear between extremes: RMS = difference / sqrt 12); near a lamp that is long and narrow
-// it varies as F by the lamp's outline does. V is all or nothing at a point: RMS = sqrt(V (1 - V)). Of a cluster F is what the light shows to
-// the places in it, from the nearest to the farthest; how its faces are turned does not matter, because each applies its own cosine.
+// the deviation of the patch from a curved object (linear between extremes: RMS = difference / sqrt 12); near a lamp that is long and
+// narrow it varies as F by the lamp's outline does. V is all or nothing at a point: RMS = sqrt(V (1 - V)). Of a cluster F is what the light
+// shows to the places in it, from the nearest to the farthest; how its faces are turned does not matter, because each applies its own
+// cosine.
 
 #include <cstdint>
 #include <optional>

@@ -40,7 +40,8 @@ class Patches {
   // its contour by the bow of its border.
   [[nodiscard]] raycast::PatchShape shape(std::uint32_t i) const {
     const Node& node = (*hierarchy_)[i];
-    return {patches_[i].contour, node.object, node.radius * node.deviation + node.rim, node.surface - (*surfaces_)[node.object].first_surface};
+    return {patches_[i].contour, node.object, node.radius * node.deviation + node.rim,
+            node.surface - (*surfaces_)[node.object].first_surface};
   }
 
  private:
