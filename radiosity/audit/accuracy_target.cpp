@@ -75,7 +75,9 @@ HALFLIGHT_INLINE Outcome solve_to_error(const Options& options, bool of_picture,
                           "epsilon instead of an error"});
       }
       const bool gained = !best_error || !error || error->relative_l2 < 0.95 * best_error->relative_l2;
-      without_gain = gained ? 0 : without_gain + 1;
+      // Where noise hides the error nothing is known of it: a finer solution may cost a larger audit, which tells.
+      const bool hidden = error && error->low <= 0.0;
+      if (gained || !hidden) { without_gain = gained ? 0 : without_gain + 1; }
       // Finer where the error is: in the light of lamps, in the rest, or in both.
       const double direct = of_picture || !gained ? 0.5 : audit.direct_share.value_or(0.5);
       constexpr double step = 0.55;
