@@ -113,7 +113,7 @@ HALFLIGHT_INLINE bool Compiler::known(const Plane& plane) const {
 }
 
 HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& object, std::span<const glm::dvec3> outline,
-                                    const glm::dvec3& normal) {
+                                    const glm::dvec3& normal, Rays rays) {
   object_ = &object;
   index_ = index;
   const glm::dmat3& m = object.placement().linear;
@@ -135,6 +135,8 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
       out_.sheets.push_back(row(at.normal, -glm::dot(at.normal, out_.local(at.position))));
     }
   }
+  if (object.inside()) { out_.bounds.back() = {{-no_bound, -no_bound, -no_bound}, {no_bound, no_bound, no_bound}}; }
+  if (rays == Rays::pass) { return; }
   room_body_ = no_shape;
   const std::size_t before = items_.size();
   const std::uint32_t faces_before = face_count_;
@@ -146,7 +148,6 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
     object.object().compile(*this);
   }
   if (object.inside()) {
-    out_.bounds.back() = {{-no_bound, -no_bound, -no_bound}, {no_bound, no_bound, no_bound}};
     out_.rooms.push_back(index);
     out_.room_bodies.push_back(room_body_);
   } else if (items_.size() == before) {

@@ -53,7 +53,9 @@ class Compiler {
 
   // `skin` is at least every skin of the scene.
   Compiler(Compiled& out, const Box& bounds, double skin);
-  void add(std::uint32_t index, const PlacedObject& object, std::span<const glm::dvec3> outline, const glm::dvec3& normal);
+  enum class Rays { meet, pass };  // what they do at the object
+  void add(std::uint32_t index, const PlacedObject& object, std::span<const glm::dvec3> outline, const glm::dvec3& normal,
+           Rays rays = Rays::meet);
   // Arranges everything. Up to `loop_limit` shapes are a loop for occlusion; the first hit is always looked for in the tree.
   void finish(std::size_t loop_limit);  // wide_tree.hpp
 

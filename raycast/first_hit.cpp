@@ -109,7 +109,7 @@ HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, floa
   if (entries.complete) { return; }
   const Line line(ray);
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-    if (compiled_.roles[i] != Role::polygon && !objects_[i].inside()) { approach(line, search.source, i, nearest); }
+    if (compiled_.roles[i] != Role::polygon && !objects_[i].inside() && !left_out_[i]) { approach(line, search.source, i, nearest); }
   }
 }
 

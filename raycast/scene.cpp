@@ -35,10 +35,8 @@
 
 namespace raycast {
 
-HALFLIGHT_INLINE Scene::Scene(std::vector<PlacedObject> objects, Isa isa) : objects_(std::move(objects)), isa_(isa) {
-  // Up to here a loop over all is as fast as the tree. (tests/bench/rays)
-  constexpr std::size_t loop_limit = 64;
-  double touch = 0.0;
+HALFLIGHT_INLINE Scene::Scene(std::vector<PlacedObject> objects, Isa isa)
+    : objects_(std::move(objects)), left_out_(objects_.size()), isa_(isa) {
   records_.reserve(objects_.size());
   for (const PlacedObject& object : objects_) {
     Record record;
@@ -54,15 +52,29 @@ HALFLIGHT_INLINE Scene::Scene(std::vector<PlacedObject> objects, Isa isa) : obje
     record.touch = tol_contact * object.bounds().diameter();
     record.slack = object.slack();
     slack_ = std::max(slack_, record.slack);
-    touch = std::max(touch, record.touch);
     records_.push_back(record);
     bounds_.extend(object.bounds());
   }
   rounding_ = eps_surface * bounds_.magnitude();
+  compile();
+}
+
+HALFLIGHT_INLINE void Scene::leave_out(std::span<const std::uint32_t> copies) {
+  for (const std::uint32_t i : copies) { left_out_[i] = true; }
+  if (!copies.empty()) { compile(); }
+}
+
+HALFLIGHT_INLINE void Scene::compile() {
+  // Up to here a loop over all is as fast as the tree. (tests/bench/rays)
+  constexpr std::size_t loop_limit = 64;
+  double touch = 0.0;
+  for (const Record& record : records_) { touch = std::max(touch, record.touch); }
+  compiled_ = {}, walls_.clear(), first_wall_ = {0};
   Compiler compiler(compiled_, bounds_, rounding_ + 2 * slack_ + touch);
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
     const Record& r = records_[i];
-    compiler.add(i, objects_[i], std::span<const glm::dvec3>(corners_).subspan(r.first_corner, r.corner_count), r.normal);
+    const auto outline = std::span<const glm::dvec3>(corners_).subspan(r.first_corner, r.corner_count);
+    compiler.add(i, objects_[i], outline, r.normal, left_out_[i] ? Compiler::Rays::pass : Compiler::Rays::meet);
   }
   compiler.finish(loop_limit);
   for (const std::uint32_t room : compiled_.rooms) {
@@ -87,10 +99,14 @@ HALFLIGHT_INLINE double Scene::ray_work() const {
     return std::array<double, 6>{box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z};
   };
   std::map<std::array<double, 6>, std::uint32_t> at_place;
-  for (const PlacedObject& object : objects_) { ++at_place[key(object)]; }
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    if (!left_out_[i]) { ++at_place[key(objects_[i])]; }
+  }
   const double whole = surface(bounds_);
   double work = 1.0;
-  for (const PlacedObject& object : objects_) {
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    const PlacedObject& object = objects_[i];
+    if (left_out_[i]) { continue; }
     // Faces that the search decides by itself cost next to nothing. It cannot tell faces that coincide, as of duplicates, from each other.
     if (object.flat() && !object.inside() && at_place[key(object)] == 1) { continue; }
     work += object.object().work() * (whole > 0.0 && !object.inside() ? std::min(1.0, surface(object.bounds()) / whole) : 1.0);

@@ -62,6 +62,10 @@ class Scene {
   // Where surfaces coincide, or a back is met, the scene searches after all.
   void ask(OtherCaster caster) { other_ = std::move(caster); }
 
+  // From now on no ray meets these objects: each is the same surface at the same place as one that comes after it and is not left out.
+  // Their own points may be asked about as before.
+  void leave_out(std::span<const std::uint32_t> copies);
+
   [[nodiscard]] const PlacedObject& object(std::uint32_t i) const { return objects_[i]; }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(objects_.size()); }
   [[nodiscard]] const Box& bounds() const { return bounds_; }
@@ -145,6 +149,8 @@ class Scene {
     [[nodiscard]] bool clip(const Compiled& scene);
   };
 
+  void compile();
+
   struct Exact;
   struct ExactOne;
   struct Asker;
@@ -201,6 +207,7 @@ class Scene {
   void offer(const Segment& ray, const Hit& hit, Nearest& nearest) const;
 
   std::vector<PlacedObject> objects_;
+  std::vector<bool> left_out_;  // by object
   std::vector<Record> records_;
   std::vector<glm::dvec3> corners_;
   std::vector<Plane> walls_;                  // of the convex polyhedral rooms, normals inwards

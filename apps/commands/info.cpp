@@ -104,7 +104,10 @@ std::string plan(const radiosity::Scene& scene, const radiosity::Prepared& prepa
   for (const radiosity::LeftOut& item : plan.left_out) { out += "  " + item.what + ": " + item.why + "\n"; }
   const radiosity::RayChoice rays = radiosity::choose_rays(faces, lamps, lamps, {});
   const radiosity::ClusterChoice clusters = radiosity::choose_clusters(faces, {});
-  if (!rays.cast) { out += "  stored rays for the light between surfaces that do not shine: " + rays.reason + "\n"; }
+  if (!rays.cast) {
+    out += "  stored rays for the light between surfaces that do not shine: " + rays.reason +
+           (rays.few ? "; unless a run finds that lamps hide what they light most from the rest" : "") + "\n";
+  }
   if (rays.cast || !clusters.build) {
     out += "  clusters above the input faces: " + (rays.cast ? "light goes by stored rays" : clusters.reason) + "\n";
   }

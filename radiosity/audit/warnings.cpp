@@ -24,9 +24,9 @@
 #include <raycast/scene.hpp>
 #include <raycast/transform.hpp>
 
-#include <radiosity/hierarchy/buried.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/hierarchy/twins.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/parallel.hpp>
@@ -68,15 +68,16 @@ template <class Name>
 HALFLIGHT_INLINE std::vector<std::string> warnings(const Scene& scene, const Frame& frame, const std::vector<Surface>& surfaces) {
   std::vector<std::string> sentences;
   const auto name = [&](std::uint32_t o) { return "'" + scene.objects[o].name + "'"; };
-  const auto twins = detail::twins(surfaces);
-  if (twins.size() == 1) {
-    const auto& [a, b] = twins[0];
+  const auto pairs = twins(surfaces);
+  if (pairs.size() == 1) {
+    const auto& [a, b] = pairs[0];
     sentences.push_back("objects " + name(a) + " and " + name(b) + " are the same surface at the same place: duplicates; " + name(b) +
                         " is seen, being the later one, and " + name(a) + " is covered by it");
-  } else if (!twins.empty()) {
-    sentences.push_back(std::to_string(twins.size()) +
-                        " objects are duplicates, each covered by a later one that is the same surface at the same place: " +
-                        detail::first_of(twins.size(), [&](std::size_t k) { return name(twins[k][0]) + " by " + name(twins[k][1]); }));
+  } else if (!pairs.empty()) {
+    sentences.push_back(
+        std::to_string(pairs.size()) +
+        " objects are duplicates, left out of the rays: each is covered by a later one that is the same surface at the same place: " +
+        detail::first_of(pairs.size(), [&](std::size_t k) { return name(pairs[k][0]) + " by " + name(pairs[k][1]); }));
   }
   std::vector<std::uint32_t> open;
   std::size_t edges = 0;

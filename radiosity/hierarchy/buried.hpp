@@ -9,26 +9,12 @@
 // convex solid holds its corners, and all that finer patches can bulge, deeper than the tolerance of occlusion. Faces for which neither
 // is found are treated as visible: of curved solids those with gaps to the next that are narrower than the bulge of its chord patches.
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <vector>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 
 namespace radiosity {
-
-namespace detail {
-
-// Pairs (earlier, later) of objects whose surfaces are the same: each corner of one is a corner of the other, or lies on it when it is
-// curved, and the other way round, to 1e-9 of the size, and both face the same way. Compared are objects whose bounds agree to a millionth
-// of the scene. Each object is the earlier one of one pair at most; no more than `most` pairs are looked for.
-std::vector<std::array<std::uint32_t, 2>> twins(const std::vector<Surface>& surfaces,
-                                                std::size_t most = std::numeric_limits<std::size_t>::max());
-
-}  // namespace detail
 
 // Which input faces are proven to be buried, and which clusters have no other; by node. Time: n log n, and, among solids that hold each
 // other, up to 256 solids a face.

@@ -26,7 +26,7 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
-#include <radiosity/hierarchy/buried.hpp>
+#include <radiosity/hierarchy/twins.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 

@@ -18,6 +18,7 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/hierarchy/twins.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/visibility/plan.hpp>
@@ -60,6 +61,9 @@ struct PrepareResult {
     }
   }
   if (!sentences.empty()) { return {std::nullopt, std::move(sentences)}; }
+  std::vector<std::uint32_t> copies;
+  for (const auto& [earlier, later] : twins(prepared.surfaces)) { copies.push_back(earlier); }
+  prepared.objects.leave_out(copies);
   prepared.plan = make_plan(scene, prepared.surfaces, shortcuts);
   return {std::move(prepared), {}};
 }

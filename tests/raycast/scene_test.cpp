@@ -240,3 +240,49 @@ TEST_CASE("work of a ray: boxes cost next to nothing, unless they lie at one pla
   CHECK(of_ten > 0.0);
   CHECK(work(50, 0.0) - work(1, 0.0) == test::Approx(5.0 * of_ten));
 }
+
+TEST_CASE("copies that are left out change no answer, as sources of rays or beside them") {
+  SEEDED(random);
+  int hits = 0, blocked = 0;
+  for (int round = 0; round < 20; ++round) {
+    // Each object once, and some of them again at the end.
+    const std::vector<PlacedObject> once = clutter(random, round % 2 ? 10 : 60, 1.0);
+    std::vector<PlacedObject> twice = once;
+    std::vector<std::uint32_t> copies, last(once.size());
+    for (std::uint32_t i = 0; i < once.size(); ++i) {
+      last[i] = i;
+      const int more = static_cast<int>(random.below(3));
+      for (int k = 0; k < more; ++k) {
+        copies.push_back(last[i]);
+        last[i] = static_cast<std::uint32_t>(twice.size());
+        twice.push_back(once[i]);
+      }
+    }
+    const Scene single(once);
+    Scene without(twice);
+    without.leave_out(copies);
+    CHECK(without.ray_work() == test::Approx(single.ray_work()));
+    for (int i = 0; i < 500; ++i) {
+      const std::uint32_t owner = random.below(static_cast<std::uint32_t>(once.size()) + 1);
+      const bool free = owner == once.size();
+      dvec3 from = 1.2 * random.in_cube();
+      if (!free) {  // a point of the surface: where a line from far enters
+        const dvec3 inside = once[owner].bounds().centre(), away = 5.0 * random.direction();
+        Spans met;
+        once[owner].spans({inside + away, -away}, met);
+        if (met.empty()) { continue; }
+        from = inside + away - met[0].in.t * away;
+      }
+      const Segment ray = between(from, 1.2 * random.in_cube());
+      const std::optional<Hit> hit = single.closest(ray, free ? no_object : owner);
+      const std::optional<Hit> other = without.closest(ray, free ? no_object : last[owner]);
+      REQUIRE(other.has_value() == hit.has_value());
+      if (hit) { REQUIRE((other->t == hit->t && other->object == last[hit->object] && other->sheet == hit->sheet)); }
+      REQUIRE(without.occluded(ray, free ? no_object : last[owner]) == single.occluded(ray, free ? no_object : owner));
+      hits += hit ? 1 : 0;
+      blocked += single.occluded(ray, free ? no_object : owner) ? 1 : 0;
+    }
+  }
+  CHECK(hits > 1000);
+  CHECK(blocked > 1000);
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/hierarchy/twins.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/brep.hpp>
+#include <brep/builder_input.hpp>
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/hierarchy/surface.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// The bounds of an object to a millionth of the scene.
+struct Place {
+  std::array<double, 6> bounds;
+  std::uint32_t object;
+};
+
+// Of all objects, equal bounds beside each other.
+HALFLIGHT_INLINE std::vector<Place> sorted_places(const std::vector<Surface>& surfaces) {
+  std::vector<Place> places;
+  raycast::Box all;
+  for (const Surface& surface : surfaces) { all.extend(surface.object->bounds()); }
+  const double grid = 0x1p-20 * all.diameter();
+  for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
+    const raycast::Box& box = surfaces[o].object->bounds();
+    Place place{{}, o};
+    for (int k = 0; k < 3; ++k) {
+      place.bounds[static_cast<std::size_t>(k)] = std::round(box.lo[k] / grid);
+      place.bounds[static_cast<std::size_t>(k + 3)] = std::round(box.hi[k] / grid);
+    }
+    places.push_back(place);
+  }
+  std::sort(places.begin(), places.end(),
+            [](const Place& a, const Place& b) { return a.bounds != b.bounds ? a.bounds < b.bounds : a.object < b.object; });
+  return places;
+}
+
+// The corners of the faces with the normals of their sheets.
+HALFLIGHT_INLINE std::vector<raycast::SurfacePoint> corners(const Surface& surface) {
+  std::vector<raycast::SurfacePoint> points;
+  for (const brep::FaceId f : brep::faces(surface.brep)) {
+    const std::uint32_t sheet = surface.brep.data(f).sheet;
+    if (sheet == brep::no_sheet) { continue; }
+    for (const brep::HalfedgeId h : brep::halfedges_of(surface.brep, f)) {
+      const glm::dvec3& p = surface.brep.data(surface.brep.vertex(h)).position;
+      points.push_back({p, surface.object->project(sheet, p).normal});
+    }
+  }
+  return points;
+}
+
+// Is every corner of a one of b, or, when b is curved, on b? What is the same comes in the same order, as a rule.
+HALFLIGHT_INLINE bool lies_in(const Surface& a, const Surface& b) {
+  const raycast::PlacedObject& other = *b.object;
+  const double touch = 1e-9 * other.bounds().diameter() + other.slack() + a.object->slack();
+  const std::vector<raycast::SurfacePoint> of_a = corners(a);
+  const std::vector<raycast::SurfacePoint> of_b = other.exact() ? corners(b) : std::vector<raycast::SurfacePoint>{};
+  const std::size_t count = other.exact() ? of_b.size() : other.sheet_count();
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
+    bool found = false;
+    for (std::size_t k = 0; k < count && !found; ++k) {
+      const std::size_t j = (i + k) % count;
+      const auto q = other.exact() ? of_b[j] : other.project(static_cast<std::uint32_t>(j), of_a[i].position);
+      found = glm::length(q.position - of_a[i].position) <= touch && glm::dot(q.normal, of_a[i].normal) > 0.999;
+    }
+    if (!found) { return false; }
+  }
+  return true;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE std::vector<std::array<std::uint32_t, 2>> twins(const std::vector<Surface>& surfaces) {
+  const std::vector<detail::Place> places = detail::sorted_places(surfaces);
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  for (std::size_t first = 0; first < places.size();) {
+    std::size_t last = first + 1;
+    while (last < places.size() && places[last].bounds == places[first].bounds) { ++last; }
+    // Each with the next one that is its twin, among the 64 that follow: of many at one place each covers the one before.
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::size_t k = i + 1; k < std::min(last, i + 65); ++k) {
+        const std::uint32_t a = places[i].object;
+        const std::uint32_t b = places[k].object;
+        if (!detail::lies_in(surfaces[a], surfaces[b]) || !detail::lies_in(surfaces[b], surfaces[a])) { continue; }
+        pairs.push_back({a, b});
+        break;
+      }
+    }
+    first = last;
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+}  // namespace radiosity
