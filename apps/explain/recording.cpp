@@ -155,21 +155,25 @@ void record_iterations(Run& run, Recording& recording) {
   double start = 0.0;
   for (int n = 0; n < 12; ++n) {
     Iteration step;
-    std::vector<Moments> sent(nodes.size()), arrived(nodes.size());
     std::vector<double> power(nodes.size(), 0.0);
-    for (std::size_t i = nodes.size(); i-- > 0;) { transport.pull(i, b, sent); }
-    for (const radiosity::Link& link : run.solution.links) {
-      radiosity::Transport::carry(link, sent[link.p], arrived[link.q], link.shape_p.gradient(), link.shape_q.gradient());
-      radiosity::Transport::carry(link, sent[link.q], arrived[link.p], link.shape_q.gradient(), link.shape_p.gradient());
+    step.gathered.resize(nodes.size(), 0.0);
+    step.arrived.resize(nodes.size(), 0.0);
+    for (std::size_t part = 0; part < transport.parts(); ++part) {
+      std::vector<Moments> sent(nodes.size()), arrived(nodes.size());
+      for (std::size_t i = nodes.size(); i-- > 0;) { transport.pull(part, i, b, sent); }
+      for (const radiosity::Link& link : transport.links(part)) {
+        radiosity::Transport::carry(link, sent[link.p], arrived[link.q], link.shape_p.gradient(), link.shape_q.gradient());
+        radiosity::Transport::carry(link, sent[link.q], arrived[link.p], link.shape_q.gradient(), link.shape_p.gradient());
+      }
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (part == 0) { step.sent.push_back(sent[i].value); }
+        step.gathered[i] += area[i] > 0.0 ? arrived[i].value / area[i] : 0.0;
+      }
+      for (std::size_t i = 0; i < nodes.size(); ++i) { transport.push(part, i, arrived, power); }
+      for (std::size_t i = 0; i < nodes.size(); ++i) { step.arrived[i] += arrived[i].value; }
     }
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      step.sent.push_back(sent[i].value);
-      step.gathered.push_back(area[i] > 0.0 ? arrived[i].value / area[i] : 0.0);
-    }
-    for (std::size_t i = 0; i < nodes.size(); ++i) { transport.push(i, arrived, power); }
     double change = 0.0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      step.arrived.push_back(arrived[i].value);
       if (!nodes[i].leaf() || !(area[i] > 0.0)) { continue; }
       const double next = recording.emission[i] + recording.reflectance[i] * power[i] / area[i];
       change += area[i] * (next - b[i]) * (next - b[i]);

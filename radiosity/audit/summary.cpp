@@ -38,7 +38,7 @@ namespace radiosity {
 
 HALFLIGHT_INLINE void balance_energy(Audit& audit, const DiscreteScene& scene, Transport& transport, const std::vector<Color>& radiosity) {
   const Hierarchy& hierarchy = scene.hierarchy;
-  const std::vector<double>& area = scene.exposure.area;
+  const std::vector<double>& area = transport.area();
   const std::vector<double> rows = transport.row_sums();
   double emitted = 0.0;
   double absorbed = 0.0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <raycast/inline.hpp>
@@ -12,7 +13,7 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE LinkSchedule::LinkSchedule(std::size_t nodes, Links& links) {
+HALFLIGHT_INLINE LinkSchedule::LinkSchedule(std::size_t nodes, std::span<Link> links) {
   if (links.size() < few) {
     rounds_.push_back({{0, links.size()}});
     return;

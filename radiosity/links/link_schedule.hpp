@@ -12,11 +12,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <radiosity/hierarchy/links.hpp>
-#include <radiosity/support/big_array.hpp>
 
 namespace radiosity {
 
@@ -27,11 +27,12 @@ class LinkSchedule {
   };
 
   // Arranges the links, unless they are arranged.
-  LinkSchedule(std::size_t nodes, Links& links);
+  LinkSchedule(std::size_t nodes, std::span<Link> links);
 
-  // Moves the links of a block together, in their order. A record is a Link, or link_of(record) tells that of a larger one.
-  template <class Record>
-  static void arrange(std::size_t nodes, BigArray<Record>& links) {
+  // Moves the links of a block together, in their order, in an array or span of records: Link, or what link_of(record) tells one of.
+  template <class Array>
+  static void arrange(std::size_t nodes, Array& links) {
+    using Record = typename Array::value_type;
     if (links.size() < few) { return; }
     const std::vector<std::uint8_t> tile = tiles_of(nodes, links);
     const auto block = [&](const Record& record) { return block_of(tile, link_of(record)); };
@@ -58,10 +59,10 @@ class LinkSchedule {
   static constexpr std::size_t tiles = 16, few = 1 << 14;
 
   // Bounds between tiles lie where the running count of link ends passes a multiple of the mean.
-  template <class Record>
-  static std::vector<std::uint8_t> tiles_of(std::size_t nodes, const BigArray<Record>& links) {
+  template <class Array>
+  static std::vector<std::uint8_t> tiles_of(std::size_t nodes, const Array& links) {
     std::vector<std::uint32_t> ends(nodes, 0);
-    for (const Record& record : links) {
+    for (const auto& record : links) {
       ++ends[link_of(record).p];
       ++ends[link_of(record).q];
     }
@@ -78,10 +79,10 @@ class LinkSchedule {
     return std::max(a, b) * tiles + std::min(a, b);
   }
   // Where the links of each block begin, once they are arranged.
-  template <class Record>
-  static std::vector<std::size_t> first_of_blocks(const std::vector<std::uint8_t>& tile, const BigArray<Record>& links) {
+  template <class Array>
+  static std::vector<std::size_t> first_of_blocks(const std::vector<std::uint8_t>& tile, const Array& links) {
     std::vector<std::size_t> first(tiles * tiles + 1, 0);
-    for (const Record& record : links) { ++first[block_of(tile, link_of(record)) + 1]; }
+    for (const auto& record : links) { ++first[block_of(tile, link_of(record)) + 1]; }
     std::partial_sum(first.begin(), first.end(), first.begin());
     return first;
   }

@@ -21,9 +21,6 @@ struct RayChoice {
 // So many faces that shine are linked one by one. More of them take longer than clusters of them.
 inline constexpr std::uint64_t most_single_lamps = 64;
 
-// What shines at most so much brighter than all surfaces do in the mean is no lamp where faces that shine are many: rays find it.
-inline constexpr double least_lamp_contrast = 4.0;
-
 // Rays pay from so many input faces on: the links among fewer are soon made, and have no noise. Measured on rooms of 19 to 10 000 faces.
 inline constexpr std::uint64_t rays_from = 100;
 

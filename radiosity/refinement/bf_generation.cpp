@@ -24,6 +24,7 @@
 #include <radiosity/refinement/bf_refine.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/f_refine.hpp>
+#include <radiosity/refinement/lamps.hpp>
 #include <radiosity/refinement/leaf_error.hpp>
 #include <radiosity/refinement/link_error.hpp>
 #include <radiosity/scene/options.hpp>
@@ -83,9 +84,9 @@ HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
   Links links(scene.budget.arrays);  // packed, for the operator
   links.reserve(state.links.size());
   for (const MeasuredLink& l : state.links) { links.push_back(l.link); }
-  Transport transport{scene.hierarchy, links, scene.exposure, scene.threads};
+  Transport transport{scene.hierarchy, links, scene.exposure, scene.threads, scene.plan.closed ? lamp_nodes(scene) : std::vector<bool>{}};
   if (scene.plan.closed) { (void)transport.close(10.0, 1e-3); }
-  const ColorSolution light = solve_channels(transport, scene.exposure.area, surface_light(scene), {Solver::conjugate_gradients, 1e-3, 40});
+  const ColorSolution light = solve_channels(transport, transport.area(), surface_light(scene), {Solver::conjugate_gradients, 1e-3, 40});
   LeafErrors leaves = estimate_leaf_errors(scene, links, light.radiosity);
   BfErrors errors;
   errors.links = estimate_link_errors({std::nullopt, leaves.alike()}, scene, state.links, light.radiosity);

@@ -23,6 +23,7 @@
 #include <radiosity/hierarchy/wall_cuts.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/refinement/lamps.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
@@ -34,22 +35,6 @@
 namespace radiosity {
 
 namespace detail {
-
-// Of each input surface: does it shine far brighter than all do in the mean? In the open the mean is that over the box around the scene:
-// rays seldom meet what is small in it.
-[[nodiscard]] HALFLIGHT_INLINE std::vector<bool> choose_lamps(const DiscreteScene& scene) {
-  double area = 0.0;
-  double power = 0.0;
-  for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {
-    if (!is_input_face(scene.hierarchy, i)) { continue; }
-    area += scene.hierarchy[i].area;
-    power += scene.hierarchy[i].area * brightest(scene.emission[scene.hierarchy[i].surface]);
-  }
-  area = std::max(area, 2.0 * scene.objects.bounds().half_area());
-  std::vector<bool> lamps;
-  for (const Color& emission : scene.emission) { lamps.push_back(brightest(emission) * area > least_lamp_contrast * power); }
-  return lamps;
-}
 
 // Input faces.
 [[nodiscard]] HALFLIGHT_INLINE std::uint64_t faces_that_shine(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
@@ -99,7 +84,7 @@ HALFLIGHT_INLINE std::optional<Failure> build(detail::Run& run) {
   }
   if (run.needs_links()) { run.rays = choose_rays(faces, lamps, uncut_lamps, options); }
   if (run.rays.many_lamps) {
-    scene.lamps = detail::choose_lamps(scene);
+    scene.lamps = choose_lamps(scene);
     if (std::find(scene.lamps.begin(), scene.lamps.end(), true) != scene.lamps.end()) {
       std::vector<double> exitance(scene.lamps.size(), 0.0);
       for (std::size_t s = 0; s < exitance.size(); ++s) { exitance[s] = scene.lamps[s] ? brightest(scene.emission[s]) : 0.0; }

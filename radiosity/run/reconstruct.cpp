@@ -27,7 +27,7 @@ HALFLIGHT_INLINE std::optional<Failure> reconstruct(detail::Run& run) {
   run.t_vertices = (!constant || !scene.plan.shortcuts) && eliminate_t_vertices(scene.surfaces) > 0;
   if (options.error && !scene.control.picture_error && run.f_refined()) {  // one step from E
     const ColorSolution once =
-        solve_channels(*run.transport, scene.exposure.area, surface_light(scene), {Solver::jacobi, options.residual, 1});
+        solve_channels(*run.transport, run.transport->area(), surface_light(scene), {Solver::jacobi, options.residual, 1});
     run.direct = run.picture(once.radiosity, options.reconstruction);
   }
   run.solution.mesh = run.picture(run.solution.radiosity, options.reconstruction);

@@ -17,6 +17,7 @@
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/rays/ray_links.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/refinement/lamps.hpp>
 #include <radiosity/refinement/link_error.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
@@ -36,14 +37,18 @@ namespace detail {
 HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run) {
   const bool closed = run.scene.plan.closed;
   const RayLinks& made = run.ray_links;
+  if (closed) { run.transport->scale_lamps(); }
   const std::vector<double> of_lamps = run.transport->row_sums();
   run.solution.ray_links = std::move(run.ray_links.links);
   run.transport->add_sampled(run.solution.ray_links);
   const std::vector<double> computed = run.transport->row_sums();
-  constexpr double least = 1e-3;  // under a lamp that touches a surface: no scale makes a row 0
-  std::vector<double> wanted(computed.size(), 0.0);
-  for (std::size_t i = 0; i < wanted.size(); ++i) { wanted[i] = closed ? std::max(least, 1.0 - of_lamps[i]) : computed[i] - of_lamps[i]; }
-  if (!closed) { wanted = made.row_sums(run.scene, wanted, of_lamps); }
+  std::vector<double> wanted;
+  if (closed) {
+    wanted = run.transport->left_by_lamps();
+  } else {
+    for (std::size_t i = 0; i < computed.size(); ++i) { wanted.push_back(computed[i] - of_lamps[i]); }
+    wanted = made.row_sums(run.scene, wanted, of_lamps);
+  }
   run.solution.audit.ray_correction = run.transport->scale_sampled(wanted, closed ? 16.0 : 4.0);
   return computed;
 }
@@ -53,7 +58,8 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
   const DiscreteScene& scene = run.scene;
   Solution& solution = run.solution;
   Audit& audit = run.solution.audit;
-  Transport& transport = run.transport.emplace(scene.hierarchy, solution.links, scene.exposure, scene.threads);
+  Transport& transport = run.transport.emplace(scene.hierarchy, solution.links, scene.exposure, scene.threads,
+                                               scene.plan.closed ? lamp_nodes(scene) : std::vector<bool>{});
   const std::vector<double>& area = scene.exposure.area;
   audit.computed_row_sum = summarise_rows(scene.hierarchy, area, run.rays.cast ? add_ray_links(run) : transport.row_sums());
   if (scene.plan.closed && solution.links.size() + solution.ray_links.size() > 0) {
@@ -72,7 +78,7 @@ HALFLIGHT_INLINE void solve_system(Run& run) {
   const DiscreteScene& scene = run.scene;
   Audit& audit = run.solution.audit;
   const auto solve_by = [&](Solver solver, const Control& until) {
-    return solve_channels(*run.transport, scene.exposure.area, surface_light(scene),
+    return solve_channels(*run.transport, run.transport->area(), surface_light(scene),
                           {solver, run.options.residual, run.options.max_iterations}, until);
   };
   ColorSolution solved = solve_by(run.options.solver, scene.control);

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -23,20 +25,48 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE Transport::Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads)
-    : hierarchy_{&hierarchy}, exposure_{&exposure}, threads_{threads} {
-  parts_.emplace_back(hierarchy, links);
+HALFLIGHT_INLINE Transport::Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads,
+                                      std::vector<bool> lamps)
+    : hierarchy_{&hierarchy}, exposure_{&exposure}, threads_{threads}, area_{exposure.area} {
+  std::span<Link> rest{links};
+  if (!lamps.empty()) {
+    const auto of_lamp = [&](const Link& link) { return lamps[link.p] != lamps[link.q]; };
+    const auto end = std::partition(links.begin(), links.end(), of_lamp);
+    if (end != links.begin()) {
+      const std::span<Link> own = rest.first(static_cast<std::size_t>(end - links.begin()));
+      parts_.emplace_back(hierarchy, own);
+      rest = rest.subspan(own.size());
+      keep_lamps(std::move(lamps));
+    }
+  }
+  if (parts_.empty() || !rest.empty()) { parts_.emplace_back(hierarchy, rest); }
   while (above_ < hierarchy.size() && (hierarchy[above_].is_cluster() || is_input_face(hierarchy, above_))) { ++above_; }
   for (std::size_t i = 0; i < above_; ++i) { clusters_ += hierarchy[i].is_cluster() ? 1 : 0; }
   if (clusters_ == 0) { above_ = 0; }
 }
 
-HALFLIGHT_INLINE Transport::Part::Part(const Hierarchy& hierarchy, Links& of)
-    : links{&of}, schedule{hierarchy.size(), of}, scale(hierarchy.size(), 1.0) {
+HALFLIGHT_INLINE void Transport::keep_lamps(std::vector<bool> lamps) {
+  lamps_ = std::move(lamps);
+  lamp_cluster_.assign(lamps_.size(), no_node);
+  for (std::uint32_t i = 0; i < lamps_.size(); ++i) {
+    const Node& node = (*hierarchy_)[i];
+    if (node.parent != no_node && lamp_cluster_[node.parent] != no_node) {
+      lamp_cluster_[i] = lamp_cluster_[node.parent];
+    } else if (lamps_[i] && node.is_cluster()) {
+      lamp_cluster_[i] = i;
+    }
+  }
+}
+
+HALFLIGHT_INLINE Transport::Part::Part(const Hierarchy& hierarchy, std::span<Link> of)
+    : links{of}, schedule{hierarchy.size(), of}, scale(hierarchy.size(), 1.0) {
   for (const auto& round : schedule.rounds()) { round_sizes.push_back(round.size()); }
 }
 
-HALFLIGHT_INLINE void Transport::add_sampled(Links& links) { parts_.emplace_back(*hierarchy_, links); }
+HALFLIGHT_INLINE void Transport::add_sampled(Links& links) {
+  parts_.emplace_back(*hierarchy_, links);
+  ++sampled_;
+}
 
 HALFLIGHT_INLINE void Transport::Moments::divide(double area) {  // a node that is buried carries nothing
   const double factor = area > 0.0 ? 1.0 / area : 0.0;
@@ -46,22 +76,23 @@ HALFLIGHT_INLINE void Transport::Moments::divide(double area) {  // a node that 
 
 HALFLIGHT_INLINE void Transport::apply(const std::vector<double>& x, std::vector<double>& y) {
   y.assign(x.size(), 0.0);
-  for (const Part& part : parts_) { apply(part, x, y); }
+  for (std::size_t part = 0; part < parts_.size(); ++part) { apply(part, x, y); }
 }
 
-HALFLIGHT_INLINE void Transport::apply(const Part& part, const std::vector<double>& x, std::vector<double>& y) {
+HALFLIGHT_INLINE void Transport::apply(std::size_t number, const std::vector<double>& x, std::vector<double>& y) {
+  const Part& part = parts_[number];
   sent_.resize(x.size());
   arrived_.assign(x.size(), {});
   sent_bins_.assign(clusters_ * direction_count, 0.0);
   arrived_bins_.assign(clusters_ * direction_count, 0.0);
   for (std::size_t i = x.size(); i-- > 0;) {
-    if (!is_cluster(i)) { pull(i, x, part.scale, sent_); }
+    if (!is_cluster(i)) { pull(number, i, x, sent_); }
     if (i < above_) { gather_into_cluster(i); }
   }
   parallel_rounds(part.round_sizes, threads_, [&](std::size_t round, std::size_t b) {
     const LinkSchedule::Block block = part.schedule.rounds()[round][b];
     for (std::size_t k = block.begin; k < block.end; ++k) {
-      const Link& link = (*part.links)[k];
+      const Link& link = part.links[k];
       if (is_cluster(link.p) || is_cluster(link.q)) {
         const double from_p = sent_by(link.p, link.shape_p);
         const double from_q = sent_by(link.q, link.shape_q);
@@ -75,21 +106,16 @@ HALFLIGHT_INLINE void Transport::apply(const Part& part, const std::vector<doubl
   });
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (i < above_) { hand_out_from_cluster(i); }
-    if (!is_cluster(i)) { push(i, part.scale, arrived_, y); }
+    if (!is_cluster(i)) { push(number, i, arrived_, y); }
   }
 }
 
-HALFLIGHT_INLINE void Transport::pull(std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const {
-  pull(i, x, parts_.front().scale, sent);
-}
-
-HALFLIGHT_INLINE void Transport::pull(std::size_t i, const std::vector<double>& x, const std::vector<double>& scale,
-                                      std::vector<Moments>& sent) const {
+HALFLIGHT_INLINE void Transport::pull(std::size_t part, std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const {
   const Node& node = (*hierarchy_)[i];
   const std::vector<glm::dvec3>& centroid = exposure_->centroid;
   Moments own;
   if (node.leaf()) {
-    own.value = exposure_->area[i] > 0.0 ? x[i] * scale[i] : 0.0;
+    own.value = exposure_->area[i] > 0.0 ? x[i] * parts_[part].scale[i] : 0.0;
   } else {
     for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
       own.value += exposure_->area[c] * sent[c].value;
@@ -107,17 +133,12 @@ HALFLIGHT_INLINE void Transport::carry(const Link& link, const Moments& from, Mo
   to.slope += exchange * from.value * gradient_to;
 }
 
-HALFLIGHT_INLINE void Transport::push(std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const {
-  push(i, parts_.front().scale, arrived, y);
-}
-
-HALFLIGHT_INLINE void Transport::push(std::size_t i, const std::vector<double>& scale, std::vector<Moments>& arrived,
-                                      std::vector<double>& y) const {
+HALFLIGHT_INLINE void Transport::push(std::size_t part, std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const {
   const Node& node = (*hierarchy_)[i];
   const std::vector<glm::dvec3>& centroid = exposure_->centroid;
   Moments& own = arrived[i];  // of a child, its parent has divided it
   if (node.parent == no_node || is_cluster(node.parent)) { own.divide(exposure_->area[i]); }
-  if (node.leaf()) { y[i] += own.value * exposure_->area[i] * scale[i]; }
+  if (node.leaf()) { y[i] += own.value * exposure_->area[i] * parts_[part].scale[i]; }
   for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
     arrived[c].divide(exposure_->area[c]);
     arrived[c].value += own.value + glm::dot(own.slope, centroid[c] - centroid[i]);
@@ -127,72 +148,124 @@ HALFLIGHT_INLINE void Transport::push(std::size_t i, const std::vector<double>& 
 
 HALFLIGHT_INLINE std::vector<double> Transport::row_sums() {
   std::vector<double> rows(hierarchy_->size(), 0.0);
-  for (const Part& part : parts_) {
+  for (std::size_t part = 0; part < parts_.size(); ++part) {
     const std::vector<double> more = row_sums(part);
     for (std::size_t i = 0; i < rows.size(); ++i) { rows[i] += more[i]; }
   }
   return rows;
 }
 
-HALFLIGHT_INLINE std::vector<double> Transport::row_sums(const Part& part) {
+HALFLIGHT_INLINE std::vector<double> Transport::row_sums(std::size_t part) {
   std::vector<double> y(hierarchy_->size(), 0.0);
   apply(part, std::vector<double>(hierarchy_->size(), 1.0), y);
   for (std::size_t i = 0; i < y.size(); ++i) {
-    const bool counts = (*hierarchy_)[i].leaf() && exposure_->area[i] > 0.0;
-    y[i] = counts ? y[i] / exposure_->area[i] : 0.0;
+    const bool counts = (*hierarchy_)[i].leaf() && area_[i] > 0.0;
+    y[i] = counts ? y[i] / area_[i] : 0.0;
   }
   return y;
 }
 
-HALFLIGHT_INLINE double Transport::root_mean_square(const std::vector<double>& scale) const {
-  const std::vector<double>& area = exposure_->area;
+HALFLIGHT_INLINE void Transport::scale_lamps() {
+  if (lamps_.empty()) { return; }
+  const std::vector<double> of_lamps = row_sums(std::size_t{0});
+  std::vector<double> of_others(of_lamps.size(), 0.0);
+  for (std::size_t part = 1; part < parts_.size(); ++part) {
+    const std::vector<double> rows = row_sums(part);
+    for (std::size_t i = 0; i < rows.size(); ++i) { of_others[i] += rows[i]; }
+  }
+  std::vector<double> power(of_lamps.size(), 0.0);  // of each lamp, at the leaf or at the cluster
+  std::vector<double> wanted(power);
+  const auto lamp = [&](std::size_t i) { return lamp_cluster_[i] == no_node ? i : lamp_cluster_[i]; };
+  for (std::size_t i = 0; i < of_lamps.size(); ++i) {
+    if (!lamps_[i] || !(*hierarchy_)[i].leaf()) { continue; }
+    power[lamp(i)] += area_[i] * of_lamps[i];
+    wanted[lamp(i)] += area_[i] * (1.0 - of_others[i]);
+  }
+  for (std::size_t i = 0; i < of_lamps.size(); ++i) {
+    if (!lamps_[i]) { continue; }
+    const double is = power[lamp(i)], be = wanted[lamp(i)], scale = is > 0.0 && be > 0.0 ? std::clamp(be / is, 0.5, 2.0) : 1.0;
+    parts_[0].scale[i] *= scale;
+    if (lamp_cluster_[i] != no_node && (*hierarchy_)[i].leaf()) { area_[i] *= scale * of_lamps[i] + of_others[i]; }
+  }
+}
+
+HALFLIGHT_INLINE void Transport::scale(std::size_t number, const std::vector<double>& rows, double most) {
+  std::vector<double> power(rows);
+  for (std::size_t i = 0; i < power.size(); ++i) { power[i] *= area_[i]; }
+  // Row sums that no scale brings about, of a patch that sees little else than one other, would drive scales towards 0 and infinity.
+  const auto apply_part = [&](const std::vector<double>& x, std::vector<double>& y) {
+    y.assign(x.size(), 0.0);
+    apply(number, x, y);
+  };
+  parts_[number].scale = balance(apply_part, power, {.most = most, .tolerance = 1e-6});
+}
+
+HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& wanted, double most) {
+  const std::size_t part = parts_.size() - 1;
+  const std::vector<double> before = row_sums(part);
+  scale(part, wanted, most);
+  const std::vector<double> after = row_sums(part);
+  double correction = 0.0;
+  double all = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    correction += area_[i] * (after[i] - before[i]) * (after[i] - before[i]);
+    all += area_[i] * after[i] * after[i];
+  }
+  return all > 0.0 ? std::sqrt(correction / all) : 0.0;
+}
+
+HALFLIGHT_INLINE std::vector<double> Transport::left_by_lamps() {
+  constexpr double least = 1e-3;  // under a lamp that touches a surface: no scale makes a row 0
+  std::vector<double> left(hierarchy_->size(), 1.0);
+  for (std::size_t part = 0; part + 1 < parts_.size(); ++part) {
+    const std::vector<double> rows = row_sums(part);
+    for (std::size_t i = 0; i < left.size(); ++i) { left[i] -= rows[i]; }
+  }
+  for (double& l : left) { l = std::max(least, l); }
+  return left;
+}
+
+HALFLIGHT_INLINE double Transport::root_mean_square(const std::vector<std::vector<double>>& rows,
+                                                    const std::vector<std::vector<double>>& scales) const {
   double square = 0.0;
   double total = 0.0;
-  for (std::size_t i = 0; i < scale.size(); ++i) {
+  for (std::size_t i = 0; i < hierarchy_->size(); ++i) {
     if (!(*hierarchy_)[i].leaf()) { continue; }
-    square += area[i] * (scale[i] - 1.0) * (scale[i] - 1.0);
-    total += area[i];
+    double sum = 0.0;
+    double change = 0.0;
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+      sum += rows[part][i];
+      change += rows[part][i] * (parts_[part].scale[i] / scales[part][i] - 1.0);
+    }
+    if (sum > 0.0) { square += area_[i] * (change / sum) * (change / sum); }
+    total += area_[i];
   }
   return total > 0.0 ? std::sqrt(square / total) : 0.0;
 }
 
-HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& wanted, double most) {
-  Part& part = parts_.back();
-  std::vector<double> power(wanted);
-  for (std::size_t i = 0; i < power.size(); ++i) { power[i] *= exposure_->area[i]; }
-  // Row sums that no scale brings about, of a patch that sees little else than one other, would drive scales towards 0 and infinity.
-  const auto apply_part = [&](const std::vector<double>& x, std::vector<double>& y) {
-    y.assign(x.size(), 0.0);
-    apply(part, x, y);
-  };
-  const std::vector<double> scale = balance(apply_part, power, {.most = most, .tolerance = 1e-6});
-  std::vector<double> before, after;
-  apply_part(std::vector<double>(power.size(), 1.0), before);
-  apply_part(scale, after);
-  double correction = 0.0;
-  double all = 0.0;
-  for (std::size_t i = 0; i < scale.size(); ++i) {
-    const double area = exposure_->area[i];
-    if (!(*hierarchy_)[i].leaf() || !(area > 0.0)) { continue; }
-    const double row = scale[i] * after[i] / area;
-    correction += area * (row - before[i] / area) * (row - before[i] / area);
-    all += area * row * row;
-  }
-  part.scale = scale;
-  return all > 0.0 ? std::sqrt(correction / all) : 0.0;
-}
-
 HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tolerance) {
+  std::vector<std::vector<double>> rows, scales;
+  std::vector<double> area = area_;
+  for (std::size_t part = 0; part < parts_.size(); ++part) {
+    rows.push_back(row_sums(part));
+    scales.push_back(parts_[part].scale);
+  }
+  if (!lamps_.empty() && sampled_ == 0 && parts_.size() > 1) {
+    scale_lamps();
+    scale(parts_.size() - 1, left_by_lamps(), 16.0);
+  }
   std::vector<double> power(hierarchy_->size(), 0.0);
-  for (std::size_t i = 0; i < power.size(); ++i) { power[i] = (*hierarchy_)[i].leaf() ? exposure_->area[i] : 0.0; }
+  for (std::size_t i = 0; i < power.size(); ++i) { power[i] = (*hierarchy_)[i].leaf() ? area_[i] : 0.0; }
   const std::vector<double> scale =
       balance([&](const std::vector<double>& x, std::vector<double>& y) { apply(x, y); }, power, {.tolerance = tolerance});
-  const double rms = root_mean_square(scale);
-  if (!(rms <= limit)) { return std::nullopt; }
   for (Part& part : parts_) {
     for (std::size_t i = 0; i < scale.size(); ++i) { part.scale[i] *= scale[i]; }
   }
-  return rms;
+  const double rms = root_mean_square(rows, scales);
+  if (rms <= limit) { return rms; }
+  for (std::size_t part = 0; part < parts_.size(); ++part) { parts_[part].scale = std::move(scales[part]); }
+  area_ = std::move(area);
+  return std::nullopt;
 }
 
 HALFLIGHT_INLINE void Transport::gather_into_cluster(std::size_t i) {

@@ -10,16 +10,18 @@
 // what arrives from there to its faces by what they show of themselves to it: P has one row for each direction of each cluster, and
 // the link of a cluster picks the three rows around the direction of its other end.
 //
-// Links that were sampled by rays (rays/ray_links.hpp) are a second part, M = M_links + M_rays: what their noise does to the row sums is
-// taken out of them alone.
+// The links come in parts, M = M_1 + M_2 + ...: those of lamps, which are known best, all others, and those that were sampled by rays
+// (rays/ray_links.hpp). What is wrong with the row sums is taken out of the parts that cause it: the noise of rays out of them alone, and
+// light that counts as arriving from behind a lamp not out of the light of the lamp.
 //
 // In matrix form each part is D P' G P D with P the pull, G the symmetric links, P' the transpose of P, and a diagonal D that is
-// 1 unless the scene is closed: there D makes every row sum exactly what a closed scene demands.
+// 1 unless the scene is closed: there the D make every row sum exactly what a closed scene demands.
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -34,8 +36,9 @@ namespace radiosity {
 
 class Transport {
  public:
-  // The references must outlive the operator. Arranges the links (link_schedule.hpp).
-  Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads = 1);
+  // The references must outlive the operator. Arranges the links (link_schedule.hpp). `lamps` are the nodes that count as lamps: the links
+  // with one end in them are a part of their own.
+  Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads = 1, std::vector<bool> lamps = {});
 
   // Adds links that were sampled, between patches, once. They must outlive the operator, which arranges them.
   void add_sampled(Links& links);
@@ -43,6 +46,12 @@ class Transport {
   // Returns the area-weighted RMS by which their row sums changed, relative to the RMS of these: where an open scene has row sums near 0,
   // D may be far from 1 and change nothing.
   double scale_sampled(const std::vector<double>& rows, double most = 4.0);
+  // What all parts but the last leave of the row sums of a closed scene.
+  [[nodiscard]] std::vector<double> left_by_lamps();
+  // Of a closed scene, before its other links are scaled: makes the row sums of lamps 1 by a scale of theirs, which other surfaces do not
+  // have. A cluster of lamps has one for all its faces, since which of them lights what near it is not known: a face then counts for the area
+  // that its links give it (area()). Without lamps nothing is done.
+  void scale_lamps();
 
   // Light on its way, of a node: what it sends (mean of B over its area, and of B (x - c)), or what arrives at it (irradiance at the
   // centroid c, and its gradient).
@@ -57,27 +66,33 @@ class Transport {
   void apply(const std::vector<double>& x, std::vector<double>& y);
 
   // The three steps of apply(), for those who go through the scene in another order.
-  // What node i sends, from the radiosity of a leaf or from what its children send.
-  void pull(std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const;
+  // What node i sends by a part, from the radiosity of a leaf or from what its children send.
+  void pull(std::size_t part, std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const;
   // What one end of a link sends, added to what arrives at the other, times its area.
   static void carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& gradient_from, const glm::dvec3& gradient_to);
-  // Adds what arrived at node i, by links and from its parent, to its children or, for a leaf, to y. Parents first.
-  void push(std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const;
+  // Adds what arrived at node i, by the links of a part and from its parent, to its children or, for a leaf, to y. Parents first.
+  void push(std::size_t part, std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const;
 
   [[nodiscard]] const Hierarchy& hierarchy() const { return *hierarchy_; }
-  [[nodiscard]] const Links& links() const { return *parts_.front().links; }  // that were not sampled
+  // One part after the other, those that were sampled last.
+  [[nodiscard]] std::size_t parts() const { return parts_.size(); }
+  [[nodiscard]] std::span<const Link> links(std::size_t part) const { return parts_[part].links; }
   template <class Visit>
   void each_link(const Visit& visit) const {
-    for (const Part& part : parts_) { std::for_each(part.links->begin(), part.links->end(), visit); }
+    for (const Part& part : parts_) { std::for_each(part.links.begin(), part.links.end(), visit); }
   }
+
+  // Of each node the area for which its light counts: what is exposed, but within clusters of lamps in closed scenes.
+  [[nodiscard]] const std::vector<double>& area() const { return area_; }
 
   // What each leaf sees of the scene: the sum of its form factors. 1 in a closed scene. Inner nodes hold 0.
   [[nodiscard]] std::vector<double> row_sums();
 
   // Closes a scene that is proven closed: finds D with all row sums 1, within the tolerance (symmetric scaling, van Leersum 1989; see
   // balance.hpp), so that what quadrature and sampled visibility got wrong in the rows does not grow by rho / (1 - rho) in the solution.
-  // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS of D - 1, or nothing, and no D, when that
-  // is beyond `limit`: then something other than quadrature and sampling is wrong.
+  // Beside lamps the others are scaled first, to what the lamps leave of 1, and the D of all is near 1.
+  // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS of D - 1, the mean over the parts by what they carry,
+  // or nothing, and no D, when that is beyond `limit`: then something other than quadrature and sampling is wrong.
   std::optional<double> close(double limit, double tolerance = 1e-12);
 
  private:
@@ -92,27 +107,33 @@ class Transport {
   [[nodiscard]] double sent_by(std::uint32_t i, const EndShape& shape);
   void arrive_at(std::uint32_t i, const EndShape& shape, double power);
 
-  struct Part {
-    Part(const Hierarchy& hierarchy, Links& links);
+  void keep_lamps(std::vector<bool> lamps);
 
-    const Links* links;
+  struct Part {
+    Part(const Hierarchy& hierarchy, std::span<Link> links);
+
+    std::span<const Link> links;
     LinkSchedule schedule;
     std::vector<std::size_t> round_sizes;
     std::vector<double> scale;  // D, at the leaves
   };
   // Adds to y what arrives over the links of a part.
-  void apply(const Part& part, const std::vector<double>& x, std::vector<double>& y);
-  void pull(std::size_t i, const std::vector<double>& x, const std::vector<double>& scale, std::vector<Moments>& sent) const;
-  void push(std::size_t i, const std::vector<double>& scale, std::vector<Moments>& arrived, std::vector<double>& y) const;
-  [[nodiscard]] std::vector<double> row_sums(const Part& part);
-  // The area-weighted RMS of D - 1.
-  [[nodiscard]] double root_mean_square(const std::vector<double>& scale) const;
+  void apply(std::size_t part, const std::vector<double>& x, std::vector<double>& y);
+  [[nodiscard]] std::vector<double> row_sums(std::size_t part);
+  // Scales the links of a part to these row sums, as far as scales between 1 / most and most go.
+  void scale(std::size_t part, const std::vector<double>& rows, double most);
+  // The area-weighted RMS by which the scales of all parts differ from those given, the mean by what the parts carried.
+  [[nodiscard]] double root_mean_square(const std::vector<std::vector<double>>& rows, const std::vector<std::vector<double>>& scales) const;
 
   const Hierarchy* hierarchy_;
   const Exposure* exposure_;
   unsigned threads_;
+  std::vector<double> area_;                 // by node, see area()
+  std::vector<bool> lamps_;                  // nodes; none where lamps have no part of their own, which is the first
+  std::vector<std::uint32_t> lamp_cluster_;  // of each node the largest cluster of lamps that holds it, or no_node; likewise
   std::vector<Part> parts_;
-  std::size_t above_ = 0;  // clusters and input faces, when there are clusters
+  std::size_t sampled_ = 0;  // parts
+  std::size_t above_ = 0;    // clusters and input faces, when there are clusters
   std::size_t clusters_ = 0;
   std::vector<Moments> sent_, arrived_;           // scratch of apply(), kept because it is asked for many times
   std::vector<double> sent_bins_, arrived_bins_;  // of the clusters, direction by direction

@@ -29,29 +29,38 @@ class TreeTransport {
   // From now on the tree sends what its leaves radiate by x.
   void send(std::uint32_t tree, const std::vector<double>& x) {
     const auto all = nodes_[tree];
-    for (std::size_t k = all.size(); k-- > 0;) { transport_->pull(all[k], x, sent_); }
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+      for (std::size_t k = all.size(); k-- > 0;) { transport_->pull(part, all[k], x, parts_[part].sent); }
+    }
   }
   // Writes into y what arrives at the leaves of the tree from what all trees send.
   void gather(std::uint32_t tree, std::vector<double>& y);
   // Brings what this tree sends to the nodes at the other ends of its links, and tells reached(tree, power) of each.
   template <class Reached>
   void shoot(std::uint32_t tree, const Reached& reached) {
-    const auto carry = [&](const Link& link, std::uint32_t from, std::uint32_t to, const EndShape& at_from, const EndShape& at_to) {
-      const double before = arrived_[to].value;
-      Transport::carry(link, sent_[from], arrived_[to], at_from.gradient(), at_to.gradient());
-      reached(tree_[to], arrived_[to].value - before);
-    };
-    for (const std::uint32_t l : links_[tree]) {
-      const Link& link = transport_->links()[l];
-      if (tree_[link.p] == tree) { carry(link, link.p, link.q, link.shape_p, link.shape_q); }
-      if (tree_[link.q] == tree) { carry(link, link.q, link.p, link.shape_q, link.shape_p); }
+    for (std::size_t number = 0; number < parts_.size(); ++number) {
+      Part& part = parts_[number];
+      const auto carry = [&](const Link& link, std::uint32_t from, std::uint32_t to, const EndShape& at_from, const EndShape& at_to) {
+        const double before = part.arrived[to].value;
+        Transport::carry(link, part.sent[from], part.arrived[to], at_from.gradient(), at_to.gradient());
+        reached(tree_[to], part.arrived[to].value - before);
+      };
+      for (const std::uint32_t l : part.links[tree]) {
+        const Link& link = transport_->links(number)[l];
+        if (tree_[link.p] == tree) { carry(link, link.p, link.q, link.shape_p, link.shape_q); }
+        if (tree_[link.q] == tree) { carry(link, link.q, link.p, link.shape_q, link.shape_p); }
+      }
     }
   }
   // Writes into y what has been shot at the leaves of the tree since the last call.
   void receive(std::uint32_t tree, std::vector<double>& y) { collect(tree, y); }
 
   // What it costs to gather into the tree, or to receive and shoot: its nodes and the ends of links.
-  [[nodiscard]] std::size_t work(std::uint32_t tree) const { return nodes_[tree].size() + links_[tree].size(); }
+  [[nodiscard]] std::size_t work(std::uint32_t tree) const {
+    std::size_t work = nodes_[tree].size();
+    for (const Part& part : parts_) { work += part.links[tree].size(); }
+    return work;
+  }
 
  private:
   // Numbers in groups: all numbers one group after the other, and where each group begins.
@@ -77,13 +86,18 @@ class TreeTransport {
     std::vector<std::uint32_t> numbers_;
   };
 
+  struct Part {
+    Groups links;                                   // of each tree
+    std::vector<Transport::Moments> sent, arrived;  // arrived: shot and not yet received
+  };
+
   // Pushes what has arrived at the nodes of a tree into y and leaves nothing behind.
   void collect(std::uint32_t tree, std::vector<double>& y);
 
   const Transport* transport_;
-  std::vector<std::uint32_t> tree_;                 // of each node
-  Groups nodes_, links_;                            // of each tree
-  std::vector<Transport::Moments> sent_, arrived_;  // arrived_: shot and not yet received
+  std::vector<std::uint32_t> tree_;  // of each node
+  Groups nodes_;                     // of each tree
+  std::vector<Part> parts_;          // as those of the operator
 };
 
 }  // namespace radiosity
