@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -52,6 +53,10 @@ HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, 
     boundaries.push_back(std::move(*made.surface));
   }
   direct_ = DirectLight{objects(), boundaries, emission, {.bodies = true}};
+  for (std::uint32_t s = 0; s < emission.size(); ++s) {
+    if (!direct_.is_lamp(s) && !is_black(materials_[s].reflectance)) { emission[s] = Color{0.0}; }
+  }
+  spots_ = BrightSpots{lookup_, direct_, emission};
 }
 
 HALFLIGHT_INLINE FinalGather::Met FinalGather::met(const raycast::Hit& hit, const raycast::Segment& ray) const {
@@ -140,53 +145,119 @@ HALFLIGHT_INLINE LitRegion FinalGather::lit_region(std::span<const Place> places
   return {direct_, {contour, first.object, bulge}, flat ? n : glm::dvec3{0.0}};
 }
 
+namespace detail {
+
+// Rays to bright spots, for each even one: sixteen after every 64.
+inline constexpr double aimed_rays = 0.25;
+
+}  // namespace detail
+
+HALFLIGHT_INLINE FinalGather::Arriving FinalGather::arriving(const Sender& sender, const Met& found) const {
+  const std::uint32_t surface = lookup_.surface(found.object, found.sheet);
+  const Color lamp = direct_.is_lamp(surface) ? materials_[surface].emission : Color{0.0};
+  if (is_black(materials_[surface].reflectance)) { return {materials_[surface].emission - lamp}; }
+  const std::optional<Lookup::Found> light = lookup_.find(found.object, found.sheet, found.point);
+  if (!light) { return {}; }
+  Arriving result{light->radiosity - lamp};
+  if (!sender.aimed || !light->within) { return result; }
+  const double density = sender.spots.density(surface, light->triangle);
+  if (density > 0.0) {
+    const glm::dvec3 d = found.point.position - sender.from;
+    const double here = glm::dot(d, sender.place.point.normal), there = -glm::dot(d, found.point.normal);
+    const double square = glm::dot(d, d);
+    if (here > 0.0 && there > 0.0) { result.aimed = density * std::numbers::pi * square * square / (here * there); }
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const {
+  const double reach = objects().diameter();
+  raycast::Segments16 segments;
+  for (unsigned k = 0; k < 16; ++k) {
+    const std::array<double, 4> u = sequence(first + k);
+    segments.set(k, {sender.from, reach * cosine_direction(sender.place.point.normal, u[0], u[1])}, sender.owner, raycast::no_object,
+                 sender.sheet);
+  }
+  const raycast::Hits16 hits = direct_.objects().closest16(segments);
+  for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
+    const auto k = static_cast<unsigned>(std::countr_zero(rest));
+    const raycast::Hit& hit = hits.hit[k];
+    sum.nearness += 1.0 / std::max(hit.t * reach, 1e-6);
+    if (!hit.front) { continue; }
+    const Arriving found = arriving(sender, met(hit, segments.at(k)));
+    sum.add(first / 16 % 4, found.light / (1.0 + detail::aimed_rays * found.aimed));
+  }
+}
+
+HALFLIGHT_INLINE unsigned FinalGather::cast_at_spots(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const {
+  const double reach = objects().diameter();
+  raycast::Segments16 segments;
+  std::array<BrightSpots::Target, 16> targets;
+  unsigned arrived = 0;
+  for (unsigned k = 0; k < 16; ++k) {
+    targets[k] = sender.spots.choose(sequence(first + k));
+    const glm::dvec3 d = targets[k].point.position - sender.from;
+    if (!(glm::dot(d, sender.place.point.normal) > 0.0) || !(glm::dot(d, targets[k].point.normal) < 0.0)) { continue; }
+    segments.set(k, {sender.from, reach * glm::normalize(d)}, sender.owner, raycast::no_object, sender.sheet);
+  }
+  if (segments.lanes == 0) { return 0; }
+  const raycast::Hits16 hits = direct_.objects().closest16(segments);
+  for (std::uint32_t rest = hits.met & segments.lanes; rest != 0; rest &= rest - 1) {
+    const auto k = static_cast<unsigned>(std::countr_zero(rest));
+    const raycast::Hit& hit = hits.hit[k];
+    if (!hit.front || direct_.whole(hit.object) != targets[k].object) { continue; }
+    const Met found = met(hit, segments.at(k));
+    const glm::dvec3 off = found.point.position - targets[k].point.position, d = targets[k].point.position - sender.from;
+    if (found.sheet != targets[k].sheet || glm::dot(off, off) > 1e-6 * glm::dot(d, d)) { continue; }
+    const Arriving light = arriving(sender, found);
+    if (!(light.aimed > 0.0)) { continue; }
+    sum.add(k / 4, light.light / (1.0 + detail::aimed_rays * light.aimed));
+    ++arrived;
+  }
+  return arrived;
+}
+
+HALFLIGHT_INLINE double FinalGather::irradiance_solved(const Place& place) const {
+  const Material& material = materials_[place.surface];
+  const Color reflected = solved(place).value_or(material.emission) - material.emission;
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    if (material.reflectance[k] > 0.0) { sum += reflected[k] / material.reflectance[k]; }
+  }
+  return sum;
+}
+
 HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error,
                                                              std::uint64_t key) const {
-  const Sobol4 sequence{1, key};
-  const double reach = objects().diameter();
+  const Sobol4 sequence{1, key}, aiming{2, key};
   const double lift = direct_.lift(place.object);
-  const glm::dvec3 from = place.point.position + lift * place.point.normal;
-  const std::uint32_t owner = lift > 0.0 ? raycast::no_object : place.object;
-  const std::uint32_t sheet = place.surface - lookup_.surface(place.object, 0);
-  Color sum{0.0};
-  std::array<double, 4> part{};  // of the rays, by fours of sixteen: their spread is the standard error
-  double nearness = 0.0;
+  // Whether rays go to the spots is asked first, and again when sixteen have told how much of the spots is hidden. Each ray is weighed by
+  // what was known before it was cast, so the mean of all stays unbiased.
+  Sender sender{place,
+                place.point.position + lift * place.point.normal,
+                lift > 0.0 ? raycast::no_object : place.object,
+                place.surface - lookup_.surface(place.object, 0),
+                {spots_, place.point}};
+  const double solved_light = spots_.empty() ? 0.0 : irradiance_solved(place);
+  sender.aimed = !spots_.empty() && sender.spots.stand_out(solved_light);
+  Sum sum;
   std::uint32_t rays = 0;
-  const auto mean_of_parts = [&] { return (part[0] + part[1] + part[2] + part[3]) / 4.0; };
+  const auto mean_of_parts = [&] { return (sum.part[0] + sum.part[1] + sum.part[2] + sum.part[3]) / 4.0; };
   const auto variance_of_mean = [&] {
     const double mean = mean_of_parts();
     double squares = 0.0;
-    for (const double p : part) { squares += (p - mean) * (p - mean) / 12.0; }
+    for (const double p : sum.part) { squares += (p - mean) * (p - mean) / 12.0; }
     return squares;
   };
   const auto exact_enough = [&] { return variance_of_mean() <= error * error * mean_of_parts() * mean_of_parts(); };
   for (; rays < least || (rays < most && (rays % 64 != 0 || !exact_enough())); rays += 16) {
-    raycast::Segments16 segments;
-    for (unsigned k = 0; k < 16; ++k) {
-      const std::array<double, 4> u = sequence(rays + k);
-      segments.set(k, {from, reach * cosine_direction(place.point.normal, u[0], u[1])}, owner, raycast::no_object, sheet);
-    }
-    const raycast::Hits16 hits = direct_.objects().closest16(segments);
-    const Color before = sum;
-    for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
-      const auto k = static_cast<unsigned>(std::countr_zero(rest));
-      const raycast::Hit& hit = hits.hit[k];
-      nearness += 1.0 / std::max(hit.t * reach, 1e-6);
-      if (!hit.front) { continue; }
-      const Met found = met(hit, segments.at(k));
-      const std::uint32_t surface = lookup_.surface(found.object, found.sheet);
-      const Color lamp = direct_.is_lamp(surface) ? materials_[surface].emission : Color{0.0};
-      if (is_black(materials_[surface].reflectance)) {
-        sum += materials_[surface].emission - lamp;
-        continue;
-      }
-      if (const std::optional<Color> light = lookup_.at(found.object, found.sheet, found.point)) { sum += *light - lamp; }
-    }
-    const Color added = sum - before;
-    part[rays / 16 % 4] += added.x + added.y + added.z;
+    cast_evenly(sender, sequence, rays, sum);
+    if (!sender.aimed || rays % 64 != 48) { continue; }
+    const double arrived = cast_at_spots(sender, aiming, rays / 64 * 16, sum);
+    if (rays == 48) { sender.aimed = sender.spots.stand_out(solved_light, arrived / 16.0); }
   }
   const double all = rays;
-  return {sum / all, 16.0 * variance_of_mean() / (all * all), nearness / all};
+  return {sum.light / all, 16.0 * variance_of_mean() / (all * all), sum.nearness / all};
 }
 
 }  // namespace radiosity

@@ -5,7 +5,8 @@
 // light by one more gathering of the solution, along rays (Reichert 1992; final gather). So the mesh is only looked at from afar, where
 // what it smears over a leaf is averaged out; edges of shadows and what lies in a corner do not depend on the size of its leaves.
 //
-// What shines and is no lamp of DirectLight is found by the rays.
+// What shines and is no lamp of DirectLight is found by the rays. Where small spots are much brighter than all else, some rays are aimed at
+// these (bright_spots.hpp).
 
 #include <array>
 #include <cstdint>
@@ -22,11 +23,13 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/lit_region.hpp>
+#include <radiosity/picture/bright_spots.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/support/sobol.hpp>
 
 namespace radiosity {
 
@@ -86,9 +89,41 @@ class FinalGather {
   };
   [[nodiscard]] Met met(const raycast::Hit& hit, const raycast::Segment& ray) const;
 
+  // The rays of a point.
+  struct Sender {
+    const Place& place;
+    glm::dvec3 from{0.0};
+    std::uint32_t owner = raycast::no_object, sheet = 0;
+    BrightSpots::From spots;
+    bool aimed = false;  // some of its rays go to the spots
+  };
+  // What rays found, in the unit of an even one.
+  struct Sum {
+    Color light{0.0};
+    std::array<double, 4> part{};  // of the rays, by fours of sixteen: their spread is the standard error
+    double nearness = 0.0;
+    void add(std::size_t p, const Color& more) {
+      light += more;
+      part[p] += more.x + more.y + more.z;
+    }
+  };
+  // The light that comes along a ray, and the probability of its direction when a spot is aimed at, in that of an even ray.
+  struct Arriving {
+    Color light{0.0};
+    double aimed = 0.0;
+  };
+  [[nodiscard]] Arriving arriving(const Sender& sender, const Met& found) const;
+  // Sixteen rays each, from number `first` of the sequence on.
+  void cast_evenly(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const;
+  // Returns how many of its sixteen rays arrive.
+  unsigned cast_at_spots(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const;
+  // What the solution says of a place: the sum of the channels that it reflects.
+  [[nodiscard]] double irradiance_solved(const Place& place) const;
+
   Lookup lookup_;
   std::vector<Material> materials_;  // of the input surfaces
   DirectLight direct_;
+  BrightSpots spots_;
 };
 
 }  // namespace radiosity

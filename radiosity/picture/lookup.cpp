@@ -88,7 +88,8 @@ HALFLIGHT_INLINE Color Lookup::blend(const Triangle& triangle, const glm::dvec3&
   return sum;
 }
 
-HALFLIGHT_INLINE std::optional<Color> Lookup::at(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const {
+HALFLIGHT_INLINE std::optional<Lookup::Found> Lookup::find(std::uint32_t object, std::uint32_t sheet,
+                                                           const raycast::SurfacePoint& place) const {
   const Sheet& on = sheets_[first_sheet_[object] + sheet];
   const glm::dvec3& point = place.position;
   // Of several triangles one that faces the same way, and of these the nearer one: the far side of a thin solid, and beyond a crease, is
@@ -115,7 +116,7 @@ HALFLIGHT_INLINE std::optional<Color> Lookup::at(std::uint32_t object, std::uint
   });
   if (best != nullptr) {
     const glm::dvec3 weight = glm::max(foot.weight, 0.0);
-    return blend(*best, weight / (weight.x + weight.y + weight.z));
+    return Found{blend(*best, weight / (weight.x + weight.y + weight.z)), static_cast<std::uint32_t>(best - on.triangles.data()), true};
   }
   const auto nearest = raycast::nearest(on.tree, point, [&](std::uint32_t i) {
     const ChordTriangle flat = chord(on.triangles[i]);
@@ -125,7 +126,7 @@ HALFLIGHT_INLINE std::optional<Color> Lookup::at(std::uint32_t object, std::uint
   });
   if (!nearest) { return std::nullopt; }
   const Triangle& triangle = on.triangles[*nearest];
-  return blend(triangle, nearest_in_triangle(chord(triangle).position, point));
+  return Found{blend(triangle, nearest_in_triangle(chord(triangle).position, point)), *nearest, false};
 }
 
 HALFLIGHT_INLINE std::optional<Color> Lookup::seen(const glm::dvec3& eye, const glm::dvec3& direction) const {

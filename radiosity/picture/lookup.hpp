@@ -11,6 +11,7 @@
 // the corners is farthest away. A point in no prism (beyond the chord of a cap's rim) takes the nearest point of the mesh.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -45,7 +46,24 @@ class Lookup {
   }
 
   // At a place of the sheet of which the normal is known.
-  [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const;
+  [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const {
+    const std::optional<Found> found = find(object, sheet, place);
+    return found ? std::optional(found->radiosity) : std::nullopt;
+  }
+
+  struct Found {
+    Color radiosity{0.0};
+    std::uint32_t triangle = 0;  // of the input surface
+    bool within = false;         // it stands for the place; else it is the nearest
+  };
+  [[nodiscard]] std::optional<Found> find(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const;
+
+  // The triangles of an input surface, in the frame.
+  [[nodiscard]] std::size_t triangle_count(std::uint32_t surface) const { return sheets_[surface].triangles.size(); }
+  [[nodiscard]] ChordTriangle triangle(std::uint32_t surface, std::uint32_t k) const { return chord(sheets_[surface].triangles[k]); }
+  [[nodiscard]] Color mean(std::uint32_t surface, std::uint32_t k) const {
+    return blend(sheets_[surface].triangles[k], glm::dvec3{1.0 / 3.0});
+  }
 
   [[nodiscard]] const raycast::Scene& objects() const { return objects_; }  // in the frame
   [[nodiscard]] const Frame& frame() const { return frame_; }

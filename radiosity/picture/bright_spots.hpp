@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Small surfaces that reflect far more light than others do: the ceiling above a lamp, a sill in the sun, the inside of a housing. Of the
+// rays that a point sends out evenly a few meet such a spot, or none does, so what they say of its light is noise: blotches in a picture.
+// Here a point can choose points of the spots instead, by the light that it may get from them, and tell how likely a choice was; both ways
+// are then combined by the balance heuristic (Veach and Guibas 1995).
+//
+// The spots are triangles of the solution's mesh, in groups: from a point each group is as likely as the light that it sends there though
+// nothing stood between, each triangle of it by its power, each point of a triangle alike.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/object.hpp>
+
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/scene/material.hpp>
+
+namespace radiosity {
+
+class BrightSpots {
+ public:
+  // None.
+  BrightSpots() = default;
+  // Of what a solution shows, but for `apart`: by input surface, light that is found in other ways. Objects for which meshes stand in where
+  // rays are cast (direct_light.hpp) have no spots: what is met is not quite what was aimed at. `lookup` must outlive this.
+  BrightSpots(const Lookup& lookup, const DirectLight& direct, std::span<const Color> apart);
+
+  [[nodiscard]] bool empty() const { return groups_.empty(); }
+
+  struct Target {
+    raycast::SurfacePoint point;
+    std::uint32_t object = 0, sheet = 0;
+  };
+
+  // What a point of a surface sees of them.
+  class From {
+   public:
+    From(const BrightSpots& spots, const raycast::SurfacePoint& point);
+    // Is what even rays find of the spots so uneven that its root mean square over rays is more than `light`, the irradiance at the point
+    // (sums of channels, W/m2)? `visible`: the share of the spots that nothing hides, where that is known.
+    [[nodiscard]] bool stand_out(double light, double visible = 1.0) const;
+    // A point of the spots, by numbers in (0, 1). They must stand out.
+    [[nodiscard]] Target choose(const std::array<double, 4>& numbers) const;
+    // The probability by area with which that chooses points of this triangle of an input surface; 0 where it is no spot.
+    [[nodiscard]] double density(std::uint32_t surface, std::uint32_t triangle) const;
+
+   private:
+    const BrightSpots* spots_;
+    std::vector<double> until_;  // by group: of the light of the spots, what comes from it and those before it, W/m2
+    double square_ = 0.0;        // mean square of what even rays find of the spots, though nothing hides them
+    double factor_ = 0.0;        // share of these rays that meet one
+  };
+
+ private:
+  struct Spot {
+    std::uint32_t object = 0, sheet = 0, triangle = 0;
+    std::uint32_t group = 0;
+    glm::dvec3 middle{0.0}, normal{0.0};
+    double area = 0.0, power = 0.0;  // of the true surface; the power is the sum of its channels
+    double until = 0.0;              // power of it and of those of its group that stand before it
+  };
+  struct Group {
+    std::uint32_t first = 0, last = 0;    // spots
+    glm::dvec3 middle{0.0}, normal{0.0};  // means by power; the normal is shorter than 1 where theirs differ
+    double radius = 0.0, power = 0.0;     // RMS distance from the middle
+    double radiosity = 0.0;               // mean by power, sum of channels
+  };
+  // Cuts the group whose light differs most from one of its spots to the next in two, until groups are many.
+  void make_groups();
+  // Sorts the spots of a group where they differ most, by place or by normal. Returns the first of the second part.
+  [[nodiscard]] std::uint32_t cut(const Group& group);
+  [[nodiscard]] Group group_of(std::uint32_t first, std::uint32_t last) const;
+
+  const Lookup* lookup_ = nullptr;
+  std::vector<Spot> spots_;  // by group
+  std::vector<Group> groups_;
+  std::vector<std::vector<std::uint32_t>> spot_of_;  // by input surface and triangle: number of the spot, or none
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/picture/bright_spots.cpp>
+#endif
