@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -186,6 +187,11 @@ HALFLIGHT_INLINE void Transport::scale_lamps() {
     const double is = power[lamp(i)], be = wanted[lamp(i)], scale = is > 0.0 && be > 0.0 ? std::clamp(be / is, 0.5, 2.0) : 1.0;
     parts_[0].scale[i] *= scale;
     if (lamp_cluster_[i] != no_node && (*hierarchy_)[i].leaf()) { area_[i] *= scale * of_lamps[i] + of_others[i]; }
+  }
+  for (std::size_t i = area_.size(); i-- > 0;) {
+    const Node& node = (*hierarchy_)[i];
+    if (lamp_cluster_[i] == no_node || node.leaf()) { continue; }
+    area_[i] = std::accumulate(&area_[node.first_child], &area_[node.first_child] + node.child_count, 0.0);
   }
 }
 
