@@ -87,7 +87,9 @@ template <class Measured>
     }
     if (seen->noise_share < 1.0 / 32.0 && paths > 4) { paths /= 4; }
     const auto most = std::max(static_cast<double>(least), static_cast<double>(rays) / rays_a_point);
-    const double anyhow = std::min(most, static_cast<double>(goal.rays_anyhow) / rays_a_point);
+    // A pilot in which a few points outshine all others knows little of either mean.
+    const bool uneven = seen->equal_points < std::min(16.0, static_cast<double>(sums(pilot).square.size()) / 4.0);
+    const double anyhow = uneven ? most : std::min(most, static_cast<double>(goal.rays_anyhow) / rays_a_point);
     points = static_cast<std::uint64_t>(std::clamp(needed, std::max(static_cast<double>(least), anyhow), most));
     break;
   }
