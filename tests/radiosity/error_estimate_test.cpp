@@ -104,8 +104,8 @@ TEST_CASE("intervals hold the true error where few points are as bright as all o
       held += estimate->low <= rms_of_uneven && rms_of_uneven <= estimate->high ? 1 : 0;
     }
     CAPTURE(spread, held);
-    // Errors of this kind are skewed beyond what 100 points show, and the brightest points are mostly not among them: that costs up to a tenth
-    // of the intervals. Where the points counted as equally bright, 720 were right at a spread of 2, and 570 at 3.
+    // Errors of this kind are skewed beyond what 100 points show, and the brightest points are mostly not among them: that costs up to a
+    // tenth of the intervals. Where the points counted as equally bright, 720 were right at a spread of 2, and 570 at 3.
     CHECK(held >= 0.8 * trials);
   }
 }
