@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <numbers>
 
 #include <glm/geometric.hpp>
 
 #include <raycast/box.hpp>
 
+#include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 
 #include "apps/bounds.hpp"
@@ -49,8 +52,22 @@ View make_view(const Camera& camera, const PictureSize& size) {
   return view;
 }
 
+namespace {
+
+// All of the scene; but a lamp far outside, as a sky behind windows, is not shown when it would make all else less than half as large.
+raycast::Box worth_seeing(const radiosity::Scene& scene) {
+  const auto shines = [&](std::uint32_t material) { return !radiosity::is_black(scene.materials[material].emission); };
+  radiosity::Scene things;
+  std::copy_if(scene.objects.begin(), scene.objects.end(), std::back_inserter(things.objects),
+               [&](const radiosity::SceneObject& object) { return !std::all_of(object.material.begin(), object.material.end(), shines); });
+  const raycast::Box all = scene_bounds(scene), rest = scene_bounds(things);
+  return !things.objects.empty() && all.diameter() > 2.0 * rest.diameter() ? rest : all;
+}
+
+}  // namespace
+
 Camera automatic_camera(const radiosity::Scene& scene) {
-  const raycast::Box bounds = scene_bounds(scene);
+  const raycast::Box bounds = worth_seeing(scene);
   Camera camera;
   camera.name = "automatic";
   camera.field_of_view = 40.0;

@@ -36,7 +36,8 @@ struct View {
 [[nodiscard]] View make_view(const Camera& camera, const PictureSize& size);
 
 // Looks at the whole scene from outside, slightly from above (z is up). Back faces are not drawn, so this looks into a
-// room as into a doll's house. Depends on nothing but the bounds of the scene.
+// room as into a doll's house. A lamp far outside, beside which all else would look less than half as large, is left out
+// of the view. Depends on nothing but bounds, and on what shines.
 [[nodiscard]] Camera automatic_camera(const radiosity::Scene& scene);
 
 }  // namespace apps

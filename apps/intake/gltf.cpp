@@ -155,7 +155,6 @@ class GltfReader {
     std::string fault;
     const auto positions = data_->numbers(primitive["attributes"]["POSITION"], 3, fault);
     const auto given = positions && primitive["indices"] ? data_->numbers(primitive["indices"], 1, fault) : std::nullopt;
-    if (!fault.empty() && fault.find("sparse") != std::string::npos) { return pass_over(fault + ": left out", place); }
     if (!fault.empty()) { return error(primitive.offset(), fault); }
     const auto material = primitive["material"].index();
     if (primitive["material"] && (!material || *material >= default_material_)) {

@@ -133,6 +133,59 @@ std::optional<std::string> GltfData::picture(std::size_t image) {
   return name && side_file_ ? side_file_(*name, fault) : std::nullopt;
 }
 
+bool GltfData::elements(const Elements& at, std::vector<double>& out, std::string& fault) {
+  const auto fail = [&](std::string sentence) {
+    fault = std::move(sentence);
+    return false;
+  };
+  const auto or_zero = [](const JsonValue& value) { return value.index().value_or(0); };
+  const auto type = component_type(at.component_type);
+  if (!type) { return fail(at.who + ": the type of numbers is missing"); }
+  const JsonValue& view = root_["bufferViews"][at.place["bufferView"].index().value_or(~std::size_t{0})];
+  if (!view) { return fail(at.who + " names a view that does not exist"); }
+  const auto bytes = buffer(view["buffer"].index().value_or(~std::size_t{0}), fault);
+  if (!bytes) { return false; }
+  const std::size_t element = type->size * at.components, stride = view["byteStride"] ? or_zero(view["byteStride"]) : element;
+  const std::size_t begin = or_zero(view["byteOffset"]), length = or_zero(view["byteLength"]), first = or_zero(at.place["byteOffset"]);
+  if (begin > bytes->size() || length > bytes->size() - begin) { return fail(at.who + ": its view reaches beyond its buffer"); }
+  // All are below 2^32, so nothing overflows.
+  if (at.count > 0 && (stride < element || first + (at.count - 1) * stride + element > length)) {
+    return fail(at.who + " reaches beyond its view");
+  }
+  out.reserve(at.count * at.components);
+  for (std::size_t i = 0; i < at.count; ++i) {
+    const char* const number = bytes->data() + begin + first + i * stride;
+    for (std::size_t k = 0; k < at.components; ++k) { out.push_back(number_at(number + k * type->size, *type, at.normalized)); }
+  }
+  return true;
+}
+
+bool GltfData::substitute(const JsonValue& sparse, Elements at, std::vector<double>& numbers, std::string& fault) {
+  const std::string who = at.who;
+  const JsonValue &indices = sparse["indices"], &values = sparse["values"];
+  const std::size_t elements_before = at.count;
+  at.count = sparse["count"].index().value_or(0);
+  if (at.count > elements_before) {
+    fault = who + " substitutes more elements than it has";
+    return false;
+  }
+  std::vector<double> index, value;
+  if (!elements({who + ", its indices", indices, indices["componentType"], at.count, 1, false}, index, fault) ||
+      !elements({who + ", its values", values, at.component_type, at.count, at.components, at.normalized}, value, fault)) {
+    return false;
+  }
+  for (std::size_t i = 0; i < at.count; ++i) {
+    if (!(index[i] >= 0.0 && index[i] < static_cast<double>(elements_before))) {
+      fault = who + " substitutes an element that it does not have";
+      return false;
+    }
+    for (std::size_t k = 0; k < at.components; ++k) {
+      numbers[static_cast<std::size_t>(index[i]) * at.components + k] = value[i * at.components + k];
+    }
+  }
+  return true;
+}
+
 std::optional<std::vector<double>> GltfData::numbers(const JsonValue& accessor_index, std::size_t components, std::string& fault) {
   const auto fail = [&](std::string sentence) {
     fault = std::move(sentence);
@@ -142,38 +195,22 @@ std::optional<std::vector<double>> GltfData::numbers(const JsonValue& accessor_i
   const JsonValue& accessor = root_["accessors"][index.value_or(~std::size_t{0})];
   if (!accessor) { return fail("there is no such accessor"); }
   const std::string who = "accessor " + std::to_string(*index);
-  if (accessor["sparse"]) { return fail(who + " is sparse, which is not read"); }
-  const auto type = component_type(accessor["componentType"]);
   constexpr std::array<std::string_view, 4> names{"SCALAR", "VEC2", "VEC3", "VEC4"};
-  if (!type || accessor["type"].string() != names[components - 1]) {
+  if (!component_type(accessor["componentType"]) || accessor["type"].string() != names[components - 1]) {
     return fail(who + " is not of the type " + std::string(names[components - 1]) + " that stands here");
   }
   const auto count = accessor["count"].index();
   if (!count) { return fail(who + " has no count"); }
-  if (!accessor["bufferView"]) {
-    if (*count > most_zeros) { return fail(who + " has no bytes"); }
-    return std::vector<double>(*count * components, 0.0);
-  }
-  const JsonValue& view = root_["bufferViews"][accessor["bufferView"].index().value_or(~std::size_t{0})];
-  if (!view) { return fail(who + " names a view that does not exist"); }
-  const auto bytes = buffer(view["buffer"].index().value_or(~std::size_t{0}), fault);
-  if (!bytes) { return std::nullopt; }
-  const auto or_zero = [](const JsonValue& value) { return value.index().value_or(0); };
-  const std::size_t element = type->size * components, stride = view["byteStride"] ? or_zero(view["byteStride"]) : element;
-  const std::size_t begin = or_zero(view["byteOffset"]), length = or_zero(view["byteLength"]), first = or_zero(accessor["byteOffset"]);
-  if (begin > bytes->size() || length > bytes->size() - begin) { return fail(who + ": its view reaches beyond its buffer"); }
-  // All are below 2^32, so nothing overflows.
-  if (*count > 0 && (stride < element || first + (*count - 1) * stride + element > length)) {
-    return fail(who + " reaches beyond its view");
-  }
+  const Elements all{who, accessor, accessor["componentType"], *count, components, accessor["normalized"].boolean()};
   std::vector<double> result;
-  result.reserve(*count * components);
-  for (std::size_t i = 0; i < *count; ++i) {
-    const char* const at = bytes->data() + begin + first + i * stride;
-    for (std::size_t k = 0; k < components; ++k) {
-      result.push_back(number_at(at + k * type->size, *type, accessor["normalized"].boolean()));
-    }
+  if (accessor["bufferView"]) {
+    if (!elements(all, result, fault)) { return std::nullopt; }
+  } else if (*count > most_zeros) {
+    return fail(who + " has no bytes");
+  } else {
+    result.resize(*count * components, 0.0);
   }
+  if (accessor["sparse"] && !substitute(accessor["sparse"], all, result, fault)) { return std::nullopt; }
   return result;
 }
 

@@ -3,7 +3,7 @@
 
 // The numbers of a glTF file: buffers (the binary chunk of a GLB, data in the text itself, files beside it) and the accessors that say what
 // stands where in them. Whatever reaches beyond a buffer is an error; nothing is made larger than the bytes that are there, but for
-// accessors without any, which are zeros.
+// accessors without any, which are zeros. A sparse accessor is one with some of its elements substituted.
 
 #include <array>
 #include <cstddef>
@@ -43,7 +43,20 @@ class GltfData {
   [[nodiscard]] std::optional<std::string> picture(std::size_t image);
 
  private:
+  // So many elements in a row: `place` says in which view, and from which byte of it on.
+  struct Elements {
+    std::string who;  // of sentences
+    const JsonValue& place;
+    const JsonValue& component_type;
+    std::size_t count, components;
+    bool normalized;
+  };
+
   [[nodiscard]] std::optional<std::string_view> buffer(std::size_t index, std::string& fault);
+  // Appends the numbers of these elements.
+  [[nodiscard]] bool elements(const Elements& at, std::vector<double>& out, std::string& fault);
+  // Replaces those elements of an accessor, all of which stand in `at`, that its member `sparse` names.
+  [[nodiscard]] bool substitute(const JsonValue& sparse, Elements at, std::vector<double>& numbers, std::string& fault);
 
   const JsonValue& root_;
   std::optional<std::string_view> binary_;

@@ -61,12 +61,13 @@ template <class Measured>
       return factor * static_cast<double>(least) * rays_a_point <= static_cast<double>(rays);
     };
     const std::optional<ErrorSums::Moments> seen = sums(pilot).moments();
-    if (!seen) {  // too few points see light
+    const auto met = static_cast<double>(sums(pilot).square.size());
+    if (!seen || met < 16.0) {  // too few points see light
       if (4 * few > 64 * least || !affordable(4.0 * static_cast<double>(few) / static_cast<double>(least), goal.rays)) { break; }
       points = few *= 4;
       continue;
     }
-    const double doubt = std::sqrt(seen->variance / static_cast<double>(sums(pilot).square.size()));
+    const double doubt = std::sqrt(seen->variance / met);
     if (goal.wanted && seen->ratio - 4.0 * doubt > target) {  // too large, whatever the noise
       points = few;
       break;
@@ -76,7 +77,7 @@ template <class Measured>
     constexpr double negligible = 0.005;
     const double off = goal.wanted ? std::max(std::abs(target - seen->ratio), 0.1 * target) / 2.5
                                    : std::max(0.25 * std::max(seen->ratio, doubt), 0.5 * negligible * negligible);
-    const double needed = 1.2 * seen->variance / (off * off);
+    const double needed = 1.2 * seen->variance / (off * off) * static_cast<double>(few) / met;  // with those that see none
     const std::uint64_t rays = goal.wanted && seen->ratio <= target ? std::max(goal.rays, goal.rays_to_show) : goal.rays;
     // The noise of the paths falls with the square of their number, so more paths at fewer points pay until it is half of the variance.
     // From few points its share is mostly seen too small. Where the least number of points shows the target, they may cost no more than
@@ -87,8 +88,11 @@ template <class Measured>
     }
     if (seen->noise_share < 1.0 / 32.0 && paths > 4) { paths /= 4; }
     const auto most = std::max(static_cast<double>(least), static_cast<double>(rays) / rays_a_point);
-    const double anyhow = std::min(most, static_cast<double>(goal.rays_anyhow) / rays_a_point);
-    points = static_cast<std::uint64_t>(std::clamp(needed, std::max(static_cast<double>(least), anyhow), most));
+    // A pilot in which a few points outshine all others knows little of either mean.
+    const bool uneven = seen->equal_points < std::min(16.0, met / 4.0);
+    const double anyhow = uneven ? most : std::min(most, static_cast<double>(goal.rays_anyhow) / rays_a_point);
+    const double fewest = static_cast<double>(std::max(least, few));
+    points = static_cast<std::uint64_t>(std::clamp(needed, std::max(fewest, anyhow), std::max(fewest, most)));
     break;
   }
   return measure(points, paths, result);

@@ -62,6 +62,15 @@ inline bool has_triangles(Working& mesh, const Face& face) {
   });
 }
 
+// Triangles that cover a planar outline twice in places have more area than its vector area; those of an outline that runs along a bridge
+// edge to a hole, around it and back cover it once.
+inline bool crosses_itself(std::span<const glm::dvec3> outline, std::span<const std::array<std::uint32_t, 3>> triangles) {
+  double covered = 0.0;
+  for (const auto& [a, b, c] : triangles) { covered += 0.5 * glm::length(glm::cross(outline[b] - outline[a], outline[c] - outline[a])); }
+  const double extent = brep::extent(outline);
+  return covered > brep::area(outline) + raycast::tol_area * extent * extent;
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE void drop_degenerate(Working& mesh) {
@@ -112,12 +121,16 @@ HALFLIGHT_INLINE void split_faulty(Working& mesh, bool strict) {
       faces.push_back(std::move(face));
       continue;
     }
+    const std::vector<std::array<std::uint32_t, 3>> triangles = brep::ears(outline);
     if (outline.size() > 3) {
       const double slack = raycast::plane_of(outline).slack;
       const bool flat = slack <= raycast::tol_planar * brep::extent(outline);
-      mesh.changed(flat ? ChangeKind::crossing : ChangeKind::not_planar, face.polygon, flat ? 0.0 : slack);
+      const ChangeKind how = !flat                                        ? ChangeKind::not_planar
+                             : detail::crosses_itself(outline, triangles) ? ChangeKind::crossing
+                                                                          : ChangeKind::touching;
+      mesh.changed(how, face.polygon, flat ? 0.0 : slack);
     }
-    for (const auto& [a, b, c] : brep::ears(outline)) {
+    for (const auto& [a, b, c] : triangles) {
       Face triangle = face;
       triangle.corners = {face.corners[a], face.corners[b], face.corners[c]};
       if (!raycast::polygon_fault(mesh.outline(triangle))) { faces.push_back(std::move(triangle)); }

@@ -41,6 +41,7 @@ inline constexpr std::array<Wording, static_cast<std::size_t>(ChangeKind::merged
     {"1 polygon lies on another one: left out", "# polygons lie on others: left out"},
     {"1 polygon was not planar by @: split", "# polygons were not planar by up to @: split"},
     {"1 polygon crossed itself: split", "# polygons crossed themselves: split"},
+    {"1 polygon has holes or very many corners: split", "# polygons have holes or very many corners: split"},
     {"1 vertex was moved by @, so that its polygons are planar", "# vertices were moved by up to @, so that their polygons are planar"},
     {"1 vertex lay on the edge of another polygon, beside it by @: joined",
      "# vertices lay on edges of other polygons, beside them by up to @: joined"},

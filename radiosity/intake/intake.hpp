@@ -67,7 +67,8 @@ enum class ChangeKind : unsigned char {
   sliver,       // polygons narrower than the tolerance: left out; size: the largest width
   duplicate,    // polygons that lay on another one, or on its back where that is not seen: left out
   not_planar,   // polygons cut into triangles; size: the largest distance of a corner from its plane
-  crossing,     // polygons that crossed or touched themselves, or had too many corners: cut into triangles
+  crossing,     // polygons that crossed themselves: cut into triangles
+  touching,     // polygons that touched themselves, as on a bridge edge to a hole, or had very many corners: cut into triangles
   flattened,    // vertices that were moved into the planes of their polygons; size: the largest distance
   t_joint,      // vertices on the edge of another polygon: made corners of it; size: the largest distance from the edge
   nonmanifold,  // edges of more than two faces: cut

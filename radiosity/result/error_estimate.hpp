@@ -32,15 +32,18 @@ struct ErrorSums {
   void add(double of_square, double of_reference, double of_noise);
 
   // Of the ratio R of both means: mean, the variance and the skewness of square - R reference from point to point, relative to the mean
-  // of `reference`. Nothing with fewer than two points, or when they see no light.
+  // of `reference`. A point that outshines the others draws R to its own ratio and seems to lie right on it; so each counts as far off as
+  // it is from the ratio of all others (jackknife, Tukey 1958). Nothing with fewer than two points, or when they see no light.
   struct Moments {
     double ratio = 0.0, variance = 0.0, skewness = 0.0;
-    double noise_share = 0.0;  // of the variance
+    double noise_share = 0.0;   // of the variance
+    double equal_points = 0.0;  // that many equally bright points would tell as much about the variance (Kish 1965)
   };
   [[nodiscard]] std::optional<Moments> moments() const;
 
   // Squared errors are skewed: most are small, a few large. So the interval is the usual one for the mean after a cubic transformation
-  // that takes the skewness out of it (Hall 1992), and leans to the side of the larger errors that were not met by chance.
+  // that takes the skewness out of it (Hall 1992), and leans to the side of the larger errors that were not met by chance. It has Student's
+  // quantiles, for few points know little about their own variance.
   [[nodiscard]] std::optional<ErrorEstimate> estimate() const;
 };
 

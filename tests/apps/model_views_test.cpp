@@ -150,6 +150,33 @@ TEST_CASE("a closed room in which nothing shines gets a lamp in its air") {
   }
 }
 
+TEST_CASE("in a corridor without a lamp of its own the lamp hangs in the middle, whatever lies along the walls") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 20; ++round) {
+    const double length = 8.0 + 20.0 * unit(random);
+    const bool along_x = round % 2 == 0;
+    const auto turned = [&](const glm::dvec3& p) { return along_x ? glm::dvec3(p.y, p.x, p.z) : p; };
+    apps::Model model;
+    model.groups = {"corridor"};
+    model.materials = {{"grey", radiosity::Color(0.5)}};
+    add_box(model, glm::dvec3(0.0), turned({2.0, length, 2.5}), true);
+    for (int door = 0; door < 8; ++door) {
+      const double at = (length - 1.0) * unit(random);
+      add_box(model, turned({0.0, at, 0.0}), turned({0.01 + 0.05 * unit(random), at + 0.9, 2.0}), false);
+    }
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    REQUIRE(noted(file->notes, "hangs under its ceiling"));
+    const glm::dvec3 middle = turned(file->scene.objects.back().shape->bounds().centre());
+    CAPTURE(length, middle.x, middle.y);
+    CHECK(std::abs(middle.y - 0.5 * length) < length / 8.0);
+  }
+}
+
 TEST_CASE("a house of thick walls without a lamp is lit where it is seen") {
   const auto taken = [](apps::Model model) {
     std::vector<std::string> faults;

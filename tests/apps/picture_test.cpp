@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "apps/picture.hpp"
@@ -256,5 +258,24 @@ TEST_CASE("the automatic view shows the whole scene") {
     CHECK(p.z > 0.0);
     CHECK(std::abs(p.x) < v.half_width * p.z);
     CHECK(std::abs(p.y) < v.half_height() * p.z);
+  }
+}
+
+TEST_CASE("the automatic view shows a lamp near the things it lights, and the same as without one that is far away") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto within = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+  for (int run = 0; run < 20; ++run) {
+    std::ostringstream text;
+    text << "material m reflectance 0.5\nmaterial lamp reflectance 0.1 emission 100\nbox post from -4 -4 -4 to -3 -3 4 material m\n";
+    for (int i = 0; i < 3; ++i) {
+      text << "sphere s" << i << " center " << within(-4, 4) << ' ' << within(-4, 4) << ' ' << within(-4, 4) << " radius 0.5 material m\n";
+    }
+    const auto camera = [&](const std::string& lamp) { return apps::automatic_camera(apps::parse_scene(text.str() + lamp).file->scene); };
+    const auto lamp = [](double at) { return "sphere light center 0 0 " + std::to_string(at) + " radius 1 material lamp\n"; };
+    CHECK(camera(lamp(within(60, 1000))).eye == camera("").eye);
+    const apps::View near = apps::make_view(camera(lamp(6.0)), {});
+    CHECK(std::abs(near.to_view({0, 0, 7}).y) < near.half_height() * near.to_view({0, 0, 7}).z);
   }
 }

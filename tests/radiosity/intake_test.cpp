@@ -176,6 +176,42 @@ TEST_CASE("intake: polygons of any number of corners, planar or not, keep their 
   }
 }
 
+// Files have no holes, so their outlines run along a bridge edge to each hole, around it and back.
+TEST_CASE("intake: a wall with holes that bridge edges lead to keeps its area, and is not said to cross itself") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  const glm::dvec3 u = glm::normalize(glm::dvec3(number(-1, 1), number(-1, 1), number(-1, 1)));
+  const glm::dvec3 v = glm::normalize(glm::cross(u, glm::dvec3(number(-1, 1), number(-1, 1), number(-1, 1))));
+  Soup soup;
+  double area = 0.0;
+  std::size_t with_holes = 0;
+  for (int wall = 0; wall < 20; ++wall) {
+    std::vector<glm::dvec3> outline;
+    const auto corner = [&](double x, double y) { outline.push_back(x * u + y * v + (2.0 * wall) * glm::cross(u, v)); };
+    const int holes = static_cast<int>(random() % 4);
+    corner(0, 0);
+    area += 4.0 * (holes + 1);
+    with_holes += holes > 0 ? 1 : 0;
+    for (int i = 0; i < holes; ++i) {
+      const double a = i + number(0.1, 0.3), b = i + number(0.6, 0.9), low = number(0.5, 1.0), high = number(2.0, 3.0);
+      area -= (b - a) * (high - low);
+      corner(a, 0), corner(a, low), corner(a, high), corner(b, high), corner(b, low), corner(a, low), corner(a, 0);
+    }
+    corner(holes + 1, 0), corner(holes + 1, 4), corner(0, 4);
+    soup.polygon(outline);
+  }
+  const radiosity::Intake intake = soup.take_in();
+  check_sound(soup, intake);
+  CHECK(measure(intake.objects).area == Approx(area).epsilon(1e-4));  // vertices move by up to the tolerance
+  CHECK(count_of(intake, ChangeKind::crossing) == 0);
+  CHECK(count_of(intake, ChangeKind::touching) == with_holes);
+  CHECK(count_of(intake, ChangeKind::not_planar) == 0);
+  soup.polygon({{0, 0, 50}, {number(1, 2), 0, 50}, {0, number(1, 2), 50}, {number(1, 2), number(1, 2), 50}});  // a bow tie
+  CHECK(count_of(soup.take_in(), ChangeKind::crossing) == 1);
+}
+
 TEST_CASE("intake: a quadrilateral that is not planar is cut along the better diagonal") {
   // Over 0 and 2 it folds into a roof, over 1 and 3 into a thin valley: the first one bends less.
   Soup soup;
