@@ -180,6 +180,18 @@ HALFLIGHT_INLINE void LampExchange::see(Result& result, std::span<const Point> p
   result.fraction = all > 0.0 ? arrived / all : 0.0;
 }
 
+HALFLIGHT_INLINE glm::dvec3 LampExchange::way(std::uint32_t lamp, std::uint32_t to) const {
+  const Patch& patch = scene_.patches[to];
+  glm::dvec3 sum{0.0};
+  for (const QuadraturePoint& x : patch.rule2) {
+    for (const Point& y : points_of(lamp)) {
+      const double part = y.area * detail::point_kernel(x.position, patch.normal, y.position, y.normal);
+      if (part > 0.0) { sum += x.weight * part * glm::normalize(x.position - y.position); }
+    }
+  }
+  return glm::normalize(sum);
+}
+
 HALFLIGHT_INLINE LampExchange::Result LampExchange::evaluate(Link& link, std::uint32_t rounds, Random random) const {
   const Hierarchy& nodes = scene_.hierarchy;
   const bool p_shines = nodes[link.p].is_cluster();
@@ -188,15 +200,19 @@ HALFLIGHT_INLINE LampExchange::Result LampExchange::evaluate(Link& link, std::ui
   const Result result = (*this)(lamp, to, rounds, random);
   link.exchange = static_cast<float>(result.sent * result.fraction);
   if (!(link.exchange > 0.0f)) { return result; }
-  const glm::dvec3 direction = EndShape::stored_direction(glm::normalize(nodes[to].centre - nodes[lamp].centre));
+  // Towards the middle of a patch close by a lamp may show next to nothing: then that way counts on which the light travels.
+  constexpr double least_shown = 1e-3;
+  glm::dvec3 direction = EndShape::stored_direction(glm::normalize(nodes[to].centre - nodes[lamp].centre));
+  if (!(shown_->of(nodes[lamp], aim(direction)) > least_shown * area(lamp))) { direction = EndShape::stored_direction(way(lamp, to)); }
   const double shown = shown_->of(nodes[lamp], aim(direction));
-  if (!(shown > 0.0)) {
+  const EndShape shape = EndShape::of_cluster(direction, shown);
+  const double stored = shown > 0.0 ? shown_->of(nodes[lamp], aim(shape.direction_over_shown())) : 0.0;
+  if (!(stored > 0.0)) {
     link.exchange = 0.0f;
     return result;
   }
-  const EndShape shape = EndShape::of_cluster(direction, shown);
   // The stored shape is rounded, by up to .4 % and alike for all patches in one direction: what it makes too little is added here.
-  link.exchange = static_cast<float>(result.sent * result.fraction / shown_->of(nodes[lamp], aim(shape.direction_over_shown())));
+  link.exchange = static_cast<float>(result.sent * result.fraction / stored);
   (p_shines ? link.shape_p : link.shape_q) = shape;
   (p_shines ? link.shape_q : link.shape_p) = EndShape::of_patch(glm::vec3{result.slope});
   return result;

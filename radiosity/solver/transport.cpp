@@ -186,7 +186,8 @@ HALFLIGHT_INLINE void Transport::scale_lamps() {
     if (!lamps_[i]) { continue; }
     const double is = power[lamp(i)], be = wanted[lamp(i)], scale = is > 0.0 && be > 0.0 ? std::clamp(be / is, 0.5, 2.0) : 1.0;
     parts_[0].scale[i] *= scale;
-    if (lamp_cluster_[i] != no_node && (*hierarchy_)[i].leaf()) { area_[i] *= scale * of_lamps[i] + of_others[i]; }
+    const double row = scale * of_lamps[i] + of_others[i];
+    if (lamp_cluster_[i] != no_node && (*hierarchy_)[i].leaf() && row > 0.0) { area_[i] *= row; }
   }
   for (std::size_t i = area_.size(); i-- > 0;) {
     const Node& node = (*hierarchy_)[i];

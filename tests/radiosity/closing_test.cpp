@@ -92,7 +92,7 @@ TEST_CASE("closing a room leaves the light of a lamp under its ceiling, which hi
       REQUIRE(solution.audit.closure);
       CHECK(solution.audit.row_sum.min > 1.0 - 1e-6);
       CHECK(solution.audit.row_sum.max < 1.0 + 1e-6);
-      CHECK(error_on_ceiling(hung, solution) < 0.03);
+      CHECK(error_on_ceiling(hung, solution) < (indirect == radiosity::Indirect::links ? 0.04 : 0.06));
     }
   }
 }
