@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -29,11 +30,12 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/direct/facets.hpp>
+#include <radiosity/direct/lamp_samples.hpp>
+#include <radiosity/direct/stand_in.hpp>
 #include <radiosity/hierarchy/curved_area.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
-#include <radiosity/support/sobol.hpp>
 
 namespace radiosity {
 
@@ -42,7 +44,10 @@ namespace detail {
 // How far facets may be off a curved surface, to the object's diameter; and those of a mesh that stands in for an object.
 inline constexpr double facet_tolerance = 0.002;
 inline constexpr double stand_in_tolerance = 0.0004;
-inline constexpr unsigned lamp_samples = 256;
+inline constexpr std::size_t samples_of_lamp = 256;
+// Of each of the largest lamps, of which one may see little; and how many these are.
+inline constexpr std::size_t fine_samples = 4096;
+inline constexpr std::size_t most_fine = 4;
 // Of all lamps together, where they were joined; none has less than one round. Each is a small part of the light then.
 inline constexpr std::size_t samples_of_joined = 1024;
 
@@ -62,60 +67,6 @@ inline constexpr std::size_t samples_of_joined = 1024;
   return {origin + u0 * u + v0 * v, origin + u1 * u + v0 * v, origin + u1 * u + v1 * v, origin + u0 * u + v1 * v};
 }
 
-// Points even over the area of the facets: Sobol's, mapped to the facets' triangles laid side by side. `owner`: of each facet.
-[[nodiscard]] HALFLIGHT_INLINE std::vector<DirectLight::Sample> samples_of(const Facets& facets, const std::vector<std::uint32_t>& owner) {
-  struct Triangle {
-    glm::dvec3 a{0.0}, b{0.0}, c{0.0}, normal{0.0};
-    std::uint32_t owner = 0;
-  };
-  std::vector<Triangle> triangles;
-  std::vector<double> until;  // cumulated area
-  double total = 0.0;
-  for (std::size_t f = 0; f < facets.facets.size(); ++f) {
-    const Facets::Facet& facet = facets.facets[f];
-    for (std::size_t i = 1; i + 1 < facet.contour.size(); ++i) {
-      const Triangle t{facet.contour[0], facet.contour[i], facet.contour[i + 1], facet.normal, owner[f]};
-      total += 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a));
-      triangles.push_back(t);
-      until.push_back(total);
-    }
-  }
-  const Sobol4 sequence{1, 0x6c616d70ull};
-  std::vector<DirectLight::Sample> samples;
-  for (std::uint32_t k = 0; k < lamp_samples; ++k) {
-    const std::array<double, 4> u = sequence(k);
-    const double at = u[0] * total;
-    const auto i = std::min<std::size_t>(static_cast<std::size_t>(std::upper_bound(until.begin(), until.end(), at) - until.begin()),
-                                         triangles.size() - 1);
-    const double before = i > 0 ? until[i - 1] : 0.0;
-    const double root = std::sqrt(std::clamp((at - before) / (until[i] - before), 0.0, 1.0));
-    const Triangle& t = triangles[i];
-    samples.push_back({t.a + root * (1.0 - u[1]) * (t.b - t.a) + root * u[1] * (t.c - t.a), t.normal, t.owner});
-  }
-  return samples;
-}
-
-// A curved object as two meshes of triangles that are open, so that each crossing of a segment decides by itself; none when they make none.
-[[nodiscard]] HALFLIGHT_INLINE std::vector<std::shared_ptr<const raycast::Mesh>> open_meshes(const raycast::PlacedObject& object,
-                                                                                             double tolerance) {
-  brep::Builder builder;
-  object.approximate(tolerance, builder);
-  std::vector<glm::dvec3> positions;
-  for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) { positions.push_back(builder.position(v)); }
-  std::vector<std::vector<std::uint32_t>> faces;
-  for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
-    const std::span<const std::uint32_t> c = builder.corners(f);
-    if (builder.sheet(f) == brep::no_sheet) { continue; }
-    if (c.size() > 4) { faces.emplace_back(c.begin(), c.end()); }
-    for (std::size_t i = 1; i + 1 < c.size() && c.size() <= 4; ++i) { faces.push_back({c[0], c[i], c[i + 1]}); }
-  }
-  const auto middle = faces.begin() + static_cast<std::ptrdiff_t>(faces.size() / 2);
-  const auto first = raycast::Mesh::make(positions, {faces.begin(), middle});
-  const auto second = raycast::Mesh::make(positions, {middle, faces.end()});
-  if (!first || !second) { return {}; }
-  return {first.object, second.object};
-}
-
 // Is the point in front of more than half of the area?
 [[nodiscard]] HALFLIGHT_INLINE bool surrounds(const Facets& facets, const glm::dvec3& point) {
   double in_front = 0.0, total = 0.0;
@@ -132,7 +83,8 @@ inline constexpr std::size_t samples_of_joined = 1024;
 
 }  // namespace detail
 
-HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const std::vector<Surface>& surfaces, const Candidate& candidate) {
+HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const std::vector<Surface>& surfaces, const Candidate& candidate,
+                                                          std::size_t samples, bool fine) {
   Lamp lamp;
   lamp.exitance = candidate.exitance;
   raycast::Box box;
@@ -175,7 +127,8 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const std::vector<Surf
     lamp.corners = {c[0], c[1], c[2], c[c.size() > 3 ? 3 : 2]};
     lamp.bulge = 2.0 * lamp.radius;
   }
-  lamp.samples = detail::samples_of(lamp.facets, owner);
+  lamp.samples = lamp_samples(lamp.facets, owner, samples);
+  if (fine) { lamp.fine = FineSamples{lamp.samples, lamp_samples(lamp.facets, owner, detail::fine_samples)}; }
   return lamp;
 }
 
@@ -197,19 +150,25 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       if (!is_black(e) && area[sheet] > 0.0) { candidates.push_back({{{s, {sheet}}}, e, brightest(e), area[sheet]}); }
     }
   }
-  std::size_t samples = detail::lamp_samples;
+  std::size_t samples = detail::samples_of_lamp;
   if (limits.bodies && candidates.size() > limits.most) {
     candidates = join_alike(candidates, objects, limits.most);
     const std::size_t lamps = std::min<std::size_t>(candidates.size(), limits.most);
     samples = std::clamp<std::size_t>(std::bit_floor(detail::samples_of_joined / lamps), 16, samples);
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
+  std::vector<double> areas;
+  for (const Candidate& c : candidates) { areas.push_back(c.area); }
+  std::sort(areas.begin(), areas.end(), std::greater<>{});
+  const double large = areas.empty() ? 0.0 : areas[std::min(areas.size(), detail::most_fine) - 1];
+  std::size_t fine_ones = 0;
   double taken = 0.0;
   for (const Candidate& c : candidates) {
     if (lamps_.size() == limits.most) { break; }
-    Lamp lamp = make_lamp(surfaces, c);
+    const bool fine = samples == detail::samples_of_lamp && c.area >= large && fine_ones < detail::most_fine;
+    Lamp lamp = make_lamp(surfaces, c, samples, fine);
     if (lamp.facets.empty()) { continue; }
-    if (lamp.samples.size() > samples) { lamp.samples.resize(samples); }  // those that are left are even as well
+    fine_ones += fine ? 1 : 0;
     if (detail::surrounds(lamp.facets, lamp.centre)) {
       taken += c.area;
       if (taken > limits.most_surrounding * total) { continue; }
@@ -302,13 +261,14 @@ HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfa
     facets += body.facets.facets.size();
     if (body.exact || object.inside() || (body.convex && object.object().nearest())) { continue; }
     const double tolerance = detail::stand_in_tolerance * object.bounds().diameter();
-    const auto halves = detail::open_meshes(object, tolerance);
+    const auto halves = open_meshes(object, tolerance);
     if (halves.empty()) { continue; }
     objects.back() = raycast::PlacedObject{halves[0]};
     second_halves.emplace_back(halves[1]);
     whole_.push_back(o);
     body.lift = 1.5 * tolerance;
     facets += halves[0]->sheet_count() + halves[1]->sheet_count();
+    if (!body.convex && halves[0]->sheet_count() + halves[1]->sheet_count() <= most_of_one) { body.facets = facets_of(object, tolerance); }
   }
   if (whole_.empty()) { return; }
   objects.insert(objects.end(), second_halves.begin(), second_halves.end());

@@ -20,6 +20,7 @@
 #include <raycast/shaft.hpp>
 
 #include <radiosity/direct/facets.hpp>
+#include <radiosity/direct/lamp_samples.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
 
@@ -49,10 +50,6 @@ class DirectLight {
   DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const std::vector<Color>& emission,
               const LampLimits& limits = {});
 
-  struct Sample {
-    glm::dvec3 position{0.0}, normal{0.0};
-    std::uint32_t owner = raycast::no_object;  // of a point of a curved object, which lies beside its surface: that object
-  };
   struct Lamp {
     std::uint32_t surface = 0, object = 0;  // of the input; of several surfaces the first; no_object for several objects
     Color exitance{0.0};
@@ -63,7 +60,8 @@ class DirectLight {
     double radius = 0.0;
     std::array<glm::dvec3, 4> corners;  // of a rectangle around it, in its plane; of a curved one, around a point of it
     double bulge = 0.0;                 // how far it leaves the rectangle
-    std::vector<Sample> samples;        // even over its area, the first ones too
+    std::vector<LampSample> samples;    // even over its area, the first ones too
+    FineSamples fine;                   // about these; of the largest lamps, others have none
     std::vector<bool> behind;           // by object: some of it lies behind the plane of the flat lamp
     [[nodiscard]] raycast::PatchShape shape() const { return {corners, object, bulge}; }
   };
@@ -103,7 +101,7 @@ class DirectLight {
   // Takes candidates together until they are `most` at most, if that is possible.
   [[nodiscard]] static std::vector<Candidate> join_alike(const std::vector<Candidate>& singles, const raycast::Scene& objects,
                                                          std::uint32_t most);
-  [[nodiscard]] static Lamp make_lamp(const std::vector<Surface>& surfaces, const Candidate& candidate);
+  [[nodiscard]] static Lamp make_lamp(const std::vector<Surface>& surfaces, const Candidate& candidate, std::size_t samples, bool fine);
 
   const raycast::Scene* objects_ = nullptr;
   double slack_ = detail::least_slack;  // heights below count as none: twice what faces that are not quite plane are off, if that is more

@@ -2,8 +2,6 @@
 #include <radiosity/direct/lit_region.hpp>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,7 +12,6 @@
 #include <glm/vec3.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/bundle.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
@@ -22,6 +19,7 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/facets.hpp>
+#include <radiosity/direct/lamp_samples.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/polygon_shaft.hpp>
 #include <radiosity/visibility/shadow.hpp>
@@ -30,14 +28,12 @@ namespace radiosity {
 
 namespace detail {
 
-// How far segments stay off the surfaces at their ends, in a scene of size 1 to 2: more than single precision's error.
-inline constexpr double off_surface = 1e-5;
 inline constexpr std::size_t many_facets = 64;  // of a lamp: a region looks once which of them may be on its outline
 
 }  // namespace detail
 
 HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal)
-    : light_{&light}, owner_{shape.owner} {
+    : light_{&light}, owner_{shape.owner}, normal_{normal} {
   raycast::Box box;
   for (const glm::dvec3& p : shape.contour) { box.extend(p); }
   centre_ = box.centre();
@@ -113,9 +109,9 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
   const double slack = light_->slack_;
   // With a bulge the contour says too little, and all candidates are taken.
   std::vector<Shaft> shaft;
-  if (shape.bulge == 0.0) { shaft.emplace_back(shape.contour, lamp.corners, slack); }
+  if (shape.bulge == 0.0) { shaft.emplace_back(shape.contour, lamp.corners, slack + lift_); }
   const auto misses = [&](std::span<const glm::dvec3> corners) { return !shaft.empty() && shaft[0].misses(corners); };
-  constexpr std::size_t most_faces = 128;
+  constexpr std::size_t most_faces = 128, most_of_stand_ins = 64;  // past these segments cost less
   for (const std::uint32_t o : candidates) {
     const DirectLight::Body& body = light_->bodies_[o];
     if (body.convex && o == owner_) { continue; }
@@ -146,14 +142,13 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
       }
       continue;
     }
-    if (!body.convex && !body.exact) { return false; }
-    if (body.convex && body.closed && !body.exact) { return false; }
+    if (!body.exact && (body.convex ? body.closed : !(body.lift > 0.0))) { return false; }
     for (const Facets::Facet& facet : body.facets.facets) {
       if (body.closed && facet.height(centre_) <= slack - radius_) { continue; }  // its back, behind its fronts
       if (misses(facet.contour)) { continue; }
       reach.faces.push_back({facet.contour, facet.normal});
     }
-    if (reach.faces.size() > most_faces) { return false; }
+    if (reach.faces.size() > (body.exact ? most_faces : most_of_stand_ins)) { return false; }
   }
   return true;
 }
@@ -227,44 +222,13 @@ HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, 
   return sum;
 }
 
-HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
-  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
-  // Away from flat surfaces on which they begin and end, segments need no owners, and single precision decides about nearly all.
-  const glm::dvec3 from = x + std::max(lift_, detail::off_surface) * n;
-  const bool curved = owner_ != raycast::no_object && !light_->objects_->object(owner_).flat();  // and convex, or a mesh would stand in
-  const std::uint32_t source = curved ? owner_ : raycast::no_object;
-  double all = 0.0;
-  double seen = 0.0;
-  for (unsigned first = 0; first < lamp.samples.size(); first += 16) {
-    raycast::Segments16 segments;
-    std::array<double, 16> weight{};
-    for (unsigned k = 0; k < 16; ++k) {
-      const DirectLight::Sample& sample = lamp.samples[first + k];
-      const glm::dvec3 d = sample.position - x;
-      const double cosines = glm::dot(n, d) * -glm::dot(sample.normal, d);
-      if (!(glm::dot(n, d) > 0.0) || !(cosines > 0.0)) { continue; }
-      const double r2 = glm::dot(d, d);
-      weight[k] = cosines / (r2 * r2);
-      const double to_lift = sample.owner == raycast::no_object ? detail::off_surface : 0.0;
-      segments.set(k, {from, sample.position + to_lift * sample.normal - from}, source, sample.owner);
-    }
-    rays_ += static_cast<unsigned>(std::popcount(segments.lanes));
-    const std::uint32_t blocked = segments.lanes != 0 ? light_->objects_->occluded16(segments, reach.list, reach.hint) : 0;
-    for (unsigned k = 0; k < 16; ++k) {
-      all += weight[k];
-      if ((blocked >> k & 1u) == 0) { seen += weight[k]; }
-    }
-    if (4 * (first + 16) == lamp.samples.size() && (seen == 0.0 || seen == all)) { break; }
-  }
-  return all > 0.0 ? seen / all : 0.0;
-}
-
 HALFLIGHT_INLINE double LitRegion::visible(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
   Reach& reach = reaches_[k];
   if (reach.between == Between::nothing) { return 1.0; }
   if (reach.between == Between::anything) { return seen_share(reach, x, n); }
-  const double all = unhidden(k, x, n);
-  return all > 0.0 ? std::min(1.0, cut(reach, x, n) / all) : 0.0;
+  const glm::dvec3 above = x + lift_ * n;  // the faces of a mesh that stands in for its own object
+  const double all = unhidden(k, above, n);
+  return all > 0.0 ? std::min(1.0, cut(reach, above, n) / all) : 0.0;
 }
 
 }  // namespace radiosity

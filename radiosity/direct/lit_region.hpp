@@ -9,13 +9,16 @@
 //   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point
 //   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighed so
 //                       that only what is hidden is sampled, and they stop at 64 when these agree (fewer where many lamps were joined).
+//                       Of a large lamp of which little is seen (a sky through a window) up to 512 finer ones find the rim of that
 //                       In place of curved objects that are slow or not convex segments meet meshes within 0.04 % of their diameter
 // Curved lamps are always asked by segments where something may stand between. Nothing here is random: the result depends on the region and
 // the point alone.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -24,6 +27,7 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/facets.hpp>
+#include <radiosity/direct/lamp_samples.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/visibility/shadow.hpp>
 
@@ -57,6 +61,11 @@ class LitRegion {
 
  private:
   enum class Between : unsigned char { nothing, bodies, anything };
+  // What is seen of a lamp from the middle of a flat region by more segments than each point sends: small openings.
+  struct Survey {
+    bool dark = true;                  // nothing
+    std::vector<std::uint32_t> mixed;  // cells of samples that are partly seen, ascending
+  };
   struct Reach {
     std::uint32_t lamp = 0;
     Between between = Between::nothing;
@@ -70,6 +79,7 @@ class LitRegion {
     std::vector<Outline> outlines;
     std::optional<Facets> outline;  // of a lamp of many facets: edges that may be on its outline seen from the region
     std::uint32_t hint = 0xffffffff;
+    std::optional<Survey> survey;  // known when it was asked for
   };
 
   // The edges that are not known to lie between two facets that all of the region sees, or none of it, with their facets.
@@ -78,10 +88,21 @@ class LitRegion {
   // The cone from x over a convex body; empty when x lies on the body's surface.
   void make_cone(const Reach::Outline& outline, const glm::dvec3& x);
   [[nodiscard]] double cut(const Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
+  // Segments from x to up to sixteen samples of a lamp: what each carries if it is free, and which are.
+  struct Asked16 {
+    std::array<double, 16> weight{};
+    std::uint32_t seen = 0;
+  };
+  [[nodiscard]] Asked16 ask16(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::span<const LampSample> samples);
   [[nodiscard]] double seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
+  // Asks finer samples where neighbours differ, as many as it takes for the share to be known within some 1 % of itself: puts their sums in
+  // place of those of all samples and of the seen ones.
+  void refine(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, double& all, double& seen);
+  const Survey& survey(Reach& reach);
 
   const DirectLight* light_;
   std::uint32_t owner_;
+  glm::dvec3 normal_{0.0};  // 0 where it is not the same everywhere
   glm::dvec3 centre_{0.0};
   double radius_ = 0.0;
   double lift_ = 0.0;
@@ -93,6 +114,10 @@ class LitRegion {
     const glm::dvec3* corner = nullptr;
   };
   std::vector<Projected> projected_, hull_;
+  // Of the samples of the lamp that was asked for last: what each carries, whether it is seen, and which differ from a neighbour.
+  std::vector<double> weight_;
+  std::vector<char> seen_;
+  std::vector<std::uint32_t> mixed_;
   std::uint64_t rays_ = 0;
 };
 
@@ -100,4 +125,5 @@ class LitRegion {
 
 #ifdef HALFLIGHT_HEADER_ONLY
 #include <radiosity/direct/lit_region.cpp>
+#include <radiosity/direct/lit_region_segments.cpp>
 #endif

@@ -128,8 +128,13 @@ HALFLIGHT_INLINE LitRegion FinalGather::lit_region(std::span<const Place> places
   const Place& first = places.front();
   glm::dvec3 n{0.0};
   for (const Place& place : places) { n += place.point.normal; }
-  const bool flat = objects().object(first.object).flat();
-  n = flat ? first.point.normal : glm::length(n) > 0.0 ? glm::normalize(n) : first.point.normal;
+  n = glm::length(n) > 0.0 ? glm::normalize(n) : first.point.normal;
+  const bool flat = std::all_of(places.begin(), places.end(), [&](const Place& place) {
+    constexpr double rounding = 1e-12;
+    return glm::dot(place.point.normal, first.point.normal) > 1.0 - rounding &&
+           std::abs(glm::dot(place.point.position - first.point.position, first.point.normal)) < rounding;
+  });
+  if (flat) { n = first.point.normal; }
   // A flat rectangle around the points, with how far those of a curved surface leave it.
   const auto [s, t] = orthonormal(n);
   glm::dvec3 lo{0.0}, hi{0.0};

@@ -15,6 +15,8 @@
 
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/cone.hpp>
+#include <raycast/objects/csg.hpp>
+#include <raycast/objects/csg_tree.hpp>
 #include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/mesh.hpp>
 #include <raycast/objects/polygon.hpp>
@@ -261,4 +263,34 @@ TEST_CASE("direct light: the strongest lamps are taken, within the limits; flat 
   CHECK(lamps({64, 1.0}).lamps().size() == 4);
   REQUIRE(lamps({1, 1.0}).lamps().size() == 1);
   CHECK(lamps({1, 1.0}).is_lamp(2));
+}
+
+// What segments say of a large lamp of which little is seen: a sky, through small holes in a plate that has too many faces to be cut out.
+TEST_CASE("direct light: a sky through a few holes is what many segments say", "[direct]") {
+  const std::uint64_t seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0, 0};
+  double squares = 0.0, all_squares = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    Scene scene = floor_under_lamp(3.0);
+    raycast::CsgNode plate{
+        {}, "plate", raycast::CsgOperation::subtract, {{scenes::box({-4, -4, 0.9}, {4, 4, 1.1}), "slab", {}, {}, {}}}, {}};
+    const std::size_t holes = 1 + random.bits() % 5;
+    for (std::size_t k = 0; k < holes; ++k) {
+      const double u = 1.8 * random.uniform() - 0.9, v = 1.8 * random.uniform() - 0.9, radius = 0.1 + 0.25 * random.uniform();
+      plate.parts.push_back({raycast::Cylinder::make({u, v, 0.5}, {0, 0, 1}, radius).object, "hole", {}, {}, {}});
+    }
+    scene.objects.push_back(scenes::object("plate", raycast::Csg::make(plate).object, 0));
+    const World world{scene};
+    for (int k = 0; k < 10; ++k) {
+      const double u = 1.6 * random.uniform() - 0.8, v = 1.6 * random.uniform() - 0.8;
+      auto region = world.region({u, v, 0}, 0.05);
+      const Estimate truth = by_segments(world, {u, v, 0}, 3.0, 4096, seed + static_cast<std::uint64_t>(k));
+      const double found = region.irradiance(world.in_frame({u, v, 0}), {0, 0, 1}).x;
+      squares += (found - truth.mean) * (found - truth.mean);
+      all_squares += truth.mean * truth.mean;
+    }
+  }
+  INFO("off by " << std::sqrt(squares / all_squares));
+  CHECK(squares < 0.12 * 0.12 * all_squares);  // found: 0.026 to 0.077 of 24 seeds; without finer samples 0.18 to 0.27
 }

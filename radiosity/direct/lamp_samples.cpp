@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/direct/lamp_samples.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+#include <raycast/tolerances.hpp>
+
+#include <radiosity/direct/facets.hpp>
+#include <radiosity/support/sobol.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const std::uint32_t> owner, std::size_t count) {
+  struct Triangle {
+    glm::dvec3 a{0.0}, b{0.0}, c{0.0}, normal{0.0};
+    std::uint32_t owner = 0;
+  };
+  std::vector<Triangle> triangles;
+  std::vector<double> until;  // cumulated area
+  double total = 0.0;
+  for (std::size_t f = 0; f < facets.facets.size(); ++f) {
+    const Facets::Facet& facet = facets.facets[f];
+    for (std::size_t i = 1; i + 1 < facet.contour.size(); ++i) {
+      const Triangle t{facet.contour[0], facet.contour[i], facet.contour[i + 1], facet.normal, owner[f]};
+      total += 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a));
+      triangles.push_back(t);
+      until.push_back(total);
+    }
+  }
+  const Sobol4 sequence{1, 0x6c616d70ull};
+  std::vector<LampSample> samples;
+  samples.reserve(count);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::array<double, 4> u = sequence(k);
+    const double at = u[0] * total;
+    const auto i = std::min<std::size_t>(static_cast<std::size_t>(std::upper_bound(until.begin(), until.end(), at) - until.begin()),
+                                         triangles.size() - 1);
+    const double before = i > 0 ? until[i - 1] : 0.0;
+    const double root = std::sqrt(std::clamp((at - before) / (until[i] - before), 0.0, 1.0));
+    const Triangle& t = triangles[i];
+    samples.push_back({t.a + root * (1.0 - u[1]) * (t.b - t.a) + root * u[1] * (t.c - t.a), t.normal, t.owner});
+  }
+  return samples;
+}
+
+HALFLIGHT_INLINE FineSamples::FineSamples(std::span<const LampSample> coarse, std::span<const LampSample> fine)
+    : begin_(coarse.size() + 1, 0), beside_(coarse.size()) {
+  std::vector<std::uint32_t> cell(fine.size());
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    std::array<std::uint32_t, 2> nearest{0, 0};
+    std::array<double, 2> distance{raycast::infinity, raycast::infinity};
+    for (std::uint32_t c = 0; c < coarse.size(); ++c) {
+      const glm::dvec3 d = fine[i].position - coarse[c].position;
+      const double square = glm::dot(d, d);
+      if (!(square < distance[1])) { continue; }
+      const std::size_t place = square < distance[0] ? 0 : 1;
+      if (place == 0) {
+        nearest[1] = nearest[0];
+        distance[1] = distance[0];
+      }
+      nearest[place] = c;
+      distance[place] = square;
+    }
+    cell[i] = nearest[0];
+    ++begin_[nearest[0] + 1];
+    beside_[nearest[0]].push_back(nearest[1]);
+    beside_[nearest[1]].push_back(nearest[0]);
+  }
+  for (std::vector<std::uint32_t>& cells : beside_) {
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  }
+  for (std::size_t c = 0; c < coarse.size(); ++c) { begin_[c + 1] += begin_[c]; }
+  std::vector<std::size_t> next{begin_.begin(), begin_.end() - 1};
+  samples_.resize(fine.size());
+  for (std::size_t i = 0; i < fine.size(); ++i) { samples_[next[cell[i]]++] = fine[i]; }
+}
+
+}  // namespace radiosity

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/direct/lit_region.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/bundle.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+#include <raycast/scene.hpp>
+
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lamp_samples.hpp>
+
+// LitRegion: what of a lamp is seen, by segments to its samples.
+
+namespace radiosity {
+
+namespace detail {
+
+// How far segments stay off the surfaces at their ends, in a scene of size 1 to 2: more than single precision's error.
+inline constexpr double off_surface = 1e-5;
+
+}  // namespace detail
+
+HALFLIGHT_INLINE LitRegion::Asked16 LitRegion::ask16(Reach& reach, const glm::dvec3& x, const glm::dvec3& n,
+                                                     std::span<const LampSample> samples) {
+  // Away from flat surfaces on which they begin and end, segments need no owners, and single precision decides about nearly all.
+  const glm::dvec3 from = x + std::max(lift_, detail::off_surface) * n;
+  const bool curved = owner_ != raycast::no_object && !light_->objects_->object(owner_).flat();  // and convex, or a mesh would stand in
+  const std::uint32_t source = curved ? owner_ : raycast::no_object;
+  Asked16 result;
+  raycast::Segments16 segments;
+  for (unsigned k = 0; k < samples.size(); ++k) {
+    const LampSample& sample = samples[k];
+    const glm::dvec3 d = sample.position - x;
+    const double cosines = glm::dot(n, d) * -glm::dot(sample.normal, d);
+    if (!(glm::dot(n, d) > 0.0) || !(cosines > 0.0)) { continue; }
+    const double r2 = glm::dot(d, d);
+    result.weight[k] = cosines / (r2 * r2);
+    const double to_lift = sample.owner == raycast::no_object ? detail::off_surface : 0.0;
+    segments.set(k, {from, sample.position + to_lift * sample.normal - from}, source, sample.owner);
+  }
+  rays_ += static_cast<unsigned>(std::popcount(segments.lanes));
+  result.seen = segments.lanes;
+  if (segments.lanes != 0) { result.seen &= ~light_->objects_->occluded16(segments, reach.list, reach.hint); }
+  return result;
+}
+
+HALFLIGHT_INLINE const LitRegion::Survey& LitRegion::survey(Reach& reach) {
+  if (reach.survey) { return *reach.survey; }
+  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  Survey& result = reach.survey.emplace();
+  if (normal_ == glm::dvec3{0.0}) { return result; }
+  const auto ask = [&](std::span<const LampSample> samples) {
+    const Asked16 asked = ask16(reach, centre_, normal_, samples);
+    result.dark = result.dark && asked.seen == 0;
+    return asked;
+  };
+  if (lamp.fine.empty()) {
+    for (std::size_t first = 0; first < lamp.samples.size() && result.dark; first += 16) {
+      ask(std::span{lamp.samples}.subspan(first, 16));
+    }
+    return result;
+  }
+  constexpr std::size_t of_cell = 4;
+  for (std::uint32_t cell = 0; cell < lamp.samples.size(); ++cell) {
+    const std::span<const LampSample> samples = lamp.fine.of(cell);
+    const Asked16 asked = ask(samples.first(std::min(of_cell, samples.size())));
+    const auto carrying = std::count_if(asked.weight.begin(), asked.weight.end(), [](double w) { return w > 0.0; });
+    if (asked.seen != 0 && std::popcount(asked.seen) < carrying) { result.mixed.push_back(cell); }
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
+  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  weight_.clear();
+  seen_.clear();
+  double all = 0.0;
+  double seen = 0.0;
+  for (std::size_t first = 0; first < lamp.samples.size(); first += 16) {
+    const Asked16 asked = ask16(reach, x, n, std::span{lamp.samples}.subspan(first, 16));
+    for (unsigned k = 0; k < 16; ++k) {
+      weight_.push_back(asked.weight[k]);
+      seen_.push_back(static_cast<char>(asked.seen >> k & 1u));
+      all += asked.weight[k];
+      if (seen_.back() != 0) { seen += asked.weight[k]; }
+    }
+    if (4 * (first + 16) != lamp.samples.size()) { continue; }
+    if (seen == all || (seen == 0.0 && survey(reach).dark)) { return seen > 0.0 ? 1.0 : 0.0; }
+  }
+  if (!lamp.fine.empty() && seen < all) { refine(reach, x, n, all, seen); }
+  return all > 0.0 ? seen / all : 0.0;
+}
+
+HALFLIGHT_INLINE void LitRegion::refine(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, double& all, double& seen) {
+  const FineSamples& fine = light_->lamps_[reach.lamp].fine;
+  const auto cells = static_cast<std::uint32_t>(seen_.size());
+  mixed_.clear();
+  double seen_cells = 0.0;
+  for (std::uint32_t cell = 0; cell < cells; ++cell) {
+    seen_cells += seen_[cell];
+    const auto beside = fine.beside(cell);
+    if (std::any_of(beside.begin(), beside.end(), [&](std::uint32_t other) { return seen_[other] != seen_[cell]; })) {
+      mixed_.push_back(cell);
+    }
+  }
+  const std::vector<std::uint32_t>& surveyed = survey(reach).mixed;
+  mixed_.insert(mixed_.end(), surveyed.begin(), surveyed.end());
+  std::sort(mixed_.begin(), mixed_.end());
+  mixed_.erase(std::unique(mixed_.begin(), mixed_.end()), mixed_.end());
+  // With m points in each of k cells that are partly seen, the area that is seen is off by some sqrt(k / (12 m)) cells.
+  constexpr double error = 0.01;
+  constexpr std::size_t most = 512;
+  const double at_least = std::max(1.0, seen_cells);
+  const double wanted = static_cast<double>(mixed_.size()) / (12.0 * error * error * at_least * at_least);
+  if (wanted < 1.0 || mixed_.size() > most) { return; }
+  const std::size_t of_cell = std::min(static_cast<std::size_t>(std::ceil(wanted)), most / mixed_.size());
+  all = seen = 0.0;
+  auto next = mixed_.begin();
+  for (std::uint32_t cell = 0; cell < cells; ++cell) {
+    if (next == mixed_.end() || cell != *next) {
+      all += fine.share(cell) * weight_[cell];
+      seen += seen_[cell] != 0 ? fine.share(cell) * weight_[cell] : 0.0;
+      continue;
+    }
+    ++next;
+    const std::span<const LampSample> samples = fine.of(cell).first(std::min(of_cell, fine.of(cell).size()));
+    const double share = fine.share(cell) / static_cast<double>(samples.size());
+    for (std::size_t first = 0; first < samples.size(); first += 16) {
+      const Asked16 asked = ask16(reach, x, n, samples.subspan(first, std::min<std::size_t>(16, samples.size() - first)));
+      for (unsigned k = 0; k < 16; ++k) {
+        all += share * asked.weight[k];
+        if ((asked.seen >> k & 1u) != 0) { seen += share * asked.weight[k]; }
+      }
+    }
+  }
+}
+
+}  // namespace radiosity

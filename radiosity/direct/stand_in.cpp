@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/direct/stand_in.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <brep/builder_input.hpp>
+#include <brep/handles.hpp>
+#include <brep/union_find.hpp>
+
+#include <raycast/inline.hpp>
+#include <raycast/objects/mesh.hpp>
+#include <raycast/transform.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// Some triangles of a closed boundary as an open mesh. A vertex where several fans of them meet becomes one for each fan.
+[[nodiscard]] HALFLIGHT_INLINE std::shared_ptr<const raycast::Mesh> open_mesh(const brep::Builder& boundary,
+                                                                              std::span<const std::vector<std::uint32_t>> faces) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, std::uint32_t>> corners_of_edge;  // by its vertices
+  std::uint32_t count = 0;
+  for (const auto& face : faces) {
+    const auto size = static_cast<std::uint32_t>(face.size());
+    for (std::uint32_t i = 0; i < size; ++i) {
+      const std::uint32_t next = (i + 1) % size;
+      corners_of_edge[{face[i], face[next]}] = {count + i, count + next};
+    }
+    count += size;
+  }
+  brep::detail::UnionFind fans(count);
+  for (const auto& [edge, corners] : corners_of_edge) {
+    const auto other = corners_of_edge.find({edge.second, edge.first});
+    if (other == corners_of_edge.end()) { continue; }
+    fans.unite(corners.first, other->second.second);
+    fans.unite(corners.second, other->second.first);
+  }
+  std::vector<glm::dvec3> positions;
+  std::vector<std::vector<std::uint32_t>> parted;
+  std::map<std::uint32_t, std::uint32_t> vertex_of_fan;
+  std::uint32_t corner = 0;
+  for (const auto& face : faces) {
+    parted.emplace_back();
+    for (const std::uint32_t v : face) {
+      const auto [fan, is_new] = vertex_of_fan.try_emplace(fans.find(corner++), static_cast<std::uint32_t>(positions.size()));
+      if (is_new) { positions.push_back(boundary.position(v)); }
+      parted.back().push_back(fan->second);
+    }
+  }
+  return raycast::Mesh::make(positions, parted).object;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE std::vector<std::shared_ptr<const raycast::Mesh>> open_meshes(const raycast::PlacedObject& object, double tolerance) {
+  brep::Builder builder;
+  object.approximate(tolerance, builder);
+  std::vector<std::vector<std::uint32_t>> faces;
+  for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
+    const std::span<const std::uint32_t> c = builder.corners(f);
+    if (builder.sheet(f) == brep::no_sheet) { continue; }
+    if (c.size() > 4) { faces.emplace_back(c.begin(), c.end()); }
+    for (std::size_t i = 1; i + 1 < c.size() && c.size() <= 4; ++i) { faces.push_back({c[0], c[i], c[i + 1]}); }
+  }
+  const std::span all{faces};
+  auto first = detail::open_mesh(builder, all.first(faces.size() / 2)), second = detail::open_mesh(builder, all.subspan(faces.size() / 2));
+  if (!first || !second) { return {}; }
+  return {std::move(first), std::move(second)};
+}
+
+}  // namespace radiosity

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Meshes of triangles that segments meet in place of a curved object that is slow to meet.
+
+#include <memory>
+#include <vector>
+
+#include <raycast/objects/mesh.hpp>
+#include <raycast/transform.hpp>
+
+namespace radiosity {
+
+// The object to a tolerance (a length) as two meshes that are open, so that each crossing of a segment decides by itself; none when they
+// make none.
+[[nodiscard]] std::vector<std::shared_ptr<const raycast::Mesh>> open_meshes(const raycast::PlacedObject& object, double tolerance);
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/direct/stand_in.cpp>
+#endif
