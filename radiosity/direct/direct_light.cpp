@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -45,7 +44,9 @@ namespace detail {
 inline constexpr double facet_tolerance = 0.002;
 inline constexpr double stand_in_tolerance = 0.0004;
 inline constexpr std::size_t samples_of_lamp = 256;
-// Of each of the largest lamps, of which one may see little; and how many these are.
+// Of a large lamp, of which one may see little; at most of so many, the brightest ones. The side of its area, to the scene's diameter: where
+// smaller ones are partly hidden is seen as the edge of a shadow, and needs no more.
+inline constexpr double large_lamp = 0.25;
 inline constexpr std::size_t fine_samples = 4096;
 inline constexpr std::size_t most_fine = 4;
 // Of all lamps together, where they were joined; none has less than one round. Each is a small part of the light then.
@@ -157,15 +158,11 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
     samples = std::clamp<std::size_t>(std::bit_floor(detail::samples_of_joined / lamps), 16, samples);
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
-  std::vector<double> areas;
-  for (const Candidate& c : candidates) { areas.push_back(c.area); }
-  std::sort(areas.begin(), areas.end(), std::greater<>{});
-  const double large = areas.empty() ? 0.0 : areas[std::min(areas.size(), detail::most_fine) - 1];
   std::size_t fine_ones = 0;
   double taken = 0.0;
   for (const Candidate& c : candidates) {
     if (lamps_.size() == limits.most) { break; }
-    const bool fine = samples == detail::samples_of_lamp && c.area >= large && fine_ones < detail::most_fine;
+    const bool fine = samples == detail::samples_of_lamp && std::sqrt(c.area) > detail::large_lamp * objects.diameter() && fine_ones < detail::most_fine;
     Lamp lamp = make_lamp(surfaces, c, samples, fine);
     if (lamp.facets.empty()) { continue; }
     fine_ones += fine ? 1 : 0;

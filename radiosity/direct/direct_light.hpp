@@ -61,7 +61,7 @@ class DirectLight {
     std::array<glm::dvec3, 4> corners;  // of a rectangle around it, in its plane; of a curved one, around a point of it
     double bulge = 0.0;                 // how far it leaves the rectangle
     std::vector<LampSample> samples;    // even over its area, the first ones too
-    FineSamples fine;                   // about these; of the largest lamps, others have none
+    FineSamples fine;                   // about these; of large lamps, others have none
     std::vector<bool> behind;           // by object: some of it lies behind the plane of the flat lamp
     [[nodiscard]] raycast::PatchShape shape() const { return {corners, object, bulge}; }
   };

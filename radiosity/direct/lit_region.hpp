@@ -95,7 +95,7 @@ class LitRegion {
   };
   [[nodiscard]] Asked16 ask16(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::span<const LampSample> samples);
   [[nodiscard]] double seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
-  // Asks finer samples where neighbours differ, as many as it takes for the share to be known within some 1 % of itself: puts their sums in
+  // Asks finer samples where neighbours differ, as many as it takes for the share to be known within some 3 % of itself: puts their sums in
   // place of those of all samples and of the seen ones.
   void refine(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, double& all, double& seen);
   const Survey& survey(Reach& reach);

@@ -60,22 +60,12 @@ HALFLIGHT_INLINE const LitRegion::Survey& LitRegion::survey(Reach& reach) {
   if (reach.survey) { return *reach.survey; }
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
   Survey& result = reach.survey.emplace();
-  if (normal_ == glm::dvec3{0.0}) { return result; }
-  const auto ask = [&](std::span<const LampSample> samples) {
-    const Asked16 asked = ask16(reach, centre_, normal_, samples);
-    result.dark = result.dark && asked.seen == 0;
-    return asked;
-  };
-  if (lamp.fine.empty()) {
-    for (std::size_t first = 0; first < lamp.samples.size() && result.dark; first += 16) {
-      ask(std::span{lamp.samples}.subspan(first, 16));
-    }
-    return result;
-  }
+  if (normal_ == glm::dvec3{0.0} || lamp.fine.empty()) { return result; }
   constexpr std::size_t of_cell = 4;
   for (std::uint32_t cell = 0; cell < lamp.samples.size(); ++cell) {
     const std::span<const LampSample> samples = lamp.fine.of(cell);
-    const Asked16 asked = ask(samples.first(std::min(of_cell, samples.size())));
+    const Asked16 asked = ask16(reach, centre_, normal_, samples.first(std::min(of_cell, samples.size())));
+    result.dark = result.dark && asked.seen == 0;
     const auto carrying = std::count_if(asked.weight.begin(), asked.weight.end(), [](double w) { return w > 0.0; });
     if (asked.seen != 0 && std::popcount(asked.seen) < carrying) { result.mixed.push_back(cell); }
   }
@@ -120,7 +110,7 @@ HALFLIGHT_INLINE void LitRegion::refine(Reach& reach, const glm::dvec3& x, const
   std::sort(mixed_.begin(), mixed_.end());
   mixed_.erase(std::unique(mixed_.begin(), mixed_.end()), mixed_.end());
   // With m points in each of k cells that are partly seen, the area that is seen is off by some sqrt(k / (12 m)) cells.
-  constexpr double error = 0.01;
+  constexpr double error = 0.03;
   constexpr std::size_t most = 512;
   const double at_least = std::max(1.0, seen_cells);
   const double wanted = static_cast<double>(mixed_.size()) / (12.0 * error * error * at_least * at_least);
