@@ -51,6 +51,12 @@ HALFLIGHT_INLINE SurfaceErrorMeter::SurfaceErrorMeter(const Scene& scene, const 
   for (Triangle& triangle : triangles_) { before = triangle.until = before + triangle.area * density(triangle); }
 }
 
+HALFLIGHT_INLINE glm::dvec3 SurfaceErrorMeter::outward(const Triangle& triangle) const {
+  const auto corner = [&](std::uint32_t c) -> const glm::dvec3& { return mesh_->positions[mesh_->corners[c].vertex]; };
+  const glm::dvec3& a = corner(mesh_->faces[triangle.face].first_corner);
+  return glm::cross(corner(triangle.first) - a, corner(triangle.second) - a);
+}
+
 HALFLIGHT_INLINE bool SurfaceErrorMeter::measure(std::uint64_t points, std::uint32_t paths, unsigned threads, const Control& control,
                                                  SurfaceError& result) {
   if (!(total_ > 0.0)) { return true; }
@@ -106,6 +112,8 @@ HALFLIGHT_INLINE SurfaceErrorMeter::Sample SurfaceErrorMeter::measure_one(std::u
   const InputSurface& input = inputs_[face.surface];
   if (!(exposure_->area[face.node] > 0.0)) { return sample; }
   const raycast::SurfacePoint point = objects_->object(input.object).project(input.sheet, chord);
+  // Beside the edge of a blade the nearest point of the surface may lie on the blade's other side, which has leaves of its own.
+  if (!(glm::dot(point.normal, outward(*triangle)) > 0.0)) { return sample; }
   // Of a leaf that counts as exposed a corner may be buried all the same (exposure.hpp): seen from within what buries it, all is wrong.
   if (objects_->covered(point.position, point.normal, input.object)) { return sample; }
 

@@ -68,7 +68,8 @@ class SurfaceErrorMeter {
   SurfaceErrorMeter(const Scene& scene, const raycast::Scene& objects, const PathTracer& tracer, const Exposure& exposure, const Mesh& mesh,
                     const Mesh* direct, std::uint64_t seed);
 
-  // Adds `points` fresh points, spread evenly over the mesh; those that are buried do not count. False when cancelled.
+  // Adds `points` fresh points, spread evenly over the mesh; buried ones, and those nearest to the back of a blade, do not count.
+  // False when cancelled.
   [[nodiscard]] bool measure(std::uint64_t points, std::uint32_t paths, unsigned threads, const Control& control, SurfaceError& result);
 
  private:
@@ -88,6 +89,8 @@ class SurfaceErrorMeter {
     return light_ > 0.0 ? 0.5 / total_ + 0.5 * triangle.light / light_ : 1.0 / total_;
   }
 
+  // Normal to it, on the side of the air.
+  [[nodiscard]] glm::dvec3 outward(const Triangle& triangle) const;
   // At a point of the part [from, from + width] of all, 1 the whole.
   [[nodiscard]] Sample measure_one(std::uint64_t key, double from, double width, std::uint32_t paths) const;
 

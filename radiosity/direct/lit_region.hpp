@@ -63,7 +63,7 @@ class LitRegion {
   enum class Between : unsigned char { nothing, bodies, anything };
   // What is seen of a lamp from the middle of a flat region by more segments than each point sends: small openings.
   struct Survey {
-    bool dark = true;                  // nothing
+    bool dark;                         // nothing
     std::vector<std::uint32_t> mixed;  // cells of samples that are partly seen, ascending
   };
   struct Reach {

@@ -59,7 +59,7 @@ HALFLIGHT_INLINE LitRegion::Asked16 LitRegion::ask16(Reach& reach, const glm::dv
 HALFLIGHT_INLINE const LitRegion::Survey& LitRegion::survey(Reach& reach) {
   if (reach.survey) { return *reach.survey; }
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
-  Survey& result = reach.survey.emplace();
+  Survey& result = reach.survey.emplace(Survey{.dark = true, .mixed = {}});
   if (normal_ == glm::dvec3{0.0} || lamp.fine.empty()) { return result; }
   constexpr std::size_t of_cell = 4;
   for (std::uint32_t cell = 0; cell < lamp.samples.size(); ++cell) {
