@@ -61,7 +61,10 @@ class Text {
           audit_.generations > 0 ? ", after " + std::to_string(audit_.generations) + " generations" : "");
       if (!audit_.estimate_doubt.empty()) { say("", "{estimate_doubt}"); }
     }
-    if (audit_.target_missed) { row("", "TARGET MISSED: the error is above " + percent(report_.options.error.value_or(audit_.target))); }
+    if (audit_.target_missed) {
+      row("", "TARGET MISSED: the error is above " + percent(report_.options.error.value_or(audit_.target)) +
+                  (audit_.rounds_ended_by.empty() ? "" : "; ended by " + audit_.rounds_ended_by));
+    }
     say("path-traced points", "{error.points}, {error.rays} rays");
   }
 

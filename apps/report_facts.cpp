@@ -206,6 +206,7 @@ Facts facts_of(const Report& report) {
   facts.add("estimated_leaf_error", audit.estimated_leaf_error, "%");
   facts.add("estimate_doubt", audit.estimate_doubt);
   facts.add("target_missed", audit.target_missed);
+  facts.add("rounds_ended_by", audit.rounds_ended_by);
   facts.add("energy_balance", audit.energy_balance, "%");
   facts.add("escaped", audit.escaped, "%");
   facts.add("residual", audit.residual, "%.2e");

@@ -64,12 +64,18 @@ struct GivenPolygons {
   bool z_up = false;  // in the file
 };
 
+// The files beside a scene that were read for it: meshes, materials, pictures, parts.
+struct FilesBeside {
+  std::vector<std::string> paths;
+  std::string bytes;  // of all, one after the other
+};
+
 struct SceneFile {
   radiosity::Scene scene;
   std::vector<ObjectOrigin> origins;  // one per scene.objects
   std::vector<Camera> cameras;
-  std::vector<std::string> notes;        // of files of other formats: what was changed or taken otherwise
-  std::string beside;                    // all bytes of the files beside this one that were read
+  std::vector<std::string> notes;  // of files of other formats: what was changed or taken otherwise
+  FilesBeside beside;
   std::shared_ptr<GivenPolygons> given;  // of files of other formats; null: none
 };
 

@@ -37,21 +37,25 @@ std::optional<std::string> load_text(const std::string& path, ExitCode& code) {
 
 namespace {
 
-// Files that another one names lie beside it, or where their whole path says. All their bytes are collected in `read`.
-SideFile beside(const std::string& path, std::string& read) {
+// Files that another one names lie beside it, or where their whole path says. Those that were read are noted in `read`.
+SideFile beside(const std::string& path, FilesBeside& read) {
   return [folder = std::filesystem::path(path).parent_path(), &read](const std::string& name, std::string& fault) {
-    auto bytes = read_text((folder / name).string(), fault);
-    if (bytes) { read += *bytes; }
+    const std::string whole = (folder / name).string();
+    auto bytes = read_text(whole, fault);
+    if (bytes) {
+      read.paths.push_back(whole);
+      read.bytes += *bytes;
+    }
     return bytes;
   };
 }
 
 std::optional<SceneFile> load_model(const std::string& path, const std::string& bytes, const ModelFormat& format,
                                     const ModelOptions& options, ExitCode& code) {
-  std::string read;
+  FilesBeside read;
   ModelResult result = format.read(bytes, beside(path, read));
-  code = ExitCode::invalid_input;
   if (!result.model) {
+    code = ExitCode::invalid_input;
     const FileGuess guess = guess_kind(bytes);
     const auto sentence = guess.kind == FileKind::empty ? wrong_kind(shown(path), bytes, FileKind::scene) : std::nullopt;
     sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, shown(path)).c_str(), stderr));
@@ -61,29 +65,21 @@ std::optional<SceneFile> load_model(const std::string& path, const std::string& 
   auto file = to_scene(std::move(*result.model), format.up, options, faults);
   if (file) {
     file->beside = std::move(read);
-    code = ExitCode::ok;
   } else {
+    code = ExitCode::invalid_input;
     complain_of(shown(path), faults);
   }
   return file;
 }
 
-}  // namespace
-
-std::optional<SceneFile> load_scene(const std::string& path, ExitCode& code, const ModelOptions& options) {
-  const auto text = load_text(path, code);
-  return text ? load_scene(path, *text, code, options) : std::nullopt;
-}
-
-std::optional<SceneFile> load_scene(const std::string& path, const std::string& text, ExitCode& code, const ModelOptions& options) {
-  if (const ModelFormat* const format = model_format(path, text)) { return load_model(path, text, *format, options, code); }
+std::optional<SceneFile> load_own(const std::string& path, const std::string& text, const ModelOptions& options, ExitCode& code) {
   if (!options.lamps.empty()) {
     complain("--lamp is about files of other programs; in a .scene the material says it: material " + options.lamps[0].material +
              " reflectance 0.5 emission " + shortest(options.lamps[0].exitance));
     code = ExitCode::usage;
     return std::nullopt;
   }
-  std::string read;
+  FilesBeside read;
   SceneResult result = parse_scene(text, beside(path, read));
   if (!result.file) {
     const auto sentence = wrong_kind(shown(path), text, FileKind::scene);
@@ -93,6 +89,25 @@ std::optional<SceneFile> load_scene(const std::string& path, const std::string& 
   }
   result.file->beside = std::move(read);
   return std::move(result.file);
+}
+
+}  // namespace
+
+std::optional<SceneFile> load_scene(const std::string& path, const std::vector<std::string>& outputs, ExitCode& code,
+                                    const ModelOptions& options) {
+  const auto text = load_text(path, code);
+  return text ? load_scene(path, *text, outputs, code, options) : std::nullopt;
+}
+
+std::optional<SceneFile> load_scene(const std::string& path, const std::string& text, const std::vector<std::string>& outputs,
+                                    ExitCode& code, const ModelOptions& options) {
+  const ModelFormat* const format = model_format(path, text);
+  auto file = format ? load_model(path, text, *format, options, code) : load_own(path, text, options, code);
+  if (!file) { return std::nullopt; }
+  const ExitCode fault = check_outputs(outputs, file->beside.paths);
+  if (fault == ExitCode::ok) { return file; }
+  code = fault;
+  return std::nullopt;
 }
 
 ExitCode check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {

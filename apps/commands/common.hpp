@@ -24,11 +24,12 @@ inline constexpr std::size_t longest_list = 200;  // lines; of the others the nu
 [[nodiscard]] std::optional<std::string> load_text(const std::string& path, ExitCode& code);
 
 // Reads a scene, or a file of another program (intake/model.hpp); on failure prints every error to stderr and sets `code`. A file of
-// neither kind gets one sentence (file_kind.hpp).
-[[nodiscard]] std::optional<SceneFile> load_scene(const std::string& path, ExitCode& code, const ModelOptions& options = {});
-// The same for a text that has been read already.
-[[nodiscard]] std::optional<SceneFile> load_scene(const std::string& path, const std::string& text, ExitCode& code,
+// neither kind gets one sentence (file_kind.hpp). A scene is refused that has read one of `outputs`, for it would be overwritten.
+[[nodiscard]] std::optional<SceneFile> load_scene(const std::string& path, const std::vector<std::string>& outputs, ExitCode& code,
                                                   const ModelOptions& options = {});
+// The same for a text that has been read already.
+[[nodiscard]] std::optional<SceneFile> load_scene(const std::string& path, const std::string& text, const std::vector<std::string>& outputs,
+                                                  ExitCode& code, const ModelOptions& options = {});
 
 // Refuses, before any work, outputs that cannot be written, that are an input, or that are the same file as another output
 // (output_paths.hpp). Empty names are passed over.

@@ -21,7 +21,7 @@ struct ExplainOptions {
 ExitCode run(const ExplainOptions& options) {
   ExitCode code = check_outputs({options.output}, {options.scene});
   if (code != ExitCode::ok) { return code; }
-  const auto file = load_scene(options.scene, code);
+  const auto file = load_scene(options.scene, {options.output}, code);
   if (!file) { return code; }
   const std::string name = std::filesystem::path(options.scene).stem().string();
   const explain::RecordResult result = explain::record(file->scene, name, options.wanted);

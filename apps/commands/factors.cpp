@@ -204,7 +204,7 @@ ExitCode run(const FactorsOptions& options) {
   const std::vector<std::string> outputs{options.csv, options.total_exchange, options.json};
   ExitCode code = check_outputs(outputs, {options.scene});
   if (code != ExitCode::ok) { return code; }
-  const auto file = load_scene(options.scene, code, options.model);
+  const auto file = load_scene(options.scene, outputs, code, options.model);
   if (!file) { return code; }
   std::vector<radiosity::StageTime> times;
   radiosity::detail::Stopwatch watch(times);

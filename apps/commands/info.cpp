@@ -128,7 +128,7 @@ std::string summary(const SceneFile& file, const radiosity::Prepared& prepared, 
 
 ExitCode run(const InfoOptions& options) {
   ExitCode code = ExitCode::ok;
-  const auto file = load_scene(options.scene, code, options.model);
+  const auto file = load_scene(options.scene, {}, code, options.model);
   if (!file) { return code; }
   const radiosity::PrepareResult preparation = radiosity::prepare(file->scene);
   if (!preparation.prepared) {

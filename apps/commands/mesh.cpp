@@ -177,7 +177,7 @@ std::string to_json(const SceneFile& file, const SceneMesh& mesh, const MeshOpti
 ExitCode run(const MeshOptions& options) {
   ExitCode code = check_mesh_output(options.output, {options.json.value_or("")}, options.scene);
   if (code != ExitCode::ok) { return code; }
-  const auto file = load_scene(options.scene, code, options.model);
+  const auto file = load_scene(options.scene, {options.output, options.json.value_or("")}, code, options.model);
   if (!file) { return code; }
   const auto mesh = make_mesh(*file, options.scene);
   if (!mesh) { return ExitCode::invalid_input; }

@@ -197,7 +197,7 @@ ExitCode run(const RenderOptions& options) {
   }
   if (const ExitCode code = check(options); code != ExitCode::ok) { return code; }
   ExitCode code = ExitCode::ok;
-  const auto file = load_scene(options.scene, code, options.model);
+  const auto file = load_scene(options.scene, all_outputs(options), code, options.model);
   if (!file) { return code; }
   if (options.onto_input && !file->given) {
     complain("--onto-input: " + options.scene + " gives no polygons; only files of other programs (" + model_endings() + ") do");

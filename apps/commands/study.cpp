@@ -80,11 +80,20 @@ std::string title_of(const std::string& text) {
   return first < end ? text.substr(first, text.find_last_not_of(" \t\r", end - 1) + 1 - first) : std::string();
 }
 
+// What every study writes. The names of its pictures are known when it is done.
+std::vector<std::string> known_files(const StudyOptions& options) {
+  std::vector<std::string> names{"index.html", "results.csv", "results.json"};
+  if (options.part) { names = {study::part_file(*options.part)}; }
+  for (const std::string& scene : options.scenes) { names.push_back(fs::path(scene).stem().string() + ".reference.json"); }
+  for (std::string& name : names) { name = (fs::path(options.folder) / name).string(); }
+  return names;
+}
+
 // One scene; false when there is nothing to show of it. `code` says why.
 bool study_scene(const std::string& path, const StudyOptions& options, const std::vector<study::MethodPlan>& methods,
                  const radiosity::Control& control, Progress& progress, study::SceneStudy& result, ExitCode& code) {
   const auto text = load_text(path, code);
-  const auto file = text ? load_scene(path, *text, code, options.model) : std::nullopt;
+  const auto file = text ? load_scene(path, *text, known_files(options), code, options.model) : std::nullopt;
   if (!file) { return false; }
   result.scene = fs::path(path).stem().string();
   result.title = title_of(*text);
@@ -96,7 +105,7 @@ bool study_scene(const std::string& path, const StudyOptions& options, const std
   const std::string name = result.scene + ".reference.json";
   const std::vector<std::string> caches{(fs::path(path).parent_path() / name).string(), (fs::path(options.folder) / name).string()};
   // A file of another program, those beside it, and what the command line says about them, are the scene together.
-  const std::string known = file->notes.empty() ? *text : *text + options.model.key() + file->beside;
+  const std::string known = file->notes.empty() ? *text : *text + options.model.key() + file->beside.bytes;
   std::string fault;
   const auto truth = study::make_reference(file->scene, known, caches, reference, control, fault);
   if (!truth) {
@@ -194,23 +203,17 @@ ExitCode check_names(const std::vector<std::string>& scenes) {
   return ExitCode::ok;
 }
 
-// Can what every study writes be written? The names of its pictures are known when it is done.
-ExitCode check_files(const StudyOptions& options) {
-  std::vector<std::string> names{"index.html", "results.csv", "results.json"};
-  if (options.part) { names = {study::part_file(*options.part)}; }
-  for (const std::string& scene : options.scenes) { names.push_back(fs::path(scene).stem().string() + ".reference.json"); }
-  for (std::string& name : names) { name = (fs::path(options.folder) / name).string(); }
-  return check_outputs(names, options.scenes);
-}
+// Can what every study writes be written?
+ExitCode check_files(const StudyOptions& options) { return check_outputs(known_files(options), options.scenes); }
 
-// Measures what is this part's of each scene, until it is interrupted.
+// Measures what is this part's of each scene, until it is interrupted, or one has read a file that the study would write.
 study::Part measure(const StudyOptions& options, const radiosity::Control& control, Progress& progress, ExitCode& code) {
   const std::vector<study::MethodPlan> methods = study::methods({options.threads, 1, options.memory});
   study::Part part{options.part.value_or(study::PartNumber{}), asked(options), options.scenes.size(), methods.size(), {}, {}, {}};
   part.study.machine = machine();
   part.study.compiler = compiler();
   part.study.version = version;
-  for (std::size_t i = 0; i < options.scenes.size() && !control.cancelled(); ++i) {
+  for (std::size_t i = 0; i < options.scenes.size() && !control.cancelled() && code != ExitCode::usage; ++i) {
     std::vector<study::MethodPlan> plans;
     std::vector<std::size_t> which;
     for (std::size_t m = 0; m < methods.size(); ++m) {
@@ -250,6 +253,7 @@ ExitCode run(const StudyOptions& given) {
   ExitCode code = ExitCode::ok;
   const study::Part part = measure(options, control, progress, code);
   progress.done();
+  if (code == ExitCode::usage) { return code; }
   if (control.cancelled()) {
     complain(part.study.scenes.empty() ? "interrupted; nothing was written" : "interrupted; what was finished is written");
     code = ExitCode::failure;

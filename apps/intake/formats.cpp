@@ -43,6 +43,30 @@ bool usable(const Camera& camera) {
          camera.field_of_view <= 179.0;
 }
 
+void Model::begin_part(const std::string& name) {
+  if (!parts.empty() && parts.back().first_polygon == polygons()) { parts.pop_back(); }
+  if (name != (parts.empty() ? std::string() : parts.back().name)) { parts.push_back({static_cast<std::uint32_t>(polygons()), name}); }
+}
+
+void Model::name_file(const std::string& name) {
+  for (ModelPart& part : parts) {
+    if (part.name.empty()) { part.name = name; }
+  }
+  if (parts.empty() || parts.front().first_polygon > 0) { parts.insert(parts.begin(), ModelPart{0, name}); }
+}
+
+std::string Model::place(std::uint32_t polygon) const {
+  const auto after =
+      std::upper_bound(parts.begin(), parts.end(), polygon, [](auto p, const ModelPart& part) { return p < part.first_polygon; });
+  const ModelPart part = after == parts.begin() ? ModelPart{} : *(after - 1);
+  if (polygon < line.size() && line[polygon] > 0) {
+    return "at line " + std::to_string(line[polygon]) + (part.name.empty() ? "" : " of " + part.name);
+  }
+  const std::size_t end = after == parts.end() ? polygons() : after->first_polygon;
+  return "at polygon " + std::to_string(polygon - part.first_polygon + 1) + " of " + std::to_string(end - part.first_polygon) +
+         (part.name.empty() ? "" : " in " + part.name);
+}
+
 std::vector<std::string> Notes::take() const {
   std::vector<std::pair<std::size_t, std::string>> sorted;
   for (const auto& [sentence, entry] : entries_) {

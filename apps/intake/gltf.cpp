@@ -136,8 +136,11 @@ class GltfReader {
     if (name.empty()) { name = "node" + std::to_string(index); }
     const auto group = static_cast<std::uint32_t>(model_.groups.size());
     model_.groups.push_back(std::move(name));
+    std::size_t number = 0;
     for (const JsonValue& primitive : mesh["primitives"].items()) {
       if (errors_.full() || model_.polygons() > most_polygons) { return; }
+      model_.begin_part("meshes[" + std::to_string(*node["mesh"].index()) + "].primitives[" + std::to_string(number++) + "] of nodes[" +
+                        std::to_string(index) + "] " + mesh_file::shown(model_.groups[group]));
       triangles(primitive, matrix, group);
     }
   }

@@ -120,6 +120,8 @@ class Reader {
       return notes.add("the file " + mesh_file::shown(name) + " " + (fault.empty() ? "is not there" : fault) + ": left out", at(line));
     }
     const glm::dmat4 outer = shapes_.transform;
+    const std::string outer_file = std::exchange(file_, name);
+    model.begin_part(file_);
     for (std::size_t i = 0; i < transforms.copies() && !errors.full() && lines_ <= most_lines; ++i) {
       Errors inner;
       read(*text, outer * transforms.copy(i), depth + 1, inner);
@@ -131,12 +133,15 @@ class Reader {
       }
     }
     shapes_.transform = outer;
+    file_ = outer_file;
+    model.begin_part(file_);
   }
 
   const SideFile& side_file_;
   Looks looks_{model, notes};
   Shapes shapes_{model, notes, looks_};
   std::vector<std::string> objects_;  // that are open
+  std::string file_;                  // that is included; empty: none
   std::set<std::string> refused_;     // included files with errors
   std::size_t lines_ = 0, files_ = 0;
 };

@@ -42,11 +42,19 @@ struct ModelLight {
   bool absolute = false;  // in W/sr
 };
 
+// A run of polygons that stand together: in an included file, or, in formats without lines, in one list. Its name is empty for the file
+// itself.
+struct ModelPart {
+  std::uint32_t first_polygon = 0;
+  std::string name;
+};
+
 struct Model {
   std::vector<glm::dvec3> positions;
   std::vector<std::uint32_t> corners, first_corner{0};
   std::vector<std::uint32_t> material, group;  // of each polygon
   std::vector<std::uint32_t> line;             // of each polygon: where it stands in the file; empty or 0: nowhere
+  std::vector<ModelPart> parts;                // of the polygons, in their order; before the first: the file itself
   std::vector<std::string> groups;             // names
   std::vector<ModelMaterial> materials;
   std::vector<radiosity::SceneObject> objects;  // analytic ones; their materials are among the model's
@@ -64,6 +72,13 @@ struct Model {
     group.push_back(its_group);
     line.push_back(its_line);
   }
+
+  // The polygons from now on stand in this part.
+  void begin_part(const std::string& name);
+  // What has no other name stands in this file.
+  void name_file(const std::string& name);
+  // "at line 12", "at line 12 of part.mgf", "at polygon 3 of 50", "at polygon 3 of 50 in meshes[0].primitives[1]"; polygons from 1 on.
+  [[nodiscard]] std::string place(std::uint32_t polygon) const;
 };
 
 // Notes that are the same for many places: each is told once, with how often and where first.

@@ -155,9 +155,12 @@ class SceneMaker {
                                       model_.group,     model_.groups,  two_sided_};
     radiosity::Intake intake = radiosity::take_in(view, file_.scene.materials, options);
     for (const radiosity::Change& change : intake.changes) {
-      const bool vertex = change.kind == radiosity::ChangeKind::welded || change.kind == radiosity::ChangeKind::flattened;
-      const std::uint32_t line = vertex || change.first >= model_.line.size() ? 0 : model_.line[change.first];
-      note(radiosity::sentence(change) + (line > 0 ? (change.count > 1 ? ", first at line " : ", at line ") + std::to_string(line) : ""));
+      const bool worst = radiosity::tells_size(change);
+      note(radiosity::sentence(change) +
+           (change.count == 1 ? ", "
+            : worst           ? ", worst "
+                              : ", first ") +
+           model_.place(worst ? change.worst : change.first));
     }
     note(counted(intake.polygons, "polygon") + " became " + counted(intake.faces, "face") + " of " +
          counted(intake.objects.size(), "object"));

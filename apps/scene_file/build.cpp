@@ -181,6 +181,7 @@ Made Builder::make_from_file(const ObjectSyntax& object) {
     errors_.add(file.place, file.text + ":" + at + ": " + error.sentence);
   }
   if (!read.model) { return made; }
+  read.model->name_file(file.text);
   std::vector<std::string> faults;
   auto part = to_part(std::move(*read.model), object.two_sided.has_value(), faults);
   for (const std::string& sentence : faults) { errors_.add(file.place, file.text + ": " + sentence); }

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -103,6 +105,13 @@ class ModelMaker final : public Visitor {
       std::string first = to_text(errors.take(), name);
       notes_.add("left out " + first.substr(0, first.find('\n')), at(node));
       return nullptr;
+    }
+    std::vector<const Node*> open{root.get()};
+    while (!open.empty()) {  // lines are those of that file
+      const Node* const inner = open.back();
+      open.pop_back();
+      if (!files_.emplace(inner, name).second) { continue; }
+      for (const auto& child : inner->children) { open.push_back(child.get()); }
     }
     inlines_[name] = root;  // one that names itself is found to be too deep
     return root;
@@ -225,6 +234,8 @@ class ModelMaker final : public Visitor {
 
   static bool mirrored(const State& state) { return glm::determinant(glm::dmat3(state.transform)) < 0.0; }
   std::uint32_t new_group(const Node& node) {
+    const auto file = files_.find(&node);
+    model.begin_part(file == files_.end() ? "" : file->second);
     model.groups.push_back(node.name.empty() ? "faces" + std::to_string(model.groups.size()) : node.name);
     return static_cast<std::uint32_t>(model.groups.size() - 1);
   }
@@ -303,6 +314,7 @@ class ModelMaker final : public Visitor {
   Pictures pictures_;
   std::map<std::tuple<const Node*, const Node*, std::size_t, bool>, std::uint32_t> materials_;
   std::map<std::string, std::shared_ptr<const Node>> inlines_;
+  std::unordered_map<const Node*, std::string> files_;  // of the nodes that were inlined
 };
 
 ModelResult read_vrml(std::string_view bytes, const SideFile& side_file) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -42,69 +43,99 @@ HALFLIGHT_INLINE std::uint64_t bytes_of(const Solution& solution) {
          mesh.corners.capacity() * sizeof(MeshCorner) + mesh.faces.capacity() * sizeof(MeshFace);
 }
 
+// The fineness of the rounds, one after the other.
+class Rounds {
+ public:
+  Rounds(const Options& options, bool of_picture) : round_{options}, of_picture_{of_picture} {
+    round_.epsilon = 0.04;
+    round_.min_area = 3.84e-3;
+    round_.target = 0.16;
+  }
+
+  [[nodiscard]] const Options& options() const { return round_; }
+
+  // What ends the rounds after this one; empty when they go on, finer where the error is: in the light of lamps, in the rest, or in both.
+  [[nodiscard]] std::string next(const Audit& audit) {
+    const std::optional<ErrorEstimate>& error = !of_picture_          ? audit.steering_error
+                                                : audit.picture_error ? audit.picture_error->steering
+                                                                      : nothing_;
+    // Where noise hides the error nothing is known of it: a finer solution may cost a larger audit, which tells.
+    const bool seen = error && error->low > 0.0;
+    const bool gained = seen && (!least_ || error->relative_l2 < 0.95 * *least_);
+    if (gained) { least_ = error->relative_l2; }
+    if (seen) { without_gain_ = gained ? 0 : without_gain_ + 1; }
+    const double direct = of_picture_ || !gained ? 0.5 : audit.direct_share.value_or(0.5);
+    constexpr double step = 0.55;
+    round_.light_epsilon = (direct > 0.35 ? step : 1.0) * audit.light_epsilon;
+    if (direct < 0.65) {
+      round_.epsilon *= step;
+      round_.min_area *= step * step;  // so does what the ends of shadows and contacts leave out
+    }
+    round_.target *= 0.5;
+    const bool floor =
+        round_.refinement == Refinement::a_priori ? round_.epsilon < 1e-5 || *round_.light_epsilon < 1e-6 : round_.target < 1e-4;
+    if (audit.links > link_budget) { return "its limit of " + std::to_string(link_budget / 1'000'000) + " million links"; }
+    return floor ? "the finest thresholds" : without_gain_ == 3 ? "three rounds without gain" : "";
+  }
+
+ private:
+  Options round_;
+  bool of_picture_;
+  std::optional<double> least_;  // error that was seen
+  int without_gain_ = 0;         // rounds
+  const std::optional<ErrorEstimate> nothing_{};
+};
+
+HALFLIGHT_INLINE Failure not_measurable(bool of_picture) {
+  return {Failure::Kind::invalid_options,
+          {of_picture ? "no pixel of the picture shows reflected light whose paths end, so its error cannot be measured; aim at "
+                        "the error over all surfaces, or give an epsilon instead of an error"
+                      : "the error of this scene cannot be measured, for its paths do not end or meet no light; give an "
+                        "epsilon instead of an error"}};
+}
+
+// Why there is no further solution.
+HALFLIGHT_INLINE void end_with(const Failure& failure, Audit& best) {
+  best.interrupted = failure.kind == Failure::Kind::cancelled;
+  if (failure.kind == Failure::Kind::out_of_memory) {
+    best.shortage = failure.sentences.empty() ? "no more memory" : failure.sentences.front();
+  }
+}
+
 HALFLIGHT_INLINE Outcome solve_to_error(const Options& options, bool of_picture,
                                         const std::function<Outcome(const Options&, std::uint64_t held)>& solve_round) {
   const double wanted = *options.error;
-  Options round = options;
-  round.epsilon = 0.04;
-  round.min_area = 3.84e-3;
-  round.target = 0.16;
+  Rounds rounds{options, of_picture};
   std::vector<StageTime> stages;
   Outcome best;
   std::optional<ErrorEstimate> best_error;
-  int without_gain = 0;
-  for (;;) {
-    Outcome outcome = solve_round(round, best.solution ? bytes_of(*best.solution) : 0);
+  std::string ended_by;
+  for (bool over = false; !over;) {
+    Outcome outcome = solve_round(rounds.options(), best.solution ? bytes_of(*best.solution) : 0);
     if (!outcome.solution) {
       if (!best.solution) { return outcome; }
-      Audit& audit = best.solution->audit;
-      audit.interrupted = outcome.failure.kind == Failure::Kind::cancelled;
-      if (outcome.failure.kind == Failure::Kind::out_of_memory) {
-        audit.shortage = outcome.failure.sentences.empty() ? "no more memory" : outcome.failure.sentences.front();
-      }
-    } else {
-      const Audit& audit = outcome.solution->audit;
-      add_times(stages, audit.stages);
-      const std::optional<ErrorEstimate> error = aimed_error(audit, options, of_picture);
-      if (!error && !audit.interrupted) {
-        return failed(
-            Failure::Kind::invalid_options,
-            {of_picture ? "no pixel of the picture shows reflected light whose paths end, so its error cannot be measured; aim at "
-                          "the error over all surfaces, or give an epsilon instead of an error"
-                        : "the error of this scene cannot be measured, for its paths do not end or meet no light; give an "
-                          "epsilon instead of an error"});
-      }
-      const bool gained = !best_error || !error || error->relative_l2 < 0.95 * best_error->relative_l2;
-      // Where noise hides the error nothing is known of it: a finer solution may cost a larger audit, which tells.
-      const bool hidden = error && error->low <= 0.0;
-      if (gained || !hidden) { without_gain = gained ? 0 : without_gain + 1; }
-      // Finer where the error is: in the light of lamps, in the rest, or in both.
-      const double direct = of_picture || !gained ? 0.5 : audit.direct_share.value_or(0.5);
-      constexpr double step = 0.55;
-      round.light_epsilon = (direct > 0.35 ? step : 1.0) * audit.light_epsilon;
-      if (direct < 0.65) {
-        round.epsilon *= step;
-        round.min_area *= step * step;  // so does what the ends of shadows and contacts leave out
-      }
-      round.target *= 0.5;
-      const bool floor =
-          options.refinement == Refinement::a_priori ? round.epsilon < 1e-5 || *round.light_epsilon < 1e-6 : round.target < 1e-4;
-      const bool over = audit.interrupted || !audit.shortage.empty() || audit.links > link_budget || floor || without_gain == 3;
-      const bool met = error && error->within(wanted);
-      if (!best.solution || !best_error || (error && !(best_error->high < error->low))) {
-        best = std::move(outcome);
-        best_error = error;
-      }
-      if (!met && !over) { continue; }
+      end_with(outcome.failure, best.solution->audit);
+      break;
     }
-    Audit& audit = best.solution->audit;
-    const bool ended_early = audit.interrupted || !audit.shortage.empty();
-    audit.target_missed = !ended_early && !(best_error && best_error->within(wanted));
-    audit.converged = audit.converged && !ended_early && !audit.target_missed;
-    audit.stages = std::move(stages);
-    sum_times(audit);
-    return best;
+    const Audit& audit = outcome.solution->audit;
+    add_times(stages, audit.stages);
+    const std::optional<ErrorEstimate> error = aimed_error(audit, options, of_picture);
+    if (!error && !audit.interrupted) { return {std::nullopt, not_measurable(of_picture)}; }
+    ended_by = rounds.next(audit);
+    over = (error && error->within(wanted)) || audit.interrupted || !audit.shortage.empty() || !ended_by.empty();
+    if (!best.solution || !best_error || (error && !(best_error->high < error->low))) {
+      best = std::move(outcome);
+      best_error = error;
+    }
   }
+  Audit& audit = best.solution->audit;
+  const bool ended_early = audit.interrupted || !audit.shortage.empty();
+  audit.target_missed = !ended_early && !(best_error && best_error->within(wanted));
+  if (audit.target_missed) { audit.rounds_ended_by = ended_by; }
+  audit.converged = audit.converged && !ended_early && !audit.target_missed;
+  audit.stages = std::move(stages);
+  sum_times(audit);
+  return best;
 }
 
 }  // namespace detail

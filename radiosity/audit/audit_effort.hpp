@@ -17,18 +17,26 @@
 namespace radiosity {
 
 struct AuditGoal {
-  std::uint64_t points = 2000;     // about: a quarter of them at least, more where the points differ much
-  std::uint64_t rays = 0;          // at most, unless the least number of points takes more; as dear as among few polygons
-  std::optional<double> wanted{};  // relative L2 that is to be shown, or shown to be missed; else the error is to be known to a quarter
-  std::uint64_t rays_to_show = 0;  // at most when the pilot finds the error to be what is wanted: that is then all that is left to do
-  std::uint64_t rays_anyhow = 0;   // at least: a pilot may have met the few points that matter by chance, or missed them
+  std::uint64_t points = 2000;      // about: a quarter of them at least, more where the points differ much
+  std::uint64_t rays = 0;           // at most, unless the least number of points takes more; as dear as among few polygons
+  std::optional<double> wanted{};   // relative L2 that is to be shown, or shown to be missed; else the error is to be known to a quarter
+  std::uint64_t rays_to_show = 0;   // at most when the pilot finds the error to be what is wanted: that is then all that is left to do
+  std::uint64_t rays_anyhow = 0;    // at least: a pilot may have met the few points that matter by chance, or missed them
+  std::uint64_t rays_to_steer = 0;  // at most, for what decides how to refine further: it must not depend on what is wanted
 
   // The same where a ray costs `work` times as much (raycast::Scene::ray_work).
   [[nodiscard]] AuditGoal among_rays_of(double work) const {
     const auto fewer = [work](std::uint64_t count) { return static_cast<std::uint64_t>(static_cast<double>(count) / work); };
-    return {points, fewer(rays), wanted, fewer(rays_to_show), fewer(rays_anyhow)};
+    return {points, fewer(rays), wanted, fewer(rays_to_show), fewer(rays_anyhow), fewer(rays_to_steer)};
   }
 };
+
+// The points that steer, and the paths at each.
+inline constexpr std::uint64_t steering_points = 256;
+[[nodiscard]] inline std::uint32_t steering_paths(const AuditGoal& goal) {
+  constexpr std::uint64_t rays_a_path = 8;  // about
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(goal.rays_to_steer / (2 * steering_points * rays_a_path), 4, 256));
+}
 
 // As many rays of paths as the solution took time, or somewhat less: among few polygons, a link takes at least as long as a ray of a path.
 // A segment of a link takes an eighth of that in any scene: it ends, goes the way of fifteen others, and looks for nothing but a blocker.

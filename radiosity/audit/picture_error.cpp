@@ -72,9 +72,11 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
     }
     return !control.cancelled();
   };
+  const AuditGoal own = goal.among_rays_of(prepared_->objects.ray_work());
+  Measured steering;
+  if (own.rays_to_steer > 0 && !measure(steering_points, steering_paths(own), steering)) { return std::nullopt; }
   if (!measure_to_goal<Measured>(
-          measure, [](const Measured& m) -> const ErrorSums& { return m.sums; }, goal.among_rays_of(prepared_->objects.ray_work()),
-          measured)) {
+          measure, [](const Measured& m) -> const ErrorSums& { return m.sums; }, own, measured)) {
     return std::nullopt;
   }
   const std::optional<ErrorEstimate> error = measured.sums.estimate();
@@ -88,6 +90,7 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   result.over2 = over2;
   result.over8 = over8;
   result.worst = worst_tile(picture, measured);
+  result.steering = steering.sums.estimate();
   return result;
 }
 

@@ -142,6 +142,7 @@ HALFLIGHT_INLINE void split_faulty(Working& mesh, bool strict) {
 // Each vertex is projected on the planes of its faces in turn (Kaczmarz 1937), which converges to a point of all of them near the first.
 HALFLIGHT_INLINE void flatten(Working& mesh) {
   std::vector<raycast::Plane> planes;
+  std::vector<std::uint32_t> polygons;                        // of the planes
   std::vector<std::pair<std::uint32_t, std::uint32_t>> uses;  // vertex, plane
   bool any = false;
   for (const Face& face : mesh.faces) {
@@ -152,14 +153,17 @@ HALFLIGHT_INLINE void flatten(Working& mesh) {
     any = any || plane.slack > 0.0;
     for (const std::uint32_t v : face.corners) { uses.emplace_back(v, static_cast<std::uint32_t>(planes.size())); }
     planes.push_back(plane);
+    polygons.push_back(face.polygon);
   }
   if (!any) { return; }
   std::sort(uses.begin(), uses.end());
   for (std::size_t first = 0, end = 0; first < uses.size(); first = end) {
     const std::uint32_t vertex = uses[first].first;
-    bool off = false;
-    for (end = first; end < uses.size() && uses[end].first == vertex; ++end) { off = off || planes[uses[end].second].slack > 0.0; }
-    if (!off) { continue; }
+    std::uint32_t off = uses[first].second;  // the plane from which a corner is farthest
+    for (end = first; end < uses.size() && uses[end].first == vertex; ++end) {
+      off = planes[uses[end].second].slack > planes[off].slack ? uses[end].second : off;
+    }
+    if (!(planes[off].slack > 0.0)) { continue; }
     glm::dvec3 p = mesh.positions[vertex];
     double moved = HUGE_VAL;
     for (int round = 0; round < 64 && moved > 1e-9 * mesh.tolerance; ++round) {
@@ -174,7 +178,7 @@ HALFLIGHT_INLINE void flatten(Working& mesh) {
     const double distance = glm::length(p - mesh.positions[vertex]);
     if (!(distance > 0.0 && distance <= mesh.tolerance)) { continue; }
     mesh.positions[vertex] = p;
-    mesh.changed(ChangeKind::flattened, vertex, distance);
+    mesh.changed(ChangeKind::flattened, polygons[off], distance);
   }
 }
 

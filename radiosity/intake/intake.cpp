@@ -83,10 +83,15 @@ HALFLIGHT_INLINE std::string length_text(double metres) {
   return "0 mm";
 }
 
+HALFLIGHT_INLINE bool tells_size(const Change& change) {
+  const std::string_view several = intake::detail::wordings[static_cast<std::size_t>(change.kind)].several;
+  return several.find('@') != several.npos && !length_text(change.size).starts_with("0 ");
+}
+
 HALFLIGHT_INLINE std::string sentence(const Change& change) {
   const intake::detail::Wording& wording = intake::detail::wordings[static_cast<std::size_t>(change.kind)];
   std::string text = change.count == 1 ? wording.one : wording.several;
-  if (length_text(change.size).starts_with("0 ")) {  // exactly there, or but for rounding
+  if (!tells_size(change)) {  // exactly there, or but for rounding
     for (const std::string_view beside : {", @ beside it", ", beside it by @", ", beside them by up to @"}) {
       const std::size_t at = text.find(beside);
       if (at != std::string::npos) { text.erase(at, beside.size()); }

@@ -87,11 +87,15 @@ struct Change {
   ChangeKind kind = ChangeKind::welded;
   std::size_t count = 0;
   double size = 0.0;        // the largest, a length; 0 where the kind has none
-  std::uint32_t first = 0;  // the polygon (or, of welded and flattened, the vertex) of the input with the lowest number
+  std::uint32_t first = 0;  // the polygon of the input with the lowest number
+  std::uint32_t worst = 0;  // the one with the largest size
 };
 
 // "412 polygons were not planar by up to 1.8 mm: split". Without the place, which only the caller can name. Lengths are taken as metres.
 [[nodiscard]] std::string sentence(const Change& change);
+
+// Does the sentence tell the size? What lies where it should but for rounding has none to tell.
+[[nodiscard]] bool tells_size(const Change& change);
 
 // 0.0018 as "1.8 mm"
 [[nodiscard]] std::string length_text(double metres);

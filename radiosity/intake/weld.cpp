@@ -111,7 +111,7 @@ HALFLIGHT_INLINE void weld(const PolygonView& input, std::size_t materials, doub
         if (kept[v] == none) {
           kept[v] = grid.add(position);
         } else {
-          out.changed(ChangeKind::welded, v, glm::length(out.positions[kept[v]] - position));
+          out.changed(ChangeKind::welded, face.polygon, glm::length(out.positions[kept[v]] - position));
         }
       }
       face.corners.push_back(kept[v]);

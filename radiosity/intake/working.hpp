@@ -63,10 +63,12 @@ struct Working {
   double tolerance = 0.0;  // a length: closer than this is the same place
   std::array<Change, static_cast<std::size_t>(ChangeKind::merged) + 1> changes{};
 
-  void changed(ChangeKind kind, std::uint32_t first, double size = 0.0, std::size_t count = 1) {
+  void changed(ChangeKind kind, std::uint32_t polygon, double size = 0.0, std::size_t count = 1) {
     Change& change = changes[static_cast<std::size_t>(kind)];
     change.kind = kind;
-    change.first = change.count == 0 ? first : std::min(change.first, first);
+    const bool worse = change.count == 0 || size > change.size || (size == change.size && polygon < change.worst);
+    change.worst = worse ? polygon : change.worst;
+    change.first = change.count == 0 ? polygon : std::min(change.first, polygon);
     change.count += count;
     change.size = std::max(change.size, size);
   }

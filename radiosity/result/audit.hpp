@@ -88,13 +88,17 @@ struct Audit {
   std::optional<double> estimated_error, estimated_leaf_error;
   std::string estimate_doubt;     // why the estimate is no bound of the error, or far above it; empty where it may be taken for one
   bool target_missed = false;     // Options::error, by the audit; Options::target, by the estimate or the audit
+  std::string rounds_ended_by;    // of Options::error, where it was missed: what ended the rounds, such as "three rounds without gain"
   std::uint32_t generations = 0;  // of BF-refinement
   std::uint64_t audit_points = 0;
   std::optional<ErrorEstimate> leaf_error;     // over all surfaces, of the constant on each leaf
   std::optional<ErrorEstimate> surface_error;  // over all surfaces, of the reconstructed radiosity, which pictures show
   std::optional<PictureError> picture_error;   // of one picture
   std::optional<MeshRefinement> mesh;          // when it was asked for
-  std::optional<double> direct_share;          // of the square of surface_error: what is wrong in the light that was reflected once
+  // What steers the rounds to Options::error, from points whose number does not depend on it: the error over all surfaces, and what is
+  // wrong in the light that was reflected once, of the square of that error.
+  std::optional<ErrorEstimate> steering_error;
+  std::optional<double> direct_share;
   // what was done
   std::vector<LeftOut> left_out;
   std::vector<std::string> warnings;  // what in the scene may not be what was meant (warnings.hpp)

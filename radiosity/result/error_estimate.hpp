@@ -64,6 +64,7 @@ struct PictureError {
   };
   std::optional<Tile> worst;
   std::uint64_t points = 0, rays = 0;
+  std::optional<ErrorEstimate> steering;  // from points and paths whose number does not depend on what is wanted
 };
 
 }  // namespace radiosity

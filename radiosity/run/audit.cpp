@@ -40,6 +40,7 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
   AuditGoal goal = to_know;
   if (options.error) {  // a quarter is left for what steers the next round
     goal = {options.audit_points, 3 * solution_rays / 4, *options.error, std::max<std::uint64_t>(25'000'000, 2 * solution_rays)};
+    goal.rays_to_steer = solution_rays / 4;
   }
   if (options.error && control.picture_error) {
     Mesh shown = solution.mesh;
@@ -49,42 +50,42 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
     const bool last = audit.picture_error && audit.picture_error->error.within(*options.error);
     goal = last ? to_know : AuditGoal{options.audit_points / 4, solution_rays / 4};
   }
+  goal = goal.among_rays_of(audit.ray_work);
   const bool reconstructed = options.reconstruction != Reconstruction::none;
+  const auto sums = [&](const SurfaceError& error) -> const ErrorSums& { return reconstructed ? error.reconstructed : error.leaf; };
   const auto measure = [&](std::uint64_t points, std::uint32_t paths, SurfaceError& to) {
     return meter.measure(points, paths, run.scene.threads, control, to);
   };
+  if (goal.rays_to_steer > 0) {  // before all else, so that its points are the same ones for any target
+    SurfaceError steering;
+    if (!measure(steering_points, steering_paths(goal), steering)) { return; }
+    audit.steering_error = sums(steering).estimate();
+    const double direct = std::max(0.0, steering.direct), split = direct + std::max(0.0, steering.other);
+    if (split > 0.0) { audit.direct_share = direct / split; }
+  }
   SurfaceError measured;
-  const bool complete = measure_to_goal<SurfaceError>(
-      measure, [&](const SurfaceError& error) -> const ErrorSums& { return reconstructed ? error.reconstructed : error.leaf; },
-      goal.among_rays_of(audit.ray_work), measured);
-  if (!complete) { return; }
+  if (!measure_to_goal<SurfaceError>(measure, sums, goal, measured)) { return; }
   audit.leaf_error = measured.leaf.estimate();
   if (reconstructed) { audit.surface_error = measured.reconstructed.estimate(); }
   audit.audit_points = measured.points();
   audit.audit_rays = measured.rays;
-  if (!options.error || control.picture_error) { return; }
-  // What steers the next round must not depend on the target: a quarter of the rays that the solution is worth, at most.
-  SurfaceError steering;
-  constexpr std::uint64_t points = 256, rays_a_path = 8;
-  const double rays = static_cast<double>(solution_rays) / (4.0 * audit.ray_work);
-  const auto paths = static_cast<std::uint32_t>(std::clamp(rays / (2.0 * points * rays_a_path), 4.0, 64.0));
-  if (!measure(points, paths, steering)) { return; }
-  const double split = std::max(0.0, steering.direct) + std::max(0.0, steering.other);
-  if (split > 0.0) { audit.direct_share = std::max(0.0, steering.direct) / split; }
 }
 
-// Says where the estimate from links is more than three times too small or too large for what path tracing found.
+// Says where the estimate from links is more than three times too small or too large for what path tracing found, whatever the interval
+// around that: a wide one must not excuse the estimate. Of an error that is lost in the noise only the upper end is known.
 HALFLIGHT_INLINE std::string contradiction(const std::optional<double>& estimate, const std::optional<ErrorEstimate>& measured,
                                            std::uint64_t points) {
   constexpr double most = 3.0;
   constexpr std::uint64_t fewest_points = 250;  // fewer may miss what matters
   if (!estimate || !measured || points < fewest_points) { return {}; }
-  const bool low = measured->low > most * *estimate;
-  const bool high = *estimate > most * measured->high;
+  const bool found = measured->low > 0.0;
+  const double error = found ? measured->relative_l2 : measured->high;
+  const bool low = found && error > most * *estimate;
+  const bool high = *estimate > most * error;
   if (!low && !high) { return {}; }
   char text[80] = "";
-  std::snprintf(text, sizeof text, "%s %.2g %%", low ? "no bound: path tracing found at least" : "too high: path tracing found at most",
-                100.0 * (low ? measured->low : measured->high));
+  std::snprintf(text, sizeof text, "%s: path tracing found %s%.3g %%", low ? "no bound" : "too high", found ? "" : "at most ",
+                100.0 * error);
   return text;
 }
 

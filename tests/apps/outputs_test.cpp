@@ -110,6 +110,63 @@ TEST_CASE("an output that is the input by any name is refused with exit code 2, 
   }
 }
 
+TEST_CASE("an output that the scene reads is refused by any name with exit code 2 before anything is written") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  const std::string obj = "mtllib q.mtl\nusemtl a\n" + mesh_text, mtl = "newmtl a\nKd 1 1 1\nmap_Kd q.png\n";
+  const std::string cow = "material m reflectance .5 emission 1\nmesh cow file \"spot.obj\" material m\n";
+  const std::string gltf = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"q.bin"}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+    "images":[{"uri":"q.png"}],"textures":[{"source":0}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0})";
+  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::string bin(reinterpret_cast<const char*>(corners), sizeof corners);
+  const std::string wrl = "#VRML V1.0 ascii\nSeparator { WWWInline { name \"part.wrl\" } }\n";
+  const std::string part = "#VRML V1.0 ascii\nCube {}\n", mgf = "i part.mgf\n";
+  const std::string sphere = "m lamp =\n\ted 10\nm lamp\nv a =\n\tp 0 0 0\nsph a 1\n";
+  struct Case {
+    std::string scene, text, read, bytes, other, other_bytes;  // what the scene reads; what else it needs
+    std::vector<std::string> commands;                         // behind a space the output's name is put
+  };
+  const std::string render = "render --audit 0 --epsilon .5 --quiet --size 8x8 SCENE ", any = render + "--json ";
+  const std::vector<Case> cases = {
+      {"a.scene",
+       cow,
+       "spot.obj",
+       mesh_text,
+       "",
+       "",
+       {render + "-o ", render + "-o a.png -o ", any, "mesh SCENE -o ", "mesh SCENE --json ", "factors SCENE --csv ",
+        "factors SCENE --json ", "factors SCENE --total-exchange ", "explain SCENE -o "}},
+      {"a.obj", obj, "q.mtl", mtl, "", "", {any, "mesh SCENE -o b.obj --json ", "factors SCENE --csv "}},
+      {"a.obj", obj, "q.png", "no picture", "q.mtl", mtl, {render + "-o ", any}},
+      {"a.gltf", gltf, "q.bin", bin, "", "", {any, "mesh SCENE --json "}},
+      {"a.gltf", gltf, "q.png", "no picture", "q.bin", bin, {render + "-o "}},
+      {"a.wrl", wrl, "part.wrl", part, "", "", {any, "mesh SCENE --json "}},
+      {"a.mgf", mgf, "part.mgf", sphere, "", "", {any, "mesh SCENE --json "}},
+      {"a.mgf", "i out/index.html\n", "out/index.html", sphere, "", "", {"study --quick SCENE -o out"}}};
+  for (const Case& c : cases) {
+    for (std::string command : c.commands) {
+      const Place place;
+      fs::create_directories(place.path() / "out");
+      place.write(c.scene, c.text);
+      place.write(c.read, c.bytes);
+      if (!c.other.empty()) { place.write(c.other, c.other_bytes); }
+      command.replace(command.find("SCENE"), 5, random() % 2 == 0 ? c.scene : (place.path() / c.scene).string());
+      const std::string ending = fs::path(c.read).extension().string();
+      if (command.back() == ' ') { command += "'" + (random() % 4 == 0 ? c.read : alias(place, c.read, ending, random)) + "'"; }
+      const std::size_t entries = place.entries();
+      const Run run = place.run(command);
+      INFO(command << "\n" << run.out << run.err);
+      CHECK(run.code == 2);
+      CHECK(run.err.find("each output needs a file of its own") != std::string::npos);
+      CHECK(place.read(c.read) == c.bytes);
+      CHECK(place.entries() == entries);
+    }
+  }
+}
+
 TEST_CASE("two outputs that are one file by any name, old or new, are refused with exit code 2 before the work") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);

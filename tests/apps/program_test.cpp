@@ -287,3 +287,18 @@ TEST_CASE("factors: exit code 2 for an error that makes no sense, 3 for a bad sc
   CHECK(run.code == 4);
   CHECK(run.out.find("NOT REACHED") != std::string::npos);
 }
+
+TEST_CASE("an estimate that is more than 3 times off the audited error says so in the report") {
+  const Place place;
+  const std::string scene = std::string("'") + HALFLIGHT_SCENES + "/penumbra.scene' ";
+  for (int seed = 1; seed <= 12; ++seed) {
+    const Run run = place.run("render " + scene + "--quiet --json a.json --seed " + std::to_string(seed));
+    REQUIRE(run.code == 0);
+    const json::Value report = json::parse(place.read("a.json"));
+    const double estimate = report["estimated_leaf_error"].number(), error = report["error"]["leaf"]["relative_l2"].number();
+    const std::string doubt = report["estimate_doubt"].string();
+    INFO("seed " << seed << ", estimated " << estimate << ", found " << error << "\n" << run.out);
+    CHECK((doubt.find("path tracing found") != std::string::npos) == (estimate > 3.0 * error || error > 3.0 * estimate));
+    CHECK((doubt.empty() || run.out.find(doubt) != std::string::npos));
+  }
+}

@@ -239,7 +239,7 @@ TEST_CASE("the limit counts objects: uses of groups, however deep, count none") 
 TEST_CASE("all scenes of examples/scenes are sound") {
   for (const char* const name : {"cornell", "room", "furnace", "white_sphere", "two_plates", "emitting_wall"}) {
     std::string fault;
-    const auto text = apps::read_text(std::string(HALFLIGHT_SCENES) + "/" + name + ".scene", fault);
+    const auto text = apps::read_text(HALFLIGHT_SCENES + ("/" + std::string(name)) + ".scene", fault);
     INFO(name << " " << fault);
     REQUIRE(text);
     const auto file = parsed(*text);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <random>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -12,6 +14,7 @@
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -22,13 +25,14 @@
 #include "scenes.hpp"
 #include "solved.hpp"
 
-TEST_CASE("where path tracing contradicts the estimate by more than a factor of 3, the report says so") {
+TEST_CASE("where the estimate is more than 3 times off what path tracing found, the report says so, and only there") {
   // Balls close to the floor of random rooms, few of them closed, at coarse settings: estimates of all kinds.
-  INFO("seed 97");
-  radiosity::Random random{97, 0};
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0};
   int contradicted = 0;
   for (int k = 0; k < 12 || (contradicted == 0 && k < 60); ++k) {
-    radiosity::Scene scene = scenes::two_plates(0.05 + random.uniform());
+    radiosity::Scene scene = scenes::two_plates(0.05 + 0.9 * random.uniform());
     const auto material = static_cast<std::uint32_t>(scene.materials.size());
     scene.materials.push_back({"ball", radiosity::Color{0.3 + 0.6 * random.uniform()}, radiosity::Color{0.0}});
     const double radius = 0.05 + 0.2 * random.uniform();
@@ -39,11 +43,17 @@ TEST_CASE("where path tracing contradicts the estimate by more than a factor of 
     options.threads = 1;
     const radiosity::Audit audit = scenes::solved(scene, options).audit;
     REQUIRE(audit.leaf_error);
+    const radiosity::ErrorEstimate& error = *audit.leaf_error;
     const double estimate = audit.estimated_leaf_error.value_or(0.0);
-    CAPTURE(k, estimate, audit.leaf_error->low, audit.leaf_error->high, audit.estimate_doubt);
-    const bool low = audit.leaf_error->low > 3.0 * estimate, high = estimate > 3.0 * audit.leaf_error->high;
-    if (low) { CHECK(audit.estimate_doubt.starts_with("no bound")); }
-    if (high) { CHECK(audit.estimate_doubt.starts_with("too high")); }
+    CAPTURE(k, estimate, error.relative_l2, error.low, error.high, audit.estimate_doubt);
+    // "below x" knows nothing of a lower end.
+    const bool low = error.low > 0.0 && error.relative_l2 > 3.0 * estimate;
+    const bool high = estimate > 3.0 * (error.low > 0.0 ? error.relative_l2 : error.high);
+    const bool of_picture = audit.surface_error && (audit.surface_error->relative_l2 > 3.0 * *audit.estimated_error ||
+                                                    *audit.estimated_error > 3.0 * audit.surface_error->relative_l2);
+    if (low && !of_picture) { CHECK(audit.estimate_doubt.starts_with("no bound")); }
+    if (high && !of_picture) { CHECK(audit.estimate_doubt.starts_with("too high")); }
+    if (!low && !high && !of_picture) { CHECK(audit.estimate_doubt.find("path tracing") == std::string::npos); }
     contradicted += low || high ? 1 : 0;
   }
   CHECK(contradicted > 0);

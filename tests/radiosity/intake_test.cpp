@@ -224,6 +224,41 @@ TEST_CASE("intake: a quadrilateral that is not planar is cut along the better di
   CHECK(radiosity::sentence(intake.changes[0]) == "1 polygon was not planar by 10 mm: split");
 }
 
+TEST_CASE("intake: of each change the polygon is known where it was largest, and the first") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
+  for (int k = 0; k < 20; ++k) {
+    // Pairs of squares that share an edge but for gaps of up to 50 nm, and single squares whose last corner is off by up to 1 um, 10 m apart.
+    constexpr std::uint32_t pairs = 10;
+    Soup soup;
+    double widest = 0.0, highest = 0.0;
+    std::uint32_t at_widest = 0, at_highest = 0;
+    for (std::uint32_t i = 0; i < pairs; ++i) {
+      const double x = 10.0 * i, gap = number(1e-9, 5e-8), off = number(1e-7, 1e-6);
+      soup.polygon({{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}});
+      soup.polygon({{x + 1 + gap, 0, 0}, {x + 2, 0, 0}, {x + 2, 1, 0}, {x + 1, 1, 0}});
+      soup.polygon({{x + 5, 0, 0}, {x + 6, 0, 0}, {x + 6, 1, 0}, {x + 5, 1, off}});
+      if (gap > widest) { widest = gap, at_widest = 3 * i + 1; }
+      if (off > highest) { highest = off, at_highest = 3 * i + 2; }
+    }
+    const radiosity::Intake intake = soup.take_in();
+    check_sound(soup, intake);
+    const auto change = [&](ChangeKind kind) {
+      const auto found = std::find_if(intake.changes.begin(), intake.changes.end(), [&](const auto& c) { return c.kind == kind; });
+      REQUIRE(found != intake.changes.end());
+      return *found;
+    };
+    CHECK(change(ChangeKind::welded).count == 2 * pairs);
+    CHECK(change(ChangeKind::welded).first == 1);
+    CHECK(change(ChangeKind::welded).worst == at_widest);
+    CHECK(change(ChangeKind::flattened).first == 2);
+    CHECK(change(ChangeKind::flattened).worst == at_highest);
+    CHECK(radiosity::tells_size(change(ChangeKind::flattened)));
+  }
+}
+
 TEST_CASE("intake: a wall with a window becomes few convex faces, of each material its own") {
   Soup soup;
   double area = 0.0;
