@@ -69,7 +69,7 @@ double difference(const Solved& a, const Solved& b, const glm::dvec3& offset) {
   const radiosity::Lookup in_a{a.scene, a.solution.mesh, a.solution.frame}, in_b{b.scene, b.solution.mesh, b.solution.frame};
   const auto inputs = radiosity::surfaces(a.scene);
   const radiosity::Mesh& mesh = a.solution.mesh;
-  double square = 0.0, whole = 0.0;
+  double squares = 0.0, whole = 0.0;
   for (const radiosity::MeshFace& face : mesh.faces) {
     const radiosity::InputSurface& input = inputs[face.surface];
     if (!radiosity::is_black(a.scene.materials[input.material].emission)) { continue; }
@@ -87,10 +87,10 @@ double difference(const Solved& a, const Solved& b, const glm::dvec3& offset) {
     };
     const radiosity::Color one = at(in_a, a.solution.frame, middle);
     const radiosity::Color wrong = at(in_b, b.solution.frame, middle + offset) - one;
-    square += area * glm::dot(wrong, wrong);
+    squares += area * glm::dot(wrong, wrong);
     whole += area * glm::dot(one, one);
   }
-  return std::sqrt(square / whole);
+  return std::sqrt(squares / whole);
 }
 
 }  // namespace
