@@ -202,3 +202,36 @@ TEST_CASE("export: no two faces of a written mesh overlap in one plane, in any f
     }
   }
 }
+
+// The circle is a polygon of 720 corners here, whose area is 1.3e-5 of the disk's less.
+TEST_CASE("export: what lamps leave of a ceiling is in the mesh, all of it") {
+  const unsigned first = std::random_device{}();
+  for (unsigned seed = first; seed < first + 6; ++seed) {
+    std::mt19937 random(seed);
+    const FlushRoom room = flush_room(random, false);
+    INFO("seed " << seed << "\n" << room.text);
+    const apps::SceneFile file = scene_of(room);
+    const radiosity::Solution solution = light_of(file);
+    const radiosity::Mesh& mesh = solution.mesh;
+    double left = 4.0 * 5.0, seen = 0.0;
+    for (const std::vector<Flat>& lamp : room.lamps) {
+      for (const Flat& part : lamp) { left -= flat_area(part); }
+    }
+    for (const radiosity::MeshFace& face : mesh.faces) {
+      Flat outline;
+      double lowest = 3.0;
+      for (std::uint32_t c = face.first_corner; c < face.first_corner + face.corner_count; ++c) {
+        const glm::dvec3& p = mesh.positions[mesh.corners[c].vertex];
+        outline.emplace_back(p);
+        lowest = std::min(lowest, p.z);
+      }
+      if (lowest < 3.0 - 1e-9 || radiosity::surfaces(file.scene)[face.surface].object != 0) { continue; }
+      outline = turned_ccw(outline);
+      seen += flat_area(outline);
+      for (const std::vector<Flat>& lamp : room.lamps) {
+        for (const Flat& part : lamp) { seen -= flat_area(common(outline, part)); }
+      }
+    }
+    CHECK(seen == Approx(left).margin(1e-4));
+  }
+}
