@@ -28,7 +28,7 @@ namespace {
 
 using radiosity::Color;
 
-constexpr double least_pixels = 2.0, most_pixels = 20.0;  // radius of the ball of a point of indirect light, by measurement
+constexpr double least_pixels = 2.0, most_pixels = 20.0;  // radius of the sphere of a point of indirect light, by measurement
 
 constexpr float change_at_edge = 0.3f;  // of light, from one pixel to the next, or within one: an edge of a shadow, not only a slope
 
@@ -209,7 +209,7 @@ bool Painter::gather() {
         const auto& p = f.place.point;
         if (radiosity::is_black(light_.material(f.place.surface).reflectance)) { continue; }
         if (points_.covered(f.x, f.y, p.position, p.normal, f.place.object)) { continue; }
-        // Not two points for neighbours; at least the smallest balls do not depend on what is seen from them.
+        // Not two points for neighbours; at least the smallest spheres do not depend on what is seen from them.
         const double apart = 2.0 * pixel_size_(p.position);
         const bool near = std::any_of(wanted[b].begin(), wanted[b].end(), [&](std::uint32_t k) {
           const auto& other = blocks_[b][k].place;

@@ -2,9 +2,9 @@
 #pragma once
 
 // Indirect light over a picture from points that lie apart (radiosity/picture/gathered_point.hpp): close together in corners and at
-// contacts, far apart on open walls. The radius of a point's ball is held between some pixels and some more, that of its fit below three
-// times as many. Points are looked for in tiles of the picture; a pixel blends the points whose balls hold it, with weights that fall to 0
-// towards their borders.
+// contacts, far apart on open walls. The radius of a point's sphere is held between some pixels and some more, that of its fit below three
+// times as many. Points are looked for in tiles of the picture; a pixel blends the points whose spheres hold it, with weights that fall to
+// 0 towards their borders.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace apps {
 
 struct IndirectPoint : radiosity::GatheredPoint {
   std::uint32_t x = 0, y = 0;                // its pixel
-  double pixels = 0.0, widest_pixels = 0.0;  // radii of both balls in the picture, at most
+  double pixels = 0.0, widest_pixels = 0.0;  // radii of both spheres in the picture, at most
 };
 
 class IndirectPoints {
@@ -30,12 +30,12 @@ class IndirectPoints {
   void add(const IndirectPoint& point);
   [[nodiscard]] std::size_t size() const { return points_.size(); }
 
-  // Is a place within the inner part of some point's ball, so that no further point is needed?
+  // Is a place within the inner part of some point's sphere, so that no further point is needed?
   [[nodiscard]] bool covered(std::uint32_t x, std::uint32_t y, const glm::dvec3& position, const glm::dvec3& normal,
                              std::uint32_t object) const;
   // Fits point i, once all are there; others may be fitted at the same time.
   void fit(std::size_t i);
-  // Once all are fitted. Nothing where no ball holds the place.
+  // Once all are fitted. Nothing where no sphere holds the place.
   [[nodiscard]] std::optional<radiosity::Color> at(std::uint32_t x, std::uint32_t y, const glm::dvec3& position, const glm::dvec3& normal,
                                                    std::uint32_t object) const;
 
@@ -51,7 +51,7 @@ class IndirectPoints {
 
   std::uint32_t columns_, rows_;
   std::vector<IndirectPoint> points_;
-  Tiles tiles_;     // points whose balls may show in the tile
+  Tiles tiles_;     // points whose spheres may show in the tile
   Tiles in_tiles_;  // points that lie in the tile
 };
 

@@ -19,6 +19,7 @@
 #include <radiosity/scene/scene.hpp>
 
 #include "apps/audited_picture.hpp"
+#include "apps/export/depth_order.hpp"
 #include "apps/export/export_mesh.hpp"
 #include "apps/export/lightmap.hpp"
 #include "apps/export/viewer.hpp"
@@ -196,8 +197,9 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
         outputs.back().bytes = to_light_file(solution.mesh, solution.frame, file.scene);
         break;
       case RenderFormat::ply:
-        outputs.back().bytes =
-            options.onto_input && exported ? to_ply(*exported, tone) : to_ply(solution.shown(), radiosity::surfaces(file.scene), tone);
+        outputs.back().bytes = options.onto_input && exported
+                                   ? to_ply(*exported, tone)
+                                   : to_ply(in_depth_order(file, solution, solution.shown()), radiosity::surfaces(file.scene), tone);
         break;
       case RenderFormat::html:
         outputs.back().bytes = viewer_page(file, solution, camera, tone.exposure, options.scene, summary(solution));

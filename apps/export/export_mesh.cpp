@@ -10,18 +10,16 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <brep/polygon.hpp>
 #include <radiosity/bake/baked_light.hpp>
 #include <radiosity/hierarchy/corner_normal.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/scene.hpp>
-#include <raycast/box.hpp>
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 
-#include "apps/bounds.hpp"
+#include "apps/export/depth_order.hpp"
 
 namespace apps {
 namespace {
@@ -34,53 +32,13 @@ glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
   return length > 0.0 ? v / length : otherwise;
 }
 
-// Plane pieces that lie in the plane of a leaf and cover it, or a part of it, such as a lamp in a ceiling: where both have the same depth,
-// viewers show now the one and now the other.
-std::vector<bool> covering(const radiosity::Mesh& mesh, const radiosity::Solution& solution,
-                           const std::vector<radiosity::InputSurface>& inputs, const std::vector<raycast::PlacedObject>& objects) {
-  std::vector<std::uint32_t> pieces;
-  for (std::uint32_t i = 0; i < objects.size(); ++i) {
-    if (objects[i].flat() && !objects[i].solid() && objects[i].sheet_count() == 1) { pieces.push_back(i); }
-  }
-  std::vector<bool> result(objects.size(), false);
-  for (const radiosity::MeshFace& face : mesh.faces) {
-    if (!is_covered(solution, face.node)) { continue; }
-    raycast::Box leaf;
-    for (std::uint32_t k = 0; k < face.corner_count; ++k) { leaf.extend(mesh.positions[mesh.corners[face.first_corner + k].vertex]); }
-    const radiosity::InputSurface& input = inputs[face.surface];
-    const glm::dvec3 normal = objects[input.object].project(input.sheet, leaf.centre()).normal;
-    for (const std::uint32_t i : pieces) {
-      const double near = 1e-6 * leaf.diameter();
-      const raycast::Box& box = objects[i].bounds();
-      const bool apart = glm::any(glm::greaterThan(leaf.lo, box.hi + near)) || glm::any(glm::greaterThan(box.lo, leaf.hi + near));
-      if (result[i] || i == input.object || apart) { continue; }
-      const raycast::SurfacePoint at = objects[i].project(0, leaf.centre());
-      const double height = std::abs(glm::dot(at.position - leaf.centre(), at.normal));
-      result[i] = glm::dot(at.normal, normal) > 0.999999 && height <= near;
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
-bool is_covered(const radiosity::Solution& solution, std::uint32_t node) {
-  return solution.area[node] < (1.0 - 1e-9) * solution.hierarchy[node].area;
-}
-
-ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh) {
+ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& in_place) {
+  const radiosity::Mesh mesh = in_depth_order(file, solution, in_place);
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
   std::vector<raycast::PlacedObject> objects;
   for (const radiosity::SceneObject& object : file.scene.objects) { objects.emplace_back(object.shape, object.placement); }
-
-  const double behind = 1e-4 * scene_bounds(file.scene).diameter();
-  const std::vector<bool> before = covering(mesh, solution, inputs, objects);
-  std::vector<bool> fixed(mesh.positions.size(), false);  // corners of leaves that are not covered: no gap may open
-  for (const radiosity::MeshFace& face : mesh.faces) {
-    for (std::uint32_t k = 0; k < face.corner_count && !is_covered(solution, face.node); ++k) {
-      fixed[mesh.corners[face.first_corner + k].vertex] = true;
-    }
-  }
   ExportMesh out;
   out.cameras = file.cameras;
   std::vector<std::uint32_t> newest(mesh.positions.size(), none), next;  // of a place: its vertices, those of the group first
@@ -97,10 +55,6 @@ ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solut
     for (std::uint32_t k = 0; k < face.corner_count; ++k) { outline.push_back(mesh.positions[mesh.corners[face.first_corner + k].vertex]); }
     const glm::dvec3 flat = unit(brep::vector_area(outline), {0, 0, 1});
     const glm::dvec3 middle = std::accumulate(outline.begin(), outline.end(), glm::dvec3{0.0}) / static_cast<double>(outline.size());
-    for (std::uint32_t k = 0; k < face.corner_count; ++k) {
-      if (!fixed[mesh.corners[face.first_corner + k].vertex]) { outline[k] -= behind * flat; }
-      if (before[object]) { outline[k] += behind * flat; }
-    }
     for (std::uint32_t k = 0; k < face.corner_count; ++k) {
       const radiosity::MeshCorner& corner = mesh.corners[face.first_corner + k];
       const glm::dvec3 normal = unit(radiosity::corner_normal(objects[input.object], input.sheet, outline[k], middle), flat);

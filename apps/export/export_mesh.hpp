@@ -52,11 +52,8 @@ struct ExportMesh {
   }
 };
 
-// Does another object cover the leaf, or a part of it? Where both lie in one plane the leaf must not show through.
-[[nodiscard]] bool is_covered(const radiosity::Solution& solution, std::uint32_t node);
-
-// A mesh of the solution: a group an object, a face a leaf, a vertex for each normal and colour that a place has. Corners that only
-// covered leaves have lie a little behind their places, lamps in the plane of a ceiling a little before theirs.
+// A mesh of the solution, in depth order (depth_order.hpp): a group an object, a face a leaf, a vertex for each normal and colour that a
+// place has.
 [[nodiscard]] ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh);
 
 // The user's polygons and vertices, all of them, in the order of the file; a vertex has the mean of its corners. Nothing when the scene

@@ -14,7 +14,7 @@
 #include <radiosity/result/mesh.hpp>
 
 #include "apps/bytes.hpp"
-#include "apps/export/export_mesh.hpp"
+#include "apps/export/depth_order.hpp"
 #include "apps/html_document.hpp"
 #include "apps/json.hpp"
 #include "embedded/export.hpp"

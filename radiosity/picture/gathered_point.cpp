@@ -19,26 +19,26 @@ namespace radiosity {
 
 namespace detail {
 
-inline constexpr double inner_ball = 0.7;           // part of a ball's radius
+inline constexpr double inner_sphere = 0.7;         // part of a sphere's radius
 inline constexpr double same_way = 0.9;             // cosine of two normals between which light is carried over
-inline constexpr double out_of_plane = 0.2;         // of a ball's radius: what is farther off its tangent plane is another surface
+inline constexpr double out_of_plane = 0.2;         // of a sphere's radius: what is farther off its tangent plane is another surface
 inline constexpr double explained_by_noise = 1.25;  // squares of what a plane leaves over, in those that the noise would leave
 
-// A plane through the light of the points in a ball.
+// A plane through the light of the points in a sphere.
 struct PlaneFit {
   Color light{0.0}, by_u{0.0}, by_v{0.0};  // at the middle, and its changes by one radius
   double misfit = 0.0;                     // squares that it leaves over, in those that the noise of the points would leave
 };
 
-[[nodiscard]] HALFLIGHT_INLINE PlaneFit fit_plane(const GatheredPoint& point, double ball, std::span<const GatheredPoint* const> near) {
+[[nodiscard]] HALFLIGHT_INLINE PlaneFit fit_plane(const GatheredPoint& point, double sphere, std::span<const GatheredPoint* const> near) {
   // Sums of weights times (1, u, v) (1, u, v)' and times the light, with u, v in radii.
   double w = 0.0, u1 = 0.0, v1 = 0.0, uu = 0.0, uv = 0.0, vv = 0.0;
   Color e{0.0}, eu{0.0}, ev{0.0};
   const auto each = [&](const auto& use) {
     for (const GatheredPoint* other : near) {
-      const double own = point.weight(other->position, other->normal, other->object, ball);
+      const double own = point.weight(other->position, other->normal, other->object, sphere);
       if (!(own > 0.0)) { continue; }
-      const glm::dvec3 d = (other->position - point.position) / ball;
+      const glm::dvec3 d = (other->position - point.position) / sphere;
       use(own, glm::dot(d, point.s), glm::dot(d, point.t), *other);
     }
   };
@@ -46,7 +46,7 @@ struct PlaneFit {
     w += own, u1 += own * u, v1 += own * v, uu += own * u * u, uv += own * u * v, vv += own * v * v;
     e += own * other.gathered, eu += own * u * other.gathered, ev += own * v * other.gathered;
   });
-  // About the weighted mean; what holds the slopes down where points are few or in line is small beside the ball.
+  // About the weighted mean; what holds the slopes down where points are few or in line is small beside the sphere.
   const double mu = u1 / w, mv = v1 / w;
   const Color mean = e / w;
   const double hold = 0.001 * w;
@@ -70,19 +70,19 @@ struct PlaneFit {
 }  // namespace detail
 
 HALFLIGHT_INLINE double GatheredPoint::weight(const glm::dvec3& place, const glm::dvec3& normal_there, std::uint32_t object_there,
-                                              double ball) const {
+                                              double sphere) const {
   if (object != object_there) { return 0.0; }
   const glm::dvec3 d = place - position;
-  const double part = glm::dot(d, d) / (ball * ball);
+  const double part = glm::dot(d, d) / (sphere * sphere);
   if (!(part < 1.0)) { return 0.0; }
   const double cosine = glm::dot(normal, normal_there);
-  if (!(cosine > detail::same_way) || std::abs(glm::dot(d, normal)) > detail::out_of_plane * ball) { return 0.0; }
+  if (!(cosine > detail::same_way) || std::abs(glm::dot(d, normal)) > detail::out_of_plane * sphere) { return 0.0; }
   const double turned = (cosine - detail::same_way) / (1.0 - detail::same_way);
   return (1.0 - part) * (1.0 - part) * turned;
 }
 
 HALFLIGHT_INLINE bool GatheredPoint::covers(const glm::dvec3& place, const glm::dvec3& normal_there, std::uint32_t object_there) const {
-  constexpr double least = (1.0 - detail::inner_ball * detail::inner_ball) * (1.0 - detail::inner_ball * detail::inner_ball);
+  constexpr double least = (1.0 - detail::inner_sphere * detail::inner_sphere) * (1.0 - detail::inner_sphere * detail::inner_sphere);
   return weight(place, normal_there, object_there) >= least;
 }
 
@@ -96,15 +96,15 @@ HALFLIGHT_INLINE void fit(GatheredPoint& point, std::span<const GatheredPoint* c
   point.s = s;
   point.t = t;
   constexpr double step = 1.5;
-  double ball = point.widest;
-  detail::PlaneFit plane = detail::fit_plane(point, ball, near);
-  while (ball > point.radius && !(plane.misfit <= detail::explained_by_noise)) {
-    ball = std::max(point.radius, ball / step);
-    plane = detail::fit_plane(point, ball, near);
+  double sphere = point.widest;
+  detail::PlaneFit plane = detail::fit_plane(point, sphere, near);
+  while (sphere > point.radius && !(plane.misfit <= detail::explained_by_noise)) {
+    sphere = std::max(point.radius, sphere / step);
+    plane = detail::fit_plane(point, sphere, near);
   }
   point.light = glm::max(plane.light, Color{0.0});
-  point.by_s = plane.by_u / ball;
-  point.by_t = plane.by_v / ball;
+  point.by_s = plane.by_u / sphere;
+  point.by_t = plane.by_v / sphere;
 }
 
 }  // namespace radiosity

@@ -2,12 +2,12 @@
 #pragma once
 
 // Indirect light between points at which it was gathered (irradiance cache; Ward, Rubinstein and Clear 1988). It changes within the
-// distance of what a point sees, so each point is good for a ball around it whose radius follows from these distances.
+// distance of what a point sees, so each point is good for a sphere around it whose radius follows from these distances.
 //
-// The light of a point and how it changes are taken from all points in a ball around it (weighted least squares), which also takes out most
-// of the noise of the rays. That ball may be wider than the one for which the point is good: where points are close for other reasons than
-// the light, they have much noise to share and little to tell apart. The widest ball is taken in which a plane explains what was gathered
-// up to the noise that it has.
+// The light of a point and how it changes are taken from all points in a sphere around it (weighted least squares), which also takes out
+// most of the noise of the rays. That sphere may be wider than the one for which the point is good: where points are close for other
+// reasons than the light, they have much noise to share and little to tell apart. The widest sphere is taken in which a plane explains what
+// was gathered up to the noise that it has.
 
 #include <cstdint>
 #include <span>
@@ -18,8 +18,8 @@
 
 namespace radiosity {
 
-// What a point takes, by measurement: rays, and the share of its light at which they are enough; the radius of its ball by the harmonic
-// mean distance of what it sees, and that of its fit by that of its ball.
+// What a point takes, by measurement: rays, and the share of its light at which they are enough; the radius of its sphere by the harmonic
+// mean distance of what it sees, and that of its fit by that of its sphere.
 struct GatherRays {
   std::uint32_t least = 256, most = 1024;
   double error = 0.03;
@@ -30,8 +30,8 @@ inline constexpr double gathered_part_of_distance = 0.2, most_fit = 3.0;
 struct GatheredPoint {
   glm::dvec3 position{0.0}, normal{0.0};
   std::uint32_t object = 0;
-  double radius = 0.0;  // of the ball, in the unit of the position
-  double widest = 0.0;  // of the ball of the fit, at most; at least the radius
+  double radius = 0.0;  // of the sphere, in the unit of the position
+  double widest = 0.0;  // of the sphere of the fit, at most; at least the radius
   Color gathered{0.0};
   double variance = 0.0;  // of the sum of its channels
   // What the fit makes of it: the light at the point, and its change by length along two tangents.
@@ -39,18 +39,18 @@ struct GatheredPoint {
   glm::dvec3 s{0.0}, t{0.0};
   Color by_s{0.0}, by_t{0.0};
 
-  // The weight of this point at a place, when its ball has this radius: 0 where it says nothing, 1 at the point itself.
-  [[nodiscard]] double weight(const glm::dvec3& place, const glm::dvec3& normal_there, std::uint32_t object_there, double ball) const;
+  // The weight of this point at a place, when its sphere has this radius: 0 where it says nothing, 1 at the point itself.
+  [[nodiscard]] double weight(const glm::dvec3& place, const glm::dvec3& normal_there, std::uint32_t object_there, double sphere) const;
   [[nodiscard]] double weight(const glm::dvec3& place, const glm::dvec3& normal_there, std::uint32_t object_there) const {
     return weight(place, normal_there, object_there, radius);
   }
   // Is a place so near that no further point is needed?
   [[nodiscard]] bool covers(const glm::dvec3& place, const glm::dvec3& normal_there, std::uint32_t object_there) const;
-  // What the fit says at a place of the ball.
+  // What the fit says at a place of the sphere.
   [[nodiscard]] Color at(const glm::dvec3& place) const;
 };
 
-// Fits `point` to the points of its ball; `near` are those that may be in the widest one, itself among them, in a fixed order. Of the
+// Fits `point` to the points of its sphere; `near` are those that may be in the widest one, itself among them, in a fixed order. Of the
 // others only what was gathered is read, so points can be fitted at the same time.
 void fit(GatheredPoint& point, std::span<const GatheredPoint* const> near);
 

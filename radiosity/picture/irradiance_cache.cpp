@@ -47,7 +47,7 @@ void IrradianceCache::each_near(const glm::dvec3& position, const Visit& visit) 
 HALFLIGHT_INLINE void IrradianceCache::add(const GatheredPoint& point) {
   const auto index = static_cast<std::uint32_t>(points_.size());
   points_.push_back(point);
-  const int grid = std::ilogb(point.widest) + 2;  // cells of two to four radii, so that a ball lies in two of them in each direction
+  const int grid = std::ilogb(point.widest) + 2;  // cells of two to four radii, so that a sphere lies in two of them in each direction
   const double width = std::ldexp(1.0, grid);
   if (const auto at = std::lower_bound(grids_.begin(), grids_.end(), grid); at == grids_.end() || *at != grid) { grids_.insert(at, grid); }
   std::vector<std::uint64_t> keys;
@@ -124,8 +124,8 @@ HALFLIGHT_INLINE void IrradianceCache::fit_all() {
   std::vector<std::vector<const GatheredPoint*>> around(points_.size());
   for (const GatheredPoint& point : points_) {
     each_near(point.position, [&](std::uint32_t i) {
-      const GatheredPoint& ball = points_[i];
-      if (ball.weight(point.position, point.normal, point.object, ball.widest) > 0.0) { around[i].push_back(&point); }
+      const GatheredPoint& sphere = points_[i];
+      if (sphere.weight(point.position, point.normal, point.object, sphere.widest) > 0.0) { around[i].push_back(&point); }
     });
   }
   parallel_for(

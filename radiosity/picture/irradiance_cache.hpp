@@ -2,7 +2,7 @@
 #pragma once
 
 // Indirect light anywhere on the surfaces of a scene from points that lie apart (gathered_point.hpp): close together in corners and at
-// contacts, far apart on open walls. Points are looked for in the cells of grids, one for each power of two of the balls' radii.
+// contacts, far apart on open walls. Points are looked for in the cells of grids, one for each power of two of the spheres' radii.
 //
 // It grows with the places that are asked for; what it says then depends on these and their order alone, not on the number of threads.
 
@@ -26,7 +26,7 @@ class IrradianceCache {
 
   struct Wanted {
     FinalGather::Place place;
-    double least_radius = 0.0, most_radius = 0.0;  // of the ball of a point that is made for it; in the frame
+    double least_radius = 0.0, most_radius = 0.0;  // of the sphere of a point that is made for it; in the frame
   };
   // Gathers so many more points that one is near each of these places. False when cancelled.
   [[nodiscard]] bool extend(std::span<const Wanted> wanted, const Control& control);

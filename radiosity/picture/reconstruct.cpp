@@ -22,6 +22,8 @@
 #include <raycast/box.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/spans.hpp>
 #include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
@@ -123,29 +125,54 @@ template <class Exposed>
   return false;
 }
 
-// Does a face of a flat object lie on another flat object that faces the same way, corner by corner? There is then nothing of it to be
-// seen: not even slivers, as of a face that a curved object stands on. `from`: the first object that counts.
+// Planes go on beyond the outlines of objects: does the object end at the point?
+[[nodiscard]] HALFLIGHT_INLINE bool ends_at(const raycast::PlacedObject& object, const raycast::SurfacePoint& at, double touch) {
+  const raycast::Segment line{at.position, at.normal};
+  raycast::Spans spans;
+  object.spans(line, spans);
+  return std::any_of(spans.begin(), spans.end(), [&](const raycast::Span& span) { return std::abs(span.out.t) <= touch; });
+}
+
+// Does a face of a flat object lie on another flat object, all of it: on one that faces the same way, or on a solid that stands on it?
+// There is then nothing of it to be seen: not even slivers, as of a face that a curved object stands on, or at the rim of a disk, whose
+// mesh lies within it. Its corners, a little drawn in, and places between them are asked for. `from`: the first object that counts among
+// those that face the same way.
 [[nodiscard]] HALFLIGHT_INLINE bool lies_under(const Surface& own, brep::FaceId f, const std::vector<Surface>& surfaces,
                                                std::size_t from = 0) {
   if (!own.object->flat()) { return false; }
   Polygon corners;
   raycast::Box box;
+  glm::dvec3 middle{0.0};
   for (const brep::HalfedgeId h : brep::corners(own.brep, f)) {
     corners.push_back(own.brep.data(own.brep.vertex(h)).position);
     box.extend(corners.back());
+    middle += corners.back();
   }
+  middle /= static_cast<double>(corners.size());
   const glm::dvec3 normal = glm::normalize(vector_area(corners));
-  return std::any_of(surfaces.begin() + static_cast<std::ptrdiff_t>(from), surfaces.end(), [&](const Surface& other) {
-    if (other.object == own.object || !other.object->flat()) { return false; }
+  Polygon within{middle};
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const glm::dvec3 &a = corners[k], &b = corners[(k + 1) % corners.size()];
+    for (const double t : {0.0, 0.25, 0.5, 0.75}) {
+      const glm::dvec3 p = a + t * (b - a);
+      within.push_back(p + 1e-6 * (middle - p));
+      if (t != 0.25 && t != 0.75) { within.push_back(0.5 * (p + middle)); }
+    }
+  }
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& other) {
+    const bool alike = static_cast<std::size_t>(&other - surfaces.data()) >= from, opposite = other.object->solid();
+    if (other.object == own.object || !other.object->exact() || !(alike || opposite)) { return false; }
     const raycast::Box bounds = other.object->bounds();
     const double touch = 256.0 * raycast::unit_roundoff * bounds.magnitude() +
                          raycast::tol_contact * std::min(bounds.diameter(), own.object->bounds().diameter());
     const raycast::Box grown = bounds.grown(touch);
     if (!grown.contains(box.lo) || !grown.contains(box.hi)) { return false; }
     for (std::uint32_t s = 0; s < other.object->sheet_count(); ++s) {
-      const bool on = std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& p) {
+      const bool on = std::all_of(within.begin(), within.end(), [&](const glm::dvec3& p) {
         const raycast::SurfacePoint foot = other.object->project(s, p);
-        return glm::length(foot.position - p) <= touch && glm::dot(foot.normal, normal) > 0.999;
+        const double cosine = glm::dot(foot.normal, normal);
+        if (!((alike && cosine > 0.999) || (opposite && cosine < -0.999))) { return false; }
+        return glm::length(foot.position - p) <= touch && ends_at(*other.object, foot, touch);
       });
       if (on) { return true; }
     }

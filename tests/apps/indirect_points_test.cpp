@@ -35,7 +35,7 @@ apps::IndirectPoint point_at(double x, double y, double radius, const Color& lig
 }  // namespace
 
 // A least-squares plane through values of a linear field is the field, whatever the weights; so is every blend of such planes. What holds
-// the slopes down takes 0.001 / variance of them: 2 % where the points of a ball spread by 0.22 of its radius, which is little for ten of
+// the slopes down takes 0.001 / variance of them: 2 % where the points of a sphere spread by 0.22 of its radius, which is little for ten of
 // them.
 TEST_CASE("between points of indirect light a linear field is exact, wherever the points are") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -60,9 +60,9 @@ TEST_CASE("between points of indirect light a linear field is exact, wherever th
   }
 }
 
-// The variance of a weighted fit falls with the number of points in the ball: with the square of its radius. Three times the radius takes
-// two thirds of the noise away; half of it is asked for, because at the border of the picture balls are cut off.
-TEST_CASE("noise of indirect light falls with the ball of the fit, where a plane explains the light") {
+// The variance of a weighted fit falls with the number of points in the sphere: with the square of its radius. Three times the radius takes
+// two thirds of the noise away; half of it is asked for, because at the border of the picture spheres are cut off.
+TEST_CASE("noise of indirect light falls with the sphere of the fit, where a plane explains the light") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     CAPTURE(seed);
     double square[2] = {0.0, 0.0};
@@ -90,9 +90,9 @@ TEST_CASE("noise of indirect light falls with the ball of the fit, where a plane
   }
 }
 
-// A step of 30 standard deviations is not noise: what is farther from it than a ball's radius keeps its light. The largest of some hundred
-// errors of points that have each some ten neighbours stays below the noise of one point by far more often than not; three of it are
-// allowed.
+// A step of 30 standard deviations is not noise: what is farther from it than a sphere's radius keeps its light. The largest of some
+// hundred errors of points that have each some ten neighbours stays below the noise of one point by far more often than not; three of it
+// are allowed.
 TEST_CASE("a wide fit does not carry indirect light over a step") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     CAPTURE(seed);
@@ -111,7 +111,7 @@ TEST_CASE("a wide fit does not carry indirect light over a step") {
     for (std::size_t i = 0; i < points.size(); ++i) { points.fit(i); }
     for (int k = 0; k < 500; ++k) {
       const double x = 200 * random.uniform(), y = 200 * random.uniform();
-      if (std::abs(x - 100) < 25) { continue; }  // the ball of a point that lies a radius away
+      if (std::abs(x - 100) < 25) { continue; }  // the sphere of a point that lies a radius away
       const auto found = points.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), {0.01 * x, 0.01 * y, 0.0}, {0, 0, 1}, 0);
       REQUIRE(found);
       CHECK(std::abs(found->x - truth(x)) < 3.0 * noise);

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "apps/export/depth_order.hpp"
+
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <brep/polygon.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <raycast/box.hpp>
+#include <raycast/object.hpp>
+#include <raycast/transform.hpp>
+
+#include "apps/bounds.hpp"
+
+namespace apps {
+namespace {
+
+// Plane pieces that lie in the plane of a leaf and cover it, or a part of it, such as a lamp in a ceiling: where both have the same depth,
+// viewers show now the one and now the other.
+std::vector<bool> covering(const radiosity::Mesh& mesh, const radiosity::Solution& solution,
+                           const std::vector<radiosity::InputSurface>& inputs, const std::vector<raycast::PlacedObject>& objects) {
+  std::vector<std::uint32_t> pieces;
+  for (std::uint32_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].flat() && !objects[i].solid() && objects[i].sheet_count() == 1) { pieces.push_back(i); }
+  }
+  std::vector<bool> result(objects.size(), false);
+  for (const radiosity::MeshFace& face : mesh.faces) {
+    if (!is_covered(solution, face.node)) { continue; }
+    raycast::Box leaf;
+    for (std::uint32_t k = 0; k < face.corner_count; ++k) { leaf.extend(mesh.positions[mesh.corners[face.first_corner + k].vertex]); }
+    const radiosity::InputSurface& input = inputs[face.surface];
+    const glm::dvec3 normal = objects[input.object].project(input.sheet, leaf.centre()).normal;
+    for (const std::uint32_t i : pieces) {
+      const double near = 1e-6 * leaf.diameter();
+      const raycast::Box& box = objects[i].bounds();
+      const bool apart = glm::any(glm::greaterThan(leaf.lo, box.hi + near)) || glm::any(glm::greaterThan(box.lo, leaf.hi + near));
+      if (result[i] || i == input.object || apart) { continue; }
+      const raycast::SurfacePoint at = objects[i].project(0, leaf.centre());
+      const double height = std::abs(glm::dot(at.position - leaf.centre(), at.normal));
+      result[i] = glm::dot(at.normal, normal) > 0.999999 && height <= near;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+bool is_covered(const radiosity::Solution& solution, std::uint32_t node) {
+  return solution.area[node] < (1.0 - 1e-9) * solution.hierarchy[node].area;
+}
+
+radiosity::Mesh in_depth_order(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh) {
+  const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
+  std::vector<raycast::PlacedObject> objects;
+  for (const radiosity::SceneObject& object : file.scene.objects) { objects.emplace_back(object.shape, object.placement); }
+  const double step = 1e-4 * scene_bounds(file.scene).diameter();
+  const std::vector<bool> before = covering(mesh, solution, inputs, objects);
+  std::vector<bool> fixed(mesh.positions.size(), false);  // corners of leaves that are not covered: no gap may open
+  for (const radiosity::MeshFace& face : mesh.faces) {
+    for (std::uint32_t k = 0; k < face.corner_count && !is_covered(solution, face.node); ++k) {
+      fixed[mesh.corners[face.first_corner + k].vertex] = true;
+    }
+  }
+  radiosity::Mesh out = mesh;
+  std::map<std::tuple<std::uint32_t, double, double, double>, std::uint32_t> moved;  // by the vertex and its new place
+  std::vector<glm::dvec3> outline;
+  for (const radiosity::MeshFace& face : mesh.faces) {
+    outline.clear();
+    for (std::uint32_t k = 0; k < face.corner_count; ++k) { outline.push_back(mesh.positions[mesh.corners[face.first_corner + k].vertex]); }
+    const glm::dvec3 area = brep::vector_area(outline);
+    if (!(glm::length(area) > 0.0)) { continue; }
+    const glm::dvec3 normal = glm::normalize(area);
+    for (std::uint32_t k = 0; k < face.corner_count; ++k) {
+      std::uint32_t& vertex = out.corners[face.first_corner + k].vertex;
+      const double by = (fixed[vertex] ? 0.0 : -step) + (before[inputs[face.surface].object] ? step : 0.0);
+      if (by == 0.0) { continue; }
+      const glm::dvec3 place = outline[k] + by * normal;
+      const auto number = static_cast<std::uint32_t>(out.positions.size());
+      const auto [known, is_new] = moved.emplace(std::tuple(vertex, place.x, place.y, place.z), number);
+      if (is_new) { out.positions.push_back(place); }
+      vertex = known->second;
+    }
+  }
+  return out;
+}
+
+}  // namespace apps
