@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Whole files or none. A regular file is written under a temporary name beside its target and then renamed, so at every moment the target is
-// the old file or the complete new one. When writing fails, or the program is ended while it writes (remove_unfinished_file), the temporary
-// is removed and the old file stays. Pipes, terminals and devices are opened and written (output_paths.hpp).
+// Whole files or none. A regular file is written under a temporary name beside its target and then renamed, so at every moment the target
+// is the old file or the complete new one. When writing fails, or the program is ended while it writes (remove_unfinished_file), the
+// temporary is removed and the old file stays. Pipes, terminals and devices are opened and written (output_paths.hpp).
 //
 // Functions return a sentence that says what went wrong, or nothing.
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Direct light in the pixels of a block that see one surface (gather_picture.hpp). Where the surface fills the block, most pixels take their
-// share of a lamp from their neighbours: all, where those see the whole lamp or nothing of it; else where they agree. The shadow of a thin
-// thing can pass between them if the lamp is narrow, for then it is as thin; so a narrow lamp is looked for from all pixels at the border of the
-// block, which a shadow of some length crosses, and if those differ, from every pixel.
+// Direct light in the pixels of a block that see one surface (gather_picture.hpp). Where the surface fills the block, most pixels take
+// their share of a lamp from their neighbours: all, where those see the whole lamp or nothing of it; else where they agree. The shadow of a
+// thin thing can pass between them if the lamp is narrow, for then it is as thin; so a narrow lamp is looked for from all pixels at the
+// border of the block, which a shadow of some length crosses, and if those differ, from every pixel.
 
 #include <cstdint>
 #include <span>

@@ -4,9 +4,9 @@
 // The picture of the true objects in light that is gathered for it (radiosity/picture/final_gather.hpp): direct light in every pixel,
 // indirect light at points that lie apart (indirect_points.hpp).
 //
-// A pixel is looked at by 4 rays, one in each row and column of a grid; by 16, again one in each row and column, where these or those of its
-// neighbours meet several surfaces. What they meet of one surface becomes one fragment of the pixel, which is lit once. Exposure and clamping
-// are those of the mesh picture (picture.hpp). The result does not depend on the number of threads.
+// A pixel is looked at by 4 rays, one in each row and column of a grid; by 16, again one in each row and column, where these or those of
+// its neighbours meet several surfaces. What they meet of one surface becomes one fragment of the pixel, which is lit once. Exposure and
+// clamping are those of the mesh picture (picture.hpp). The result does not depend on the number of threads.
 
 #include <optional>
 

@@ -10,9 +10,9 @@
 int main(int argc, char** argv) {
   apps::guard_process();
   try {
-    const std::vector<apps::Command> commands = {apps::render_command(), apps::info_command(),    apps::mesh_command(),
-                                                 apps::check_command(),  apps::factors_command(), apps::stress_command(),
-                                                 apps::euler_command(),  apps::study_command(),   apps::explain_command(),
+    const std::vector<apps::Command> commands = {apps::render_command(),   apps::info_command(),    apps::mesh_command(),
+                                                 apps::check_command(),    apps::factors_command(), apps::stress_command(),
+                                                 apps::euler_command(),    apps::study_command(),   apps::explain_command(),
                                                  apps::exercise_command(), apps::figures_command()};
     return static_cast<int>(apps::run_program(commands, argc, argv));
   } catch (const std::bad_alloc&) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The light of a solution in a file (.light), from which further pictures of the scene are drawn without solving it again: the mesh with its
-// colours, in full precision, so that these pictures are the same to the bit.
+// The light of a solution in a file (.light), from which further pictures of the scene are drawn without solving it again: the mesh with
+// its colours, in full precision, so that these pictures are the same to the bit.
 //
 //   "halflight light 1\n", key of the scene and "\n", then little-endian, without gaps:
 //   uint64: number of positions, of corners, of faces

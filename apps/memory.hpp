@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Memory as the program's user means it: of the whole process. What the library predicts (radiosity/support/memory.hpp) comes on top of what the
-// program and the scene hold already.
+// Memory as the program's user means it: of the whole process. What the library predicts (radiosity/support/memory.hpp) comes on top of
+// what the program and the scene hold already.
 
 #include <cstdint>
 #include <optional>

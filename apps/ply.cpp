@@ -23,7 +23,9 @@ class Vertices {
  public:
   std::uint32_t index(std::uint32_t vertex, const Rgb8& rgb, const glm::vec3& normal) {
     std::array<std::uint32_t, 5> key{vertex, std::uint32_t{rgb[0]} << 16 | std::uint32_t{rgb[1]} << 8 | rgb[2], 0, 0, 0};
-    for (int c = 0; c < 3; ++c) { key[2 + static_cast<std::size_t>(c)] = static_cast<std::uint32_t>(std::lround(1000.0f * normal[c]) + 2000); }
+    for (int c = 0; c < 3; ++c) {
+      key[2 + static_cast<std::size_t>(c)] = static_cast<std::uint32_t>(std::lround(1000.0f * normal[c]) + 2000);
+    }
     return index_.emplace(key, static_cast<std::uint32_t>(index_.size())).first->second;
   }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(index_.size()); }
@@ -86,7 +88,9 @@ std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::Inp
   std::vector<std::string> comments = {"halflight: radiosity in W/m2, vertex colours sRGB"};
   for (std::size_t i = 0; i < surfaces.size(); ++i) { comments.push_back("surface " + std::to_string(i) + " " + surfaces[i].name); }
   return ply_header(comments,
-                    {{"vertex", vertices.size(), {"float x", "float y", "float z", "float nx", "float ny", "float nz", "uchar red", "uchar green", "uchar blue"}},
+                    {{"vertex",
+                      vertices.size(),
+                      {"float x", "float y", "float z", "float nx", "float ny", "float nz", "uchar red", "uchar green", "uchar blue"}},
                      {"face",
                       mesh.faces.size(),
                       {"list uchar int vertex_indices", "float radiosity_r", "float radiosity_g", "float radiosity_b", "int surface"}}}) +

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// PNG, by stb_image_write: 8 bits a channel, sRGB. Values between two levels are dithered, so that a wall that darkens slowly shows no bands:
-// in each pixel by a threshold that depends on its place alone (interleaved gradient noise, Jimenez 2014). A tEXt chunk "Exposure" tells
-// by what factor radiance became brightness.
+// PNG, by stb_image_write: 8 bits a channel, sRGB. Values between two levels are dithered, so that a wall that darkens slowly shows no
+// bands: in each pixel by a threshold that depends on its place alone (interleaved gradient noise, Jimenez 2014). A tEXt chunk "Exposure"
+// tells by what factor radiance became brightness.
 
 #include <cstdint>
 #include <string>

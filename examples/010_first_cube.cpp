@@ -46,14 +46,14 @@ int main() {
   HalfedgeId rim;
   for (int i = 0; i < 4; ++i) {
     const HalfedgeId h = *split_face(cube, twin(post[i]), i < 3 ? twin(post[i + 1]) : rim);
-    if (i == 0) rim = h;
+    if (i == 0) { rim = h; }
     print("split_face closes a side", cube);
   }
 
   std::printf("\nfaults found: %zu\n", validate(cube).size());
   for (FaceId f : faces(cube)) {
     std::printf("%s:", to_string(f).c_str());
-    for (HalfedgeId h : halfedges_of(cube, f)) std::printf(" %s", to_string(cube.vertex(h)).c_str());
+    for (HalfedgeId h : halfedges_of(cube, f)) { std::printf(" %s", to_string(cube.vertex(h)).c_str()); }
     std::printf("%s\n", f == rest ? "   the top" : "");
   }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Unit tests for your own topology code.
 //
-// Somebody writes an operator of their own: inset_face draws a smaller face inside a face and joins corner to corner. How can we know that it is
-// right? We say what must be true afterwards and let Catch2 ask. The matchers of brep/testing.hpp know what a sound BRep is, count, and
-// compare shapes; when a test fails they print in sentences what is wrong and where.
+// Somebody writes an operator of their own: inset_face draws a smaller face inside a face and joins corner to corner. How can we know that
+// it is right? We say what must be true afterwards and let Catch2 ask. The matchers of brep/testing.hpp know what a sound BRep is, count,
+// and compare shapes; when a test fails they print in sentences what is wrong and where.
 
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
@@ -22,13 +22,13 @@ using namespace brep;
 // The operator under test. A spur grows from each corner into the face, then an edge runs from tip to tip.
 static FaceId inset_face(BRep<>& solid, FaceId face) {
   std::vector<HalfedgeId> corners, spurs;
-  for (HalfedgeId h : halfedges_of(solid, face)) corners.push_back(h);
-  for (HalfedgeId c : corners) spurs.push_back(*split_vertex(solid, c, c));
+  for (HalfedgeId h : halfedges_of(solid, face)) { corners.push_back(h); }
+  for (HalfedgeId c : corners) { spurs.push_back(*split_vertex(solid, c, c)); }
   // The first rim edge leaves the last tip; where it begins is where the last rim edge has to arrive.
   HalfedgeId rim;
   for (std::size_t i = 0; i < spurs.size(); ++i) {
     const HalfedgeId h = *split_face(solid, twin(spurs[i]), i + 1 < spurs.size() ? twin(spurs[i + 1]) : rim);
-    if (i == 0) rim = h;
+    if (i == 0) { rim = h; }
   }
   return solid.face(rim);
 }
@@ -41,7 +41,7 @@ static BRep<> pillow(int n) {
   BRep<> solid;
   const HalfedgeId first = *make_segment(solid);
   HalfedgeId last = first;
-  for (int i = 2; i < n; ++i) last = *split_edge(solid, last);
+  for (int i = 2; i < n; ++i) { last = *split_edge(solid, last); }
   (void)split_face(solid, twin(last), first);
   return solid;
 }
@@ -72,7 +72,8 @@ TEST_CASE("a broken solid is found out, and the report says where to look") {
   turn_badly(solid, HalfedgeId{0});
   const IsValid is_valid;
   CHECK_FALSE(is_valid.match(solid));  // CHECK_THAT(solid, IsValid()) would print this:
-  CHECK(is_valid.toString() == "is valid\n"
+  CHECK(is_valid.toString() ==
+        "is valid\n"
         "R3: next(h0) is h5, but prev(h5) is h3; usually one of the two links was not set\n"
         "R2: h0 ends at v2, but its next, h5, starts at v3; usually a vertex that was changed at a part of its half-edges\n"
         "R3: prev(h3) is h0, but next(h0) is h5; usually one of the two links was not set");

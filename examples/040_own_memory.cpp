@@ -32,27 +32,29 @@ bool in_buffer(const void* p) {
 
 int main() {
   for (int corners = 3; corners <= 5; ++corners) {
-    // Each solid begins at the start of the buffer. What it cannot hold is not asked of anybody else: the null resource has nothing to give.
+    // Each solid begins at the start of the buffer. What it cannot hold is not asked of anybody else: the null resource has nothing to
+    // give.
     std::pmr::monotonic_buffer_resource arena(buffer.data(), buffer.size(), std::pmr::null_memory_resource());
     Solid prism{Allocator(&arena)};
     const brep::HalfedgeId first = *brep::make_segment(prism);  // a polygon with two sides: a path, and an edge between its ends
     brep::HalfedgeId last = first;
-    for (int i = 2; i < corners; ++i) last = *brep::split_edge(prism, last);
+    for (int i = 2; i < corners; ++i) { last = *brep::split_edge(prism, last); }
     const brep::FaceId bottom = prism.face(twin(*brep::split_face(prism, twin(last), first)));
 
     // A post at each corner of the bottom, then an edge from tip to tip.
     brep::HalfedgeId corner = prism.halfedge(bottom), rim{};
     std::array<brep::HalfedgeId, 5> post{};
-    for (int i = 0; i < corners; ++i, corner = prism.next(corner))
+    for (int i = 0; i < corners; ++i, corner = prism.next(corner)) {
       post[static_cast<std::size_t>(i)] = *brep::split_vertex(prism, corner, corner);
+    }
     for (int i = 0; i < corners; ++i) {
       const brep::HalfedgeId tip = twin(post[static_cast<std::size_t>(i)]);
       const brep::HalfedgeId h = *brep::split_face(prism, tip, i + 1 < corners ? twin(post[static_cast<std::size_t>(i + 1)]) : rim);
-      if (i == 0) rim = h;
+      if (i == 0) { rim = h; }
     }
 
     bool inside = true;
-    for (brep::VertexId v : brep::vertices(prism)) inside = inside && in_buffer(&prism.data(v));
+    for (brep::VertexId v : brep::vertices(prism)) { inside = inside && in_buffer(&prism.data(v)); }
     inside = inside && in_buffer(brep::steps(prism).data());  // the log as well
     std::printf("v %zu e %zu f %zu, %zu steps in the log, all in the buffer: %s\n", prism.vertex_count(), prism.edge_count(),
                 prism.face_count(), brep::mark(prism), inside ? "yes" : "no");

@@ -28,11 +28,11 @@ static void print(const char* step, const Solid& solid) {
 static brep::FaceId add_cube(Solid& solid, const glm::dvec3& at) {
   const brep::HalfedgeId first = *brep::make_segment(solid);
   brep::HalfedgeId last = first;
-  for (int i = 0; i < 2; ++i) last = *brep::split_edge(solid, last);
+  for (int i = 0; i < 2; ++i) { last = *brep::split_edge(solid, last); }
   const brep::FaceId top = solid.face(*brep::split_face(solid, twin(last), first));  // its loop: first, ..., last, and the new edge
   const glm::dvec3 square[4] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   int i = 0;
-  for (brep::HalfedgeId h : brep::halfedges_of(solid, top)) solid.data(solid.vertex(h)).position = at + square[i++];
+  for (brep::HalfedgeId h : brep::halfedges_of(solid, top)) { solid.data(solid.vertex(h)).position = at + square[i++]; }
   return *brep::extrude_face(solid, top, glm::dvec3{0.0, 0.0, 1.0});
 }
 

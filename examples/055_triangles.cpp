@@ -29,11 +29,11 @@ int main() {
   Solid solid;
   const brep::HalfedgeId first = *brep::make_segment(solid);
   brep::HalfedgeId last = first;
-  for (int i = 0; i < 2; ++i) last = *brep::split_edge(solid, last);
+  for (int i = 0; i < 2; ++i) { last = *brep::split_edge(solid, last); }
   const brep::FaceId lid = solid.face(*brep::split_face(solid, twin(last), first));
   const glm::dvec3 square[4] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   int i = 0;
-  for (brep::HalfedgeId h : brep::halfedges_of(solid, lid)) solid.data(solid.vertex(h)).position = square[i++];
+  for (brep::HalfedgeId h : brep::halfedges_of(solid, lid)) { solid.data(solid.vertex(h)).position = square[i++]; }
   const brep::FaceId top = *brep::extrude_face(solid, lid, glm::dvec3{0.0, 0.0, 1.0});
   print("cube", solid);
 

@@ -20,7 +20,7 @@ using Solid = brep::BRep<>;
 template <class Range>
 std::string list(const Range& range) {
   std::string text;
-  for (const auto& element : range) text += ' ' + to_string(element);
+  for (const auto& element : range) { text += ' ' + to_string(element); }
   return text;
 }
 
@@ -34,7 +34,7 @@ brep::Builder prism() {
   }
   builder.face({2, 1, 0}, 0);
   builder.face({3, 4, 5}, 1);
-  for (std::uint32_t i = 0; i < 3; ++i) builder.face({i, (i + 1) % 3, 3 + (i + 1) % 3, 3 + i}, 2);
+  for (std::uint32_t i = 0; i < 3; ++i) { builder.face({i, (i + 1) % 3, 3 + (i + 1) % 3, 3 + i}, 2); }
   return builder;
 }
 

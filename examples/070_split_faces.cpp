@@ -43,10 +43,10 @@ void show(const char* what, const Split& split, const Condition& finished) {
   Mesh mesh = polygon(12);
   const auto parts = brep::split_recursively(mesh, front, split, finished);
   double least = 1.0;
-  for (brep::FaceId f : parts->faces) least = std::min(least, brep::proportion(mesh, f));
+  for (brep::FaceId f : parts->faces) { least = std::min(least, brep::proportion(mesh, f)); }
   std::printf("%-36s %2zu parts, %2zu unfinished, least proportion %.3f\n", what, parts->faces.size(), parts->unfinished.size(), least);
   brep::rejoin(mesh, *parts);  // takes all cuts back
-  if (mesh.face_count() != 2 || brep::degree(mesh, front) != 12) std::puts("not rejoined");
+  if (mesh.face_count() != 2 || brep::degree(mesh, front) != 12) { std::puts("not rejoined"); }
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ int main() {
   using brep::AreaBelow, brep::BesidePlane, brep::Convex, brep::NiceSplit, brep::ProportionAbove, brep::quadrangles, brep::triangles;
   const auto halve = [](const Mesh& mesh, brep::FaceId f) {  // a split object of one's own: from the anchor to the corner opposite
     brep::Cut cut{mesh.halfedge(f), mesh.halfedge(f)};
-    for (std::size_t i = 0; i < degree(mesh, f) / 2; ++i) cut.b = mesh.next(cut.b);
+    for (std::size_t i = 0; i < degree(mesh, f) / 2; ++i) { cut.b = mesh.next(cut.b); }
     return cut;
   };
   show("well shaped triangles", NiceSplit{}, triangles);
@@ -72,7 +72,7 @@ int main() {
   const std::vector<brep::FaceId> children = *brep::refine(mesh, front);
   (void)brep::refine(mesh, children[1]);
   std::size_t with_t_vertices = 0, added = 0;
-  for (brep::FaceId f : children) with_t_vertices += brep::NoTVertices{}(mesh, f) ? 0 : 1;
-  for (brep::FaceId f : children) added += brep::eliminate_t_vertices(mesh, f);
+  for (brep::FaceId f : children) { with_t_vertices += brep::NoTVertices{}(mesh, f) ? 0 : 1; }
+  for (brep::FaceId f : children) { added += brep::eliminate_t_vertices(mesh, f); }
   std::printf("faces with T-vertices: %zu; eliminated by %zu more faces\n", with_t_vertices, added);
 }

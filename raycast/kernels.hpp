@@ -34,10 +34,10 @@
 //   segment.inc   a segment against eight          hull.inc      the hull of a bundle against eight
 //   walk.inc      the walk of walk.hpp
 
-#include "bundle.hpp"
-#include "compiled.hpp"
-#include "lanes.hpp"
-#include "walk.hpp"
+#include <raycast/bundle.hpp>
+#include <raycast/compiled.hpp>
+#include <raycast/lanes.hpp>
+#include <raycast/walk.hpp>
 
 #include <bit>
 

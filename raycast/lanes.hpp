@@ -9,7 +9,7 @@
 // HALFLIGHT_PORTABLE leaves the last two out.) The three round differently, and still answer alike: a kernel decides only what its error
 // bound allows and leaves the rest to double precision.
 
-#include "isa.hpp"
+#include <raycast/isa.hpp>
 
 #include <cstdint>
 #include <cstring>

@@ -19,7 +19,7 @@ inline radiosity::Control watch_generations(int& generations) {
     ++generations;
     for (const radiosity::Surface& surface : surfaces) {
       const auto faults = brep::validate(surface.brep);
-      for (const auto& fault : faults) UNSCOPED_INFO(fault.sentence);
+      for (const auto& fault : faults) { UNSCOPED_INFO(fault.sentence); }
       REQUIRE(faults.empty());
       const auto euler = static_cast<long>(surface.brep.vertex_count()) - static_cast<long>(surface.brep.edge_count()) +
                          static_cast<long>(surface.brep.face_count());

@@ -17,7 +17,8 @@
 
 namespace apps::euler {
 
-// A curve along a line of points, its corners rounded by parabolas: a smooth one (quadratic B-spline) with rounding 1, the line itself with 0.
+// A curve along a line of points, its corners rounded by parabolas: a smooth one (quadratic B-spline) with rounding 1, the line itself with
+// 0.
 struct Curve {
   std::array<glm::dvec2, inner_points + 2> points{};
   double rounding = 1.0;

@@ -42,10 +42,10 @@ struct Frame {
 
 struct Story {
   std::string title, introduction;
-  std::vector<Frame> frames;              // the first is the start
-  std::vector<brep::ScriptError> errors;  // statements that were not done as written
+  std::vector<Frame> frames;                        // the first is the start
+  std::vector<brep::ScriptError> errors;            // statements that were not done as written
   std::map<std::uint32_t, glm::dvec3> coordinates;  // of vertices, where the script has some (solid.hpp)
-  std::size_t edges = 0;                  // of all frames together: what drawing it costs
+  std::size_t edges = 0;                            // of all frames together: what drawing it costs
 };
 
 // One statement after another, also after one that failed. A story that is not drawn keeps the records of its last two frames only:

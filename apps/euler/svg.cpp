@@ -139,8 +139,8 @@ class Pen {
   void draw_vertex(const VertexMark& v) {
     const std::string label = name('v', v.vertex);
     out_ += "<g class='vertex" + mark('v', v.vertex) + "' data-k='" + label + "' transform='translate(" + at(v.at) + ")'><circle r='" +
-            number(vertex_radius * text_) + "'/><text font-size='" + number((label.size() > 2 ? 0.8 : 0.95) * text_) + "' y='.35em'>" + label +
-            "</text></g>\n";
+            number(vertex_radius * text_) + "'/><text font-size='" + number((label.size() > 2 ? 0.8 : 0.95) * text_) + "' y='.35em'>" +
+            label + "</text></g>\n";
   }
   void draw_label(const FaceLabel& l, int copy) {
     out_ += "<text class='face" + mark('f', l.face) + "' data-k='l" + std::to_string(l.face) +

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The exercises of examples/exercises: which there are, and what is still wrong with a student's file. A sentence names the first thing that
-// does not hold; it never says how to mend it.
+// The exercises of examples/exercises: which there are, and what is still wrong with a student's file. A sentence names the first thing
+// that does not hold; it never says how to mend it.
 
 #include <optional>
 #include <span>
@@ -11,7 +11,7 @@
 namespace apps::exercise {
 
 struct Exercise {
-  const char* file;   // in examples/exercises, where the text and the beginning are
+  const char* file;  // in examples/exercises, where the text and the beginning are
   const char* title;
   // What is wrong, or nothing. Null: a program, tested by examples/exercises/check.sh.
   std::optional<std::string> (*fault)(const std::string& text);

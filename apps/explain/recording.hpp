@@ -73,7 +73,7 @@ struct Iteration {
 struct LeafLoop {
   std::uint32_t node = none;
   radiosity::Polygon corners;
-  std::vector<int> levels;    // tags of the vertices
+  std::vector<int> levels;  // tags of the vertices
   std::vector<bool> t_vertex;
 };
 
@@ -117,7 +117,7 @@ struct Recording {
   std::vector<radiosity::Polygon> bf_contours;
   std::vector<BfGeneration> bf;
   std::optional<double> closure;  // RMS correction that made the form factors of each patch sum to 1; nothing in an open scene
-  Comparison as_is, at_99;  // the solvers on this scene, and with all that reflects at .99
+  Comparison as_is, at_99;        // the solvers on this scene, and with all that reflects at .99
 };
 
 struct RecordResult {

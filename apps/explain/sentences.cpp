@@ -67,9 +67,7 @@ std::string sentence_of(const Recording& recording, const Pair& pair) {
   const double epsilon = recording.wanted.epsilon;
   const bool above = pair.estimate > epsilon;
   const std::string compared = estimate_of(recording, pair) + (above ? " > " : " <= ") + number(epsilon);
-  if (pair.decision == Decision::link) {
-    return compared + (above ? ", but neither is larger than the least area: link" : ": link");
-  }
+  if (pair.decision == Decision::link) { return compared + (above ? ", but neither is larger than the least area: link" : ": link"); }
   const std::string split = pair.decision == Decision::split_p ? of_p : of_q;
   if (pair.by_form_factor == Decision::link) {
     return compared + ", but the light of the lamp varies too much over " + split + ": split " + split;
@@ -115,8 +113,8 @@ std::string refinement(const Recording& r) {
     links += pair.decision == Decision::link ? 1 : 0;
     out += "  " + r.names[pair.p] + " - " + r.names[pair.q] + ": " + pair.sentence + "\n";
   }
-  const auto leaves = static_cast<std::size_t>(
-      std::count_if(r.nodes.begin(), r.nodes.end(), [](const radiosity::Node& node) { return node.leaf(); }));
+  const auto leaves =
+      static_cast<std::size_t>(std::count_if(r.nodes.begin(), r.nodes.end(), [](const radiosity::Node& node) { return node.leaf(); }));
   return out + std::to_string(r.pairs.size()) + " questions, " + std::to_string(links) + " links among n = " + std::to_string(leaves) +
          " leaves, where a matrix has n^2 = " + std::to_string(leaves * leaves) + " entries\n";
 }
@@ -183,9 +181,7 @@ std::string story(const Recording& r) {
   std::string out = r.scene + ": " + std::to_string(r.nodes.size()) + " patches";
   out += std::string(", told in the ") + (r.channel == 0 ? "red" : r.channel == 1 ? "green" : "blue") + " channel\n" + refinement(r);
   out += "\nLinks: " + std::to_string(r.links.size()) + ", and " + std::to_string(r.too_faint) + " pairs between which nothing arrives\n";
-  for (const LinkRecord& link : r.links) {
-    out += "  " + r.names[link.p] + " - " + r.names[link.q] + ": " + link.sentence + "\n";
-  }
+  for (const LinkRecord& link : r.links) { out += "  " + r.names[link.p] + " - " + r.names[link.q] + ": " + link.sentence + "\n"; }
   return out + light(r) + t_vertices(r) + by_light(r) + solvers("Solvers", r.as_is) + solvers("Solvers, all that reflects at .99", r.at_99);
 }
 

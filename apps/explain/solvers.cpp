@@ -71,9 +71,9 @@ Comparison compare_solvers(const System& system, bool keep) {
   };
   comparison.solution = solve(Solver::conjugate_gradients, 1000, 1e-10).radiosity;
   for (const auto& [solver, label] : {std::pair{Solver::jacobi, "Jacobi"},
-                                     {Solver::gauss_seidel, "Gauss-Seidel"},
-                                     {Solver::southwell, "Southwell (shooting)"},
-                                     {Solver::conjugate_gradients, "conjugate gradients"}}) {
+                                      {Solver::gauss_seidel, "Gauss-Seidel"},
+                                      {Solver::southwell, "Southwell (shooting)"},
+                                      {Solver::conjugate_gradients, "conjugate gradients"}}) {
     Method method{label, solve(solver, most_passes, 1e-10).history, {}};
     for (unsigned n = 0; keep && n < method.residual.size(); ++n) { method.radiosity.push_back(solve(solver, n, 1e-10).radiosity); }
     comparison.methods.push_back(std::move(method));

@@ -15,7 +15,7 @@ namespace apps::explain {
 
 struct Method {
   std::string name;
-  std::vector<double> residual;               // relative, at the start and after each pass
+  std::vector<double> residual;                // relative, at the start and after each pass
   std::vector<std::vector<double>> radiosity;  // of each node at the same moments
 };
 struct Comparison {

@@ -81,9 +81,8 @@ Drawing hierarchy_over_faces(const std::string& scene) {
     const std::uint32_t first = r.nodes[i].first_child, last = first + r.nodes[i].child_count;
     std::vector<std::uint32_t> children(last - first);
     std::iota(children.begin(), children.end(), first);
-    std::stable_sort(children.begin(), children.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return mesh_point(r.nodes[a].centre).x < mesh_point(r.nodes[b].centre).x;
-    });
+    std::stable_sort(children.begin(), children.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return mesh_point(r.nodes[a].centre).x < mesh_point(r.nodes[b].centre).x; });
     for (const std::uint32_t c : children) { self(self, c, depth + 1); }
     at[i].x = 0.5 * (at[children.front()].x + at[children.back()].x);
   };

@@ -48,8 +48,7 @@ std::vector<Panel> reconstruction_panels(const SceneStudy& scene) {
     for (const Stage stage : stages) {
       Curve curve{name(stage), styles[static_cast<std::size_t>(stage)], {}, {}};
       for (const Run& run : method.runs) {
-        const KnownError error =
-            credited(run) ? known_error(errors(run, stage).points.l2, scene.reference.point_noise) : KnownError{};
+        const KnownError error = credited(run) ? known_error(errors(run, stage).points.l2, scene.reference.point_noise) : KnownError{};
         curve.points.push_back({cost_of(run, Cost::cpu_time), error.value, error.limited});
         curve.titles.push_back(title(method, run, error));
       }

@@ -3,7 +3,8 @@
 
 // What the radiosity of a scene truly is, at fixed points: every input surface is cut into cells, every cell holds up to four stratified
 // points of the true surface that are not buried. In a closed scene where every surface emits 1 - rho times the same, B is
-// that number everywhere (the furnace; any shapes, any occluders); else each point is path-traced (radiosity/audit/path_tracer.hpp) and brings its standard errors.
+// that number everywhere (the furnace; any shapes, any occluders); else each point is path-traced (radiosity/audit/path_tracer.hpp) and
+// brings its standard errors.
 //
 // Path-traced values are kept in a file, with a checksum of all they depend on and one of themselves: a file that is damaged is
 // made anew and never trusted; one for another scene, or none of ours, is left as it is.
@@ -76,7 +77,8 @@ struct ReferenceOptions {
 [[nodiscard]] bool read_cache(const std::vector<std::string>& caches, const std::string& key, std::uint64_t least, TrueRadiosity& truth);
 void write_cache(const std::vector<std::string>& caches, const std::string& key, TrueRadiosity& truth);
 
-// The reference of the scene whose file has this `text`: analytic, from the `caches`, or path-traced and then written to them. Nothing and a sentence in `fault` where there is no reference, or on cancel.
+// The reference of the scene whose file has this `text`: analytic, from the `caches`, or path-traced and then written to them. Nothing and
+// a sentence in `fault` where there is no reference, or on cancel.
 [[nodiscard]] std::optional<TrueRadiosity> make_reference(const radiosity::Scene& scene, std::string_view text,
                                                           const std::vector<std::string>& caches, const ReferenceOptions& options,
                                                           const radiosity::Control& control, std::string& fault);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The numbers of a study: for spreadsheets and statistics (CSV), for programs (JSON). In both an error below the noise of its reference is given as that noise, and marked (outcome.hpp).
+// The numbers of a study: for spreadsheets and statistics (CSV), for programs (JSON). In both an error below the noise of its reference is
+// given as that noise, and marked (outcome.hpp).
 
 #include <string>
 #include <string_view>

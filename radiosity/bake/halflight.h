@@ -83,7 +83,7 @@ HALFLIGHT_API halflight_status halflight_vertex_colors(halflight_job* job, float
 /* The radiosity at a point of a triangle, on its front or its back; HALFLIGHT_NOTHING where it has none. From many threads at once. */
 HALFLIGHT_API halflight_status halflight_at(const halflight_job* job, size_t triangle, const float point[3], int back, float rgb[3]);
 
-/* A lightmap: an atlas with a rectangle for every planar face of the triangles, its texels squares with sides of `texel` metres, or of as much
+/* A lightmap: an atlas with a rectangle for every planar face of the triangles, its texels squares with sides of `texel` metres, or of as
  * more as keeps its sides within `most` texels (64 or more). 0: about a million texels. It is made of the buffers that were set, which must
  * still be there. Then its size, its texels (three floats each, width times height of them: radiosities, rows from v = 0 on), and the
  * coordinates of the corners in the order of the indices (u v, in [0, 1]; 0 0 of triangles without light). `count` as above. */

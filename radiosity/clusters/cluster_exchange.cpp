@@ -106,8 +106,7 @@ HALFLIGHT_INLINE ClusterSampler::Point ClusterSampler::draw(const ClusterEnd& en
     i = chosen;
   }
   const Patch& patch = scene_.patches[i];
-  const PatchEnd ground{&patch, nodes[i].object, exposure_ != nullptr ? exposure_->points(i) : nullptr,
-                        scene_.sheet(i)};
+  const PatchEnd ground{&patch, nodes[i].object, exposure_ != nullptr ? exposure_->points(i) : nullptr, scene_.sheet(i)};
   const auto cell = static_cast<std::uint32_t>(random.bits() & 15u);
   return {draw_exposed(ground, cell, random), patch.normal, i == end.node ? 1.0 : 1.0 / per_shown, nodes[i].object, scene_.sheet(i)};
 }

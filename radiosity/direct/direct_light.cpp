@@ -44,8 +44,8 @@ namespace detail {
 inline constexpr double facet_tolerance = 0.002;
 inline constexpr double stand_in_tolerance = 0.0004;
 inline constexpr std::size_t samples_of_lamp = 256;
-// Of a large lamp, of which one may see little; at most of so many, the brightest ones. The side of its area, to the scene's diameter: where
-// smaller ones are partly hidden is seen as the edge of a shadow, and needs no more.
+// Of a large lamp, of which one may see little; at most of so many, the brightest ones. The side of its area, to the scene's diameter:
+// where smaller ones are partly hidden is seen as the edge of a shadow, and needs no more.
 inline constexpr double large_lamp = 0.25;
 inline constexpr std::size_t fine_samples = 4096;
 inline constexpr std::size_t most_fine = 4;
@@ -162,7 +162,8 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
   double taken = 0.0;
   for (const Candidate& c : candidates) {
     if (lamps_.size() == limits.most) { break; }
-    const bool fine = samples == detail::samples_of_lamp && std::sqrt(c.area) > detail::large_lamp * objects.diameter() && fine_ones < detail::most_fine;
+    const bool fine =
+        samples == detail::samples_of_lamp && std::sqrt(c.area) > detail::large_lamp * objects.diameter() && fine_ones < detail::most_fine;
     Lamp lamp = make_lamp(surfaces, c, samples, fine);
     if (lamp.facets.empty()) { continue; }
     fine_ones += fine ? 1 : 0;

@@ -26,9 +26,9 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
-#include <radiosity/hierarchy/twins.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/hierarchy/twins.hpp>
 
 namespace radiosity {
 

@@ -83,7 +83,7 @@ struct FactorRange {
   return range;
 }
 
-// No disk stands for a tube beside a wall: most of the wall that it lights is far from its middle.
+// No disk stands for a cylinder beside a wall: most of the wall that it lights is far from its middle.
 [[nodiscard]] HALFLIGHT_INLINE bool is_near_and_long(const Node& lamp, const Node& to, const Patch& outline) {
   constexpr double most = 4.0;  // area of the disk around it, relative to its own: that of a rectangle of 5 : 1
   const bool is_long = std::numbers::pi * lamp.radius * lamp.radius > most * lamp.area;

@@ -51,10 +51,10 @@ struct LinkError {
 // may be a cluster, which has no normal and whose area is that of all faces below it.
 struct Question {
   const Hierarchy& hierarchy;
-  std::uint32_t p = no_node, q = no_node;  // equal: a leaf over which the light varies, is it split while its links stay? BF alone
-  const ShownAreas& shown;                 // projected areas of the clusters
-  double epsilon = 0.0;                    // largest form factor of a link; of LightOracle, share of the error
-  double min_area = 0.0;                   // of a leaf that may be split
+  std::uint32_t p = no_node, q = no_node;    // equal: a leaf over which the light varies, is it split while its links stay? BF alone
+  const ShownAreas& shown;                   // projected areas of the clusters
+  double epsilon = 0.0;                      // largest form factor of a link; of LightOracle, share of the error
+  double min_area = 0.0;                     // of a leaf that may be split
   const std::vector<bool>* stuck = nullptr;  // leaves that the BRep refused to split, if there are any
 
   // Of LightOracle alone: what can stand between the nodes,

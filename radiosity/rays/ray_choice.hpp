@@ -26,8 +26,8 @@ inline constexpr std::uint64_t rays_from = 100;
 
 // Among few faces, too, rays pay where the RMS of what lamps light directly is more than this times the mean emission: then what shines
 // brightest lies close beside a lamp, which hides it from most of the scene. One visible fraction for a whole ceiling does not tell that:
-// walls and floors were 8 % too bright by links where a lamp hung 5 cm below it, 15 % at 1 cm, 20 to 30 % where tubes touched it. By rays
-// they are within some 3 %, in half of the time.
+// walls and floors were 8 % too bright by links where a lamp hung 5 cm below it, 15 % at 1 cm, 20 to 30 % where cylinders touched it. By
+// rays they are within some 3 %, in half of the time.
 inline constexpr double least_share_beside_lamps = 4.0;
 
 // `faces`: input faces, `lamps` among them; `uncut`: these before long ones were cut, whose parts are linked one by one while they are few.

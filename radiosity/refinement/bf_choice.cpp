@@ -17,8 +17,8 @@
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/bf_generation.hpp>
 #include <radiosity/refinement/bf_refine.hpp>
-#include <radiosity/refinement/link_error.hpp>
 #include <radiosity/refinement/f_refine.hpp>
+#include <radiosity/refinement/link_error.hpp>
 #include <radiosity/support/memory.hpp>
 
 namespace radiosity {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/solve_at.hpp>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 
 #include <radiosity/result/out_of_memory.hpp>
 #include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/run.hpp>
 #include <radiosity/run/stages.hpp>
 #include <radiosity/scene/options.hpp>

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/hierarchy/patch.hpp>
-#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/uniform.hpp>
 
 #include <cstddef>
@@ -12,6 +10,7 @@
 #include <raycast/inline.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/polygons.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/wall_cuts.hpp>

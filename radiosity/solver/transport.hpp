@@ -49,8 +49,8 @@ class Transport {
   // What all parts but the last leave of the row sums of a closed scene.
   [[nodiscard]] std::vector<double> left_by_lamps();
   // Of a closed scene, before its other links are scaled: makes the row sums of lamps 1 by a scale of theirs, which other surfaces do not
-  // have. A cluster of lamps has one for all its faces, since which of them lights what near it is not known: a face then counts for the area
-  // that its links give it (area()). Without lamps nothing is done.
+  // have. A cluster of lamps has one for all its faces, since which of them lights what near it is not known: a face then counts for the
+  // area that its links give it (area()). Without lamps nothing is done.
   void scale_lamps();
 
   // Light on its way, of a node: what it sends (mean of B over its area, and of B (x - c)), or what arrives at it (irradiance at the

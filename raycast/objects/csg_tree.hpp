@@ -9,7 +9,8 @@
 // follow each other closer than `film`, measured across both surfaces, are one crossing: what is thinner is nothing, and gaps that are
 // narrower are closed. Of several sheets that coincide the surface is that of the first leaf that bounds the result there, as in brep/csg.
 //
-// Sheets of the leaves are counted through, in the order of the leaves. A leaf that is taken away lends its surface turned inside out.
+// The sheets of all leaves have one numbering, in the order of the leaves. Where a subtracted leaf bounds the result, the surface is that
+// of the leaf with its normal reversed.
 
 #include <cstddef>
 #include <cstdint>

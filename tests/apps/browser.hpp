@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Pages in a headless browser, where there is one (chromium). Begin a test with: if (!browser::found()) { SKIP_TEST("there is no chromium"); }
+// Pages in a headless browser, where there is one (chromium). Begin a test with: if (!browser::found()) { SKIP_TEST("there is no
+// chromium"); }
 
 #include <cstdlib>
 #include <string>

@@ -86,7 +86,7 @@ TEST_CASE("check: the border of a Moebius strip is not counted by its chains") {
 
 TEST_CASE("check: long lists are cut and the number of the rest is told, --all shows them") {
   std::string many = cube_text;
-  for (int i = 0; i < 25; ++i) many += "v 9 9 " + std::to_string(i) + "\n";
+  for (int i = 0; i < 25; ++i) { many += "v 9 9 " + std::to_string(i) + "\n"; }
   Check check(many);
   CHECK(check.run("m.obj").last.code == 3);
   CHECK(check.says("... and 15 more"));

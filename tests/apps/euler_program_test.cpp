@@ -53,7 +53,7 @@ TEST_CASE("euler: errors in a script are exit code 3 with file, line and column"
 TEST_CASE("euler: a script too long to be drawn is played all the same, and drawing it is refused at once") {
   EulerFolder folder;
   std::string script = "make_segment\n";
-  for (int i = 1; i < 700; ++i) script += "split_edge h0\n";
+  for (int i = 1; i < 700; ++i) { script += "split_edge h0\n"; }
   folder.write("long.euler", script + "expect v 701 e 700 f 1 s 1 h 0\n");
   CHECK(folder.run("long.euler") == 0);
   CHECK(folder.last.out.find("steps: 700\nv 701   e 700   f 1   s 1   h 0\n") != std::string::npos);

@@ -237,7 +237,8 @@ TEST_CASE("stepper: every step of the page, and the walk of all that it shows, w
     document.documentElement.dataset.walks = walks > 1000;
     document.documentElement.dataset.seen = seen === frames.length;
     document.documentElement.dataset.solid = document.querySelectorAll('#solid .vertex').length;
-  )", "1280,860");
+  )",
+                                            "1280,860");
   INFO(dom.substr(0, 300));
   CHECK(dom.find("data-error") == std::string::npos);
   CHECK(dom.find("data-walks=\"true\"") != std::string::npos);

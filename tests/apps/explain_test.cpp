@@ -169,9 +169,10 @@ TEST_CASE("explain tells the story in the terminal and writes a page of its own"
   const program::Run run = place.run("explain " + scene + " --epsilon 0.2 --text -o page.html");
   INFO(run.err << run.out);
   CHECK(run.code == 0);
-  for (const char* part : {"generation 0:\n  lamp - plate: disk estimate F = 0.241 (1 and 1 m2, centres 1 m apart, cosines 1 and 1) > 0.2: split lamp",
-                           "blocker - back: face away from each other: no link", "rays arrive, visibility 0.", "Gather, push, pull",
-                           "T-vertices: ", "Refinement by the light that links carry", "over-shooting by 1.8", "written: page.html\n"}) {
+  for (const char* part :
+       {"generation 0:\n  lamp - plate: disk estimate F = 0.241 (1 and 1 m2, centres 1 m apart, cosines 1 and 1) > 0.2: split lamp",
+        "blocker - back: face away from each other: no link", "rays arrive, visibility 0.", "Gather, push, pull",
+        "T-vertices: ", "Refinement by the light that links carry", "over-shooting by 1.8", "written: page.html\n"}) {
     INFO(part);
     CHECK(run.out.find(part) != std::string::npos);
   }

@@ -67,9 +67,9 @@ TEST_CASE("a point is seen in the direction of its place in the picture") {
   }
 }
 
-// Every wall emits 1 and reflects half of what arrives, so the radiosity is 2 everywhere. Half of it is direct light, from what is a lamp or is
-// not; the other half is gathered. Counted twice or not at all, either would show. The mesh of a convex room is exact (its row sums are closed),
-// and so is the contour integral: what is left is single precision's.
+// Every wall emits 1 and reflects half of what arrives, so the radiosity is 2 everywhere. Half of it is direct light, from what is a lamp
+// or is not; the other half is gathered. Counted twice or not at all, either would show. The mesh of a convex room is exact (its row sums
+// are closed), and so is the contour integral: what is left is single precision's.
 TEST_CASE("furnace: the gathered picture shows E / (1 - rho) everywhere") {
   const SolvedFile solved = solve(
       "material wall reflectance 0.5 emission 1\n"
@@ -80,9 +80,9 @@ TEST_CASE("furnace: the gathered picture shows E / (1 - rho) everywhere") {
   for (const glm::dvec3& b : picture.radiosity) { CHECK(double{b.x} == test::Approx(2.0).epsilon(2e-3)); }
 }
 
-// Floor and lamp reflect nothing but the floor's first bounce, so that all light is direct; the mesh is as coarse as it can be. A parallel square
-// lamp of side 2 a at height h over the middle: F = (4 / pi) (X / sqrt(1 + X X)) atan(X / sqrt(1 + X X)) with X = a / h (Howell, C-10, four
-// quarters). A pixel's mean differs from the value at its middle by its second derivative: below 1e-4 for 1 / 200 of the height.
+// Floor and lamp reflect nothing but the floor's first bounce, so that all light is direct; the mesh is as coarse as it can be. A parallel
+// square lamp of side 2 a at height h over the middle: F = (4 / pi) (X / sqrt(1 + X X)) atan(X / sqrt(1 + X X)) with X = a / h (Howell,
+// C-10, four quarters). A pixel's mean differs from the value at its middle by its second derivative: below 1e-4 for 1 / 200 of the height.
 TEST_CASE("direct light does not depend on the mesh: under a square lamp it is Lambert's") {
   const SolvedFile solved = solve(
       "material floor reflectance 0.8\nmaterial lamp reflectance 0 emission 5\n"
@@ -100,8 +100,8 @@ TEST_CASE("direct light does not depend on the mesh: under a square lamp it is L
   CHECK(double{gathered(solved, view).radiosity[50 * 101 + 50].x} == test::Approx(0.8 * 5.0 * factor).epsilon(2e-4));
 }
 
-// The standard error is told by four parts, so it is itself known to a half; over 64 families of rays the true spread is below twice what was
-// asked for, with the first 64 rays, which may agree by chance, among them.
+// The standard error is told by four parts, so it is itself known to a half; over 64 families of rays the true spread is below twice what
+// was asked for, with the first 64 rays, which may agree by chance, among them.
 TEST_CASE("indirect light is gathered until its standard error is what was asked for") {
   const SolvedFile solved = solve(example_text("room"), 0.05);
   const radiosity::FinalGather light{solved.file.scene, solved.solution.mesh, solved.solution.frame};
@@ -125,8 +125,8 @@ TEST_CASE("indirect light is gathered until its standard error is what was asked
 }
 
 // A sphere of radius r at distance d is the cone of half-angle asin(r/d) about the direction of its centre. A pixel is
-// taken to be inside when half of it is lit; where this and the cone do not agree at its middle, the middle's distance from the silhouette is
-// the picture's error: of 16 samples up to one too few or too many, an eighth of a pixel.
+// taken to be inside when half of it is lit; where this and the cone do not agree at its middle, the middle's distance from the silhouette
+// is the picture's error: of 16 samples up to one too few or too many, an eighth of a pixel.
 TEST_CASE("close up, the silhouette of a sphere is smooth: within half a pixel of the cone, where the mesh is off by many") {
   const SolvedFile solved = solve(
       "material lamp reflectance 0 emission 1\n"

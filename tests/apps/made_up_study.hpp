@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A study with made-up figures: error = factor * time^exponent for every method, exactly, so that slopes, fronts and places in a plot are known.
+// A study with made-up figures: error = factor * time^exponent for every method, exactly, so that slopes, fronts and places in a plot are
+// known.
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Is a text well-formed XML, as far as our own SVG and HTML go: elements close in order, attributes are quoted and stand once, entities are known?
+// Is a text well-formed XML, as far as our own SVG and HTML go: elements close in order, attributes are quoted and stand once, entities are
+// known?
 
 #include <algorithm>
 #include <cctype>

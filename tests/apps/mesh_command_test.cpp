@@ -51,7 +51,7 @@ TEST_CASE("mesh: counts, genus, area and volume of each object, a room counted n
   CHECK(lamp["area"].number() == 1.0);
   CHECK(lamp["volume"].is_null());
   double area = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) area += report["objects"][i]["area"].number();
+  for (std::size_t i = 0; i < 4; ++i) { area += report["objects"][i]["area"].number(); }
   CHECK(std::abs(report["total"]["area"].number() - area) <= close_to(area));
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("mesh: every example scene, as text and JSON; what is written is read 
   const Place place;
   int scenes = 0;
   for (const auto& entry : program::fs::directory_iterator(HALFLIGHT_SCENES)) {
-    if (entry.path().extension() != ".scene") continue;
+    if (entry.path().extension() != ".scene") { continue; }
     ++scenes;
     const std::string scene = "'" + entry.path().string() + "'";
     CAPTURE(scene);

@@ -65,7 +65,7 @@ TEST_CASE("a binary file that ends too early, or whose counts lie, is an error a
   for (std::size_t size = 0; size < whole.size(); ++size) {
     const apps::MeshResult result = apps::read_mesh(whole.substr(0, size), as_ply);
     REQUIRE(result.errors.size() == 1);
-    if (size >= data) CHECK(result.errors[0].place.line == 0);
+    if (size >= data) { CHECK(result.errors[0].place.line == 0); }
   }
   CHECK(begins(error(replaced(whole, "vertex 8", "vertex 4611686018427387904"), as_ply), ":byte "));
   CHECK(begins(error(replaced(whole, "face 6", "face 4611686018427387904"), as_ply), ":byte "));
@@ -74,13 +74,13 @@ TEST_CASE("a binary file that ends too early, or whose counts lie, is an error a
   const auto more = apps::read_mesh(whole + "x", as_ply);
   CHECK((more.mesh.has_value() && more.mesh->notes.size() == 1));
   std::string nan = whole;
-  for (int i = 0; i < 8; ++i) nan[data + static_cast<std::size_t>(i)] = '\xff';
+  for (int i = 0; i < 8; ++i) { nan[data + static_cast<std::size_t>(i)] = '\xff'; }
   CHECK(begins(error(nan, as_ply), ":byte " + std::to_string(data + 1) + ": error: a coordinate is not a finite number"));
 }
 
 TEST_CASE("errors are given up after a number of them") {
   std::string text;
-  for (int i = 0; i < 1000; ++i) text += "q\n";
+  for (int i = 0; i < 1000; ++i) { text += "q\n"; }
   const auto result = apps::read_mesh(text, as_obj);
   CHECK((result.more_errors && result.errors.size() == apps::max_errors));
 }
@@ -143,11 +143,11 @@ TEST_CASE("damaged files of every format never bring the readers down, and give 
     REQUIRE(result.mesh.has_value() == result.errors.empty());
     REQUIRE(result.errors.size() <= apps::max_errors);
     ++(result.mesh ? read : refused);
-    if (!result.mesh) continue;
+    if (!result.mesh) { continue; }
     const apps::Mesh& mesh = *result.mesh;
     REQUIRE(mesh.builder.face_count() > 0);
     for (std::uint32_t f = 0; f < mesh.builder.face_count(); ++f) {
-      for (std::uint32_t v : mesh.builder.corners(f)) REQUIRE(v < mesh.builder.vertex_count());
+      for (std::uint32_t v : mesh.builder.corners(f)) { REQUIRE(v < mesh.builder.vertex_count()); }
     }
     check_same(std::move(apps::read_mesh(apps::write_mesh(mesh.builder, format), format).mesh->builder), mesh.builder);
   }

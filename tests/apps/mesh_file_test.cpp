@@ -25,11 +25,11 @@ TEST_CASE("a mesh that was written reads back exactly, in every format") {
     odd.vertex({value(), value(), value()});
   }
   std::vector<std::uint32_t> large;
-  for (std::uint32_t v = 0; v < 300; ++v) large.push_back(v);
+  for (std::uint32_t v = 0; v < 300; ++v) { large.push_back(v); }
   odd.face({1, 2, 399}, 0);
-  for (const MeshFormat& format : {as_obj, as_ply, as_off}) check_same(read(apps::write_mesh(odd, format), format), odd);
+  for (const MeshFormat& format : {as_obj, as_ply, as_off}) { check_same(read(apps::write_mesh(odd, format), format), odd); }
   odd.face(large, 0);  // more corners than a byte counts
-  for (const MeshFormat& format : {as_obj, as_ply, as_off}) check_same(read(apps::write_mesh(odd, format), format), odd);
+  for (const MeshFormat& format : {as_obj, as_ply, as_off}) { check_same(read(apps::write_mesh(odd, format), format), odd); }
 }
 
 TEST_CASE("line ends, comments, blanks and a missing last line end do not change what is read") {
@@ -104,7 +104,7 @@ TEST_CASE("what a format writes is recognised as that format, whatever the mesh,
   INFO("seed 17");
   for (int run = 0; run < 50; ++run) {
     brep::Builder mesh;
-    for (int v = 0; v < 6; ++v) mesh.vertex({1e-3 * static_cast<double>(random()), -static_cast<double>(random() % 9), 0.5});
+    for (int v = 0; v < 6; ++v) { mesh.vertex({1e-3 * static_cast<double>(random()), -static_cast<double>(random() % 9), 0.5}); }
     const auto corner = [&] { return static_cast<std::uint32_t>(random() % 6); };
     mesh.face({corner(), corner(), corner()}, 0);
     for (const MeshFormat* const format : apps::mesh_formats()) {
@@ -124,12 +124,12 @@ TEST_CASE("the format follows from the name") {
   CHECK(apps::mesh_format("a.obj") == &as_obj);
   CHECK(apps::mesh_format("dir/A.PLY") == &as_ply);
   CHECK(apps::mesh_format("x.Off") == &as_off);
-  for (const char* name : {"", ".obj", "obj", "a.obj.gz", "a.stl"}) CHECK(apps::mesh_format(name) == nullptr);
+  for (const char* name : {"", ".obj", "obj", "a.obj.gz", "a.stl"}) { CHECK(apps::mesh_format(name) == nullptr); }
 }
 
 TEST_CASE("real meshes have the counts and the manifold status that independent software found") {
   const std::filesystem::path folder = std::filesystem::path(HALFLIGHT_REFERENCE_DATA) / "meshes";
-  if (!std::filesystem::exists(folder / "manifest.json")) SKIP_TEST("no meshes of others in " << folder.string());
+  if (!std::filesystem::exists(folder / "manifest.json")) { SKIP_TEST("no meshes of others in " << folder.string()); }
   const json::Value manifest = json::parse_file((folder / "manifest.json").string());
   CHECK(manifest.size() == 4);
   for (const json::Value& entry : manifest.array()) {
@@ -153,8 +153,9 @@ TEST_CASE("real meshes have the counts and the manifold status that independent 
     CHECK(s.closed() == entry["closed"].boolean());
     CHECK(s.duplicate_positions == number("duplicate_positions"));
     CHECK(s.unusable_faces == number("degenerate_faces"));
-    for (const auto& [size, count] : entry["face_sizes"].object())
+    for (const auto& [size, count] : entry["face_sizes"].object()) {
       CHECK(s.face_sizes.at(std::stoul(size)) == static_cast<std::size_t>(count.number()));
+    }
     for (int i = 0; i < 3; ++i) {
       CHECK(s.lo[i] == entry["bbox"][0][i].number());
       CHECK(s.hi[i] == entry["bbox"][1][i].number());
@@ -170,7 +171,7 @@ TEST_CASE("real meshes have the counts and the manifold status that independent 
     CHECK(edges == number("nonmanifold_edges"));
     if (entry["total_genus"].is_number()) {
       long genus = 0;
-      for (const brep::Component& c : s.components) genus += c.genus.value();
+      for (const brep::Component& c : s.components) { genus += c.genus.value(); }
       CHECK(genus == static_cast<long>(entry["total_genus"].number()));
       // 5856 terms of at most 1 m3 / 1000 each: rounding stays far below 1e-12.
       CHECK(s.components[0].volume.value() == Approx(entry["signed_volume"].number()).epsilon(1e-12));

@@ -30,7 +30,7 @@ inline brep::Builder cube() { return std::move(apps::read_mesh(cube_obj, as_obj)
 inline void check_same(const brep::Builder& a, const brep::Builder& b) {
   REQUIRE(a.vertex_count() == b.vertex_count());
   REQUIRE(a.face_count() == b.face_count());
-  for (std::uint32_t v = 0; v < a.vertex_count(); ++v) CHECK(a.position(v) == b.position(v));
+  for (std::uint32_t v = 0; v < a.vertex_count(); ++v) { CHECK(a.position(v) == b.position(v)); }
   for (std::uint32_t f = 0; f < a.face_count(); ++f) {
     CHECK(std::equal(a.corners(f).begin(), a.corners(f).end(), b.corners(f).begin(), b.corners(f).end()));
   }
@@ -51,7 +51,9 @@ inline std::string error(const std::string& bytes, const MeshFormat& format) {
 inline bool begins(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
 
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
   return text;
 }
 
@@ -63,7 +65,7 @@ class Bytes {
   void put(T value) {
     std::string bytes(sizeof value, '\0');
     std::memcpy(bytes.data(), &value, sizeof value);
-    if (big_ == (std::endian::native == std::endian::little)) std::reverse(bytes.begin(), bytes.end());
+    if (big_ == (std::endian::native == std::endian::little)) { std::reverse(bytes.begin(), bytes.end()); }
     text += bytes;
   }
   std::string text;
@@ -83,20 +85,20 @@ std::string odd_ply(bool big, const std::string& count, const std::string& index
              " vertex_index\nproperty uchar flag\nelement nothing 1000000000000\nend_header\n";
   for (int i = 0; i < 2; ++i) {
     out.put(static_cast<Count>(i));
-    for (int k = 0; k < i; ++k) out.put(std::int16_t{-7});
+    for (int k = 0; k < i; ++k) { out.put(std::int16_t{-7}); }
   }
   for (std::uint32_t v = 0; v < 8; ++v) {
     out.put(std::uint8_t{200});
     out.put(static_cast<Real>(b.position(v).z));
     out.put(static_cast<Real>(b.position(v).x));
     out.put(static_cast<Count>(v % 3));
-    for (std::uint32_t k = 0; k < v % 3; ++k) out.put(0.5);
+    for (std::uint32_t k = 0; k < v % 3; ++k) { out.put(0.5); }
     out.put(static_cast<Real>(b.position(v).y));
   }
   for (std::uint32_t f = 0; f < 6; ++f) {
     out.put(1.5F);
     out.put(static_cast<Count>(b.corners(f).size()));
-    for (std::uint32_t v : b.corners(f)) out.put(static_cast<Index>(v));
+    for (std::uint32_t v : b.corners(f)) { out.put(static_cast<Index>(v)); }
     out.put(std::uint8_t{1});
   }
   return out.text;

@@ -74,12 +74,14 @@ TEST_CASE("a PFM holds the radiance in single precision, rows from the bottom") 
     const std::size_t row = i / 37, column = i % 37;
     float value[3];
     std::memcpy(value, pfm.data() + header.size() + 12 * ((10 - row) * 37 + column), 12);
-    for (int c = 0; c < 3; ++c) { CHECK(double{value[c]} == test::Approx(double{picture.radiosity[i][c]} / std::numbers::pi).epsilon(1e-6)); }
+    for (int c = 0; c < 3; ++c) {
+      CHECK(double{value[c]} == test::Approx(double{picture.radiosity[i][c]} / std::numbers::pi).epsilon(1e-6));
+    }
   }
 }
 
-// RGBE: channel = (mantissa + 1/2) / 256 * 2^(exponent - 128); the largest mantissa is 128 or more, so that channels are exact to half a step,
-// 1 / 256 of the largest channel.
+// RGBE: channel = (mantissa + 1/2) / 256 * 2^(exponent - 128); the largest mantissa is 128 or more, so that channels are exact to half a
+// step, 1 / 256 of the largest channel.
 TEST_CASE("an HDR holds the radiance to half a 128th of its largest channel, and says in what unit") {
   const std::uint64_t seed = 7;
   CAPTURE(seed);

@@ -119,7 +119,9 @@ TEST_CASE("a vertex at a crease is doubled, with a normal for each side") {
   CHECK(ply.header.find("property float nz\n") != std::string::npos);
   CHECK(ply.vertices.size() == 8);
   for (std::size_t f = 0; f < 2; ++f) {
-    for (const std::int32_t v : ply.faces[f].vertices) { CHECK(ply.vertices[static_cast<std::size_t>(v)].normal[1] == (f == 0 ? 0.0F : 0.6F)); }
+    for (const std::int32_t v : ply.faces[f].vertices) {
+      CHECK(ply.vertices[static_cast<std::size_t>(v)].normal[1] == (f == 0 ? 0.0F : 0.6F));
+    }
   }
 }
 

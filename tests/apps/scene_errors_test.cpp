@@ -201,9 +201,9 @@ TEST_CASE("reading goes on after an error, in the order of the file, up to a lim
 TEST_CASE("unions nested beyond the limit are refused once, however deep they are") {
   for (const int depth : {65, 100'000}) {
     std::string text = grey;
-    for (int i = 0; i < depth; ++i) text += "union u material grey {\n";
+    for (int i = 0; i < depth; ++i) { text += "union u material grey {\n"; }
     text += "box b from 0 0 0 to 1 1 1\n";
-    for (int i = 0; i < depth; ++i) text += "}\n";
+    for (int i = 0; i < depth; ++i) { text += "}\n"; }
     const apps::SceneResult result = apps::parse_scene(text);
     REQUIRE(result.errors.size() == 1);
     CHECK(result.errors[0].sentence.find("nested deeper than 64") != std::string::npos);

@@ -107,13 +107,14 @@ TEST_CASE("the edge of a sharp shadow is as soft as its pixels are covered") {
       CHECK(std::abs(1.0 - light[i] - covered(blade, i)) < 0.2);
       dark += (1.0 - light[i]) * pixel * pixel;
     }
-    // Of some hundred pixels at the edge, each off by at random less than a tenth, the sum is off by less than one pixel of a hundred and more.
+    // Of some hundred pixels at the edge, each off by at random less than a tenth, the sum is off by less than one pixel of a hundred and
+    // more.
     CHECK(dark == test::Approx(blade.length * blade.width * 100 * 100 / (99 * 99)).epsilon(0.02));
   }
 }
 
-// A line wider than a pixel's diagonal holds the middle of some pixel in each row or column that it crosses; what is between the middles is found
-// by the pixels at its edges.
+// A line wider than a pixel's diagonal holds the middle of some pixel in each row or column that it crosses; what is between the middles is
+// found by the pixels at its edges.
 TEST_CASE("the shadow of a thin thing is whole") {
   constexpr unsigned seed = 5;
   INFO("seed " << seed);

@@ -7,14 +7,14 @@
 #include <string>
 
 #include "apps/study/outcome.hpp"
-#include "apps/study/pages.hpp"
 #include "apps/study/page.hpp"
+#include "apps/study/pages.hpp"
 #include "apps/study/parts.hpp"
 #include "apps/study/table.hpp"
 #include "apps/study/tables.hpp"
+#include "browser.hpp"
 #include "json.hpp"
 #include "made_up_study.hpp"
-#include "browser.hpp"
 #include "program.hpp"
 
 namespace {
@@ -207,28 +207,29 @@ TEST_CASE("study page: legends are whole, tick labels do not collide, tables sta
       const wide = document.documentElement.clientWidth, faults = [], paper = wide < 700;
       for (const t of document.querySelectorAll('table')) {
         const limit = !paper ? wide : t.closest('.wide') ? 1032 : 688, right = t.getBoundingClientRect().right;
-        if (wide != 1000 && right > limit + 0.5) faults.push('table ' + t.caption.textContent.slice(0, 9) + ' ' + right);
+        if (wide != 1000 && right > limit + 0.5) { faults.push('table ' + t.caption.textContent.slice(0, 9) + ' ' + right); }
       }
-      if (!paper && document.documentElement.scrollWidth > wide) faults.push('the page is wider than its window');
+      if (!paper && document.documentElement.scrollWidth > wide) { faults.push('the page is wider than its window'); }
       for (const s of document.querySelectorAll('figure svg')) {
         const box = s.getBoundingClientRect(), labels = [...s.querySelectorAll('text')].map(t => [t, t.getBoundingClientRect()]);
         for (const [t, r] of labels) {
-          if (Math.min(r.left - box.left, box.right - r.right, r.top - box.top, box.bottom - r.bottom) < -0.5) faults.push('clipped: ' + t.textContent);
+          if (Math.min(r.left - box.left, box.right - r.right, r.top - box.top, box.bottom - r.bottom) < -0.5) { faults.push('clipped: ' + t.textContent); }
         }
         labels.forEach(([t, a], i) => labels.slice(i + 1).forEach(([u, b]) => {
           const dx = Math.min(a.right, b.right) - Math.max(a.left, b.left), dy = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
-          if (dx > 0.5 && dy > 0.35 * Math.min(a.height, b.height)) faults.push('collide: ' + t.textContent + ' | ' + u.textContent);
+          if (dx > 0.5 && dy > 0.35 * Math.min(a.height, b.height)) { faults.push('collide: ' + t.textContent + ' | ' + u.textContent); }
         }));
       }
       document.documentElement.dataset.faults = [...new Set(faults)].slice(0, 12).join('; ');
-    )", window);
+    )",
+                                              window);
     const std::size_t at = dom.find("data-faults=\"");
     REQUIRE(at != dom.npos);
     return dom.substr(at + 13, dom.find('"', at + 13) - at - 13);
   };
   CHECK(faults(text, "1200,900").empty());
   CHECK(faults(text, "1000,900").empty());  // where a wide table is scrolled, and the page is not
-  std::string printed = text;         // A4 less its margins is 182 mm wide, 688 px, or across 273 mm, 1032 px
+  std::string printed = text;               // A4 less its margins is 182 mm wide, 688 px, or across 273 mm, 1032 px
   for (std::size_t at; (at = printed.find("@media print")) != printed.npos;) { printed.replace(at, 12, "@media all"); }
   CHECK(faults(printed, "688,900").empty());
 }

@@ -15,7 +15,7 @@ std::size_t allocation_count() { return allocations; }
 
 void* operator new(std::size_t size) {
   ++allocations;
-  if (void* p = std::malloc(size)) return p;
+  if (void* p = std::malloc(size)) { return p; }
   std::abort();
 }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {

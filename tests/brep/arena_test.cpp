@@ -70,9 +70,9 @@ bool lies_in(const InArena& m, const Arena& arena) {
     const auto& list = m.data(id).list;
     all = all && (list.empty() || arena.holds(list.data()));
   };
-  for (VertexId v : vertices(m)) look(v);
-  for (HalfedgeId h : halfedges(m)) look(h);
-  for (FaceId f : faces(m)) look(f);
+  for (VertexId v : vertices(m)) { look(v); }
+  for (HalfedgeId h : halfedges(m)) { look(h); }
+  for (FaceId f : faces(m)) { look(f); }
   const auto& log = detail::Raw::log(m);
   return all && (log.past.empty() || arena.holds(log.past.data())) && (log.future.empty() || arena.holds(log.future.data()));
 }
@@ -80,9 +80,9 @@ bool lies_in(const InArena& m, const Arena& arena) {
 std::vector<int> all_data(const InArena& m) {
   std::vector<int> all;
   const auto add = [&](const auto& id) { all.insert(all.end(), m.data(id).list.begin(), m.data(id).list.end()); };
-  for (VertexId v : vertices(m)) add(v);
-  for (HalfedgeId h : halfedges(m)) add(h);
-  for (FaceId f : faces(m)) add(f);
+  for (VertexId v : vertices(m)) { add(v); }
+  for (HalfedgeId h : halfedges(m)) { add(h); }
+  for (FaceId f : faces(m)) { add(f); }
   return all;
 }
 
@@ -94,7 +94,7 @@ void grow(InArena& m, OnHeap& twin_on_heap, std::uint32_t seed, int calls) {
     const bool done = calls::apply(m, call).done;
     REQUIRE(done == calls::apply(twin_on_heap, call).done);
     for (VertexId v : vertices(m)) {
-      if (m.data(v).list.empty()) m.data(v).list = {i, static_cast<int>(v.index)};
+      if (m.data(v).list.empty()) { m.data(v).list = {i, static_cast<int>(v.index)}; }
     }
   }
 }
@@ -113,8 +113,8 @@ TEST_CASE("a BRep in an arena has the records of one on the heap, and no memory 
       CHECK(shapes::records(m) == shapes::records(twin_on_heap));
       CHECK(lies_in(m, arena));
       CHECK(arena.in_use() >= m.bytes());
-      while (undo(m)) REQUIRE(undo(twin_on_heap));
-      while (redo(m)) REQUIRE(redo(twin_on_heap));
+      while (undo(m)) { REQUIRE(undo(twin_on_heap)); }
+      while (redo(m)) { REQUIRE(redo(twin_on_heap)); }
       CHECK(shapes::records(m) == shapes::records(twin_on_heap));
       CHECK(lies_in(m, arena));
     }
@@ -176,7 +176,7 @@ TEST_CASE("copies and moves between arenas keep every record and datum, and each
       CHECK((is_whole(copy) && is_whole(kept)));
     }
     CHECK((shapes::records(kept) == records && all_data(kept) == data && lies_in(kept, second)));  // the first arena is gone
-    while (undo(kept)) REQUIRE(shapes::faults(kept) == "");
+    while (undo(kept)) { REQUIRE(shapes::faults(kept) == ""); }
     CHECK(kept.edge_count() == 0);
   }
 }

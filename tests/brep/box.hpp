@@ -9,7 +9,7 @@ namespace shapes {
 
 inline brep::Builder box(const glm::dvec3& lo, const glm::dvec3& hi) {
   brep::Builder b;
-  for (unsigned i = 0; i < 8; ++i) b.vertex({(i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y, (i & 4) != 0 ? hi.z : lo.z});
+  for (unsigned i = 0; i < 8; ++i) { b.vertex({(i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y, (i & 4) != 0 ? hi.z : lo.z}); }
   b.face({0, 2, 3, 1}, 0);
   b.face({4, 5, 7, 6}, 1);
   b.face({0, 1, 5, 4}, 2);

@@ -28,9 +28,9 @@ std::vector<Builder::Edge> edges_of(const Builder& solid) {
 // The solid by its edges alone: empty faces first, then the edges.
 Builder by_edges(const Builder& solid, const std::vector<Builder::Edge>& list) {
   Builder b;
-  for (std::uint32_t f = 0; f < solid.face_count(); ++f) b.face(solid.sheet(f));
-  for (const Builder::Edge& e : list) b.edge(e.from, e.to, e.left, e.right);
-  for (std::uint32_t v = 0; v < solid.vertex_count(); ++v) b.vertex(solid.position(v));
+  for (std::uint32_t f = 0; f < solid.face_count(); ++f) { b.face(solid.sheet(f)); }
+  for (const Builder::Edge& e : list) { b.edge(e.from, e.to, e.left, e.right); }
+  for (std::uint32_t v = 0; v < solid.vertex_count(); ++v) { b.vertex(solid.position(v)); }
   return b;
 }
 
@@ -43,17 +43,17 @@ TEST_CASE("edges in any order and direction give the same faces as corners do") 
     shapes::Random random(5);
     for (int round = 0; round < 20; ++round) {
       auto list = edges_of(solid);
-      for (std::size_t i = list.size(); i-- > 1;) std::swap(list[i], list[random.below(i + 1)]);
+      for (std::size_t i = list.size(); i-- > 1;) { std::swap(list[i], list[random.below(i + 1)]); }
       for (Builder::Edge& e : list) {
-        if (random.below(2) == 0) e = {e.to, e.from, e.right, e.left};
+        if (random.below(2) == 0) { e = {e.to, e.from, e.right, e.left}; }
       }
       const auto mesh = shapes::build(by_edges(solid, list));
       CHECK(shapes::faults(mesh) == "");
       for (FaceId f : faces(mesh)) {
         CHECK(mesh.data(f).sheet == expected.data(f).sheet);
         std::vector<std::uint32_t> a, b;
-        for (HalfedgeId h : halfedges_of(mesh, f)) a.push_back(mesh.vertex(h).index);
-        for (HalfedgeId h : halfedges_of(expected, f)) b.push_back(expected.vertex(h).index);
+        for (HalfedgeId h : halfedges_of(mesh, f)) { a.push_back(mesh.vertex(h).index); }
+        for (HalfedgeId h : halfedges_of(expected, f)) { b.push_back(expected.vertex(h).index); }
         std::rotate(a.begin(), std::min_element(a.begin(), a.end()), a.end());
         std::rotate(b.begin(), std::min_element(b.begin(), b.end()), b.end());
         CHECK(a == b);
@@ -70,7 +70,7 @@ TEST_CASE("a missing edge is named by the two loops that it breaks, and by nothi
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
     const auto found = diagnose(by_edges(solid, fewer));
     REQUIRE(found.size() == 2);
-    for (const Defect& d : found) CHECK(d.kind == DefectKind::broken_loop);
+    for (const Defect& d : found) { CHECK(d.kind == DefectKind::broken_loop); }
     CHECK(
         (names(found[0], FaceId{std::min(list[i].left, list[i].right)}) && names(found[1], FaceId{std::max(list[i].left, list[i].right)})));
   }
@@ -89,13 +89,13 @@ TEST_CASE("an edge with a wrong, unknown or missing face is reported") {
   std::swap(list[2].left, list[2].right);
   found = diagnose(by_edges(solid, list));
   REQUIRE(found.size() == 2);
-  for (const Defect& d : found) CHECK(d.kind == DefectKind::broken_loop);
+  for (const Defect& d : found) { CHECK(d.kind == DefectKind::broken_loop); }
 
   list = edges_of(solid);
   list.push_back(list[3]);
   found = diagnose(by_edges(solid, list));
   REQUIRE(found.size() == 2);
-  for (const Defect& d : found) CHECK(d.kind == DefectKind::broken_loop);
+  for (const Defect& d : found) { CHECK(d.kind == DefectKind::broken_loop); }
 }
 
 TEST_CASE("edges and corners mix: an edge must be on the loop of the face that it names, one without faces must be used") {
@@ -129,6 +129,6 @@ TEST_CASE("random edges never crash the builder: they are refused with reasons, 
     const Builder b = by_edges(solid, list);
     const auto result = close<shapes::Mesh>(b);
     REQUIRE(result.brep.has_value() == result.defects.empty());
-    if (result.brep) REQUIRE(shapes::faults(*result.brep) == "");
+    if (result.brep) { REQUIRE(shapes::faults(*result.brep) == ""); }
   }
 }

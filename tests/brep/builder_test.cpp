@@ -21,7 +21,7 @@ using shapes::with_faces;
 std::vector<Defect> defects(const Builder& b) {
   auto result = close<shapes::Mesh>(b);
   CHECK(result.brep.has_value() == result.defects.empty());
-  for (const Defect& d : result.defects) CHECK_FALSE(d.sentence.empty());
+  for (const Defect& d : result.defects) { CHECK_FALSE(d.sentence.empty()); }
   return std::move(result.defects);
 }
 
@@ -51,8 +51,8 @@ TEST_CASE("the order of the faces and their first corners do not matter") {
   shapes::Random random(11);
   for (int round = 0; round < 50; ++round) {
     Faces faces = faces_of(cube);
-    for (std::size_t i = faces.size(); i-- > 1;) std::swap(faces[i], faces[random.below(i + 1)]);
-    for (auto& f : faces) std::rotate(f.begin(), f.begin() + random.below(f.size()), f.end());
+    for (std::size_t i = faces.size(); i-- > 1;) { std::swap(faces[i], faces[random.below(i + 1)]); }
+    for (auto& f : faces) { std::rotate(f.begin(), f.begin() + random.below(f.size()), f.end()); }
     CHECK(shapes::faults(shapes::build(with_faces(cube, faces))) == "");
   }
 }
@@ -68,7 +68,7 @@ TEST_CASE("a missing face is reported as one open border around it") {
       REQUIRE(found.size() == 1);
       CHECK(found[0].kind == DefectKind::open_border);
       CHECK(found[0].elements.size() == 2 * missing.size());  // its vertices and its neighbours
-      for (std::uint32_t v : missing) CHECK(names(found[0], VertexId{v}));
+      for (std::uint32_t v : missing) { CHECK(names(found[0], VertexId{v})); }
     }
   }
 }
@@ -95,8 +95,9 @@ TEST_CASE("an edge where three faces meet is reported with all of them, whatever
     REQUIRE(found.size() == 2);
     CHECK(found[0].kind == DefectKind::nonmanifold_edge);
     CHECK(found[0].elements.size() == 5);
-    for (const Element e : {Element(VertexId{0}), Element(VertexId{1}), Element(FaceId{0}), Element(FaceId{2}), Element(FaceId{6})})
+    for (const Element e : {Element(VertexId{0}), Element(VertexId{1}), Element(FaceId{0}), Element(FaceId{2}), Element(FaceId{6})}) {
       CHECK(names(found[0], e));
+    }
     CHECK(found[1].kind == DefectKind::open_border);  // the fin's other two edges
     CHECK(names(found[1], VertexId{8}));
   }
@@ -119,7 +120,7 @@ TEST_CASE("a face that was entered twice is reported as that alone, wherever it 
 TEST_CASE("a flipped patch is one defect with all its faces, the smaller part of its component") {
   const Builder torus = shapes::torus_builder(6, 5);
   Faces faces = faces_of(torus);
-  for (std::uint32_t f : {7u, 8u, 13u, 29u}) std::reverse(faces[f].begin(), faces[f].end());
+  for (std::uint32_t f : {7u, 8u, 13u, 29u}) { std::reverse(faces[f].begin(), faces[f].end()); }
   const auto found = defects(with_faces(torus, faces));
   REQUIRE(found.size() == 2);
   CHECK((found[0].kind == DefectKind::flipped_face && found[0].elements == std::vector<Element>{FaceId{7}, FaceId{8}, FaceId{13}}));
@@ -129,14 +130,14 @@ TEST_CASE("a flipped patch is one defect with all its faces, the smaller part of
 TEST_CASE("a one-sided surface is told from a flipped one: the doubled edge and its two faces") {
   // A Moebius strip of five quadrilaterals: v0..v4 on one rim, v5..v9 on the other, the last one joined crosswise.
   Builder b;
-  for (int i = 0; i < 10; ++i) b.vertex({i, i * i, i % 3});
-  for (std::uint32_t i = 0; i < 4; ++i) b.face({i, i + 1, i + 6, i + 5}, 0);
+  for (int i = 0; i < 10; ++i) { b.vertex({i, i * i, i % 3}); }
+  for (std::uint32_t i = 0; i < 4; ++i) { b.face({i, i + 1, i + 6, i + 5}, 0); }
   b.face({4, 5, 0, 9}, 0);
   const auto found = defects(b);
   REQUIRE_FALSE(found.empty());
   CHECK(found[0].kind == DefectKind::doubled_edge);
   CHECK(names(found[0], FaceId{4}));
-  for (const Defect& d : found) CHECK((d.kind == DefectKind::doubled_edge || d.kind == DefectKind::open_border));
+  for (const Defect& d : found) { CHECK((d.kind == DefectKind::doubled_edge || d.kind == DefectKind::open_border)); }
 }
 
 TEST_CASE("two missing faces that touch in a vertex are two borders, and no fans") {
@@ -158,7 +159,7 @@ TEST_CASE("a vertex with two fans is reported with a face of each") {
   // Two tetrahedra that share only the vertex v0.
   Faces faces = faces_of(shapes::tetrahedron_builder());
   for (auto f : faces_of(shapes::tetrahedron_builder())) {
-    for (std::uint32_t& v : f) v = v == 0 ? 0 : v + 3;
+    for (std::uint32_t& v : f) { v = v == 0 ? 0 : v + 3; }
     faces.push_back(f);
   }
   const auto found = defects(with_faces(shapes::tetrahedron_builder(), faces, 3));
@@ -193,8 +194,8 @@ TEST_CASE("bad indices, coordinates, corners and unused vertices are reported wi
 
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Builder b;
-    for (std::uint32_t v = 0; v < 8; ++v) b.vertex(v == 5 ? glm::dvec3{0.0, bad, 0.0} : cube.position(v));
-    for (const auto& f : faces_of(cube)) b.face(f, 0);
+    for (std::uint32_t v = 0; v < 8; ++v) { b.vertex(v == 5 ? glm::dvec3{0.0, bad, 0.0} : cube.position(v)); }
+    for (const auto& f : faces_of(cube)) { b.face(f, 0); }
     found = defects(b);
     REQUIRE(found.size() == 1);
     CHECK((found[0].kind == DefectKind::bad_position && names(found[0], VertexId{5})));
@@ -205,13 +206,13 @@ TEST_CASE("independent defects are reported all at once") {
   const Builder cube = shapes::cube_builder();
   Builder b;
   for (int i = 0; i < 3; ++i) {
-    for (std::uint32_t v = 0; v < 8; ++v) b.vertex(cube.position(v) + glm::dvec3{3.0 * i, 0.0, 0.0});
+    for (std::uint32_t v = 0; v < 8; ++v) { b.vertex(cube.position(v) + glm::dvec3{3.0 * i, 0.0, 0.0}); }
   }
   const Faces faces = faces_of(cube);
   for (std::uint32_t i = 0; i < 3; ++i) {
     for (std::uint32_t f = 0; f < 6; ++f) {
       auto corners = faces[f];
-      for (std::uint32_t& v : corners) v += 8 * i;
+      for (std::uint32_t& v : corners) { v += 8 * i; }
       if (i == 0 && f == 0) continue;                                      // missing
       if (i == 1 && f == 1) std::reverse(corners.begin(), corners.end());  // flipped
       if (i == 2 && f == 2) corners[0] = 1000;                             // bad index
@@ -219,7 +220,7 @@ TEST_CASE("independent defects are reported all at once") {
     }
   }
   std::vector<DefectKind> kinds;
-  for (const Defect& d : defects(b)) kinds.push_back(d.kind);
+  for (const Defect& d : defects(b)) { kinds.push_back(d.kind); }
   std::sort(kinds.begin(), kinds.end());
   CHECK(kinds == std::vector<DefectKind>{DefectKind::bad_index, DefectKind::flipped_face, DefectKind::open_border});
 }
@@ -230,15 +231,15 @@ TEST_CASE("random rubbish never crashes the builder: it is refused with reasons,
     shapes::Random random(seed);
     Builder b;
     const std::uint32_t n = 1 + random.below(6);
-    for (std::uint32_t v = 0; v < n; ++v) b.vertex({random.unit(), random.unit(), random.unit()});
+    for (std::uint32_t v = 0; v < n; ++v) { b.vertex({random.unit(), random.unit(), random.unit()}); }
     for (std::uint32_t f = random.below(8); f > 0; --f) {
       std::vector<std::uint32_t> corners(random.below(5));
-      for (std::uint32_t& v : corners) v = random.below(n + (random.below(20) == 0 ? 2 : 0));
+      for (std::uint32_t& v : corners) { v = random.below(n + (random.below(20) == 0 ? 2 : 0)); }
       b.face(corners, 0);
     }
     auto result = close<shapes::Mesh>(b);
     REQUIRE(result.brep.has_value() == result.defects.empty());
-    if (result.brep) REQUIRE(shapes::faults(*result.brep) == "");
+    if (result.brep) { REQUIRE(shapes::faults(*result.brep) == ""); }
   }
 }
 
@@ -247,7 +248,7 @@ TEST_CASE("a vertex of high degree does not make closing slow") {
   Builder b;
   const std::uint32_t n = 200000;
   const std::uint32_t top = b.vertex({0, 0, 1}), bottom = b.vertex({0, 0, -1});
-  for (std::uint32_t i = 0; i < n; ++i) b.vertex({std::cos(2 * shapes::pi * i / n), std::sin(2 * shapes::pi * i / n), 0});
+  for (std::uint32_t i = 0; i < n; ++i) { b.vertex({std::cos(2 * shapes::pi * i / n), std::sin(2 * shapes::pi * i / n), 0}); }
   for (std::uint32_t i = 0; i < n; ++i) {
     b.face({2 + i, 2 + (i + 1) % n, top}, 0);
     b.face({2 + (i + 1) % n, 2 + i, bottom}, 0);

@@ -26,13 +26,13 @@ struct Call {
 inline std::string to_string(const Call& call) {
   std::string text(name(call.op));
   for (HalfedgeId h : {call.a, call.b}) {
-    if (h.valid()) text += ' ' + brep::to_string(h);
+    if (h.valid()) { text += ' ' + brep::to_string(h); }
   }
   return text;
 }
 inline std::string to_string(std::span<const Call> list) {
   std::string text;
-  for (const Call& call : list) text += to_string(call) + '\n';
+  for (const Call& call : list) { text += to_string(call) + '\n'; }
   return text;
 }
 
@@ -83,12 +83,12 @@ template <class B>
 Answer apply(B& m, const Call& call) {
   const brep::Result<brep::Element> answer = brep::apply(m, call.op, call.a, call.b);
   Answer x{answer.has_value(), {}, answer.refusal()};
-  if (x.done && answer->letter == 'h') x.made = HalfedgeId{answer->index};
+  if (x.done && answer->letter == 'h') { x.made = HalfedgeId{answer->index}; }
   return x;
 }
 
-// The call that takes `call` back, as the comments in euler.hpp give it; `before` is the BRep in which it is still to be applied, `made` what
-// it will return.
+// The call that takes `call` back, as the comments in euler.hpp give it; `before` is the BRep in which it is still to be applied, `made`
+// what it will return.
 template <class B>
 Call inverse(const B& before, const Call& call, HalfedgeId made) {
   const HalfedgeId h = call.a, t = twin(h);
@@ -128,8 +128,8 @@ Call inverse(const B& before, const Call& call, HalfedgeId made) {
 enum class Restores { every_record, all_but_anchors, the_shape };
 template <class B>
 Restores restores(const B& before, const Call& call) {
-  if (call.op == Operator::bridge || call.op == Operator::weld) return Restores::all_but_anchors;
-  if (!removes_edge(call.op)) return Restores::every_record;
+  if (call.op == Operator::bridge || call.op == Operator::weld) { return Restores::all_but_anchors; }
+  if (!removes_edge(call.op)) { return Restores::every_record; }
   const bool alone = (call.op == Operator::join_faces && before.next(call.a) == call.a) ||
                      (call.op == Operator::join_vertices && before.next(twin(call.a)) == call.a);
   return call.a.index % 2 != 0 || alone ? Restores::the_shape : Restores::all_but_anchors;
@@ -139,8 +139,8 @@ Restores restores(const B& before, const Call& call) {
 template <class B>
 Code promised(const B& m, const Call& call) {
   const HalfedgeId a = call.a, t = twin(a);
-  if (call.op == Operator::make_segment) return Code::none;
-  if (!m.alive(a) || (takes_two(call.op) && !m.alive(call.b))) return Code::dead;
+  if (call.op == Operator::make_segment) { return Code::none; }
+  if (!m.alive(a) || (takes_two(call.op) && !m.alive(call.b))) { return Code::dead; }
   const auto unless = [](bool possible, Code code) { return possible ? Code::none : code; };
   const bool segment = m.next(a) == t && m.next(t) == a;
   const bool sphere_with_a_loop = m.next(a) == a && m.next(t) == t;
@@ -181,17 +181,17 @@ Shells shells(const B& m) {
   std::vector<char> seen(m.halfedge_end(), 0), vertex_seen(m.vertex_end(), 0), face_seen(m.face_end(), 0);
   std::vector<HalfedgeId> reached;
   for (std::uint32_t i = 0; i < m.halfedge_end(); i += 2) {
-    if (!m.alive(HalfedgeId{i}) || seen[i]) continue;
+    if (!m.alive(HalfedgeId{i}) || seen[i]) { continue; }
     long twice_euler = 0;
     reached.assign(1, HalfedgeId{i});
     seen[i] = 1;
     for (std::size_t k = 0; k < reached.size(); ++k) {
       const HalfedgeId h = reached[k];
       --twice_euler;
-      if (!std::exchange(vertex_seen[m.vertex(h).index], 1)) twice_euler += 2;
-      if (!std::exchange(face_seen[m.face(h).index], 1)) twice_euler += 2;
+      if (!std::exchange(vertex_seen[m.vertex(h).index], 1)) { twice_euler += 2; }
+      if (!std::exchange(face_seen[m.face(h).index], 1)) { twice_euler += 2; }
       for (HalfedgeId x : {twin(h), m.next(h)}) {
-        if (!std::exchange(seen[x.index], 1)) reached.push_back(x);
+        if (!std::exchange(seen[x.index], 1)) { reached.push_back(x); }
       }
     }
     ++result.count;
@@ -204,11 +204,11 @@ Shells shells(const B& m) {
 // A call that is likely to be possible; grows towards `limit` edges and shrinks beyond.
 template <class B>
 Call random_call(const B& m, shapes::Random& random, std::size_t limit) {
-  if (m.edge_count() == 0) return {Operator::make_segment, {}, {}};
+  if (m.edge_count() == 0) { return {Operator::make_segment, {}, {}}; }
   const auto any = [&] {
     for (;;) {
       const HalfedgeId h{random.below(m.halfedge_end())};
-      if (m.alive(h)) return h;
+      if (m.alive(h)) { return h; }
     }
   };
   const HalfedgeId a = any();
@@ -250,7 +250,7 @@ Call random_call(const B& m, shapes::Random& random, std::size_t limit) {
 template <class B>
 B random_map(shapes::Random& random, std::size_t number_of_calls) {
   B m;
-  for (std::size_t i = 0; i < number_of_calls; ++i) (void)apply(m, random_call(m, random, number_of_calls));
+  for (std::size_t i = 0; i < number_of_calls; ++i) { (void)apply(m, random_call(m, random, number_of_calls)); }
   return m;
 }
 
@@ -271,7 +271,7 @@ std::vector<Call> shrink(std::vector<Call> list, Fails&& fails) {
         begin = end;
       }
     }
-    if (length > 1 || !dropped) length /= 2;
+    if (length > 1 || !dropped) { length /= 2; }
   }
   return list;
 }

@@ -28,7 +28,7 @@ TEST_CASE("random sequences of composite operators: every state valid, refusals 
     const std::size_t first = mark(m);
     for (int step = 0; step < 150; ++step) {
       const auto all = shapes::all_halfedges(m);
-      if (all.empty()) break;
+      if (all.empty()) { break; }
       const HalfedgeId a = all[random.below(all.size())], c = all[random.below(all.size())];
       const auto before = records(m);
       const long handles = genus(m);
@@ -65,7 +65,7 @@ TEST_CASE("random sequences of composite operators: every state valid, refusals 
       }
       ++states;
       REQUIRE(faults(m) == "");
-      if (which != 1 && which != 5) REQUIRE((genus(m) == handles && shell_count(m) == shells));
+      if (which != 1 && which != 5) { REQUIRE((genus(m) == handles && shell_count(m) == shells)); }
       REQUIRE(genus(m) >= 0);
       most_handles = std::max(most_handles, genus(m));
     }

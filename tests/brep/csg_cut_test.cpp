@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The cut works on arrays of links (brep/csg/cut_faces.hpp). Here Euler operators make the same cut, edge by edge, and come to the same map.
+// The cut works on arrays of links (brep/csg/cut_faces.hpp). Here Euler operators make the same cut, edge by edge, and come to the same
+// map.
 
 #include <deque>
 #include <map>
@@ -25,7 +26,7 @@ struct ByOperators {
 
   ByOperators(const Mesh& whole, const Mesh& cut) : mesh(whole), cut_(cut), twin_of_(cut.halfedge_end()) {
     split_edges();
-    if (fault.empty()) add_edges();
+    if (fault.empty()) { add_edges(); }
   }
 
  private:
@@ -37,11 +38,12 @@ struct ByOperators {
   void split_edges() {
     std::map<std::pair<Key, Key>, HalfedgeId> edge_of_cut;
     for (EdgeId e : edges(cut_)) {
-      for (const HalfedgeId t : {halfedge(e), twin(halfedge(e))})
+      for (const HalfedgeId t : {halfedge(e), twin(halfedge(e))}) {
         edge_of_cut[{key(cut_.data(cut_.vertex(t)).position), key(cut_.data(cut_.target(t)).position)}] = t;
+      }
     }
     std::vector<HalfedgeId> given;
-    for (EdgeId e : edges(mesh)) given.push_back(halfedge(e));
+    for (EdgeId e : edges(mesh)) { given.push_back(halfedge(e)); }
     for (const HalfedgeId first : given) {
       const glm::dvec3 from = mesh.data(mesh.vertex(first)).position, to = mesh.data(mesh.target(first)).position, d = to - from;
       std::map<double, glm::dvec3> on;  // vertices of the cut inside the edge, along it
@@ -49,7 +51,7 @@ struct ByOperators {
         const glm::dvec3 p = cut_.data(v).position;
         const double t = glm::dot(p - from, d) / glm::dot(d, d);
         // Rounded to 2^-52 of coordinates of order 1; what belongs to other edges is much farther off in these tests.
-        if (p != from && p != to && t > 0.0 && t < 1.0 && glm::length(from + t * d - p) < 1e-12) on[t] = p;
+        if (p != from && p != to && t > 0.0 && t < 1.0 && glm::length(from + t * d - p) < 1e-12) { on[t] = p; }
       }
       HalfedgeId h = first;
       for (const auto& [t, p] : on) {
@@ -75,7 +77,7 @@ struct ByOperators {
   // The corner into which the edge t of the cut goes: before the first half-edge clockwise of it that is there.
   [[nodiscard]] HalfedgeId corner(HalfedgeId t) const {
     HalfedgeId x = cut_.next(twin(t));
-    while (x != t && !known(x)) x = cut_.next(twin(x));
+    while (x != t && !known(x)) { x = cut_.next(twin(x)); }
     return twin_of_[x.index];
   }
 
@@ -83,16 +85,17 @@ struct ByOperators {
     const long before = chi();
     std::deque<HalfedgeId> open;  // half-edges of the cut that leave vertices which are there
     const auto reach = [&](HalfedgeId t) {
-      for (HalfedgeId x : halfedges_from(cut_, cut_.vertex(t)))
-        if (!known(x)) open.push_back(x);
+      for (HalfedgeId x : halfedges_from(cut_, cut_.vertex(t))) {
+        if (!known(x)) { open.push_back(x); }
+      }
     };
     for (EdgeId e : edges(cut_)) {
-      if (known(halfedge(e))) reach(halfedge(e)), reach(twin(halfedge(e)));
+      if (known(halfedge(e))) { reach(halfedge(e)), reach(twin(halfedge(e))); }
     }
     while (!open.empty()) {
       const HalfedgeId t = open.front();
       open.pop_front();
-      if (known(t)) continue;
+      if (known(t)) { continue; }
       const HalfedgeId a = corner(t), b = corner(twin(t));
       const auto made = b.valid() ? split_face(mesh, a, b) : split_vertex(mesh, a, a);
       if (!made) {
@@ -104,7 +107,7 @@ struct ByOperators {
       twin_of_[twin(t).index] = twin(*made);
       mesh.data(mesh.target(*made)).position = cut_.data(cut_.target(t)).position;
       reach(twin(t));
-      if (chi() != before) fault = "v - e + f changed";
+      if (chi() != before) { fault = "v - e + f changed"; }
     }
   }
 

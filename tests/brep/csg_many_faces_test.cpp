@@ -93,7 +93,7 @@ TEST_CASE("the Menger sponge of level 4: 2460 bars united two by two, then taken
       REQUIRE(both);
       pairs.push_back(*both);
     }
-    if (bars.size() % 2 == 1) pairs.push_back(bars.back());
+    if (bars.size() % 2 == 1) { pairs.push_back(bars.back()); }
     bars = std::move(pairs);
   }
   const auto sponge = csg::subtract(made(box(glm::dvec3(0.0), glm::dvec3(side)), g), bars[0]);
@@ -110,7 +110,7 @@ TEST_CASE("a Menger sponge of 400 cubes is the sponge that bars cut out") {
   for (int cell = 0; cell < 729; ++cell) {
     const glm::ivec3 at(cell % 9, cell / 9 % 9, cell / 81);
     const auto holes = [](const glm::ivec3& p) { return (p.x % 3 == 1) + (p.y % 3 == 1) + (p.z % 3 == 1) > 1; };
-    if (holes(at) || holes(at / 3)) continue;
+    if (holes(at) || holes(at / 3)) { continue; }
     const Solid next = made(box(glm::dvec3(at), glm::dvec3(at) + 1.0), g);
     if (r.empty()) {
       r = next;
@@ -139,10 +139,10 @@ TEST_CASE("unit cubes: a full grid, a checkerboard and a ring") {
       to = *sum;
     };
     add(full);
-    if (k % 2 == 0) add(board);
-    if (k < 9 && k != 4) add(ring);
+    if (k % 2 == 0) { add(board); }
+    if (k < 9 && k != 4) { add(ring); }
   }
-  for (const Solid* s : {&full, &board, &ring}) CHECK(faults(*s) == "");
+  for (const Solid* s : {&full, &board, &ring}) { CHECK(faults(*s) == ""); }
   CHECK(counts(full) == Counts{8, 12, 6, 1, 0, 0, 0});
   check(full, {2, 1, 27.0});
   check(board, {28, 14, 14.0});

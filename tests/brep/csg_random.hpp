@@ -31,9 +31,9 @@ inline brep::Builder random_leaf(const Below& below, int size) {
     return octasphere(1, centre, 1 + below(2));
   }
   const glm::dvec3 p = point(), q = point(), r = point(), s = point();
-  if (kind == 2 && glm::dot(glm::cross(q - p, r - p), s - p) != 0.0) return tetrahedron({p, q, r, s});
+  if (kind == 2 && glm::dot(glm::cross(q - p, r - p), s - p) != 0.0) { return tetrahedron({p, q, r, s}); }
   glm::dvec3 hi = glm::max(p, q);
-  for (int i = 0; i < 3; ++i) hi[i] += p[i] == q[i] ? 1.0 : 0.0;
+  for (int i = 0; i < 3; ++i) { hi[i] += p[i] == q[i] ? 1.0 : 0.0; }
   return box(glm::min(p, q), hi);
 }
 
@@ -61,7 +61,7 @@ inline bool holds(const Solid& s, const glm::dvec3& x) {
   const auto at = [&](std::uint32_t h) { return s.grid().from_grid(b.points[b.halves[h].point].position); };
   double sum = 0.0;
   for (const brep::csg::Face& f : b.faces) {
-    for (std::uint32_t h = f.first; h < f.first + f.count; ++h) sum += solid_angle(at(f.first), at(h), at(b.halves[h].next), x);
+    for (std::uint32_t h = f.first; h < f.first + f.count; ++h) { sum += solid_angle(at(f.first), at(h), at(b.halves[h].next), x); }
   }
   return sum > 6.28;
 }
@@ -76,12 +76,12 @@ inline std::string random_laws(const Below& below, int size, int depth) {
   const Grid grid(glm::dvec3(-8.0), glm::dvec3(8.0));
   std::string wrong;
   const auto expect = [&](bool law, const char* sentence) {
-    if (!law && wrong.empty()) wrong = sentence;
+    if (!law && wrong.empty()) { wrong = sentence; }
   };
   const auto make = [&]() -> Part {
     const brep::Builder b = random_leaf(below, size);
     const auto solid = leaf(b, grid);
-    if (!solid) expect(false, "a leaf is refused");
+    if (!solid) { expect(false, "a leaf is refused"); }
     return {solid ? *solid : Solid(), [b](const glm::dvec3& x, double& margin) { return solids::holds(b, x, margin); }};
   };
   const auto valid = [&](const brep::Result<Solid>& result) {
@@ -89,17 +89,17 @@ inline std::string random_laws(const Below& below, int size, int depth) {
       expect(false, "an operation is refused");
       return Solid();
     }
-    if (wrong.empty()) wrong = faults(*result);
+    if (wrong.empty()) { wrong = faults(*result); }
     return *result;
   };
   const auto near = [](double x, double y) { return std::abs(x - y) < 1e-6; };  // coordinates below 8, with errors of 2^-47
   Part a = make();
   for (int d = 0; d < depth && wrong.empty(); ++d) {
     const Part b = make();
-    if (!wrong.empty()) break;
+    if (!wrong.empty()) { break; }
     const Solid u = valid(unite(a.solid, b.solid)), i = valid(intersect(a.solid, b.solid));
     const Solid ab = valid(subtract(a.solid, b.solid)), ba = valid(subtract(b.solid, a.solid));
-    if (!wrong.empty()) break;
+    if (!wrong.empty()) { break; }
     const double va = volume(a.solid), vb = volume(b.solid);
     expect(near(volume(u) + volume(i), va + vb), "vol(u) + vol(i) = vol(A) + vol(B)");
     expect(near(volume(ab) + volume(i), va), "vol(A - B) + vol(i) = vol(A)");
@@ -125,7 +125,7 @@ inline std::string random_laws(const Below& below, int size, int depth) {
          }};
     for (int n = 0; n < 30; ++n) {
       glm::dvec3 x(0.0);
-      for (int k = 0; k < 3; ++k) x[k] = 8e-4 * below(10000) - 2.0;
+      for (int k = 0; k < 3; ++k) { x[k] = 8e-4 * below(10000) - 2.0; }
       double margin = 1.0;
       const bool inside = a.holds(x, margin);
       expect(margin < 1e-4 || inside == solids::holds(a.solid, x), "a point is inside when the tree says so");

@@ -37,8 +37,8 @@ TEST_CASE("side and compare agree with rational arithmetic on random planes") {
   const csg::Predicates p(table);
   const auto plane = [&](int bits) {
     std::array<std::int64_t, 3> n{};
-    for (std::int64_t& x : n) x = static_cast<std::int64_t>(random() >> (64 - bits)) - (std::int64_t{1} << (bits - 1));
-    if (n[0] == 0 && n[1] == 0 && n[2] == 0) n[0] = 1;
+    for (std::int64_t& x : n) { x = static_cast<std::int64_t>(random() >> (64 - bits)) - (std::int64_t{1} << (bits - 1)); }
+    if (n[0] == 0 && n[1] == 0 && n[2] == 0) { n[0] = 1; }
     return table.insert(n, static_cast<csg::Int128>(static_cast<std::int64_t>(random() >> (64 - bits)) - (std::int64_t{1} << (bits - 1))))
         .number();
   };
@@ -47,10 +47,10 @@ TEST_CASE("side and compare agree with rational arithmetic on random planes") {
     const int bits = 2 + static_cast<int>(random() % 5);  // few bits: many planes through one point
     const csg::PlaneNumber a = plane(bits), b = plane(bits), c = plane(bits), q = plane(bits);
     const auto h = csg::detail::meet(table[a], table[b], table[c]);
-    if (h.w.zero()) continue;
+    if (h.w.zero()) { continue; }
     const csg::Point v = p.point(a, b, c);
     csg::Wide<4> value = h.w * csg::Wide<4>(table[q].d);
-    for (std::size_t i = 0; i < 3; ++i) value = value + h.x[i] * csg::Wide<4>(table[q].n[i]);
+    for (std::size_t i = 0; i < 3; ++i) { value = value + h.x[i] * csg::Wide<4>(table[q].n[i]); }
     CHECK(p.side(v, q) == value.sign());
     on += value.zero();
     CHECK((p.side(v, a) == 0 && p.side(v, b) == 0 && p.side(v, c) == 0));
@@ -99,9 +99,9 @@ TEST_CASE("ten turned cubes have one union in any order") {
   Counts first;
   for (int n = 0; n < 5; ++n) {
     Solid sum = cubes[order[0]];
-    for (std::size_t k = 1; k < order.size(); ++k) sum = valid(csg::unite(sum, cubes[order[k]]));
+    for (std::size_t k = 1; k < order.size(); ++k) { sum = valid(csg::unite(sum, cubes[order[k]])); }
     const Counts c = counts(sum);
-    if (n == 0) first = c;
+    if (n == 0) { first = c; }
     CHECK(c == first);
     CHECK(c.volume == test::Approx(first.volume).epsilon(1e-12));
     CHECK(c.area == test::Approx(first.area).epsilon(1e-12));
@@ -121,10 +121,10 @@ TEST_CASE("the same operands in another order of vertices and faces give the sam
     std::shuffle(face.begin(), face.end(), random);
     std::vector<std::uint32_t> place(vertex.size());
     Builder result;
-    for (std::uint32_t v : vertex) place[v] = result.vertex(given.position(v));
+    for (std::uint32_t v : vertex) { place[v] = result.vertex(given.position(v)); }
     for (std::uint32_t f : face) {
       std::vector<std::uint32_t> corners;
-      for (std::uint32_t v : given.corners(f)) corners.push_back(place[v]);
+      for (std::uint32_t v : given.corners(f)) { corners.push_back(place[v]); }
       std::rotate(corners.begin(), corners.begin() + random() % 3, corners.end());
       result.face(corners, given.sheet(f));
     }
@@ -136,8 +136,8 @@ TEST_CASE("the same operands in another order of vertices and faces give the sam
     CHECK(counts(again) == counts(first));
     CHECK(csg::volume(again) == test::Approx(csg::volume(first)).epsilon(1e-14));
     std::multiset<std::array<double, 3>> p, q;
-    for (const csg::Point& x : first.faces().points) p.insert({x.position.x, x.position.y, x.position.z});
-    for (const csg::Point& x : again.faces().points) q.insert({x.position.x, x.position.y, x.position.z});
+    for (const csg::Point& x : first.faces().points) { p.insert({x.position.x, x.position.y, x.position.z}); }
+    for (const csg::Point& x : again.faces().points) { q.insert({x.position.x, x.position.y, x.position.z}); }
     CHECK(p == q);
   }
 }
@@ -152,7 +152,7 @@ TEST_CASE("faces keep what they carry, and neighbours with different attributes 
   const Solid a = valid(painted(box(glm::dvec3(0.0), glm::dvec3(1.0)), 0)), b = valid(painted(box({.25, .25, 0}, {.75, .75, 1}), 10));
   const auto carried = [](const Solid& s) {
     std::multiset<std::uint32_t> all;
-    for (std::size_t f = 0; f < s.face_count(); ++f) all.insert(s.attribute(f));
+    for (std::size_t f = 0; f < s.face_count(); ++f) { all.insert(s.attribute(f)); }
     return all;
   };
   CHECK(carried(valid(csg::subtract(a, b))) == std::multiset<std::uint32_t>{0, 1, 2, 3, 4, 5, 12, 13, 14, 15});
@@ -163,7 +163,7 @@ TEST_CASE("faces keep what they carry, and neighbours with different attributes 
   CHECK(valid(csg::unite(a, right)).face_count() == 10);
   CHECK(valid(csg::unite(a, valid(painted(box({1, 0, 0}, {2, 1, 1}), 0)))).face_count() == 6);
   const Mesh back = csg::to_brep<Mesh>(valid(csg::unite(a, right)));
-  for (FaceId f : faces(back)) CHECK(back.data(f).sheet == valid(csg::unite(a, right)).attribute(f.index));
+  for (FaceId f : faces(back)) { CHECK(back.data(f).sheet == valid(csg::unite(a, right)).attribute(f.index)); }
 }
 
 TEST_CASE("a result goes through a BRep and back, with its holes, and turned") {
@@ -214,7 +214,7 @@ TEST_CASE("turned cones: bases of many corners that are not plane on the grid fa
     }
     const std::uint32_t apex = cone.vertex({.3, .2, 1});  // where n faces meet: planes cannot come first
     cone.face(base, 0);
-    for (std::uint32_t i = 0; i < n; ++i) cone.face({i, (i + 1) % n, apex}, 1 + i);
+    for (std::uint32_t i = 0; i < n; ++i) { cone.face({i, (i + 1) % n, apex}, 1 + i); }
     const double volume = n / 2.0 * std::sin(6.283185307179586 / n) * 1.5 / 3.0;
     for (int k = 0; k < 25; ++k) {
       INFO(n << " corners, rotation " << k);
@@ -257,11 +257,11 @@ TEST_CASE("what is no solid is refused with its faces, and operands must share a
   // Two boxes in one BRep that overlap, one within the other looking the wrong way, and one within the other that is a cavity.
   const auto two = [&](const Builder& a, const Builder& b, bool turned) {
     Builder sum = moved(a, glm::dmat3(1.0), glm::dvec3(0.0));
-    for (std::uint32_t v = 0; v < b.vertex_count(); ++v) sum.vertex(b.position(v));
+    for (std::uint32_t v = 0; v < b.vertex_count(); ++v) { sum.vertex(b.position(v)); }
     for (std::uint32_t f = 0; f < b.face_count(); ++f) {
       std::vector<std::uint32_t> corners;
-      for (std::uint32_t v : b.corners(f)) corners.push_back(a.vertex_count() + v);
-      if (turned) std::reverse(corners.begin(), corners.end());
+      for (std::uint32_t v : b.corners(f)) { corners.push_back(a.vertex_count() + v); }
+      if (turned) { std::reverse(corners.begin(), corners.end()); }
       sum.face(corners, 0);
     }
     return sum;
@@ -279,7 +279,7 @@ TEST_CASE("what is no solid is refused with its faces, and operands must share a
   CHECK(valid(csg::unite(*cavity, valid(leaf(small, g)))).face_count() == 6);
   // A polygon and its back enclose nothing.
   Builder pillow;
-  for (const glm::dvec3& p : {glm::dvec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}) pillow.vertex(p);
+  for (const glm::dvec3& p : {glm::dvec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}) { pillow.vertex(p); }
   pillow.face({0, 1, 2}, 0);
   pillow.face({0, 2, 1}, 1);
   CHECK(code(pillow) == Code::self_intersecting);
@@ -302,9 +302,11 @@ TEST_CASE("check_export names what rounding to double makes of thin parts") {
     const auto collapses = csg::check_export(wedge);
     const Mesh m = csg::to_brep<Mesh>(wedge);
     bool short_edge = false;
-    for (EdgeId e : edges(m)) short_edge = short_edge || m.data(m.vertex(halfedge(e))).position == m.data(m.target(halfedge(e))).position;
+    for (EdgeId e : edges(m)) {
+      short_edge = short_edge || m.data(m.vertex(halfedge(e))).position == m.data(m.target(halfedge(e))).position;
+    }
     CHECK((!short_edge || !collapses.empty()));
-    if (collapses.empty()) continue;
+    if (collapses.empty()) { continue; }
     ++reported;
     CHECK(angle < 1e-12);
     CHECK(collapses[0].elements[0].letter == 'f');

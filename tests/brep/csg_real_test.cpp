@@ -26,7 +26,7 @@ Builder read_obj(const std::string& path) {
       b.vertex(p);
     } else if (word == "f") {
       std::vector<std::uint32_t> corners;
-      while (text >> word) corners.push_back(static_cast<std::uint32_t>(std::stoul(word)) - 1);
+      while (text >> word) { corners.push_back(static_cast<std::uint32_t>(std::stoul(word)) - 1); }
       b.face(corners, 0);
     }
   }
@@ -37,7 +37,7 @@ Builder read_obj(const std::string& path) {
 
 TEST_CASE("a cow united with, cut by and taken from itself, turned and near") {
   const Builder spot = read_obj(std::string(HALFLIGHT_REFERENCE_DATA) + "/meshes/spot.obj");
-  if (spot.face_count() == 0) SKIP_TEST("no meshes of others in " HALFLIGHT_REFERENCE_DATA);
+  if (spot.face_count() == 0) { SKIP_TEST("no meshes of others in " HALFLIGHT_REFERENCE_DATA); }
   const Grid g(glm::dvec3(-2.0), glm::dvec3(2.0));
   const auto a = leaf(spot, g);
   INFO(a.refusal().sentence());

@@ -24,8 +24,9 @@ using Model = brep::BRep<Place, brep::NoData, Sheet>;
 Model prism(const std::vector<glm::dvec2>& outline, double lo, double hi, std::uint32_t first) {
   brep::Builder builder;
   const auto n = static_cast<std::uint32_t>(outline.size());
-  for (const double z : {lo, hi})
-    for (const glm::dvec2& p : outline) builder.vertex({p.x, p.y, z});
+  for (const double z : {lo, hi}) {
+    for (const glm::dvec2& p : outline) { builder.vertex({p.x, p.y, z}); }
+  }
   std::vector<std::uint32_t> bottom, top;
   for (std::uint32_t i = 0; i < n; ++i) {
     bottom.push_back(n - 1 - i);

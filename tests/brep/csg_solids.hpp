@@ -43,11 +43,11 @@ inline brep::Builder prism(const std::vector<glm::dvec2>& outline, double z0, do
   brep::Builder b;
   const auto n = static_cast<std::uint32_t>(outline.size());
   std::vector<std::uint32_t> bottom, top;
-  for (const glm::dvec2& p : outline) bottom.insert(bottom.begin(), b.vertex({p, z0}));
-  for (const glm::dvec2& p : outline) top.push_back(b.vertex({p, z1}));
+  for (const glm::dvec2& p : outline) { bottom.insert(bottom.begin(), b.vertex({p, z0})); }
+  for (const glm::dvec2& p : outline) { top.push_back(b.vertex({p, z1})); }
   b.face(bottom, 0);
   b.face(top, 1);
-  for (std::uint32_t i = 0; i < n; ++i) b.face({i, (i + 1) % n, n + (i + 1) % n, n + i}, 2 + i);
+  for (std::uint32_t i = 0; i < n; ++i) { b.face({i, (i + 1) % n, n + (i + 1) % n, n + i}, 2 + i); }
   return b;
 }
 inline brep::Builder regular_prism(std::uint32_t n, double radius, double z0, double z1, double turn = 0.0) {
@@ -62,7 +62,7 @@ inline brep::Builder regular_prism(std::uint32_t n, double radius, double z0, do
 inline brep::Builder tetrahedron(const std::array<glm::dvec3, 4>& p) {
   brep::Builder b;
   const bool turned = glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) < 0.0;
-  for (const glm::dvec3& x : p) b.vertex(x);
+  for (const glm::dvec3& x : p) { b.vertex(x); }
   const std::uint32_t i = turned ? 2 : 1, j = turned ? 1 : 2;
   b.face({0, j, i}, 0);
   b.face({0, i, 3}, 1);
@@ -77,7 +77,7 @@ inline brep::Builder octasphere(int f, const glm::dvec3& centre, double radius =
   const auto vertex = [&](const std::array<int, 3>& key) {
     const auto [entry, fresh] = number.emplace(key, 0);
     const glm::dvec3 p{key[0], key[1], key[2]};
-    if (fresh) entry->second = b.vertex(radius * glm::normalize(p) + centre);
+    if (fresh) { entry->second = b.vertex(radius * glm::normalize(p) + centre); }
     return entry->second;
   };
   for (int octant = 0; octant < 8; ++octant) {
@@ -89,7 +89,7 @@ inline brep::Builder octasphere(int f, const glm::dvec3& centre, double radius =
     for (int i = 0; i < f; ++i) {
       for (int j = 0; i + j < f; ++j) {
         triangle(at(i, j), at(i + 1, j), at(i, j + 1));
-        if (i + j < f - 1) triangle(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+        if (i + j < f - 1) { triangle(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)); }
       }
     }
   }
@@ -99,8 +99,8 @@ inline brep::Builder octasphere(int f, const glm::dvec3& centre, double radius =
 // The same moved: p -> turn p + shift.
 inline brep::Builder moved(const brep::Builder& b, const glm::dmat3& turn, const glm::dvec3& shift) {
   brep::Builder result;
-  for (std::uint32_t v = 0; v < b.vertex_count(); ++v) result.vertex(turn * b.position(v) + shift);
-  for (std::uint32_t f = 0; f < b.face_count(); ++f) result.face(b.corners(f), b.sheet(f));
+  for (std::uint32_t v = 0; v < b.vertex_count(); ++v) { result.vertex(turn * b.position(v) + shift); }
+  for (std::uint32_t f = 0; f < b.face_count(); ++f) { result.face(b.corners(f), b.sheet(f)); }
   return result;
 }
 inline glm::dmat3 rotation(const glm::dvec3& axis, double angle) {
@@ -128,9 +128,9 @@ inline std::string broken(const Solid& solid) {
   const Predicates predicates(solid.grid().planes());
   const auto text = [](const char* what, std::size_t i) { return std::string(what) + " " + std::to_string(i); };
   for (std::size_t f = 0; f < b.faces.size(); ++f) {
-    if (b.faces[f].count < 3) return text("few half-edges: face", f);
+    if (b.faces[f].count < 3) { return text("few half-edges: face", f); }
     for (std::uint32_t h = b.faces[f].first; h < b.faces[f].first + b.faces[f].count; ++h) {
-      if (h >= b.halves.size() || b.halves[h].face != f) return text("strange half-edge on face", f);
+      if (h >= b.halves.size() || b.halves[h].face != f) { return text("strange half-edge on face", f); }
     }
   }
   std::vector<int> before(b.halves.size(), 0), used(b.points.size(), 0);
@@ -141,15 +141,16 @@ inline std::string broken(const Solid& solid) {
     ++before[half.next];
     ++used[half.point];
     ++copies[{half.point, target}];
-    if (b.halves[half.next].face != half.face) return text("next on another face: half", h);
-    if (half.twin == h || b.halves[half.twin].twin != h) return text("no twin: half", h);
-    if (b.halves[half.twin].point != target || b.halves[b.halves[half.twin].next].point != half.point)
+    if (b.halves[half.next].face != half.face) { return text("next on another face: half", h); }
+    if (half.twin == h || b.halves[half.twin].twin != h) { return text("no twin: half", h); }
+    if (b.halves[half.twin].point != target || b.halves[b.halves[half.twin].next].point != half.point) {
       return text("twin elsewhere: half", h);
+    }
     const brep::csg::Face& face = b.faces[half.face];
-    if (half.across == face.plane.number()) return text("across is the plane of the face: half", h);
+    if (half.across == face.plane.number()) { return text("across is the plane of the face: half", h); }
     for (std::uint32_t p : {half.point, target}) {
-      if (predicates.side(b.points[p], face.plane.number()) != 0) return text("point off its face: half", h);
-      if (predicates.side(b.points[p], half.across) != 0) return text("point off across: half", h);
+      if (predicates.side(b.points[p], face.plane.number()) != 0) { return text("point off its face: half", h); }
+      if (predicates.side(b.points[p], half.across) != 0) { return text("point off across: half", h); }
     }
     for (int i = 0; i < 3; ++i) {
       if (b.points[half.point].position[i] < face.box.lo[static_cast<std::size_t>(i)] ||
@@ -158,28 +159,29 @@ inline std::string broken(const Solid& solid) {
       }
     }
     const brep::csg::Face& other = b.faces[b.halves[half.twin].face];
-    if (face.plane == other.plane && !b.touching && solid.attributes()[face.attribute] == solid.attributes()[other.attribute])
+    if (face.plane == other.plane && !b.touching && solid.attributes()[face.attribute] == solid.attributes()[other.attribute]) {
       return text("faces not merged: half", h);
-    if (face.plane == other.plane.flipped()) return text("back to back: half", h);
+    }
+    if (face.plane == other.plane.flipped()) { return text("back to back: half", h); }
   }
   for (std::size_t h = 0; h < before.size(); ++h) {
-    if (before[h] != 1) return text("next is no permutation: half", h);
+    if (before[h] != 1) { return text("next is no permutation: half", h); }
   }
   for (const auto& [ends, count] : copies) {
     const auto back = copies.find({ends.second, ends.first});
-    if (back == copies.end() || back->second != count) return text("unequal copies of an edge at point", ends.first);
+    if (back == copies.end() || back->second != count) { return text("unequal copies of an edge at point", ends.first); }
   }
   for (std::size_t p = 0; p < b.points.size(); ++p) {
-    if (used[p] == 0) return text("unused point", p);
+    if (used[p] == 0) { return text("unused point", p); }
     for (std::size_t q = 0; q < p; ++q) {
-      if (predicates.equal(b.points[p], b.points[q])) return text("doubled point", p);
+      if (predicates.equal(b.points[p], b.points[q])) { return text("doubled point", p); }
     }
     for (const auto& [ends, count] : copies) {
-      if (ends.first > ends.second || p == ends.first || p == ends.second) continue;
+      if (ends.first > ends.second || p == ends.first || p == ends.second) { continue; }
       const glm::dvec3 u = b.points[ends.first].position, w = b.points[ends.second].position, x = b.points[p].position;
-      if (glm::any(glm::lessThan(x, glm::min(u, w))) || glm::any(glm::greaterThan(x, glm::max(u, w)))) continue;
+      if (glm::any(glm::lessThan(x, glm::min(u, w))) || glm::any(glm::greaterThan(x, glm::max(u, w)))) { continue; }
       for (const Half& half : b.halves) {
-        if (half.point != ends.first || b.halves[half.next].point != ends.second) continue;
+        if (half.point != ends.first || b.halves[half.next].point != ends.second) { continue; }
         if (predicates.side(b.points[p], b.faces[half.face].plane.number()) == 0 && predicates.side(b.points[p], half.across) == 0) {
           return text("point inside an edge: point", p);
         }
@@ -212,10 +214,10 @@ inline Counts counts(const Solid& solid) {
 // As broken, and the exported BRep is valid, has the faces of the solid and its volume.
 inline std::string faults(const Solid& solid) {
   std::string all = broken(solid);
-  if (!all.empty()) return all;
+  if (!all.empty()) { return all; }
   const Mesh m = brep::csg::to_brep<Mesh>(solid);
-  for (const brep::Fault& fault : brep::validate(m)) all += fault.sentence + '\n';
-  if (m.face_count() != solid.face_count()) all += "the BRep has another number of faces";
+  for (const brep::Fault& fault : brep::validate(m)) { all += fault.sentence + '\n'; }
+  if (m.face_count() != solid.face_count()) { all += "the BRep has another number of faces"; }
   return all;
 }
 

@@ -84,7 +84,7 @@ TEST_CASE("holes, cavities and handles are counted") {
 
   Solid plate = made(box({0, 0, 0}, {7, 7, 1}));
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) plate = valid(csg::subtract(plate, made(box({2 * i + 1, 2 * j + 1, 0}, {2 * i + 2, 2 * j + 2, 1}))));
+    for (int j = 0; j < 3; ++j) { plate = valid(csg::subtract(plate, made(box({2 * i + 1, 2 * j + 1, 0}, {2 * i + 2, 2 * j + 2, 1})))); }
   }
   check(plate, {2 - 2 * 9, 1, 49.0 - 9.0});
   CHECK(plate.face_count() == 6 + 9 * 4);  // the upper face is one polygon with nine holes
@@ -154,7 +154,7 @@ TEST_CASE("the smaller the perturbation, the same the combinatorics") {
     const auto turned = leaf(moved(box(glm::dvec3(-.5), glm::dvec3(.5)), rotation({1, 2, 3}, t), glm::dvec3(0.0)), c.grid());
     REQUIRE(turned);
     const All x = all(c, *turned);
-    if (k == 1) u = counts(x.u), i = counts(x.i), d = counts(x.d);
+    if (k == 1) { u = counts(x.u), i = counts(x.i), d = counts(x.d); }
     INFO("10^-" << k);
     CHECK(counts(x.u) == u);
     CHECK(counts(x.i) == i);
@@ -181,11 +181,11 @@ TEST_CASE("perturbations below the grid are none: the operands are equal, or the
     // A slab that would vanish is not taken for nothing, it is refused.
     const auto slab = leaf(box({-.9, -.9, 0}, {.9, .9, t}), g);
     CHECK(slab.has_value() == (t > 0.5 * g.spacing()));
-    if (!slab) CHECK(slab.refusal().code == Code::collapsed);
+    if (!slab) { CHECK(slab.refusal().code == Code::collapsed); }
     check(x.u, {2, 1, 1.0}, 6 * g.spacing());
     check(x.i, {2, 1, 1.0}, 6 * g.spacing());
-    if (t > 0.5 * g.spacing()) continue;
-    for (const Solid& r : {s.u, s.i}) check(r, {2, 1, 1.0});
+    if (t > 0.5 * g.spacing()) { continue; }
+    for (const Solid& r : {s.u, s.i}) { check(r, {2, 1, 1.0}); }
     CHECK(s.d.empty());
   }
 }

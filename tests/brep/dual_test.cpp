@@ -75,7 +75,7 @@ TEST_CASE("the dual of a cube is an octahedron whose vertices lie in the middles
 TEST_CASE("the dual has all links exchanged, its log makes it from nothing, and the dual of the dual is the same map") {
   std::vector<Bare> all{shapes::build<Bare>(shapes::cube_builder()), shapes::build<Bare>(shapes::torus_builder(5, 4)), Bare{}};
   for (const maps::Level& level : maps::all_maps(4)) {
-    for (const auto& [word, mesh] : level) all.push_back(mesh);
+    for (const auto& [word, mesh] : level) { all.push_back(mesh); }
   }
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     Random random(seed);
@@ -107,7 +107,7 @@ TEST_CASE("the dual of an operator is the dual operator on the dual: split_face 
     const auto image = [&](HalfedgeId h) { return dual_m.halfedge[h.index]; };
     const auto same = [&](const Bare& x, bool x_done, const Bare& y, bool y_done) {
       REQUIRE(x_done == y_done);
-      if (!x_done) return;
+      if (!x_done) { return; }
       ++done;
       REQUIRE_THAT(dual(x).brep, IsIsomorphicTo(y));
     };

@@ -46,18 +46,20 @@ void check_dual_call(const Bare& start, const Call& call) {
   CHECK(answer.made == of_dual.made);
   CHECK(shapes::faults(d) == "");
   CHECK(picture(dual(m), shapes::Anchors::hidden) == picture(d, shapes::Anchors::hidden));
-  if (!removes_edge(call.op)) CHECK(picture(dual(m)) == picture(d));
+  if (!removes_edge(call.op)) { CHECK(picture(dual(m)) == picture(d)); }
 }
 
 void check_all(const Bare& start) {
   CHECK(shapes::faults(dual(start)) == "");
   CHECK(picture(dual(dual(start))) == picture(start));
   for (HalfedgeId a : shapes::all_halfedges(start)) {
-    for (Operator op : {Operator::join_faces, Operator::join_vertices, Operator::cut, Operator::unweld})
+    for (Operator op : {Operator::join_faces, Operator::join_vertices, Operator::cut, Operator::unweld}) {
       check_dual_call(start, {op, a, {}});
+    }
     for (HalfedgeId b : shapes::all_halfedges(start)) {
-      for (Operator op : {Operator::split_face, Operator::split_vertex, Operator::bridge, Operator::weld})
+      for (Operator op : {Operator::split_face, Operator::split_vertex, Operator::bridge, Operator::weld}) {
         check_dual_call(start, {op, a, b});
+      }
     }
   }
 }
@@ -66,14 +68,14 @@ void check_all(const Bare& start) {
 
 TEST_CASE("the dual operator on the dual makes the dual, for every call on every map of up to four edges") {
   for (const maps::Level& level : maps::all_maps(4)) {
-    for (const auto& [word, mesh] : level) check_all(mesh);
+    for (const auto& [word, mesh] : level) { check_all(mesh); }
   }
 }
 
 TEST_CASE("the dual operator on the dual makes the dual, for two shells and in long random sequences") {
   const auto levels = maps::all_maps(2);
   for (const auto& [word, first] : levels[2]) {
-    for (const auto& [other_word, second] : levels[2]) check_all(maps::together(first, second));
+    for (const auto& [other_word, second] : levels[2]) { check_all(maps::together(first, second)); }
   }
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     INFO("seed " << seed);
@@ -81,7 +83,7 @@ TEST_CASE("the dual operator on the dual makes the dual, for two shells and in l
     Bare m;
     for (int i = 0; i < 400; ++i) {
       const Call call = calls::random_call(m, random, 50);
-      if (dual_operator(call.op) != call.op) check_dual_call(m, call);
+      if (dual_operator(call.op) != call.op) { check_dual_call(m, call); }
       calls::apply(m, call);
     }
   }
@@ -90,6 +92,6 @@ TEST_CASE("the dual operator on the dual makes the dual, for two shells and in l
 TEST_CASE("the dual of a cube has the counts of an octahedron, and each kind of shell keeps its handles") {
   const Bare cube = shapes::build<Bare>(shapes::cube_builder()), octahedron = dual(cube);
   CHECK((octahedron.vertex_count() == 6 && octahedron.edge_count() == 12 && octahedron.face_count() == 8));
-  for (FaceId f : faces(octahedron)) CHECK(degree(octahedron, f) == 3);
+  for (FaceId f : faces(octahedron)) { CHECK(degree(octahedron, f) == 3); }
   CHECK(genus(dual(shapes::build<Bare>(shapes::torus_builder(3, 4)))) == 1);
 }

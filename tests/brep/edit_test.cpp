@@ -32,7 +32,7 @@ std::size_t not_simple(const B& m) {
   std::size_t n = 0;
   for (EdgeId e : edges(m)) {
     const auto [v, w] = vertices_of(m, e);
-    if (v == w || !seen.insert(std::minmax(v, w)).second) ++n;
+    if (v == w || !seen.insert(std::minmax(v, w)).second) { ++n; }
   }
   return n;
 }
@@ -82,7 +82,7 @@ TEST_CASE("collapse_edge refuses what would make parallel edges or loops; it nam
   REQUIRE(triangulate(m));
   const HalfedgeId waist = [&] {
     for (HalfedgeId h : halfedges(m)) {
-      if (m.vertex(h) == VertexId{0} && m.target(h) == VertexId{1}) return h;
+      if (m.vertex(h) == VertexId{0} && m.target(h) == VertexId{1}) { return h; }
     }
     return HalfedgeId{};
   }();
@@ -130,7 +130,7 @@ TEST_CASE("collapsing at random on triangles keeps a simple map simple, down to 
       }
       REQUIRE(faults(m) == "");
       REQUIRE((genus(m) == handles && not_simple(m) == 0));
-      for (FaceId f : faces(m)) REQUIRE(degree(m, f) == 3);
+      for (FaceId f : faces(m)) { REQUIRE(degree(m, f) == 3); }
     }
     CHECK(m.vertex_count() < 10);  // a torus needs 7 vertices
     CHECK(m.vertex_count() >= (handles == 1 ? 7 : 4));
@@ -140,7 +140,7 @@ TEST_CASE("collapsing at random on triangles keeps a simple map simple, down to 
 TEST_CASE("flip_edge between triangles: 2 flips turn the half-edge round, 4 restore every record but anchors, data included") {
   Mesh m = shapes::build(shapes::torus_builder(4, 5));
   REQUIRE(triangulate(m));
-  for (FaceId f : faces(m)) m.data(f).sheet = f.index;
+  for (FaceId f : faces(m)) { m.data(f).sheet = f.index; }
   for (HalfedgeId h : shapes::all_halfedges(m)) {
     Mesh copy = m;
     const VertexId v = m.vertex(h), w = m.target(h), x = m.target(m.next(h)), y = m.target(m.next(twin(h)));
@@ -148,7 +148,7 @@ TEST_CASE("flip_edge between triangles: 2 flips turn the half-edge round, 4 rest
     CHECK((copy.vertex(h) == y && copy.target(h) == x && copy.face(h) == m.face(h) && copy.face(twin(h)) == m.face(twin(h))));
     CHECK((degree(copy, copy.face(h)) == 3 && degree(copy, copy.face(twin(h))) == 3));
     REQUIRE(faults(copy) == "");
-    for (FaceId f : faces(copy)) REQUIRE(copy.data(f).sheet == f.index);
+    for (FaceId f : faces(copy)) { REQUIRE(copy.data(f).sheet == f.index); }
     REQUIRE(flip_edge(copy, h));
     CHECK((copy.vertex(h) == w && copy.target(h) == v));
     REQUIRE(flip_edge(copy, h));
@@ -175,7 +175,7 @@ TEST_CASE("flip_edge in any two faces: as many flips as their polygon has corner
         const auto result = flip_edge(copy, h);
         REQUIRE(result.has_value() == possible);
         REQUIRE(faults(copy) == "");
-        if (possible) continue;
+        if (possible) { continue; }
         REQUIRE(result.refusal().code == Code::cannot_flip);
         REQUIRE(records(copy) == before);
         ++refused;

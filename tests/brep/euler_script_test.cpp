@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 Script parse(const std::string& text) {
   ScriptResult result = parse_script(text);
-  for (const ScriptError& e : result.errors) UNSCOPED_INFO(e.place.line << ":" << e.place.column << ": " << e.sentence);
+  for (const ScriptError& e : result.errors) { UNSCOPED_INFO(e.place.line << ":" << e.place.column << ": " << e.sentence); }
   REQUIRE(result.script.has_value());
   return std::move(*result.script);
 }
@@ -49,7 +49,7 @@ const std::string cube_script =
 std::vector<fs::path> lessons() {
   std::vector<fs::path> paths;
   for (const auto& entry : fs::directory_iterator(HALFLIGHT_LESSONS)) {
-    if (entry.path().extension() == ".euler") paths.push_back(entry.path());
+    if (entry.path().extension() == ".euler") { paths.push_back(entry.path()); }
   }
   std::sort(paths.begin(), paths.end());
   return paths;
@@ -65,8 +65,8 @@ TEST_CASE("a script of twelve lines is a cube") {
   Solid solid;
   CHECK(run(cube_script + "expect v 8 e 12 f 6 s 1 h 0\nexpect valid\n", solid) == "");
   CHECK(shapes::faults(solid) == "");
-  for (FaceId f : faces(solid)) CHECK(degree(solid, f) == 4);
-  for (VertexId v : vertices(solid)) CHECK(degree(solid, v) == 3);
+  for (FaceId f : faces(solid)) { CHECK(degree(solid, f) == 4); }
+  for (VertexId v : vertices(solid)) { CHECK(degree(solid, v) == 3); }
 }
 
 TEST_CASE("names and functions stand for handles") {
@@ -130,10 +130,10 @@ TEST_CASE("every error of a script is told with line, column and a sentence") {
 
 TEST_CASE("reading ends after fifty errors, and depth costs no stack") {
   std::string noise;
-  for (int i = 0; i < 1000; ++i) noise += "?\n";
+  for (int i = 0; i < 1000; ++i) { noise += "?\n"; }
   CHECK(parse_script(noise).errors.size() == ScriptParser::max_errors);
   std::string deep = "make_segment\nsplit_edge ";
-  for (int i = 0; i < 100000; ++i) deep += "next(";
+  for (int i = 0; i < 100000; ++i) { deep += "next("; }
   deep += "h0" + std::string(100000, ')');
   Solid solid;
   CHECK(run(deep, solid) == "");
@@ -167,7 +167,7 @@ TEST_CASE("running goes on after a statement that failed, but its name has no va
   Solid solid;
   ScriptRunner<Solid> runner(solid);
   std::vector<Outcome> outcomes;
-  for (const Statement& s : script.statements) outcomes.push_back(runner.run(s));
+  for (const Statement& s : script.statements) { outcomes.push_back(runner.run(s)); }
   CHECK((outcomes[1].result == Element(HalfedgeId{2})));
   CHECK(outcomes[2].kind == Outcome::Kind::refused);
   CHECK(outcomes[2].refusal.code == Code::spur);
@@ -193,7 +193,7 @@ TEST_CASE("while a raw edit stands no operator runs, the validator tells its fau
       "expect R1\nundo\nexpect valid\n");
   ScriptRunner<Solid> runner(solid);
   std::vector<Outcome> outcomes;
-  for (const Statement& s : script.statements) outcomes.push_back(runner.run(s));
+  for (const Statement& s : script.statements) { outcomes.push_back(runner.run(s)); }
   CHECK(outcomes[0].faults.size() > 1);
   CHECK(outcomes[1].as_written);
   CHECK(outcomes[2].faults.front().rule == 1);

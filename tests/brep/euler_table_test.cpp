@@ -26,7 +26,7 @@ std::array<long, 3> counts(const Logged& m) {
 std::vector<std::string> words(const OperatorForm& row) {
   std::vector<std::string> all{std::string(row.name)};
   for (std::string_view word : row.textbook) {
-    if (!word.empty()) all.emplace_back(word);
+    if (!word.empty()) { all.emplace_back(word); }
   }
   return all;
 }
@@ -96,7 +96,7 @@ TEST_CASE("each row keeps v - e + f = 2(s - h), its counts are those of euler.hp
       CHECK(find_operator(word) == &form(row.op));
     }
   }
-  for (const char* word : {"mvfs", "kvfs", "mev", "kev", "mef", "kef", "kemr", "mekr", "kfmrh", "mfkrh"}) CHECK(seen.count(word) == 1);
+  for (const char* word : {"mvfs", "kvfs", "mev", "kev", "mef", "kef", "kemr", "mekr", "kfmrh", "mfkrh"}) { CHECK(seen.count(word) == 1); }
   CHECK(find_operator("") == nullptr);
   CHECK(find_operator("undo") == nullptr);
 }
@@ -107,7 +107,7 @@ TEST_CASE("every name of an operator parses to the same step, and the log prints
     std::string own_log;
     for (const std::string& word : words(row)) {
       std::string line = word;
-      for (std::size_t i = 0; i < row.arguments.size(); ++i) line += i == 0 ? " h0" : " h6";
+      for (std::size_t i = 0; i < row.arguments.size(); ++i) { line += i == 0 ? " h0" : " h6"; }
       INFO(line);
       const Statement s = statement_of(line);
       CHECK(s.command == Command::apply);
@@ -120,7 +120,7 @@ TEST_CASE("every name of an operator parses to the same step, and the log prints
       ScriptRunner<Logged> runner(m);
       const Outcome outcome = runner.run(s);
       const std::string log = to_text(steps(m));
-      if (word == row.name) own_log = log;
+      if (word == row.name) { own_log = log; }
       CHECK(log == own_log);
       CHECK(
           (outcome.kind == Outcome::Kind::done || (outcome.sentence.find("(" + word + " is ") != std::string::npos) == (word != row.name)));
@@ -136,8 +136,8 @@ TEST_CASE("a cube by the textbook's words has the records of the cube by the ope
       "h18 = split_face h15 h13\nh20 = split_face h13 h11\nh22 = split_face h11 h16\nbridge h6 h22\ncut h24\njoin_faces h22\n";
   std::string text = own;
   for (const OperatorForm& row : operator_forms) {
-    if (row.textbook[0].empty()) continue;
-    for (std::size_t at = 0; (at = text.find(row.name, at)) != text.npos;) text.replace(at, row.name.size(), row.textbook[0]);
+    if (row.textbook[0].empty()) { continue; }
+    for (std::size_t at = 0; (at = text.find(row.name, at)) != text.npos;) { text.replace(at, row.name.size(), row.textbook[0]); }
   }
   CHECK(text.find("split_face") == text.npos);
   CHECK(text.find("\nmekr h6") != text.npos);

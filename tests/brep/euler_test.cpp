@@ -84,7 +84,7 @@ TEST_CASE("a torus comes down to one vertex, two edges and one face by joins, wh
   while (m.edge_count() > 2) {
     const auto all = all_halfedges(m);
     const HalfedgeId h = all[random.below(all.size())];
-    if (!(random.below(2) == 0 ? join_vertices(m, h).has_value() : join_faces(m, h).has_value())) continue;
+    if (!(random.below(2) == 0 ? join_vertices(m, h).has_value() : join_faces(m, h).has_value())) { continue; }
     REQUIRE_THAT(m, IsValid());
     REQUIRE(genus(m) == 1);
   }
@@ -130,10 +130,10 @@ TEST_CASE("dead and invalid handles are refused by every operator, with a senten
 TEST_CASE("first_side_is_shorter tells which side split_face(a, b) would relabel") {
   Bare m;
   const HalfedgeId h = *make_segment(m);
-  for (int i = 0; i < 20; ++i) REQUIRE(split_edge(m, h));
+  for (int i = 0; i < 20; ++i) { REQUIRE(split_edge(m, h)); }
   for (HalfedgeId a : all_halfedges(m)) {
     std::size_t way = 0;
     const std::size_t n = degree(m, m.face(a));
-    for (HalfedgeId b = a; way < n; b = m.next(b), ++way) CHECK(first_side_is_shorter(m, a, b) == (2 * way <= n));
+    for (HalfedgeId b = a; way < n; b = m.next(b), ++way) { CHECK(first_side_is_shorter(m, a, b) == (2 * way <= n)); }
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every operator on every half-edge or pair of every solid of up to four edges, of every genus, and of every two shells of four edges together.
+// Every operator on every half-edge or pair of every solid of up to four edges, of every genus, and of every two shells of four edges
+// together.
 
 #include <brep/euler_log.hpp>
 #include <brep/isomorphism.hpp>
@@ -66,7 +67,7 @@ void check_shells(const Call& call, const calls::Shells& before, const calls::Sh
   const long ds = static_cast<long>(after.count) - static_cast<long>(before.count), dh = after.handles - before.handles;
   const calls::Change change = calls::change(call.op);
   CHECK(2 * (ds - dh) == change.v - change.e + change.f);
-  if (calls::takes_two(call.op) || call.op == Operator::split_edge) CHECK(ds <= 0);
+  if (calls::takes_two(call.op) || call.op == Operator::split_edge) { CHECK(ds <= 0); }
 }
 
 // Returns whether the call was possible.
@@ -87,7 +88,7 @@ bool check_call(const Logged& start, const Call& call) {
   CHECK(static_cast<int>(m.edge_count()) - static_cast<int>(start.edge_count()) == change.e);
   CHECK(static_cast<int>(m.face_count()) - static_cast<int>(start.face_count()) == change.f);
   check_shells(call, calls::shells(start), calls::shells(m));
-  if (answer.made.valid()) check_new_edge(start, m, call, answer.made);
+  if (answer.made.valid()) { check_new_edge(start, m, call, answer.made); }
 
   Logged back = m;
   CHECK(calls::apply(back, calls::inverse(start, call, answer.made)).done);
@@ -124,7 +125,7 @@ Calls check_all_calls(const Bare& mesh) {
       check({op, a, {}});
     }
     for (HalfedgeId b : shapes::all_halfedges(mesh)) {
-      for (Operator op : {Operator::split_face, Operator::split_vertex, Operator::bridge, Operator::weld}) check({op, a, b});
+      for (Operator op : {Operator::split_face, Operator::split_vertex, Operator::bridge, Operator::weld}) { check({op, a, b}); }
     }
   }
   return count;
@@ -133,8 +134,8 @@ Calls check_all_calls(const Bare& mesh) {
 }  // namespace
 
 TEST_CASE("the operators reach all maps of up to four edges, of every genus, and no others") {
-  // Rooted maps of n edges and genus g (Tutte 1963 for g = 0; Walsh and Lehman 1972): each map of e edges has 2e / |automorphisms| roots that
-  // differ. Unrooted: OEIS A006384 for the plane; 2, 5, 20, 107 for all genera together (A170946).
+  // Rooted maps of n edges and genus g (Tutte 1963 for g = 0; Walsh and Lehman 1972): each map of e edges has 2e / |automorphisms| roots
+  // that differ. Unrooted: OEIS A006384 for the plane; 2, 5, 20, 107 for all genera together (A170946).
   constexpr std::array<std::array<std::size_t, 3>, 5> rooted{{{}, {2, 0, 0}, {9, 1, 0}, {54, 20, 0}, {378, 307, 21}}};
   constexpr std::array<std::size_t, 5> planar{0, 2, 4, 14, 57}, all{0, 2, 5, 20, 107};
   const auto levels = maps::all_maps(4);
@@ -177,7 +178,7 @@ TEST_CASE("every operator on every half-edge and pair of every two shells of up 
     for (std::size_t k = i; i + k <= 4; ++k) {
       for (const auto& [word, first] : levels[i]) {
         for (const auto& [other_word, second] : levels[k]) {
-          if (i == k && other_word < word) continue;
+          if (i == k && other_word < word) { continue; }
           check_all_calls(maps::together(first, second));
           ++pairs;
         }

@@ -25,13 +25,13 @@ using Logged = BRep<NoData, NoData, NoData, EulerLog>;
 // By the divergence theorem, a pyramid over each face.
 double volume(const Mesh& m) {
   double sum = 0.0;
-  for (FaceId f : faces(m)) sum += glm::dot(vector_area(m, f), positions(m, f)[0]);
+  for (FaceId f : faces(m)) { sum += glm::dot(vector_area(m, f), positions(m, f)[0]); }
   return sum / 3.0;
 }
 
 std::vector<HalfedgeId> loop(const auto& m, FaceId f) {
   std::vector<HalfedgeId> all;
-  for (HalfedgeId h : halfedges_of(m, f)) all.push_back(h);
+  for (HalfedgeId h : halfedges_of(m, f)) { all.push_back(h); }
   return all;
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("extrude_face is undone by joins in the opposite order: every record i
   Random random(5);
   for (int round = 0; round < 40; ++round) {
     Bare m = calls::random_map<Bare>(random, 25);
-    if (m.face_count() == 0) continue;
+    if (m.face_count() == 0) { continue; }
     const FaceId f = m.face(shapes::all_halfedges(m)[0]);
     const std::size_t n = degree(m, f);
     const auto before = records(m);
@@ -90,16 +90,16 @@ TEST_CASE("extrude_face is undone by joins in the opposite order: every record i
       collar.push_back(twin(m.next(twin(h))));  // up, at the start of h's end: sorted below
     }
     // Handles of new edges rise or come from free slots; the order of making is that of the loop from the anchor on.
-    for (std::size_t i = n; i-- > 0;) REQUIRE(join_faces(m, rims[i]));
+    for (std::size_t i = n; i-- > 0;) { REQUIRE(join_faces(m, rims[i])); }
     std::vector<HalfedgeId> spurs;
     for (HalfedgeId h : halfedges_of(m, f)) {
-      if (m.next(h) == twin(h) && std::find(collar.begin(), collar.end(), twin(h)) != collar.end()) spurs.push_back(h);
-      if (m.next(h) == twin(h) && std::find(collar.begin(), collar.end(), h) != collar.end()) spurs.push_back(h);
+      if (m.next(h) == twin(h) && std::find(collar.begin(), collar.end(), twin(h)) != collar.end()) { spurs.push_back(h); }
+      if (m.next(h) == twin(h) && std::find(collar.begin(), collar.end(), h) != collar.end()) { spurs.push_back(h); }
     }
     REQUIRE(spurs.size() == n);
     // The loop starts at the old anchor, so its own spur comes last, and was made first.
     std::rotate(spurs.begin(), spurs.end() - 1, spurs.end());
-    for (std::size_t i = n; i-- > 0;) REQUIRE(join_vertices(m, spurs[i]));
+    for (std::size_t i = n; i-- > 0;) { REQUIRE(join_vertices(m, spurs[i])); }
     CHECK(records(m) == before);
   }
 }
@@ -126,7 +126,7 @@ TEST_CASE("poke_face: n triangles around the centroid, and joining the spokes gi
     }
     CHECK(sum == test::Approx(whole).epsilon(1e-14));
     // Clockwise from the anchor of the centre, the first spoke: the first one, the last made, ..., the second.
-    for (std::size_t i = 1; i < n; ++i) REQUIRE(join_faces(m, spokes[i]));
+    for (std::size_t i = 1; i < n; ++i) { REQUIRE(join_faces(m, spokes[i])); }
     REQUIRE(join_vertices(m, twin(spokes[0])));
     CHECK(records(m) == before);
   }
@@ -139,7 +139,7 @@ TEST_CASE("triangulate: n - 2 triangles for a face of n edges, the area is cover
   REQUIRE(*triangulate(m) == 2 * 14 + 17);
   CHECK(m.face_count() == f + 2 * 14 + 17);
   REQUIRE(faults(m) == "");
-  for (FaceId g : faces(m)) REQUIRE((degree(m, g) == 3 && area(m, g) > 0.0));
+  for (FaceId g : faces(m)) { REQUIRE((degree(m, g) == 3 && area(m, g) > 0.0)); }
   CHECK(shapes::total_area(m) == test::Approx(whole).epsilon(1e-13));
   CHECK(volume(m) == test::Approx(inside).epsilon(1e-13));
   CHECK(*triangulate(m) == 0);
@@ -154,7 +154,7 @@ TEST_CASE("triangulate_face of polygons with straight corners and of random star
     for (unsigned i = 0; i < n; ++i) {
       const double a = 2.0 * shapes::pi * (i + 0.8 * random.unit()) / n, r = 0.2 + random.unit();
       p.push_back({r * std::cos(a), r * std::sin(a)});
-      if (random.below(2) == 0 && i > 0) p.insert(p.end() - 1, 0.5 * (p[p.size() - 1] + p[p.size() - 2]));
+      if (random.below(2) == 0 && i > 0) { p.insert(p.end() - 1, 0.5 * (p[p.size() - 1] + p[p.size() - 2])); }
     }
     Mesh m = shapes::build(shapes::pillow_builder(p));
     const double whole = area(m, FaceId{0});
@@ -182,7 +182,7 @@ TEST_CASE("triangulate without positions cuts fans; faces of one and two edges s
     REQUIRE(added);
     CHECK(m.face_count() == count + *added);
     REQUIRE(faults(m) == "");
-    for (FaceId f : faces(m)) REQUIRE(degree(m, f) <= 3);
+    for (FaceId f : faces(m)) { REQUIRE(degree(m, f) <= 3); }
   }
   Mesh crossed = shapes::build(shapes::prism_builder(5));
   std::swap(crossed.data(VertexId{5}).position, crossed.data(VertexId{6}).position);
@@ -211,10 +211,10 @@ TEST_CASE("triangulate: of many faces the refusal names the one that cannot be c
     auto m = std::move(*close<LoggedMesh>(b).brep);
     const auto before = records(m);
     const auto all = triangulate(m);
-    if (all) continue;
+    if (all) { continue; }
     CHECK(records(m) == before);
     CHECK(mark(m) == 0);
-    if (all.refusal().code != Code::degenerate_polygon) continue;
+    if (all.refusal().code != Code::degenerate_polygon) { continue; }
     ++refused_after_cuts;
     REQUIRE(all.refusal().elements[0].index >= 7);
     const FaceId f{all.refusal().elements[0].index};
@@ -229,7 +229,7 @@ TEST_CASE("extrude and poke random maps: always valid, genus and shells kept, de
     INFO("seed " << seed);
     Random random(seed);
     Logged m = calls::random_map<Logged>(random, 30);
-    if (m.face_count() == 0) continue;
+    if (m.face_count() == 0) { continue; }
     const auto before = records(m);
     const std::size_t start = mark(m);
     const long handles = genus(m);

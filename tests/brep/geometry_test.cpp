@@ -26,7 +26,7 @@ Corners placed(const Corners& p, double scale, const glm::dvec3& move) {
   const glm::dvec3 x = glm::normalize(glm::dvec3{1.0, 2.0, 3.0}), z = glm::normalize(glm::cross(x, glm::dvec3{1.0, 0.0, 0.0}));
   const glm::dvec3 y = glm::cross(z, x);
   Corners q;
-  for (const auto& a : p) q.push_back(move + scale * (a.x * x + a.y * y + a.z * z));
+  for (const auto& a : p) { q.push_back(move + scale * (a.x * x + a.y * y + a.z * z)); }
   return q;
 }
 
@@ -94,10 +94,10 @@ TEST_CASE("proportion of random convex polygons agrees with a search over all tr
     INFO("seed " << seed);
     shapes::Random random(seed);
     std::vector<double> angles(4 + random.below(8));
-    for (double& a : angles) a = 2.0 * shapes::pi * random.unit();
+    for (double& a : angles) { a = 2.0 * shapes::pi * random.unit(); }
     std::sort(angles.begin(), angles.end());
     Corners p;  // on an ellipse, hence convex
-    for (double a : angles) p.push_back({3.0 * std::cos(a), std::sin(a), 0.0});
+    for (double a : angles) { p.push_back({3.0 * std::cos(a), std::sin(a), 0.0}); }
     const Outline outline(p);
     double best = HUGE_VAL;
     std::vector<detail::Side> sides;
@@ -110,8 +110,9 @@ TEST_CASE("proportion of random convex polygons agrees with a search over all tr
     for (std::size_t i = 0; i < sides.size(); ++i) {
       for (std::size_t j = i + 1; j < sides.size(); ++j) {
         for (std::size_t k = j + 1; k < sides.size(); ++k) {
-          if (left(sides[i], sides[j]) && left(sides[j], sides[k]) && left(sides[k], sides[i]))
+          if (left(sides[i], sides[j]) && left(sides[j], sides[k]) && left(sides[k], sides[i])) {
             best = std::min(best, detail::meeting_time(sides[i], sides[j], sides[k]));
+          }
         }
       }
     }
@@ -119,7 +120,7 @@ TEST_CASE("proportion of random convex polygons agrees with a search over all tr
     const double outer = detail::circumscribed_radius(outline);
     double widest = 0.0;
     for (const auto& a : p) {
-      for (const auto& b : p) widest = std::max(widest, glm::distance(a, b));
+      for (const auto& b : p) { widest = std::max(widest, glm::distance(a, b)); }
     }
     CHECK(outer >= 0.5 * widest * (1.0 - 1e-12));
     CHECK(outer <= widest / std::sqrt(3.0) * (1.0 + 1e-12));  // Jung's theorem
@@ -130,7 +131,7 @@ TEST_CASE("convex means one turn to the left, straight corners allowed") {
   CHECK(is_convex(Corners{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 1, 0}}));
   CHECK_FALSE(is_convex(Corners{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {1, 1, 0}, {0, 1, 0}}));
   Corners pentagram;
-  for (unsigned i = 0; i < 5; ++i) pentagram.push_back(regular(5)[2 * i % 5]);
+  for (unsigned i = 0; i < 5; ++i) { pentagram.push_back(regular(5)[2 * i % 5]); }
   CHECK_FALSE(is_convex(pentagram));
   CHECK_FALSE(is_convex(Corners{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
   CHECK_FALSE(is_convex(Corners{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {2, 3, 0}, {2, 2, 0}, {0, 2, 0}}));  // a spike

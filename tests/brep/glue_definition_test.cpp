@@ -29,7 +29,7 @@ template <class B>
 Bare glued_by_definition(const B& m, HalfedgeId a, HalfedgeId c) {
   using brep::detail::Raw;
   std::map<HalfedgeId, HalfedgeId> partner, made;  // the twins, and the new handles
-  for (HalfedgeId h : shapes::all_halfedges(m)) partner[h] = twin(h);
+  for (HalfedgeId h : shapes::all_halfedges(m)) { partner[h] = twin(h); }
   for (std::size_t n = degree(m, m.face(a)); n > 0; --n, a = m.next(a), c = m.prev(c)) {
     // Beyond a and beyond c lie x and y, which become twins. Where x is c, nothing lies beyond.
     const HalfedgeId x = partner[a], y = partner[c];
@@ -40,14 +40,14 @@ Bare glued_by_definition(const B& m, HalfedgeId a, HalfedgeId c) {
   }
   Bare result;
   for (const auto& [h, t] : partner) {
-    if (made.count(h) != 0) continue;
+    if (made.count(h) != 0) { continue; }
     made[h] = Raw::new_edge(result);
     made[t] = twin(made[h]);
   }
-  for (const auto& [h, x] : made) Raw::at(result, x) = {made[m.next(h)], made[m.prev(h)], {}, {}};
+  for (const auto& [h, x] : made) { Raw::at(result, x) = {made[m.next(h)], made[m.prev(h)], {}, {}}; }
   for (const auto& [h, x] : made) {
-    if (!result.face(x).valid()) brep::detail::rename_loop(result, x, x, Raw::new_face(result));
-    if (!result.vertex(x).valid()) brep::detail::rename_orbit(result, x, x, Raw::new_vertex(result));
+    if (!result.face(x).valid()) { brep::detail::rename_loop(result, x, x, Raw::new_face(result)); }
+    if (!result.vertex(x).valid()) { brep::detail::rename_orbit(result, x, x, Raw::new_vertex(result)); }
     Raw::at(result, result.face(x)).halfedge = x;
     Raw::at(result, result.vertex(x)).halfedge = x;
   }
@@ -120,15 +120,15 @@ TEST_CASE("punch_hole on every pair of half-edges of random maps: e + n, f + n -
       for (HalfedgeId c : all) {
         Logged copy = m;
         const auto h = punch_hole(copy, a, c);
-        if (!h) continue;
+        if (!h) { continue; }
         const std::size_t n = degree(m, m.face(a));
         REQUIRE(faults(copy) == "");
         REQUIRE((copy.vertex_count() == m.vertex_count() && copy.edge_count() == m.edge_count() + n));
         REQUIRE(copy.face_count() + 2 == m.face_count() + n);
         const auto joined = static_cast<long>(shell_count(m)) - static_cast<long>(shell_count(copy));
         REQUIRE(genus(copy) - genus(m) == 1 - joined);
-        for (HalfedgeId x : halfedges_of(m, m.face(a))) REQUIRE(degree(copy, copy.face(x)) == 4);
-        for (HalfedgeId x : halfedges_of(m, m.face(c))) REQUIRE(degree(copy, copy.face(x)) == 4);
+        for (HalfedgeId x : halfedges_of(m, m.face(a))) { REQUIRE(degree(copy, copy.face(x)) == 4); }
+        for (HalfedgeId x : halfedges_of(m, m.face(c))) { REQUIRE(degree(copy, copy.face(x)) == 4); }
         REQUIRE(copy.face(a) == copy.face(c));
         REQUIRE(undo_to(copy, mark(m)));
         REQUIRE(records(copy) == records(m));

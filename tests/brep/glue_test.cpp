@@ -19,10 +19,10 @@ Builder several(const std::vector<std::pair<Builder, glm::dvec3>>& solids) {
   Builder b;
   for (const auto& [part, offset] : solids) {
     const auto base = static_cast<std::uint32_t>(b.vertex_count());
-    for (std::uint32_t v = 0; v < part.vertex_count(); ++v) b.vertex(part.position(v) + offset);
+    for (std::uint32_t v = 0; v < part.vertex_count(); ++v) { b.vertex(part.position(v) + offset); }
     for (std::uint32_t f = 0; f < part.face_count(); ++f) {
       std::vector<std::uint32_t> corners;
-      for (std::uint32_t v : part.corners(f)) corners.push_back(base + v);
+      for (std::uint32_t v : part.corners(f)) { corners.push_back(base + v); }
       b.face(corners, 0);
     }
   }
@@ -32,8 +32,9 @@ Builder several(const std::vector<std::pair<Builder, glm::dvec3>>& solids) {
 // The half-edge on g that lies opposite to a, by positions.
 HalfedgeId opposite(const Mesh& m, HalfedgeId a, FaceId g) {
   for (HalfedgeId c : halfedges_of(m, g)) {
-    if (m.data(m.vertex(c)).position == m.data(m.target(a)).position && m.data(m.target(c)).position == m.data(m.vertex(a)).position)
+    if (m.data(m.vertex(c)).position == m.data(m.target(a)).position && m.data(m.target(c)).position == m.data(m.vertex(a)).position) {
       return c;
+    }
   }
   return {};
 }
@@ -50,22 +51,22 @@ TEST_CASE("two cubes glued are one box of 12 vertices, 20 edges and 10 faces") {
   CHECK(faults(m) == "");
   CHECK((shell_count(m) == 1 && genus(m) == 0));
   CHECK((m.alive(a) && m.vertex(a) == kept && !m.alive(c) && !m.alive(FaceId{1}) && !m.alive(FaceId{6})));
-  for (FaceId f : faces(m)) CHECK((degree(m, f) == 4 && area(m, f) == 1.0));
+  for (FaceId f : faces(m)) { CHECK((degree(m, f) == 4 && area(m, f) == 1.0)); }
 }
 
 TEST_CASE("gluing two faces of one shell makes a handle: a ring of eight cubes has genus 1") {
   std::vector<std::pair<Builder, glm::dvec3>> cubes;
   const std::vector<glm::dvec3> ring{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}};
-  for (const glm::dvec3& p : ring) cubes.push_back({shapes::cube_builder(), p});
+  for (const glm::dvec3& p : ring) { cubes.push_back({shapes::cube_builder(), p}); }
   Mesh m = shapes::build(several(cubes));
   for (std::size_t i = 0; i < ring.size(); ++i) {
     bool found = false;
     const auto in_cube = [&](FaceId f, std::size_t k) { return f.index / 6 == k; };
     for (FaceId f : faces(m)) {
       for (FaceId g : faces(m)) {
-        if (found || !in_cube(f, i) || !in_cube(g, (i + 1) % ring.size())) continue;
+        if (found || !in_cube(f, i) || !in_cube(g, (i + 1) % ring.size())) { continue; }
         const HalfedgeId a = m.halfedge(f), c = opposite(m, a, g);
-        if (!c.valid() || centroid(m, f) != centroid(m, g)) continue;
+        if (!c.valid() || centroid(m, f) != centroid(m, g)) { continue; }
         REQUIRE(glue_faces(m, a, c));
         REQUIRE(faults(m) == "");
         found = true;
@@ -74,7 +75,8 @@ TEST_CASE("gluing two faces of one shell makes a handle: a ring of eight cubes h
     REQUIRE(found);
   }
   CHECK((shell_count(m) == 1 && genus(m) == 1));
-  // 16 outer and inner faces on the sides, 16 above and below; the vertices are those of a 3 x 3 grid of columns without inner ones: 4 x 4 x 2.
+  // 16 outer and inner faces on the sides, 16 above and below; the vertices are those of a 3 x 3 grid of columns without inner ones: 4 x 4
+  // x 2.
   CHECK((m.face_count() == 32 && m.vertex_count() == 32 && m.edge_count() == 64));
 }
 
@@ -88,10 +90,10 @@ TEST_CASE("gluing is undone by cutting the seam: double its edges, split its ver
   std::vector<HalfedgeId> seam, doubles;
   for (HalfedgeId h = a; seam.empty() || h != a; h = m.next(twin(m.next(h)))) seam.push_back(h);  // straight on, the degree is four
   REQUIRE(seam.size() == 5);
-  for (HalfedgeId h : seam) doubles.push_back(*split_face(m, h, m.next(h)));
+  for (HalfedgeId h : seam) { doubles.push_back(*split_face(m, h, m.next(h))); }
   std::vector<HalfedgeId> posts;
-  for (std::size_t i = 0; i < 5; ++i) posts.push_back(*split_vertex(m, seam[i], twin(doubles[(i + 4) % 5])));
-  for (std::size_t i = 1; i < 5; ++i) REQUIRE(join_faces(m, posts[i]));
+  for (std::size_t i = 0; i < 5; ++i) { posts.push_back(*split_vertex(m, seam[i], twin(doubles[(i + 4) % 5]))); }
+  for (std::size_t i = 1; i < 5; ++i) { REQUIRE(join_faces(m, posts[i])); }
   REQUIRE(cut(m, posts[0]));
   CHECK(faults(m) == "");
   CHECK_THAT(m, IsIsomorphicTo(two));
@@ -110,7 +112,7 @@ TEST_CASE("a hole punched through a cube: genus 1; through a cube with inset cap
   HalfedgeId c{};
   for (HalfedgeId x : halfedges_of(m, FaceId{1})) {
     const glm::dvec3 p = m.data(m.target(x)).position, q = m.data(m.vertex(a)).position;
-    if (p.x == q.x && p.y == q.y) c = x;
+    if (p.x == q.x && p.y == q.y) { c = x; }
   }
   REQUIRE(c.valid());
   const std::size_t v = m.vertex_count(), e = m.edge_count(), f = m.face_count();
@@ -131,7 +133,7 @@ TEST_CASE("a hole punched through a cube: genus 1; through a cube with inset cap
     rungs.push_back(x);
     x = m.next(m.next(twin(x)));
   }
-  for (std::size_t i = 3; i > 0; --i) REQUIRE(join_faces(m, m.next(m.next(twin(rungs[i - 1])))));
+  for (std::size_t i = 3; i > 0; --i) { REQUIRE(join_faces(m, m.next(m.next(twin(rungs[i - 1]))))); }
   REQUIRE(cut(m, h));
   CHECK(genus(m) == 0);
   CHECK((m.vertex_count() == v && m.edge_count() == e && m.face_count() == f));

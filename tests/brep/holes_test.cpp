@@ -36,14 +36,14 @@ Mesh shells_of(const Plate& plate) {
     b.face(back, 0);
   };
   pillow(plate.outline);
-  for (const Points& hole : plate.holes) pillow(hole);
+  for (const Points& hole : plate.holes) { pillow(hole); }
   return shapes::build(b);
 }
 FaceId back_of_hole(std::size_t i) { return FaceId{static_cast<std::uint32_t>(2 * i + 3)}; }
 
 HalfedgeId corner_at(const Mesh& m, FaceId f, const glm::dvec2& p) {
   for (HalfedgeId h : halfedges_of(m, f)) {
-    if (glm::dvec2(m.data(m.vertex(h)).position) == p) return h;
+    if (glm::dvec2(m.data(m.vertex(h)).position) == p) { return h; }
   }
   return {};
 }
@@ -61,7 +61,7 @@ double area_of(const Plate& plate) {
     return sum;
   };
   double sum = signed_area(plate.outline);
-  for (const Points& hole : plate.holes) sum -= signed_area(hole);
+  for (const Points& hole : plate.holes) { sum -= signed_area(hole); }
   return sum;
 }
 
@@ -70,18 +70,18 @@ void check_whole(const Mesh& m, double whole) {
   const std::size_t n = degree(m, FaceId{0});
   Mesh triangulated = m, split = m;
   const auto parts = triangulate_face(triangulated, FaceId{0});
-  if (!parts) UNSCOPED_INFO(parts.refusal().sentence());
+  if (!parts) { UNSCOPED_INFO(parts.refusal().sentence()); }
   REQUIRE(parts);
   CHECK(parts->size() == n - 2);
-  for (FaceId f : *parts) CHECK(degree(triangulated, f) == 3);
+  for (FaceId f : *parts) { CHECK(degree(triangulated, f) == 3); }
   outlines::check_cover(triangulated, *parts, whole, {0, 0, 1});
   CHECK_THAT(triangulated, IsValid());
 
   const auto convex = split_until_convex(split, FaceId{0});
-  if (!convex) UNSCOPED_INFO(convex.refusal().sentence());
+  if (!convex) { UNSCOPED_INFO(convex.refusal().sentence()); }
   REQUIRE(convex);
   CHECK(convex->size() <= parts->size());
-  for (FaceId f : *convex) CHECK(is_convex(split, f));
+  for (FaceId f : *convex) { CHECK(is_convex(split, f)); }
   outlines::check_cover(split, *convex, whole, {0, 0, 1});
   CHECK_THAT(split, IsValid());
 }
@@ -106,10 +106,10 @@ std::optional<std::pair<HalfedgeId, HalfedgeId>> free_bridge(const Mesh& m, std:
     bool clear = in_cone(a, q) && in_cone(c, p);
     for (EdgeId e : edges(m)) {
       const VertexId v = m.vertex(halfedge(e)), w = m.target(halfedge(e));
-      if (v == m.vertex(a) || v == m.vertex(c) || w == m.vertex(a) || w == m.vertex(c)) continue;
+      if (v == m.vertex(a) || v == m.vertex(c) || w == m.vertex(a) || w == m.vertex(c)) { continue; }
       clear = clear && !(left(p, q, at(v)) * left(p, q, at(w)) <= 0.0 && left(at(v), at(w), p) * left(at(v), at(w), q) <= 0.0);
     }
-    if (clear) return std::pair{a, c};
+    if (clear) { return std::pair{a, c}; }
   }
   return std::nullopt;
 }
@@ -139,10 +139,10 @@ TEST_CASE("a square with a square hole on a bridge: ten corners, eight triangles
 
 TEST_CASE("a row of square holes, each bridged to the one before along the line of their edges, and two bridges in one corner") {
   Plate plate{rectangle({0, 0}, {11, 3}), {}};
-  for (int i = 0; i < 5; ++i) plate.holes.push_back(rectangle({2.0 * i + 1.0, 1.0}, {2.0 * i + 2.0, 2.0}));
+  for (int i = 0; i < 5; ++i) { plate.holes.push_back(rectangle({2.0 * i + 1.0, 1.0}, {2.0 * i + 2.0, 2.0})); }
   Mesh row = shells_of(plate);
   bridge_at(row, 0, {0, 0}, {1, 1});
-  for (std::size_t i = 1; i < 5; ++i) bridge_at(row, i, {2.0 * static_cast<double>(i), 1.0}, {2.0 * static_cast<double>(i) + 1.0, 1.0});
+  for (std::size_t i = 1; i < 5; ++i) { bridge_at(row, i, {2.0 * static_cast<double>(i), 1.0}, {2.0 * static_cast<double>(i) + 1.0, 1.0}); }
   check_whole(row, 28.0);
 
   const Plate fan{rectangle({0, 0}, {4, 4}), {rectangle({1, 2}, {2, 3}), rectangle({2, 1}, {3, 1.5})}};
@@ -151,7 +151,7 @@ TEST_CASE("a row of square holes, each bridged to the one before along the line 
   const HalfedgeId first = corner_at(m, FaceId{0}, {0, 0});  // two corners are there now: the one below the first bridge is meant
   HalfedgeId below = first;
   for (HalfedgeId h : halfedges_of(m, FaceId{0})) {
-    if (m.vertex(h) == m.vertex(first) && m.data(m.target(h)).position == glm::dvec3{4, 0, 0}) below = h;
+    if (m.vertex(h) == m.vertex(first) && m.data(m.target(h)).position == glm::dvec3{4, 0, 0}) { below = h; }
   }
   REQUIRE(bridge(m, below, corner_at(m, back_of_hole(1), {2, 1})));
   check_whole(m, 14.5);
@@ -166,9 +166,9 @@ TEST_CASE("random plates with random holes on random bridges are covered exactly
     for (glm::dvec2& p : plate.outline) p *= 8.0 / glm::length(p) + 3.0;  // radii from 8.3 to 11.3
     if (area_of(plate) < 160.0) continue;                                 // a wide gap between two corners comes near the holes
     for (int i = 0; i < 9; ++i) {
-      if (random.below(3) == 0) continue;
+      if (random.below(3) == 0) { continue; }
       Points hole = outlines::star_shaped(1000 * seed + static_cast<std::uint32_t>(i));
-      for (glm::dvec2& p : hole) p += glm::dvec2{2.5 * (i % 3 - 1), 2.5 * (i / 3 - 1)};
+      for (glm::dvec2& p : hole) { p += glm::dvec2{2.5 * (i % 3 - 1), 2.5 * (i / 3 - 1)}; }
       plate.holes.push_back(hole);
     }
     Mesh m = shells_of(plate);
@@ -176,9 +176,9 @@ TEST_CASE("random plates with random holes on random bridges are covered exactly
     for (std::size_t i = 0; i < plate.holes.size() && all_bridged; ++i) {
       const auto ends = free_bridge(m, i, random);
       all_bridged = ends.has_value();
-      if (ends) REQUIRE(bridge(m, ends->first, ends->second));
+      if (ends) { REQUIRE(bridge(m, ends->first, ends->second)); }
     }
-    if (!all_bridged) continue;
+    if (!all_bridged) { continue; }
     bridges += plate.holes.size();
     check_whole(m, area_of(plate));
   }
@@ -213,15 +213,17 @@ TEST_CASE("of random polygons on a small grid, those that are accepted wind once
       p.push_back(p[0]);
     }
     const std::size_t first = p.size();
-    for (unsigned corners = 3 + random.below(first > 0 ? 3 : 7); corners > 0; --corners) p.push_back({random.below(5), random.below(5)});
-    if (first > 0) p.push_back(p[first]);
+    for (unsigned corners = 3 + random.below(first > 0 ? 3 : 7); corners > 0; --corners) {
+      p.push_back({random.below(5), random.below(5)});
+    }
+    if (first > 0) { p.push_back(p[first]); }
     const std::size_t n = p.size();
-    for (const glm::dvec2& x : p) in_space.push_back({x, 0.0});
-    if (!(vector_area(in_space).z > 0.0) || Outline(in_space).self_contact()) continue;
+    for (const glm::dvec2& x : p) { in_space.push_back({x, 0.0}); }
+    if (!(vector_area(in_space).z > 0.0) || Outline(in_space).self_contact()) { continue; }
     ++accepted;
     std::size_t equal = 0;
     for (std::size_t k = 0; k < n; ++k) {
-      for (std::size_t l = 0; l < k; ++l) equal += p[k] == p[l] ? 1 : 0;
+      for (std::size_t l = 0; l < k; ++l) { equal += p[k] == p[l] ? 1 : 0; }
     }
     with_holes += equal > 0 ? 1 : 0;
     CAPTURE(i, n);
@@ -232,12 +234,12 @@ TEST_CASE("of random polygons on a small grid, those that are accepted wind once
       for (std::size_t k = 0; k < n; ++k) {
         const glm::dvec2 a = p[k], b = p[(k + 1) % n];
         const double left = (b.x - a.x) * (at.y - a.y) - (b.y - a.y) * (at.x - a.x);
-        if (a.y <= at.y && b.y > at.y && left > 0.0) ++winding;
-        if (a.y > at.y && b.y <= at.y && left < 0.0) --winding;
+        if (a.y <= at.y && b.y > at.y && left > 0.0) { ++winding; }
+        if (a.y > at.y && b.y <= at.y && left < 0.0) { --winding; }
       }
       REQUIRE((winding == 0 || winding == 1));
     }
-    if (equal > 0) check_whole(shapes::build(shapes::pillow_builder(p)), vector_area(in_space).z);
+    if (equal > 0) { check_whole(shapes::build(shapes::pillow_builder(p)), vector_area(in_space).z); }
   }
   CAPTURE(accepted, with_holes);
   CHECK(accepted > 1000);

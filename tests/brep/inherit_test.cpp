@@ -39,11 +39,11 @@ template <class B>
 B square() {
   B m;
   const HalfedgeId h = *make_segment(m);
-  for (int i = 0; i < 2; ++i) REQUIRE(split_edge(m, h));
+  for (int i = 0; i < 2; ++i) { REQUIRE(split_edge(m, h)); }
   REQUIRE(split_face(m, twin(m.next(m.next(h))), h));
-  for (VertexId v : vertices(m)) m.data(v) = {static_cast<int>(100 + v.index)};
-  for (FaceId f : faces(m)) m.data(f) = {static_cast<int>(100 + f.index)};
-  for (HalfedgeId x : shapes::all_halfedges(m)) m.data(x) = {static_cast<int>(100 + x.index)};
+  for (VertexId v : vertices(m)) { m.data(v) = {static_cast<int>(100 + v.index)}; }
+  for (FaceId f : faces(m)) { m.data(f) = {static_cast<int>(100 + f.index)}; }
+  for (HalfedgeId x : shapes::all_halfedges(m)) { m.data(x) = {static_cast<int>(100 + x.index)}; }
   REQUIRE(shapes::faults(m) == "");
   return m;
 }
@@ -118,8 +118,8 @@ TEST_CASE("join_faces and join_vertices: the element that stays keeps its data")
 
 TEST_CASE("a type with a member inherit decides itself, and make_segment has no parent") {
   Family m = square<Family>();
-  for (VertexId v : vertices(m)) m.data(v).generation = 0;
-  for (FaceId f : faces(m)) m.data(f).generation = 0;
+  for (VertexId v : vertices(m)) { m.data(v).generation = 0; }
+  for (FaceId f : faces(m)) { m.data(f).generation = 0; }
   const HalfedgeId a{0};
   const FaceId f = m.face(a);
   const auto is_child = [](const Child& data, int parent) { return data.parent == parent && data.generation == 1 && data.number == -1; };
@@ -181,12 +181,12 @@ TEST_CASE("data that own memory live through random sequences of all operators")
     INFO("seed " << seed);
     shapes::Random random(seed);
     BRep<Heavy, Heavy, Heavy> m;
-    for (int i = 0; i < 500; ++i) calls::apply(m, calls::random_call(m, random, 40));
+    for (int i = 0; i < 500; ++i) { calls::apply(m, calls::random_call(m, random, 40)); }
     auto copy = m;
     const auto before = shapes::picture(m);
-    for (int i = 0; i < 200; ++i) calls::apply(copy, calls::random_call(copy, random, 5));
+    for (int i = 0; i < 200; ++i) { calls::apply(copy, calls::random_call(copy, random, 5)); }
     CHECK(shapes::picture(m) == before);  // copies are independent
-    for (FaceId f : faces(m)) CHECK(m.data(f).list.size() == 3);
-    for (HalfedgeId h : shapes::all_halfedges(m)) CHECK(m.data(h).list.size() == 3);
+    for (FaceId f : faces(m)) { CHECK(m.data(f).list.size() == 3); }
+    for (HalfedgeId h : shapes::all_halfedges(m)) { CHECK(m.data(h).list.size() == 3); }
   }
 }

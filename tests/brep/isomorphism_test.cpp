@@ -35,7 +35,7 @@ Bare renamed(const Bare& mesh, shapes::Random& random) {
   Bare result;
   const auto shuffled = [&](auto&& range) {
     std::vector<std::decay_t<decltype(*range.begin())>> order;
-    for (auto id : range) order.insert(order.begin() + random.below(order.size() + 1), id);
+    for (auto id : range) { order.insert(order.begin() + random.below(order.size() + 1), id); }
     return order;
   };
   std::map<HalfedgeId, HalfedgeId> h;
@@ -46,19 +46,21 @@ Bare renamed(const Bare& mesh, shapes::Random& random) {
     h[x] = Raw::new_edge(result);
     h[twin(x)] = twin(h[x]);
   }
-  for (VertexId x : shuffled(vertices(mesh))) Raw::at(result, v[x] = Raw::new_vertex(result)).halfedge = h[mesh.halfedge(x)];
-  for (FaceId x : shuffled(faces(mesh))) Raw::at(result, f[x] = Raw::new_face(result)).halfedge = h[mesh.halfedge(x)];
-  for (const auto& [old, made] : h) Raw::at(result, made) = {h[mesh.next(old)], h[mesh.prev(old)], v[mesh.vertex(old)], f[mesh.face(old)]};
+  for (VertexId x : shuffled(vertices(mesh))) { Raw::at(result, v[x] = Raw::new_vertex(result)).halfedge = h[mesh.halfedge(x)]; }
+  for (FaceId x : shuffled(faces(mesh))) { Raw::at(result, f[x] = Raw::new_face(result)).halfedge = h[mesh.halfedge(x)]; }
+  for (const auto& [old, made] : h) {
+    Raw::at(result, made) = {h[mesh.next(old)], h[mesh.prev(old)], v[mesh.vertex(old)], f[mesh.face(old)]};
+  }
   return result;
 }
 
 // m x n quadrilaterals on a torus whose seam is glued with a shift.
 Bare twisted_torus(std::uint32_t m, std::uint32_t n, std::uint32_t shift) {
   Builder b;
-  for (std::uint32_t i = 0; i < m * n; ++i) b.vertex({i % m, i / m, 0});
+  for (std::uint32_t i = 0; i < m * n; ++i) { b.vertex({i % m, i / m, 0}); }
   const auto at = [&](std::uint32_t x, std::uint32_t y) { return y % n * m + (x + (y >= n ? shift : 0)) % m; };
   for (std::uint32_t y = 0; y < n; ++y) {
-    for (std::uint32_t x = 0; x < m; ++x) b.face({at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)}, 0);
+    for (std::uint32_t x = 0; x < m; ++x) { b.face({at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)}, 0); }
   }
   return shapes::build<Bare>(b);
 }
@@ -93,7 +95,7 @@ TEST_CASE("a renamed BRep of many shells and handles is isomorphic to itself, an
     shapes::Random random(seed);
     Bare a;
     const std::size_t limit = 4 + random.below(60);
-    for (int i = 0; i < 200; ++i) calls::apply(a, calls::random_call(a, random, limit));
+    for (int i = 0; i < 200; ++i) { calls::apply(a, calls::random_call(a, random, limit)); }
     const Bare b = renamed(a, random), c = maps::mirrored(b);
     REQUIRE_THAT(b, IsValid());
     const auto image = find_isomorphism(a, b);
@@ -102,9 +104,9 @@ TEST_CASE("a renamed BRep of many shells and handles is isomorphic to itself, an
     const auto reversed = find_isomorphism(a, c, Orientation::reversed);
     REQUIRE(reversed.has_value());
     check_image(a, c, *reversed, Orientation::reversed);
-    if (find_isomorphism(a, c)) continue;
+    if (find_isomorphism(a, c)) { continue; }
     ++chiral;
-    if (!difference(a, c).empty()) CHECK(has(difference(a, c), "mirror image"));
+    if (!difference(a, c).empty()) { CHECK(has(difference(a, c), "mirror image")); }
   }
   CHECK(chiral > 20);
 }

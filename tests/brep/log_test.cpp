@@ -23,11 +23,11 @@ using DataLogged = BRep<NumberData, ListData, ListData, EulerLog>;
 std::vector<std::uint32_t> everything(const DataLogged& m) {
   std::vector<std::uint32_t> all = shapes::picture(m);
   const auto add = [&](const ListData& data) {
-    for (int x : data.list) all.push_back(static_cast<std::uint32_t>(x));
+    for (int x : data.list) { all.push_back(static_cast<std::uint32_t>(x)); }
   };
-  for (HalfedgeId h : shapes::all_halfedges(m)) add(m.data(h));
-  for (FaceId f : faces(m)) add(m.data(f));
-  for (VertexId v : vertices(m)) all.push_back(static_cast<std::uint32_t>(m.data(v).number));
+  for (HalfedgeId h : shapes::all_halfedges(m)) { add(m.data(h)); }
+  for (FaceId f : faces(m)) { add(m.data(f)); }
+  for (VertexId v : vertices(m)) { all.push_back(static_cast<std::uint32_t>(m.data(v).number)); }
   return all;
 }
 
@@ -35,13 +35,13 @@ std::vector<std::uint32_t> everything(const DataLogged& m) {
 // nothing is written into older ones.)
 void write_new_data(DataLogged& m, int& number) {
   for (HalfedgeId h : shapes::all_halfedges(m)) {
-    if (m.data(h).list.empty()) m.data(h).list = {++number, number};
+    if (m.data(h).list.empty()) { m.data(h).list = {++number, number}; }
   }
   for (FaceId f : faces(m)) {
-    if (m.data(f).list.empty()) m.data(f).list = {++number};
+    if (m.data(f).list.empty()) { m.data(f).list = {++number}; }
   }
   for (VertexId v : vertices(m)) {
-    if (m.data(v).number == 0) m.data(v).number = ++number;
+    if (m.data(v).number == 0) { m.data(v).number = ++number; }
   }
 }
 

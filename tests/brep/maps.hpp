@@ -35,17 +35,18 @@ Canonical canonical(const B& mesh) {
     for (std::size_t i = 0; i < order.size(); ++i) {
       for (HalfedgeId h : {mesh.next(order[i]), twin(order[i])}) {
         const auto found = number.emplace(h, static_cast<std::uint32_t>(order.size()));
-        if (found.second) order.push_back(h);
+        if (found.second) { order.push_back(h); }
         word.push_back(found.first->second);
       }
     }
-    if (best.word.empty() || word < best.word) best = {word, 0};
-    if (word == best.word) ++best.automorphisms;
+    if (best.word.empty() || word < best.word) { best = {word, 0}; }
+    if (word == best.word) { ++best.automorphisms; }
   }
   return best;
 }
 
-// Faces become vertices and vertices faces, free slots included; next*(h) = next(twin(h)). The dual of the dual is the same, record for record.
+// Faces become vertices and vertices faces, free slots included; next*(h) = next(twin(h)). The dual of the dual is the same, record for
+// record.
 inline Bare dual(const Bare& mesh) {
   using brep::detail::Raw;
   Bare result = mesh;
@@ -65,8 +66,8 @@ inline Bare dual(const Bare& mesh) {
 inline Bare mirrored(const Bare& mesh) {
   using brep::detail::Raw;
   Bare result = mesh;
-  for (HalfedgeId h : shapes::all_halfedges(mesh)) Raw::at(result, h) = {mesh.prev(h), mesh.next(h), mesh.target(h), mesh.face(h)};
-  for (brep::VertexId v : brep::vertices(mesh)) Raw::at(result, v).halfedge = twin(mesh.halfedge(v));
+  for (HalfedgeId h : shapes::all_halfedges(mesh)) { Raw::at(result, h) = {mesh.prev(h), mesh.next(h), mesh.target(h), mesh.face(h)}; }
+  for (brep::VertexId v : brep::vertices(mesh)) { Raw::at(result, v).halfedge = twin(mesh.halfedge(v)); }
   return result;
 }
 
@@ -81,9 +82,9 @@ inline Bare together(const Bare& a, const Bare& b) {
     h[halfedge(e)] = Raw::new_edge(result);
     h[twin(halfedge(e))] = twin(h[halfedge(e)]);
   }
-  for (brep::VertexId x : brep::vertices(b)) Raw::at(result, v[x] = Raw::new_vertex(result)).halfedge = h[b.halfedge(x)];
-  for (brep::FaceId x : brep::faces(b)) Raw::at(result, f[x] = Raw::new_face(result)).halfedge = h[b.halfedge(x)];
-  for (const auto& [old, made] : h) Raw::at(result, made) = {h[b.next(old)], h[b.prev(old)], v[b.vertex(old)], f[b.face(old)]};
+  for (brep::VertexId x : brep::vertices(b)) { Raw::at(result, v[x] = Raw::new_vertex(result)).halfedge = h[b.halfedge(x)]; }
+  for (brep::FaceId x : brep::faces(b)) { Raw::at(result, f[x] = Raw::new_face(result)).halfedge = h[b.halfedge(x)]; }
+  for (const auto& [old, made] : h) { Raw::at(result, made) = {h[b.next(old)], h[b.prev(old)], v[b.vertex(old)], f[b.face(old)]}; }
   return result;
 }
 
@@ -97,7 +98,7 @@ inline std::vector<Level> all_maps(std::size_t limit) {
   REQUIRE(split_face(loop, h, twin(h)));
   REQUIRE(join_vertices(loop, h));
   std::vector<Level> levels(limit + 1);
-  for (const Bare& first : {segment, loop}) levels[1].emplace(canonical(first).word, first);
+  for (const Bare& first : {segment, loop}) { levels[1].emplace(canonical(first).word, first); }
   for (std::size_t n = 1; n < limit; ++n) {
     for (const auto& entry : levels[n]) {
       const Bare& mesh = entry.second;
@@ -105,7 +106,7 @@ inline std::vector<Level> all_maps(std::size_t limit) {
         for (HalfedgeId b : shapes::all_halfedges(mesh)) {
           const auto keep = [&](auto&& grow) {
             Bare grown = mesh;
-            if (grow(grown)) levels[n + 1].emplace(canonical(grown).word, grown);
+            if (grow(grown)) { levels[n + 1].emplace(canonical(grown).word, grown); }
           };
           keep([&](Bare& m) { return split_face(m, a, b).has_value(); });
           keep([&](Bare& m) { return split_vertex(m, a, b).has_value(); });

@@ -79,7 +79,7 @@ template <class Alive>
 std::uint32_t slot(std::uint32_t end, std::uint32_t step, bool alive, Alive&& is_alive, Random& random) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
     const std::uint32_t i = random.below(end) / step * step;
-    if (is_alive(i) == alive) return i;
+    if (is_alive(i) == alive) { return i; }
   }
   return invalid_index;
 }
@@ -105,44 +105,44 @@ int mutate(Bare& m, Mutation field, Random& random) {
   auto& r = halfedges[h.index];
   switch (field) {
     case next:
-      if (!write(r.next.index, halfedges.size())) return 0;
+      if (!write(r.next.index, halfedges.size())) { return 0; }
       if (h.index % 2 == 0 && (r.next.index & dead_bit) != 0) return 7;  // the edge looks dead
       return before.alive(r.next) ? 3 : 1;
     case prev:
-      if (!write(r.prev.index, halfedges.size())) return 0;
+      if (!write(r.prev.index, halfedges.size())) { return 0; }
       return before.alive(r.prev) ? 3 : 1;
     case vertex:
-      if (!write(r.vertex.index, m.vertex_end())) return 0;
-      if (!before.alive(r.vertex)) return 1;
+      if (!write(r.vertex.index, m.vertex_end())) { return 0; }
+      if (!before.alive(r.vertex)) { return 1; }
       return degree(before, before.vertex(h)) == 1 ? 6 : 2;  // the end of a spur has no neighbour that could disagree
     case face:
-      if (!write(r.face.index, m.face_end())) return 0;
-      if (!before.alive(r.face)) return 1;
+      if (!write(r.face.index, m.face_end())) { return 0; }
+      if (!before.alive(r.face)) { return 1; }
       return before.halfedge(before.face(h)) == h ? 6 : 4;
     case vertex_anchor: {
       const VertexId v{live(Raw::vertices(m), 1)};
       HalfedgeId& anchor = Raw::at(m, v).halfedge;
-      if (!write(anchor.index, halfedges.size())) return 0;
-      if ((anchor.index & dead_bit) != 0) return 7;
-      if (!before.alive(anchor)) return 1;
+      if (!write(anchor.index, halfedges.size())) { return 0; }
+      if ((anchor.index & dead_bit) != 0) { return 7; }
+      if (!before.alive(anchor)) { return 1; }
       return before.vertex(anchor) == v ? 0 : 6;
     }
     case face_anchor: {
       const FaceId f{live(Raw::faces(m), 1)};
       HalfedgeId& anchor = Raw::at(m, f).halfedge;
-      if (!write(anchor.index, halfedges.size())) return 0;
-      if ((anchor.index & dead_bit) != 0) return 7;
-      if (!before.alive(anchor)) return 1;
+      if (!write(anchor.index, halfedges.size())) { return 0; }
+      if ((anchor.index & dead_bit) != 0) { return 7; }
+      if (!before.alive(anchor)) { return 1; }
       return before.face(anchor) == f ? 0 : 6;
     }
     case free_link:
     case free_head:
     case count: {
       const auto damage = [&](auto& pool, std::uint32_t step) {
-        if (field == count) return write(counter(pool), pool.size()) ? 8 : 0;
-        if (field == free_head) return write(list_head(pool), pool.size()) ? 7 : 0;
+        if (field == count) { return write(counter(pool), pool.size()) ? 8 : 0; }
+        if (field == free_head) { return write(list_head(pool), pool.size()) ? 7 : 0; }
         const std::uint32_t i = dead(pool, step);
-        if (i == invalid_index) return 0;
+        if (i == invalid_index) { return 0; }
         std::uint32_t& word = link(pool[i]);
         const std::uint32_t old = word;
         word = new_value(old & ~dead_bit, pool.size(), random) ^ (random.below(8) == 0 ? 0 : dead_bit);
@@ -159,11 +159,11 @@ int mutate(Bare& m, Mutation field, Random& random) {
     }
     default: {
       const std::uint32_t i = dead(halfedges, 2);
-      if (i == invalid_index) return 0;
+      if (i == invalid_index) { return 0; }
       auto& t = halfedges[i + 1];
       for (std::uint32_t* word : {&halfedges[i].prev.index, &halfedges[i].vertex.index, &halfedges[i].face.index, &t.next.index,
                                   &t.prev.index, &t.vertex.index, &t.face.index}) {
-        if (random.below(3) == 0) *word = new_value(*word, halfedges.size(), random);
+        if (random.below(3) == 0) { *word = new_value(*word, halfedges.size(), random); }
       }
       return 0;
     }
@@ -174,7 +174,7 @@ int mutate(Bare& m, Mutation field, Random& random) {
 Bare sample(Random& random) {
   Bare m;
   const std::size_t limit = 2 + random.below(30);
-  for (int i = 0; i < 150 || m.edge_count() == 0; ++i) calls::apply(m, calls::random_call(m, random, limit));
+  for (int i = 0; i < 150 || m.edge_count() == 0; ++i) { calls::apply(m, calls::random_call(m, random, limit)); }
   return m;
 }
 
@@ -212,7 +212,7 @@ TEST_CASE("one field of one record is overwritten: every fault is caught, with t
       CHECK(found.empty() == is_sound);
       Score& score = scores[field];
       score.harmless += is_sound;
-      if (is_sound) continue;
+      if (is_sound) { continue; }
       ++score.faults;
       score.caught += !found.empty();
       const bool right = rules_of(found).count(rule) != 0;

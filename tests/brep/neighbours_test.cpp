@@ -21,7 +21,7 @@ using Bare = BRep<>;
 template <class Range>
 auto list(const Range& range) {
   std::vector<typename std::remove_cvref_t<decltype(*range.begin())>> result;
-  for (auto x : range) result.push_back(x);
+  for (auto x : range) { result.push_back(x); }
   return result;
 }
 template <class Range>
@@ -39,22 +39,22 @@ void check_reciprocity(const B& m) {
   };
   std::vector<std::pair<Element, Element>> forward, backward;
   for (FaceId f : faces(m)) {
-    for (VertexId v : vertices_of(m, f)) forward.emplace_back(f, v);
-    for (EdgeId e : edges_of(m, f)) forward.emplace_back(f, e);
-    for (FaceId g : neighbours_of(m, f)) forward.emplace_back(f, g), backward.emplace_back(g, f);
+    for (VertexId v : vertices_of(m, f)) { forward.emplace_back(f, v); }
+    for (EdgeId e : edges_of(m, f)) { forward.emplace_back(f, e); }
+    for (FaceId g : neighbours_of(m, f)) { forward.emplace_back(f, g), backward.emplace_back(g, f); }
     CHECK(list(vertices_of(m, f)).size() == degree(m, f));
     CHECK(list(edges_of(m, f)).size() == degree(m, f));
     CHECK(list(neighbours_of(m, f)).size() == degree(m, f));
   }
   for (VertexId v : vertices(m)) {
-    for (FaceId f : faces_of(m, v)) backward.emplace_back(f, v);
-    for (EdgeId e : edges_of(m, v)) forward.emplace_back(v, e);
-    for (VertexId w : neighbours_of(m, v)) forward.emplace_back(v, w), backward.emplace_back(w, v);
+    for (FaceId f : faces_of(m, v)) { backward.emplace_back(f, v); }
+    for (EdgeId e : edges_of(m, v)) { forward.emplace_back(v, e); }
+    for (VertexId w : neighbours_of(m, v)) { forward.emplace_back(v, w), backward.emplace_back(w, v); }
     CHECK(list(neighbours_of(m, v)).size() == degree(m, v));
   }
   for (EdgeId e : edges(m)) {
-    for (FaceId f : faces_of(m, e)) backward.emplace_back(f, e);
-    for (VertexId v : vertices_of(m, e)) backward.emplace_back(v, e);
+    for (FaceId f : faces_of(m, e)) { backward.emplace_back(f, e); }
+    for (VertexId v : vertices_of(m, e)) { backward.emplace_back(v, e); }
   }
   const auto order = [&](const auto& a, const auto& b) {
     return key(a.first, b.first) || (!key(b.first, a.first) && key(a.second, b.second));
@@ -136,7 +136,7 @@ TEST_CASE("all walks are forward ranges whose iterators outlive them, and the al
     auto it = range.begin();
     const auto again = it++;  // forward: a copy passes the same elements
     std::vector<typename R::iterator::value_type> a(range.begin(), range.end()), b;
-    for (auto other = again; other != range.end(); ++other) b.push_back(*other);
+    for (auto other = again; other != range.end(); ++other) { b.push_back(*other); }
     CHECK(a == b);
     CHECK(!range.empty());
     CHECK(static_cast<std::size_t>(std::ranges::distance(range)) == a.size());

@@ -20,7 +20,7 @@ inline Points comb(unsigned teeth) {
   for (unsigned i = teeth; i-- > 0;) {
     const double x = 2.0 * i;
     p.insert(p.end(), {{x + 1.0, 3.0}, {x, 3.0}});
-    if (i > 0) p.insert(p.end(), {{x, 1.0}, {x - 1.0, 1.0}});
+    if (i > 0) { p.insert(p.end(), {{x, 1.0}, {x - 1.0, 1.0}}); }
   }
   return p;
 }

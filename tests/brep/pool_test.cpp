@@ -36,7 +36,7 @@ TEST_CASE("empty attribute types cost nothing: 16 bytes a half-edge, 4 a vertex,
   static_assert(sizeof(BRep<>) == 3 * sizeof(Pool<detail::AnchorRecord, NoData>));
   BRep<> m;
   CHECK(m.bytes() == 0);
-  for (int i = 0; i < 10000; ++i) REQUIRE(make_segment(m));
+  for (int i = 0; i < 10000; ++i) { REQUIRE(make_segment(m)); }
   CHECK(m.bytes() >= 10000 * (2 * 16 + 2 * 4 + 4));
   CHECK(m.bytes() <= 11250 * (2 * 16 + 2 * 4 + 4));  // growth by an eighth
 }
@@ -73,7 +73,7 @@ TEST_CASE("data never move: a reference to data stays valid while the BRep grows
   vertex->value = 1, half->value = 2, face->value = 3;
   for (int i = 0; i < 20000; ++i) {
     const HalfedgeId n = *split_edge(m, h);
-    if (i % 2 == 0) REQUIRE(split_face(m, n, m.next(n)));
+    if (i % 2 == 0) { REQUIRE(split_face(m, n, m.next(n))); }
   }
   CHECK((vertex == &m.data(m.vertex(h)) && half == &m.data(h) && face == &m.data(m.face(h))));
   CHECK((vertex->value == 1 && half->value == 2 && face->value == 3));
@@ -94,7 +94,7 @@ TEST_CASE("in steady state no operator allocates, and no refusal does") {
   CHECK(cycle());
   const std::size_t before = allocation_count(), bytes = m.bytes();  // the topology grows by realloc, which is not counted
   bool good = true;
-  for (int i = 0; i < 1000; ++i) good = cycle() && good;
+  for (int i = 0; i < 1000; ++i) { good = cycle() && good; }
   const std::size_t after = allocation_count();
   CHECK(good);
   CHECK((after == before && m.bytes() == bytes));
@@ -159,7 +159,7 @@ TEST_CASE("a small list keeps its values when it outgrows its inline storage") {
   for (int i = 0; i < 100; ++i) {
     list.push_back(i);
     CHECK(list.size() == static_cast<std::size_t>(i) + 1);
-    for (std::size_t k = 0; k < list.size(); ++k) CHECK(list[k] == static_cast<int>(k));
+    for (std::size_t k = 0; k < list.size(); ++k) { CHECK(list[k] == static_cast<int>(k)); }
   }
   list.clear();
   CHECK(list.empty());
@@ -172,21 +172,21 @@ TEST_CASE("circulators: a face's loop, a vertex's fan, all elements in index ord
   for (FaceId f : faces(m)) {
     CHECK(degree(m, f) == 4);
     CHECK(*halfedges_of(m, f).begin() == m.halfedge(f));
-    for (HalfedgeId h : halfedges_of(m, f)) CHECK(m.face(h) == f);
+    for (HalfedgeId h : halfedges_of(m, f)) { CHECK(m.face(h) == f); }
   }
   for (VertexId v : vertices(m)) {
     CHECK(degree(m, v) == 3);
-    for (HalfedgeId h : halfedges_from(m, v)) CHECK(m.vertex(h) == v);
+    for (HalfedgeId h : halfedges_from(m, v)) { CHECK(m.vertex(h) == v); }
   }
   const FaceId gone = m.face(twin(m.halfedge(FaceId{3})));
   REQUIRE(join_faces(m, m.halfedge(FaceId{3})));
   std::vector<FaceId> seen;
-  for (FaceId f : faces(m)) seen.push_back(f);
+  for (FaceId f : faces(m)) { seen.push_back(f); }
   CHECK(seen.size() == 5);
   CHECK(std::is_sorted(seen.begin(), seen.end()));
   CHECK(std::find(seen.begin(), seen.end(), gone) == seen.end());
   BRep<> empty;
-  for (FaceId f : faces(empty)) FAIL(to_string(f));
+  for (FaceId f : faces(empty)) { FAIL(to_string(f)); }
   CHECK((shell_count(empty) == 0 && genus(empty) == 0));
   static_assert(std::forward_iterator<decltype(halfedges_of(m, FaceId{}).begin())>);
   static_assert(std::forward_iterator<decltype(faces(m).begin())>);

@@ -57,37 +57,37 @@ struct Subject {
     const long v = static_cast<long>(m.vertex_count()), e = static_cast<long>(m.edge_count()), f = static_cast<long>(m.face_count());
     const Code promised = calls::promised(m, call);
     const calls::Answer answer = calls::apply(m, call);
-    if (answer.refusal.code != promised) return "the refusal is not the promised one: " + answer.refusal.sentence();
+    if (answer.refusal.code != promised) { return "the refusal is not the promised one: " + answer.refusal.sentence(); }
     now = picture(m);
     if (!answer.done) {
       ++statistics.refused;
       return now == before ? "" : "a refused call changed a record";
     }
     ++statistics.states;
-    if (!is_valid(m)) return shapes::faults(m);
+    if (!is_valid(m)) { return shapes::faults(m); }
     const calls::Change change = calls::change(call.op);
     if (static_cast<long>(m.vertex_count()) != v + change.v || static_cast<long>(m.edge_count()) != e + change.e ||
         static_cast<long>(m.face_count()) != f + change.f) {
       return "the counts are not those of the operator";
     }
     shells = calls::shells(m);
-    if (!shells.closed) return "v - e + f = 2 - 2h fails in a shell";
-    if (!shells_follow(call.op, shells_before, shells)) return "shells and handles are not those of the operator";
+    if (!shells.closed) { return "v - e + f = 2 - 2h fails in a shell"; }
+    if (!shells_follow(call.op, shells_before, shells)) { return "shells and handles are not those of the operator"; }
     statistics.most_shells = std::max(statistics.most_shells, shells.count);
     statistics.most_handles = std::max(statistics.most_handles, shells.handles);
 
-    if (!undo(m) || picture(m) != before) return "undo does not restore every record";
+    if (!undo(m) || picture(m) != before) { return "undo does not restore every record"; }
     const Call back = calls::inverse(m, call, answer.made);
     const calls::Restores restores = calls::restores(m, call);
     const auto without_anchors = picture(m, shapes::Anchors::hidden);
-    if (!redo(m) || picture(m) != now) return "redo does not restore every record";
-    if (!calls::apply(m, back).done) return "the inverse is refused: " + calls::to_string(back);
-    if (restores == calls::Restores::every_record && picture(m) != before) return "the inverse does not restore every record";
+    if (!redo(m) || picture(m) != now) { return "redo does not restore every record"; }
+    if (!calls::apply(m, back).done) { return "the inverse is refused: " + calls::to_string(back); }
+    if (restores == calls::Restores::every_record && picture(m) != before) { return "the inverse does not restore every record"; }
     if (restores != calls::Restores::the_shape && picture(m, shapes::Anchors::hidden) != without_anchors) {
       return "the inverse does not restore every record but anchors";
     }
-    if (!is_valid(m)) return "after the inverse: " + shapes::faults(m);
-    if (!undo(m) || picture(m) != now) return "undo of the inverse does not restore every record";
+    if (!is_valid(m)) { return "after the inverse: " + shapes::faults(m); }
+    if (!undo(m) || picture(m) != now) { return "undo of the inverse does not restore every record"; }
     return {};
   }
 };
@@ -96,7 +96,7 @@ std::string play(std::span<const Call> list) {
   Subject subject;
   Tally unused;
   for (const Call& call : list) {
-    if (std::string broken = subject.step(call, unused); !broken.empty()) return broken;
+    if (std::string broken = subject.step(call, unused); !broken.empty()) { return broken; }
   }
   return {};
 }
@@ -117,19 +117,19 @@ std::string run(std::uint32_t seed, Tally& statistics) {
     }
   }
   const Logged end = m;
-  if (!undo_to(m, 0) || picture(m) != start) return "the whole log undone is not the start";
-  if (!undo_to(m, mark(end)) || picture(m) != subject.now) return "the whole log redone is not the end";
+  if (!undo_to(m, 0) || picture(m) != start) { return "the whole log undone is not the start"; }
+  if (!undo_to(m, mark(end)) || picture(m) != subject.now) { return "the whole log redone is not the end"; }
   Logged other;
   const Replay replayed = replay(steps(end), other);
-  if (!replayed) return "replay: " + replayed.refusal.sentence();
-  if (picture(other) != subject.now) return "replay into an empty BRep gives other records";
+  if (!replayed) { return "replay: " + replayed.refusal.sentence(); }
+  if (picture(other) != subject.now) { return "replay into an empty BRep gives other records"; }
   return {};
 }
 
 void run_seeds(std::uint32_t first, std::uint32_t last) {
   Tally statistics;
   for (std::uint32_t seed = first; seed <= last; ++seed) {
-    if (const std::string broken = run(seed, statistics); !broken.empty()) FAIL("seed " << seed << ": " << broken);
+    if (const std::string broken = run(seed, statistics); !broken.empty()) { FAIL("seed " << seed << ": " << broken); }
   }
   CHECK(statistics.states >= (last - first + 1) * states_a_seed);
   CHECK(statistics.refused > statistics.states / 20);
@@ -150,7 +150,7 @@ TEST_CASE("a failing sequence is shrunk until no step can be spared") {
     Logged m;
     for (const Call& call : list) {
       calls::apply(m, call);
-      if (genus(m) == 2) return true;
+      if (genus(m) == 2) { return true; }
     }
     return false;
   };

@@ -15,12 +15,12 @@ namespace {
 
 std::vector<FaceId> all_faces(const Mesh& m) {
   std::vector<FaceId> all;
-  for (FaceId f : faces(m)) all.push_back(f);
+  for (FaceId f : faces(m)) { all.push_back(f); }
   return all;
 }
 std::size_t count_t_vertices(const Mesh& m, FaceId f) {
   std::size_t n = 0;
-  for (HalfedgeId h : halfedges_of(m, f)) n += m.data(m.vertex(h)).level > m.data(f).level;
+  for (HalfedgeId h : halfedges_of(m, f)) { n += m.data(m.vertex(h)).level > m.data(f).level; }
   return n;
 }
 Mesh refined_at_random(const Builder& solid, std::uint32_t seed, int steps) {
@@ -48,7 +48,7 @@ TEST_CASE("a face of n corners: children, levels, counts, corner 0, centroid") {
     m.data(top).label = 5;
     const auto before = corners(m, top);
     std::vector<VertexId> old_corner;
-    for (HalfedgeId h : before) old_corner.push_back(m.vertex(h));
+    for (HalfedgeId h : before) { old_corner.push_back(m.vertex(h)); }
     REQUIRE(old_corner.size() == n);
     const double whole = area(m, top);
     const glm::dvec3 centre = centroid(m, top);
@@ -68,13 +68,13 @@ TEST_CASE("a face of n corners: children, levels, counts, corner 0, centroid") {
       CHECK(c.size() == (n == 3 ? 3 : 4));
       CHECK(m.halfedge(child) == c[0]);
       CHECK((m.data(child).level == 1 && m.data(child).sheet == 1 && m.data(child).label == 5));
-      if (k < n) CHECK(m.vertex(c[0]) == old_corner[k]);
+      if (k < n) { CHECK(m.vertex(c[0]) == old_corner[k]); }
       if (k < n) {  // (c_k, m_k, centre, m_{k-1})
         const auto at = [&](std::size_t i) { return m.data(m.vertex(c[i])).position; };
         const auto corner = [&](std::size_t i) { return m.data(old_corner[i % n]).position; };
         CHECK(glm::distance(at(1), 0.5 * (corner(k) + corner(k + 1))) < 1e-15);
         CHECK(glm::distance(at(c.size() - 1), 0.5 * (corner(k) + corner(k + n - 1))) < 1e-15);
-        if (n > 3) CHECK(glm::distance(at(2), centre) < 1e-15);
+        if (n > 3) { CHECK(glm::distance(at(2), centre) < 1e-15); }
       }
       CHECK(is_convex(m, child));
       sum += area(m, child);
@@ -138,14 +138,14 @@ TEST_CASE("random refinement: always valid, v - e + f = 2(s - h), area kept, fac
         // Now and then the last child again, so that deep levels stand beside coarse ones.
         const FaceId f = random.below(3) == 0 ? all.back() : all[random.below(all.size())];
         std::vector<VertexId> corner;
-        for (HalfedgeId h : corners(m, f)) corner.push_back(m.vertex(h));
+        for (HalfedgeId h : corners(m, f)) { corner.push_back(m.vertex(h)); }
         const auto children = refine(m, f);
         REQUIRE(children);
-        for (std::size_t k = 0; k < corner.size(); ++k) REQUIRE(m.vertex(corners(m, (*children)[k])[0]) == corner[k]);
+        for (std::size_t k = 0; k < corner.size(); ++k) { REQUIRE(m.vertex(corners(m, (*children)[k])[0]) == corner[k]); }
         REQUIRE(faults(m) == "");
         REQUIRE(genus(m) == 0);
       }
-      for (FaceId f : faces(m)) REQUIRE(is_convex(m, f));
+      for (FaceId f : faces(m)) { REQUIRE(is_convex(m, f)); }
       CHECK(shapes::total_area(m) == test::Approx(whole).epsilon(1e-12));
     }
   }
@@ -155,9 +155,9 @@ TEST_CASE("corner 0 does not depend on what the neighbours do") {
   for (const Builder& solid : refined_solids()) {
     Mesh m = shapes::build(solid);
     std::vector<VertexId> first;
-    for (FaceId f : faces(m)) first.push_back(m.vertex(corners(m, f)[0]));
+    for (FaceId f : faces(m)) { first.push_back(m.vertex(corners(m, f)[0])); }
     const std::size_t n = m.face_count();
-    for (std::uint32_t f = 1; f < n; ++f) REQUIRE(refine(m, FaceId{f}));
+    for (std::uint32_t f = 1; f < n; ++f) { REQUIRE(refine(m, FaceId{f})); }
     CHECK(m.vertex(corners(m, FaceId{0})[0]) == first[0]);
     CHECK(count_t_vertices(m, FaceId{0}) == degree(m, FaceId{0}) / 2);
   }
@@ -173,9 +173,9 @@ TEST_CASE("place is asked once for each new vertex, on a valid BRep, and may mov
     glm::dvec3& p = brep.data(v).position;
     p = glm::dvec3{0.5} + std::sqrt(0.75) * glm::normalize(p - glm::dvec3{0.5});
   };
-  for (std::uint32_t f = 0; f < 6; ++f) REQUIRE(refine(m, FaceId{f}, on_sphere));
+  for (std::uint32_t f = 0; f < 6; ++f) { REQUIRE(refine(m, FaceId{f}, on_sphere)); }
   CHECK(placed.size() == 12 + 6);
-  for (VertexId v : vertices(m)) CHECK(glm::distance(m.data(v).position, glm::dvec3{0.5}) == test::Approx(std::sqrt(0.75)));
+  for (VertexId v : vertices(m)) { CHECK(glm::distance(m.data(v).position, glm::dvec3{0.5}) == test::Approx(std::sqrt(0.75))); }
 }
 
 TEST_CASE("refine is refused, and nothing changed: level 255, few corners, levels that refine did not make") {
@@ -193,7 +193,7 @@ TEST_CASE("refine is refused, and nothing changed: level 255, few corners, level
   Mesh segment;
   REQUIRE(make_segment(segment));
   CHECK(refine(segment, FaceId{0}).refusal().code == Code::few_corners);
-  for (VertexId v : vertices(segment)) segment.data(v).level = 9;
+  for (VertexId v : vertices(segment)) { segment.data(v).level = 9; }
   CHECK(refine(segment, FaceId{0}).refusal().code == Code::few_corners);  // no corner at all
   CHECK(shapes::records(m) == before);
 }
@@ -209,7 +209,7 @@ TEST_CASE("a face with a spur inside, on both sides of an edge, can be refined t
     REQUIRE(children);
     CHECK(children->size() == n + 2);
     CHECK(faults(m) == "");
-    for (FaceId child : *children) CHECK(corners(m, child).size() == 4);
+    for (FaceId child : *children) { CHECK(corners(m, child).size() == 4); }
   }
 }
 
@@ -241,7 +241,7 @@ TEST_CASE("T-vertex elimination leaves triangles and quadrilaterals only, withou
         REQUIRE(degree(m, f) <= 4);
         REQUIRE(count_t_vertices(m, f) == 0);
         const Outline outline{Polygon(positions(m, f))};
-        for (std::size_t i = 0; i < outline.size(); ++i) REQUIRE(outline.turn(i) > 1e-6);
+        for (std::size_t i = 0; i < outline.size(); ++i) { REQUIRE(outline.turn(i) > 1e-6); }
       }
       CHECK(shapes::total_area(m) == test::Approx(whole).epsilon(1e-12));
       for (FaceId f : all_faces(m)) REQUIRE(eliminate_t_vertices(m, f) == 0);  // nothing is left to do
@@ -265,7 +265,7 @@ TEST_CASE("T-vertex elimination on a sphere, where T-vertices do not lie on the 
     const std::size_t end = m.face_end();
     eliminate_t_vertices(m, f);
     REQUIRE(glm::dot(normal(m, f), n) > 0.0);
-    for (std::size_t i = end; i < m.face_end(); ++i) REQUIRE(glm::dot(normal(m, FaceId{static_cast<std::uint32_t>(i)}), n) > 0.0);
+    for (std::size_t i = end; i < m.face_end(); ++i) { REQUIRE(glm::dot(normal(m, FaceId{static_cast<std::uint32_t>(i)}), n) > 0.0); }
   }
   CHECK(faults(m) == "");
   for (FaceId f : faces(m)) {

@@ -26,12 +26,12 @@ std::vector<std::uint32_t> rotated(std::vector<std::uint32_t> corners) {
 // The faces as a set, wherever they begin.
 std::multiset<std::vector<std::uint32_t>> face_set(const Builder& b) {
   std::multiset<std::vector<std::uint32_t>> all;
-  for (const auto& corners : faces_of(b)) all.insert(rotated(corners));
+  for (const auto& corners : faces_of(b)) { all.insert(rotated(corners)); }
   return all;
 }
 std::map<RepairKind, int> kinds(const RepairResult& r) {
   std::map<RepairKind, int> count;
-  for (const Repair& repair : r.repairs) ++count[repair.kind];
+  for (const Repair& repair : r.repairs) { ++count[repair.kind]; }
   return count;
 }
 // What must hold of every repair.
@@ -39,14 +39,14 @@ void check_laws(const Builder& input, const RepairResult& r) {
   REQUIRE(r.old_vertex.size() == r.builder.vertex_count());
   REQUIRE(r.old_face.size() == r.builder.face_count());
   for (std::uint32_t v = 0; v < r.builder.vertex_count(); ++v) {
-    if (r.old_vertex[v] < input.vertex_count()) CHECK(r.builder.position(v) == input.position(r.old_vertex[v]));
+    if (r.old_vertex[v] < input.vertex_count()) { CHECK(r.builder.position(v) == input.position(r.old_vertex[v])); }
   }
-  for (const Repair& repair : r.repairs) CHECK((!repair.sentence.empty() && !repair.elements.empty()));
-  for (const Defect& d : r.remaining) UNSCOPED_INFO("remaining: " << d.sentence);
+  for (const Repair& repair : r.repairs) { CHECK((!repair.sentence.empty() && !repair.elements.empty())); }
+  for (const Defect& d : r.remaining) { UNSCOPED_INFO("remaining: " << d.sentence); }
   const auto closed = close<shapes::Mesh>(r.builder);
   CHECK(closed.brep.has_value() == r.remaining.empty());
-  if (input.edges().empty()) CHECK(closed.defects.size() == r.remaining.size());
-  if (closed.brep) CHECK(shapes::faults(*closed.brep) == "");
+  if (input.edges().empty()) { CHECK(closed.defects.size() == r.remaining.size()); }
+  if (closed.brep) { CHECK(shapes::faults(*closed.brep) == ""); }
   const RepairResult again = repair(r.builder);  // a repair leaves nothing that another one would mend
   CHECK(again.repairs.empty());
   CHECK(faces_of(again.builder) == faces_of(r.builder));
@@ -64,7 +64,7 @@ TEST_CASE("a sound builder is left as it is, nothing is said") {
     const RepairResult r = repair(solid);
     CHECK((r.repairs.empty() && r.remaining.empty()));
     CHECK(faces_of(r.builder) == faces_of(solid));
-    for (std::uint32_t f = 0; f < solid.face_count(); ++f) CHECK(r.builder.sheet(f) == solid.sheet(f));
+    for (std::uint32_t f = 0; f < solid.face_count(); ++f) { CHECK(r.builder.sheet(f) == solid.sheet(f)); }
   }
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("flipped, doubled and missing faces are mended back to the solid, what
     shapes::Random random(seed);
     const Builder& solid = sound_solids()[seed % sound_solids().size()];
     Faces faces = faces_of(solid);
-    for (std::size_t i = faces.size(); i-- > 1;) std::swap(faces[i], faces[random.below(i + 1)]);
+    for (std::size_t i = faces.size(); i-- > 1;) { std::swap(faces[i], faces[random.below(i + 1)]); }
     int flipped = 0, doubled = 0, missing = 0;
     if (random.below(2) == 0) {
       faces.pop_back();
@@ -95,22 +95,22 @@ TEST_CASE("flipped, doubled and missing faces are mended back to the solid, what
     auto expected = face_set(solid);
     CHECK(r.builder.face_count() == solid.face_count());
     // With a face missing and one flipped, a tetrahedron may be turned as a whole: two faces against one.
-    if (solid.face_count() > 4) CHECK(face_set(r.builder) == expected);
+    if (solid.face_count() > 4) { CHECK(face_set(r.builder) == expected); }
     auto count = kinds(r);
-    if (solid.face_count() > 4) CHECK(count[RepairKind::flipped_face] == flipped);
+    if (solid.face_count() > 4) { CHECK(count[RepairKind::flipped_face] == flipped); }
     CHECK(count[RepairKind::dropped_face] == doubled);
     CHECK(count[RepairKind::closed_hole] == missing);
     CHECK(count[RepairKind::dropped_vertex] == 2);
     CHECK(count[RepairKind::split_vertex] == 0);
     for (std::uint32_t f = 0; f < r.builder.face_count(); ++f) {
-      if (r.old_face[f] >= broken.face_count()) CHECK(r.builder.sheet(f) == no_sheet);
+      if (r.old_face[f] >= broken.face_count()) { CHECK(r.builder.sheet(f) == no_sheet); }
     }
   }
 }
 
 TEST_CASE("a solid that is inside out stays inside out") {
   Faces faces = faces_of(shapes::cube_builder());
-  for (auto& corners : faces) std::reverse(corners.begin(), corners.end());
+  for (auto& corners : faces) { std::reverse(corners.begin(), corners.end()); }
   CHECK(repair(with_faces(shapes::cube_builder(), faces)).repairs.empty());
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("solids that touch in a vertex are parted there, each fan gets a verte
     Faces faces;
     for (std::uint32_t i = 0; i < n; ++i) {
       for (auto f : faces_of(shapes::tetrahedron_builder())) {
-        for (std::uint32_t& v : f) v = v == 0 ? 0 : v + 3 * i;
+        for (std::uint32_t& v : f) { v = v == 0 ? 0 : v + 3 * i; }
         faces.push_back(f);
       }
     }
@@ -132,7 +132,7 @@ TEST_CASE("solids that touch in a vertex are parted there, each fan gets a verte
     CHECK(r.repairs[0].kind == RepairKind::split_vertex);
     CHECK(r.repairs[0].elements.size() == n);
     CHECK(r.builder.vertex_count() == 4 * n);
-    for (std::uint32_t v = broken.vertex_count(); v < r.builder.vertex_count(); ++v) CHECK(r.builder.position(v) == broken.position(0));
+    for (std::uint32_t v = broken.vertex_count(); v < r.builder.vertex_count(); ++v) { CHECK(r.builder.position(v) == broken.position(0)); }
     CHECK(shell_count(shapes::build(r.builder)) == n);
   }
 }
@@ -150,7 +150,7 @@ TEST_CASE("holes that touch in a vertex are closed with two faces and the vertex
 
 TEST_CASE("sheets that touch in a vertex get their backs and are parted") {
   Builder b;
-  for (int i = 0; i < 5; ++i) b.vertex({i % 3, i / 3, i * i});
+  for (int i = 0; i < 5; ++i) { b.vertex({i % 3, i / 3, i * i}); }
   b.face({0, 1, 2}, 0);
   b.face({0, 3, 4}, 0);
   const RepairResult r = repair(b);
@@ -178,9 +178,9 @@ TEST_CASE("what cannot be repaired stays and is reported under its old numbers")
   Builder b;
   b.vertex({-1, -1, -1});
   const Builder cube = shapes::cube_builder();
-  for (std::uint32_t v = 0; v < 8; ++v) b.vertex(cube.position(v));
+  for (std::uint32_t v = 0; v < 8; ++v) { b.vertex(cube.position(v)); }
   for (auto corners : faces_of(cube)) {
-    for (std::uint32_t& v : corners) ++v;
+    for (std::uint32_t& v : corners) { ++v; }
     b.face(corners, 0);
   }
   const std::uint32_t tip = b.vertex({0, -1, 0});
@@ -190,7 +190,7 @@ TEST_CASE("what cannot be repaired stays and is reported under its old numbers")
   const RepairResult r = repair(b);
   check_laws(b, r);
   std::map<DefectKind, const Defect*> found;
-  for (const Defect& d : r.remaining) found[d.kind] = &d;
+  for (const Defect& d : r.remaining) { found[d.kind] = &d; }
   REQUIRE(found.count(DefectKind::nonmanifold_edge) == 1);
   CHECK(found[DefectKind::nonmanifold_edge]->sentence.find("between v1 and v2 has 3 faces") != std::string::npos);
   REQUIRE(found.count(DefectKind::bad_index) == 1);
@@ -202,8 +202,8 @@ TEST_CASE("what cannot be repaired stays and is reported under its old numbers")
 
 TEST_CASE("a one-sided strip is not repaired, and said to be one") {
   Builder b;
-  for (int i = 0; i < 10; ++i) b.vertex({i, i * i, i % 3});
-  for (std::uint32_t i = 0; i < 4; ++i) b.face({i, i + 1, i + 6, i + 5}, 0);
+  for (int i = 0; i < 10; ++i) { b.vertex({i, i * i, i % 3}); }
+  for (std::uint32_t i = 0; i < 4; ++i) { b.face({i, i + 1, i + 6, i + 5}, 0); }
   b.face({4, 5, 0, 9}, 0);
   const RepairResult r = repair(b);
   check_laws(b, r);
@@ -221,7 +221,7 @@ TEST_CASE("random damage to solids: the laws of repair hold, and close() gives a
     Faces faces = faces_of(solid);
     for (std::uint32_t k = 1 + random.below(5); k > 0; --k) {
       auto& corners = faces[random.below(faces.size())];
-      if (corners.size() < 3) continue;
+      if (corners.size() < 3) { continue; }
       switch (random.below(7)) {
         case 0:
           std::reverse(corners.begin(), corners.end());
@@ -260,13 +260,13 @@ TEST_CASE("random soup of triangles and quadrilaterals: the laws of repair hold"
     shapes::Random random(seed);
     Builder b;
     const std::uint32_t n = 4 + random.below(8);
-    for (std::uint32_t v = 0; v < n; ++v) b.vertex({random.unit(), random.unit(), random.unit()});
+    for (std::uint32_t v = 0; v < n; ++v) { b.vertex({random.unit(), random.unit(), random.unit()}); }
     for (std::uint32_t f = random.below(12); f > 0; --f) {
       std::vector<std::uint32_t> corners(3 + random.below(2));
-      for (std::uint32_t& v : corners) v = random.below(n);
+      for (std::uint32_t& v : corners) { v = random.below(n); }
       b.face(corners, 0);
     }
-    for (std::uint32_t e = random.below(3) == 0 ? 2 : 0; e > 0; --e) b.edge(random.below(n + 1), random.below(n));
+    for (std::uint32_t e = random.below(3) == 0 ? 2 : 0; e > 0; --e) { b.edge(random.below(n + 1), random.below(n)); }
     CHECK(close<shapes::Mesh>(b).brep.has_value() == diagnose(b).empty());
     check_laws(b, repair(b));
   }

@@ -84,8 +84,8 @@ TEST_CASE("cut_ring: cells stay well proportioned however often they are refined
         *faces = next;
       }
     }
-    for (const FaceId f : cells) worst = std::min(worst, relative_proportion(ring, f));
-    for (const FaceId f : thin) worst_wedge = std::min(worst_wedge, relative_proportion(wedges, f));
+    for (const FaceId f : cells) { worst = std::min(worst, relative_proportion(ring, f)); }
+    for (const FaceId f : thin) { worst_wedge = std::min(worst_wedge, relative_proportion(wedges, f)); }
     // A wedge has right angles at its mid-edges, so its circumscribed circle has the diameter R, and the inscribed one the radius
     // R sin cos / (sin + cos) of half its angle pi / n: the proportion is below 2 pi / n sqrt(2), and finer parts are no better.
     CHECK(worst_wedge < 2.0 * std::sqrt(2.0) * std::numbers::pi / n);
@@ -98,28 +98,28 @@ TEST_CASE("cut_ring: T-vertices of finer neighbours stay T-vertices, and are eli
   Mesh m = shapes::build(shapes::prism_builder(12));
   std::size_t refined = 0;
   for (HalfedgeId h : corners(m, prism_top)) {
-    if (++refined % 3 == 0) REQUIRE(refine(m, m.face(twin(h))));
+    if (++refined % 3 == 0) { REQUIRE(refine(m, m.face(twin(h)))); }
   }
   const auto parts = cut_ring(m, prism_top, [](Mesh&, VertexId) {});
   REQUIRE(parts);
   std::size_t t_vertices = 0;
   for (const FaceId f : *parts) {
-    for (HalfedgeId h : halfedges_of(m, f)) t_vertices += is_t_vertex(m, h);
+    for (HalfedgeId h : halfedges_of(m, f)) { t_vertices += is_t_vertex(m, h); }
   }
   CHECK(t_vertices == 4);
   REQUIRE(refine(m, parts->front()));  // whose neighbours are the next cells and the inner face
   REQUIRE(refine(m, parts->back()));
   CHECK(faults(m) == "");
   std::vector<FaceId> all;
-  for (const FaceId f : faces(m)) all.push_back(f);
-  for (const FaceId f : all) (void)eliminate_t_vertices(m, f);
+  for (const FaceId f : faces(m)) { all.push_back(f); }
+  for (const FaceId f : all) { (void)eliminate_t_vertices(m, f); }
   CHECK(faults(m) == "");
-  for (const FaceId f : faces(m)) CHECK(NoTVertices{}(m, f));
+  for (const FaceId f : faces(m)) { CHECK(NoTVertices{}(m, f)); }
 }
 
 TEST_CASE("cut_ring: a flat ellipse keeps convex cells that cover it; what has too few corners is refused") {
   Mesh m = shapes::build(shapes::prism_builder(16));
-  for (VertexId v : vertices(m)) m.data(v).position.x *= 1e-3;
+  for (VertexId v : vertices(m)) { m.data(v).position.x *= 1e-3; }
   const double whole = area(m, prism_top);
   const auto parts = cut_ring(m, prism_top, [](Mesh&, VertexId) {});
   REQUIRE(parts);

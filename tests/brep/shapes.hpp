@@ -35,14 +35,14 @@ using Faces = std::vector<std::vector<std::uint32_t>>;
 
 inline Faces faces_of(const brep::Builder& b) {
   Faces all;
-  for (std::uint32_t f = 0; f < b.face_count(); ++f) all.emplace_back(b.corners(f).begin(), b.corners(f).end());
+  for (std::uint32_t f = 0; f < b.face_count(); ++f) { all.emplace_back(b.corners(f).begin(), b.corners(f).end()); }
   return all;
 }
 inline brep::Builder with_faces(const brep::Builder& positions, const Faces& faces, std::uint32_t extra_vertices = 0) {
   brep::Builder b;
-  for (std::uint32_t v = 0; v < positions.vertex_count(); ++v) b.vertex(positions.position(v));
-  for (std::uint32_t v = 0; v < extra_vertices; ++v) b.vertex({9.0, 9.0, static_cast<double>(v)});
-  for (const auto& corners : faces) b.face(corners, 0);
+  for (std::uint32_t v = 0; v < positions.vertex_count(); ++v) { b.vertex(positions.position(v)); }
+  for (std::uint32_t v = 0; v < extra_vertices; ++v) { b.vertex({9.0, 9.0, static_cast<double>(v)}); }
+  for (const auto& corners : faces) { b.face(corners, 0); }
   return b;
 }
 inline bool names(const brep::Defect& d, brep::Element e) { return std::find(d.elements.begin(), d.elements.end(), e) != d.elements.end(); }
@@ -69,14 +69,15 @@ inline brep::Builder prism_builder(std::uint32_t n) {
   for (std::uint32_t i = 0; i < 2 * n; ++i) {
     const double angle = 2.0 * pi * (i % n) / n;
     b.vertex({std::cos(angle), std::sin(angle), i < n ? 0.0 : 1.0});
-    if (i < n)
+    if (i < n) {
       bottom.insert(bottom.begin(), i);
-    else
+    } else {
       top.push_back(i);
+    }
   }
   b.face(bottom, 0);
   b.face(top, 1);
-  for (std::uint32_t i = 0; i < n; ++i) b.face({i, (i + 1) % n, n + (i + 1) % n, n + i}, 2);
+  for (std::uint32_t i = 0; i < n; ++i) { b.face({i, (i + 1) % n, n + (i + 1) % n, n + i}, 2); }
   return b;
 }
 // A polygon in the plane z = 0 and its back.
@@ -109,7 +110,7 @@ inline brep::Builder torus_builder(std::uint32_t m, std::uint32_t n) {
 template <class B = Mesh>
 B build(const brep::Builder& builder) {
   brep::BuildResult<B> result = brep::close<B>(builder);
-  for (const brep::Defect& defect : result.defects) UNSCOPED_INFO(defect.sentence);
+  for (const brep::Defect& defect : result.defects) { UNSCOPED_INFO(defect.sentence); }
   REQUIRE(result.brep.has_value());
   return std::move(*result.brep);
 }
@@ -118,7 +119,7 @@ B build(const brep::Builder& builder) {
 template <class B>
 std::string faults(const B& mesh) {
   std::string all;
-  for (const brep::Fault& fault : brep::validate(mesh)) all += fault.sentence + '\n';
+  for (const brep::Fault& fault : brep::validate(mesh)) { all += fault.sentence + '\n'; }
   return all;
 }
 
@@ -133,9 +134,11 @@ std::vector<std::uint32_t> records(const B& mesh) {
       all.insert(all.end(), {h.index, r.next.index, r.prev.index, r.vertex.index, r.face.index});
     }
   }
-  for (brep::VertexId v : brep::vertices(mesh)) all.insert(all.end(), {v.index, mesh.halfedge(v).index});
-  for (brep::FaceId f : brep::faces(mesh)) all.insert(all.end(), {f.index, mesh.halfedge(f).index});
-  for (std::size_t count : {mesh.vertex_count(), mesh.edge_count(), mesh.face_count()}) all.push_back(static_cast<std::uint32_t>(count));
+  for (brep::VertexId v : brep::vertices(mesh)) { all.insert(all.end(), {v.index, mesh.halfedge(v).index}); }
+  for (brep::FaceId f : brep::faces(mesh)) { all.insert(all.end(), {f.index, mesh.halfedge(f).index}); }
+  for (std::size_t count : {mesh.vertex_count(), mesh.edge_count(), mesh.face_count()}) {
+    all.push_back(static_cast<std::uint32_t>(count));
+  }
   return all;
 }
 
@@ -152,12 +155,12 @@ std::vector<std::uint32_t> picture(const B& mesh, Anchors anchors = Anchors::sho
     using Pool = std::decay_t<decltype(pool)>;
     all.push_back(pool.count());
     for (std::uint32_t i = 0; i < pool.size(); i += step) {
-      if (pool.alive(i)) add_record(i);
+      if (pool.alive(i)) { add_record(i); }
     }
     const std::size_t first = all.size();
-    for (std::uint32_t i = pool.first_free(); i != Pool::end_of_list; i = link(pool[i]) & ~Pool::dead_bit) all.push_back(i);
+    for (std::uint32_t i = pool.first_free(); i != Pool::end_of_list; i = link(pool[i]) & ~Pool::dead_bit) { all.push_back(i); }
     std::uint32_t fresh = pool.size();
-    for (; all.size() > first && all.back() + step == fresh; fresh -= step) all.pop_back();
+    for (; all.size() > first && all.back() + step == fresh; fresh -= step) { all.pop_back(); }
     all.push_back(fresh);
   };
   add_pool(Raw::halfedges(mesh), 2, [&](std::uint32_t i) {
@@ -185,7 +188,7 @@ std::vector<brep::HalfedgeId> all_halfedges(const B& mesh) {
 template <class B>
 double total_area(const B& mesh) {
   double sum = 0.0;
-  for (brep::FaceId f : brep::faces(mesh)) sum += brep::area(mesh, f);
+  for (brep::FaceId f : brep::faces(mesh)) { sum += brep::area(mesh, f); }
   return sum;
 }
 

@@ -16,10 +16,10 @@ TEST_CASE("a cube, a tetrahedron and a torus in one BRep are three shells with t
   Builder b;
   for (const Builder& part : {shapes::cube_builder(), shapes::tetrahedron_builder(), shapes::torus_builder(4, 3)}) {
     const auto base = static_cast<std::uint32_t>(b.vertex_count());
-    for (std::uint32_t v = 0; v < part.vertex_count(); ++v) b.vertex(part.position(v));
+    for (std::uint32_t v = 0; v < part.vertex_count(); ++v) { b.vertex(part.position(v)); }
     for (std::uint32_t f = 0; f < part.face_count(); ++f) {
       std::vector<std::uint32_t> corners;
-      for (std::uint32_t v : part.corners(f)) corners.push_back(base + v);
+      for (std::uint32_t v : part.corners(f)) { corners.push_back(base + v); }
       b.face(corners, 0);
     }
   }
@@ -42,7 +42,7 @@ TEST_CASE("a cube, a tetrahedron and a torus in one BRep are three shells with t
       CHECK(seen.insert(h).second);
       CHECK(h >= shell.halfedge);
     }
-    for (std::size_t i = 0; i < halves.size(); i += 2) CHECK(halves[i + 1] == twin(halves[i]));
+    for (std::size_t i = 0; i < halves.size(); i += 2) { CHECK(halves[i + 1] == twin(halves[i])); }
   }
   CHECK(seen.size() == 2 * m.edge_count());
 }
@@ -59,7 +59,7 @@ TEST_CASE("nothing has no shells; segments and loops have genus 0; counts add up
     }
     const HalfedgeId a = halves[random.below(halves.size())];
     if (random.below(3) == 0) {
-      if (!join_vertices(m, a) && !kill_segment(m, a)) (void)join_faces(m, a);
+      if (!join_vertices(m, a) && !kill_segment(m, a)) { (void)join_faces(m, a); }
     } else if (random.below(2) == 0) {
       REQUIRE(split_face(m, a, m.next(a)));
     } else {

@@ -20,7 +20,7 @@ std::size_t check_split(const Points& outline) {
   REQUIRE(whole > 0.0);
   m.data(FaceId{0}).label = 3;
   const auto parts = split_until_convex(m, FaceId{0});
-  if (!parts) UNSCOPED_INFO(parts.refusal().sentence());
+  if (!parts) { UNSCOPED_INFO(parts.refusal().sentence()); }
   REQUIRE(parts);
   CHECK((*parts)[0] == FaceId{0});
   CHECK(m.face_count() == parts->size() + 1);
@@ -59,11 +59,11 @@ Code refused_in_space(const std::vector<glm::dvec3>& points) {
 TEST_CASE("L, U, comb, star and spiral fall into convex parts that cover them") {
   CHECK(check_split({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}) == 2);
   CHECK(check_split({{0, 0}, {3, 0}, {3, 2}, {2, 2}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}) <= 4);
-  for (unsigned teeth : {2u, 3u, 10u, 40u}) CHECK(check_split(outlines::comb(teeth)) <= 2 * teeth);
+  for (unsigned teeth : {2u, 3u, 10u, 40u}) { CHECK(check_split(outlines::comb(teeth)) <= 2 * teeth); }
   for (unsigned points : {3u, 4u, 5u, 17u, 60u}) {
-    for (double inner : {0.1, 0.3, 0.45}) check_split(outlines::star(points, inner));
+    for (double inner : {0.1, 0.3, 0.45}) { check_split(outlines::star(points, inner)); }
   }
-  for (unsigned turns : {1u, 2u, 6u}) check_split(outlines::spiral(turns));
+  for (unsigned turns : {1u, 2u, 6u}) { check_split(outlines::spiral(turns)); }
 }
 
 TEST_CASE("a convex face, straight corners or not, stays whole") {

@@ -47,10 +47,11 @@ TEST_CASE("a plane cuts a face with a hole, reached by a bridge edge, beside, th
   // A square of side 4 with a square hole of side 2, bridged from (0, 0) to (1, 1), or straight along y = 2 with corners on the line.
   for (const bool straight : {false, true}) {
     Points p;
-    if (straight)
+    if (straight) {
       p = {{0, 2}, {0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 2}, {1, 2}, {1, 3}, {3, 3}, {3, 1}, {1, 1}, {1, 2}};
-    else
+    } else {
       p = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
+    }
     for (const glm::dvec3& n :
          {glm::dvec3{0, 1, 0}, glm::dvec3{1, 0, 0}, glm::dvec3{1, 1, 0}, glm::dvec3{1, -1, 0}, glm::dvec3{-2, 1, 0}}) {
       for (const glm::dvec3& point : {glm::dvec3{2, 2, 0}, glm::dvec3{0.5, 0.5, 0}, glm::dvec3{0.5, 2, 0}}) {

@@ -36,11 +36,11 @@ std::size_t check_parts(const Points& outline, const Split& split, const Conditi
   std::size_t missed = 0;
   for (FaceId f : parts->faces) {
     CHECK(m.data(f).label == 6);
-    if (!condition(m, f)) ++missed;
+    if (!condition(m, f)) { ++missed; }
   }
   CHECK(missed == parts->unfinished.size());
-  if (all_finished) CHECK(missed == 0);
-  for (FaceId f : parts->unfinished) CHECK(!split(m, f).a.valid());
+  if (all_finished) { CHECK(missed == 0); }
+  for (FaceId f : parts->unfinished) { CHECK(!split(m, f).a.valid()); }
   rejoin(m, *parts);
   CHECK(shapes::records(m) == before);
   return parts->faces.size();
@@ -67,7 +67,7 @@ TEST_CASE("split and condition objects combine: at most four edges by nice split
   REQUIRE(parts);
   CHECK(parts->unfinished.empty());
   CHECK(parts->steps.size() + 1 == parts->faces.size());
-  for (FaceId f : parts->faces) CHECK((degree(m, f) <= 4 && is_convex(m, f)));
+  for (FaceId f : parts->faces) { CHECK((degree(m, f) <= 4 && is_convex(m, f))); }
   CHECK(faults(m) == "");
   rejoin(m, *parts);
   CHECK(shapes::records(m) == before);
@@ -116,7 +116,7 @@ TEST_CASE("a lambda that halves a face by planes reaches any area; the neighbour
     glm::dvec3 along{0.0};
     for (std::size_t i = 0; i < p.size(); ++i) {
       const glm::dvec3 side = p[(i + 1) % p.size()] - p[i];
-      if (glm::length(side) > glm::length(along)) along = side;
+      if (glm::length(side) > glm::length(along)) { along = side; }
     }
     return AlongPlane{centroid(m, f), along}(m, f);
   };
@@ -127,7 +127,7 @@ TEST_CASE("a lambda that halves a face by planes reaches any area; the neighbour
   CHECK(m.face_count() >= 300);
   CHECK(faults(m) == "");
   CHECK(shapes::total_area(m) == test::Approx(6.0).epsilon(1e-12));
-  for (FaceId f : faces(m)) CHECK(area(m, f) < 0.02);
+  for (FaceId f : faces(m)) { CHECK(area(m, f) < 0.02); }
 }
 
 TEST_CASE("a part that was finished is looked at again when a cut beside it puts a vertex on its edge") {
@@ -138,20 +138,20 @@ TEST_CASE("a part that was finished is looked at again when a cut beside it puts
   const std::vector<FaceId> both{left, right};
   bool cut_once = false;
   const auto split = [&](const Mesh& b, FaceId f) {
-    if (degree(b, f) > 3) return NiceSplit{}(b, f);
+    if (degree(b, f) > 3) { return NiceSplit{}(b, f); }
     for (HalfedgeId h : halfedges_of(b, f)) {
-      if (b.face(twin(h)) == left) return Cut{h, b.prev(h), 0.5, 0.0};
+      if (b.face(twin(h)) == left) { return Cut{h, b.prev(h), 0.5, 0.0}; }
     }
     return Cut{};
   };
   const auto finished = [&](const Mesh& b, FaceId f) {
-    if (f == right && !cut_once) return cut_once = true, false;
+    if (f == right && !cut_once) { return cut_once = true, false; }
     return degree(b, f) == 3;
   };
   const auto parts = split_recursively(m, std::span<const FaceId>(both), split, finished);
   REQUIRE(parts);
   CHECK(parts->faces.size() == 4);
-  for (FaceId f : parts->faces) CHECK(degree(m, f) == 3);
+  for (FaceId f : parts->faces) { CHECK(degree(m, f) == 3); }
 }
 
 TEST_CASE("split objects that make no progress are refused, whatever they answer, and nothing changes") {
@@ -168,7 +168,7 @@ TEST_CASE("split objects that make no progress are refused, whatever they answer
   CHECK(refusal_of(at(0, 0, 0.2, 0.7)).code == Code::no_progress);  // both ends on one edge
   CHECK(refusal_of(at(0, 1, 0.5, 0.0)).code == Code::no_progress);  // the second vertex of the edge is next to its middle
   CHECK(refusal_of(at(0, 0, 0.5, 0.0)).code == Code::no_progress);
-  for (double bad : {-0.1, 1.0, 7.0, static_cast<double>(NAN), HUGE_VAL}) CHECK(refusal_of(at(0, 2, bad)).code == Code::not_on_edge);
+  for (double bad : {-0.1, 1.0, 7.0, static_cast<double>(NAN), HUGE_VAL}) { CHECK(refusal_of(at(0, 2, bad)).code == Code::not_on_edge); }
   CHECK(refusal_of([](const Mesh& m, FaceId) { return Cut{m.halfedge(FaceId{2}), m.halfedge(FaceId{3})}; }).code == Code::not_on_face);
   CHECK(refusal_of([](const Mesh& m, FaceId f) { return Cut{m.halfedge(f), HalfedgeId{}}; }).code == Code::dead);
   CHECK(refusal_of([](const Mesh& m, FaceId f) { return Cut{m.halfedge(f), HalfedgeId{999999}}; }).code == Code::dead);
@@ -180,13 +180,13 @@ TEST_CASE("split objects that make no progress are refused, whatever they answer
     const auto loop = detail::loop_of(m, f);
     return Cut{loop[random->below(loop.size())], loop[random->below(loop.size())], random->below(2) * random->unit(), 0.0};
   };
-  for (int i = 0; i < 50; ++i) CHECK(refusal_of(random_answer, 200).code != Code::none);
+  for (int i = 0; i < 50; ++i) { CHECK(refusal_of(random_answer, 200).code != Code::none); }
 }
 
 TEST_CASE("a refused split leaves a log as it was, and a split is undone by it") {
   BRep<shapes::Vertex, NoData, shapes::Face, EulerLog> m;
   const HalfedgeId h = *make_segment(m);
-  for (int i = 0; i < 6; ++i) REQUIRE(split_edge(m, h));
+  for (int i = 0; i < 6; ++i) { REQUIRE(split_edge(m, h)); }
   const auto before = shapes::records(m);
   const std::size_t place = mark(m);
   int cuts = 0;
@@ -210,15 +210,15 @@ TEST_CASE("T-vertices as condition and split object: with any other condition, b
   const FaceId side{0};
   CHECK((degree(m, side) == 6 && !NoTVertices{}(m, side)));
   std::size_t t_vertices = 0;
-  for (HalfedgeId h : halfedges_of(m, side)) t_vertices += is_t_vertex(m, h) ? 1 : 0;
+  for (HalfedgeId h : halfedges_of(m, side)) { t_vertices += is_t_vertex(m, h) ? 1 : 0; }
   CHECK(t_vertices == 2);
   const auto parts = split_recursively(m, side, AtTVertex{}, NoTVertices{});
   REQUIRE(parts);
   CHECK((parts->unfinished.empty() && parts->faces.size() == 3));  // each T-vertex is connected to a corner, not to the other one
-  for (FaceId f : parts->faces) CHECK((NoTVertices{}(m, f) && m.data(f).level == 0));
+  for (FaceId f : parts->faces) { CHECK((NoTVertices{}(m, f) && m.data(f).level == 0)); }
   const auto more = split_recursively(m, first_of(AtTVertex{}, NiceSplit{}), triangles && NoTVertices{});
   REQUIRE(more);
   CHECK(more->unfinished.empty());
-  for (FaceId f : faces(m)) CHECK((degree(m, f) == 3 && NoTVertices{}(m, f)));
+  for (FaceId f : faces(m)) { CHECK((degree(m, f) == 3 && NoTVertices{}(m, f))); }
   CHECK(faults(m) == "");
 }

@@ -17,9 +17,9 @@ using shapes::Faces;
 
 Builder without(const Builder& solid, std::vector<std::uint32_t> missing) {
   Builder b;
-  for (std::uint32_t v = 0; v < solid.vertex_count(); ++v) b.vertex(solid.position(v));
+  for (std::uint32_t v = 0; v < solid.vertex_count(); ++v) { b.vertex(solid.position(v)); }
   for (std::uint32_t f = 0; f < solid.face_count(); ++f) {
-    if (std::find(missing.begin(), missing.end(), f) == missing.end()) b.face(solid.corners(f), solid.sheet(f));
+    if (std::find(missing.begin(), missing.end(), f) == missing.end()) { b.face(solid.corners(f), solid.sheet(f)); }
   }
   return b;
 }
@@ -54,8 +54,8 @@ TEST_CASE("holes change the number of borders and not the genus, wherever they t
   }
   // A ring of quadrilaterals has two borders and genus 0, a Moebius strip one side and no genus.
   Builder strip;
-  for (int i = 0; i < 10; ++i) strip.vertex({i, i * i, i % 3});
-  for (std::uint32_t i = 0; i < 4; ++i) strip.face({i, i + 1, i + 6, i + 5}, 0);
+  for (int i = 0; i < 10; ++i) { strip.vertex({i, i * i, i % 3}); }
+  for (std::uint32_t i = 0; i < 4; ++i) { strip.face({i, i + 1, i + 6, i + 5}, 0); }
   Builder ring = strip, moebius = strip;
   ring.face({4, 0, 5, 9}, 0);
   moebius.face({4, 5, 0, 9}, 0);
@@ -66,14 +66,14 @@ TEST_CASE("holes change the number of borders and not the genus, wherever they t
 
 TEST_CASE("solids that touch in a vertex are two components, a pinched one has its own genus") {
   Builder b = shapes::tetrahedron_builder();
-  for (int i = 0; i < 3; ++i) b.vertex({-1 - i, i * i, -2});
+  for (int i = 0; i < 3; ++i) { b.vertex({-1 - i, i * i, -2}); }
   b.face({0, 5, 4}, 0);
   b.face({0, 4, 6}, 0);
   b.face({4, 5, 6}, 0);
   b.face({5, 0, 6}, 0);
   const Statistics s = statistics(b);
   REQUIRE(s.components.size() == 2);
-  for (const Component& c : s.components) CHECK((c.vertices == 4 && c.genus == 0 && c.volume.has_value()));
+  for (const Component& c : s.components) { CHECK((c.vertices == 4 && c.genus == 0 && c.volume.has_value())); }
   CHECK(s.euler() == 3);  // the shared vertex counts once
 }
 
@@ -81,8 +81,8 @@ TEST_CASE("a volume beyond the range of doubles is not given") {
   for (const double size : {1e110, 1e150, 1e300}) {
     Builder big;
     const Builder cube = shapes::cube_builder();
-    for (std::uint32_t v = 0; v < cube.vertex_count(); ++v) big.vertex(size * cube.position(v));
-    for (std::uint32_t f = 0; f < cube.face_count(); ++f) big.face(cube.corners(f), 0);
+    for (std::uint32_t v = 0; v < cube.vertex_count(); ++v) { big.vertex(size * cube.position(v)); }
+    for (std::uint32_t f = 0; f < cube.face_count(); ++f) { big.face(cube.corners(f), 0); }
     CHECK_FALSE(statistics(big).components[0].volume.has_value());
   }
 }
@@ -91,7 +91,7 @@ TEST_CASE("volume changes its sign with the direction of the faces and does not 
   const Builder cube = shapes::cube_builder();
   Builder far;
   // Coordinates up to 2^20 are exact, and so are all differences and products below.
-  for (std::uint32_t v = 0; v < 8; ++v) far.vertex(cube.position(v) + glm::dvec3(1 << 20, -(1 << 20), 3.0));
+  for (std::uint32_t v = 0; v < 8; ++v) { far.vertex(cube.position(v) + glm::dvec3(1 << 20, -(1 << 20), 3.0)); }
   for (std::uint32_t f = 0; f < 6; ++f) {
     std::vector<std::uint32_t> corners(cube.corners(f).begin(), cube.corners(f).end());
     std::reverse(corners.begin(), corners.end());
@@ -116,15 +116,15 @@ TEST_CASE("what repair makes of random triangles has the genus and shells that t
     INFO("seed " << seed);
     shapes::Random random(seed);
     Builder b;
-    for (int v = 0; v < 9; ++v) b.vertex({random.unit(), random.unit(), random.unit()});
-    for (std::uint32_t f = random.below(9); f > 0; --f) b.face({random.below(9), random.below(9), random.below(9)}, 0);
+    for (int v = 0; v < 9; ++v) { b.vertex({random.unit(), random.unit(), random.unit()}); }
+    for (std::uint32_t f = random.below(9); f > 0; --f) { b.face({random.below(9), random.below(9), random.below(9)}, 0); }
     const RepairResult r = repair(b);
-    if (!r.remaining.empty()) continue;
+    if (!r.remaining.empty()) { continue; }
     const auto mesh = shapes::build(r.builder);
     const Statistics s = statistics(r.builder);
     CHECK(s.components.size() == shell_count(mesh));
     long sum = 0;
-    for (const Component& c : s.components) sum += c.genus.value();
+    for (const Component& c : s.components) { sum += c.genus.value(); }
     CHECK(sum == genus(mesh));
   }
 }

@@ -20,7 +20,7 @@ namespace {
 
 std::vector<int> rules(const std::vector<Fault>& faults) {
   std::vector<int> found;
-  for (const Fault& fault : faults) found.push_back(fault.rule);
+  for (const Fault& fault : faults) { found.push_back(fault.rule); }
   return found;
 }
 std::string all_sentences(const std::vector<Fault>& faults) { return detail::sentences(faults); }
@@ -85,8 +85,8 @@ TEST_CASE("v - e + f alone can lie: a box and two loose sheets, and R8 says whic
     const HalfedgeId h = pillow(m);
     const FaceId back = m.face(h);
     std::vector<HalfedgeId> loop;
-    for (HalfedgeId x : halfedges_of(m, back)) loop.push_back(x);
-    for (HalfedgeId x : loop) Raw::at(m, x).face = top;
+    for (HalfedgeId x : halfedges_of(m, back)) { loop.push_back(x); }
+    for (HalfedgeId x : loop) { Raw::at(m, x).face = top; }
     Raw::kill(m, back);
   }
   const long v = static_cast<long>(m.vertex_count()), e = static_cast<long>(m.edge_count()), f = static_cast<long>(m.face_count());
@@ -102,8 +102,8 @@ TEST_CASE("faults are sentences that name the elements: two loops of a face, two
   const Bare sound = m;
   const FaceId f = m.face(a), lost = m.face(b);
   std::vector<HalfedgeId> loop;
-  for (HalfedgeId h : halfedges_of(m, lost)) loop.push_back(h);
-  for (HalfedgeId h : loop) Raw::at(m, h).face = f;
+  for (HalfedgeId h : halfedges_of(m, lost)) { loop.push_back(h); }
+  for (HalfedgeId h : loop) { Raw::at(m, h).face = f; }
   Raw::kill(m, lost);
   auto found = validate(m);
   REQUIRE(rules(found) == std::vector<int>{4, 8});
@@ -114,8 +114,8 @@ TEST_CASE("faults are sentences that name the elements: two loops of a face, two
   m = sound;
   const VertexId v = m.vertex(a), gone = m.vertex(b);
   std::vector<HalfedgeId> fan;
-  for (HalfedgeId h : halfedges_from(m, gone)) fan.push_back(h);
-  for (HalfedgeId h : fan) Raw::at(m, h).vertex = v;
+  for (HalfedgeId h : halfedges_from(m, gone)) { fan.push_back(h); }
+  for (HalfedgeId h : fan) { Raw::at(m, h).vertex = v; }
   Raw::kill(m, gone);
   found = validate(m);
   REQUIRE(rules(found) == std::vector<int>{5, 8});
@@ -152,8 +152,8 @@ TEST_CASE("each rule has its own sentence: what, where, and the usual cause") {
 
 TEST_CASE("damaged free lists and dead bits are R7") {
   Bare m;
-  for (int i = 0; i < 4; ++i) REQUIRE(make_segment(m));
-  for (std::uint32_t i = 0; i < 6; i += 2) REQUIRE(kill_segment(m, HalfedgeId{i}));
+  for (int i = 0; i < 4; ++i) { REQUIRE(make_segment(m)); }
+  for (std::uint32_t i = 0; i < 6; i += 2) { REQUIRE(kill_segment(m, HalfedgeId{i})); }
   const Bare sound = m;
   auto& pool = Raw::halfedges(m);
   CHECK(pool.first_free() == 4);

@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   };
   const int grid_points = 1 + below(4), depth = 1 + below(4);
   const std::string wrong = solids::random_laws(below, grid_points, depth);
-  if (wrong.empty()) return 0;
+  if (wrong.empty()) { return 0; }
   std::fprintf(stderr, "broken: %s\n", wrong.c_str());
   std::abort();
 }

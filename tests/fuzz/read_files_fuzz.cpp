@@ -26,7 +26,7 @@
 namespace {
 
 void require(bool holds, const char* law) {
-  if (holds) return;
+  if (holds) { return; }
   std::fprintf(stderr, "broken: %s\n", law);
   std::abort();
 }
@@ -34,12 +34,14 @@ void require(bool holds, const char* law) {
 void read_as_mesh(std::string_view text, const apps::MeshFormat& format) {
   const apps::MeshResult result = apps::read_mesh(text, format);
   require(result.mesh.has_value() == result.errors.empty(), "either a mesh or errors");
-  if (!result.mesh) return;
+  if (!result.mesh) { return; }
   const apps::MeshResult again = apps::read_mesh(apps::write_mesh(result.mesh->builder, format), format);
   require(again.mesh.has_value(), "what was written can be read");
   const brep::Builder &read = result.mesh->builder, &reread = again.mesh->builder;
   require(read.vertex_count() == reread.vertex_count() && read.face_count() == reread.face_count(), "nothing is lost");
-  for (std::uint32_t v = 0; v < read.vertex_count(); ++v) require(read.position(v) == reread.position(v), "positions read back exactly");
+  for (std::uint32_t v = 0; v < read.vertex_count(); ++v) {
+    require(read.position(v) == reread.position(v), "positions read back exactly");
+  }
   for (std::uint32_t f = 0; f < read.face_count(); ++f) {
     const auto corners = read.corners(f), recorners = reread.corners(f);
     require(std::equal(corners.begin(), corners.end(), recorners.begin(), recorners.end()), "faces read back");
@@ -53,7 +55,7 @@ void read_as_model(std::string_view text, const apps::ModelFormat& format) {
   text = text.substr(0, feed);
   apps::ModelResult result = format.read(text, [&](const std::string&, std::string&) { return std::optional(beside); });
   require(result.model.has_value() == result.errors.empty(), "either a model or errors");
-  if (!result.model || result.model->polygons() > 500 || result.model->objects.size() > 100) return;
+  if (!result.model || result.model->polygons() > 500 || result.model->objects.size() > 100) { return; }
   std::vector<std::string> faults;
   const auto file = apps::to_scene(std::move(*result.model), format.up, {}, faults);
   require(file.has_value() == faults.empty(), "either a scene or faults");

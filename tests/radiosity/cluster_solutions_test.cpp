@@ -109,8 +109,8 @@ TEST_CASE("BF-refinement with clusters: the result becomes that without as the t
 }
 
 TEST_CASE("BF-refinement: what the segments of a coarse link miss is found again") {
-  // Between the floor and the lamp stand nine boxes, and a third of the light passes: parts of which all 16 segments are blocked are many. If
-  // they are given up the floor loses 3.5 %.
+  // Between the floor and the lamp stand nine boxes, and a third of the light passes: parts of which all 16 segments are blocked are many.
+  // If they are given up the floor loses 3.5 %.
   const radiosity::Scene scene = scenes::many(61, scenes::Things::boxes);
   const auto floor = [&](const Options& options) {
     const radiosity::Solution solution = solved(scene, options);

@@ -37,8 +37,8 @@ class Maker {
   double uniform(double a, double b) { return std::uniform_real_distribution<>{a, b}(random_); }
   std::size_t below(std::size_t n) { return random_() % n; }
 
-  // The walls of a prism about the origin whose base has 3 to 7 corners, between z = 0 and z = height; their fronts face inside. It holds the
-  // upright cylinder of radius .3.
+  // The walls of a prism about the origin whose base has 3 to 7 corners, between z = 0 and z = height; their fronts face inside. It holds
+  // the upright cylinder of radius .3.
   std::vector<Corners> prism(double height) {
     const std::size_t n = 3 + below(5);
     Corners base;

@@ -120,7 +120,8 @@ KnownScene random_known_scene(int kind, radiosity::Random& random) {
   }
 }
 
-// The relative L2 error of the mesh on the plate, by points in the cells of a grid on each triangle: every other surface is black and exact.
+// The relative L2 error of the mesh on the plate, by points in the cells of a grid on each triangle: every other surface is black and
+// exact.
 double true_mesh_error(const radiosity::Mesh& mesh, const ExactRadiosity& exact, int cells) {
   double square = 0.0, reference = 0.0;
   radiosity::Random random{3, 0};

@@ -302,8 +302,8 @@ TEST_CASE("total exchange: concentric spheres, 1 / (1 / e1 + (A1 / A2) (1 / e2 -
   CHECK(script[1].value == test::Approx(1.0 / (1.0 / 0.3 + 0.25 * (1.0 / 0.05 - 1.0))).epsilon(1e-13));
   CHECK(result.exchange->row_sum[0].value == test::Approx(0.3).epsilon(1e-13));
   CHECK(result.exchange->row_sum[1].value == test::Approx(0.05).epsilon(1e-13));
-  // One exchange is off by its error: what that changes is within what is stated, and at most twice below it. (A_1 script-F_12 depends on the
-  // exchange through two terms of one sign, which are added in quadrature times the root of 2.)
+  // One exchange is off by its error: what that changes is within what is stated, and at most twice below it. (A_1 script-F_12 depends on
+  // the exchange through two terms of one sign, which are added in quadrature times the root of 2.)
   const auto moved = radiosity::total_exchange(spheres(1.0 - 1e-4, 0.75), emissivity);
   REQUIRE(moved.exchange);
   for (std::size_t k = 0; k < 4; ++k) {

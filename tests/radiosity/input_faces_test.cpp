@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-// Input faces that are not convex, or of many corners: a wall with windows is one root of the hierarchy, above its convex parts, and the cap of
-// a cylinder one above a ring of cells.
+// Input faces that are not convex, or of many corners: a wall with windows is one root of the hierarchy, above its convex parts, and the
+// cap of a cylinder one above a ring of cells.
 
 #include <brep/ring.hpp>
 
@@ -17,9 +17,9 @@
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/polygons.hpp>
-#include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/wall_cuts.hpp>
 #include <radiosity/oracle/f_oracle.hpp>

@@ -230,7 +230,8 @@ TEST_CASE("intake: of each change the polygon is known where it was largest, and
   std::mt19937 random(seed);
   const auto number = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
   for (int k = 0; k < 20; ++k) {
-    // Pairs of squares that share an edge but for gaps of up to 50 nm, and single squares whose last corner is off by up to 1 um, 10 m apart.
+    // Pairs of squares that share an edge but for gaps of up to 50 nm, and single squares whose last corner is off by up to 1 um, 10 m
+    // apart.
     constexpr std::uint32_t pairs = 10;
     Soup soup;
     double widest = 0.0, highest = 0.0;

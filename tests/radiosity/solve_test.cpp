@@ -52,8 +52,7 @@ TEST_CASE("the residual history falls by rho times the row sum with Jacobi, and 
   const std::vector<double> reflectance{0.5, 0.5};
   const std::vector<double> emission{1.0, 0.0};
   for (const auto& [solver, factor] : {std::pair{Solver::jacobi, 0.4}, std::pair{Solver::gauss_seidel, 0.16}}) {
-    const auto solved =
-        radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission, {solver, 1e-10, 1000});
+    const auto solved = radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission, {solver, 1e-10, 1000});
     REQUIRE(solved.history.size() == solved.iterations + 1);
     REQUIRE(solved.history.size() > 5);
     CHECK(solved.history.back() == solved.residual);
@@ -78,8 +77,8 @@ TEST_CASE("conjugate gradients: at most 20 iterations for any reflectance below 
       }
       std::vector<double> emission(12, 0.0);
       emission[2] = 5.0;
-      const auto solved = radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission,
-                                                   {Solver::conjugate_gradients, 1e-10, 100});
+      const auto solved =
+          radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission, {Solver::conjugate_gradients, 1e-10, 100});
       CHECK(solved.converged);
       CHECK(solved.iterations <= 20);
       double emitted = 0.0;
@@ -192,8 +191,7 @@ TEST_CASE("a scene without steady state is not reported as solved") {
   const std::vector<double> reflectance(6, 1.0);  // closed, rho = 1, light inside: B grows without end
   const std::vector<double> emission(6, 1.0);
   for (const Solver solver : {Solver::conjugate_gradients, Solver::jacobi}) {
-    const auto solved =
-        radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission, {solver, 1e-8, 500});
+    const auto solved = radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission, {solver, 1e-8, 500});
     CHECK_FALSE(solved.converged);
     CHECK(solved.residual > 1e-8);
     for (const double b : solved.radiosity) { CHECK(std::isfinite(b)); }

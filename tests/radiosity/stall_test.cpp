@@ -205,8 +205,8 @@ TEST_CASE("superquadrics of any exponents that are accepted are refined into a b
     const auto made = raycast::Superquadric::make({0, 0, 0}, {1, 1, 1}, profile, around);
     REQUIRE(made);
     const Work work = work_of(lit({scenes::object("q", made.object)}), 0.1, 1e-3);
-    // A mesh that folds grows beyond the surface with every split. Chords have less area than a convex surface; about ridges of others up to
-    // a fifth more. Chords within 1 % of the size of the surface tell an arm thinner than that from a tube of this radius no better: six
+    // A mesh that folds grows beyond the surface with every split. Chords have less area than a convex surface; about ridges of others up
+    // to a fifth more. Chords within 1 % of the size of the surface tell an arm thinner than that from a tube of this radius no better: six
     // arms of length 1, tubes of radius .02.
     constexpr double tubes = 6.0 * 2.0 * std::numbers::pi * 0.02;
     CHECK(work.areas[0] / work.areas[1] * lamp_area <= 1.2 * superquadric_area(profile, around) + tubes);

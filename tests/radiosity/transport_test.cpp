@@ -151,8 +151,8 @@ TEST_CASE("a closed scene has row sums of exactly 1, and a furnace glows evenly 
   for (const double rho : {0.5, 0.99, 0.999999}) {
     const std::vector<double> reflectance(8, rho);
     const std::vector<double> emission(8, 1.0 - rho);
-    const auto solved = radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission,
-                                                 {Solver::conjugate_gradients, 1e-13, 100});
+    const auto solved =
+        radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission, {Solver::conjugate_gradients, 1e-13, 100});
     CHECK(solved.iterations <= 20);
     // The residual bounds the error by residual * |E| / (1 - rho) = residual.
     for (const double b : solved.radiosity) { CHECK(std::abs(b - 1.0) < 1e-6); }

@@ -34,7 +34,7 @@ std::vector<std::pair<std::string, Made<Object>>> shapes() {
       {"solid mesh", l_block()},
       {"open mesh", Mesh::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}}, {{0, 1, 2, 3}, {1, 0, 4, 5}})},
       {"disk", Disk::make({1, 0, 2}, {0.3, -0.2, 2}, 0.5)}};
-  for (const Primitive& primitive : primitives()) all.push_back({primitive.name, primitive.make({1, -1, 2}, 1.5)});
+  for (const Primitive& primitive : primitives()) { all.push_back({primitive.name, primitive.make({1, -1, 2}, 1.5)}); }
   return all;
 }
 bool ring(const std::string& name) {
@@ -50,17 +50,17 @@ TEST_CASE("an approximation closes without defects, lies on the surface, and its
                                   {glm::dmat3(-1, 0, 0, 0, 2, 0, 0, 0.5, 1), {0, 0, 1}, false},
                                   room(),
                                   room(glm::dmat3(1, 0, 0, 0, 0, 1, 0, 1, 0))};
-  for (const auto& [name, shape] : shapes())
-    for (const Placement& placement : placements)
+  for (const auto& [name, shape] : shapes()) {
+    for (const Placement& placement : placements) {
       for (const double tolerance : {1.0, 0.05, 0.002}) {
-        if (placement.inside && !shape->solid()) continue;
+        if (placement.inside && !shape->solid()) { continue; }
         if (tolerance < 0.01 && name != "sphere" && placement.linear != glm::dmat3(1.0)) continue;  // thousands of faces each
         INFO(name << " tolerance " << tolerance << " inside " << placement.inside << " determinant " << glm::determinant(placement.linear));
         const PlacedObject object = placed(shape, placement);
         brep::Builder builder;
         object.approximate(tolerance, builder);
         const auto result = brep::close<Shell>(builder);
-        for (const auto& defect : result.defects) FAIL_CHECK(defect.sentence);
+        for (const auto& defect : result.defects) { FAIL_CHECK(defect.sentence); }
         REQUIRE(result.brep);
         const Shell& shell = *result.brep;
         CHECK(brep::genus(shell) == (ring(name) ? 1 : 0));
@@ -77,17 +77,19 @@ TEST_CASE("an approximation closes without defects, lies on the surface, and its
           REQUIRE(sheet < object.sheet_count());
           const auto corners = brep::positions(shell, f);
           const dvec3 normal = brep::normal(brep::Polygon(corners)), middle = brep::centroid(brep::Polygon(corners));
-          for (const dvec3& p : corners)
+          for (const dvec3& p : corners) {
             CHECK(glm::length(object.project(sheet, p).position - p) <= 1e-14 * (size + object.bounds().magnitude()));
+          }
           // Counter-clockwise from the air. Quadrilaterals of a coarse cube sphere tilt by up to 45 degrees.
           wrong_side = std::min(wrong_side, glm::dot(normal, object.project(sheet, middle).normal));
-          for (std::size_t i = 2; i < corners.size(); ++i)
+          for (std::size_t i = 2; i < corners.size(); ++i) {
             for (int k = 0; k < (tolerance < 0.01 ? 2 : 8); ++k) {
               double a = random.uniform(), b = random.uniform();
-              if (a + b > 1) a = 1 - a, b = 1 - b;
+              if (a + b > 1) { a = 1 - a, b = 1 - b; }
               const dvec3 p = corners[0] + a * (corners[i - 1] - corners[0]) + b * (corners[i] - corners[0]);
               farthest = std::max(farthest, glm::length(object.project(sheet, p).position - p));
             }
+          }
         }
         if (!blades) CHECK(wrong_side >= 0.0);  // a blade's chord may be nearest to its other side
         CHECK(glm::length(total) <= 1e-11 * size * size);
@@ -99,6 +101,8 @@ TEST_CASE("an approximation closes without defects, lies on the surface, and its
           CHECK(farthest <= tolerance * (placement.identity() || placement.inside ? 1.0 : 3.0) * (blades ? 3.0 : 1.0));
         }
       }
+    }
+  }
 }
 
 TEST_CASE("chords of pinched superquadrics keep the tolerance, measured against a dense sample of their surface") {
@@ -107,12 +111,13 @@ TEST_CASE("chords of pinched superquadrics keep the tolerance, measured against 
     const auto object = Superquadric::make({0, 0, 0}, {1, 1, 1}, profile, around);
     constexpr int side = 200;  // Barr's angles over one octant
     Corners surface;
-    for (int i = 0; i <= side; ++i)
+    for (int i = 0; i <= side; ++i) {
       for (int j = 0; j <= side; ++j) {
         const double a = 1.57079632679 * i / side, b = 1.57079632679 * j / side, g = std::pow(std::cos(b), profile);
         surface.push_back(
             {g * std::pow(std::cos(a), around), g * std::pow(std::abs(std::sin(a)), around), std::pow(std::abs(std::sin(b)), profile)});
       }
+    }
     brep::Builder builder;
     object->approximate(0.03, builder);
     double farthest = 0.0;
@@ -121,7 +126,7 @@ TEST_CASE("chords of pinched superquadrics keep the tolerance, measured against 
       const double a = random.uniform(), b = random.uniform(0, 1 - a);
       const dvec3 p = glm::abs((1 - a - b) * builder.position(c[0]) + a * builder.position(c[1]) + b * builder.position(c[2]));
       double squared = infinity;
-      for (const dvec3& q : surface) squared = std::min(squared, glm::dot(p - q, p - q));
+      for (const dvec3& q : surface) { squared = std::min(squared, glm::dot(p - q, p - q)); }
       farthest = std::max(farthest, std::sqrt(squared));
     }
     CHECK(farthest <= 0.03 + 0.01);  // the slope of the sampled curves is at most 1.8: a sample lies within 0.01
@@ -135,9 +140,9 @@ TEST_CASE("a cylinder is cut in a multiple of four columns, its caps are single 
     Cylinder::make({0, 0, 0}, {0, 0, 2}, 1)->approximate(tolerance, builder);
     std::size_t side = 0, bottom = 0, top = 0, columns = 0;
     for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
-      if (builder.sheet(f) == 0) ++side;
-      if (builder.sheet(f) == 1) ++bottom, columns = builder.corners(f).size();
-      if (builder.sheet(f) == 2) ++top;
+      if (builder.sheet(f) == 0) { ++side; }
+      if (builder.sheet(f) == 1) { ++bottom, columns = builder.corners(f).size(); }
+      if (builder.sheet(f) == 2) { ++top; }
     }
     CHECK(bottom == 1);
     CHECK(top == 1);
@@ -157,7 +162,7 @@ TEST_CASE("a sphere is cut in 6 n^2 quadrilaterals that share their vertices, sy
     CHECK(builder.vertex_count() == faces + 2);
     for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) {
       bool mirrored = false;
-      for (std::uint32_t w = 0; w < builder.vertex_count(); ++w) mirrored = mirrored || builder.position(w) == -builder.position(v);
+      for (std::uint32_t w = 0; w < builder.vertex_count(); ++w) { mirrored = mirrored || builder.position(w) == -builder.position(v); }
       CHECK(mirrored);
       CHECK(std::abs(glm::length(builder.position(v)) - 1.0) <= 4 * unit_roundoff);
     }
@@ -166,7 +171,7 @@ TEST_CASE("a sphere is cut in 6 n^2 quadrilaterals that share their vertices, sy
 
 TEST_CASE("several objects go into one builder side by side") {
   brep::Builder builder;
-  for (const auto& [name, shape] : shapes()) PlacedObject(shape.object).approximate(0.1, builder);
+  for (const auto& [name, shape] : shapes()) { PlacedObject(shape.object).approximate(0.1, builder); }
   const auto result = brep::close<Shell>(builder);
   CHECK(result.defects.empty());
   CHECK(brep::shell_count(*result.brep) == shapes().size());

@@ -71,9 +71,11 @@ RandomTree random_tree(test::Random& random, const std::vector<test::Primitive>&
 // Tame solids: their implicit function is a distance up to a small factor.
 std::vector<test::Primitive> tame() {
   std::vector<test::Primitive> all;
-  for (const char* name : {"sphere", "box", "cylinder", "cone", "frustum", "torus", "ellipsoid"})
-    for (const test::Primitive& p : test::primitives())
-      if (p.name == name) all.push_back(p);
+  for (const char* name : {"sphere", "box", "cylinder", "cone", "frustum", "torus", "ellipsoid"}) {
+    for (const test::Primitive& p : test::primitives()) {
+      if (p.name == name) { all.push_back(p); }
+    }
+  }
   return all;
 }
 
@@ -106,7 +108,7 @@ TEST_CASE("csg: a point of a line is in the spans exactly when it is in the bool
       const double t = nearest_parameter(line, dvec3(0.0)) + random.uniform(-1, 1) / glm::length(line.direction);
       double nearest = 1.0;
       const bool oracle = random_solid.oracle.inside(line.at(t), nearest);
-      if (nearest < 1e-6) continue;
+      if (nearest < 1e-6) { continue; }
       inside += oracle;
       CHECK(oracle == std::any_of(spans.begin(), spans.end(), [&](const Span& s) { return s.in.t < t && t < s.out.t; }));
     }
@@ -117,7 +119,8 @@ TEST_CASE("csg: a point of a line is in the spans exactly when it is in the bool
 TEST_CASE("csg: solids cut flush leave no film, and solids that touch leave no gap, however rounding falls") {
   SEEDED(random);
   for (int round = 0; round < 200; ++round) {
-    // A wall of thickness w with a round window that ends where the wall ends, and the same wall in two halves that touch, turned at random.
+    // A wall of thickness w with a round window that ends where the wall ends, and the same wall in two halves that touch, turned at
+    // random.
     const double w = random.uniform(0.1, 0.3);
     const Placement turn{random.rotation(), random.in_cube(), false};
     const auto wall = BoxObject::make({-1, -1, 0}, {1, 1, w}).object;
@@ -136,12 +139,12 @@ TEST_CASE("csg: solids cut flush leave no film, and solids that touch leave no g
                                    turn.linear * (high + 3.0 * (high - low)) + turn.translation);
       Spans through;
       hole->spans(line, through);
-      for (const Span& span : through) CHECK_FALSE((span.in.t < 3.5 / 7 && span.out.t > 3.5 / 7));
-      for (const Span& span : through) CHECK((span.out.t - span.in.t) * glm::length(line.direction) > 1e-3);
+      for (const Span& span : through) { CHECK_FALSE((span.in.t < 3.5 / 7 && span.out.t > 3.5 / 7)); }
+      for (const Span& span : through) { CHECK((span.out.t - span.in.t) * glm::length(line.direction) > 1e-3); }
       Spans up;
       tower->spans(line, up);
       REQUIRE(up.size() >= 1);
-      for (const Span& span : up) CHECK((span.out.t - span.in.t) * glm::length(line.direction) > 1e-3);
+      for (const Span& span : up) { CHECK((span.out.t - span.in.t) * glm::length(line.direction) > 1e-3); }
       CHECK(std::any_of(up.begin(), up.end(), [](const Span& s) { return s.in.t < 3.5 / 7 && s.out.t > 4.02 / 7; }));
     }
   }
@@ -183,11 +186,12 @@ TEST_CASE("csg: rays meet the evaluated faces of polyhedral leaves where the mer
       csg->tree().spans(line, leaves);
       // They may differ where a line passes an edge within the grid, 2^-24 of half the size: one ray in 10^5.
       REQUIRE(faces.size() == leaves.size());
-      for (std::size_t i = 0; i < faces.size(); ++i)
+      for (std::size_t i = 0; i < faces.size(); ++i) {
         for (const auto& [a, b] : {std::pair(faces[i].in, leaves[i].in), std::pair(faces[i].out, leaves[i].out)}) {
           CHECK(a.sheet == b.sheet);
           CHECK(std::abs(a.t - b.t) * std::abs(glm::dot(csg->project(a.sheet, line.at(a.t)).normal, line.direction)) < 1e-6 * size);
         }
+      }
     }
   }
 }
@@ -227,14 +231,16 @@ TEST_CASE("csg: its mesh is closed, its vertices lie on their sheets, and it hol
       const int n = 40;
       const dvec3 step = box.size() / static_cast<double>(n);
       double measured = 0.0;
-      for (int i = 0; i < n; ++i)
+      for (int i = 0; i < n; ++i) {
         for (int k = 0; k < n; ++k) {
           Spans spans;
           csg->spans({{box.lo.x + (i + random.uniform()) * step.x, box.lo.y + (k + random.uniform()) * step.y, box.lo.z}, {0, 0, 1}},
                      spans);
-          for (const Span& span : spans) measured += (span.out.t - span.in.t) * step.x * step.y;
+          for (const Span& span : spans) { measured += (span.out.t - span.in.t) * step.x * step.y; }
         }
-      // Chords are off by at most the tolerance (1 % of the size for the first one) over the area; the sum over columns by less than a third.
+      }
+      // Chords are off by at most the tolerance (1 % of the size for the first one) over the area; the sum over columns by less than a
+      // third.
       const double chord = std::min(tolerance, 0.01 * box.diameter());
       CHECK(std::abs(volume - measured) < chord * area + 0.3 * step.x * area);
     }
@@ -264,7 +270,7 @@ TEST_CASE("csg: in a scene, occluded = the law = closest < 1 from the air, for f
       return std::any_of(spans.begin(), spans.end(), [](const Span& s) { return s.in.t < 1e-6 && s.out.t > -1e-6; });
     });
     bool law = false;
-    for (std::uint32_t o = 0; o < scene.size(); ++o) law = law || scene.occluded_by(o, segment);
+    for (std::uint32_t o = 0; o < scene.size(); ++o) { law = law || scene.occluded_by(o, segment); }
     CHECK(scene.occluded(segment) == law);
     Segments16 lanes;
     lanes.set(0, segment, no_object, no_object);
@@ -275,7 +281,7 @@ TEST_CASE("csg: in a scene, occluded = the law = closest < 1 from the air, for f
       CHECK(glm::length(on.position - segment.at(hit->t)) < 1e-7);
       CHECK(glm::dot(on.normal, segment.direction) < 1e-6);
     }
-    if (!in_air || (hit && std::abs(hit->t - 1.0) < 1e-9)) continue;
+    if (!in_air || (hit && std::abs(hit->t - 1.0) < 1e-9)) { continue; }
     CHECK(law == (hit && hit->t < 1.0));
     blocked += law;
   }
@@ -288,7 +294,7 @@ TEST_CASE("csg: what is no solid, turned inside out, empty or nested too deep is
   const CsgNode polygon{Polygon::make(test::rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})).object, "wall", {}, {}, {}};
   CsgNode room = box, deep = box;
   room.placement.inside = true;
-  for (int i = 0; i < 65; ++i) deep = {{}, {}, CsgOperation::unite, {deep}, {}};
+  for (int i = 0; i < 65; ++i) { deep = {{}, {}, CsgOperation::unite, {deep}, {}}; }
   const auto refusal = [](CsgOperation operation, std::vector<CsgNode> parts) {
     return Csg::make({{}, "whole", operation, std::move(parts), {}}).refusal;
   };

@@ -53,7 +53,7 @@ Measures measure(const Csg& csg, double tolerance = 1e60) {
   INFO((closed.defects.empty() ? std::string() : closed.defects.front().sentence));
   Measures result;
   CHECK(closed.brep);
-  if (!closed.brep) return result;
+  if (!closed.brep) { return result; }
   for (const brep::FaceId f : brep::faces(*closed.brep)) {
     const dvec3 area = brep::vector_area(*closed.brep, f);
     CHECK(brep::is_convex(*closed.brep, f));
@@ -61,7 +61,7 @@ Measures measure(const Csg& csg, double tolerance = 1e60) {
     result.volume += glm::dot(area, brep::centroid(*closed.brep, f)) / 3.0;
     ++result.faces;
   }
-  for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) result.box.extend(builder.position(v));
+  for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) { result.box.extend(builder.position(v)); }
   return result;
 }
 
@@ -86,7 +86,7 @@ void check_volume(const RandomSolid& solid, test::Random& random, int n) {
   }
   const Measures mesh = measure(*csg);
   const double off = std::abs(mesh.volume - truth.volume), d = csg->chord_tolerance(), sampling = 4 * truth.deviation + 1e-6 * truth.volume;
-  if (off <= d * mesh.area + sampling) return;
+  if (off <= d * mesh.area + sampling) { return; }
   CHECK(off <= d * measure(*csg, d / 8).area + sampling);
 }
 
@@ -109,7 +109,7 @@ RandomSolid sphere(const dvec3& centre, double radius) {
 CsgNode combine(CsgOperation operation, std::vector<std::shared_ptr<const Object>> solids) {
   CsgNode result;
   result.operation = operation;
-  for (std::shared_ptr<const Object>& solid : solids) result.parts.push_back({std::move(solid), {}, {}, {}, {}});
+  for (std::shared_ptr<const Object>& solid : solids) { result.parts.push_back({std::move(solid), {}, {}, {}, {}}); }
   return result;
 }
 
@@ -126,8 +126,9 @@ TEST_CASE("csg: no tree of two to five curved solids is refused, and its mesh ho
     if (i % 6 < 4) {
       std::vector<RandomSolid> parts{room_solid()};
       const std::uint32_t more = i % 6 < 2 ? 1 : 2 + random.below(3);
-      for (std::uint32_t k = 0; k < more; ++k)
+      for (std::uint32_t k = 0; k < more; ++k) {
         parts.push_back(k == 0 ? solids.leaf(static_cast<RandomSolids::Kind>(1 + random.below(4)), 0.05, 0.5) : solids.any_leaf(0.1, 0.5));
+      }
       auto operation = static_cast<CsgOperation>(random.below(3));
       if (more > 1 && operation == CsgOperation::intersect) operation = CsgOperation::subtract;  // little would be left
       solid = RandomSolids::combine(operation, std::move(parts));
@@ -145,7 +146,7 @@ TEST_CASE("csg: a small solid cut from a huge one has as many faces as one cut f
     const double radius = random.magnitude(1) * std::pow(10.0, -i % 6);
     const dvec3 at = random.direction();  // on the surface of the huge one
     std::vector<RandomSolid> parts{sphere(dvec3(0.0), 1.0), sphere(at, std::min(radius, 1.0))};
-    if (i % 2) std::swap(parts[0], parts[1]);
+    if (i % 2) { std::swap(parts[0], parts[1]); }
     const RandomSolid solid = RandomSolids::combine(i < 6 ? CsgOperation::intersect : CsgOperation::subtract, std::move(parts));
     const Made<Csg> csg = Csg::make(solid.node);
     INFO(solid.text << ": " << csg.refusal);
@@ -167,8 +168,9 @@ TEST_CASE("csg: a dimple in a large sphere is where it belongs, however small") 
     const auto closed = brep::close<CsgBRep>(builder);
     REQUIRE(closed.brep);
     double area = 0.0;
-    for (const brep::FaceId f : brep::faces(*closed.brep))
-      if (closed.brep->data(f).sheet == 1) area += brep::area(*closed.brep, f);
+    for (const brep::FaceId f : brep::faces(*closed.brep)) {
+      if (closed.brep->data(f).sheet == 1) { area += brep::area(*closed.brep, f); }
+    }
     // Of a sphere of radius r about a point of the unit sphere the part 1/2 - r/4 lies inside (Archimedes); chords within 4 % of r.
     INFO("radius " << radius << ", faces " << closed.brep->face_count());
     const double truth = 4 * std::numbers::pi * radius * radius * (0.5 - 0.25 * radius);
@@ -233,7 +235,7 @@ TEST_CASE("csg: equal, tangent and coaxial solids give the solid that is meant, 
   for (const Case& c : cases) {
     for (int turned = 0; turned < (c.volume == 0 ? 1 : 2); ++turned) {
       CsgNode node = combine(c.operation, c.solids);
-      if (turned) node.placement = {random.rotation(), random.in_cube(), false};
+      if (turned) { node.placement = {random.rotation(), random.in_cube(), false}; }
       const Made<Csg> csg = Csg::make(node);
       INFO(c.name << ", operation " << static_cast<int>(c.operation) << (turned ? ", turned: " : ": ") << csg.refusal);
       if (c.volume == 0) {
@@ -241,7 +243,7 @@ TEST_CASE("csg: equal, tangent and coaxial solids give the solid that is meant, 
         continue;
       }
       CHECK(csg);
-      if (!csg) continue;
+      if (!csg) { continue; }
       const Measures mesh = measure(*csg);
       CHECK(std::abs(mesh.volume - c.volume) <= csg->chord_tolerance() * mesh.area);
     }

@@ -15,7 +15,7 @@ namespace {
 double sphere_distance(const Sphere& s, const dvec3& p) { return glm::length(p - s.centre()) - s.radius(); }
 double box_distance(const Box& b, const dvec3& p) {
   double d = -infinity;
-  for (int k = 0; k < 3; ++k) d = std::max({d, b.lo[k] - p[k], p[k] - b.hi[k]});
+  for (int k = 0; k < 3; ++k) { d = std::max({d, b.lo[k] - p[k], p[k] - b.hi[k]}); }
   return d;
 }
 double cylinder_distance(const dvec3& base, const dvec3& axis, double r, const dvec3& p) {
@@ -82,7 +82,7 @@ TEST_CASE("a crossing lies within the bounds, and a line that misses the bounds 
         CHECK(object.bounds().contains(line.at(s.in.t), 1e-13));
         CHECK(object.bounds().contains(line.at(s.out.t), 1e-13));
       }
-      if (!SlabTest(line)(object.bounds(), -infinity, infinity, entry)) CHECK(found.empty());
+      if (!SlabTest(line)(object.bounds(), -infinity, infinity, entry)) { CHECK(found.empty()); }
     }
   }
 }
@@ -98,8 +98,8 @@ TEST_CASE("a sphere is met exactly when the line passes nearer than its radius: 
     const Segment line{origin, impact * across - origin};
     using Long = long double;
     Long o[3], d[3], dd = 0, od = 0, perpendicular = 0;
-    for (int k = 0; k < 3; ++k) o[k] = origin[k], d[k] = line.direction[k];
-    for (int k = 0; k < 3; ++k) dd += d[k] * d[k], od += o[k] * d[k];
+    for (int k = 0; k < 3; ++k) { o[k] = origin[k], d[k] = line.direction[k]; }
+    for (int k = 0; k < 3; ++k) { dd += d[k] * d[k], od += o[k] * d[k]; }
     for (int k = 0; k < 3; ++k) {
       const Long l = o[k] - od / dd * d[k];
       perpendicular += l * l;
@@ -111,7 +111,7 @@ TEST_CASE("a sphere is met exactly when the line passes nearer than its radius: 
     }
     const Spans found = spans(placed(Sphere::make(dvec3(0), 1.0)), line);
     REQUIRE((gap > 0) == !found.empty());
-    if (gap <= 0) continue;
+    if (gap <= 0) { continue; }
     const Long half = std::sqrt((1 - perpendicular) / dd), in = -od / dd - half;
     // |dt| |d| <= 32 u D r / sqrt(disc): the rim amplifies.
     const Long bound = 32 * static_cast<Long>(u * distance) / std::sqrt(1 - perpendicular) + 8 * u * distance;
@@ -125,7 +125,7 @@ TEST_CASE("a box is met where its six polygons are") {
   const dvec3 lo{-1, -2, 0.5}, hi{2, 0.25, 1.5};
   const PlacedObject box = placed(BoxObject::make(lo, hi));
   std::vector<PlacedObject> faces;
-  for (const Corners& face : faces_of(lo, hi)) faces.push_back(placed(Polygon::make(face)));
+  for (const Corners& face : faces_of(lo, hi)) { faces.push_back(placed(Polygon::make(face))); }
   const auto mesh = mesh_of(box.object(), 0.0);
   REQUIRE(mesh->solid());
   REQUIRE(mesh->convex());
@@ -133,12 +133,13 @@ TEST_CASE("a box is met where its six polygons are") {
     const Segment line{random.in_cube(4), random.direction()};
     const Spans of_box = spans(box, line), of_mesh = spans(placed(mesh), line);
     std::vector<std::pair<double, std::uint32_t>> crossings;
-    for (std::uint32_t f = 0; f < 6; ++f)
-      for (const Span& s : spans(faces[f], line)) crossings.push_back({s.in.t, f});
+    for (std::uint32_t f = 0; f < 6; ++f) {
+      for (const Span& s : spans(faces[f], line)) { crossings.push_back({s.in.t, f}); }
+    }
     std::sort(crossings.begin(), crossings.end());
     REQUIRE(crossings.size() == 2 * of_box.size());
     REQUIRE(of_mesh.size() == of_box.size());
-    if (of_box.empty()) continue;
+    if (of_box.empty()) { continue; }
     // t is at most 10, positions at most 4; dividing by the cosine of the steepest accepted angle is inside the margin.
     CHECK(of_box[0].in.t == test::Approx(crossings[0].first).margin(1e-11));
     CHECK(of_box[0].out.t == test::Approx(crossings[1].first).margin(1e-11));
@@ -162,8 +163,8 @@ TEST_CASE("entries and exits of a concave mesh alternate, and the line is inside
     for (const Span& s : found) {
       CHECK(s.in.t > before);
       CHECK(s.out.t > s.in.t);
-      if (s.out.t - s.in.t > 1e-9) CHECK(inside(line.at(0.5 * (s.in.t + s.out.t))));
-      if (std::isfinite(before) && s.in.t - before > 1e-9) CHECK_FALSE(inside(line.at(0.5 * (before + s.in.t))));
+      if (s.out.t - s.in.t > 1e-9) { CHECK(inside(line.at(0.5 * (s.in.t + s.out.t)))); }
+      if (std::isfinite(before) && s.in.t - before > 1e-9) { CHECK_FALSE(inside(line.at(0.5 * (before + s.in.t)))); }
       before = s.out.t;
     }
     twice += found.size() == 2;
@@ -193,8 +194,8 @@ TEST_CASE("spans of a placed object: an affine map changes no parameter") {
         continue;
       }
       for (std::size_t k = 0; k < a.size(); ++k) {
-        if (std::isfinite(a[k].in.t)) CHECK(a[k].in.t == test::Approx(b[k].in.t).margin(1e-9));
-        if (std::isfinite(a[k].out.t)) CHECK(a[k].out.t == test::Approx(b[k].out.t).margin(1e-9));
+        if (std::isfinite(a[k].in.t)) { CHECK(a[k].in.t == test::Approx(b[k].in.t).margin(1e-9)); }
+        if (std::isfinite(a[k].out.t)) { CHECK(a[k].out.t == test::Approx(b[k].out.t).margin(1e-9)); }
       }
     }
   }
@@ -228,10 +229,10 @@ TEST_CASE("axis-parallel lines, zeros of both signs and denormal components") {
   const PlacedObject objects[] = {placed(Sphere::make({0, 0, 0}, 1.0)), placed(BoxObject::make({-1, -1, -1}, {1, 1, 1})),
                                   placed(Cylinder::make({0, 0, -1}, {0, 0, 2}, 1.0)),
                                   placed(mesh_of(*BoxObject::make({-1, -1, -1}, {1, 1, 1}), 0.0))};
-  for (const PlacedObject& object : objects)
-    for (int axis = 0; axis < 3; ++axis)
-      for (const double sign : {1.0, -1.0})
-        for (const double a : zeros)
+  for (const PlacedObject& object : objects) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double sign : {1.0, -1.0}) {
+        for (const double a : zeros) {
           for (const double b : zeros) {
             dvec3 d{0}, o{0};
             d[axis] = sign;
@@ -252,6 +253,10 @@ TEST_CASE("axis-parallel lines, zeros of both signs and denormal components") {
               CHECK(SlabTest(Segment{o, d})(object.bounds(), 0.0, 10.0, entry));
             }
           }
+        }
+      }
+    }
+  }
 }
 
 TEST_CASE("polygons of every simple shape: a line meets them where the crossing number is odd") {
@@ -270,7 +275,7 @@ TEST_CASE("polygons of every simple shape: a line meets them where the crossing 
     const glm::dmat3 frame = random.rotation();
     const dvec3 origin = random.in_cube(3);
     Corners corners;
-    for (const auto& p : outline) corners.push_back(origin + p[0] * frame[0] + p[1] * frame[1]);
+    for (const auto& p : outline) { corners.push_back(origin + p[0] * frame[0] + p[1] * frame[1]); }
     const auto polygon = Polygon::make(corners);
     INFO(polygon.refusal);
     REQUIRE(polygon);
@@ -280,7 +285,7 @@ TEST_CASE("polygons of every simple shape: a line meets them where the crossing 
       bool odd = false;
       for (std::size_t k = 0; k < outline.size(); ++k) {
         const auto &a = outline[k], &b = outline[(k + 1) % outline.size()];
-        if ((a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) odd = !odd;
+        if ((a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) { odd = !odd; }
       }
       const dvec3 target = origin + x * frame[0] + y * frame[1], from = target + 5.0 * random.direction();
       const Spans found = spans(placed(polygon), between(from, target));

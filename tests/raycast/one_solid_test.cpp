@@ -17,17 +17,19 @@ Made<Mesh> thick_box(double wall) {
   const double inner = 1.0 - wall;
   for (const auto& face : faces_of({-1, -1, -1}, {1, 1, 1})) {
     faces.push_back({});
-    for (const dvec3& p : face) faces.back().push_back(static_cast<std::uint32_t>(positions.size())), positions.push_back(p);
+    for (const dvec3& p : face) { faces.back().push_back(static_cast<std::uint32_t>(positions.size())), positions.push_back(p); }
   }
   for (auto face : faces_of({-inner, -inner, -inner}, {inner, inner, inner})) {
     std::reverse(face.begin(), face.end());
     faces.push_back({});
-    for (const dvec3& p : face) faces.back().push_back(static_cast<std::uint32_t>(positions.size())), positions.push_back(p);
+    for (const dvec3& p : face) { faces.back().push_back(static_cast<std::uint32_t>(positions.size())), positions.push_back(p); }
   }
   std::vector<std::vector<std::uint32_t>> shared = faces;  // equal positions are one vertex
-  for (auto& face : shared)
-    for (std::uint32_t& v : face)
+  for (auto& face : shared) {
+    for (std::uint32_t& v : face) {
       v = static_cast<std::uint32_t>(std::find(positions.begin(), positions.end(), positions[v]) - positions.begin());
+    }
+  }
   return Mesh::make(positions, shared);
 }
 
@@ -35,10 +37,11 @@ Made<Mesh> thick_box(double wall) {
 Made<Mesh> warped_block(Random& random, double off) {
   const double profile[6][2] = {{0, 0}, {2, 0}, {2, 2}, {1, 2}, {1, 1}, {0, 1}};  // x, z
   Corners positions;
-  for (int y = 0; y < 2; ++y)
-    for (const auto& p : profile) positions.push_back(dvec3{p[0], y, p[1]} + off * random.in_cube());
+  for (int y = 0; y < 2; ++y) {
+    for (const auto& p : profile) { positions.push_back(dvec3{p[0], y, p[1]} + off * random.in_cube()); }
+  }
   std::vector<std::vector<std::uint32_t>> faces{{0, 1, 2, 3, 4, 5}, {11, 10, 9, 8, 7, 6}};
-  for (std::uint32_t i = 0; i < 6; ++i) faces.push_back({(i + 1) % 6, i, i + 6, (i + 1) % 6 + 6});
+  for (std::uint32_t i = 0; i < 6; ++i) { faces.push_back({(i + 1) % 6, i, i + 6, (i + 1) % 6 + 6}); }
   return Mesh::make(positions, faces);
 }
 
@@ -46,8 +49,9 @@ Made<Mesh> warped_block(Random& random, double off) {
 Made<Mesh> wavy_sheet(Random& random, std::uint32_t n, double height) {
   Corners positions;
   std::vector<std::vector<std::uint32_t>> faces;
-  for (std::uint32_t i = 0; i <= n; ++i)
-    for (std::uint32_t j = 0; j <= n; ++j) positions.push_back({2.0 * i / n - 1.0, 2.0 * j / n - 1.0, random.uniform(-height, height)});
+  for (std::uint32_t i = 0; i <= n; ++i) {
+    for (std::uint32_t j = 0; j <= n; ++j) { positions.push_back({2.0 * i / n - 1.0, 2.0 * j / n - 1.0, random.uniform(-height, height)}); }
+  }
   for (std::uint32_t i = 0; i < n; ++i) {
     for (std::uint32_t j = 0; j < n; ++j) {
       const std::uint32_t a = i * (n + 1) + j, b = a + n + 1;
@@ -66,15 +70,15 @@ World few_large(Random& random, double scale, const dvec3& shift) {
     brep::Builder mesh;
     object.approximate(0.05 * scale, mesh);
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-      if (mesh.sheet(f) == brep::no_sheet) continue;
+      if (mesh.sheet(f) == brep::no_sheet) { continue; }
       Corners corners;
-      for (const std::uint32_t v : mesh.corners(f)) corners.push_back(mesh.position(v));
+      for (const std::uint32_t v : mesh.corners(f)) { corners.push_back(mesh.position(v)); }
       w.faces.push_back({static_cast<std::uint32_t>(w.objects.size()), corners, mesh.sheet(f)});
     }
     w.objects.push_back(object);
   };
   add(thick_box(random.uniform(0.02, 0.3)), 1.0);
-  for (int i = 0; i < 3; ++i) add(warped_block(random, random.below(3) ? std::pow(10.0, random.uniform(-15, -7)) : 0.0), 0.3);
+  for (int i = 0; i < 3; ++i) { add(warped_block(random, random.below(3) ? std::pow(10.0, random.uniform(-15, -7)) : 0.0), 0.3); }
   add(mesh_of(*Sphere::make({0, 0, 0}, 0.8), 0.02), 0.4);
   add(wavy_sheet(random, 1 + random.below(12), std::pow(10.0, random.uniform(-6, -0.5))), 0.5);
   const double off = 1e-7 * random.uniform();
@@ -92,28 +96,30 @@ TEST_CASE("few large solids and surfaces, with faces that are not quite planar: 
     const dvec3 shift = scale * random.magnitude(2) * random.in_cube();
     const World w = few_large(random, scale, shift);
     std::vector<Scene> scenes;
-    for (const Isa isa : instruction_sets()) scenes.emplace_back(w.objects, isa);
+    for (const Isa isa : instruction_sets()) { scenes.emplace_back(w.objects, isa); }
     for (int i = 0; i < 100; ++i) {
       Segments16 segments;
       for (unsigned lane = 0; lane < 16; ++lane) {
         const auto end = [&] {  // on a surface, just before or behind one and owned by nothing, or anywhere
           Place p = place(random, w, scale, shift);
           for (const Facet& face : w.faces)  // before a sheet, on a reentrant edge, may be within the solid (bundle.hpp)
-            if (std::find(face.corners.begin(), face.corners.end(), p.at) != face.corners.end()) p.sheet = unknown_sheet;
-          if (random.below(2)) return p;
+            if (std::find(face.corners.begin(), face.corners.end(), p.at) != face.corners.end()) { p.sheet = unknown_sheet; }
+          if (random.below(2)) { return p; }
           return Place{p.at + scale * std::pow(10.0, random.uniform(-7, 0)) * random.in_cube()};
         };
         const Place p = end(), q = end();
         segments.set(lane, between(p.at, q.at), p.owner, q.owner, p.sheet, q.sheet);
       }
       std::uint32_t expected = 0;
-      for (unsigned lane = 0; lane < 16; ++lane)
+      for (unsigned lane = 0; lane < 16; ++lane) {
         expected |= static_cast<std::uint32_t>(by_law(scenes[0], segments.at(lane), segments.source[lane], segments.target[lane])) << lane;
+      }
       for (const Scene& scene : scenes) {
         INFO("turn " << turn << " bundle " << i);
         REQUIRE(scene.occluded16(segments) == expected);
-        for (unsigned lane = 0; lane < 16; ++lane)
+        for (unsigned lane = 0; lane < 16; ++lane) {
           REQUIRE(scene.occluded(segments.at(lane), segments.source[lane], segments.target[lane]) == ((expected >> lane & 1u) != 0));
+        }
       }
       blocked += static_cast<std::size_t>(std::popcount(expected));
       all += 16;
@@ -140,9 +146,9 @@ TEST_CASE("a cell of air holds no point of the solid, and a fourth of the air in
       const dvec3 p = solid.bounds().lo + size * (0.5 + 0.5 * random.in_cube());
       const glm::vec3 local(compiled.local(p));
       bool within = false;
-      for (const Span& span : spans(solid, {p, size})) within = within || (span.in.t <= 0.0 && span.out.t >= 0.0);
+      for (const Span& span : spans(solid, {p, size})) { within = within || (span.in.t <= 0.0 && span.out.t >= 0.0); }
       const bool known = compiled.guards[0].air.contains(local.x, local.y, local.z);
-      if (known) CHECK_FALSE(within);
+      if (known) { CHECK_FALSE(within); }
       found += known;
       air += !within;
     }
@@ -171,19 +177,20 @@ TEST_CASE("the first hit of an open surface is the first crossing of the whole l
     const auto n = 1 + random.below(30);
     const PlacedObject sheet = placed(wavy_sheet(random, n, std::pow(10.0, random.uniform(-4, -0.5))));
     std::vector<Scene> scenes;
-    for (const Isa isa : instruction_sets()) scenes.emplace_back(std::vector<PlacedObject>{sheet}, isa);
+    for (const Isa isa : instruction_sets()) { scenes.emplace_back(std::vector<PlacedObject>{sheet}, isa); }
     for (int i = 0; i < 300; ++i) {
       dvec3 at = random.in_cube();
       if (random.below(2)) at = glm::round(0.5 * n * (at + 1.0)) / (0.5 * n) - 1.0;  // over an edge
       const dvec3 eye{0.9 * random.in_cube().x, 0.9 * random.in_cube().y, random.below(2) ? 0.9 : -0.9};
       const Segment ray = between(eye, {at.x, at.y, 0.0});
       std::optional<Crossing> first;
-      for (const Span& span : spans(sheet, ray))
-        if (!first && span.in.t > 0.0) first = span.in;
+      for (const Span& span : spans(sheet, ray)) {
+        if (!first && span.in.t > 0.0) { first = span.in; }
+      }
       for (const Scene& scene : scenes) {
         const std::optional<Hit> hit = scene.closest(ray);
         REQUIRE(hit.has_value() == first.has_value());
-        if (hit) REQUIRE((hit->t == first->t && hit->sheet == first->sheet));
+        if (hit) { REQUIRE((hit->t == first->t && hit->sheet == first->sheet)); }
       }
       met += first.has_value();
     }

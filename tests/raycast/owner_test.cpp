@@ -23,15 +23,15 @@ TEST_CASE("a ray that leaves a convex solid never meets it again") {
     const Segment through = between(outside, 0.3 * random.in_cube());
     Spans found;
     shape->spans(through, found);
-    if (found.empty()) continue;
+    if (found.empty()) { continue; }
     const dvec3 p = placement.linear * through.at(found[0].in.t) + placement.translation;
     const SurfacePoint at = object.project(found[0].in.sheet, p);
-    if (shape->flat() && !object.bounds().contains(at.position)) continue;
+    if (shape->flat() && !object.bounds().contains(at.position)) { continue; }
     for (int k = 0; k < 10; ++k) {
       dvec3 d = scale * std::pow(10.0, random.uniform(-3, 3)) * random.direction();
-      if (glm::dot(d, at.normal) < 0.0) d = -d;
+      if (glm::dot(d, at.normal) < 0.0) { d = -d; }
       // Directions nearer to the tangent plane than the rounding of the position are not leaving.
-      if (glm::dot(d, at.normal) < 1e-9 * glm::length(d)) continue;
+      if (glm::dot(d, at.normal) < 1e-9 * glm::length(d)) { continue; }
       CHECK_FALSE(alone.occluded(Segment{at.position, d}, 0));
       CHECK_FALSE(alone.occluded(Segment{at.position + d, -d}, no_object, 0));
       const auto hit = alone.closest(Segment{at.position, d}, 0);
@@ -43,7 +43,7 @@ TEST_CASE("a ray that leaves a convex solid never meets it again") {
 TEST_CASE("a concave owner drops the span at the end and keeps the later ones") {
   for (const bool mirrored : {false, true}) {
     Placement placement;
-    if (mirrored) placement.linear = glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, 1);
+    if (mirrored) { placement.linear = glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, 1); }
     const double y = mirrored ? -0.5 : 0.5;
     const Scene scene({placed(l_block(), placement)});
     const dvec3 step{0.5, y, 1}, riser{1, y, 1.5}, top{1.5, y, 2};
@@ -91,7 +91,7 @@ TEST_CASE("chord points inside a convex solid see what their surface sees") {
     if (chords.sheet(f) == 1) continue;  // it stands on the floor
     const auto middle = [&](std::uint32_t face, dvec3& p, dvec3& n) {
       Corners corners;
-      for (const std::uint32_t v : chords.corners(face)) corners.push_back(chords.position(v));
+      for (const std::uint32_t v : chords.corners(face)) { corners.push_back(chords.position(v)); }
       p = brep::centroid(corners);
       n = brep::normal(corners);
     };
@@ -134,7 +134,7 @@ TEST_CASE("a convex room never hides its walls from each other, nor a lamp that 
       const dvec3 a = on_wall(), b = on_wall();
       CHECK_FALSE(scene.occluded(between(world(a), world(b)), 0, 0));
       const dvec3 lamp{random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), 1};
-      if (a.z == 1.0) continue;
+      if (a.z == 1.0) { continue; }
       CHECK_FALSE(scene.occluded(between(world(lamp), world(a)), 1, 0));
       CHECK_FALSE(scene.occluded(between(world(a), world(lamp)), 0, 1));
       CHECK_FALSE(scene.occluded(between(world(lamp), world(0.5 * (a + lamp))), 1));
@@ -198,8 +198,9 @@ TEST_CASE("covered: what lies flush on, in or behind other surfaces") {
                                       placed(l_block(), Placement{at.linear, at.linear * dvec3(3, 7, 0) + at.translation, false}),
                                       placed(Polygon::make(up(8, 1, 1, 1)), at),
                                       placed(Polygon::make(down(8, 1, 1, 1)), at)};
-    for (int extra = 0; extra < (turn % 3 ? 0 : 30); ++extra)
+    for (int extra = 0; extra < (turn % 3 ? 0 : 30); ++extra) {
       objects.push_back(placed(Sphere::make({20.0 + extra, 0, 0}, 0.3), at));  // makes the tree
+    }
     const Scene scene(objects);
     const auto covered = [&](const dvec3& p, const dvec3& n, std::uint32_t owner) {
       return scene.covered(at.linear * p + at.translation, glm::normalize(at.linear * n), owner);

@@ -72,8 +72,9 @@ TEST_CASE("growing a convex primitive, or a torus' tube, never turns a hit into 
         {Superquadric::make(dvec3(0.0), {1, 0.5, 0.7}, n, e), Superquadric::make(dvec3(0.0), grown * dvec3(1, 0.5, 0.7), n, e)},
         {Torus::make(dvec3(0.0), {1, 2, 3}, 1, 0.25), Torus::make(dvec3(0.0), {1, 2, 3}, 1, 0.25 * std::min(grown, 3.9))},
         {Cone::make(dvec3(0.0), {0, 0, 1}, 0.5), Cone::make(dvec3(0.0), {0, 0, grown}, 0.5 * grown)}};
-    for (const auto& [small, large] : pairs)
-      if (!spans_of(small, line).empty()) CHECK_FALSE(spans_of(large, line).empty());
+    for (const auto& [small, large] : pairs) {
+      if (!spans_of(small, line).empty()) { CHECK_FALSE(spans_of(large, line).empty()); }
+    }
   }
 }
 
@@ -85,9 +86,9 @@ TEST_CASE("every primitive under uneven scales up to 10^4: a placement changes n
     for (int i = 0; i < 400; ++i) {
       const double size = random.magnitude(8);
       dvec3 s{1.0};
-      for (int k = 0; k < 3; ++k) s[k] = std::pow(10.0, random.uniform(-4, 0));
+      for (int k = 0; k < 3; ++k) { s[k] = std::pow(10.0, random.uniform(-4, 0)); }
       glm::dmat3 linear = random.rotation() * glm::dmat3(s.x, 0, 0, 0, s.y, 0, 0, 0, s.z) * random.rotation() * size;
-      if (i % 2) linear[0] = -linear[0];
+      if (i % 2) { linear[0] = -linear[0]; }
       const Placement placement{linear, size * random.in_cube(), false};
       REQUIRE_FALSE(check(*object, placement));
       const Segment line = between(3.0 * random.direction(), 0.8 * random.in_cube());
@@ -115,14 +116,14 @@ TEST_CASE("every primitive: its crossings lie within the bounds, and a line that
         CHECK(subject.bounds().contains(line.at(s.out.t), 1e-13 * subject.bounds().magnitude()));
       }
       double entry = 0.0;
-      if (!SlabTest(line)(subject.bounds(), -infinity, infinity, entry)) CHECK(found.empty());
+      if (!SlabTest(line)(subject.bounds(), -infinity, infinity, entry)) { CHECK(found.empty()); }
     }
   }
 }
 
 TEST_CASE("every primitive: project is idempotent, and the way to the point runs along the normal") {
   SEEDED(random);
-  for (const Primitive& primitive : primitives())
+  for (const Primitive& primitive : primitives()) {
     for (int i = 0; i < 200; ++i) {
       const double size = random.magnitude(6);
       const auto object = primitive.make(size * random.in_cube(), size);
@@ -135,21 +136,22 @@ TEST_CASE("every primitive: project is idempotent, and the way to the point runs
         CHECK(glm::length(first.normal) == test::Approx(1.0).epsilon(1e-14));
         if (primitive.creased) continue;  // edges have no one normal
         // From just outside, nearer than any radius of curvature but those of sharp boxes.
-        if (primitive.name == "sharp box" || primitive.name.find("con") == 0 || primitive.name == "cup") continue;
+        if (primitive.name == "sharp box" || primitive.name.find("con") == 0 || primitive.name == "cup") { continue; }
         const dvec3 near = first.position + 1e-3 * size * random.direction();
         const SurfacePoint onto = object->project(sheet, near);
         CHECK(glm::length(glm::cross(near - onto.position, onto.normal)) <= 1e-5 * size);  // the pillow's rim bends sharply
         CHECK(glm::length(near - onto.position) <= 1e-3 * size * (1 + 1e-9));
       }
     }
+  }
 }
 
 TEST_CASE("every primitive: axis-parallel lines, zeros of both signs and denormal components") {
   const double zeros[] = {0.0, -0.0, 1e-310, -1e-310, std::numeric_limits<double>::denorm_min()};
   for (const Primitive& primitive : primitives()) {
     const PlacedObject subject = placed(primitive.make({0, 0, 0}, 1.0));
-    for (int axis = 0; axis < 3; ++axis)
-      for (const double off : {0.0, -0.0, 0.1, 0.3, 1.0, -1.0, 2.0})
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double off : {0.0, -0.0, 0.1, 0.3, 1.0, -1.0, 2.0}) {
         for (const double sign : {1.0, -1.0}) {
           dvec3 o{0.0}, d{0.0};
           d[axis] = sign;
@@ -159,17 +161,20 @@ TEST_CASE("every primitive: axis-parallel lines, zeros of both signs and denorma
           const Spans reference = spans(subject, Segment{o, d});
           const bool tangent =
               std::abs(off - subject.bounds().lo[(axis + 1) % 3]) < 1e-12 || std::abs(off) == 1.0;  // the line lies in a plane that touches
-          for (const Span& s : reference) CHECK((s.in.t > 1.9 && s.in.t <= s.out.t && s.out.t < 4.1));
-          if (off == 2.0) CHECK(reference.empty());
-          for (const double a : zeros)
+          for (const Span& s : reference) { CHECK((s.in.t > 1.9 && s.in.t <= s.out.t && s.out.t < 4.1)); }
+          if (off == 2.0) { CHECK(reference.empty()); }
+          for (const double a : zeros) {
             for (const double b : zeros) {
               d[(axis + 1) % 3] = a;
               d[(axis + 2) % 3] = b;
               INFO(primitive.name << " axis " << axis << " off " << off << " zeros " << a << " " << b);
               const Spans found = spans(subject, Segment{o, d});
-              if (!tangent) CHECK(alike(found, reference, 1e-12));
+              if (!tangent) { CHECK(alike(found, reference, 1e-12)); }
             }
+          }
         }
+      }
+    }
     for (const dvec3& d : {dvec3(0.0), dvec3(-0.0), dvec3(1e-320, 0, 0)}) {
       const Scene scene({subject});
       CHECK_FALSE(scene.occluded(Segment{{0, 0, 0}, d}));
@@ -182,7 +187,7 @@ TEST_CASE("every convex primitive: a ray that leaves it never meets it again") {
   SEEDED(random);
   for (const Primitive& primitive : primitives()) {
     const auto shape = primitive.make({0, 0, 0}, 1.0);
-    if (!shape->convex()) continue;
+    if (!shape->convex()) { continue; }
     for (int i = 0; i < 500; ++i) {
       const double scale = random.magnitude(8);
       const Placement placement{random.rotation() * scale, scale * std::pow(10.0, random.uniform(-2, 3)) * random.in_cube(), false};
@@ -191,12 +196,12 @@ TEST_CASE("every convex primitive: a ray that leaves it never meets it again") {
       Spans found;
       const Segment through = between(3.0 * random.direction(), 0.3 * random.in_cube());
       shape->spans(through, found);
-      if (found.empty()) continue;
+      if (found.empty()) { continue; }
       const dvec3 p = placement.linear * through.at(found[0].in.t) + placement.translation;
       const SurfacePoint at = object.project(found[0].in.sheet, p);
       for (int k = 0; k < 10; ++k) {
         dvec3 d = scale * std::pow(10.0, random.uniform(-3, 3)) * random.direction();
-        if (glm::dot(d, at.normal) < 0.0) d = -d;
+        if (glm::dot(d, at.normal) < 0.0) { d = -d; }
         if (glm::dot(d, at.normal) < 1e-9 * glm::length(d)) continue;  // nearer to the tangent plane than the rounding of the position
         INFO(primitive.name);
         CHECK_FALSE(alone.occluded(Segment{at.position, d}, 0));
@@ -255,7 +260,7 @@ TEST_CASE("a mesh made from a BRep is the mesh made from its list, closed or ope
       list->spans(line, a);
       copy->spans(line, b);
       REQUIRE(a.size() == b.size());
-      for (std::size_t k = 0; k < a.size(); ++k) CHECK((a[k].in.t == b[k].in.t && a[k].out.sheet == b[k].out.sheet));
+      for (std::size_t k = 0; k < a.size(); ++k) { CHECK((a[k].in.t == b[k].in.t && a[k].out.sheet == b[k].out.sheet)); }
     }
   }
 }
@@ -290,16 +295,16 @@ TEST_CASE("disks: met within the radius, at any size and distance; their mesh ha
     const dvec3 target = centre + size * r * (std::cos(angle) * frame[0] + std::sin(angle) * frame[1]);
     const dvec3 d = random.direction();
     const double cosine = std::abs(glm::dot(d, frame[2])), bound = 16 * unit_roundoff * (far + size + glm::length(centre)) / cosine;
-    if (std::abs(r - 1) * size <= bound) continue;
+    if (std::abs(r - 1) * size <= bound) { continue; }
     const Spans found = spans_of(disk, between(target - far * d, target));
     REQUIRE(found.size() == (r < 1 ? 1u : 0u));
-    if (r < 1) CHECK(std::abs(found[0].in.t - 1.0) * far <= bound);
+    if (r < 1) { CHECK(std::abs(found[0].in.t - 1.0) * far <= bound); }
     met += r < 1;
   }
   CHECK(met > 5000);
   brep::Builder builder;
   Disk::make({1, 2, 3}, {1, 1, 1}, 2)->approximate(0.1, builder);
   Corners corners;
-  for (const std::uint32_t v : builder.corners(0)) corners.push_back(builder.position(v));
+  for (const std::uint32_t v : builder.corners(0)) { corners.push_back(builder.position(v)); }
   CHECK(glm::length(brep::vector_area(brep::Polygon(corners))) == test::Approx(4 * 3.14159265358979).epsilon(1e-13));
 }

@@ -102,8 +102,9 @@ inline std::vector<Primitive> primitives() {
 // The line in the primitive's unit coordinates, exactly.
 inline Point point_at(const raycast::Segment& line, Real t, const dvec3& centre, double size) {
   Point p{};
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 3; ++k) {
     p[static_cast<std::size_t>(k)] = (line.origin[k] + t * static_cast<Real>(line.direction[k]) - centre[k]) / size;
+  }
   return p;
 }
 

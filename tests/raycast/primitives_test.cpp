@@ -37,7 +37,7 @@ TEST_CASE("every primitive: crossings lie on the surface and on their sheet, ove
       const double size = random.magnitude(8), far = size * std::pow(10.0, random.uniform(0, i % 4 ? 4 : 8));
       const Subject subject(primitive, random.in_cube(size * std::pow(10.0, random.uniform(-2, 2))), size);
       dvec3 target = subject.centre + random.in_cube(0.6 * size);
-      if (i % 2) target = subject.object->project(random.below(subject.object->sheet_count()), target).position;
+      if (i % 2) { target = subject.object->project(random.below(subject.object->sheet_count()), target).position; }
       const dvec3 origin = target + far * random.direction();
       const Segment line{origin, random.uniform(0.5, 2.0) * (target - origin)};
       const double length = glm::length(line.direction);
@@ -89,10 +89,10 @@ TEST_CASE("every primitive: a point of a line is inside exactly when a span cove
       Segment line{subject.centre + 2.0 * random.direction(), {}};
       dvec3 target = subject.centre + random.in_cube(0.9);
       if (i % 4 == 0) target[static_cast<int>(random.below(3))] = 0.0;  // through a plane of symmetry, or along it
-      if (i % 3 == 0) target = subject.object->project(random.below(subject.object->sheet_count()), target).position;
+      if (i % 3 == 0) { target = subject.object->project(random.below(subject.object->sheet_count()), target).position; }
       line.direction = target - line.origin;
-      if (i % 7 == 0) line.direction[static_cast<int>(random.below(3))] = 0.0;
-      if (i % 11 == 0) line.origin = subject.centre + 2.0 * random.direction(), line.direction = subject.centre - line.origin;
+      if (i % 7 == 0) { line.direction[static_cast<int>(random.below(3))] = 0.0; }
+      if (i % 11 == 0) { line.origin = subject.centre + 2.0 * random.direction(), line.direction = subject.centre - line.origin; }
       const Spans found = subject.spans(line);
       several += found.size() > 1;
       INFO(primitive.name << " line " << i << " spans " << found.size());
@@ -119,7 +119,7 @@ TEST_CASE("every primitive: a point of a line is inside exactly when a span cove
     }
     INFO(primitive.name);
     CHECK(samples > 30000);
-    if (primitive.name == "torus" || primitive.name.find("ring") != std::string::npos) CHECK(several > 5);
+    if (primitive.name == "torus" || primitive.name.find("ring") != std::string::npos) { CHECK(several > 5); }
   }
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("every primitive: a grazing line meets it exactly when the implicit fu
       const dvec3 aim = subject.object->project(random.below(subject.object->sheet_count()), 0.7 * random.in_cube()).position;
       const Segment through = between(2.0 * random.direction(), aim);
       const Spans entry = subject.spans(through);
-      if (entry.empty()) continue;
+      if (entry.empty()) { continue; }
       const SurfacePoint at = subject.object->project(entry[0].in.sheet, through.at(entry[0].in.t));
       const dvec3 tangent = glm::normalize(glm::cross(at.normal, random.direction()));
       const double offset = std::pow(10.0, random.uniform(-13, -1)) * (random.below(2) ? 1 : -1);
@@ -145,11 +145,12 @@ TEST_CASE("every primitive: a grazing line meets it exactly when the implicit fu
       const Real from = (far - 2.5L) / (far + 1), to = (far + 2.5L) / (far + 1);
       constexpr int samples = 200;
       std::array<Real, samples> values{};
-      for (int k = 0; k < samples; ++k)
+      for (int k = 0; k < samples; ++k) {
         values[static_cast<std::size_t>(k)] = subject.implicit(line, from + (to - from) * k / (samples - 1));
+      }
       Real least = 1;
       for (std::size_t k = 1; k + 1 < samples; ++k) {
-        if (values[k] > values[k - 1] || values[k] > values[k + 1]) continue;
+        if (values[k] > values[k - 1] || values[k] > values[k + 1]) { continue; }
         Real a = from + (to - from) * static_cast<Real>(k - 1) / (samples - 1),
              b = from + (to - from) * static_cast<Real>(k + 1) / (samples - 1);
         constexpr Real golden = 0.61803398874989484820L;
@@ -164,13 +165,13 @@ TEST_CASE("every primitive: a grazing line meets it exactly when the implicit fu
         least = std::min({least, fc, fd});
       }
       const double bound = primitive.steepness * 32 * u * (far + 1);
-      if (std::abs(least) <= static_cast<Real>(bound)) continue;
+      if (std::abs(least) <= static_cast<Real>(bound)) { continue; }
       INFO(primitive.name << " line " << i << " offset " << offset << " far " << far << " least " << static_cast<double>(least));
       CHECK(subject.spans(line).empty() == (least > 0));
       ++(least > 0 ? misses : hits);
     }
     INFO(primitive.name);
     CHECK(hits > 20);
-    if (primitive.name.find("ring") == std::string::npos) CHECK(misses > 10);
+    if (primitive.name.find("ring") == std::string::npos) { CHECK(misses > 10); }
   }
 }

@@ -40,7 +40,7 @@ class RandomSolids {
     const std::string name = " p" + std::to_string(++count_) + " ";
     if (kind == box) {
       dvec3 size(0.0);
-      for (int k = 0; k < 3; ++k) size[k] = round(random_.uniform(smallest, 2 * largest));
+      for (int k = 0; k < 3; ++k) { size[k] = round(random_.uniform(smallest, 2 * largest)); }
       const glm::dmat3 turn = step_ > 0.0 || random_.below(3) == 0 ? glm::dmat3(1.0) : random_.rotation();
       result.node.solid = BoxObject::make(-0.5 * size, 0.5 * size).object;
       result.node.placement = {turn, at, false};
@@ -68,10 +68,11 @@ class RandomSolids {
       const double height = round(random_.uniform(smallest, 3 * largest)), r = round(random_.uniform(smallest, largest));
       const double top = kind == cylinder ? r : random_.below(2) == 0 ? 0.0 : r * random_.uniform(0.1, 0.9);
       const dvec3 w = axis();
-      if (kind == cylinder)
+      if (kind == cylinder) {
         result.node.solid = Cylinder::make(at, height * w, r).object;
-      else
+      } else {
         result.node.solid = Cone::make(at, height * w, r, top).object;
+      }
       result.inside = [=](const dvec3& p) {
         const double z = glm::dot(p - at, w);
         return z > 0.0 && z < height && glm::length(p - at - z * w) < r + (top - r) * z / height;
@@ -97,8 +98,8 @@ class RandomSolids {
     result.text += " }";
     result.inside = [operation, inside](const dvec3& p) {
       const auto in = [&](const auto& f) { return f(p); };
-      if (operation == raycast::CsgOperation::unite) return std::any_of(inside.begin(), inside.end(), in);
-      if (operation == raycast::CsgOperation::intersect) return std::all_of(inside.begin(), inside.end(), in);
+      if (operation == raycast::CsgOperation::unite) { return std::any_of(inside.begin(), inside.end(), in); }
+      if (operation == raycast::CsgOperation::intersect) { return std::all_of(inside.begin(), inside.end(), in); }
       return in(inside[0]) && std::none_of(inside.begin() + 1, inside.end(), in);
     };
     return result;
@@ -106,7 +107,7 @@ class RandomSolids {
 
   // Of 2 to `most` leaves, parted at random.
   RandomSolid tree(std::uint32_t leaves, double smallest, double largest) {
-    if (leaves == 1) return any_leaf(smallest, largest);
+    if (leaves == 1) { return any_leaf(smallest, largest); }
     std::vector<RandomSolid> parts;
     std::uint32_t left = leaves;
     while (left > 0) {
@@ -121,11 +122,11 @@ class RandomSolids {
   [[nodiscard]] double round(double x) const { return step_ > 0.0 ? std::max(step_, std::round(x / step_) * step_) : x; }
   dvec3 point() {
     dvec3 p(0.0);
-    for (int k = 0; k < 3; ++k) p[k] = random_.uniform(0.0, 2.0);
+    for (int k = 0; k < 3; ++k) { p[k] = random_.uniform(0.0, 2.0); }
     return step_ > 0.0 ? glm::round(p / step_) * step_ : p;
   }
   dvec3 axis() {
-    if (step_ == 0.0) return random_.direction();
+    if (step_ == 0.0) { return random_.direction(); }
     dvec3 w(0.0);
     w[static_cast<int>(random_.below(3))] = random_.below(2) == 0 ? 1.0 : -1.0;
     return w;

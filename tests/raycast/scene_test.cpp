@@ -51,9 +51,11 @@ std::vector<PlacedObject> clutter(Random& random, int count, double scale) {
 }
 // Does any span of any object overlap the open segment?
 bool brute_force(const std::vector<PlacedObject>& objects, const Segment& s) {
-  for (const PlacedObject& object : objects)
-    for (const Span& span : spans(object, s))
-      if (span.out.t > 0.0 && span.in.t < 1.0) return true;
+  for (const PlacedObject& object : objects) {
+    for (const Span& span : spans(object, s)) {
+      if (span.out.t > 0.0 && span.in.t < 1.0) { return true; }
+    }
+  }
   return false;
 }
 
@@ -61,7 +63,7 @@ bool brute_force(const std::vector<PlacedObject>& objects, const Segment& s) {
 
 TEST_CASE("occluded = brute force = occluded backwards, and = closest < 1 where the source is in the air") {
   SEEDED(random);
-  for (const int count : {1, 5, 30, 300})
+  for (const int count : {1, 5, 30, 300}) {
     for (const double scale : {1e-8, 1.0, 1e8}) {
       const std::vector<PlacedObject> objects = clutter(random, count, scale);
       const Scene scene(objects);
@@ -74,24 +76,28 @@ TEST_CASE("occluded = brute force = occluded backwards, and = closest < 1 where 
         REQUIRE(answer == brute_force(objects, s));
         REQUIRE(answer == scene.occluded(between(b, a)));
         bool buried = false;
-        for (const PlacedObject& object : objects)
-          for (const Span& span : spans(object, s)) buried = buried || (span.in.t <= 0.0 && span.out.t >= 0.0);
-        if (buried) continue;
+        for (const PlacedObject& object : objects) {
+          for (const Span& span : spans(object, s)) { buried = buried || (span.in.t <= 0.0 && span.out.t >= 0.0); }
+        }
+        if (buried) { continue; }
         const auto hit = scene.closest(s);
         REQUIRE(answer == (hit && hit->t < 1.0));
         // Splitting: a segment is free exactly when both its parts are.
         const double t = random.uniform();
         REQUIRE(answer == (scene.occluded(between(a, s.at(t))) || scene.occluded(between(s.at(t), b))));
         if (hit) {
-          for (const PlacedObject& object : objects)
-            for (const Span& span : spans(object, s))
+          for (const PlacedObject& object : objects) {
+            for (const Span& span : spans(object, s)) {
               if (span.in.t > 0.0) REQUIRE(hit->t <= span.in.t + 1e-12);  // the scene keeps polygons in world coordinates: other roundings
+            }
+          }
           const dvec3 normal = scene.object(hit->object).project(hit->sheet, s.at(hit->t)).normal;
           REQUIRE(hit->front == (glm::dot(normal, s.direction) < 0.0));
         }
       }
-      if (count >= 30) CHECK(blocked > 100);
+      if (count >= 30) { CHECK(blocked > 100); }
     }
+  }
 }
 
 TEST_CASE("scaling the scene by powers of two leaves every t bit-identical") {
@@ -102,10 +108,10 @@ TEST_CASE("scaling the scene by powers of two leaves every t bit-identical") {
     std::vector<PlacedObject> objects;
     for (int i = 0; i < 60; ++i) {
       const dvec3 at{next(), next(), next()}, a{0.2 * next(), 0.2 * next(), 0.2 * next()}, b{0.2 * next(), 0.2 * next(), 0.2 * next()};
-      if (i % 4 == 0) objects.push_back(placed(Sphere::make(factor * at, factor * 0.1)));
-      if (i % 4 == 1) objects.push_back(placed(BoxObject::make(factor * at, factor * (at + 0.1))));
-      if (i % 4 == 2) objects.push_back(placed(Cylinder::make(factor * at, factor * a, factor * 0.1)));
-      if (i % 4 == 3) objects.push_back(placed(Polygon::make({factor * at, factor * (at + a), factor * (at + b)})));
+      if (i % 4 == 0) { objects.push_back(placed(Sphere::make(factor * at, factor * 0.1))); }
+      if (i % 4 == 1) { objects.push_back(placed(BoxObject::make(factor * at, factor * (at + 0.1)))); }
+      if (i % 4 == 2) { objects.push_back(placed(Cylinder::make(factor * at, factor * a, factor * 0.1))); }
+      if (i % 4 == 3) { objects.push_back(placed(Polygon::make({factor * at, factor * (at + a), factor * (at + b)}))); }
     }
     Placement inside = room(glm::dmat3(factor));  // through the placement's map
     objects.push_back(placed(mesh_of(*BoxObject::make({-2, -2, -2}, {2, 2, 2}), 0.0), inside));
@@ -156,8 +162,8 @@ void no_ray_escapes(Random& random, int many) {
       dvec3 d = random.direction();
       if (i % 2 && which < 3) {  // at an edge or a vertex, exactly or within rounding
         dvec3 at{random.uniform(-1, 1), 1, -1};
-        if (i % 4 == 1) at.x = random.below(2) ? 1.0 : -1.0;
-        if (i % 3 == 0) std::swap(at.x, at.y);
+        if (i % 4 == 1) { at.x = random.below(2) ? 1.0 : -1.0; }
+        if (i % 3 == 0) { std::swap(at.x, at.y); }
         d = (at - from) * (i % 8 < 4 ? 1.0 : random.uniform(0.01, 100));
       } else if (i % 2 && which == 3) {
         const dvec3 a = corners.position(random.below(corners.vertex_count()));
@@ -193,13 +199,14 @@ TEST_CASE("zero-length and non-finite rays meet nothing; an empty scene is empty
     CHECK_FALSE(scene.closest(Segment{{0.5, 0, 0}, d}));
   }
   // An origin that is no place: no answer is right, but there is one, and it is the same alone and among sixteen.
-  for (const dvec3& o : {dvec3(nan, 0, 0), dvec3(0, infinity, 0), dvec3(-infinity, nan, 0), dvec3(1e300, 0, 0)})
+  for (const dvec3& o : {dvec3(nan, 0, 0), dvec3(0, infinity, 0), dvec3(-infinity, nan, 0), dvec3(1e300, 0, 0)}) {
     for (const dvec3& d : {dvec3(1, 0.5, 0.25), dvec3(nan, 0, 1), dvec3(1e300, 0, 0)}) {
       Segments16 segments;
       segments.set(3, {o, d}, no_object, no_object);
       CHECK(scene.occluded(Segment{o, d}) == (scene.occluded16(segments) != 0));
       CHECK(scene.closest(Segment{o, d}).has_value() == (scene.closest16(segments).met != 0));
     }
+  }
   const Scene nothing({});
   CHECK(nothing.closest16(Segments16{}).met == 0);
   CHECK_FALSE(nothing.occluded(between({0, 0, 0}, {1, 1, 1})));

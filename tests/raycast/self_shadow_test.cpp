@@ -32,7 +32,7 @@ void for_each_chord(const Object& object, double tolerance, Visit&& visit) {
   object.approximate(tolerance, builder);
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
     Corners corners;
-    for (const std::uint32_t v : builder.corners(f)) corners.push_back(builder.position(v));
+    for (const std::uint32_t v : builder.corners(f)) { corners.push_back(builder.position(v)); }
     visit(brep::centroid(corners), brep::normal(corners), builder.sheet(f));
   }
 }
@@ -53,7 +53,7 @@ TEST_CASE("a concave object lit by itself: occluded exactly when the segment pas
   for (const Primitive& primitive : primitives()) {
     const auto object = primitive.make({0, 0, 0}, 1.0);
     REQUIRE(object);
-    if (object->convex()) continue;
+    if (object->convex()) { continue; }
     for (const bool inside : {false, true}) {
       const Scene scene({placed(object, inside ? room() : Placement{})});
       int free = 0, blocked = 0, facing = 0;
@@ -61,10 +61,10 @@ TEST_CASE("a concave object lit by itself: occluded exactly when the segment pas
         const SurfacePoint a = object->project(0, random.in_cube(1.2)), b = object->project(0, random.in_cube(1.2));
         const double side = inside ? -1.0 : 1.0;
         const dvec3 d = b.position - a.position;
-        if (side * glm::dot(a.normal, d) <= 1e-3 || side * glm::dot(b.normal, -d) <= 1e-3) continue;
+        if (side * glm::dot(a.normal, d) <= 1e-3 || side * glm::dot(b.normal, -d) <= 1e-3) { continue; }
         // At a cusp the normal is only the mean of two: the first thousandth of the way must really be air at both ends.
         const auto solid_at = [&](Real t) { return side * primitive.implicit((1 - t) * real(a.position) + t * real(b.position)) < 0; };
-        if (solid_at(0.001L) || solid_at(0.999L)) continue;
+        if (solid_at(0.001L) || solid_at(0.999L)) { continue; }
         ++facing;
         const bool occluded = scene.occluded(between(a.position, b.position), 0, 0);
         REQUIRE(occluded == scene.occluded(between(b.position, a.position), 0, 0));
@@ -105,7 +105,7 @@ TEST_CASE("chord patches of a torus see each other as the true surface does, the
                     &q = patches[random.below(static_cast<std::uint32_t>(patches.size()))];
         const double side = inside ? -1.0 : 1.0;
         const dvec3 d = q.point - p.point;
-        if (side * glm::dot(p.normal, d) <= 0.1 * glm::length(d) || side * glm::dot(q.normal, -d) <= 0.1 * glm::length(d)) continue;
+        if (side * glm::dot(p.normal, d) <= 0.1 * glm::length(d) || side * glm::dot(q.normal, -d) <= 0.1 * glm::length(d)) { continue; }
         ++facing;
         const dvec3 a = object->project(0, p.point).position, b = object->project(0, q.point).position;
         const bool hidden = inside ? greatest_between(torus, a, b) > 1e-6L : least_between(torus, a, b) < -1e-6L;
@@ -125,16 +125,16 @@ TEST_CASE("of two equal objects in one place, and of two that nearly coincide, t
   SEEDED(random);
   for (const Primitive& primitive : primitives()) {
     const auto object = primitive.make({0, 0, 0}, 1.0);
-    if (!object->convex()) continue;
+    if (!object->convex()) { continue; }
     for (const double gap : {0.0, 1e-3}) {
       const Scene scene({placed(object), placed(object, {glm::dmat3(1.0), {0, 0, gap}, false}), placed(Sphere::make({0, 0, 4}, 0.5))});
       int seen = 0;
       for (const Chord& chord : chords(*object, 0.02)) {
         const SurfacePoint surface = scene.object(1).project(chord.sheet, chord.point + dvec3(0, 0, gap));
-        if (scene.covered(surface.position, surface.normal, 1)) continue;
+        if (scene.covered(surface.position, surface.normal, 1)) { continue; }
         for (int i = 0; i < 16; ++i) {
           const dvec3 p = chord.point + dvec3(0, 0, gap), q = dvec3(0, 0, 4) + 0.5 * random.direction();
-          if (glm::dot(chord.normal, q - p) <= 0.1 * glm::length(q - p) || glm::dot(q - dvec3(0, 0, 4), p - q) <= 0.0) continue;
+          if (glm::dot(chord.normal, q - p) <= 0.1 * glm::length(q - p) || glm::dot(q - dvec3(0, 0, 4), p - q) <= 0.0) { continue; }
           INFO(primitive.name << " gap " << gap);
           CHECK_FALSE(scene.occluded(between(p, q), 1, 2));
           CHECK_FALSE(scene.occluded(between(q, p), 2, 1));
@@ -178,7 +178,7 @@ TEST_CASE("the paper's figure: a superquadric on a cylinder shadows itself and t
     const SurfacePoint a = on_surface();
     if (i % 2) {  // with a lamp above: valleys do not see each other, but a blade stands between them and the lamp
       const dvec3 lamp{random.uniform(-3, 3), random.uniform(-3, 3), 3.0};
-      if (glm::dot(a.normal, lamp - a.position) <= 1e-2) continue;
+      if (glm::dot(a.normal, lamp - a.position) <= 1e-2) { continue; }
       const bool occluded = scene.occluded(between(a.position, lamp), 1);
       REQUIRE(occluded == scene.occluded(between(lamp, a.position), no_object, 1));
       if (hidden(a.position, lamp) < -1e-9L) {
@@ -191,7 +191,7 @@ TEST_CASE("the paper's figure: a superquadric on a cylinder shadows itself and t
       }
     } else {  // with the top of the cylinder
       const dvec3 b{random.uniform(-1, 1), random.uniform(-1, 1), 0.0};
-      if (glm::dot(a.normal, b - a.position) <= 1e-2) continue;
+      if (glm::dot(a.normal, b - a.position) <= 1e-2) { continue; }
       const bool occluded = scene.occluded(between(a.position, b), 1, 0);
       if (hidden(a.position, b) < -1e-9L) {
         CHECK(occluded);

@@ -29,21 +29,23 @@ dvec3 inside(Random& random, const Corners& contour) {
 TestPatch child(Random& random, const TestPatch& patch) {
   TestPatch result = patch;
   const dvec3 towards = inside(random, patch.contour);
-  for (dvec3& p : result.contour) p = 0.5 * (p + towards);
+  for (dvec3& p : result.contour) { p = 0.5 * (p + towards); }
   return result;
 }
 
 void check_pair(Random& random, const Scene& scene, const TestPatch& p, const TestPatch& q, const OccluderList& list, std::size_t& clear,
                 std::size_t& blocked, const std::function<dvec3(const TestPatch&, const dvec3&)>& lift) {
   Segments16 segments;
-  for (unsigned lane = 0; lane < 16; ++lane)
+  for (unsigned lane = 0; lane < 16; ++lane) {
     segments.set(lane, between(lift(p, inside(random, p.contour)), lift(q, inside(random, q.contour))), p.owner, q.owner, p.sheet, q.sheet);
+  }
   std::uint32_t expected = 0;
-  for (unsigned lane = 0; lane < 16; ++lane)
+  for (unsigned lane = 0; lane < 16; ++lane) {
     expected |= static_cast<std::uint32_t>(by_law(scene, segments.at(lane), p.owner, q.owner)) << lane;
+  }
   std::uint32_t hint = no_shape;
-  if (list.clear()) REQUIRE(expected == 0);
-  if (list.blocked()) REQUIRE(expected == 0xffff);
+  if (list.clear()) { REQUIRE(expected == 0); }
+  if (list.blocked()) { REQUIRE(expected == 0xffff); }
   REQUIRE(scene.occluded16(segments, list, hint) == expected);
   REQUIRE(scene.occluded16(segments, list, hint) == expected);
   clear += list.clear();
@@ -74,12 +76,14 @@ TEST_CASE("a list of occluders gives the answers of the law, at every level and 
         check_pair(random, scene, p, q, list, clear, blocked, stay);
         unknown += !list.known();
         ++all;
-        if (level % 2 == 0) p = child(random, p);
-        if (level != 1) q = child(random, q);
+        if (level % 2 == 0) { p = child(random, p); }
+        if (level != 1) { q = child(random, q); }
         const OccluderList narrowed = scene.filter(list, p.shape(), q.shape());
-        if (list.known())
-          for (const std::uint32_t shape : narrowed.shapes())
+        if (list.known()) {
+          for (const std::uint32_t shape : narrowed.shapes()) {
             REQUIRE(std::find(list.shapes().begin(), list.shapes().end(), shape) != list.shapes().end());
+          }
+        }
         list = narrowed;
       }
     }
@@ -109,9 +113,10 @@ TEST_CASE("lists of curved patches hold for points that move out to the true sur
       const auto& [centre, radius] = balls[i];
       const glm::dmat3 turned = random.rotation();
       TestPatch patch{{}, i, 0.0, unknown_sheet};
-      for (int k = 0; k < 4; ++k)
+      for (int k = 0; k < 4; ++k) {
         patch.contour.push_back(centre +
                                 radius * glm::normalize(turned * dvec3(k == 1 || k == 2 ? width : -width, k >= 2 ? width : -width, 1)));
+      }
       // All points of the cap lie between the plane of the contour and the tangent plane, and as near to the hull at its rim.
       patch.bulge = radius - glm::length(0.5 * (patch.contour[0] + patch.contour[2]) - centre);
       return patch;

@@ -44,9 +44,9 @@ void report(const char* name, const Scene& scene, const std::vector<Query>& quer
   for (int repeat = 0; repeat < 5; ++repeat) {
     const auto start = Clock::now();
     blocked = met = 0;
-    for (const Query& q : queries) blocked += scene.occluded(q.segment, q.source, q.target);
+    for (const Query& q : queries) { blocked += scene.occluded(q.segment, q.source, q.target); }
     const auto middle = Clock::now();
-    for (const Query& q : queries) met += scene.closest(q.segment, q.source).has_value();
+    for (const Query& q : queries) { met += scene.closest(q.segment, q.source).has_value(); }
     occluded = std::min(occluded, std::chrono::duration<double>(middle - start).count());
     closest = std::min(closest, std::chrono::duration<double>(Clock::now() - middle).count());
   }
@@ -62,12 +62,12 @@ TEST_CASE("speed: occlusion segments through the Cornell box and through spheres
   SEEDED(random);
   const std::vector<Corners> faces = cornell();
   std::vector<PlacedObject> objects;
-  for (const Corners& face : faces) objects.push_back(placed(Polygon::make(face)));
+  for (const Corners& face : faces) { objects.push_back(placed(Polygon::make(face))); }
   const auto on = [&](std::uint32_t i) {
     const Corners& p = faces[i];
     double a = random.uniform(), b = random.uniform();
-    if (p.size() == 3 && a + b > 1) a = 1 - a, b = 1 - b;
-    if (p.size() == 3) return p[0] + a * (p[1] - p[0]) + b * (p[2] - p[0]);
+    if (p.size() == 3 && a + b > 1) { a = 1 - a, b = 1 - b; }
+    if (p.size() == 3) { return p[0] + a * (p[1] - p[0]) + b * (p[2] - p[0]); }
     return (1 - a) * ((1 - b) * p[0] + b * p[1]) + a * ((1 - b) * p[3] + b * p[2]);
   };
   std::vector<Query> queries;
@@ -75,14 +75,15 @@ TEST_CASE("speed: occlusion segments through the Cornell box and through spheres
     const std::uint32_t i = random.below(static_cast<std::uint32_t>(faces.size())),
                         j = random.below(static_cast<std::uint32_t>(faces.size()));
     const dvec3 p = on(i), q = on(j);
-    if (i != j && glm::dot(plane_of(faces[i]).normal, q - p) > 0 && glm::dot(plane_of(faces[j]).normal, p - q) > 0)
+    if (i != j && glm::dot(plane_of(faces[i]).normal, q - p) > 0 && glm::dot(plane_of(faces[j]).normal, p - q) > 0) {
       queries.push_back({between(p, q), i, j});
+    }
   }
   report("Cornell box, 17 polygons, between facing surfaces", Scene(objects), queries);
   for (const int count : {8, 64, 10000}) {
     objects.clear();
-    for (int i = 0; i < count; ++i) objects.push_back(placed(Sphere::make(random.in_cube(), count > 100 ? 0.02 : 0.1)));
-    for (Query& q : queries) q = {between(random.in_cube(), random.in_cube()), no_object, no_object};
+    for (int i = 0; i < count; ++i) { objects.push_back(placed(Sphere::make(random.in_cube(), count > 100 ? 0.02 : 0.1))); }
+    for (Query& q : queries) { q = {between(random.in_cube(), random.in_cube()), no_object, no_object}; }
     report((std::to_string(count) + " spheres, any two points").c_str(), Scene(objects), queries);
   }
 }

@@ -28,7 +28,7 @@ constexpr double u = raycast::unit_roundoff;
 class Random {
  public:
   Random() {
-    if (const char* given = std::getenv("HALFLIGHT_TEST_SEED")) seed_ = std::strtoull(given, nullptr, 10);
+    if (const char* given = std::getenv("HALFLIGHT_TEST_SEED")) { seed_ = std::strtoull(given, nullptr, 10); }
     engine_.seed(seed_);
   }
   [[nodiscard]] std::uint64_t seed() const { return seed_; }
@@ -39,7 +39,7 @@ class Random {
     for (;;) {
       const dvec3 v = in_cube();
       const double length = glm::length(v);
-      if (length > 0.1 && length <= 1.0) return v / length;
+      if (length > 0.1 && length <= 1.0) { return v / length; }
     }
   }
   double magnitude(double decades) { return std::pow(10.0, uniform(-decades, decades)); }  // of lengths over 10^+-decades
@@ -83,7 +83,7 @@ inline std::vector<Corners> faces_of(const dvec3& lo, const dvec3& hi) {
   std::vector<Corners> result;
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
     result.emplace_back();
-    for (const std::uint32_t v : builder.corners(f)) result.back().push_back(builder.position(v));
+    for (const std::uint32_t v : builder.corners(f)) { result.back().push_back(builder.position(v)); }
   }
   return result;
 }
@@ -93,10 +93,10 @@ inline raycast::Made<raycast::Mesh> mesh_of(const raycast::Object& object, doubl
   object.approximate(tolerance, builder);
   Corners positions;
   std::vector<std::vector<std::uint32_t>> faces;
-  for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) positions.push_back(builder.position(v));
+  for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) { positions.push_back(builder.position(v)); }
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
     const auto corners = builder.corners(f);
-    for (std::size_t i = 2; i < corners.size(); ++i) faces.push_back({corners[0], corners[i - 1], corners[i]});
+    for (std::size_t i = 2; i < corners.size(); ++i) { faces.push_back({corners[0], corners[i - 1], corners[i]}); }
   }
   return raycast::Mesh::make(positions, faces);
 }
@@ -104,10 +104,11 @@ inline raycast::Made<raycast::Mesh> mesh_of(const raycast::Object& object, doubl
 inline raycast::Made<raycast::Mesh> l_block() {
   const double profile[6][2] = {{0, 0}, {2, 0}, {2, 2}, {1, 2}, {1, 1}, {0, 1}};  // x, z
   Corners positions;
-  for (int y = 0; y < 2; ++y)
-    for (const auto& p : profile) positions.push_back({p[0], y, p[1]});
+  for (int y = 0; y < 2; ++y) {
+    for (const auto& p : profile) { positions.push_back({p[0], y, p[1]}); }
+  }
   std::vector<std::vector<std::uint32_t>> faces{{0, 1, 2, 3, 4, 5}, {11, 10, 9, 8, 7, 6}};
-  for (std::uint32_t i = 0; i < 6; ++i) faces.push_back({(i + 1) % 6, i, i + 6, (i + 1) % 6 + 6});
+  for (std::uint32_t i = 0; i < 6; ++i) { faces.push_back({(i + 1) % 6, i, i + 6, (i + 1) % 6 + 6}); }
   return raycast::Mesh::make(positions, faces);
 }
 

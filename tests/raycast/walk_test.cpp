@@ -92,11 +92,12 @@ TEST_CASE("a search finds what asking every box finds, whatever the tree, and st
         return slabs(boxes[item], 0.0, 1.0, entry);
       };
       CHECK_FALSE(raycast::any_along(bvh, slabs, 0.0, 1.0, [&](std::uint32_t item) {
-        if (meets(item)) met.push_back(item);
+        if (meets(item)) { met.push_back(item); }
         return false;
       }));
-      for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        if (meets(i)) wanted.push_back(i);
+      for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        if (meets(i)) { wanted.push_back(i); }
+      }
       std::sort(met.begin(), met.end());
       CHECK(met == wanted);
       int visits = 0;
@@ -123,7 +124,7 @@ TEST_CASE("what is put off comes back by distance, nearest first, above what lay
       put_off.push_sorted(1, {i, wanted.back()});
     }
     std::sort(wanted.begin(), wanted.end());
-    for (const int at : wanted) CHECK(put_off.pop().at == at);
+    for (const int at : wanted) { CHECK(put_off.pop().at == at); }
     CHECK(put_off.pop().child == 99);
     CHECK(put_off.empty());
   }

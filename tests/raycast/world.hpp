@@ -21,13 +21,14 @@ namespace test {
 
 inline std::vector<Isa> instruction_sets() {
   std::vector<Isa> sets{Isa::portable};
-  if (best_isa() >= Isa::avx2) sets.push_back(Isa::avx2);
-  if (best_isa() >= Isa::avx512) sets.push_back(Isa::avx512);
+  if (best_isa() >= Isa::avx2) { sets.push_back(Isa::avx2); }
+  if (best_isa() >= Isa::avx512) { sets.push_back(Isa::avx512); }
   return sets;
 }
 inline bool by_law(const Scene& scene, const Segment& s, std::uint32_t source, std::uint32_t target) {
-  for (std::uint32_t i = 0; i < scene.size(); ++i)
-    if (scene.occluded_by(i, s, source, target)) return true;
+  for (std::uint32_t i = 0; i < scene.size(); ++i) {
+    if (scene.occluded_by(i, s, source, target)) { return true; }
+  }
   return false;
 }
 
@@ -55,23 +56,23 @@ inline World world(Random& random, int count, double scale, const dvec3& shift, 
     brep::Builder mesh;
     object.approximate(0.05 * scale, mesh);
     for (std::uint32_t f = 0; f < mesh.face_count(); f += 1 + mesh.face_count() / 40) {
-      if (mesh.sheet(f) == brep::no_sheet) continue;
+      if (mesh.sheet(f) == brep::no_sheet) { continue; }
       Corners corners;
-      for (const std::uint32_t v : mesh.corners(f)) corners.push_back(mesh.position(v));
+      for (const std::uint32_t v : mesh.corners(f)) { corners.push_back(mesh.position(v)); }
       w.faces.push_back({static_cast<std::uint32_t>(w.objects.size()), corners, mesh.sheet(f)});
     }
     w.objects.push_back(object);
   };
-  if (with_room) add(placed(BoxObject::make(shift - 1.05 * scale, shift + 1.05 * scale), room()));
+  if (with_room) { add(placed(BoxObject::make(shift - 1.05 * scale, shift + 1.05 * scale), room())); }
   const auto gutter = Mesh::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}}, {{0, 1, 2, 3}, {1, 4, 5, 2}});
   const auto ball = mesh_of(*Sphere::make({0, 0, 0}, 0.8), 0.02);
   const auto star = Polygon::make({{0, 0, 0}, {1, -1, 0}, {0.5, 0, 0}, {1, 1, 0}, {-1, 0.2, 0}});
   for (int i = 0; i < count; ++i) {
     const double size = 0.6 * scale / std::cbrt(static_cast<double>(count));
     dvec3 at = 0.9 * random.in_cube();
-    if (i % 3 == 0) at[static_cast<int>(random.below(3))] = random.below(2) ? 0.9 : -0.9;
+    if (i % 3 == 0) { at[static_cast<int>(random.below(3))] = random.below(2) ? 0.9 : -0.9; }
     Placement p{random.rotation() * (size * random.uniform(0.3, 1)), shift + scale * at, false};
-    if (i % 5 == 0) p.linear = p.linear * glm::dmat3(1, 0.2, 0, 0, 1.5, 0, 0.1, 0, -0.7);
+    if (i % 5 == 0) { p.linear = p.linear * glm::dmat3(1, 0.2, 0, 0, 1.5, 0, 0.1, 0, -0.7); }
     switch (random.below(16)) {
       case 0:
         add(placed(Sphere::make(p.translation, size)));
@@ -126,10 +127,10 @@ inline World world(Random& random, int count, double scale, const dvec3& shift, 
   return w;
 }
 inline Place place(Random& random, const World& w, double scale, const dvec3& shift) {
-  if (random.below(6) == 0) return {shift + scale * random.in_cube(random.below(8) ? 1.0 : 20.0)};
+  if (random.below(6) == 0) { return {shift + scale * random.in_cube(random.below(8) ? 1.0 : 20.0)}; }
   const auto& [owner, corners, of_face] = w.faces[random.below(static_cast<std::uint32_t>(w.faces.size()))];
   const std::uint32_t sheet = random.below(3) ? of_face : unknown_sheet;
-  if (random.below(12) == 0) return {corners[0], owner, sheet};
+  if (random.below(12) == 0) { return {corners[0], owner, sheet}; }
   double sum = 0.0;
   dvec3 p{0.0};
   for (const dvec3& c : corners) {

@@ -35,7 +35,7 @@ class Halflight : public Engine {
         hi = glm::max(hi, at);
         builder.vertex(at);
       }
-      for (const auto& face : polygons.faces) builder.face(std::span<const std::uint32_t>(face), 0);
+      for (const auto& face : polygons.faces) { builder.face(std::span<const std::uint32_t>(face), 0); }
       meshes.push_back(std::move(*brep::close<Mesh>(builder).brep));
     }
     Outcome outcome;
@@ -44,7 +44,7 @@ class Halflight : public Engine {
     std::vector<brep::csg::Solid<std::uint32_t>> solids;
     for (const Mesh& mesh : meshes) {
       auto solid = brep::csg::make_solid(mesh, grid);
-      if (!solid) return Outcome{.failed = true};
+      if (!solid) { return Outcome{.failed = true}; }
       solids.push_back(std::move(*solid));
     }
     const double ready = thread_seconds();
@@ -53,7 +53,7 @@ class Halflight : public Engine {
       auto next = c.operation == Operation::unite       ? brep::csg::unite(result, solids[i])
                   : c.operation == Operation::intersect ? brep::csg::intersect(result, solids[i])
                                                         : brep::csg::subtract(result, solids[i]);
-      if (!next) return Outcome{.failed = true};
+      if (!next) { return Outcome{.failed = true}; }
       result = std::move(*next);
     }
     const double done = thread_seconds();

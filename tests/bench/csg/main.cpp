@@ -3,8 +3,8 @@
 //
 //   cmake --build build/release --target bench_csg && build/release/tests/bench/bench_csg [repetitions [small]]
 //
-// prints CPU milliseconds, median over the repetitions, which are interleaved. The column manifold is not measured here: it holds the figures
-// that manifold 3.5.1 had beside CGAL on another day, times the ratio of CGAL's exact times, today's to that day's. Every volume is
+// prints CPU milliseconds, median over the repetitions, which are interleaved. The column manifold is not measured here: it holds the
+// figures that manifold 3.5.1 had beside CGAL on another day, times the ratio of CGAL's exact times, today's to that day's. Every volume is
 // checked; a wrong one, or a refusal, ends the program with code 1.
 #include <algorithm>
 #include <cmath>
@@ -61,7 +61,7 @@ int main(int count, char** arguments) {
     for (int repetition = -1; repetition < repetitions; ++repetition) {  // the first one warms up
       for (std::size_t k = 0; k < engines.size(); ++k) {
         const auto outcome = engines[k]->run(cases[row]);
-        if (!outcome) continue;
+        if (!outcome) { continue; }
         Cell& cell = table[row][k];
         cell.last = *outcome;
         // Operands of 26 bits: the volume is known to about 1e-7 of itself.
@@ -70,7 +70,7 @@ int main(int count, char** arguments) {
                        outcome->failed ? "refused" : "wrong", outcome->volume, cases[row].volume);
           wrong = wrong || k == 0;
         }
-        if (repetition < 0 && repetitions > 1 && outcome->seconds < 5.0) continue;
+        if (repetition < 0 && repetitions > 1 && outcome->seconds < 5.0) { continue; }
         cell.milliseconds.push_back(1e3 * outcome->seconds);
         cell.rest.push_back(1e3 * outcome->in_and_out);
         if (outcome->seconds > 5.0) repetition = repetitions;  // once is enough
@@ -82,22 +82,24 @@ int main(int count, char** arguments) {
   double logs = 0.0;
   int rows = 0;
   const auto day = [&](std::size_t row) -> std::optional<double> {
-    if (engines.size() < 2 || table[row][1].milliseconds.empty() || !cases[row].cgal_exact) return std::nullopt;
+    if (engines.size() < 2 || table[row][1].milliseconds.empty() || !cases[row].cgal_exact) { return std::nullopt; }
     return median(table[row][1].milliseconds) / *cases[row].cgal_exact;
   };
-  for (std::size_t row = 0; row < cases.size(); ++row)
-    if (const auto ratio = day(row)) logs += std::log(*ratio), ++rows;
+  for (std::size_t row = 0; row < cases.size(); ++row) {
+    if (const auto ratio = day(row)) { logs += std::log(*ratio), ++rows; }
+  }
 
   std::printf("CPU ms, median of %d; in brackets: operands in and result out\n\n%-32s", repetitions, "");
-  for (const auto& engine : engines) std::printf("%20s", engine->name().c_str());
+  for (const auto& engine : engines) { std::printf("%20s", engine->name().c_str()); }
   std::printf("%12s %22s   faces: halflight, CGAL\n", "manifold*", "manifold / halflight");
   for (std::size_t row = 0; row < cases.size(); ++row) {
     std::printf("%-32s", cases[row].name.c_str());
     for (const Cell& cell : table[row]) {
-      if (cell.milliseconds.empty())
+      if (cell.milliseconds.empty()) {
         std::printf("%20s", "-");
-      else
+      } else {
         std::printf("%11.2f [%6.2f]", median(cell.milliseconds), median(cell.rest));
+      }
     }
     if (cases[row].manifold && rows > 0) {
       const double scaled = *cases[row].manifold * day(row).value_or(std::exp(logs / rows));
@@ -106,7 +108,7 @@ int main(int count, char** arguments) {
       std::printf("%12s %22s", "-", "-");
     }
     std::printf("   %zu", table[row][0].last.faces);
-    if (engines.size() > 1 && !table[row][1].milliseconds.empty()) std::printf(", %zu", table[row][1].last.faces);
+    if (engines.size() > 1 && !table[row][1].milliseconds.empty()) { std::printf(", %zu", table[row][1].last.faces); }
     std::printf("\n");
   }
   return wrong ? 1 : 0;

@@ -8,8 +8,8 @@
 namespace bench {
 namespace {
 
-// Sponge of side 3^level: the bars of every level along every axis, those that lie in a larger bar left out. Bars end at the cube's faces, or
-// stick out by one.
+// Sponge of side 3^level: the bars of every level along every axis, those that lie in a larger bar left out. Bars end at the cube's faces,
+// or stick out by one.
 Case menger(int level, bool flush, std::optional<double> manifold, std::optional<double> cgal) {
   const int side = static_cast<int>(std::lround(std::pow(3, level)));
   Case c{"Menger level " + std::to_string(level) + (flush ? ", flush" : ", out"),
@@ -23,14 +23,15 @@ Case menger(int level, bool flush, std::optional<double> manifold, std::optional
   c.operands.push_back(box({0, 0, 0}, {n, n, n}));
   for (int width = side / 3; width >= 1; width /= 3) {
     const auto in_larger_bar = [&](int i, int j) {
-      for (int w = 3 * width; w <= side / 3; w *= 3)
-        if (i / w % 3 == 1 && j / w % 3 == 1) return true;
+      for (int w = 3 * width; w <= side / 3; w *= 3) {
+        if (i / w % 3 == 1 && j / w % 3 == 1) { return true; }
+      }
       return false;
     };
-    for (int axis = 0; axis < 3; ++axis)
-      for (int i = width; i < side; i += 3 * width)
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int i = width; i < side; i += 3 * width) {
         for (int j = width; j < side; j += 3 * width) {
-          if (in_larger_bar(i, j)) continue;
+          if (in_larger_bar(i, j)) { continue; }
           std::array<double, 3> lo{}, hi{};
           const auto a = static_cast<std::size_t>(axis);
           lo[a] = -out, hi[a] = n + out;
@@ -38,25 +39,29 @@ Case menger(int level, bool flush, std::optional<double> manifold, std::optional
           lo[(a + 2) % 3] = j, hi[(a + 2) % 3] = j + width;
           c.operands.push_back(box(lo, hi));
         }
+      }
+    }
   }
   return c;
 }
 
 Case grid(int n) {
   Case c{std::to_string(n) + "^3 cubes", Operation::unite, {}, std::pow(n, 3.0), std::nullopt, std::nullopt, std::nullopt};
-  if (n == 6) c.manifold = 88, c.cgal_exact = 146, c.cgal_inexact = 162;
-  for (int x = 0; x < n; ++x)
-    for (int y = 0; y < n; ++y)
+  if (n == 6) { c.manifold = 88, c.cgal_exact = 146, c.cgal_inexact = 162; }
+  for (int x = 0; x < n; ++x) {
+    for (int y = 0; y < n; ++y) {
       for (int z = 0; z < n; ++z) {
         const double a = x, b = y, d = z;
         c.operands.push_back(box({a, b, d}, {a + 1, b + 1, d + 1}));
       }
+    }
+  }
   return c;
 }
 
 Case chain() {
   Case c{"chain of 20 spheres", Operation::unite, {}, 49.2296123902, 140, 245, 247};
-  for (int i = 0; i < 20; ++i) c.operands.push_back(moved(octasphere(11), 0.8 * i, 0.05 * (i % 3), 0.03 * (i % 5)));
+  for (int i = 0; i < 20; ++i) { c.operands.push_back(moved(octasphere(11), 0.8 * i, 0.05 * (i % 3), 0.03 * (i % 5))); }
   return c;
 }
 
@@ -82,24 +87,25 @@ Polygons octasphere(std::uint32_t splits) {
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       result.faces.push_back(mirrored ? std::vector<std::uint32_t>{a, c, b} : std::vector<std::uint32_t>{a, b, c});
     };
-    for (std::int64_t i = 0; i < n; ++i)
+    for (std::int64_t i = 0; i < n; ++i) {
       for (std::int64_t j = 0; i + j < n; ++j) {
         triangle(at(i, j), at(i + 1, j), at(i, j + 1));
-        if (i + j + 1 < n) triangle(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+        if (i + j + 1 < n) { triangle(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)); }
       }
+    }
   }
   return result;
 }
 
 Polygons box(const std::array<double, 3>& lo, const std::array<double, 3>& hi) {
   Polygons result;
-  for (unsigned i = 0; i < 8; ++i) result.positions.push_back({i & 1U ? hi[0] : lo[0], i & 2U ? hi[1] : lo[1], i & 4U ? hi[2] : lo[2]});
+  for (unsigned i = 0; i < 8; ++i) { result.positions.push_back({i & 1U ? hi[0] : lo[0], i & 2U ? hi[1] : lo[1], i & 4U ? hi[2] : lo[2]}); }
   result.faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   return result;
 }
 
 Polygons moved(Polygons polygons, double x, double y, double z) {
-  for (auto& p : polygons.positions) p[0] += x, p[1] += y, p[2] += z;
+  for (auto& p : polygons.positions) { p[0] += x, p[1] += y, p[2] += z; }
   return polygons;
 }
 
@@ -116,7 +122,7 @@ std::vector<Case> cases(bool all) {
   };
   std::vector<Case> result;
   for (const Row& row : rows) {
-    if (!all && row.splits > 11) break;
+    if (!all && row.splits > 11) { break; }
     const Polygons sphere = octasphere(row.splits);
     for (std::size_t k = 0; k < 3; ++k) {
       const char* const sign[] = {"union", "intersection", "difference"};
@@ -132,7 +138,7 @@ std::vector<Case> cases(bool all) {
   result.push_back(menger(1, false, 1.3, 4.6));
   result.push_back(menger(1, true, 0.9, 2.5));
   result.push_back(grid(3));
-  if (!all) return result;
+  if (!all) { return result; }
   result.push_back(menger(2, false, 29.9, 168));
   result.push_back(menger(2, true, 29.5, 107));
   result.push_back(grid(6));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-// Pictures of scenes at the program's defaults: in gathered light, of the mesh, and by the audit's path tracer in the CPU time of the first. One
-// run, one thread, one line a scene; errors are relative L2 over the visible pixels, against paths (picture_error.hpp). The path tracer's
-// is what the variance of its paths says, for as many a pixel as that time allows.
+// Pictures of scenes at the program's defaults: in gathered light, of the mesh, and by the audit's path tracer in the CPU time of the
+// first. One run, one thread, one line a scene; errors are relative L2 over the visible pixels, against paths (picture_error.hpp). The path
+// tracer's is what the variance of its paths says, for as many a pixel as that time allows.
 //
 //     bench_picture SCENE...
 
@@ -119,7 +119,9 @@ double path_traced(const radiosity::Scene& scene, const apps::View& view, double
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::printf("| scene | gather: solve + picture, CPU s | error | mesh: solve + picture, CPU s | error | path tracer in gather's time | s to gather's error |\n");
+  std::printf(
+      "| scene | gather: solve + picture, CPU s | error | mesh: solve + picture, CPU s | error | path tracer in gather's time | s to "
+      "gather's error |\n");
   std::printf("| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   for (int i = 1; i < argc; ++i) {
     std::ifstream file(argv[i]);
@@ -142,8 +144,8 @@ int main(int argc, char** argv) {
     const double needed = gather->seconds() * traced * traced / (gather->error * gather->error);
     const std::string name = std::string(argv[i]).substr(std::string(argv[i]).find_last_of('/') + 1);
     std::printf("| %s | %.1f + %.1f | %.2f +- %.2f %% | %.1f + %.1f | %.2f +- %.2f %% | %.0f %% | %.0f |\n",
-                name.substr(0, name.find('.')).c_str(), gather->solve, gather->picture, 100 * gather->error, 100 * gather->doubt, mesh->solve,
-                mesh->picture, 100 * mesh->error, 100 * mesh->doubt, 100 * traced, needed);
+                name.substr(0, name.find('.')).c_str(), gather->solve, gather->picture, 100 * gather->error, 100 * gather->doubt,
+                mesh->solve, mesh->picture, 100 * mesh->error, 100 * mesh->doubt, 100 * traced, needed);
     std::fflush(stdout);
   }
 }

@@ -100,19 +100,21 @@ Embree::Embree(const World& world, bool user_spheres) : data_(new Data) {
         static_cast<float*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 3 * world.triangles.size()));
     auto* x = static_cast<unsigned*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, world.triangles.size()));
     unsigned next = 0;
-    for (const auto& t : world.triangles)
+    for (const auto& t : world.triangles) {
       for (const glm::dvec3& p : t) {
-        for (int k = 0; k < 3; ++k) *v++ = static_cast<float>(p[k]);
+        for (int k = 0; k < 3; ++k) { *v++ = static_cast<float>(p[k]); }
         *x++ = next++;
       }
+    }
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(data_->scene, mesh);
     rtcReleaseGeometry(mesh);
   }
   if (!world.balls.empty()) {
-    for (const auto& b : world.balls)
+    for (const auto& b : world.balls) {
       data_->balls.push_back(
           {static_cast<float>(b.centre.x), static_cast<float>(b.centre.y), static_cast<float>(b.centre.z), static_cast<float>(b.radius)});
+    }
     RTCGeometry balls = rtcNewGeometry(data_->device, user_spheres ? RTC_GEOMETRY_TYPE_USER : RTC_GEOMETRY_TYPE_SPHERE_POINT);
     if (user_spheres) {
       rtcSetGeometryUserPrimitiveCount(balls, static_cast<unsigned>(data_->balls.size()));
@@ -142,7 +144,7 @@ void Embree::run(const Set& set, int width, std::vector<std::uint8_t>& verdicts)
   verdicts.resize(set.rays.size());
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  if (!set.pairs.empty()) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  if (!set.pairs.empty()) { context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT; }
   alignas(64) int valid[16];
   std::fill(valid, valid + 16, -1);
   const auto none = RTC_INVALID_GEOMETRY_ID;
@@ -157,16 +159,18 @@ void Embree::run(const Set& set, int width, std::vector<std::uint8_t>& verdicts)
         verdicts[at] = r.hit.geomID != none;
       } else if (n == 8) {
         RTCRayHit8 r;
-        for (unsigned i = 0; i < n; ++i)
+        for (unsigned i = 0; i < n; ++i) {
           set_lane(r.ray, i, set.rays[at + i].segment, true), r.hit.geomID[i] = none, r.hit.instID[0][i] = none;
+        }
         rtcIntersect8(valid, data_->scene, &context, &r);
-        for (unsigned i = 0; i < n; ++i) verdicts[at + i] = r.hit.geomID[i] != none;
+        for (unsigned i = 0; i < n; ++i) { verdicts[at + i] = r.hit.geomID[i] != none; }
       } else {
         RTCRayHit16 r;
-        for (unsigned i = 0; i < n; ++i)
+        for (unsigned i = 0; i < n; ++i) {
           set_lane(r.ray, i, set.rays[at + i].segment, true), r.hit.geomID[i] = none, r.hit.instID[0][i] = none;
+        }
         rtcIntersect16(valid, data_->scene, &context, &r);
-        for (unsigned i = 0; i < n; ++i) verdicts[at + i] = r.hit.geomID[i] != none;
+        for (unsigned i = 0; i < n; ++i) { verdicts[at + i] = r.hit.geomID[i] != none; }
       }
     } else if (n == 1) {
       RTCRay r;
@@ -175,14 +179,14 @@ void Embree::run(const Set& set, int width, std::vector<std::uint8_t>& verdicts)
       verdicts[at] = r.tfar < 0.0f;
     } else if (n == 8) {
       RTCRay8 r;
-      for (unsigned i = 0; i < n; ++i) set_lane(r, i, set.rays[at + i].segment, false);
+      for (unsigned i = 0; i < n; ++i) { set_lane(r, i, set.rays[at + i].segment, false); }
       rtcOccluded8(valid, data_->scene, &context, &r);
-      for (unsigned i = 0; i < n; ++i) verdicts[at + i] = r.tfar[i] < 0.0f;
+      for (unsigned i = 0; i < n; ++i) { verdicts[at + i] = r.tfar[i] < 0.0f; }
     } else {
       RTCRay16 r;
-      for (unsigned i = 0; i < n; ++i) set_lane(r, i, set.rays[at + i].segment, false);
+      for (unsigned i = 0; i < n; ++i) { set_lane(r, i, set.rays[at + i].segment, false); }
       rtcOccluded16(valid, data_->scene, &context, &r);
-      for (unsigned i = 0; i < n; ++i) verdicts[at + i] = r.tfar[i] < 0.0f;
+      for (unsigned i = 0; i < n; ++i) { verdicts[at + i] = r.tfar[i] < 0.0f; }
     }
   }
 }

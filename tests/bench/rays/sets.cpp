@@ -33,7 +33,7 @@ class Random {
 
 template <class T>
 raycast::PlacedObject place(const raycast::Made<T>& made) {
-  if (!made) std::fprintf(stderr, "%s\n", made.refusal.c_str()), std::abort();
+  if (!made) { std::fprintf(stderr, "%s\n", made.refusal.c_str()), std::abort(); }
   return raycast::PlacedObject(made.object);
 }
 
@@ -51,13 +51,14 @@ void add(World& world, std::vector<Quad>& quads, const dvec3& origin, const dvec
 }
 // The inner walls of a cube [-h,h]^3.
 void add_room(World& world, std::vector<Quad>& quads, double h, bool open_front) {
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 3; ++k) {
     for (int end = 0; end < 2; ++end) {
-      if (open_front && k == 2 && end == 1) continue;
+      if (open_front && k == 2 && end == 1) { continue; }
       dvec3 a{0.0}, b{0.0}, origin{-h, -h, -h};
       a[(k + 1) % 3] = 2 * h, b[(k + 2) % 3] = 2 * h, origin[k] = end ? h : -h;
       end ? add(world, quads, origin, b, a) : add(world, quads, origin, a, b);
     }
+  }
 }
 
 Patch square_on(const Quad& q, double size, Random& random) {
@@ -72,9 +73,11 @@ dvec3 point_on(const Patch& p, double u, double v) {
 // Stratified segments between two patches; false when not all ends face each other. `lift` brings a point to the true surface.
 template <class Lift>
 bool bundle(const Patch& p, const Patch& q, Random& random, Lift&& lift, std::vector<Ray>& rays) {
-  for (const dvec3& x : p.contour)
-    for (const dvec3& y : q.contour)
-      if (!(glm::dot(p.normal, y - x) > 1e-3) || !(glm::dot(q.normal, x - y) > 1e-3)) return false;
+  for (const dvec3& x : p.contour) {
+    for (const dvec3& y : q.contour) {
+      if (!(glm::dot(p.normal, y - x) > 1e-3) || !(glm::dot(q.normal, x - y) > 1e-3)) { return false; }
+    }
+  }
   const std::uint32_t shift = random.below(16);
   for (std::uint32_t i = 0; i < 16; ++i) {
     const std::uint32_t j = (i * 5 ^ shift) & 15u;
@@ -100,21 +103,24 @@ void wall_sets(World& world, const std::vector<Quad>& quads, Random& random, dou
   Set bundles{"bundle wall-wall", {}, {}, {}}, incoherent{"incoherent", {}, {}, {}}, hier{"hier", {}, {}, {}};
   while (bundles.rays.size() < ray_count) {
     std::pair<Patch, Patch> pair{square_on(any(), size, random), square_on(any(), size, random)};
-    if (bundle(pair.first, pair.second, random, stay, bundles.rays)) bundles.pairs.push_back(std::move(pair));
+    if (bundle(pair.first, pair.second, random, stay, bundles.rays)) { bundles.pairs.push_back(std::move(pair)); }
   }
   while (incoherent.rays.size() < ray_count) {
     std::vector<Ray> sixteen;
-    if (bundle(square_on(any(), size, random), square_on(any(), size, random), random, stay, sixteen))
+    if (bundle(square_on(any(), size, random), square_on(any(), size, random), random, stay, sixteen)) {
       incoherent.rays.push_back(sixteen[random.below(16)]);
+    }
   }
   while (hier.rays.size() < ray_count) {
     std::pair<Patch, Patch> parent{square_on(any(), 2 * size, random), square_on(any(), 2 * size, random)};
     std::vector<Ray> rays;
     std::vector<std::pair<Patch, Patch>> pairs;
-    for (const Patch& p : quarters(parent.first))
-      for (const Patch& q : quarters(parent.second))
-        if (bundle(p, q, random, stay, rays)) pairs.push_back({p, q});
-    if (pairs.size() < 16) continue;
+    for (const Patch& p : quarters(parent.first)) {
+      for (const Patch& q : quarters(parent.second)) {
+        if (bundle(p, q, random, stay, rays)) { pairs.push_back({p, q}); }
+      }
+    }
+    if (pairs.size() < 16) { continue; }
     hier.rays.insert(hier.rays.end(), rays.begin(), rays.end());
     hier.pairs.insert(hier.pairs.end(), pairs.begin(), pairs.end());
     hier.parents.push_back(std::move(parent));
@@ -122,7 +128,7 @@ void wall_sets(World& world, const std::vector<Quad>& quads, Random& random, dou
   Set closest = bundles, closest_incoherent = incoherent;
   closest.name = "closest bundle", closest_incoherent.name = "closest incoherent";
   closest.closest = closest_incoherent.closest = true;
-  for (Set* set : {&bundles, &incoherent, &hier, &closest, &closest_incoherent}) world.sets.push_back(std::move(*set));
+  for (Set* set : {&bundles, &incoherent, &hier, &closest, &closest_incoherent}) { world.sets.push_back(std::move(*set)); }
 }
 
 }  // namespace
@@ -174,8 +180,9 @@ World spheres() {
     const dvec3 n = glm::normalize(towards - c), u = glm::normalize(glm::cross(n, std::abs(n.x) < 0.6 ? dvec3(1, 0, 0) : dvec3(0, 1, 0))),
                 v = glm::cross(n, u);
     Patch patch{{}, n, ball + 6, 0.0};
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < 4; ++k) {
       patch.contour.push_back(c + r * glm::normalize(n + 0.3 * (k == 1 || k == 2 ? 1.0 : -1.0) * u + 0.3 * (k >= 2 ? 1.0 : -1.0) * v));
+    }
     patch.bulge = r - glm::dot(patch.contour[0] - c, n);
     return patch;
   };
@@ -186,9 +193,9 @@ World spheres() {
   while (set.rays.size() < ray_count) {
     const std::uint32_t i = random.below(world.balls.size()), j = random.below(world.balls.size());
     const double apart = glm::length(world.balls[i].centre - world.balls[j].centre);
-    if (i == j || apart > 3.0 || apart < 0.6) continue;
+    if (i == j || apart > 3.0 || apart < 0.6) { continue; }
     std::pair<Patch, Patch> pair{cap(i, world.balls[j].centre), cap(j, world.balls[i].centre)};
-    if (bundle(pair.first, pair.second, random, lift, set.rays)) set.pairs.push_back(std::move(pair));
+    if (bundle(pair.first, pair.second, random, lift, set.rays)) { set.pairs.push_back(std::move(pair)); }
   }
   world.sets.push_back(std::move(set));
   return world;
@@ -208,8 +215,9 @@ World bumpy() {
   };
   const double pi = 3.14159265358979323846;
   positions.push_back(at(0, 0));
-  for (std::uint32_t i = 1; i < rows; ++i)
-    for (std::uint32_t j = 0; j < columns; ++j) positions.push_back(at(pi * i / rows, 2 * pi * j / columns));
+  for (std::uint32_t i = 1; i < rows; ++i) {
+    for (std::uint32_t j = 0; j < columns; ++j) { positions.push_back(at(pi * i / rows, 2 * pi * j / columns)); }
+  }
   positions.push_back(at(pi, 0));
   const auto v = [&](std::uint32_t i, std::uint32_t j) { return i == 0 ? 0 : 1 + (i - 1) * columns + j % columns; };
   const auto south = static_cast<std::uint32_t>(positions.size() - 1);
@@ -222,7 +230,7 @@ World bumpy() {
     }
     faces.push_back({v(rows - 1, j), south, v(rows - 1, j + 1)});
   }
-  for (const auto& f : faces) world.triangles.push_back({positions[f[0]], positions[f[1]], positions[f[2]]});
+  for (const auto& f : faces) { world.triangles.push_back({positions[f[0]], positions[f[1]], positions[f[2]]}); }
   world.objects.push_back(place(raycast::Mesh::make(positions, faces)));
   Random random;
   wall_sets(world, quads, random, 0.3);

@@ -82,27 +82,30 @@ class CourseOf : public Course {
     const double f = static_cast<double>(torus_.quads.size());
     const std::size_t before = live_bytes();
     auto mesh = std::make_unique<typename K::Mesh>();
-    if constexpr (requires { K::build(*mesh, torus_); }) time(Row::build, f, [&] { K::build(*mesh, torus_); });
+    if constexpr (requires { K::build(*mesh, torus_); }) {
+      time(Row::build, f, [&] { K::build(*mesh, torus_); });
+    }
     rows_[Row::bytes] = static_cast<double>(live_bytes() - before) / f;
     expect(*mesh, 1, "build");
 
     operators(*mesh, Row::face_sequential, K::face_list(*mesh), [&](auto x) { K::split_join_face(*mesh, x); });
     operators(*mesh, Row::edge_sequential, K::halfedge_list(*mesh), [&](auto x) { K::split_join_edge(*mesh, x); });
-    if constexpr (requires { K::split_join_vertex(*mesh, K::vertex_list(*mesh)[0]); })
+    if constexpr (requires { K::split_join_vertex(*mesh, K::vertex_list(*mesh)[0]); }) {
       operators(*mesh, Row::vertex_sequential, K::vertex_list(*mesh), [&](auto x) { K::split_join_vertex(*mesh, x); });
+    }
     mesh.reset();
 
     mesh = std::make_unique<typename K::Mesh>();  // fresh: operators move anchors, and walks shall go in the order of the file
     K::build(*mesh, torus_);
     walks(*mesh, Row::walk_faces, Row::walk_vertices);
     time(Row::validity, 4 * f, [&] {
-      if (!K::valid(*mesh)) fail(K::name, "validity");
+      if (!K::valid(*mesh)) { fail(K::name, "validity"); }
     });
     const auto halves = K::halfedge_list(*mesh);
     std::vector<std::pair<typename K::Halfedge, bool>> loops;
-    for (auto x : K::face_list(*mesh)) loops.emplace_back(K::loop(*mesh, x), K::first_half(*mesh, K::loop(*mesh, x)));
+    for (auto x : K::face_list(*mesh)) { loops.emplace_back(K::loop(*mesh, x), K::first_half(*mesh, K::loop(*mesh, x))); }
     time(Row::refine, 4 * f, [&] {
-      for (auto h : halves) K::split_edge(*mesh, h);
+      for (auto h : halves) { K::split_edge(*mesh, h); }
       for (auto [h, first] : loops) {
         const auto m0 = first ? K::next(*mesh, h) : h;
         const auto m1 = K::next(*mesh, K::next(*mesh, m0)), m2 = K::next(*mesh, K::next(*mesh, m1)),
@@ -115,7 +118,7 @@ class CourseOf : public Course {
         static_cast<double>(live_bytes() - before - halves.capacity() * sizeof(halves[0]) - loops.capacity() * sizeof(loops[0])) / (4 * f);
     walks(*mesh, Row::walk_faces_refined, Row::walk_vertices_refined);
     mesh.reset();
-    if constexpr (requires { K::refine_by_level(torus_); }) rows_[Row::refine_by_level] = K::refine_by_level(torus_);
+    if constexpr (requires { K::refine_by_level(torus_); }) { rows_[Row::refine_by_level] = K::refine_by_level(torus_); }
     return std::move(rows_);
   }
 
@@ -136,7 +139,7 @@ class CourseOf : public Course {
         std::shuffle(list.begin(), list.end(), random);
       }
       time(static_cast<Row>(static_cast<int>(row) + shuffled), static_cast<double>(list.size()), [&] {
-        for (auto x : list) cycle(x);
+        for (auto x : list) { cycle(x); }
       });
       K::collect(mesh);
       expect(mesh, 1, "operators");
@@ -151,8 +154,8 @@ class CourseOf : public Course {
 
   void expect(typename K::Mesh& mesh, std::size_t times, const char* after) {
     const std::size_t f = times * torus_.quads.size();
-    if (K::vertices(mesh) != f || K::edges(mesh) != 2 * f || K::faces(mesh) != f) fail(K::name, std::string("counts after ") + after);
-    if (!K::valid(mesh)) fail(K::name, std::string("validity after ") + after);
+    if (K::vertices(mesh) != f || K::edges(mesh) != 2 * f || K::faces(mesh) != f) { fail(K::name, std::string("counts after ") + after); }
+    if (!K::valid(mesh)) { fail(K::name, std::string("validity after ") + after); }
   }
 
   const Torus& torus_;

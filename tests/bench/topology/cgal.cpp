@@ -57,8 +57,8 @@ struct SurfaceMesh : Graph<CGAL::Surface_mesh<Kernel::Point_3>> {
   static void build(Mesh& m, const bench::Torus& torus) {
     const auto n = static_cast<Mesh::size_type>(torus.quads.size());
     m.reserve(n, 2 * n, n);
-    for (const auto& p : torus.positions) m.add_vertex(Kernel::Point_3(p[0], p[1], p[2]));
-    for (const auto& q : torus.quads) m.add_face(Vertex(q[0]), Vertex(q[1]), Vertex(q[2]), Vertex(q[3]));
+    for (const auto& p : torus.positions) { m.add_vertex(Kernel::Point_3(p[0], p[1], p[2])); }
+    for (const auto& q : torus.quads) { m.add_face(Vertex(q[0]), Vertex(q[1]), Vertex(q[2]), Vertex(q[3])); }
   }
   static std::size_t vertices(const Mesh& m) { return m.number_of_vertices(); }
   static std::size_t edges(const Mesh& m) { return m.number_of_edges(); }
@@ -66,20 +66,22 @@ struct SurfaceMesh : Graph<CGAL::Surface_mesh<Kernel::Point_3>> {
   static bool valid(const Mesh& m) { return m.is_valid(false); }
   static std::vector<Halfedge> halfedge_list(const Mesh& m) {
     std::vector<Halfedge> list;
-    for (auto e : m.edges()) list.push_back(m.halfedge(e));
+    for (auto e : m.edges()) { list.push_back(m.halfedge(e)); }
     return list;
   }
   static bool first_half(const Mesh&, Halfedge h) { return static_cast<std::uint32_t>(h) % 2 == 0; }
   static std::uint64_t walk_faces(const Mesh& m) {
     std::uint64_t sum = 0;
-    for (Face f : m.faces())
-      for (Halfedge h : CGAL::halfedges_around_face(m.halfedge(f), m)) sum += static_cast<std::uint32_t>(h);
+    for (Face f : m.faces()) {
+      for (Halfedge h : CGAL::halfedges_around_face(m.halfedge(f), m)) { sum += static_cast<std::uint32_t>(h); }
+    }
     return sum;
   }
   static std::uint64_t walk_vertices(const Mesh& m) {
     std::uint64_t sum = 0;
-    for (Vertex v : m.vertices())
-      for (Halfedge h : CGAL::halfedges_around_target(m.halfedge(v), m)) sum += static_cast<std::uint32_t>(h);
+    for (Vertex v : m.vertices()) {
+      for (Halfedge h : CGAL::halfedges_around_target(m.halfedge(v), m)) { sum += static_cast<std::uint32_t>(h); }
+    }
     return sum;
   }
 };
@@ -92,8 +94,8 @@ struct Polyhedron : Graph<CGAL::Polyhedron_3<Kernel>> {
     void operator()(Mesh::HalfedgeDS& hds) override {
       CGAL::Polyhedron_incremental_builder_3<Mesh::HalfedgeDS> builder(hds, true);
       builder.begin_surface(torus.positions.size(), torus.quads.size(), 4 * torus.quads.size());
-      for (const auto& p : torus.positions) builder.add_vertex(Kernel::Point_3(p[0], p[1], p[2]));
-      for (const auto& q : torus.quads) builder.add_facet(q.begin(), q.end());
+      for (const auto& p : torus.positions) { builder.add_vertex(Kernel::Point_3(p[0], p[1], p[2])); }
+      for (const auto& q : torus.quads) { builder.add_facet(q.begin(), q.end()); }
       builder.end_surface();
     }
     const bench::Torus& torus;

@@ -25,8 +25,8 @@ struct LevelPoint : Tag {
 Builder builder_of(const bench::Torus& torus) {
   Builder builder;
   builder.reserve(torus.positions.size(), torus.quads.size(), 4 * torus.quads.size());
-  for (const auto& p : torus.positions) builder.vertex({p[0], p[1], p[2]});
-  for (const auto& q : torus.quads) builder.face(q, 0);
+  for (const auto& p : torus.positions) { builder.vertex({p[0], p[1], p[2]}); }
+  for (const auto& q : torus.quads) { builder.face(q, 0); }
   return builder;
 }
 
@@ -65,7 +65,7 @@ struct Halflight {
   static std::vector<Vertex> vertex_list(const Mesh& m) { return {brep::vertices(m).begin(), brep::vertices(m).end()}; }
   static std::vector<Halfedge> halfedge_list(const Mesh& m) {
     std::vector<Halfedge> list;
-    for (EdgeId e : brep::edges(m)) list.push_back(halfedge(e));
+    for (EdgeId e : brep::edges(m)) { list.push_back(halfedge(e)); }
     return list;
   }
   static bool first_half(const Mesh&, Halfedge h) { return h.index % 2 == 0; }
@@ -89,14 +89,16 @@ struct Halflight {
   }
   static std::uint64_t walk_faces(const Mesh& m) {
     std::uint64_t sum = 0;
-    for (Face f : brep::faces(m))
-      for (Halfedge h : halfedges_of(m, f)) sum += h.index;
+    for (Face f : brep::faces(m)) {
+      for (Halfedge h : halfedges_of(m, f)) { sum += h.index; }
+    }
     return sum;
   }
   static std::uint64_t walk_vertices(const Mesh& m) {
     std::uint64_t sum = 0;
-    for (Vertex v : brep::vertices(m))
-      for (Halfedge h : halfedges_from(m, v)) sum += h.index;
+    for (Vertex v : brep::vertices(m)) {
+      for (Halfedge h : halfedges_from(m, v)) { sum += h.index; }
+    }
     return sum;
   }
 };
@@ -107,9 +109,9 @@ struct Plain : Halflight<Checked> {
     using Tagged = BRep<LevelPoint, NoData, Tag>;
     Tagged m = std::move(*close<Tagged>(builder_of(torus)).brep);
     const double start = bench::thread_seconds();
-    for (std::uint32_t f = 0; f < torus.quads.size(); ++f) (void)*refine(m, FaceId{f});
+    for (std::uint32_t f = 0; f < torus.quads.size(); ++f) { (void)*refine(m, FaceId{f}); }
     const double seconds = bench::thread_seconds() - start;
-    if (m.face_count() != 4 * torus.quads.size() || !validate(m).empty()) bench::fail(name, "refinement by level");
+    if (m.face_count() != 4 * torus.quads.size() || !validate(m).empty()) { bench::fail(name, "refinement by level"); }
     return 1e9 * seconds / static_cast<double>(4 * torus.quads.size());
   }
 };

@@ -100,12 +100,12 @@ int main(int count, char** arguments) {
   auto courses = bench::halflight_courses(torus);
   const std::size_t own = courses.size();
 #ifdef HALFLIGHT_BENCH_CGAL
-  for (auto& course : bench::cgal_courses(torus)) courses.push_back(std::move(course));
+  for (auto& course : bench::cgal_courses(torus)) { courses.push_back(std::move(course)); }
 #else
   std::printf("CGAL was not found: its columns are left out\n");
 #endif
 #ifdef HALFLIGHT_BENCH_OPENMESH
-  for (auto& course : bench::openmesh_courses(torus)) courses.push_back(std::move(course));
+  for (auto& course : bench::openmesh_courses(torus)) { courses.push_back(std::move(course)); }
 #else
   std::printf("OpenMesh was not found: its column is left out\n");
 #endif
@@ -114,14 +114,14 @@ int main(int count, char** arguments) {
   for (int repetition = -1; repetition < repetitions; ++repetition) {  // the first one warms up
     for (std::size_t k = 0; k < courses.size(); ++k) {
       for (const auto& [row, value] : courses[k]->repeat()) {
-        if (repetition >= 0) results[k][row].push_back(value);
+        if (repetition >= 0) { results[k][row].push_back(value); }
       }
     }
   }
 
   std::printf("closed quad torus, %zu faces; ns per operation, median [minimum] of %d\n\n", torus.quads.size(), repetitions);
   std::printf("%-34s", "");
-  for (const auto& course : courses) std::printf("%18s", course->name().c_str());
+  for (const auto& course : courses) { std::printf("%18s", course->name().c_str()); }
   std::printf("   best peer / halflight (unchecked), goal\n");
   for (const Line& line : lines) {
     std::printf("%-34s", line.text);
@@ -135,18 +135,19 @@ int main(int count, char** arguments) {
       }
       const double value = median(found->second);
       std::printf("%10.1f [%5.1f]", value, *std::min_element(found->second.begin(), found->second.end()));
-      if (k < own)
+      if (k < own) {
         mine.push_back(value);
-      else if (best == 0 || value < best)
+      } else if (best == 0 || value < best) {
         best = value;
+      }
     }
     std::printf("   ");
     if (best > 0) {
       std::printf("%5.2f", best / mine[0]);
-      if (mine.size() > 1) std::printf(" (%.2f)", best / mine[1]);
+      if (mine.size() > 1) { std::printf(" (%.2f)", best / mine[1]); }
     }
-    if (line.goal > 0) std::printf("  goal %gx", line.goal);
-    if (line.limit > 0) std::printf("  goal <= %g", line.limit);
+    if (line.goal > 0) { std::printf("  goal %gx", line.goal); }
+    if (line.limit > 0) { std::printf("  goal <= %g", line.limit); }
     std::printf("\n");
   }
 }

@@ -26,7 +26,7 @@ struct OpenMeshKernel {
     m.request_face_status();
     const std::size_t n = torus.quads.size();
     m.reserve(n, 2 * n, n);
-    for (const auto& p : torus.positions) m.add_vertex({p[0], p[1], p[2]});
+    for (const auto& p : torus.positions) { m.add_vertex({p[0], p[1], p[2]}); }
     for (const auto& q : torus.quads) {
       m.add_face(Vertex(static_cast<int>(q[0])), Vertex(static_cast<int>(q[1])), Vertex(static_cast<int>(q[2])),
                  Vertex(static_cast<int>(q[3])));
@@ -44,7 +44,7 @@ struct OpenMeshKernel {
   static std::vector<Vertex> vertex_list(const Mesh& m) { return std::vector<Vertex>(m.vertices_begin(), m.vertices_end()); }
   static std::vector<Halfedge> halfedge_list(const Mesh& m) {
     std::vector<Halfedge> list;
-    for (auto e : m.edges()) list.push_back(m.halfedge_handle(e, 0));
+    for (auto e : m.edges()) { list.push_back(m.halfedge_handle(e, 0)); }
     return list;
   }
   static bool first_half(const Mesh&, Halfedge h) { return h.idx() % 2 == 0; }
@@ -68,14 +68,16 @@ struct OpenMeshKernel {
   }
   static std::uint64_t walk_faces(const Mesh& m) {
     std::uint64_t sum = 0;
-    for (auto f = m.faces_begin(); f != m.faces_end(); ++f)
-      for (auto h = m.cfh_iter(*f); h.is_valid(); ++h) sum += static_cast<std::uint64_t>(h->idx());
+    for (auto f = m.faces_begin(); f != m.faces_end(); ++f) {
+      for (auto h = m.cfh_iter(*f); h.is_valid(); ++h) { sum += static_cast<std::uint64_t>(h->idx()); }
+    }
     return sum;
   }
   static std::uint64_t walk_vertices(const Mesh& m) {
     std::uint64_t sum = 0;
-    for (auto v = m.vertices_begin(); v != m.vertices_end(); ++v)
-      for (auto h = m.cvoh_iter(*v); h.is_valid(); ++h) sum += static_cast<std::uint64_t>(h->idx());
+    for (auto v = m.vertices_begin(); v != m.vertices_end(); ++v) {
+      for (auto h = m.cvoh_iter(*v); h.is_valid(); ++h) { sum += static_cast<std::uint64_t>(h->idx()); }
+    }
     return sum;
   }
 };
