@@ -68,7 +68,9 @@ std::vector<Argument> refinement_arguments(RenderOptions& options) {
   };
   const std::vector<std::string> ends{"--error", "--target", "--time"};  // of the refinement: one at most
   return {
-      above_zero("--error", solver.error, 1.0, "refine until the measured relative L2 error is at most this"),
+      above_zero("--error", solver.error, 1.0,
+                 "refine until the measured relative L2 error is at most this; out of reach, that is at 10 million links, the finest "
+                 "thresholds or after three rounds without gain, it ends with the best solution and exit code 4"),
       one_of<std::optional<ErrorOf>, ErrorOf>(
           "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},
           "what --error and --mesh-error are about: picture, what the camera sees (the default of --error with a picture, of --mesh-error "

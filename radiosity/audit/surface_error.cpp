@@ -40,11 +40,16 @@ HALFLIGHT_INLINE SurfaceErrorMeter::SurfaceErrorMeter(const Scene& scene, const 
       const std::uint32_t a = face.first_corner;
       const double area = 0.5 * glm::length(glm::cross(corner(a + k) - corner(a), corner(a + k + 1) - corner(a)));
       // A corner knows the light of the leaves around it: beside a lit one a dark leaf may be wrong.
-      double light = 0.5 * square(face.radiosity);
-      for (const std::uint32_t c : {a, a + k, a + k + 1}) { light += square(mesh.corners[c].radiosity) / 6.0; }
-      triangles_.push_back({f, a + k, a + k + 1, area, light});
+      double light = 0.5 * square(face.radiosity), contrast = 0.0;
+      for (const std::uint32_t c : {a, a + k, a + k + 1}) {
+        light += square(mesh.corners[c].radiosity) / 6.0;
+        const Color step = mesh.corners[c].radiosity - face.radiosity;
+        contrast += glm::dot(step, step) / 3.0;
+      }
+      triangles_.push_back({f, a + k, a + k + 1, area, light, contrast});
       total_ += area;
-      light_ += area * triangles_.back().light;
+      light_ += area * light;
+      contrast_ += area * contrast;
     }
   }
   double before = 0.0;

@@ -4,6 +4,7 @@
 #include "catch.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <map>
 #include <string>
@@ -11,6 +12,8 @@
 
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 
@@ -118,4 +121,28 @@ TEST_CASE("Cornell box and room agree with path tracing surface by surface", "[s
       }
     }
   }
+}
+
+TEST_CASE("audit: of 16 examples at the default audit, 14 know their error to within itself, or say below what it is", "[slow]") {
+  int known = 0;
+  for (const std::string name :
+       {"paper_figure", "paper_figure_small", "penumbra", "perpendicular_plates", "sphere", "cylinder", "two_plates", "three_plates"}) {
+    for (const std::uint64_t seed : {1, 2}) {
+      radiosity::Options options;
+      options.seed = seed;
+      const auto outcome = radiosity::solve(example_scene(name + ".scene"), options);
+      REQUIRE(outcome.solution);
+      const radiosity::Audit& audit = outcome.solution->audit;
+      REQUIRE(audit.leaf_error);
+      REQUIRE(audit.surface_error);
+      const auto narrow = [](const radiosity::ErrorEstimate& error) {
+        return error.low == 0.0 || error.high - error.low <= error.relative_l2;
+      };
+      CAPTURE(name, seed, audit.surface_error->low, audit.surface_error->high, audit.leaf_error->low, audit.leaf_error->high);
+      CHECK(audit.leaf_error->high < 0.1);
+      CHECK(audit.surface_error->high < 0.1);
+      known += narrow(*audit.leaf_error) && narrow(*audit.surface_error) ? 1 : 0;
+    }
+  }
+  CHECK(known >= 14);
 }
