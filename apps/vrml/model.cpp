@@ -60,7 +60,6 @@ class ModelMaker final : public Visitor {
   }
 
   void camera(const Node& node, const State& state) override {
-    if (node.type != "PerspectiveCamera") { return notes_.add("cameras without perspective are passed over", at(node)); }
     const glm::dvec4 orientation = node.rotation("orientation");
     const glm::dvec3 axis(orientation);
     const glm::dmat3 turn =
@@ -71,10 +70,13 @@ class ModelMaker final : public Visitor {
     camera.eye = point(state, node.vector("position", {0.0, 0.0, 1.0}));
     camera.forward = linear * (turn * glm::dvec3(0.0, 0.0, -1.0));
     camera.up = linear * (turn * glm::dvec3(0.0, 1.0, 0.0));
-    // The angle is that of the height, here of pictures of 4 : 3.
-    camera.field_of_view = 2.0 * std::atan(4.0 / 3.0 * std::tan(0.5 * node.number("heightAngle", 0.785398))) * 180.0 / std::numbers::pi;
-    if (usable(camera)) { return model.cameras.push_back(std::move(camera)); }
-    notes_.add("cameras that see nothing are passed over", at(node));
+    const bool parallel = node.type == "OrthographicCamera";
+    const double half_height = parallel ? 0.5 * node.number("height", 2.0) / node.number("focalDistance", 5.0)
+                                        : std::tan(0.5 * node.number("heightAngle", 0.785398));
+    camera.field_of_view = 2.0 * std::atan(4.0 / 3.0 * half_height) * 180.0 / std::numbers::pi;  // of pictures of 4 : 3
+    if (!usable(camera)) { return notes_.add("cameras that see nothing are passed over", at(node)); }
+    if (parallel) { notes_.add("cameras without perspective get one that shows as much at their focal distance", at(node)); }
+    model.cameras.push_back(std::move(camera));
   }
 
   void light(const Node& node, const State& state) override {

@@ -182,15 +182,18 @@ TEST_CASE("VRML: face sets with every binding, orders and hints") {
 
 TEST_CASE("VRML: cameras, also those to choose from; lights become small lamps") {
   const std::string body =
-      "Group { DEF Cameras Switch { whichChild 0 DEF front PerspectiveCamera { position 0 0 5 } DEF right PerspectiveCamera { position 5 0 "
-      "0 "
-      "orientation 0 1 0 1.5707963267948966 heightAngle 1 } } PointLight { location 0 3 0 intensity 0.5 } SpotLight { on FALSE } "
+      "Group { DEF Cameras Switch { whichChild 0 DEF front PerspectiveCamera { position 0 0 5 } "
+      "DEF right PerspectiveCamera { position 5 0 0 orientation 0 1 0 1.5707963267948966 heightAngle 1 } "
+      "OrthographicCamera { height 3 focalDistance 4 } } PointLight { location 0 3 0 intensity 0.5 } SpotLight { on FALSE } "
       "DirectionalLight { } Sphere { } }";
   const apps::Model model = read(body);
-  REQUIRE(model.cameras.size() == 2);
+  REQUIRE(model.cameras.size() == 3);
   CHECK(model.cameras[0].name == "front");
   CHECK(glm::length(model.cameras[1].forward - glm::dvec3(-1, 0, 0)) < 1e-12);
   CHECK(model.cameras[1].field_of_view == Approx(2.0 * std::atan(4.0 / 3.0 * std::tan(0.5)) * 180.0 / std::numbers::pi));
+  // 3 x 4 are seen at the distance 4.
+  CHECK(model.cameras[2].field_of_view == Approx(2.0 * std::atan(0.5 * 4.0 / 4.0) * 180.0 / std::numbers::pi));
+  CHECK(noted(model.notes, "cameras without perspective get one that shows as much at their focal distance"));
   REQUIRE(model.lights.size() == 1);
   CHECK(noted(model.notes, "directional lights are left out"));
   const apps::SceneFile file = models::scene("a.wrl", "#VRML V1.0 ascii\n" + body);
