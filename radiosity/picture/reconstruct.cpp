@@ -76,6 +76,13 @@ HALFLIGHT_INLINE void set_normals(const raycast::PlacedObject& object, SurfaceBR
   }
 }
 
+// The weight of one face's light in a corner of another (reconstruct.hpp): the 64th power of the cosine.
+[[nodiscard]] inline double alike(const glm::dvec3& a, const glm::dvec3& b) {
+  double weight = std::max(0.0, glm::dot(a, b));
+  for (int power = 1; power < 64; power *= 2) { weight *= weight; }
+  return weight;
+}
+
 // Colours the half-edges of a face whose leaf is `own`.
 HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32_t own, const LeafLight& light, Reconstruction kind) {
   const bool constant = kind == Reconstruction::constant || kind == Reconstruction::none;
@@ -94,7 +101,7 @@ HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32
       const std::uint32_t node = brep.data(brep.face(l)).node;
       if (node == no_node || !(light.exposure.area[node] > 0.0) || material(node) != material(own)) { continue; }
       double weight = corner_angle(brep, l);
-      if (kind != Reconstruction::simple) { weight *= std::max(0.0, glm::dot(brep.data(e).normal, brep.data(l).normal)); }
+      if (kind != Reconstruction::simple) { weight *= alike(brep.data(e).normal, brep.data(l).normal); }
       sum += weight * light.radiosity[node];
       weights += weight;
     }

