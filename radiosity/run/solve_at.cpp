@@ -52,7 +52,8 @@ HALFLIGHT_INLINE Outcome solve_at(const Scene& scene, const Options& options, co
 }
 
 HALFLIGHT_INLINE void tell_shortage(Audit& audit, const Failure& failure, const std::vector<StageTime>& lost) {
-  std::vector<StageTime> stages = lost;
+  std::vector<StageTime> stages;
+  add_times(stages, lost);
   add_times(stages, audit.stages);
   audit.stages = std::move(stages);
   audit.shortage = failure.sentences.empty() ? "the system had no more memory for a finer solution" : failure.sentences.front();
