@@ -154,7 +154,8 @@ class Text {
     if (report_.options.refinement == radiosity::Refinement::a_posteriori) {
       row("refinement", audit_.target > 0.0 ? "bf, estimate at most " + formatted("%.3g", audit_.target) : "bf, until the time was used");
     } else {
-      say("refinement", "f, epsilon {settings.epsilon}, min area {settings.min_area}, of lights {settings.light_epsilon}");
+      say("refinement", "f, epsilon {settings.epsilon}, min area {settings.min_area}, of lights {settings.light_epsilon}",
+          audit_.coarsened ? ": larger than asked for, to end " + std::string(audit_.interrupted ? "soon" : "within the memory") : "");
       if (audit_.reflected_share && *audit_.reflected_share < 0.25) {
         row("",
             "of lights finer: the reflected light is " + formatted("%.2g", *audit_.reflected_share) + " as bright as the mean emission");

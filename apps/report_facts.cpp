@@ -213,7 +213,9 @@ Facts facts_of(const Report& report) {
   facts.add("iterations", audit.iterations, "1");
   add_list(facts, "residual_histories", audit.histories, [](JsonWriter& json, const std::vector<double>& history) { json.value(history); });
   facts.add("converged", audit.converged);
+  facts.add("interrupted", audit.interrupted);
   facts.add("shortage", audit.shortage);
+  facts.add("coarsened", audit.coarsened);
   add_settings(facts, report);
   add_lists(facts, report);
   return facts;

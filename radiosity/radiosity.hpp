@@ -17,7 +17,7 @@ namespace radiosity {
 // interval is at most that. Times are those of all rounds together. A run whose error stays above says so by audit.converged;
 // accuracy_target.hpp says when it gives up.
 //
-// Memory that runs out is an outcome, too (Failure::Kind::out_of_memory, or the best solution so far with audit.shortage), and a run does
+// Memory that runs out is an outcome, too: the best solution that fits, with audit.shortage, or Failure::Kind::out_of_memory. A run does
 // without a thread that cannot be started. A program that is compiled without exceptions is ended by the platform where memory runs out, as
 // anywhere; Options::memory ends a run before that.
 [[nodiscard]] Outcome solve(const Scene& scene, const Options& options = {}, const Control& control = {});

@@ -138,10 +138,11 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
     radiosity::Outcome again = setting.run(scene, run_limit.control());
     // The best so far names the time of its own round alone; what was spent is what counts.
     if (again.solution && again.solution->audit.interrupted) { again.solution->audit.cpu_seconds = cpu_seconds() - begin; }
-    if (!again.solution) {
+    const bool of_other_setting = again.solution && again.solution->audit.coarsened;
+    if (!again.solution || of_other_setting) {
       Measured none;
       none.run.setting = setting.text;
-      const bool stopped = again.failure.kind == radiosity::Failure::Kind::cancelled;
+      const bool stopped = of_other_setting || again.failure.kind == radiosity::Failure::Kind::cancelled;
       none.run.refused = stopped ? "takes more than " + seconds_text(options.cpu_seconds_per_run) + " s of CPU time"
                          : again.failure.sentences.empty() ? "out of memory"
                                                            : again.failure.sentences.front();

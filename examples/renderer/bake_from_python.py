@@ -76,7 +76,14 @@ print("too early   ", hl.halflight_lightmap_texels(hl.halflight_create(), texels
 print("too small   ", hl.halflight_lightmap_texels(job, texels, 3), hl.halflight_message(job).decode())
 print("too small   ", hl.halflight_vertex_colors(job, colors, 3), hl.halflight_message(job).decode())
 
+# Told to stop, a run ends soon with the best that it has.
 stop = progress_type(lambda user, stage, fraction: 1)
 check(job, hl.halflight_set_progress(job, stop, None))
-print("stopped     ", hl.halflight_run(job), hl.halflight_message(job).decode())
+check(job, hl.halflight_set_number(job, b"epsilon", 0.005))
+check(job, hl.halflight_run(job))
+interrupted, epsilon = ctypes.c_double(), ctypes.c_double()
+check(job, hl.halflight_figure(job, b"interrupted", interrupted))
+check(job, hl.halflight_figure(job, b"epsilon", epsilon))
+check(job, hl.halflight_vertex_colors(job, colors, len(xyz) // 3))
+print(f"stopped      {interrupted.value:.0f}, with epsilon {epsilon.value}: vertex 7", *(f"{c:.3f}" for c in colors[-3:]))
 hl.halflight_destroy(job)

@@ -123,10 +123,12 @@ HALFLIGHT_INLINE Outcome solve_to_error(const Options& options, bool of_picture,
     if (!error && !audit.interrupted) { return {std::nullopt, not_measurable(of_picture)}; }
     ended_by = rounds.next(audit);
     over = (error && error->within(wanted)) || audit.interrupted || !audit.shortage.empty() || !ended_by.empty();
+    const bool interrupted = audit.interrupted;
     if (!best.solution || !best_error || (error && !(best_error->high < error->low))) {
       best = std::move(outcome);
       best_error = error;
     }
+    best.solution->audit.interrupted = best.solution->audit.interrupted || interrupted;
   }
   Audit& audit = best.solution->audit;
   const bool ended_early = audit.interrupted || !audit.shortage.empty();

@@ -13,6 +13,9 @@
 // irradiance that it receives is (B - E) / reflectance. Counter-clockwise corners are seen from the front. Which side is up does not
 // matter.
 //
+// A run ends early with the best that it has when Control::cancel becomes true, after Options::time (BF-refinement), or for want of
+// Options::memory; see there.
+//
 // The input is repaired and merged as intake.hpp tells, and nothing of it is kept. What was changed comes back as sentences. Nothing is
 // printed or thrown; the result does not depend on the number of threads.
 
@@ -49,7 +52,9 @@ struct BakeOptions {
 struct Baked {
   BakedColors colors;
   BakedLight light;  // between the corners, too
-  Audit audit;       // how wrong it is, how long it took, what was left out; audit.interrupted: the best until it was cancelled
+  // How wrong it is, how long it took, what was left out. audit.interrupted: the best until it was cancelled; audit.shortage: the best
+  // within the memory that there was; audit.coarsened: with larger thresholds than asked for.
+  Audit audit;
   std::vector<Change> changes;
   std::size_t faces = 0;  // of the scene that was solved
 };

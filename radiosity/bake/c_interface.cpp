@@ -93,7 +93,7 @@ std::optional<double> of_error(const radiosity::Baked& baked, double radiosity::
   return baked.audit.surface_error ? std::optional((*baked.audit.surface_error).*value) : std::nullopt;
 }
 
-constexpr std::array<Figure, 14> figures{{
+constexpr std::array<Figure, 16> figures{{
     {"error", [](const radiosity::Baked& b) { return of_error(b, &radiosity::ErrorEstimate::relative_l2); }},
     {"error_low", [](const radiosity::Baked& b) { return of_error(b, &radiosity::ErrorEstimate::low); }},
     {"error_high", [](const radiosity::Baked& b) { return of_error(b, &radiosity::ErrorEstimate::high); }},
@@ -107,6 +107,8 @@ constexpr std::array<Figure, 14> figures{{
     {"iterations", [](const radiosity::Baked& b) { return number(b.audit.iterations); }},
     {"converged", [](const radiosity::Baked& b) { return number(b.audit.converged); }},
     {"interrupted", [](const radiosity::Baked& b) { return number(b.audit.interrupted); }},
+    {"coarsened", [](const radiosity::Baked& b) { return number(b.audit.coarsened); }},
+    {"epsilon", [](const radiosity::Baked& b) { return number(b.audit.epsilon); }},
     {"without", [](const radiosity::Baked& b) { return number(b.colors.without); }},
 }};
 

@@ -34,11 +34,11 @@ typedef struct halflight_job halflight_job;
 
 typedef enum halflight_status {
   HALFLIGHT_OK = 0,
-  HALFLIGHT_INVALID = 1,   /* an argument, an option, or the scene: halflight_message says what */
-  HALFLIGHT_CANCELLED = 2, /* before there was a solution */
-  HALFLIGHT_OUT_OF_MEMORY = 3,
-  HALFLIGHT_NOT_RUN = 4, /* there is no result to read yet */
-  HALFLIGHT_NOTHING = 5  /* no light, option, figure or change of this name or number */
+  HALFLIGHT_INVALID = 1,       /* an argument, an option, or the scene: halflight_message says what */
+  HALFLIGHT_CANCELLED = 2,     /* before there was a solution; later HALFLIGHT_OK, and the figure interrupted is 1 */
+  HALFLIGHT_OUT_OF_MEMORY = 3, /* for any solution; if a coarser one fits, HALFLIGHT_OK, and the figure coarsened is 1 */
+  HALFLIGHT_NOT_RUN = 4,       /* there is no result to read yet */
+  HALFLIGHT_NOTHING = 5        /* no light, option, figure or change of this name or number */
 } halflight_status;
 
 /* "0.1.0" */
@@ -62,13 +62,13 @@ HALFLIGHT_API int halflight_add_material(halflight_job* job, const char* name, c
  *     seconds             refine, the most promising first, for this long                        off
  *     audit_points        points at which the error is measured; 0: it is not                    2000
  *     threads, seed       0 threads: all; results do not depend on the number                    0, 1
- *     memory              bytes that a run may take                                              off
+ *     memory              bytes that a run may take; it is coarser where that is too little      off
  *     weld                vertices closer than this are one; share of the scene's diagonal       1e-6
  *     two_sided, merge    1 or 0: surfaces reflect on both sides; coplanar triangles are merged  0, 1 */
 HALFLIGHT_API halflight_status halflight_set_number(halflight_job* job, const char* option, double value);
 
-/* Called now and then while a job runs, from the thread that runs it; another value than 0 stops the run, which keeps the best that it
- * has. */
+/* Called now and then while a job runs, from the thread that runs it; another value than 0 stops the run, which soon ends with
+ * the best that it has: see HALFLIGHT_CANCELLED. */
 typedef int (*halflight_progress)(void* user, const char* stage, double fraction);
 HALFLIGHT_API halflight_status halflight_set_progress(halflight_job* job, halflight_progress callback, void* user);
 
@@ -92,7 +92,8 @@ HALFLIGHT_API halflight_status halflight_lightmap_texels(halflight_job* job, flo
 HALFLIGHT_API halflight_status halflight_lightmap_coordinates(halflight_job* job, float* uv, size_t count);
 
 /* Figures of the run by name: error, error_low, error_high (relative L2 and its 95 % interval), seconds, cpu_seconds, faces, leaves, links,
- * rays, residual, iterations, converged, interrupted, without (corners of triangles that were left out). */
+ * rays, residual, iterations, converged, interrupted, coarsened (1: stopped or short of memory, with a larger epsilon than asked
+ * for), epsilon, without (corners of triangles that were left out). */
 HALFLIGHT_API halflight_status halflight_figure(halflight_job* job, const char* name, double* value);
 /* What was repaired in the triangles, as sentences; null beyond the last one. */
 HALFLIGHT_API const char* halflight_change(const halflight_job* job, size_t number);

@@ -33,6 +33,15 @@ namespace radiosity {
 
 namespace detail {
 
+// Nodes without a parent.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<std::uint32_t> tops(const Hierarchy& hierarchy) {
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
+    if (hierarchy[i].parent == no_node) { result.push_back(i); }
+  }
+  return result;
+}
+
 // Where refinement begins: with the pair of the root cluster with itself, or all pairs of input faces. In `inner` the input faces whose own
 // parts may face each other.
 HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const ProofOracle& proofs, Linked linked, NodePairs& pairs,
@@ -51,12 +60,12 @@ HALFLIGHT_INLINE void first_pairs(const DiscreteScene& scene, const ProofOracle&
     pairs.push_back({0, 0});
     return;
   }
-  const auto on_top = [&](std::uint32_t i) { return hierarchy[i].parent == no_node; };
-  for (std::uint32_t p = 0; p < count; ++p) {
-    if (!on_top(p) || !counts(p)) { continue; }
+  const std::vector<std::uint32_t> on_top = tops(hierarchy);
+  for (const std::uint32_t p : on_top) {
+    if (!counts(p)) { continue; }
     if (hierarchy[p].is_cluster()) { pairs.push_back({p, p}); }
-    for (std::uint32_t q = linked == Linked::all ? p + 1 : 0; q < count; ++q) {
-      if (!on_top(q) || q == p || (q < p && counts(q))) { continue; }
+    for (const std::uint32_t q : on_top) {
+      if (q == p || (q < p && (linked == Linked::all || counts(q)))) { continue; }
       if (!proofs.convex(hierarchy[p], hierarchy[q])) {
         pairs.push_back({p, q});
       } else if (scene.plan.shortcuts || hierarchy[p].deviation > 0.0 || hierarchy[q].deviation > 0.0) {
@@ -147,7 +156,7 @@ struct FRefinement {
   return split.leaf() && small ? Decision::link : answer;
 }
 
-// What to do with each open pair.
+// What to do with each open pair; without meaning once the run is cancelled.
 HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
   DiscreteScene& scene = state.scene;
   scene.patches.extend(scene.threads);
@@ -156,6 +165,7 @@ HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
   std::vector<Decision> decisions = decide(
       scene, state.pairs, state.result,
       [&](std::uint32_t p, std::uint32_t q) {
+        if (scene.control.cancelled()) { return Decision::drop; }
         const Question question{scene.hierarchy, p, q, state.shown, state.fineness.epsilon, state.min_area, &state.stuck};
         const Decision proven = state.proofs(question);
         if (state.measured.takes_whole_lamp({p, q})) { return proven; }
@@ -288,7 +298,8 @@ HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& finen
   scene.patches.extend(scene.threads);
   detail::FRefinement state{scene, fineness};
   RefineResult& result = state.result;
-  const std::uint64_t all_pairs = scene.clustered() || linked == Linked::lamps ? 0 : scene.hierarchy.size() * scene.hierarchy.size() / 2;
+  const std::uint64_t on_top = detail::tops(scene.hierarchy).size();
+  const std::uint64_t all_pairs = scene.clustered() || linked == Linked::lamps ? 0 : on_top * on_top / 2;
   if (!state.few_enough(all_pairs) || !state.fits(scene.hierarchy.size(), 0, scene.clustered() ? 1 : all_pairs)) {
     return std::move(result);
   }
@@ -297,6 +308,8 @@ HALFLIGHT_INLINE RefineResult refine(DiscreteScene& scene, const Fineness& finen
     result.cancelled = scene.control.cancelled();
     if (result.cancelled || !state.few_enough(result.linked.size() + state.pairs.size())) { break; }
     std::vector<Decision> decisions = detail::ask_oracles(state);
+    result.cancelled = scene.control.cancelled();
+    if (result.cancelled) { break; }
     if (result.generations == 0 && !scene.plan.closed && !scene.clustered() && linked == Linked::all) {
       detail::drop_dark_pairs(state, decisions);
     }

@@ -82,6 +82,7 @@ struct Audit {
   std::vector<std::vector<double>> histories;  // of each channel: the relative residual at the start and after each iteration
   bool converged = true;                       // solver below its residual and, when asked for, error below its target
   bool interrupted = false;                    // the best that the run had when it was told to stop; its error may not be measured
+  bool coarsened = false;                      // F-refinement with larger thresholds than asked for, because of either of these:
   std::string shortage;                        // what ended the run early for want of memory, and what to do; it has not converged then
   // error
   // Relative L2, by what links and leaves cannot express (link_error.hpp): of what was asked for, a picture or the leaves; of the leaves.
@@ -104,7 +105,7 @@ struct Audit {
   std::vector<std::string> warnings;  // what in the scene may not be what was meant (warnings.hpp)
   std::optional<StrayRays> stray;     // of a scene that is not proven closed
   std::vector<SurfaceMean> surfaces;
-  double epsilon = 0.0, min_area = 0.0, light_epsilon = 0.0;  // as used
+  double epsilon = 0.0, min_area = 0.0, light_epsilon = 0.0;  // as used, see `coarsened`
   std::optional<double> reflected_share;  // RMS of the radiosity that is reflected once, relative to the mean emission: reflected_light.hpp
   double target = 0.0;                    // of BF-refinement; 0 when the time was the limit
   unsigned threads = 1, channels = 3;

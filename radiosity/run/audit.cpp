@@ -111,7 +111,7 @@ HALFLIGHT_INLINE std::optional<Failure> audit(detail::Run& run) {
     audit.leaf_error = ErrorEstimate{};  // B = E is exact
     if (options.reconstruction != Reconstruction::none) { audit.surface_error = audit.leaf_error; }
     if (control.picture_error) { audit.picture_error = PictureError{}; }
-  } else if (options.audit_points > 0 && plan.traceable && !control.cancelled()) {
+  } else if (options.audit_points > 0 && plan.traceable && !run.stopped()) {
     detail::measure_errors(run);
     // A mesh in gathered light is not what the links give.
     const std::string of_picture =
@@ -122,7 +122,7 @@ HALFLIGHT_INLINE std::optional<Failure> audit(detail::Run& run) {
     run.watch.lap("audit");
   }
   if (run.bf_refined() && !options.time && !options.error) { detail::check_target(run); }
-  if (options.audit_points > 0 && run.needs_links() && plan.traceable && !audit.leaf_error && control.cancelled()) {
+  if (options.audit_points > 0 && run.needs_links() && plan.traceable && !audit.leaf_error && run.stopped()) {
     audit.interrupted = true;
     audit.left_out.push_back({"the error estimate", "the run was interrupted", ""});
   }

@@ -27,7 +27,8 @@ HALFLIGHT_INLINE std::optional<Failure> compare_matrix(detail::Run& run) {
   solution.comparison.emplace();
   const std::uint64_t leaves = exposed_leaves(scene.hierarchy, scene.exposure);
   const std::uint64_t matrix = 8 * leaves * leaves;
-  if (leaves <= *run.options.compare && scene.budget.allows({scene.hierarchy.size(), solution.links.size(), 0, matrix / 2})) {
+  const bool fits = scene.budget.allows({scene.hierarchy.size(), solution.links.size(), 0, matrix / 2});
+  if (leaves <= *run.options.compare && fits && !solution.audit.interrupted) {
     const LeafExchange exchange{scene};
     solution.comparison->dense = dense_radiosity(scene, exchange, leaf_materials(exchange, scene), run.options.residual);
   }

@@ -18,8 +18,10 @@
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/leaf_splits.hpp>
+#include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
+#include <radiosity/run/f_refinement.hpp>
 #include <radiosity/run/run.hpp>
 #include <radiosity/run/stages.hpp>
 #include <radiosity/support/memory.hpp>
@@ -30,14 +32,15 @@ namespace detail {
 
 [[nodiscard]] HALFLIGHT_INLINE std::optional<Failure> link_by_rays(Run& run) {
   DiscreteScene& scene = run.scene;
-  const SpacingResult spacing = space_casters(scene, run.solution.links, run.options.epsilon, run.options.min_area);
-  run.rays_of_spacing = spacing.rays;
+  const Audit& audit = run.solution.audit;
+  const SpacingResult spacing = space_casters(scene, run.solution.links, audit.epsilon, audit.min_area);
+  run.rays_of_spacing += spacing.rays;
   if (spacing.cancelled) { return cancelled(); }
   if (spacing.too_large > 0) {
     return Failure{Failure::Kind::out_of_memory,
                    {too_much_memory(spacing.too_large, scene.budget.allowed, "a larger epsilon or min_area needs less")}};
   }
-  const std::vector<std::uint32_t> counts = ray_counts(scene, spacing.casters, rays_per_node(run.options.epsilon));
+  const std::vector<std::uint32_t> counts = ray_counts(scene, spacing.casters, rays_per_node(audit.epsilon));
   const std::uint64_t rays = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   if (rays > ray_limit) {
     return Failure{Failure::Kind::invalid_options,
@@ -55,12 +58,24 @@ namespace detail {
   return std::nullopt;
 }
 
+// The links that refinement has chosen.
+HALFLIGHT_INLINE void link_by_forms(Run& run) {
+  DiscreteScene& scene = run.scene;
+  if (run.solution.audit.clusters > 0) { scene.shown = scene.exposed_shown(); }
+  if (run.solution.audit.clusters > 0 && !scene.clustered()) {
+    scene.lamp_exchange.emplace(scene.view(), &scene.exposure, scene.shown);
+    scene.evaluator.use(*scene.lamp_exchange);
+  }
+  run.evaluated = make_links({scene.evaluator, run.refined.occluders, scene.threads, scene.control}, std::exchange(run.refined.linked, {}),
+                             run.solution.links);
+}
+
 // Leaves that were cut along the edges of shadows stay as they are.
 HALFLIGHT_INLINE void split_leaves_once_more(Run& run) {
   DiscreteScene& scene = run.scene;
-  if (scene.light_meshing) { return; }
-  run.leaf_splits =
-      split_leaves_by_light(scene, run.solution.links, {run.solution.audit.light_epsilon, run.options.min_area}, run.evaluated.doubt);
+  const Audit& audit = run.solution.audit;
+  if (scene.light_meshing || audit.interrupted) { return; }
+  run.leaf_splits = split_leaves_by_light(scene, run.solution.links, {audit.light_epsilon, audit.min_area}, run.evaluated.doubt);
   if (run.leaf_splits.count > 0 && scene.control.after_generation) { scene.control.after_generation(scene.surfaces); }
 }
 
@@ -71,18 +86,21 @@ namespace stage {
 HALFLIGHT_INLINE std::optional<Failure> link(detail::Run& run) {
   DiscreteScene& scene = run.scene;
   if (run.f_refined()) {
-    if (run.solution.audit.clusters > 0) { scene.shown = scene.exposed_shown(); }
-    if (run.solution.audit.clusters > 0 && !scene.clustered()) {
-      scene.lamp_exchange.emplace(scene.view(), &scene.exposure, scene.shown);
-      scene.evaluator.use(*scene.lamp_exchange);
+    detail::link_by_forms(run);
+    if (run.evaluated.cancelled) {
+      detail::refine_coarsely(run);
+      scene.expose();
+      detail::link_by_forms(run);
     }
-    run.evaluated = make_links({scene.evaluator, run.refined.occluders, scene.threads, scene.control},
-                               std::exchange(run.refined.linked, {}), run.solution.links);
-    if (run.evaluated.cancelled) { return detail::cancelled(); }
+    if (std::optional<Failure> failure = detail::refusal(run)) { return failure; }
     detail::split_leaves_once_more(run);
-    if (run.rays.cast) {
-      if (std::optional<Failure> failure = detail::link_by_rays(run)) { return failure; }
+    run.solution.audit.interrupted = run.stopped();
+    std::optional<Failure> failure = run.rays.cast ? detail::link_by_rays(run) : std::nullopt;
+    if (failure && failure->kind == Failure::Kind::cancelled) {
+      detail::hurry(run);
+      failure = detail::link_by_rays(run);
     }
+    if (failure) { return failure; }
   }
   run.watch.lap("link");
   return std::nullopt;

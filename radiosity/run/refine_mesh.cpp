@@ -93,7 +93,7 @@ namespace stage {
 HALFLIGHT_INLINE std::optional<Failure> refine_mesh(detail::Run& run) {
   const Options& options = run.options;
   DiscreteScene& scene = run.scene;
-  if (!options.mesh_error || !scene.plan.lit || !scene.plan.reflects || scene.control.cancelled()) { return std::nullopt; }
+  if (!options.mesh_error || !scene.plan.lit || !scene.plan.reflects || run.stopped()) { return std::nullopt; }
   Mesh shown = run.solution.mesh;
   detail::to_scene(shown, scene.frame);
   const FinalGather light{scene.input, shown, scene.frame};

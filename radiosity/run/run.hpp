@@ -45,6 +45,8 @@ struct Run {
   // Without light, or without reflection, B = E on the input faces.
   [[nodiscard]] bool needs_links() const { return (scene.plan.lit && scene.plan.reflects) || !scene.plan.shortcuts; }
   [[nodiscard]] bool f_refined() const { return needs_links() && options.refinement == Refinement::a_priori; }
+  // Told to stop, whether or not that has been heeded.
+  [[nodiscard]] bool stopped() const { return solution.audit.interrupted || scene.control.cancelled(); }
   [[nodiscard]] bool bf_refined() const { return needs_links() && options.refinement == Refinement::a_posteriori; }
 
   Options options;

@@ -81,7 +81,7 @@ HALFLIGHT_INLINE void solve_system(Run& run) {
     return solve_channels(*run.transport, run.transport->area(), surface_light(scene),
                           {solver, run.options.residual, run.options.max_iterations}, until);
   };
-  ColorSolution solved = solve_by(run.options.solver, scene.control);
+  ColorSolution solved = solve_by(audit.interrupted ? Solver::conjugate_gradients : run.options.solver, scene.control);
   if (solved.cancelled) {  // all links are there: the solution by the fewest iterations is near
     audit.interrupted = true;
     solved = solve_by(Solver::conjugate_gradients, scene.control.unstoppable());

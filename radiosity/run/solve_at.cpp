@@ -6,9 +6,11 @@
 #include <initializer_list>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <raycast/inline.hpp>
 
+#include <radiosity/result/audit.hpp>
 #include <radiosity/result/out_of_memory.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
@@ -32,22 +34,56 @@ HALFLIGHT_INLINE Outcome solve_at(const Scene& scene, const Options& options, co
   return run.finish();
 }
 
+// BF-refinement is to end a generation earlier, if there is one.
+[[nodiscard]] HALFLIGHT_INLINE bool end_before(MemoryBudget& budget, std::uint32_t solved) {
+  if (budget.last_generation == 0) { return false; }
+  budget.last_generation = std::min(budget.last_generation, solved) - 1;
+  return true;
+}
+
+// F-refinement is to make about half as many links, while there are any to be saved.
+[[nodiscard]] HALFLIGHT_INLINE bool coarsen(Options& options) {
+  if (options.epsilon >= 1.0) { return false; }
+  constexpr double step = 1.5;
+  options.epsilon *= step;
+  options.min_area *= step * step;
+  if (options.light_epsilon) { *options.light_epsilon *= step; }
+  return true;
+}
+
+HALFLIGHT_INLINE void tell_shortage(Audit& audit, const Failure& failure, const std::vector<StageTime>& lost) {
+  std::vector<StageTime> stages;
+  add_times(stages, lost);
+  add_times(stages, audit.stages);
+  audit.stages = std::move(stages);
+  audit.shortage = failure.sentences.empty() ? "the system had no more memory for a finer solution" : failure.sentences.front();
+  audit.converged = false;
+  sum_times(audit);
+}
+
 HALFLIGHT_INLINE Outcome solve_within_memory(const Scene& scene, const Options& options, const Control& control, std::uint64_t held) {
   MemoryBudget budget;
   budget.arrays = options.arrays;
   if (options.memory) { budget.allowed = *options.memory - std::min(*options.memory, held); }
-  std::uint32_t solved = 0;  // generations of BF-refinement
+  std::uint32_t solved = 0;
   budget.solved = &solved;
+  std::vector<StageTime> lost;
+  Stopwatch watch{lost};
   Outcome outcome = unless_out_of_memory([&] { return solve_at(scene, options, control, budget); });
-  while (!outcome.solution && outcome.failure.kind == Failure::Kind::out_of_memory && solved > 0 && budget.last_generation > 0) {
-    budget.last_generation = std::min(budget.last_generation, std::exchange(solved, 0)) - 1;
+  Options coarser = options;
+  const Failure first = outcome.failure;
+  while (!outcome.solution && outcome.failure.kind == Failure::Kind::out_of_memory && solved > 0) {
+    const bool possible = options.refinement == Refinement::a_posteriori ? end_before(budget, solved) : held == 0 && coarsen(coarser);
+    if (!possible) { break; }
+    solved = 0;
     outcome = unless_out_of_memory([&] {
-      Outcome coarser = solve_at(scene, options, control, budget);
-      if (coarser.solution) {
-        coarser.solution->audit.shortage = "the system had no more memory for a finer solution; a larger target or error needs less";
-        coarser.solution->audit.converged = false;
+      watch.lap("lost for want of memory");
+      Outcome again = solve_at(scene, coarser, control, budget);
+      if (again.solution) {
+        tell_shortage(again.solution->audit, first, lost);
+        again.solution->audit.coarsened = options.refinement == Refinement::a_priori;
       }
-      return coarser;
+      return again;
     });
   }
   return outcome;

@@ -110,9 +110,9 @@ struct Options {
   std::uint32_t audit_points = 2000;  // at least, at which the error is measured (audit_effort.hpp); 0: no error estimate
   unsigned threads = 0;               // 0: as many as the machine has; results do not depend on it
   // Bytes that the run may take on top of what the process holds when it begins, predicted from the numbers of nodes, links and pairs
-  // before they are made (memory.hpp). A run that would need more ends with the best solution that it has, which says so by
-  // audit.shortage, or, when none is complete, without (Failure::Kind::out_of_memory): BF-refinement and error targets have one,
-  // F-refinement has not.
+  // before they are made (memory.hpp). A run that would need more ends with the best solution that fits, which says so by audit.shortage:
+  // that of the last generation of BF-refinement, of the last round to an error target, or of F-refinement with epsilon and min_area as
+  // large as they must be (audit.coarsened). Where not even the coarsest fits there is none (Failure::Kind::out_of_memory).
   std::optional<std::uint64_t> memory;
   // Where the arrays lie that grow with nodes, links, pairs and rays, those of the Solution among them (big_array.hpp); null: on the heap.
   // It must outlive the Solution, and is used by several threads at once. What is left on the heap: BReps, contours, the mesh.
@@ -135,9 +135,11 @@ struct Viewpoint {
 
 // How the caller watches and stops a run. `progress` is called from the thread that called solve().
 struct Control {
-  // Once true the run ends soon: with the best solution that it has, which says so by audit.interrupted, or, when none is complete, without
-  // (Failure::Kind::cancelled). BF-refinement has one after each generation, an error target after each round, F-refinement once all links
-  // are evaluated; what is left to solve then is solved by conjugate gradients, whatever solver was asked for.
+  // Once true the run ends soon: with the best solution that it has, which says so by audit.interrupted, or without
+  // (Failure::Kind::cancelled) before the first generation of refinement. BF-refinement has one after each generation, an error target
+  // after each round. F-refinement has it once all links are evaluated, and before makes coarse links over the patches that there are
+  // (audit.coarsened): up to a second with a thousand input faces, some seconds with 70 000. What is left to solve then is solved by
+  // conjugate gradients, whatever solver was asked for, and there is no audit.
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(std::string_view stage, double fraction)> progress;
   // Called with the valid BReps of all objects after each generation of refinement.

@@ -39,7 +39,8 @@ struct MemoryBudget {
   // BF-refinement ends with the solution of this generation: memory ran out in the next one.
   std::uint32_t last_generation = std::numeric_limits<std::uint32_t>::max();
   std::pmr::memory_resource* arrays = nullptr;  // where big arrays lie (big_array.hpp)
-  std::uint32_t* solved = nullptr;              // where it writes how many generations have a solution
+  // Where BF-refinement writes how many generations have a solution, and F-refinement that it has begun: larger thresholds may need less.
+  std::uint32_t* solved = nullptr;
 
   // What of a run counts, at some moment.
   struct Counts {

@@ -30,10 +30,10 @@ TEST_CASE("sizes of memory are read as they are written") {
   }
 }
 
-TEST_CASE("render --memory: refused with a sentence, or within the limit by the system's own count") {
+TEST_CASE("render --memory: refused with a sentence, or the best within the limit by the system's own count") {
   const program::Place place;
-  const std::string render = "render '" HALFLIGHT_SCENES "/cornell.scene' --quiet --audit 0 --threads 1 --epsilon .03 --min-area 1e-3 ";
-  const program::Run whole = place.run(render);
+  const std::string render = "render '" HALFLIGHT_SCENES "/cornell.scene' --quiet --audit 0 --threads 1 ";
+  const program::Run whole = place.run(render + "--epsilon .03 --min-area 1e-3");
   REQUIRE(whole.code == 0);
   CHECK(whole.out.find(" at the peak of the process, ") != std::string::npos);
   CHECK(whole.out.find(" held by the result") != std::string::npos);
@@ -43,10 +43,15 @@ TEST_CASE("render --memory: refused with a sentence, or within the limit by the 
   CHECK(none.err.find("--memory allows 2 MB, but the program and the scene hold ") != std::string::npos);
   CHECK(std::count(none.err.begin(), none.err.end(), '\n') == 1);
 
-  const program::Run refused = place.run(render + "--memory 12M");
-  CHECK(refused.code == 1);
-  CHECK(refused.err.find("a larger epsilon or min_area needs less") != std::string::npos);
-  CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
+  const program::Run coarser = place.run(render + "--epsilon .01 --min-area 2.4e-4 --memory 24M --json coarser.json");
+  CHECK(coarser.code == 4);
+  CHECK(coarser.err.find("a larger epsilon or min_area needs less; the outputs show the best solution so far") != std::string::npos);
+  CHECK(coarser.out.find("larger than asked for, to end within the memory") != std::string::npos);
+  CHECK(std::count(coarser.err.begin(), coarser.err.end(), '\n') == 1);
+  const json::Value of_coarser = json::parse(place.read("coarser.json"));
+  CHECK(of_coarser["coarsened"].boolean());
+  CHECK(of_coarser["settings"]["epsilon"].number() > 0.01);
+  CHECK(of_coarser["peak_bytes"]["process"].number() <= 24e6);
 
   const program::Run best = place.run("render '" HALFLIGHT_SCENES
                                       "/cornell.scene' --quiet --audit 0 --threads 1 --target .004 "

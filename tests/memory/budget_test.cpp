@@ -3,6 +3,8 @@
 // The limit on memory: what a run holds at its peak, by the heap's own count, never exceeds it, and it costs nothing where there is enough.
 
 #include <algorithm>
+#include <cstdint>
+#include <random>
 #include <vector>
 
 #include <radiosity/radiosity.hpp>
@@ -55,7 +57,10 @@ std::uint64_t peak_of_scene(const radiosity::Scene& scene, Options options) {
 
 }  // namespace
 
-TEST_CASE("memory limit of F-refinement: refused below, the same bits above, never exceeded") {
+TEST_CASE("memory limit of F-refinement: the best that fits, finer with more memory, never exceeded") {
+  const std::uint32_t seed = 8;
+  CAPTURE(seed);
+  std::mt19937_64 random{seed};
   const std::vector<radiosity::Scene> scenes{apps::stress::room_with_box(), apps::stress::furnace_with_things(0.5)};
   for (const radiosity::Scene& scene : scenes) {
     Options options;
@@ -66,24 +71,67 @@ TEST_CASE("memory limit of F-refinement: refused below, the same bits above, nev
     const Measured whole = measured([&] { return radiosity::solve(scene, options); });
     REQUIRE(whole.outcome.solution);
     const std::uint64_t of_scene = peak_of_scene(scene, options);
-    bool solved = false;
-    for (const std::uint64_t limit : limits()) {
-      CAPTURE(limit, whole.peak);
+    std::vector<std::uint64_t> all = limits();
+    all.push_back(10'000);  // less than its patches take
+    for (int i = 0; i < 20; ++i) { all.push_back(of_scene / 2 + random() % (3 * whole.peak)); }
+    std::sort(all.begin(), all.end());
+    bool refused = false, coarsened = false;
+    double epsilon = 2.0;
+    for (const std::uint64_t limit : all) {
+      CAPTURE(limit, whole.peak, of_scene);
       options.memory = limit;
       const Measured run = measured([&] { return radiosity::solve(scene, options); });
       CHECK(run.peak <= std::max(limit, of_scene + 1000));  // and a sentence
       if (!run.outcome.solution) {
-        CHECK_FALSE(solved);  // more memory never does harm
+        CHECK(epsilon == 2.0);  // more memory never does harm
         CHECK(run.outcome.failure.kind == Failure::Kind::out_of_memory);
-        CHECK(limit < 3 * whole.peak);  // and what suffices three times over is not refused
+        refused = true;
         continue;
       }
-      solved = true;
-      CHECK(run.outcome.solution->audit.shortage.empty());
-      CHECK(run.outcome.solution->radiosity == whole.outcome.solution->radiosity);
+      const radiosity::Solution& solution = *run.outcome.solution;
+      CHECK(solution.audit.epsilon <= epsilon);
+      epsilon = solution.audit.epsilon;
+      CHECK(solution.audit.shortage.empty() == (epsilon == options.epsilon));
+      CHECK(solution.audit.coarsened != solution.audit.shortage.empty());
+      CHECK(solution.audit.converged == solution.audit.shortage.empty());
+      CHECK(solution.audit.energy_balance < 1e-6);
+      coarsened = coarsened || solution.audit.coarsened;
+      if (solution.audit.shortage.empty()) {
+        CHECK(solution.radiosity == whole.outcome.solution->radiosity);
+      } else {
+        CHECK(limit < 3 * whole.peak);  // what suffices three times over is enough
+        Options asked = options;        // it is the solution with these thresholds
+        asked.memory.reset();
+        asked.epsilon = solution.audit.epsilon;
+        asked.min_area = solution.audit.min_area;
+        CHECK(radiosity::solve(scene, asked).solution->radiosity == solution.radiosity);
+      }
     }
-    CHECK(solved);
+    CHECK(refused);
+    CHECK(coarsened);
+    CHECK(epsilon == options.epsilon);
   }
+}
+
+TEST_CASE("memory limit of stored rays: coarser, and the same bits for any number of threads") {
+  Options options;
+  options.epsilon = 0.02;
+  options.min_area = 1e-3;
+  options.audit_points = 0;
+  options.indirect = radiosity::Indirect::rays;
+  options.threads = 1;
+  const radiosity::Scene scene = apps::stress::room_with_box();
+  const Measured whole = measured([&] { return radiosity::solve(scene, options); });
+  REQUIRE(whole.outcome.solution);
+  options.memory = whole.peak / 4;
+  const Measured one = measured([&] { return radiosity::solve(scene, options); });
+  REQUIRE(one.outcome.solution);
+  CHECK(one.peak <= *options.memory);
+  CHECK_FALSE(one.outcome.solution->audit.shortage.empty());
+  CHECK(one.outcome.solution->audit.stored_rays > 0);
+  CHECK(one.outcome.solution->audit.epsilon > options.epsilon);
+  options.threads = 3;
+  CHECK(radiosity::solve(scene, options).solution->radiosity == one.outcome.solution->radiosity);
 }
 
 TEST_CASE("memory limit of BF-refinement: the best that fits, finer with more memory, never exceeded") {

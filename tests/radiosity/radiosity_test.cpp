@@ -248,7 +248,7 @@ TEST_CASE("faulty scenes are refused with a sentence for every fault") {
   CHECK(outcome.failure.sentences.size() == 4);  // reflectance, two materials for six sheets, no inside, no such material
 }
 
-TEST_CASE("a cancelled run gives no solution") {
+TEST_CASE("a run that is cancelled before its first generation gives no solution") {
   const std::atomic<bool> cancel{true};
   radiosity::Control control;
   control.cancel = &cancel;

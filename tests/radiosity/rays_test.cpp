@@ -326,6 +326,10 @@ TEST_CASE("stored rays obey the memory limit and the cancel flag") {
   options.epsilon = 0.01;
   options.audit_points = 0;
   options.memory = 20'000'000;
+  const radiosity::Solution coarser = scenes::solved(scene, options);
+  CHECK_FALSE(coarser.audit.shortage.empty());
+  CHECK(coarser.audit.epsilon > options.epsilon);
+  options.memory = 300'000;
   CHECK(radiosity::solve(scene, options).failure.kind == radiosity::Failure::Kind::out_of_memory);
   options.memory.reset();
   const std::atomic<bool> stop{true};

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/run/f_refinement.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/audit/reflected_light.hpp>
+#include <radiosity/rays/ray_choice.hpp>
+#include <radiosity/refinement/cluster_choice.hpp>
+#include <radiosity/refinement/f_refine.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/support/memory.hpp>
+#include <radiosity/visibility/plan.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// Fineness::reflected for a share of the mean emission that is reflected. By measurement: scenes that are open to the sky keep about what
+// they cost, and light through a window, most of it within the edges of a few bright places, is as exact as theirs. Below a hundredth it
+// falls as the share does, so that what a lamp sends elsewhere changes nothing.
+[[nodiscard]] HALFLIGHT_INLINE double brightness_of_reflected(double share) {
+  constexpr double dim = 0.01;
+  return std::min(1.0, std::pow(4.0 * std::max(dim, share), 1.25)) * std::min(1.0, share / dim);
+}
+
+// With the thresholds of now.
+[[nodiscard]] HALFLIGHT_INLINE RefineResult refined_by_forms(Run& run) {
+  const Audit& audit = run.solution.audit;
+  Fineness fineness{audit.epsilon, audit.min_area, audit.light_epsilon};
+  if (run.options.oracle) { fineness.oracle = run.options.oracle; }
+  if (audit.reflected_share) { fineness.reflected = brightness_of_reflected(*audit.reflected_share); }
+  return radiosity::refine(run.scene, fineness, run.rays.cast ? Linked::lamps : Linked::all);
+}
+
+HALFLIGHT_INLINE void refine_by_forms(Run& run) {
+  const Plan& plan = run.scene.plan;
+  Audit& audit = run.solution.audit;
+  if (plan.lit && plan.reflects) {
+    run.scene.patches.extend(run.scene.threads);
+    audit.reflected_share = reflected_light(run.scene, *run.tracer);
+    const bool beside_lamps = *audit.reflected_share > least_share_beside_lamps;
+    if (run.rays.few && beside_lamps && !run.clusters.build) { run.rays = RayChoice{true, {}}; }
+  }
+  run.refined = refined_by_forms(run);
+}
+
+HALFLIGHT_INLINE void hurry(Run& run, double epsilon) {
+  Audit& audit = run.solution.audit;
+  audit.interrupted = true;
+  run.scene.control = run.scene.control.unstoppable();
+  run.scene.control.decided = nullptr;
+  if (epsilon <= run.options.epsilon) { return; }
+  audit.coarsened = true;
+  audit.epsilon = epsilon;
+  audit.min_area = std::max(run.options.min_area, 2.4 * epsilon * epsilon);  // as in the rounds to an error target
+  audit.light_epsilon = std::max(run.options.light_epsilon.value_or(0.0), 0.25 * epsilon);
+}
+
+HALFLIGHT_INLINE void refine_coarsely(Run& run) {
+  RefineResult lost = std::exchange(run.refined, {});
+  lost.linked = {};
+  const RayCount rays = lost.rays;
+  // Half of an epsilon takes some four times as many questions, and the links that are made then take about twice as long as these.
+  constexpr std::uint64_t worth = 100;
+  double epsilon = soon_made;
+  for (;;) {
+    hurry(run, epsilon);
+    run.refined = refined_by_forms(run);
+    if (run.rays.cast || 0.5 * epsilon <= run.options.epsilon || worth * run.refined.pairs_tested > lost.pairs_tested) { break; }
+    epsilon *= 0.5;
+  }
+  run.refined.rays += rays;
+}
+
+HALFLIGHT_INLINE std::string too_large(const Run& run, std::uint64_t needed) {
+  return too_much_memory(needed, run.scene.budget.allowed,
+                         run.options.error               ? "a larger error needs less"
+                         : run.scene.budget.a_posteriori ? "a larger target needs less"
+                                                         : "a larger epsilon or min_area needs less");
+}
+
+HALFLIGHT_INLINE std::optional<Failure> refusal(const Run& run) {
+  if (run.refined.cancelled || run.evaluated.cancelled) { return cancelled(); }
+  if (run.refined.too_many > 0) { return Failure{Failure::Kind::invalid_options, {too_many_links(run.refined.too_many, run.clusters)}}; }
+  if (run.refined.too_large > 0) { return Failure{Failure::Kind::out_of_memory, {too_large(run, run.refined.too_large)}}; }
+  return std::nullopt;
+}
+
+}  // namespace detail
+
+}  // namespace radiosity
