@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Unit tests for your own topology code.
-//
-// Somebody writes an operator of their own: inset_face draws a smaller face inside a face and joins corner to corner. How can we know that
-// it is right? We say what must be true afterwards and let Catch2 ask. The matchers of brep/testing.hpp know what a sound BRep is, count,
-// and compare shapes; when a test fails they print in sentences what is wrong and where.
+// Unit tests for your own topology code. Somebody writes an operator of their own: inset_face draws a smaller face inside a face and joins
+// corner to corner. How can we know that it is right? We say what must be true afterwards and let Catch2 ask. The matchers of
+// brep/testing.hpp know what a sound BRep is, count, and compare shapes; when a test fails they print in sentences what is wrong and where.
 
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>

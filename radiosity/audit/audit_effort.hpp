@@ -55,7 +55,7 @@ inline constexpr std::uint64_t steering_points = 256;
 template <class Measured>
 [[nodiscard]] bool measure_to_goal(const std::function<bool(std::uint64_t points, std::uint32_t paths, Measured&)>& measure,
                                    const std::function<const ErrorSums&(const Measured&)>& sums, const AuditGoal& goal, Measured& result) {
-  const std::uint64_t least = std::max<std::uint64_t>(16, goal.points / 4);
+  const std::uint64_t least = std::max<std::uint64_t>(goal.wanted ? 250 : 16, goal.points / 4);
   const double target = goal.wanted ? *goal.wanted * *goal.wanted : 0.0;
   std::uint64_t few = std::clamp<std::uint64_t>(goal.points / 8, 16, 512);  // points of the pilot
   constexpr std::uint64_t rays_a_path = 8;                                  // about

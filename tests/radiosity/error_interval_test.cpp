@@ -273,7 +273,6 @@ TEST_CASE("audit: of 240 intervals over 24 closed rooms with light to and fro at
 TEST_CASE("error target: a tighter one never ends with a worse solution, and one out of reach ends with the best") {
   radiosity::Options options;
   options.threads = 1;
-  options.audit_points = 400;
   std::uint64_t links = 0;
   double high = 1.0;
   for (const radiosity::Refinement refinement : {radiosity::Refinement::a_priori, radiosity::Refinement::a_posteriori}) {
