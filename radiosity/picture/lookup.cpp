@@ -88,7 +88,7 @@ HALFLIGHT_INLINE raycast::Box Lookup::region(const Triangle& triangle, const ray
 namespace detail {
 
 // Of the light at a triangle's corners, in the brightest: where they differ by less, the light is taken to be even.
-inline constexpr double told_apart = 0.1;
+inline constexpr double told_apart = 0.05;
 
 }  // namespace detail
 

@@ -50,8 +50,8 @@ double sum(const radiosity::Color& c) { return c.x + c.y + c.z; }
 
 // The front of the short block gets no light from the lamp, and at its foot nearly all that it sees is a floor in shadow, with a lit strip
 // before it. The mesh alone, with leaves of the floor as wide as the strip, makes the lowest millimetre 19 % too bright and the next four
-// 15 %. What is near is followed by paths only where the corners of its triangle differ by a tenth or more: an even triangle is believed,
-// so it may be off by a tenth in between. To this comes what the gathering itself is off: over 64 places of 3 % each, with 1 % from tracing,
+// 15 %. What is near is followed by paths only where the corners of its triangle differ by a twentieth: an even triangle is believed,
+// and may be off by a tenth in between. To this comes what the gathering itself is off: over 64 places of 3 % each, with 1 % from tracing,
 // four standard errors are 5 %.
 TEST_CASE("a dark corner: gathered light is that of path tracing, up to the edge", "[picture]") {
   const auto seed = static_cast<std::uint64_t>(GENERATE(take(1, random(1, 1'000'000))));
