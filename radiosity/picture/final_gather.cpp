@@ -40,7 +40,8 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, const Frame& frame) : lookup_{scene, mesh, frame} {
+HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, const Frame& frame)
+    : lookup_{scene, mesh, frame}, near_{lookup_, direct_, materials_} {
   std::vector<Color> emission;
   for (const InputSurface& input : surfaces(scene)) {
     materials_.push_back(scene.materials[input.material]);
@@ -57,26 +58,6 @@ HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, 
     if (!direct_.is_lamp(s) && !is_black(materials_[s].reflectance)) { emission[s] = Color{0.0}; }
   }
   spots_ = BrightSpots{lookup_, direct_, emission};
-}
-
-HALFLIGHT_INLINE FinalGather::Met FinalGather::met(const raycast::Hit& hit, const raycast::Segment& ray) const {
-  const glm::dvec3 at = ray.at(hit.t);
-  const std::uint32_t o = direct_.whole(hit.object);
-  const raycast::PlacedObject& object = objects().object(o);
-  if (!(direct_.lift(o) > 0.0)) { return {object.project(hit.sheet, at), o, hit.sheet}; }
-  // A mesh that stands in does not know the sheets of its object: it is the nearest that faces the same way.
-  const glm::dvec3 normal = direct_.objects().object(hit.object).project(hit.sheet, at).normal;
-  Met best{object.project(0, at), o, 0};
-  double best_distance = glm::dot(best.point.normal, normal) > 0.0 ? glm::length(best.point.position - at) : raycast::infinity;
-  for (std::uint32_t s = 1; s < object.sheet_count(); ++s) {
-    const raycast::SurfacePoint point = object.project(s, at);
-    const double distance = glm::length(point.position - at);
-    if (distance < best_distance && glm::dot(point.normal, normal) > 0.0) {
-      best = {point, o, s};
-      best_distance = distance;
-    }
-  }
-  return best;
 }
 
 HALFLIGHT_INLINE FinalGather::Eye FinalGather::eye(const glm::dvec3& in_scene) const {
@@ -155,6 +136,9 @@ namespace detail {
 // Rays to bright spots, for each even one: sixteen after every 64.
 inline constexpr double aimed_rays = 0.25;
 
+// Light from near by is followed where it is at least this share of all; its paths are taken to differ by this part of their mean.
+inline constexpr double least_near = 0.05, spread_of_paths = 0.5, most_paths = 64.0;
+
 }  // namespace detail
 
 HALFLIGHT_INLINE FinalGather::Arriving FinalGather::arriving(const Sender& sender, const Met& found) const {
@@ -163,7 +147,7 @@ HALFLIGHT_INLINE FinalGather::Arriving FinalGather::arriving(const Sender& sende
   if (is_black(materials_[surface].reflectance)) { return {materials_[surface].emission - lamp}; }
   const std::optional<Lookup::Found> light = lookup_.find(found.object, found.sheet, found.point);
   if (!light) { return {}; }
-  Arriving result{light->radiosity - lamp};
+  Arriving result{light->radiosity - lamp, 0.0, light->coarse_within};
   if (!sender.aimed || !light->within) { return result; }
   const double density = sender.spots.density(surface, light->triangle);
   if (density > 0.0) {
@@ -189,7 +173,9 @@ HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol
     const raycast::Hit& hit = hits.hit[k];
     sum.nearness += 1.0 / std::max(hit.t * reach, 1e-6);
     if (!hit.front) { continue; }
-    const Arriving found = arriving(sender, met(hit, segments.at(k)));
+    const Met at = met(hit, segments.at(k));
+    const Arriving found = arriving(sender, at);
+    if (!sender.aimed && hit.t * reach < found.coarse_within) { sum.near.push_back({at, found.light}); }
     sum.add(first / 16 % 4, found.light / (1.0 + detail::aimed_rays * found.aimed));
   }
 }
@@ -222,6 +208,18 @@ HALFLIGHT_INLINE unsigned FinalGather::cast_at_spots(const Sender& sender, const
   return arrived;
 }
 
+HALFLIGHT_INLINE double FinalGather::mend_near(Sum& sum, double all, double error, std::uint64_t key) const {
+  Color near{0.0};
+  for (const NearLight::Seen& seen : sum.near) { near += seen.light; }
+  const double share = (near.x + near.y + near.z) / all;
+  if (!(share > detail::least_near)) { return 0.0; }
+  const double wanted = std::min(detail::most_paths, std::pow(detail::spread_of_paths * share / error, 2.0));
+  constexpr std::uint32_t step = NearLight::paths_at_once;
+  const NearLight::Sum better = near_.light(sum.near, step * std::max(1u, static_cast<std::uint32_t>(wanted / step)), key);
+  sum.light += better.light - near;
+  return better.variance;
+}
+
 HALFLIGHT_INLINE double FinalGather::irradiance_solved(const Place& place) const {
   const Material& material = materials_[place.surface];
   const Color reflected = solved(place).value_or(material.emission) - material.emission;
@@ -243,7 +241,7 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
                 lift > 0.0 ? raycast::no_object : place.object,
                 place.surface - lookup_.surface(place.object, 0),
                 {spots_, place.point}};
-  const double solved_light = spots_.empty() ? 0.0 : irradiance_solved(place);
+  const double solved_light = irradiance_solved(place);
   sender.aimed = !spots_.empty() && sender.spots.stand_out(solved_light);
   Sum sum;
   std::uint32_t rays = 0;
@@ -262,7 +260,9 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
     if (rays == 48) { sender.aimed = sender.spots.stand_out(solved_light, arrived / 16.0); }
   }
   const double all = rays;
-  return {sum.light / all, 16.0 * variance_of_mean() / (all * all), sum.nearness / all};
+  double of_near = 0.0;
+  if (!sender.aimed && !sum.near.empty()) { of_near = mend_near(sum, std::max(4.0 * mean_of_parts(), all * solved_light), error, key); }
+  return {sum.light / all, (16.0 * variance_of_mean() + of_near) / (all * all), sum.nearness / all};
 }
 
 }  // namespace radiosity

@@ -25,6 +25,8 @@
 #include <radiosity/direct/lit_region.hpp>
 #include <radiosity/picture/bright_spots.hpp>
 #include <radiosity/picture/lookup.hpp>
+#include <radiosity/picture/met.hpp>
+#include <radiosity/picture/near_light.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>
@@ -78,16 +80,12 @@ class FinalGather {
     double nearness = 0.0;  // 1 / harmonic mean distance of what is seen, in the frame
   };
   // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a multiple of 64, or as many more, up to `most`,
-  // as it takes for the standard error to fall to this share of the light. `key` names the point: it fixes the rays.
+  // as it takes for the standard error to fall to this share of the light; what the mesh is too coarse for adds one of about this share of
+  // all light there (near_light.hpp). `key` names the point: it fixes the rays.
   [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error, std::uint64_t key) const;
 
  private:
-  // What a ray has met.
-  struct Met {
-    raycast::SurfacePoint point;
-    std::uint32_t object = 0, sheet = 0;
-  };
-  [[nodiscard]] Met met(const raycast::Hit& hit, const raycast::Segment& ray) const;
+  [[nodiscard]] Met met(const raycast::Hit& hit, const raycast::Segment& ray) const { return radiosity::met(objects(), direct_, hit, ray); }
 
   // The rays of a point.
   struct Sender {
@@ -102,6 +100,7 @@ class FinalGather {
     Color light{0.0};
     std::array<double, 4> part{};  // of the rays, by fours of sixteen: their spread is the standard error
     double nearness = 0.0;
+    std::vector<NearLight::Seen> near;  // what even rays found that is not so sure (near_light.hpp)
     void add(std::size_t p, const Color& more) {
       light += more;
       part[p] += more.x + more.y + more.z;
@@ -111,12 +110,16 @@ class FinalGather {
   struct Arriving {
     Color light{0.0};
     double aimed = 0.0;
+    double coarse_within = 0.0;  // seen from nearer than this, it may be wrong
   };
   [[nodiscard]] Arriving arriving(const Sender& sender, const Met& found) const;
   // Sixteen rays each, from number `first` of the sequence on.
   void cast_evenly(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const;
   // Returns how many of its sixteen rays arrive.
   unsigned cast_at_spots(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const;
+  // Replaces the light of what is near by a better estimate where it matters; `all`: light that is known to arrive, sum of channels.
+  // Returns the variance that this adds.
+  [[nodiscard]] double mend_near(Sum& sum, double all, double error, std::uint64_t key) const;
   // What the solution says of a place: the sum of the channels that it reflects.
   [[nodiscard]] double irradiance_solved(const Place& place) const;
 
@@ -124,6 +127,7 @@ class FinalGather {
   std::vector<Material> materials_;  // of the input surfaces
   DirectLight direct_;
   BrightSpots spots_;
+  NearLight near_;
 };
 
 }  // namespace radiosity

@@ -50,6 +50,9 @@ HALFLIGHT_INLINE Lookup::Lookup(const Scene& scene, const Mesh& mesh, const Fram
       sheets_[face.surface].triangles.push_back({{face.first_corner, face.first_corner + k, face.first_corner + k + 1}});
     }
   }
+  for (Sheet& sheet : sheets_) {
+    for (Triangle& triangle : sheet.triangles) { triangle.coarse_within = static_cast<float>(coarse_within(triangle)); }
+  }
   for (std::uint32_t i = 0; i < inputs.size(); ++i) {
     std::vector<raycast::Box> boxes;
     for (const Triangle& triangle : sheets_[i].triangles) {
@@ -82,6 +85,25 @@ HALFLIGHT_INLINE raycast::Box Lookup::region(const Triangle& triangle, const ray
   return box.grown(2.0 * (distance + object.slack()) + rounding_);
 }
 
+namespace detail {
+
+// Of the light at a triangle's corners, in the brightest: where they differ by less, the light is taken to be even.
+inline constexpr double told_apart = 0.05;
+
+}  // namespace detail
+
+HALFLIGHT_INLINE double Lookup::coarse_within(const Triangle& triangle) const {
+  double least = raycast::infinity, most = 0.0, longest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Corner &a = corners_[triangle.corner[i]], &b = corners_[triangle.corner[(i + 1) % 3]];
+    const double light = a.radiosity.x + a.radiosity.y + a.radiosity.z;
+    least = std::min(least, light);
+    most = std::max(most, light);
+    longest = std::max(longest, glm::length(b.position - a.position));
+  }
+  return most - least > detail::told_apart * most ? longest : 0.0;
+}
+
 HALFLIGHT_INLINE Color Lookup::blend(const Triangle& triangle, const glm::dvec3& weight) const {
   Color sum{0.0};
   for (int i = 0; i < 3; ++i) { sum += weight[i] * corners_[triangle.corner[i]].radiosity; }
@@ -99,10 +121,20 @@ HALFLIGHT_INLINE std::optional<Lookup::Found> Lookup::find(std::uint32_t object,
     return glm::dot(glm::cross(b - a, c - a), place.normal) > 0.0;
   };
   constexpr double slip = 1e-9;
+  const bool plane = objects_.object(object).flat();  // then most triangles are found not to hold the point without their normals
   const Triangle* best = nullptr;
   bool best_faces = false;
   ChordPoint foot;
   raycast::around(on.tree, point, [&](std::uint32_t i) {
+    if (plane) {
+      const Triangle& t = on.triangles[i];
+      const glm::dvec3& a = corners_[t.corner[0]].position;
+      const glm::dvec3 ab = corners_[t.corner[1]].position - a, ac = corners_[t.corner[2]].position - a, d = point - a;
+      const glm::dvec3 normal = glm::cross(ab, ac);
+      const double squared = glm::dot(normal, normal);
+      const double b = glm::dot(glm::cross(d, ac), normal), c = glm::dot(glm::cross(ab, d), normal);
+      if (std::min({b, c, squared - b - c}) < -slip * squared) { return; }
+    }
     const ChordTriangle flat = chord(on.triangles[i]);
     const std::optional<ChordPoint> candidate = chord_point(flat, point);
     if (!candidate || candidate->depth() < -slip) { return; }
@@ -116,7 +148,8 @@ HALFLIGHT_INLINE std::optional<Lookup::Found> Lookup::find(std::uint32_t object,
   });
   if (best != nullptr) {
     const glm::dvec3 weight = glm::max(foot.weight, 0.0);
-    return Found{blend(*best, weight / (weight.x + weight.y + weight.z)), static_cast<std::uint32_t>(best - on.triangles.data()), true};
+    return Found{blend(*best, weight / (weight.x + weight.y + weight.z)), static_cast<std::uint32_t>(best - on.triangles.data()), true,
+                 best->coarse_within};
   }
   const auto nearest = raycast::nearest(on.tree, point, [&](std::uint32_t i) {
     const ChordTriangle flat = chord(on.triangles[i]);
@@ -126,7 +159,7 @@ HALFLIGHT_INLINE std::optional<Lookup::Found> Lookup::find(std::uint32_t object,
   });
   if (!nearest) { return std::nullopt; }
   const Triangle& triangle = on.triangles[*nearest];
-  return Found{blend(triangle, nearest_in_triangle(chord(triangle).position, point)), *nearest, false};
+  return Found{blend(triangle, nearest_in_triangle(chord(triangle).position, point)), *nearest, false, triangle.coarse_within};
 }
 
 HALFLIGHT_INLINE std::optional<Color> Lookup::seen(const glm::dvec3& eye, const glm::dvec3& direction) const {

@@ -55,6 +55,7 @@ class Lookup {
     Color radiosity{0.0};
     std::uint32_t triangle = 0;  // of the input surface
     bool within = false;         // it stands for the place; else it is the nearest
+    double coarse_within = 0.0;  // seen from nearer than this, the triangle is too wide for its light: 0 where its light is even
   };
   [[nodiscard]] std::optional<Found> find(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const;
 
@@ -89,6 +90,7 @@ class Lookup {
   };
   struct Triangle {
     std::uint32_t corner[3];
+    float coarse_within = 0.0f;  // as in Found
   };
   struct Sheet {
     std::vector<Triangle> triangles;
@@ -102,6 +104,7 @@ class Lookup {
   }
   [[nodiscard]] ChordTriangle chord(const Triangle& triangle) const;
   [[nodiscard]] raycast::Box region(const Triangle& triangle, const raycast::PlacedObject& object, std::uint32_t sheet) const;
+  [[nodiscard]] double coarse_within(const Triangle& triangle) const;
   [[nodiscard]] Color blend(const Triangle& triangle, const glm::dvec3& weight) const;
 
   Frame frame_;

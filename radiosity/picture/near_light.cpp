@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/picture/near_light.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/bundle.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/scene.hpp>
+
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lamp_samples.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/picture/met.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/support/sobol.hpp>
+
+namespace radiosity {
+
+struct NearLight::Paths {
+  std::array<Met, paths_at_once> end;
+  std::array<Color, paths_at_once> carried;          // share of the light of the end that comes back to the place
+  std::array<Color, paths_at_once> light;            // that has come so far
+  std::uint32_t lanes = (1u << paths_at_once) - 1u;  // that have not ended
+
+  template <class Body>
+  void each(const Body& body) const {
+    for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) { body(static_cast<unsigned>(std::countr_zero(rest))); }
+  }
+};
+
+namespace detail {
+
+// A lamp, chosen by the light that it would send to a place from its middle, and the probability of that.
+struct ChosenLamp {
+  const DirectLight::Lamp* lamp = nullptr;
+  double probability = 0.0;
+};
+
+[[nodiscard]] HALFLIGHT_INLINE ChosenLamp choose_lamp(const DirectLight& direct, const raycast::SurfacePoint& at, double number) {
+  const auto strength = [&](const DirectLight::Lamp& lamp) {
+    const glm::dvec3 d = lamp.centre - at.position;
+    if (!(glm::dot(d, at.normal) > -lamp.radius)) { return 0.0; }
+    const double size = lamp.radius * lamp.radius;
+    return (lamp.exitance.x + lamp.exitance.y + lamp.exitance.z) * size / std::max(glm::dot(d, d), size);
+  };
+  double all = 0.0;
+  for (const DirectLight::Lamp& lamp : direct.lamps()) { all += strength(lamp); }
+  ChosenLamp chosen;
+  double left = number * all;
+  for (const DirectLight::Lamp& lamp : direct.lamps()) {
+    const double own = strength(lamp);
+    if (!(own > 0.0)) { continue; }
+    chosen = {&lamp, own / all};
+    left -= own;
+    if (left < 0.0) { break; }
+  }
+  return chosen;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumbers> numbers) const {
+  constexpr double off_surface = 1e-5;  // more than single precision's error, in a scene of size 1 to 2
+  raycast::Segments16 segments;
+  std::array<Color, paths_at_once> arriving{};
+  // Samples of a lamp that stand in a row are even over it.
+  const double row = numbers[0].uniform();
+  paths.each([&](unsigned k) {
+    const auto& [at, object, sheet] = paths.end[k];
+    const auto [lamp, probability] = detail::choose_lamp(*direct_, at, numbers[k].uniform());
+    if (lamp == nullptr) { return; }
+    const std::size_t first = paths_at_once * static_cast<std::size_t>(row * static_cast<double>(lamp->samples.size() / paths_at_once));
+    const LampSample& sample = lamp->samples[(first + k) % lamp->samples.size()];
+    const glm::dvec3 d = sample.position - at.position;
+    const double here = glm::dot(d, at.normal), there = -glm::dot(d, sample.normal), square = glm::dot(d, d);
+    if (!(here > 0.0) || !(there > 0.0)) { return; }
+    double area = 0.0;
+    for (const Facets::Facet& facet : lamp->facets.facets) { area += lamp->correction * facet.area; }
+    // No form factor is more than 1; that of a point very near to a sample would be.
+    arriving[k] = lamp->exitance * (std::min(1.0, area * here * there / (std::numbers::pi * square * square)) / probability);
+    const double lift = direct_->lift(object);
+    const bool curved = !(lift > 0.0) && !lookup_->objects().object(object).flat();
+    const glm::dvec3 from = at.position + std::max(lift, off_surface) * at.normal;
+    const glm::dvec3 to = sample.position + (sample.owner == raycast::no_object ? off_surface : 0.0) * sample.normal;
+    segments.set(k, {from, to - from}, curved ? object : raycast::no_object, sample.owner);
+  });
+  if (segments.lanes == 0) { return; }
+  const std::uint32_t lit = segments.lanes & ~direct_->objects().occluded16(segments);
+  for (unsigned k = 0; k < paths_at_once; ++k) {
+    if (lit >> k & 1u) { paths.light[k] += paths.carried[k] * arriving[k]; }
+  }
+}
+
+HALFLIGHT_INLINE void NearLight::go_on(Paths& paths, std::span<PathNumbers> numbers, bool last) const {
+  const double reach = lookup_->objects().diameter();
+  raycast::Segments16 rays;
+  paths.each([&](unsigned k) {
+    const auto& [at, object, sheet] = paths.end[k];
+    const double lift = direct_->lift(object), u = numbers[k].uniform();
+    const glm::dvec3 direction = cosine_direction(at.normal, u, numbers[k].uniform());
+    rays.set(k, {at.position + lift * at.normal, reach * direction}, lift > 0.0 ? raycast::no_object : object, raycast::no_object, sheet);
+  });
+  const raycast::Hits16 hits = direct_->objects().closest16(rays);
+  paths.lanes &= hits.met;
+  paths.each([&](unsigned k) {
+    const raycast::Hit& hit = hits.hit[k];
+    const std::uint32_t own = 1u << k;
+    if (!hit.front) {
+      paths.lanes &= ~own;
+      return;
+    }
+    const Met next = met(lookup_->objects(), *direct_, hit, rays.at(k));
+    const std::uint32_t surface = lookup_->surface(next.object, next.sheet);
+    const Material& material = (*materials_)[surface];
+    const Color lamp = direct_->is_lamp(surface) ? material.emission : Color{0.0};
+    const std::optional<Lookup::Found> found = lookup_->find(next.object, next.sheet, next.point);
+    if (found && !last && hit.t * reach < found->coarse_within) {
+      paths.light[k] += paths.carried[k] * (material.emission - lamp);
+      paths.carried[k] *= material.reflectance;
+      paths.end[k] = next;
+      return;
+    }
+    if (found) { paths.light[k] += paths.carried[k] * (found->radiosity - lamp); }
+    paths.lanes &= ~own;
+  });
+}
+
+HALFLIGHT_INLINE NearLight::Sum NearLight::light(std::span<const Seen> seen, std::uint32_t paths, std::uint64_t key) const {
+  constexpr int most_reflections = 3;
+  const auto channels = [](const Color& c) { return c.x + c.y + c.z; };
+  double all = 0.0;
+  for (const Seen& place : seen) { all += channels(place.light); }
+  if (!(all > 0.0)) { return {}; }
+  const Sobol4 first{3, key}, second{4, key};
+  const double start = Random{5, key}.uniform();
+  Color sum{0.0};
+  double squares = 0.0;
+  for (std::uint32_t done = 0; done < paths; done += paths_at_once) {
+    Paths next;
+    std::vector<PathNumbers> numbers;
+    std::array<double, paths_at_once> shown{};  // what the mesh says of the place of each path
+    // Places at even steps of their summed light.
+    const double offset = std::fmod(start + done / paths_at_once * std::numbers::phi, 1.0);
+    std::size_t place = 0;
+    double until = channels(seen[0].light);
+    for (unsigned k = 0; k < paths_at_once; ++k) {
+      const double wanted = all * (k + offset) / paths_at_once;
+      while (until <= wanted && place + 1 < seen.size()) { until += channels(seen[++place].light); }
+      shown[k] = channels(seen[place].light);
+      const Met& at = seen[place].at;
+      const std::uint32_t surface = lookup_->surface(at.object, at.sheet);
+      next.end[k] = at;
+      next.carried[k] = (*materials_)[surface].reflectance;
+      next.light[k] = direct_->is_lamp(surface) ? Color{0.0} : (*materials_)[surface].emission;
+      numbers.emplace_back(first, second, done + k, Random{6, key, done + k});
+    }
+    for (int reflections = 1; next.lanes != 0; ++reflections) {
+      light_by_lamps(next, numbers);
+      go_on(next, numbers, reflections == most_reflections);
+    }
+    for (unsigned k = 0; k < paths_at_once; ++k) {
+      const Color part = shown[k] > 0.0 ? next.light[k] / shown[k] : Color{0.0};
+      sum += part;
+      squares += channels(part) * channels(part);
+    }
+  }
+  const double n = paths, mean = channels(sum) / n;
+  return {all * sum / n, all * all * std::max(0.0, squares / n - mean * mean) / n};
+}
+
+}  // namespace radiosity

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the mesh of a solution is too coarse for: light on a leaf as it is seen from nearer than the leaf is wide. At the foot of a box the
+// light falls off within a leaf; seen from afar the mean over the leaf is right, but in the corner between the two this is most of what a
+// point sees, and the corner came out bright. There the light of some of the places that a point sees is followed by paths, to the lamps and
+// to places that are no longer near (a second gathering near by; Christensen 1999 for photon maps), and stands for the light of all.
+//
+// A place is chosen by the light that the mesh says it has, so the paths tell by how much the mesh is off, and what they say is unbiased.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/picture/met.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/support/sobol.hpp>
+
+namespace radiosity {
+
+class NearLight {
+ public:
+  // All must outlive this; `materials`: of the input surfaces.
+  NearLight(const Lookup& lookup, const DirectLight& direct, const std::vector<Material>& materials)
+      : lookup_{&lookup}, direct_{&direct}, materials_{&materials} {}
+
+  // A place that is seen from so near that the mesh is too coarse for its light, and this light, without that of lamps.
+  struct Seen {
+    Met at;
+    Color light{0.0};
+  };
+  struct Sum {
+    Color light{0.0};
+    double variance = 0.0;  // of the sum of its channels
+  };
+  // The light of all these places, by some paths: a multiple of paths_at_once. How many must not depend on what they find: to stop once they
+  // agree would favour those that miss what is bright and rare. `key` fixes the paths.
+  static constexpr unsigned paths_at_once = 8;
+  [[nodiscard]] Sum light(std::span<const Seen> seen, std::uint32_t paths, std::uint64_t key) const;
+
+ private:
+  // Paths from places that are seen, to find how much light these send out, but for that of lamps.
+  struct Paths;
+  // Adds what lamps send to the ends of the paths.
+  void light_by_lamps(Paths& paths, std::span<PathNumbers> numbers) const;
+  // Casts a ray from the end of each: it ends with the light of what is met, or goes on from there when that is near.
+  void go_on(Paths& paths, std::span<PathNumbers> numbers, bool last) const;
+
+  const Lookup* lookup_;
+  const DirectLight* direct_;
+  const std::vector<Material>* materials_;
+};
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/picture/near_light.cpp>
+#endif
