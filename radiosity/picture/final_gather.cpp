@@ -137,7 +137,7 @@ namespace detail {
 inline constexpr double aimed_rays = 0.25;
 
 // Light from near by is followed where it is at least this share of all; its paths are taken to differ by this part of their mean.
-inline constexpr double least_near = 0.05, spread_of_paths = 0.5, most_paths = 64.0;
+inline constexpr double least_near = 0.05, spread_of_paths = 1.0, most_paths = 256.0;
 
 }  // namespace detail
 

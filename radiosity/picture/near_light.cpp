@@ -147,6 +147,8 @@ HALFLIGHT_INLINE NearLight::Sum NearLight::light(std::span<const Seen> seen, std
   double all = 0.0;
   for (const Seen& place : seen) { all += channels(place.light); }
   if (!(all > 0.0)) { return {}; }
+  // Half of the paths go where the mesh shows light, half to any place: one that the mesh shows dark may be bright.
+  const auto probability = [&](const Seen& place) { return 0.5 * channels(place.light) / all + 0.5 / static_cast<double>(seen.size()); };
   const Sobol4 first{3, key}, second{4, key};
   const double start = Random{5, key}.uniform();
   Color sum{0.0};
@@ -154,15 +156,15 @@ HALFLIGHT_INLINE NearLight::Sum NearLight::light(std::span<const Seen> seen, std
   for (std::uint32_t done = 0; done < paths; done += paths_at_once) {
     Paths next;
     std::vector<PathNumbers> numbers;
-    std::array<double, paths_at_once> shown{};  // what the mesh says of the place of each path
-    // Places at even steps of their summed light.
+    std::array<double, paths_at_once> chosen{};  // the probability of the place of each path
+    // Places at even steps of their summed probability.
     const double offset = std::fmod(start + done / paths_at_once * std::numbers::phi, 1.0);
     std::size_t place = 0;
-    double until = channels(seen[0].light);
+    double until = probability(seen[0]);
     for (unsigned k = 0; k < paths_at_once; ++k) {
-      const double wanted = all * (k + offset) / paths_at_once;
-      while (until <= wanted && place + 1 < seen.size()) { until += channels(seen[++place].light); }
-      shown[k] = channels(seen[place].light);
+      const double wanted = (k + offset) / paths_at_once;
+      while (until <= wanted && place + 1 < seen.size()) { until += probability(seen[++place]); }
+      chosen[k] = probability(seen[place]);
       const Met& at = seen[place].at;
       const std::uint32_t surface = lookup_->surface(at.object, at.sheet);
       next.end[k] = at;
@@ -175,13 +177,13 @@ HALFLIGHT_INLINE NearLight::Sum NearLight::light(std::span<const Seen> seen, std
       go_on(next, numbers, reflections == most_reflections);
     }
     for (unsigned k = 0; k < paths_at_once; ++k) {
-      const Color part = shown[k] > 0.0 ? next.light[k] / shown[k] : Color{0.0};
+      const Color part = next.light[k] / chosen[k];
       sum += part;
       squares += channels(part) * channels(part);
     }
   }
   const double n = paths, mean = channels(sum) / n;
-  return {all * sum / n, all * all * std::max(0.0, squares / n - mean * mean) / n};
+  return {sum / n, std::max(0.0, squares / n - mean * mean) / n};
 }
 
 }  // namespace radiosity

@@ -6,7 +6,7 @@
 // point sees, and the corner came out bright. There the light of some of the places that a point sees is followed by paths, to the lamps and
 // to places that are no longer near (a second gathering near by; Christensen 1999 for photon maps), and stands for the light of all.
 //
-// A place is chosen by the light that the mesh says it has, so the paths tell by how much the mesh is off, and what they say is unbiased.
+// Half of the places are chosen by the light that the mesh says they have, half anyhow; what the paths say is unbiased.
 
 #include <cstdint>
 #include <span>
