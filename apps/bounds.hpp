@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The bounds of a scene's surfaces. As a solid, a room (an object with `inside`) is unbounded: everything outside its shape. Its surface is
+// Objects where they stand, and the bounds of a scene's surfaces. As a solid, a room (an object with `inside`) is unbounded: everything outside its shape. Its surface is
 // that of the shape, whose bounds are taken.
+
+#include <vector>
 
 #include <glm/vec3.hpp>
 
 #include <radiosity/scene/scene.hpp>
 #include <raycast/box.hpp>
+#include <raycast/transform.hpp>
 
 namespace apps {
 
@@ -31,6 +34,13 @@ namespace apps {
     result.extend(box.hi);
   }
   return result;
+}
+
+// The objects of the scene where they stand, in the scene's own coordinates.
+[[nodiscard]] inline std::vector<raycast::PlacedObject> placed_objects(const radiosity::Scene& scene) {
+  std::vector<raycast::PlacedObject> objects;
+  for (const radiosity::SceneObject& object : scene.objects) { objects.emplace_back(object.shape, object.placement); }
+  return objects;
 }
 
 }  // namespace apps

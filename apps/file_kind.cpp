@@ -11,8 +11,8 @@
 
 #include "apps/intake/model.hpp"
 #include "apps/scene_file/grammar.hpp"
-#include "apps/scene_file/words.hpp"
 #include "apps/utf8.hpp"
+#include "apps/words.hpp"
 
 namespace apps {
 namespace {
@@ -85,7 +85,7 @@ bool begins_script(const std::array<std::string_view, 3>& words) {
 
 // A statement of a scene; in the first line also a word so near to one that its author meant it.
 bool begins_scene(std::string_view word, bool first) {
-  return first ? !scene_file::nearest(word, scene_file::statements()).empty() : contains(scene_file::statements(), word);
+  return first ? !nearest(word, scene_file::statements()).empty() : contains(scene_file::statements(), word);
 }
 
 bool is_binary_stl(std::string_view bytes) {

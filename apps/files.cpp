@@ -8,7 +8,6 @@
 #include <cstring>
 #include <filesystem>
 #include <random>
-#include <string>
 
 #include <fcntl.h>
 #include <sys/stat.h>

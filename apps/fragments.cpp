@@ -2,19 +2,13 @@
 #include "apps/fragments.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <vector>
 
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lit_region.hpp>
 #include <raycast/tolerances.hpp>
-
-#include <radiosity/picture/final_gather.hpp>
 
 namespace apps {
 
@@ -59,6 +53,91 @@ void add_fragments(const radiosity::FinalGather& light, std::uint32_t x, std::ui
       }
     }
   }
+}
+
+namespace {
+
+using radiosity::Color;
+
+// Where a surface fills a block, shadows are found by every second to third of its pixels in either direction.
+constexpr std::array<std::uint32_t, 4> lattice{0, 2, 5, 7};
+constexpr std::array<std::uint32_t, block_side> cell_of{0, 0, 0, 1, 1, 1, 2, 2};  // of a coordinate: between lattice[c] and lattice[c + 1]
+
+// Is the shadow of a thin thing as thin as the thing? The penumbra is as wide as the lamp seems from the receiver, times the distance of
+// what is in between: blocks near that hold the thing itself and are not filled, and from a block's width on a wider lamp blurs some
+// pixels.
+bool is_narrow(const radiosity::DirectLight::Lamp& lamp, const glm::dvec3& x) {
+  constexpr double seems = 0.1;
+  return 2.0 * lamp.radius < seems * glm::length(lamp.centre - x);
+}
+
+// Adds the light of lamp k of the region to the fragments `own`, all of one surface.
+void add_lamp(radiosity::LitRegion& region, std::size_t k, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
+              std::vector<Color>& irradiance) {
+  const auto point = [&](std::uint32_t i) { return fragments[i].place.point; };
+  const auto add = [&](std::uint32_t i, double visible) {
+    if (visible > 0.0) { irradiance[i] += region.lamp(k).exitance * (visible * region.unhidden(k, point(i).position, point(i).normal)); }
+  };
+  const auto visible = [&](std::uint32_t i) { return region.visible(k, point(i).position, point(i).normal); };
+  const auto all = [&](double share) {
+    for (const std::uint32_t i : own) { add(i, share); }
+  };
+  if (!region.may_be_hidden(k)) { return all(1.0); }
+  const auto whole = [&](std::uint32_t i) { return fragments[i].share == 1.0f; };
+  const bool filled = own.size() == block_side * block_side && std::all_of(own.begin(), own.end(), whole);
+  if (!filled) {
+    for (const std::uint32_t i : own) { add(i, visible(i)); }
+    return;
+  }
+  std::array<std::array<double, block_side>, block_side> share{};
+  std::array<std::array<std::uint32_t, block_side>, block_side> fragment{};
+  for (const std::uint32_t i : own) { fragment[fragments[i].y % block_side][fragments[i].x % block_side] = i; }
+  double least = 1.0, most = 0.0;
+  for (const std::uint32_t v : lattice) {
+    for (const std::uint32_t u : lattice) {
+      share[v][u] = visible(fragment[v][u]);
+      least = std::min(least, share[v][u]);
+      most = std::max(most, share[v][u]);
+    }
+  }
+  constexpr double surely = 1e-6;
+  const auto same = [&] { return least >= 1.0 - surely || most <= surely; };
+  const bool narrow = is_narrow(region.lamp(k), point(own[0]).position);
+  if (narrow && same()) {
+    constexpr std::uint32_t last = block_side - 1;
+    for (const std::uint32_t w : {1u, 3u, 4u, 6u}) {  // the border, but for what has been asked
+      for (const std::uint32_t i : {fragment[w][0], fragment[w][last], fragment[0][w], fragment[last][w]}) {
+        const double v = visible(i);
+        least = std::min(least, v);
+        most = std::max(most, v);
+      }
+    }
+  }
+  if (same()) { return all(most <= surely ? 0.0 : 1.0); }
+  // Between four pixels that agree the share is interpolated; not where a thin shadow may pass between them.
+  const double agree = narrow ? -1.0 : 0.06;
+  for (std::uint32_t v = 0; v < block_side; ++v) {
+    for (std::uint32_t u = 0; u < block_side; ++u) {
+      const std::uint32_t u0 = lattice[cell_of[u]], u1 = lattice[cell_of[u] + 1], v0 = lattice[cell_of[v]], v1 = lattice[cell_of[v] + 1];
+      if ((u == u0 || u == u1) && (v == v0 || v == v1)) { continue; }
+      const double a = share[v0][u0], b = share[v0][u1], c = share[v1][u0], d = share[v1][u1];
+      const double s = static_cast<double>(u - u0) / (u1 - u0), t = static_cast<double>(v - v0) / (v1 - v0);
+      share[v][u] = std::max({a, b, c, d}) - std::min({a, b, c, d}) <= agree
+                        ? (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d)
+                        : visible(fragment[v][u]);
+    }
+  }
+  for (const std::uint32_t i : own) { add(i, share[fragments[i].y % block_side][fragments[i].x % block_side]); }
+}
+
+}  // namespace
+
+void add_direct_light(const radiosity::FinalGather& light, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
+                      std::vector<Color>& irradiance) {
+  std::vector<radiosity::FinalGather::Place> places;
+  for (const std::uint32_t i : own) { places.push_back(fragments[i].place); }
+  radiosity::LitRegion region = light.lit_region(places);
+  for (std::size_t k = 0; k < region.size(); ++k) { add_lamp(region, k, own, fragments, irradiance); }
 }
 
 }  // namespace apps

@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/picture/final_gather.hpp>
+#include <radiosity/scene/material.hpp>
 
 namespace apps {
 
@@ -37,5 +38,14 @@ struct PixelSize {
 void add_fragments(const radiosity::FinalGather& light, std::uint32_t x, std::uint32_t y,
                    std::span<const std::optional<radiosity::FinalGather::Place>> seen, const PixelSize& pixel_size,
                    std::vector<Fragment>& out);
+
+constexpr std::uint32_t block_side = 8;  // pixels
+
+// Adds to the irradiance of the fragments `own`, all of one block and one surface, what comes from the lamps. Where the surface
+// fills the block, most pixels take their share of a lamp from their neighbours: all, where those see the whole lamp or nothing of it; else
+// where they agree. The shadow of a thin thing can pass between them if the lamp is narrow, for then it is as thin; so a narrow lamp is
+// looked for from all pixels at the border of the block, which a shadow of some length crosses, and if those differ, from every pixel.
+void add_direct_light(const radiosity::FinalGather& light, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
+                      std::vector<radiosity::Color>& irradiance);
 
 }  // namespace apps

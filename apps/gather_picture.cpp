@@ -19,7 +19,6 @@
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 
-#include "apps/fragment_light.hpp"
 #include "apps/fragments.hpp"
 #include "apps/indirect_points.hpp"
 

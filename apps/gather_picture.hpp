@@ -10,9 +10,11 @@
 
 #include <optional>
 
+#include <radiosity/audit/picture_error.hpp>
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/scene/options.hpp>
 
+#include "apps/color.hpp"
 #include "apps/picture.hpp"
 #include "apps/view.hpp"
 
@@ -21,5 +23,15 @@ namespace apps {
 // Where there is no object the picture is black. Reports the stage "picture". Nothing when control.cancel became true.
 [[nodiscard]] std::optional<Picture> draw(const radiosity::FinalGather& light, const View& view, const Tone& tone, unsigned threads = 0,
                                           const radiosity::Control& control = {});
+
+// `picture` must outlive the result.
+[[nodiscard]] inline radiosity::ShownPicture audited(const Picture& picture, const View& view, const Tone& tone) {
+  return {picture.width, picture.height,
+          [view](double x, double y) {
+            return raycast::Segment{view.eye, view.direction(x, y)};
+          },
+          [&picture](std::uint32_t x, std::uint32_t y) { return picture.radiosity[std::size_t{y} * picture.width + x]; },
+          [tone](double radiosity) { return 255.0 * srgb_encode(tone(radiosity)); }};
+}
 
 }  // namespace apps

@@ -3,7 +3,7 @@
 #include <exception>
 #include <new>
 
-#include "apps/commands/command_line.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/interrupt.hpp"
 

@@ -4,11 +4,28 @@
 // What every page of the program has: one file, no network, no library; it works from a folder.
 
 #include <string>
+#include <string_view>
 
-#include "apps/markup.hpp"
+#include "apps/utf8.hpp"
 #include "embedded/page.hpp"
 
 namespace apps {
+
+// Text inside SVG and HTML: & < > " ' are written as entities, so the text may stand between tags and in an attribute; characters that XML
+// forbids are left out, bytes that are no text replaced.
+[[nodiscard]] inline std::string escaped(std::string_view text) {
+  constexpr std::string_view marks = "&<>\"'";
+  constexpr const char* entities[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
+  std::string result;
+  for (const char c : to_utf8(text)) {
+    if (const std::size_t mark = marks.find(c); mark != marks.npos) {
+      result += entities[mark];
+    } else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') {
+      result += c;
+    }
+  }
+  return result;
+}
 
 [[nodiscard]] inline std::string html_document(const std::string& title, const std::string& style, const std::string& body) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

@@ -26,6 +26,14 @@ struct Place {
   friend bool operator==(const Place&, const Place&) = default;
 };
 
+// Of a byte of a text whose lines end with LF; here a column is a byte.
+[[nodiscard]] inline Place place_of(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const std::size_t last = before.rfind('\n');
+  return {static_cast<std::uint32_t>(1 + std::count(before.begin(), before.end(), '\n')),
+          static_cast<std::uint32_t>(last == before.npos ? before.size() + 1 : before.size() - last)};
+}
+
 struct InputError {
   Place place;
   std::string sentence;

@@ -16,7 +16,6 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
-#include <radiosity/scene/material.hpp>
 
 #include "apps/bytes.hpp"
 #include "apps/checksum.hpp"

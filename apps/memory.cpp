@@ -5,13 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <string>
 
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
 
-#include <radiosity/result/audit.hpp>
 #include <radiosity/support/memory.hpp>
 
 namespace apps {
@@ -58,10 +56,6 @@ std::optional<std::uint64_t> parse_memory(std::string_view text) {
   if (!unit.empty() && unit != "B") { return std::nullopt; }
   const double bytes = number * factor;
   return bytes >= 1.0 && bytes < 0x1p63 ? std::optional(static_cast<std::uint64_t>(bytes)) : std::nullopt;
-}
-
-std::string memory_fault(const std::string& text) {
-  return parse_memory(text) ? std::string() : "expected a number of bytes such as 500M or 2G, found '" + text + "'";
 }
 
 std::optional<std::uint64_t> resident_memory() { return status("VmRSS"); }

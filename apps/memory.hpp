@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,9 +15,7 @@ namespace apps {
 
 // "2G", "512 MB", "1.5GiB", "300000000": bytes; k M G T are powers of 1000, with an i of 1024.
 [[nodiscard]] std::optional<std::uint64_t> parse_memory(std::string_view text);
-
-// What is wrong with such a text; empty when nothing is.
-[[nodiscard]] std::string memory_fault(const std::string& text);
+inline constexpr const char* memory_form = "a number of bytes such as 500M or 2G";
 
 // What the process holds now; nothing where the system does not tell.
 [[nodiscard]] std::optional<std::uint64_t> resident_memory();

@@ -8,12 +8,9 @@
 #include <numbers>
 #include <utility>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
-#include <radiosity/scene/scene.hpp>
 
 namespace apps {
 namespace {

@@ -9,10 +9,6 @@
 #include <map>
 #include <string_view>
 
-#include <radiosity/result/mesh.hpp>
-#include <radiosity/scene/scene.hpp>
-
-#include "apps/color.hpp"
 #include "apps/mesh_file/ply_bytes.hpp"
 
 namespace apps {

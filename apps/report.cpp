@@ -3,14 +3,9 @@
 
 #include <string_view>
 
-#include <radiosity/result/audit.hpp>
-#include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/material.hpp>
-#include <radiosity/scene/options.hpp>
 #include <radiosity/support/left_out.hpp>
 
-#include "apps/facts.hpp"
-#include "apps/report_facts.hpp"
 #include "apps/text.hpp"
 
 namespace apps {

@@ -13,6 +13,7 @@
 #include <radiosity/scene/options.hpp>
 
 #include "apps/color.hpp"
+#include "apps/facts.hpp"
 
 namespace apps {
 
@@ -54,5 +55,7 @@ struct Report {
 // The rows that it has about the error of the picture that a camera has taken.
 [[nodiscard]] std::string picture_error_text(const radiosity::PictureError& picture, const std::string& camera);
 [[nodiscard]] std::string to_json(const Report& report);
+
+[[nodiscard]] Facts facts_of(const Report& report);
 
 }  // namespace apps

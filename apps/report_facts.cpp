@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/report_facts.hpp"
+#include "apps/report.hpp"
 
 #include <algorithm>
 #include <array>

@@ -37,69 +37,40 @@ struct Lesson {
   const char* title;
   const char* text;
 };
-Lesson lesson(brep::DefectKind kind) {
-  using K = brep::DefectKind;
-  switch (kind) {
-    case K::bad_index:
-      return {"index of nothing", "A face or an edge names something that does not exist. Correct the file."};
-    case K::bad_position:
-      return {"bad position", "A coordinate must be a finite number. Correct the file."};
-    case K::few_corners:
-      return {"face with too few corners", "A face needs three corners. --repair drops such faces."};
-    case K::repeated_corner:
-      return {"face that visits a vertex twice",
-              "The corners of a face are different vertices. --repair mends it when they follow each other; otherwise part\n"
-              "the face by hand at the vertex that it visits twice."};
-    case K::broken_loop:
-      return {"broken loop", "The edges of a face must form one closed loop. Correct the file."};
-    case K::unused_edge:
-      return {"edge without a face", "Every edge lies between two faces. Add the faces, or take the edge away."};
-    case K::duplicate_face:
-      return {"duplicate face", "The same corners in the same order as an earlier face. --repair drops it."};
-    case K::nonmanifold_edge:
-      return {"edge with more than two faces",
-              "At an edge of a surface two faces meet, one on each side. Where more meet it cannot be told which two belong\n"
-              "together, so this is not repaired: take away inner walls, or part the solids that touch along the edge."};
-    case K::doubled_edge:
-      return {"one-sided surface",
-              "The two faces at an edge run along it in opposite directions, so that both are counter-clockwise from the same\n"
-              "side. Here no choice of directions does that everywhere, as on a Moebius strip: it bounds no solid."};
-    case K::flipped_face:
-      return {"flipped faces",
-              "The two faces at an edge must run along it in opposite directions; then all are counter-clockwise from the same\n"
-              "side. --repair turns the smaller part of each component."};
-    case K::open_border:
-      return {"open border",
-              "Here the surface ends: edges with a face on one side only. A closed surface has none. --repair closes each\n"
-              "with one face; for a flat sheet that is its back."};
-    case K::several_fans:
-      return {"vertex with several fans",
-              "Around a vertex the faces follow each other from edge to edge, like a fan, and come back to the first. Here\n"
-              "several fans touch in one point. --repair gives each its own vertex at the same place."};
-    case K::unused_vertex:
-      return {"unused vertex", "No face has it as a corner. --repair drops it."};
-  }
-  return {"fault", ""};
-}
+constexpr Lesson lessons[] = {
+    {"index of nothing", "A face or an edge names something that does not exist. Correct the file."},
+    {"bad position", "A coordinate must be a finite number. Correct the file."},
+    {"face with too few corners", "A face needs three corners. --repair drops such faces."},
+    {"face that visits a vertex twice",
+     "The corners of a face are different vertices. --repair mends it when they follow each other; otherwise part\n"
+     "the face by hand at the vertex that it visits twice."},
+    {"broken loop", "The edges of a face must form one closed loop. Correct the file."},
+    {"edge without a face", "Every edge lies between two faces. Add the faces, or take the edge away."},
+    {"duplicate face", "The same corners in the same order as an earlier face. --repair drops it."},
+    {"edge with more than two faces",
+     "At an edge of a surface two faces meet, one on each side. Where more meet it cannot be told which two belong\n"
+     "together, so this is not repaired: take away inner walls, or part the solids that touch along the edge."},
+    {"one-sided surface",
+     "The two faces at an edge run along it in opposite directions, so that both are counter-clockwise from the same\n"
+     "side. Here no choice of directions does that everywhere, as on a Moebius strip: it bounds no solid."},
+    {"flipped faces",
+     "The two faces at an edge must run along it in opposite directions; then all are counter-clockwise from the same\n"
+     "side. --repair turns the smaller part of each component."},
+    {"open border",
+     "Here the surface ends: edges with a face on one side only. A closed surface has none. --repair closes each\n"
+     "with one face; for a flat sheet that is its back."},
+    {"vertex with several fans",
+     "Around a vertex the faces follow each other from edge to edge, like a fan, and come back to the first. Here\n"
+     "several fans touch in one point. --repair gives each its own vertex at the same place."},
+    {"unused vertex", "No face has it as a corner. --repair drops it."},
+};
 
-const char* title(brep::RepairKind kind) {
-  using K = brep::RepairKind;
-  switch (kind) {
-    case K::simplified_face:
-      return "repeated corners taken away";
-    case K::dropped_face:
-      return "faces dropped";
-    case K::flipped_face:
-      return "faces flipped";
-    case K::closed_hole:
-      return "holes closed";
-    case K::split_vertex:
-      return "vertices split";
-    case K::dropped_vertex:
-      return "unused vertices dropped";
-  }
-  return "repairs";
-}
+// In the order of brep::RepairKind.
+constexpr const char* repair_titles[] = {"repeated corners taken away", "faces dropped", "faces flipped", "holes closed", "vertices split",
+                                         "unused vertices dropped"};
+
+static_assert(std::size(lessons) == 1 + static_cast<std::size_t>(brep::DefectKind::unused_vertex));
+static_assert(std::size(repair_titles) == 1 + static_cast<std::size_t>(brep::RepairKind::dropped_vertex));
 
 std::string counted(std::size_t n, std::string one, const char* plural = nullptr) {
   return std::to_string(n) + " " + (n == 1 ? one : plural != nullptr ? std::string(plural) : one + "s");
@@ -186,14 +157,15 @@ std::string by_kind(const std::vector<Item>& items, const Mesh& mesh, const Chec
 
 std::string faults(const std::vector<brep::Defect>& defects, const Mesh& mesh, const CheckOptions& options) {
   return by_kind(defects, mesh, options, [](brep::DefectKind kind, std::size_t count) {
-    const Lesson l = lesson(kind);
+    const Lesson& l = lessons[static_cast<std::size_t>(kind)];
     return std::string(l.title) + ": " + std::to_string(count) + "\n" + l.text + "\n";
   });
 }
 
 std::string repairs(const std::vector<brep::Repair>& list, const Mesh& mesh, const CheckOptions& options) {
-  return by_kind(list, mesh, options,
-                 [](brep::RepairKind kind, std::size_t count) { return std::string(title(kind)) + ": " + std::to_string(count) + "\n"; });
+  return by_kind(list, mesh, options, [](brep::RepairKind kind, std::size_t count) {
+    return std::string(repair_titles[static_cast<std::size_t>(kind)]) + ": " + std::to_string(count) + "\n";
+  });
 }
 
 constexpr const char* numbering = "v0 v1 ... and f0 f1 ... are the vertices and faces of the file, counted from 0.\n";

@@ -15,8 +15,8 @@
 
 #include "apps/exit_code.hpp"
 #include "apps/intake/model.hpp"
-#include "apps/scene_file/words.hpp"
 #include "apps/text.hpp"
+#include "apps/words.hpp"
 
 namespace apps {
 
@@ -145,25 +145,26 @@ template <class Target, class Value>
       }
       words.push_back(name);
     }
-    return "expected " + scene_file::list_of(words) + ", found '" + text + "'" + scene_file::suggestion(text, words);
+    return "expected " + list_of(words) + ", found '" + text + "'" + suggestion(text, words);
   };
   return {std::move(names), "NAME", std::move(description), take};
 }
 
-// What `parse` makes of the text is kept; where that is nothing, `fault` says what was expected.
+// What `parse` makes of the text is kept; where that is nothing, `expected` says what should have stood there.
 template <class Target, class Value>
 [[nodiscard]] Argument parsed(std::string names, std::string value, Target& target, std::optional<Value> (*parse)(std::string_view),
-                              std::string (*fault)(const std::string&), std::string description) {
-  const auto take = [&target, parse, fault](const std::string& text) {
-    if (const auto found = parse(text)) {
-      target = *found;
-      return std::string();
-    }
-    return fault(text);
+                              std::string expected, std::string description) {
+  const auto take = [&target, parse, expected = std::move(expected)](const std::string& text) {
+    const auto found = parse(text);
+    if (found) { target = *found; }
+    return found ? std::string() : "expected " + expected + ", found '" + text + "'";
   };
   return {std::move(names), std::move(value), std::move(description), take};
 }
 
 inline constexpr std::uint64_t most_threads = 1024;
+
+// `--help` and `--version` are answered; what is wrong with the command line is said in one sentence.
+[[nodiscard]] ExitCode run_program(const std::vector<Command>& commands, int argc, char** argv);
 
 }  // namespace apps

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The one file that knows CLI11. What is wrong with a command line is told in one sentence: an unknown word with the nearest that is
 // known, an option without its value.
-#include "apps/commands/command_line.hpp"
+#include "apps/commands/command.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -24,18 +24,13 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
-  const std::vector<std::string_view> views(known.begin(), known.end());
-  return scene_file::suggestion(word, views);
-}
-
 bool is_option(std::string_view argument) { return argument.size() > 1 && argument.starts_with("-"); }
 
 // Without a command nothing else can be judged.
 std::string no_command(const CLI::App& app, std::span<const char* const> arguments) {
   const std::vector<std::string> names = command_names(app);
   const std::vector<std::string_view> views(names.begin(), names.end());
-  const std::string all = "; the commands are " + scene_file::list_of(views);
+  const std::string all = "; the commands are " + list_of(views);
   for (const std::string argument : arguments) {
     if (is_option(argument)) { continue; }
     std::error_code ignored;

@@ -11,12 +11,11 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/euler/html.hpp"
 #include "apps/euler/interactive.hpp"
-#include "apps/euler/solid.hpp"
+#include "apps/euler/outputs.hpp"
+#include "apps/euler/solid_view.hpp"
 #include "apps/euler/story.hpp"
-#include "apps/euler/svg.hpp"
-#include "apps/euler/words.hpp"
+#include "apps/euler/wording.hpp"
 
 namespace apps {
 namespace {

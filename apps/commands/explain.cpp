@@ -5,7 +5,6 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/explain/page.hpp"
 #include "apps/explain/recording.hpp"
 #include "apps/explain/sentences.hpp"
 

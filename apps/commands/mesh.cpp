@@ -11,8 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include <glm/geometric.hpp>
-
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>

@@ -24,15 +24,12 @@ namespace apps {
 
 // The arguments of a command, and these behind them.
 [[nodiscard]] inline std::vector<Argument> with_model_arguments(std::vector<Argument> arguments, ModelOptions& options) {
-  const auto unit_fault = [](const std::string& text) {
-    return "expected mm, cm, m, km, in, ft or a number above 0 (metres), found '" + text + "'";
-  };
   arguments.push_back(lamp_argument(options.lamps));
   arguments.push_back(flag("--two-sided", options.two_sided, "of such a file: surfaces that enclose nothing reflect on both sides"));
   arguments.push_back(
       above_zero("--reflectance", options.reflectance, most_reflectance,
                  "of such a file: reflectance of materials that have none (default: " + formatted("%g", options.reflectance) + ")"));
-  arguments.push_back(parsed("--units", "UNIT", options.metres, parse_unit, +unit_fault,
+  arguments.push_back(parsed("--units", "UNIT", options.metres, parse_unit, "mm, cm, m, km, in, ft or a number above 0 (metres)",
                              "of such a file: length of one unit, mm, cm, m, km, in, ft or a number of metres (default: m)"));
   arguments.push_back(
       one_of<std::optional<UpAxis>, UpAxis>("--up", options.up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}},

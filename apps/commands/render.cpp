@@ -18,7 +18,6 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/commands/model_arguments.hpp"
-#include "apps/commands/render_arguments.hpp"
 #include "apps/commands/render_outputs.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/interrupt.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/commands/render_arguments.hpp"
+#include "apps/commands/render_outputs.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -24,14 +24,6 @@ std::optional<PictureSize> parse_size(std::string_view text) {
   const auto height = number_in<std::uint32_t>(text.substr(std::min(cross + 1, text.size())));
   const auto fits = [](const auto& side) { return side && *side >= 1 && *side <= max_picture_side; };
   return fits(width) && fits(height) ? std::optional(PictureSize{*width, *height}) : std::nullopt;
-}
-
-std::string size_fault(const std::string& text) {
-  return "expected WIDTHxHEIGHT, each 1 to " + std::to_string(max_picture_side) + ", found '" + text + "'";
-}
-
-std::string exposure_fault(const std::string& text) {
-  return "expected a number above 0, or stops such as 1ev or -0.5ev, found '" + text + "'";
 }
 
 // Options of the outputs,
@@ -103,12 +95,13 @@ std::vector<Argument> refinement_arguments(RenderOptions& options) {
 std::vector<Argument> picture_arguments(RenderOptions& options) {
   return {
       text("--camera", "TEXT", options.camera, "camera of the scene (default: the first; without any, an automatic view)"),
-      parsed("--size", "WxH", options.size, parse_size, size_fault, "picture size in pixels (default: the camera's, else 800x600)"),
+      parsed("--size", "WxH", options.size, parse_size, "WIDTHxHEIGHT, each 1 to " + std::to_string(max_picture_side),
+             "picture size in pixels (default: the camera's, else 800x600)"),
       one_of<PictureMethod, PictureMethod>(
           "--method", options.method, {{"mesh", PictureMethod::mesh}, {"gather", PictureMethod::gather}},
           "gather: the objects, in direct light found for each pixel and indirect light gathered from the solution (default); mesh: the "
           "triangles of the solution"),
-      parsed("--exposure", "NUMBER", options.exposure, Exposure::parse, exposure_fault,
+      parsed("--exposure", "NUMBER", options.exposure, Exposure::parse, "a number above 0, or stops such as 1ev or -0.5ev",
              "factor from radiance to picture, or stops from the automatic one, such as 1ev or -0.5ev (default: automatic)"),
       one_of<ToneCurve, ToneCurve>("--tone", options.tone, {{"linear", ToneCurve::linear}, {"filmic", ToneCurve::filmic}},
                                    "linear: brightness proportional to light; filmic: bright tones are compressed as on film"),
@@ -142,7 +135,7 @@ std::vector<Argument> solver_arguments(RenderOptions& options) {
           "off by at most this relative L2 error; --onto-input and lightmaps stay as they are")
           .without({"--error"}),
       flag("--no-shortcuts", solver.shortcuts, "do all that the report would tell as left out; the result is the same, to the bit", false),
-      parsed("--memory", "BYTES", options.memory, parse_memory, memory_fault,
+      parsed("--memory", "BYTES", options.memory, parse_memory, memory_form,
              "most memory that the program may hold, such as 500M or 2G; a run that would need more ends before"),
       text("--json", "FILE", options.json, "write the report as JSON, too"),
       flag("--quiet", options.quiet, "no narration and no progress bar"),

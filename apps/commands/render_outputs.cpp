@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <radiosity/audit/audit_effort.hpp>
-#include <radiosity/audit/picture_error.hpp>
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
@@ -15,11 +14,8 @@
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
 #include <radiosity/scene/frame.hpp>
-#include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
 
-#include "apps/audited_picture.hpp"
-#include "apps/export/depth_order.hpp"
 #include "apps/export/export_mesh.hpp"
 #include "apps/export/lightmap.hpp"
 #include "apps/export/viewer.hpp"
@@ -27,9 +23,8 @@
 #include "apps/light_file.hpp"
 #include "apps/memory.hpp"
 #include "apps/mesh_file.hpp"
+#include "apps/picture_file.hpp"
 #include "apps/ply.hpp"
-#include "apps/png.hpp"
-#include "apps/radiance_file.hpp"
 #include "apps/text.hpp"
 
 namespace apps {
@@ -186,28 +181,22 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
     exported = exported_mesh(options, file, solution, tone, outputs, report);
   }
   for (const std::string& path : options.outputs) {
-    outputs.push_back({path, {}});
-    switch (*render_format(path)) {
-      case RenderFormat::png:
-      case RenderFormat::hdr:
-      case RenderFormat::pfm:
-        outputs.back().bytes = encoded(*picture, *render_format(path), tone);
-        break;
-      case RenderFormat::light:
-        outputs.back().bytes = to_light_file(solution.mesh, solution.frame, file.scene);
-        break;
-      case RenderFormat::ply:
-        outputs.back().bytes = options.onto_input && exported
-                                   ? to_ply(*exported, tone)
-                                   : to_ply(in_depth_order(file, solution, solution.shown()), radiosity::surfaces(file.scene), tone);
-        break;
-      case RenderFormat::html:
-        outputs.back().bytes = viewer_page(file, solution, camera, tone.exposure, options.scene, summary(solution));
-        break;
-      case RenderFormat::exported:
-        if (exported) { outputs.back().bytes = export_format(path)->write(*exported, tone); }
-        break;
+    const RenderFormat format = *render_format(path);
+    std::string bytes;
+    if (is_picture(path)) {
+      bytes = encoded(*picture, format, tone);
+    } else if (format == RenderFormat::light) {
+      bytes = to_light_file(solution.mesh, solution.frame, file.scene);
+    } else if (format == RenderFormat::html) {
+      bytes = viewer_page(file, solution, camera, tone.exposure, options.scene, summary(solution));
+    } else if (format == RenderFormat::exported) {
+      if (exported) { bytes = export_format(path)->write(*exported, tone); }
+    } else {
+      bytes = options.onto_input && exported
+                  ? to_ply(*exported, tone)
+                  : to_ply(in_depth_order(file, solution, solution.shown()), radiosity::surfaces(file.scene), tone);
     }
+    outputs.push_back({path, std::move(bytes)});
     report.files.push_back(path);
   }
   if (!options.json.empty()) {

@@ -20,6 +20,8 @@
 
 namespace apps {
 
+struct Argument;
+
 // By measurement: what a picture in gathered light needs of the solution.
 inline constexpr double gathered_epsilon = 0.01, gathered_min_area = 2e-4;
 
@@ -54,6 +56,9 @@ struct RenderOptions {
   std::optional<std::uint64_t> memory;  // bytes that the process may hold
   radiosity::Options solver;
 };
+
+// What each option of `halflight render` is, and where its value goes.
+[[nodiscard]] std::vector<Argument> render_arguments(RenderOptions& options);
 
 enum class RenderFormat { png, hdr, pfm, light, ply, html, exported };
 

@@ -4,14 +4,13 @@
 #include <cstdio>
 #include <ctime>
 #include <memory>
-#include <utility>
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/json.hpp"
-#include "apps/scene_file/words.hpp"
 #include "apps/stress/case.hpp"
 #include "apps/text.hpp"
+#include "apps/words.hpp"
 
 namespace apps {
 namespace {
@@ -68,7 +67,7 @@ std::vector<const Case*> choose(const std::vector<std::string>& names, bool& kno
     if (std::any_of(chosen.begin(), chosen.end(), [&](const Case* c) { return c->name == name; })) { continue; }
     std::vector<std::string_view> all;
     for (const Case& c : stress::cases()) { all.push_back(c.name); }
-    complain("there is no case '" + name + "'" + scene_file::suggestion(name, all) + "; there are: " + joined(all));
+    complain("there is no case '" + name + "'" + suggestion(name, all) + "; there are: " + joined(all));
     known = false;
   }
   return chosen;

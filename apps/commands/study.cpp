@@ -19,8 +19,8 @@
 #include "apps/memory.hpp"
 #include "apps/progress.hpp"
 #include "apps/scene_file.hpp"
+#include "apps/study/folder.hpp"
 #include "apps/study/measure.hpp"
-#include "apps/study/pages.hpp"
 #include "apps/study/parts.hpp"
 #include "apps/study/reference.hpp"
 #include "apps/text.hpp"
@@ -284,12 +284,12 @@ Command study_command() {
                .by_default(std::to_string(options->paths)),
            whole_number("--dense", options->dense, 0, 20'000, "leaves up to which a dense solution tells the parts of an error apart")
                .by_default(std::to_string(options->dense)),
-           parsed("--part", "I/N", options->part, study::parse_part, study::part_fault,
+           parsed("--part", "I/N", options->part, study::parse_part, "I/N with I from 1 to N, such as 3/8",
                   "measures the Ith of N parts of the work and writes part-I-of-N.study; N machines do so, then one merges")
                .without({"--merge"}),
            texts("--merge", "DIR", options->merge, "puts the parts in these folders together into one study").without({"scenes"}),
            flag("--quick", options->quick, "a first look: short runs, a noisy reference").without({"--time-per-run", "--paths"}),
-           parsed("--memory", "BYTES", options->memory, parse_memory, memory_fault,
+           parsed("--memory", "BYTES", options->memory, parse_memory, memory_form,
                   "most memory that one run may take, such as 500M or 2G; one that would need more is refused, or ends with the best that "
                   "fits"),
            whole_number("--threads", options->threads, 0, most_threads, "0: as many as the machine has; results do not depend on it"),

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <utility>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 

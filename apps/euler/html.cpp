@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "apps/euler/html.hpp"
 
 #include <array>
 
@@ -7,8 +6,8 @@
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
 
-#include "apps/euler/solid.hpp"
-#include "apps/euler/svg.hpp"
+#include "apps/euler/outputs.hpp"
+#include "apps/euler/solid_view.hpp"
 #include "apps/html_document.hpp"
 #include "apps/json.hpp"
 #include "embedded/euler.hpp"

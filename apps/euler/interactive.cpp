@@ -5,8 +5,6 @@
 #include <array>
 #include <cstdio>
 #include <iostream>
-#include <optional>
-#include <string>
 #include <string_view>
 
 #include <unistd.h>
@@ -21,12 +19,9 @@
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
 
-#include "apps/euler/caption.hpp"
-#include "apps/euler/html.hpp"
-#include "apps/euler/line_editor.hpp"
+#include "apps/euler/outputs.hpp"
 #include "apps/euler/story.hpp"
-#include "apps/euler/svg.hpp"
-#include "apps/euler/words.hpp"
+#include "apps/euler/wording.hpp"
 #include "apps/files.hpp"
 #include "apps/output_paths.hpp"
 #include "apps/text.hpp"

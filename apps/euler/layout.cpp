@@ -13,7 +13,7 @@
 
 #include <brep/handles.hpp>
 
-#include "apps/euler/labels.hpp"
+#include "apps/euler/names.hpp"
 
 namespace apps::euler {
 namespace {

@@ -7,8 +7,6 @@
 // the one before it: the face that lay outside stays outside while it lives, edges that were
 // whole stay whole, and of the ways to turn the picture by one corner the one is taken that moves the vertices least.
 
-#include <map>
-#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>

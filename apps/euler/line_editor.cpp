@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/euler/line_editor.hpp"
+#include "apps/euler/interactive.hpp"
 
 #include <algorithm>
 #include <cstdio>

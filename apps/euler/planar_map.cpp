@@ -5,8 +5,6 @@
 #include <map>
 #include <numeric>
 
-#include <brep/handles.hpp>
-
 namespace apps::euler {
 namespace {
 

@@ -8,7 +8,6 @@
 // were whole in the picture before first, then older before younger; one that would join two faces of the same piece (and so
 // make a handle) is cut. So a new bridge is what is cut when it makes a handle, and the rest of the picture stays as it was.
 
-#include <array>
 #include <cstdint>
 #include <vector>
 

@@ -4,10 +4,8 @@
 #include <utility>
 
 #include <brep/circulators.hpp>
-#include <brep/euler_script.hpp>
-#include <brep/euler_script_run.hpp>
 
-#include "apps/euler/caption.hpp"
+#include "apps/euler/wording.hpp"
 
 namespace apps::euler {
 

@@ -28,7 +28,7 @@ struct Check {  // an `expect` behind a step
 struct Frame {
   std::string statement;  // empty for the start
   std::string caption;
-  std::string told;  // what the step did, in words (caption.hpp); of drawn stories
+  std::string told;  // what the step did, in words (wording.hpp); of drawn stories
   std::uint32_t line = 0;
   brep::Outcome outcome;
   Records records;               // as they are, damaged ones too
@@ -44,7 +44,7 @@ struct Story {
   std::string title, introduction;
   std::vector<Frame> frames;                        // the first is the start
   std::vector<brep::ScriptError> errors;            // statements that were not done as written
-  std::map<std::uint32_t, glm::dvec3> coordinates;  // of vertices, where the script has some (solid.hpp)
+  std::map<std::uint32_t, glm::dvec3> coordinates;  // of vertices, where the script has some (solid_view.hpp)
   std::size_t edges = 0;                            // of all frames together: what drawing it costs
 };
 

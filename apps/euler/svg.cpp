@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/euler/svg.hpp"
+#include "apps/euler/outputs.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,15 +7,12 @@
 #include <cstdio>
 #include <map>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <brep/euler_script_run.hpp>
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
 
-#include "apps/euler/labels.hpp"
-#include "apps/markup.hpp"
+#include "apps/euler/names.hpp"
+#include "apps/html_document.hpp"
 #include "apps/text.hpp"
 
 namespace apps::euler {

@@ -3,8 +3,6 @@
 
 #include <array>
 
-#include "apps/exercise/numbers.hpp"
-#include "apps/exercise/scripts.hpp"
 #include "embedded/examples.hpp"
 
 namespace apps::exercise {

@@ -22,4 +22,19 @@ struct Exercise {
 // The file as the student gets it.
 [[nodiscard]] std::string beginning(const Exercise& exercise);
 
+// --- what is wrong with a script of Euler operators,
+
+[[nodiscard]] std::optional<std::string> tetrahedron(const std::string& text);
+[[nodiscard]] std::optional<std::string> torus(const std::string& text);
+[[nodiscard]] std::optional<std::string> holes(const std::string& text);
+[[nodiscard]] std::optional<std::string> dual_of_prism(const std::string& text);
+[[nodiscard]] std::optional<std::string> inverse(const std::string& text);
+[[nodiscard]] std::optional<std::string> break_and_mend(const std::string& text);
+
+// and with a file of `name = number` that was worked out by hand
+
+[[nodiscard]] std::optional<std::string> form_factors(const std::string& text);
+[[nodiscard]] std::optional<std::string> push_pull(const std::string& text);
+[[nodiscard]] std::optional<std::string> t_vertex(const std::string& text);
+
 }  // namespace apps::exercise

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/exercise/numbers.hpp"
+#include "apps/exercise/exercises.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 
-#include "apps/scene_file/words.hpp"
 #include "apps/text.hpp"
+#include "apps/words.hpp"
 
 namespace apps::exercise {
 namespace {
@@ -45,7 +45,7 @@ Fault compare(const std::string& text, const std::vector<Answer>& answers) {
     if (equals == line.npos) { return at + "expected `name = number`"; }
     const std::string name = stripped(line.substr(0, equals)), value = stripped(line.substr(equals + 1));
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      return at + "nobody asked for '" + name + "'" + scene_file::suggestion(name, names);
+      return at + "nobody asked for '" + name + "'" + suggestion(name, names);
     }
     if (value.empty()) { continue; }
     const auto x = number_in<double>(value);

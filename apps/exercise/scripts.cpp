@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "apps/exercise/scripts.hpp"
 
 #include <algorithm>
 #include <set>
@@ -12,7 +11,7 @@
 #include <brep/validate.hpp>
 
 #include "apps/euler/story.hpp"
-#include "apps/euler/words.hpp"
+#include "apps/euler/wording.hpp"
 #include "apps/exercise/exercises.hpp"
 
 namespace apps::exercise {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/explain/page.hpp"
+#include "apps/explain/sentences.hpp"
 
 #include <vector>
 

@@ -6,8 +6,6 @@
 #include <map>
 #include <utility>
 
-#include <glm/geometric.hpp>
-
 #include <brep/circulators.hpp>
 #include <brep/t_vertices.hpp>
 

@@ -7,7 +7,6 @@
 //
 // The stages of a run (radiosity/run/stages.hpp) do the work; refinement is watched through Control::decided.
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>

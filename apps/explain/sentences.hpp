@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Why a pair was linked or split, what a link carries, what BF-refinement splits: one sentence each, the same on the page and in the
-// terminal. And the whole story as text.
+// A recording as sentences: why a pair was linked or split, what a link carries, what BF-refinement splits: one sentence each, the same on the page and in the
+// terminal. And the whole as text, and as a page that replays it.
 
 #include <string>
 
@@ -18,5 +18,8 @@ namespace apps::explain {
 
 // `halflight explain --text`.
 [[nodiscard]] std::string story(const Recording& recording);
+
+// The page (page.html, page.css, page.js).
+[[nodiscard]] std::string page(const Recording& recording);
 
 }  // namespace apps::explain

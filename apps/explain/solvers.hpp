@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/solver/transport.hpp>
 
 namespace apps::explain {

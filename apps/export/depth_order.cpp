@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/export/depth_order.hpp"
+#include "apps/export/export_mesh.hpp"
 
 #include <cmath>
 #include <map>
@@ -56,8 +56,7 @@ bool is_covered(const radiosity::Solution& solution, std::uint32_t node) {
 
 radiosity::Mesh in_depth_order(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh) {
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
-  std::vector<raycast::PlacedObject> objects;
-  for (const radiosity::SceneObject& object : file.scene.objects) { objects.emplace_back(object.shape, object.placement); }
+  const std::vector<raycast::PlacedObject> objects = placed_objects(file.scene);
   const double step = 1e-4 * scene_bounds(file.scene).diameter();
   const std::vector<bool> before = covering(mesh, solution, inputs, objects);
   std::vector<bool> fixed(mesh.positions.size(), false);  // corners of leaves that are not covered: no gap may open

@@ -2,7 +2,6 @@
 #include "apps/export/export_mesh.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -14,12 +13,12 @@
 #include <brep/polygon.hpp>
 #include <radiosity/bake/baked_light.hpp>
 #include <radiosity/hierarchy/corner_normal.hpp>
-#include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 
-#include "apps/export/depth_order.hpp"
+#include "apps/bounds.hpp"
+#include "apps/mesh_file.hpp"
 
 namespace apps {
 namespace {
@@ -37,8 +36,7 @@ glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
 ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& in_place) {
   const radiosity::Mesh mesh = in_depth_order(file, solution, in_place);
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
-  std::vector<raycast::PlacedObject> objects;
-  for (const radiosity::SceneObject& object : file.scene.objects) { objects.emplace_back(object.shape, object.placement); }
+  const std::vector<raycast::PlacedObject> objects = placed_objects(file.scene);
   ExportMesh out;
   out.cameras = file.cameras;
   std::vector<std::uint32_t> newest(mesh.positions.size(), none), next;  // of a place: its vertices, those of the group first
@@ -136,6 +134,17 @@ ExportMesh split_at_seams(const ExportMesh& mesh, std::vector<glm::vec2>& of_ver
     }
   }
   return out;
+}
+
+namespace exported {
+extern const ExportFormat glb, obj;  // a file of this folder each
+}  // namespace exported
+
+const ExportFormat* export_format(std::string_view path) {
+  for (const ExportFormat* const format : {&exported::glb, &exported::obj}) {
+    if (has_ending(path, format->ending)) { return format; }
+  }
+  return nullptr;
 }
 
 }  // namespace apps

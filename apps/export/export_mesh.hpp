@@ -2,7 +2,7 @@
 #pragma once
 
 // What files for other programs are written from: vertices with a normal and a radiosity, polygons, groups. It is made of the solution, or
-// of the polygons that the user's file gave, in that file's own order and coordinates. Formats: formats.cpp, a file and a line for each.
+// of the polygons that the user's file gave, in that file's own order and coordinates. A format is one file of this folder, and one line in export_mesh.cpp.
 
 #include <cstddef>
 #include <cstdint>
@@ -52,7 +52,7 @@ struct ExportMesh {
   }
 };
 
-// A mesh of the solution, in depth order (depth_order.hpp): a group an object, a face a leaf, a vertex for each normal and colour that a
+// A mesh of the solution, in depth order (in_depth_order): a group an object, a face a leaf, a vertex for each normal and colour that a
 // place has.
 [[nodiscard]] ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh);
 
@@ -73,5 +73,15 @@ struct ExportFormat {
 
 // By the ending of the name; null when none has it.
 [[nodiscard]] const ExportFormat* export_format(std::string_view path);
+
+// Where two surfaces lie in one plane, such as a lamp and the ceiling that it is set into, a viewer of meshes finds both at the same depth
+// and shows now the one and now the other. Every file of a mesh is therefore written from one whose places have moved a little apart.
+//
+// Does another object cover the leaf, or a part of it? Where both lie in one plane the leaf must not show through.
+[[nodiscard]] bool is_covered(const radiosity::Solution& solution, std::uint32_t node);
+
+// A mesh of the solution with the same faces and corners: corners that only covered leaves have lie a little behind their places, lamps in
+// the plane of a ceiling a little before theirs. The distance is 1e-4 of the scene's diameter.
+[[nodiscard]] radiosity::Mesh in_depth_order(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh);
 
 }  // namespace apps

@@ -2,7 +2,6 @@
 // GLB (glTF 2.0, binary). COLOR_0 is what a screen shows: linear, exposed, clamped to [0, 1], on an unlit material. _RADIOSITY holds the
 // light itself in W/m2. Positions are floats about the scene's centre, which is the translation of their nodes, so that a scene far from
 // the origin loses nothing; a node above turns z, which is up with us, to y. With a lightmap the colour is a texture in place of COLOR_0.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apps/export/lightmap.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

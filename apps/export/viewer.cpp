@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,7 +13,7 @@
 #include <radiosity/result/mesh.hpp>
 
 #include "apps/bytes.hpp"
-#include "apps/export/depth_order.hpp"
+#include "apps/export/export_mesh.hpp"
 #include "apps/html_document.hpp"
 #include "apps/json.hpp"
 #include "embedded/export.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Figures 3 to 5: diagrams of what the solver has made of a scene.
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include <glm/geometric.hpp>

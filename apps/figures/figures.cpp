@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "apps/figures/figures.hpp"
 
-#include <filesystem>
-
 #include <brep/euler_script_parse.hpp>
 
 #include <radiosity/radiosity.hpp>
 #include <radiosity/run/run.hpp>
 #include <radiosity/run/stages.hpp>
 
-#include "apps/euler/html.hpp"
-#include "apps/euler/solid.hpp"
-#include "apps/euler/svg.hpp"
+#include "apps/euler/outputs.hpp"
+#include "apps/euler/solid_view.hpp"
 #include "apps/html_document.hpp"
-#include "apps/markup.hpp"
 #include "apps/picture.hpp"
-#include "apps/png.hpp"
+#include "apps/picture_file.hpp"
 #include "apps/scene_file.hpp"
 #include "apps/study/svg.hpp"
 #include "embedded/examples.hpp"

@@ -7,7 +7,7 @@
 
 #include "apps/intake/model.hpp"
 #include "apps/mesh_file.hpp"
-#include "apps/scene_file/words.hpp"
+#include "apps/words.hpp"
 
 namespace apps {
 namespace intake {
@@ -25,7 +25,7 @@ std::span<const ModelFormat* const> model_formats() {
 std::string model_endings() {
   std::vector<std::string_view> endings;
   for (const ModelFormat* const format : model_formats()) { endings.push_back(format->ending); }
-  return scene_file::list_of(endings);
+  return list_of(endings);
 }
 
 const ModelFormat* model_format(std::string_view path, std::string_view bytes) {

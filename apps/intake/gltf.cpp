@@ -11,7 +11,6 @@
 #include <glm/mat4x4.hpp>
 
 #include "apps/intake/gltf_data.hpp"
-#include "apps/intake/gltf_materials.hpp"
 #include "apps/intake/json_reader.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/mesh_file/reading.hpp"
@@ -54,17 +53,9 @@ class GltfReader {
  private:
   void error(std::size_t offset, std::string sentence) {
     if (text_begin_) { return errors_.add({0, static_cast<std::uint32_t>(*text_begin_ + offset + 1)}, std::move(sentence)); }
-    offset = std::min(offset, text_.size());
-    const std::string_view before = text_.substr(0, offset);
-    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-    const std::size_t last = before.rfind('\n');
-    errors_.add({static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(last == before.npos ? offset + 1 : offset - last)},
-                std::move(sentence));
+    errors_.add(place_of(text_, offset), std::move(sentence));
   }
-  ModelResult take() {
-    const bool sound = errors_.count() == 0;
-    return {errors_.take(), sound ? std::optional(std::move(model_)) : std::nullopt};
-  }
+  ModelResult take() { return read_result(std::move(model_), errors_); }
 
   static glm::dmat4 transform(const JsonValue& node) {
     if (const auto m = array_of<16>(node["matrix"])) {

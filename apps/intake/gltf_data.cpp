@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/intake/gltf_data.hpp"
 
-#include <array>
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -30,28 +30,22 @@ std::optional<std::string> from_base64(std::string_view text) {
   return bytes;
 }
 
+// Of "data:image/png;base64,AAAA"; nothing when it is written otherwise.
+std::optional<std::string> data_of(std::string_view uri) {
+  const std::size_t comma = uri.find(";base64,");
+  return comma == uri.npos ? std::nullopt : from_base64(uri.substr(comma + 8));
+}
+
 struct ComponentType {
-  std::size_t size;
-  bool is_signed, is_float;
+  std::size_t size = 0;
+  bool is_signed = false, is_float = false;
 };
 
 std::optional<ComponentType> component_type(const JsonValue& value) {
-  switch (static_cast<int>(value.number())) {
-    case 5120:
-      return ComponentType{1, true, false};
-    case 5121:
-      return ComponentType{1, false, false};
-    case 5122:
-      return ComponentType{2, true, false};
-    case 5123:
-      return ComponentType{2, false, false};
-    case 5125:
-      return ComponentType{4, false, false};
-    case 5126:
-      return ComponentType{4, true, true};
-    default:
-      return std::nullopt;
-  }
+  static constexpr std::array<ComponentType, 7> types{
+      {{1, true, false}, {1, false, false}, {2, true, false}, {2, false, false}, {}, {4, false, false}, {4, true, true}}};  // from 5120 on
+  const auto i = static_cast<std::size_t>(std::max(value.number() - 5120.0, 0.0));
+  return value.number() >= 5120.0 && i < types.size() && types[i].size > 0 ? std::optional(types[i]) : std::nullopt;
 }
 
 double number_at(const char* bytes, const ComponentType& type, bool normalized) {
@@ -99,8 +93,7 @@ std::optional<std::string_view> GltfData::buffer(std::size_t index, std::string&
   if (!loaded_[index]) {
     const std::string_view text = uri.string();
     if (text.starts_with("data:")) {
-      const std::size_t comma = text.find(";base64,");
-      if (comma != std::string_view::npos) { loaded_[index] = from_base64(text.substr(comma + 8)); }
+      loaded_[index] = data_of(text);
       fault = "the data of buffer " + std::to_string(index) + " are not base64";
     } else if (const auto name = file_of_uri(text)) {
       std::string reason;
@@ -125,10 +118,7 @@ std::optional<std::string> GltfData::picture(std::size_t image) {
     return std::string(bytes->substr(begin, length));
   }
   const std::string_view uri = given["uri"].string();
-  if (uri.starts_with("data:")) {
-    const std::size_t comma = uri.find(";base64,");
-    return comma == std::string_view::npos ? std::nullopt : from_base64(uri.substr(comma + 8));
-  }
+  if (uri.starts_with("data:")) { return data_of(uri); }
   const auto name = file_of_uri(uri);
   return name && side_file_ ? side_file_(*name, fault) : std::nullopt;
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "apps/intake/gltf_materials.hpp"
+#include "apps/intake/gltf_data.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -15,44 +14,25 @@
 #include "apps/mesh_file/reading.hpp"
 
 namespace apps::intake {
-namespace {
-
-// The pictures of a file: each is read once.
-class GltfPictures {
- public:
-  GltfPictures(const JsonValue& root, GltfData& data, Notes& notes) : root_(root), data_(data), notes_(notes) {}
-
-  // The mean colour of the picture of a texture; nothing when it cannot be read, which is noted.
-  [[nodiscard]] std::optional<radiosity::Color> mean(const JsonValue& texture, const std::string& factor, const std::string& material) {
-    const auto image = root_["textures"][texture["index"].index().value_or(nowhere)]["source"].index();
-    std::optional<radiosity::Color> mean;
-    if (image) {
-      const auto [known, is_new] = means_.emplace(*image, std::nullopt);
-      if (is_new) {
-        if (const auto bytes = data_.picture(*image)) { known->second = mean_color(*bytes); }
-      }
-      mean = known->second;
-    }
-    notes_.add(mean ? "pictures on surfaces count with their mean colour"
-                    : "textures are not read: the " + factor + " factor stands for the picture",
-               "in " + mesh_file::shown(material));
-    return mean;
-  }
-
- private:
-  static constexpr std::size_t nowhere = ~std::size_t{0};
-
-  const JsonValue& root_;
-  GltfData& data_;
-  Notes& notes_;
-  std::map<std::size_t, std::optional<radiosity::Color>> means_;
-};
-
-}  // namespace
 
 std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& data, Notes& notes) {
   std::vector<ModelMaterial> materials;
-  GltfPictures pictures(root, data, notes);
+  PictureMeans<std::size_t> pictures;
+  // The mean colour of the picture of a texture; nothing when it cannot be read, which is noted.
+  const auto mean_of = [&](const JsonValue& texture, const std::string& factor, const std::string& material) {
+    const auto image = root["textures"][texture["index"].index().value_or(~std::size_t{0})]["source"].index();
+    std::optional<radiosity::Color> mean;
+    if (image) {
+      mean = pictures.of(*image, [&] {
+        const auto bytes = data.picture(*image);
+        return bytes ? mean_color(*bytes) : std::nullopt;
+      });
+    }
+    notes.add(mean ? "pictures on surfaces count with their mean colour"
+                   : "textures are not read: the " + factor + " factor stands for the picture",
+              "in " + mesh_file::shown(material));
+    return mean;
+  };
   for (const JsonValue& given : root["materials"].items()) {
     ModelMaterial material;
     material.name = given["name"].string();
@@ -61,7 +41,7 @@ std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& 
     const JsonValue& base = glossy ? glossy : given["pbrMetallicRoughness"];
     const auto color = array_of<3>(base[glossy ? "diffuseFactor" : "baseColorFactor"]).value_or(std::array{1.0, 1.0, 1.0});
     const JsonValue& picture = base[glossy ? "diffuseTexture" : "baseColorTexture"];
-    const auto mean = picture ? pictures.mean(picture, "base colour", material.name) : std::nullopt;
+    const auto mean = picture ? mean_of(picture, "base colour", material.name) : std::nullopt;
     // A factor of 1 1 1 under a picture that is not known says nothing about the picture.
     if (!picture || mean || color != std::array{1.0, 1.0, 1.0}) {
       if (base || given["emissiveFactor"]) {
@@ -75,7 +55,7 @@ std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& 
       if (!std::isfinite(material.emission[i])) { material.emission[i] = 0.0; }
     }
     if (given["emissiveTexture"] && !radiosity::is_black(material.emission)) {
-      material.emission *= pictures.mean(given["emissiveTexture"], "emissive", material.name).value_or(radiosity::Color(1.0));
+      material.emission *= mean_of(given["emissiveTexture"], "emissive", material.name).value_or(radiosity::Color(1.0));
     }
     if (extensions["KHR_materials_unlit"]) {
       notes.add("unlit materials are taken as paint of their colour", "in " + mesh_file::shown(material.name));

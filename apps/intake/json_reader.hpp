@@ -5,11 +5,9 @@
 // that recursion is bounded. Asking a value for what it is not gives nothing, so readers need no checks of their own.
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace apps {

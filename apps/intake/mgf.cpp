@@ -151,8 +151,7 @@ ModelResult read_mgf(std::string_view bytes, const SideFile& side_file) {
   Reader reader(side_file);
   reader.read(bytes, glm::dmat4(1.0), 0, errors);
   reader.model.notes = reader.notes.take();
-  const bool sound = errors.count() == 0;
-  return {errors.take(), sound ? std::optional(std::move(reader.model)) : std::nullopt};
+  return read_result(std::move(reader.model), errors);
 }
 
 }  // namespace

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "apps/intake/mgf_looks.hpp"
 
-#include <map>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "apps/intake/mgf_color.hpp"
-#include "apps/mesh_file/reading.hpp"
 
 namespace apps::intake::mgf {
 namespace {

@@ -17,7 +17,6 @@
 #include <raycast/object.hpp>
 
 #include "apps/input_errors.hpp"
-#include "apps/intake/mgf_contexts.hpp"
 #include "apps/intake/mgf_looks.hpp"
 #include "apps/intake/mgf_transform.hpp"
 #include "apps/intake/model.hpp"

@@ -105,6 +105,12 @@ struct ModelResult : ErrorReport {
   std::optional<Model> model;  // nothing when there are errors
 };
 
+// What a reader gives back in the end.
+[[nodiscard]] inline ModelResult read_result(Model model, Errors& errors) {
+  const bool sound = errors.count() == 0;
+  return {errors.take(), sound ? std::optional(std::move(model)) : std::nullopt};
+}
+
 enum class UpAxis : unsigned char { x, y, z };
 
 // A format: one file of this folder defines it, one line of formats.cpp lists it.

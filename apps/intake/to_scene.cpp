@@ -2,11 +2,9 @@
 #include "apps/intake/to_scene.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 
-#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 #include <radiosity/intake/intake.hpp>
@@ -17,11 +15,10 @@
 #include <raycast/transform.hpp>
 
 #include "apps/bounds.hpp"
-#include "apps/intake/ceiling_lamp.hpp"
-#include "apps/intake/inside_camera.hpp"
-#include "apps/scene_file/words.hpp"
+#include "apps/intake/light_views.hpp"
 #include "apps/text.hpp"
 #include "apps/view.hpp"
+#include "apps/words.hpp"
 
 namespace apps {
 namespace {
@@ -138,8 +135,8 @@ class SceneMaker {
         material.emission = radiosity::Color(lamp.exitance);
       }
       if (found) { continue; }
-      faults.push_back("--lamp " + lamp.material + ": the file has no such material; it has " + scene_file::list_of(known) +
-                       scene_file::suggestion(lamp.material, known));
+      faults.push_back("--lamp " + lamp.material + ": the file has no such material; it has " + list_of(known) +
+                       suggestion(lamp.material, known));
     }
     return faults.empty();
   }
@@ -250,9 +247,10 @@ class SceneMaker {
 
   bool add_room_lamps(const std::vector<raycast::Box>& rooms, std::vector<std::string>& faults, const std::string& advice) {
     constexpr std::size_t most_lamps = 64;
+    const LightViews views(file_.scene);
     std::vector<std::shared_ptr<const raycast::Object>> lamps;
     for (std::size_t i = 0; i < std::min(most_lamps, rooms.size()); ++i) {
-      if (auto lamp = ceiling_lamp(file_.scene, rooms[i])) { lamps.push_back(std::move(lamp)); }
+      if (auto lamp = views.ceiling_lamp(rooms[i])) { lamps.push_back(std::move(lamp)); }
     }
     if (lamps.empty()) {
       faults.push_back("nothing shines in this closed room; say which material does: " + advice);
@@ -275,7 +273,7 @@ class SceneMaker {
   // arrive.
   bool add_studio(std::vector<std::string>& faults) {
     const std::vector<std::string_view> known = names();
-    const std::string advice = "--lamp MATERIAL, one of " + scene_file::list_of(known);
+    const std::string advice = "--lamp MATERIAL, one of " + list_of(known);
     if (const std::vector<raycast::Box> rooms = rooms_to_light(); !rooms.empty()) { return add_room_lamps(rooms, faults, advice); }
     if (file_.cameras.empty()) { file_.cameras.push_back(automatic_camera(file_.scene)); }
     const raycast::Box bounds = scene_bounds(file_.scene);

@@ -4,11 +4,9 @@
 // From a model of another program to a scene that can be solved: units and the up axis, what the file leaves open (reflectances, lamps, a
 // camera), and the polygons through the intake. Every decision is a sentence in SceneFile::notes.
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "apps/intake/model.hpp"

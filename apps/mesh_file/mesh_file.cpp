@@ -8,7 +8,7 @@
 #include <brep/builder_input.hpp>
 
 #include "apps/mesh_file/reading.hpp"
-#include "apps/scene_file/words.hpp"
+#include "apps/words.hpp"
 
 namespace apps {
 namespace mesh_file {
@@ -25,7 +25,7 @@ std::span<const MeshFormat* const> mesh_formats() {
 std::string mesh_endings() {
   std::vector<std::string_view> endings;
   for (const MeshFormat* const format : mesh_formats()) { endings.push_back(format->ending); }
-  return scene_file::list_of(endings);
+  return list_of(endings);
 }
 
 bool has_ending(std::string_view path, std::string_view ending) {
@@ -49,11 +49,7 @@ MeshResult read_mesh(std::string_view bytes, const MeshFormat& format) {
     format.read(bytes, out);
     return out.take();
   }
-  const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-  const std::size_t before = bytes.substr(0, at).rfind('\n');
-  const std::size_t column = before == std::string_view::npos ? at + 1 : at - before;
-  out.error({static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(column)},
-            "expected text, found a zero byte; is this a binary file?");
+  out.error(place_of(bytes, at), "expected text, found a zero byte; is this a binary file?");
   return out.take();
 }
 

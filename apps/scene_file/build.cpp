@@ -2,7 +2,6 @@
 #include "apps/scene_file/build.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -11,16 +10,13 @@
 
 #include <glm/geometric.hpp>
 
-#include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 
 #include "apps/bounds.hpp"
 #include "apps/intake/to_scene.hpp"
-#include "apps/scene_file/csg.hpp"
 #include "apps/scene_file/groups.hpp"
-#include "apps/scene_file/uses.hpp"
-#include "apps/scene_file/words.hpp"
 #include "apps/text.hpp"
+#include "apps/words.hpp"
 
 namespace apps::scene_file {
 namespace {

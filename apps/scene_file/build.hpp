@@ -3,12 +3,20 @@
 
 // From statements to a scene: names are resolved, shapes made, groups placed.
 
-#include "apps/scene_file/lexer.hpp"
+#include <vector>
+
 #include "apps/scene_file/syntax.hpp"
 
 namespace apps::scene_file {
 
 // The scene of the statements. Its worth is nothing when errors were added.
 [[nodiscard]] SceneFile build(const SceneSyntax& syntax, const SideFile& side_file, Errors& errors);
+
+// (csg.cpp) A union, intersection or difference, and the shapes of its leaves in the order of the file, whose sheets are its sheets.
+struct CsgShape {
+  Shape whole;  // null after an error
+  std::vector<Shape> leaves;
+};
+[[nodiscard]] CsgShape make_csg(const ObjectSyntax& syntax, Errors& errors);
 
 }  // namespace apps::scene_file

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "apps/scene_file/csg.hpp"
+#include "apps/scene_file/build.hpp"
 
 namespace apps::scene_file {
 namespace {

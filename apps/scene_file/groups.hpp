@@ -6,10 +6,15 @@
 // use stands for the union of what is in the group.
 
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include <raycast/transform.hpp>
+
+#include "apps/input_errors.hpp"
 #include "apps/scene_file/lexer.hpp"
 #include "apps/scene_file/syntax.hpp"
 
@@ -51,5 +56,15 @@ class Groups {
   std::unordered_map<std::string_view, std::size_t> index_;
   std::vector<Entry> entries_;  // one per group
 };
+
+// The statements of a scene as a graph (apps/graph_walk.hpp): under the root lie those of the file, under a use those of its group. Each
+// node keeps its placement and its name to what lies below it.
+//
+// Is told of an object as often as it is used: with the names of the uses around it, "first.", their placement, and the place of the
+// statement of the file.
+using PlaceObject = std::function<void(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at)>;
+
+// Walks all uses in the order of the file; ends at the first error, or when the scene grows beyond max_objects.
+void place_all(const std::vector<Item>& items, const Groups& groups, Errors& errors, const PlaceObject& place);
 
 }  // namespace apps::scene_file

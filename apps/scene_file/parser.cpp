@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "apps/scene_file/words.hpp"
+#include "apps/words.hpp"
 
 namespace apps::scene_file {
 

@@ -74,7 +74,6 @@ class Parser {
   Errors& errors_;
   Lexer lexer_;
   Token token_;
-  Place end_of_last_;
 };
 
 }  // namespace apps::scene_file

@@ -5,22 +5,10 @@
 #include <raycast/objects/superquadric.hpp>
 #include <raycast/objects/torus.hpp>
 
-#include <radiosity/result/outcome.hpp>
-#include <radiosity/scene/material.hpp>
-#include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
-
-#include "apps/stress/case.hpp"
 #include "apps/stress/measures.hpp"
-#include "apps/stress/scenes.hpp"
 
 namespace apps::stress {
 namespace {
-
-using radiosity::Color;
-using radiosity::Options;
-using radiosity::Scene;
-using radiosity::Solution;
 
 const std::vector<glm::dvec3> cube_corners{{0.3, 0.3, 0.3}, {0.6, 0.3, 0.3}, {0.6, 0.6, 0.3}, {0.3, 0.6, 0.3},
                                            {0.3, 0.3, 0.6}, {0.6, 0.3, 0.6}, {0.6, 0.6, 0.6}, {0.3, 0.6, 0.6}};

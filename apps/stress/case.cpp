@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <radiosity/radiosity.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>

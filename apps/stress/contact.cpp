@@ -3,23 +3,10 @@
 #include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/sphere.hpp>
 
-#include <radiosity/result/audit.hpp>
-#include <radiosity/result/outcome.hpp>
-#include <radiosity/scene/material.hpp>
-#include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
-
-#include "apps/stress/case.hpp"
 #include "apps/stress/measures.hpp"
-#include "apps/stress/scenes.hpp"
 
 namespace apps::stress {
 namespace {
-
-using radiosity::Color;
-using radiosity::Options;
-using radiosity::Scene;
-using radiosity::Solution;
 
 // A room of 2 x 1 x 1 cut in two by a wall, made of three boxes that touch and stand on the floor; a lamp in one half.
 Scene two_halves(double thickness) {

@@ -5,23 +5,10 @@
 #include <raycast/objects/csg.hpp>
 #include <raycast/objects/csg_tree.hpp>
 
-#include <radiosity/result/audit.hpp>
-#include <radiosity/result/outcome.hpp>
-#include <radiosity/scene/material.hpp>
-#include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
-
-#include "apps/stress/case.hpp"
 #include "apps/stress/measures.hpp"
-#include "apps/stress/scenes.hpp"
 
 namespace apps::stress {
 namespace {
-
-using radiosity::Color;
-using radiosity::Options;
-using radiosity::Scene;
-using radiosity::Solution;
 
 Scene lit_room(double reflectance) {
   Scene scene = room_with_box();

@@ -9,23 +9,11 @@
 #include <raycast/objects/torus.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
-#include <radiosity/result/audit.hpp>
-#include <radiosity/result/outcome.hpp>
-#include <radiosity/scene/material.hpp>
-#include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
 
-#include "apps/stress/case.hpp"
 #include "apps/stress/measures.hpp"
-#include "apps/stress/scenes.hpp"
 
 namespace apps::stress {
 namespace {
-
-using radiosity::Color;
-using radiosity::Options;
-using radiosity::Scene;
-using radiosity::Solution;
 
 // The room with every coordinate multiplied by `scale`, moved by `offset` and rounded, as a file would give it.
 Scene written(double scale, double offset) {

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "apps/study/outcome.hpp"
-#include "apps/study/tables.hpp"
+#include "apps/study/folder.hpp"
+#include "apps/study/verdicts.hpp"
 #include "apps/text.hpp"
 
 namespace study {
@@ -23,18 +23,19 @@ std::string text_of(double x) { return std::isfinite(x) ? apps::shortest(x) : st
 class Line {
  public:
   void field(std::string_view text) {
-    text_ += (fields_ == 0 ? "" : ",") + csv_field(text);
-    ++fields_;
+    text_ += (count_ == 0 ? "" : ",") + csv_field(text);
+    ++count_;
   }
+  void fields(const auto&... texts) { (field(texts), ...); }
   void empty(std::size_t count) {
     for (; count > 0; --count) { field(""); }
   }
-  [[nodiscard]] std::size_t fields() const { return fields_; }
+  [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::string end() const { return text_ + "\n"; }
 
  private:
   std::string text_;
-  std::size_t fields_ = 0;
+  std::size_t count_ = 0;
 };
 
 void add_errors(Line& line, const Errors& errors, const Reference& reference) {
@@ -56,36 +57,28 @@ void add_errors(Line& line, const Errors& errors, const Reference& reference) {
 std::string run_line(const SceneStudy& scene, const Method& method, const Run& run, Stage stage) {
   static constexpr std::array<const char*, 3> names = {"none", "simple", "weighted"};
   Line line;
-  line.field(scene.scene);
-  line.field(scene.reference.kind);
-  line.field(text_of(scene.reference.noise));
-  line.field(text_of(scene.reference.point_noise));
-  line.field(method.name);
-  line.field(run.setting);
-  line.field(names[static_cast<std::size_t>(stage)]);
+  line.fields(scene.scene, scene.reference.kind, text_of(scene.reference.noise), text_of(scene.reference.point_noise), method.name,
+              run.setting, names[static_cast<std::size_t>(stage)]);
   if (!run.refused.empty()) {
-    line.empty(csv_columns - 1 - line.fields());  // the reason stands in the last column
+    line.empty(csv_columns - 1 - line.count());  // the reason stands in the last column
     line.field(run.refused);
     return line.end();
   }
-  line.field(text_of(run.cpu_seconds));
-  line.field(text_of(run.seconds_saved));
+  line.fields(text_of(run.cpu_seconds), text_of(run.seconds_saved));
   for (const std::uint64_t n : {run.peak_bytes, run.bytes, run.links, run.leaves, run.rays}) { line.field(std::to_string(n)); }
   add_errors(line, errors(run, stage), scene.reference);
   if (run.parts) {
-    for (const double part : {run.parts->discretisation, run.parts->links, run.parts->solver, run.parts->reconstruction}) {
-      line.field(text_of(part));
-    }
+    const ErrorParts& parts = *run.parts;
+    line.fields(text_of(parts.discretisation), text_of(parts.links), text_of(parts.solver), text_of(parts.reconstruction));
   } else {
     line.empty(4);
   }
   if (run.picture_error && stage == Stage::weighted) {
-    for (const double x : {run.picture_error->relative_l2, run.picture_error->low, run.picture_error->high}) { line.field(text_of(x)); }
+    line.fields(text_of(run.picture_error->relative_l2), text_of(run.picture_error->low), text_of(run.picture_error->high));
   } else {
     line.empty(3);
   }
-  line.field(run.cut_off);
-  line.field("");
+  line.fields(run.cut_off, "");
   return line.end();
 }
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "apps/study/drawing.hpp"
@@ -34,58 +33,35 @@ inline constexpr std::size_t mark_count = 9;
 
 // The outline of a mark. All marks have about the area of a circle of this radius.
 [[nodiscard]] inline std::vector<glm::dvec2> mark_outline(Mark mark, const glm::dvec2& at, double radius) {
-  std::vector<glm::dvec2> points;
-  const auto ring = [&](int corners, double turn, double outer, double inner) {
-    for (int i = 0; i < corners; ++i) {
-      const double angle = turn + 2.0 * std::numbers::pi * i / corners;
-      const double r = radius * (i % 2 == 0 ? outer : inner);
-      points.push_back(at + r * glm::dvec2(std::sin(angle), -std::cos(angle)));
-    }
-  };
-  // A plus of arms as wide as they are long.
-  const auto plus = [&](double turn) {
-    constexpr double arm = 1.32;
-    constexpr double half = 0.44;
-    const double corner = std::hypot(arm, half);
-    const double skew = std::atan2(half, arm);
-    for (int i = 0; i < 4; ++i) {
-      const double a = turn + 0.5 * std::numbers::pi * i;
-      for (const auto& [angle, r] :
-           {std::pair{a - skew, corner}, std::pair{a + skew, corner}, std::pair{a + std::numbers::pi / 4.0, half * std::numbers::sqrt2}}) {
-        points.push_back(at + radius * r * glm::dvec2(std::sin(angle), -std::cos(angle)));
-      }
-    }
-  };
   constexpr double pi = std::numbers::pi;
-  switch (mark) {
-    case Mark::circle:
-      ring(20, 0.0, 1.0, 1.0);
-      break;
-    case Mark::square:
-      ring(4, pi / 4.0, 1.25, 1.25);
-      break;
-    case Mark::triangle:
-      ring(3, 0.0, 1.45, 1.45);
-      break;
-    case Mark::diamond:
-      ring(4, 0.0, 1.35, 1.35);
-      break;
-    case Mark::triangle_down:
-      ring(3, pi, 1.45, 1.45);
-      break;
-    case Mark::pentagon:
-      ring(5, 0.0, 1.18, 1.18);
-      break;
-    case Mark::cross:
-      plus(0.0);
-      break;
-    case Mark::star:
-      ring(10, 0.0, 1.65, 0.66);
-      break;
-    case Mark::saltire:
-      plus(pi / 4.0);
-      break;
+  std::vector<glm::dvec2> points;
+  const auto add = [&](double angle, double r) { points.push_back(at + radius * r * glm::dvec2(std::sin(angle), -std::cos(angle))); };
+  if (mark == Mark::cross || mark == Mark::saltire) {  // a plus of arms as wide as they are long, upright or turned
+    constexpr double arm = 1.32, half = 0.44;
+    const double corner = std::hypot(arm, half), skew = std::atan2(half, arm);
+    for (int i = 0; i < 4; ++i) {
+      const double a = (mark == Mark::saltire ? pi / 4.0 : 0.0) + 0.5 * pi * i;
+      add(a - skew, corner);
+      add(a + skew, corner);
+      add(a + pi / 4.0, half * std::numbers::sqrt2);
+    }
+    return points;
   }
+  struct Ring {  // corners, every other one at the inner radius
+    int corners = 0;
+    double turn = 0.0, outer = 1.0, inner = 1.0;
+  };
+  constexpr std::array<Ring, mark_count> rings{{{20, 0.0, 1.0, 1.0},
+                                                {4, pi / 4.0, 1.25, 1.25},
+                                                {3, 0.0, 1.45, 1.45},
+                                                {4, 0.0, 1.35, 1.35},
+                                                {3, pi, 1.45, 1.45},
+                                                {5, 0.0, 1.18, 1.18},
+                                                {},
+                                                {10, 0.0, 1.65, 0.66},
+                                                {}}};
+  const Ring& ring = rings[static_cast<std::size_t>(mark)];
+  for (int i = 0; i < ring.corners; ++i) { add(ring.turn + 2.0 * pi * i / ring.corners, i % 2 == 0 ? ring.outer : ring.inner); }
   return points;
 }
 

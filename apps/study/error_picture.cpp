@@ -15,7 +15,7 @@
 #include <radiosity/scene/material.hpp>
 
 #include "apps/color.hpp"
-#include "apps/png.hpp"
+#include "apps/picture_file.hpp"
 #include "apps/study/numbers.hpp"
 
 namespace study {

@@ -7,8 +7,8 @@
 
 #include <radiosity/support/left_out.hpp>
 
-#include "apps/study/outcome.hpp"
-#include "apps/study/tables.hpp"
+#include "apps/study/folder.hpp"
+#include "apps/study/verdicts.hpp"
 
 namespace study {
 namespace {

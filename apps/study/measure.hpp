@@ -5,7 +5,6 @@
 // seconds of all threads, without audits (unless the method needs them) and without what only the study wants to know.
 
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "apps/study/methods.hpp"

@@ -3,11 +3,9 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
-#include <radiosity/radiosity.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/run/uniform.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/study/page.hpp"
+#include "apps/study/folder.hpp"
 
 #include <algorithm>
 
@@ -7,13 +7,12 @@
 
 #include "apps/bytes.hpp"
 #include "apps/html_document.hpp"
-#include "apps/markup.hpp"
-#include "apps/png.hpp"
+#include "apps/picture_file.hpp"
 #include "apps/study/error_picture.hpp"
-#include "apps/study/figures.hpp"
-#include "apps/study/outcome.hpp"
+#include "apps/study/plot.hpp"
 #include "apps/study/svg.hpp"
-#include "apps/study/table.hpp"
+#include "apps/study/tables.hpp"
+#include "apps/study/verdicts.hpp"
 #include "embedded/study.hpp"
 
 namespace study {

@@ -164,8 +164,6 @@ std::optional<PartNumber> parse_part(std::string_view text) {
   return good ? std::optional(PartNumber{*index, *count}) : std::nullopt;
 }
 
-std::string part_fault(const std::string& text) { return "expected I/N with I from 1 to N, such as 3/8, found '" + text + "'"; }
-
 std::string part_file(const PartNumber& number) {
   return "part-" + std::to_string(number.index) + "-of-" + std::to_string(number.count) + ".study";
 }

@@ -23,7 +23,6 @@ struct PartNumber {
 };
 // "3/8".
 [[nodiscard]] std::optional<PartNumber> parse_part(std::string_view text);
-[[nodiscard]] std::string part_fault(const std::string& text);
 
 struct Part {
   PartNumber number;

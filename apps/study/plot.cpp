@@ -9,7 +9,6 @@
 
 #include "apps/study/log_axis.hpp"
 #include "apps/study/numbers.hpp"
-#include "apps/study/pareto.hpp"
 #include "apps/study/svg.hpp"
 
 namespace study {

@@ -5,14 +5,15 @@
 //
 // Points that are limited by the reference's noise are hollow and stand on the line of that noise: the error is at most that. The Pareto
 // front of all methods lies as a grey staircase behind the curves: no run is left of it or below. The legend gives each method's
-// fitted slope (slope.hpp).
+// fitted slope (cost_points.hpp).
 
 #include <string>
 #include <vector>
 
+#include "apps/study/cost_points.hpp"
 #include "apps/study/curve_style.hpp"
 #include "apps/study/drawing.hpp"
-#include "apps/study/slope.hpp"
+#include "apps/study/results.hpp"
 
 namespace study {
 
@@ -53,5 +54,15 @@ struct Panel {
 
 // One small plot a panel on the same axes, three in a row; the legend below names the curves of the first panel.
 [[nodiscard]] Drawing panels(const PlotText& text, const std::vector<Panel>& panels, double noise);
+
+// The plots of a study: which curves, of which errors, against which cost.
+struct Figure {
+  std::string name;     // for the file
+  std::string caption;  // one or two sentences
+  Drawing drawing;
+};
+
+// Error against CPU time, memory and links, and what the reconstructions change. A method has the same colour and mark in all scenes.
+[[nodiscard]] std::vector<Figure> figures(const Study& study, const SceneStudy& scene);
 
 }  // namespace study

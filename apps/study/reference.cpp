@@ -13,13 +13,9 @@
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/polygons.hpp>
 #include <radiosity/hierarchy/surface.hpp>
-#include <radiosity/scene/material.hpp>
-#include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
-#include <radiosity/visibility/plan.hpp>
 #include <radiosity/visibility/prepare.hpp>
 #include <radiosity/visibility/visibility.hpp>
 

@@ -20,7 +20,6 @@
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
-#include <radiosity/visibility/plan.hpp>
 
 #include "apps/study/results.hpp"
 

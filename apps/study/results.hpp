@@ -14,7 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/result/error_estimate.hpp>
-#include <radiosity/visibility/plan.hpp>
+#include <radiosity/support/left_out.hpp>
 
 #include "apps/scene_file.hpp"
 

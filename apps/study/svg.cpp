@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "apps/bytes.hpp"
-#include "apps/markup.hpp"
+#include "apps/html_document.hpp"
 #include "apps/text.hpp"
 
 namespace study {

@@ -22,9 +22,8 @@
 #include <raycast/transform.hpp>
 
 #include "apps/intake/model.hpp"
+#include "apps/intake/texture.hpp"
 #include "apps/mesh_file/reading.hpp"
-#include "apps/vrml/node_types.hpp"
-#include "apps/vrml/pictures.hpp"
 #include "apps/vrml/scene_graph.hpp"
 
 namespace apps::vrml {
@@ -36,8 +35,7 @@ constexpr int sides_of_part = 32;  // of a part of a cylinder or a cone that is 
 
 class ModelMaker final : public Visitor {
  public:
-  ModelMaker(const SideFile& side_file, Errors& errors, Notes& notes)
-      : side_file_(side_file), errors_(errors), notes_(notes), pictures_(side_file, notes) {}
+  ModelMaker(const SideFile& side_file, Errors& errors, Notes& notes) : side_file_(side_file), errors_(errors), notes_(notes) {}
 
   Model model;
 
@@ -147,7 +145,7 @@ class ModelMaker final : public Visitor {
                 : state.material->name.empty() ? "material" + std::to_string(model.materials.size())
                                                : state.material->name;
     if (all > 1) { made.name += "." + std::to_string(index); }
-    const auto picture = state.texture != nullptr ? pictures_.mean(*state.texture) : std::nullopt;
+    const auto picture = picture_of(state.texture);
     made.reflectance = color("diffuseColor", glm::dvec3(0.8)) * picture.value_or(glm::dvec3(1.0));
     made.emission = std::numbers::pi * color("emissiveColor", glm::dvec3(0.0));
     made.two_sided = two_sided;
@@ -158,6 +156,9 @@ class ModelMaker final : public Visitor {
     return known->second;
   }
 
+  std::optional<radiosity::Color> picture_of(const Node* texture) {
+    return pictures_.of(texture, [&] { return texture != nullptr ? mean_of_texture(*texture, side_file_, notes_) : std::nullopt; });
+  }
   // An analytic solid; `parts`: of each of its sheets, which part of the node it is.
   template <class MadeObject>
   void add(MadeObject made, const char* kind, const std::vector<std::size_t>& parts, const Node& node, const State& state) {
@@ -313,7 +314,7 @@ class ModelMaker final : public Visitor {
   const SideFile& side_file_;
   Errors& errors_;
   Notes& notes_;
-  Pictures pictures_;
+  intake::PictureMeans<const Node*> pictures_;
   std::map<std::tuple<const Node*, const Node*, std::size_t, bool>, std::uint32_t> materials_;
   std::map<std::string, std::shared_ptr<const Node>> inlines_;
   std::unordered_map<const Node*, std::string> files_;  // of the nodes that were inlined
@@ -329,8 +330,7 @@ ModelResult read_vrml(std::string_view bytes, const SideFile& side_file) {
                                 " nodes of this file, or a way through it is longer than " + std::to_string(graph_limits.deepest));
   }
   maker.model.notes = notes.take();
-  const bool sound = errors.count() == 0;
-  return {errors.take(), sound ? std::optional(std::move(maker.model)) : std::nullopt};
+  return read_result(std::move(maker.model), errors);
 }
 
 bool begins_vrml(std::string_view bytes) { return bytes.starts_with("#VRML"); }

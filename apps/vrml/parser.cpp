@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Text to nodes. The grammar is that of a node: [DEF name] Type { fields and children }, or USE name. Blanks and commas separate.
 #include <charconv>
-#include <cmath>
 
 #include "apps/mesh_file/reading.hpp"
-#include "apps/scene_file/words.hpp"
 #include "apps/vrml/node_types.hpp"
 #include "apps/vrml/scene_graph.hpp"
+#include "apps/words.hpp"
 
 namespace apps::vrml {
 namespace {
@@ -142,7 +141,7 @@ class Parser {
     if (!tokens_.is("{")) {
       std::vector<std::string_view> known;
       for (const NodeType& type : node_types()) { known.push_back(type.name); }
-      fail("expected '{' after the node " + mesh_file::shown(node->type) + ", " + found() + scene_file::suggestion(node->type, known));
+      fail("expected '{' after the node " + mesh_file::shown(node->type) + ", " + found() + suggestion(node->type, known));
       return nullptr;
     }
     tokens_.next();
@@ -189,7 +188,7 @@ class Parser {
       } else {
         std::vector<std::string_view> known;
         for (const FieldEntry& entry : type->fields) { known.push_back(entry.name); }
-        notes_.add("a " + node.type + " has no field " + mesh_file::shown(word) + scene_file::suggestion(word, known) + ": passed over",
+        notes_.add("a " + node.type + " has no field " + mesh_file::shown(word) + suggestion(word, known) + ": passed over",
                    "at line " + std::to_string(tokens_.place().line));
         skip_value();
       }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "apps/vrml/pictures.hpp"
+// The pictures of Texture2 nodes: a file beside the scene, or pixels in the field `image`: width, height, number of components (1 grey, 2
+// grey and opacity, 3 red, green and blue, 4 these and opacity), then a number for each pixel, its first component in the highest byte. A
+// surface has the mean of its picture times its diffuse colour.
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "apps/intake/texture.hpp"
+#include "apps/vrml/scene_graph.hpp"
 
 namespace apps::vrml {
 namespace {
@@ -34,13 +37,7 @@ std::optional<radiosity::Color> mean_of_image(const std::vector<double>& numbers
 
 }  // namespace
 
-std::optional<radiosity::Color> Pictures::mean(const Node& texture) {
-  const auto [known, is_new] = means_.emplace(&texture, std::nullopt);
-  if (is_new) { known->second = read(texture); }
-  return known->second;
-}
-
-std::optional<radiosity::Color> Pictures::read(const Node& texture) {
+std::optional<radiosity::Color> mean_of_texture(const Node& texture, const SideFile& side_file, Notes& notes) {
   const Field* const image = texture.find("image");
   const std::string name(texture.word("filename", ""));
   const bool inside = image != nullptr && image->numbers.size() >= 2 && image->numbers[0] * image->numbers[1] != 0.0;
@@ -50,11 +47,10 @@ std::optional<radiosity::Color> Pictures::read(const Node& texture) {
   if (inside) {
     mean = mean_of_image(image->numbers);
   } else if (name.find("://") == name.npos) {
-    if (const auto bytes = side_file_(name, fault)) { mean = intake::mean_color(*bytes); }
+    if (const auto bytes = side_file(name, fault)) { mean = intake::mean_color(*bytes); }
   }
-  notes_.add(
-      mean ? "pictures on surfaces count with their mean colour" : "textures are not read: the diffuse colour stands for the picture",
-      "at line " + std::to_string(texture.place.line));
+  notes.add(mean ? "pictures on surfaces count with their mean colour" : "textures are not read: the diffuse colour stands for the picture",
+            "at line " + std::to_string(texture.place.line));
   return mean;
 }
 

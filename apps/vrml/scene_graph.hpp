@@ -9,7 +9,6 @@
 //
 // Whatever is to be done with a scene is a visitor: model.cpp makes polygons and objects of it.
 
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -21,9 +20,11 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <radiosity/scene/material.hpp>
+#include "apps/graph_walk.hpp"
+
 #include "apps/input_errors.hpp"
 #include "apps/intake/model.hpp"
-#include "apps/scene_graph.hpp"
 
 namespace apps::vrml {
 
@@ -55,6 +56,9 @@ inline constexpr GraphLimits graph_limits;
 
 // The nodes of the text under one root, or errors.
 [[nodiscard]] std::shared_ptr<const Node> parse(std::string_view text, Errors& errors, Notes& notes);
+
+// The mean colour that a Texture2 node gives to what follows it; nothing when it has no picture, or one that cannot be read, which is noted.
+[[nodiscard]] std::optional<radiosity::Color> mean_of_texture(const Node& texture, const SideFile& side_file, Notes& notes);
 
 // Which of the materials a part, a face or a corner has.
 enum class Binding : unsigned char { overall, per_part, per_part_indexed, per_face, per_face_indexed, per_vertex, per_vertex_indexed };

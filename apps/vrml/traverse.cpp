@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "apps/scene_graph.hpp"
+#include "apps/graph_walk.hpp"
 #include "apps/vrml/scene_graph.hpp"
 
 namespace apps::vrml {
@@ -52,7 +51,7 @@ Binding binding_of(std::string_view word) {
 
 bool is_camera(const Node& node) { return node.type.ends_with("Camera"); }
 
-// What the nodes mean to the walk (apps/scene_graph.hpp).
+// What the nodes mean to the walk (apps/graph_walk.hpp).
 class Meaning {
  public:
   explicit Meaning(Visitor& visitor) : visitor_(visitor) {}

@@ -23,7 +23,6 @@
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/support/random.hpp>
 
-#include "apps/export/depth_order.hpp"
 #include "apps/export/export_mesh.hpp"
 #include "apps/models.hpp"
 #include "apps/ply.hpp"

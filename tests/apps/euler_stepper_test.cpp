@@ -13,13 +13,12 @@
 
 #include <brep/euler_script_parse.hpp>
 
-#include "apps/euler/caption.hpp"
-#include "apps/euler/html.hpp"
-#include "apps/euler/labels.hpp"
-#include "apps/euler/line_editor.hpp"
-#include "apps/euler/solid.hpp"
+#include "apps/euler/interactive.hpp"
+#include "apps/euler/names.hpp"
+#include "apps/euler/outputs.hpp"
+#include "apps/euler/solid_view.hpp"
 #include "apps/euler/story.hpp"
-#include "apps/euler/svg.hpp"
+#include "apps/euler/wording.hpp"
 #include "browser.hpp"
 #include "program.hpp"
 

@@ -6,8 +6,7 @@
 #include <brep/euler_script_parse.hpp>
 #include <brep/euler_script_run.hpp>
 
-#include "apps/euler/html.hpp"
-#include "apps/euler/svg.hpp"
+#include "apps/euler/outputs.hpp"
 #include "catch.hpp"
 
 namespace {

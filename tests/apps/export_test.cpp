@@ -21,7 +21,6 @@
 #include <radiosity/result/mesh.hpp>
 
 #include "apps/color.hpp"
-#include "apps/export/depth_order.hpp"
 #include "apps/export/export_mesh.hpp"
 #include "apps/export/viewer.hpp"
 #include "apps/models.hpp"

@@ -16,7 +16,7 @@
 #include <radiosity/scene/scene.hpp>
 #include <raycast/scene.hpp>
 
-#include "apps/intake/inside_camera.hpp"
+#include "apps/intake/light_views.hpp"
 
 #include "models.hpp"
 

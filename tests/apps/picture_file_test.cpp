@@ -14,8 +14,7 @@
 
 #include "apps/commands/render_outputs.hpp"
 #include "apps/picture.hpp"
-#include "apps/png.hpp"
-#include "apps/radiance_file.hpp"
+#include "apps/picture_file.hpp"
 
 namespace {
 

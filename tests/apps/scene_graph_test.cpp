@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene_graph.hpp"
+#include "apps/graph_walk.hpp"
 #include "catch.hpp"
 
 namespace {

@@ -11,11 +11,9 @@
 
 #include "apps/bytes.hpp"
 #include "apps/study/error_picture.hpp"
-#include "apps/study/outcome.hpp"
-#include "apps/study/page.hpp"
-#include "apps/study/pages.hpp"
-#include "apps/study/table.hpp"
+#include "apps/study/folder.hpp"
 #include "apps/study/tables.hpp"
+#include "apps/study/verdicts.hpp"
 #include "browser.hpp"
 #include "json.hpp"
 #include "made_up_study.hpp"

@@ -6,12 +6,10 @@
 #include <random>
 #include <string>
 
-#include "apps/study/outcome.hpp"
-#include "apps/study/page.hpp"
-#include "apps/study/pages.hpp"
+#include "apps/study/folder.hpp"
 #include "apps/study/parts.hpp"
-#include "apps/study/table.hpp"
 #include "apps/study/tables.hpp"
+#include "apps/study/verdicts.hpp"
 #include "browser.hpp"
 #include "json.hpp"
 #include "made_up_study.hpp"

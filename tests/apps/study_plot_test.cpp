@@ -9,9 +9,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "apps/study/cost_points.hpp"
 #include "apps/study/log_axis.hpp"
 #include "apps/study/numbers.hpp"
-#include "apps/study/pareto.hpp"
 #include "apps/study/plot.hpp"
 #include "apps/study/svg.hpp"
 #include "markup.hpp"

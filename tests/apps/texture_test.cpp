@@ -13,7 +13,7 @@
 #include "apps/intake/texture.hpp"
 #include "apps/models.hpp"
 #include "apps/picture.hpp"
-#include "apps/png.hpp"
+#include "apps/picture_file.hpp"
 #include "catch.hpp"
 
 namespace {

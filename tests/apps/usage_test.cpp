@@ -35,6 +35,7 @@ TEST_CASE("a wrong command line is told in one sentence with the nearest known w
       {"render x.scene --seed -1", "--seed: expected a whole number from 0 to 18446744073709551615, found '-1'"},
       {"render x.scene --seed 18446744073709551616", "found '18446744073709551616'"},
       {"render x.scene --seed 1.5", "found '1.5'"},
+      {"render x.scene --memory 2X", "--memory: expected a number of bytes such as 500M or 2G, found '2X'"},
       {"render x.scene --threads 0", "--threads: expected a whole number from 1 to 1024, found '0'"},
       {"render x.scene --threads true", "found 'true'"},
       {"render x.scene --audit -5", "--audit: expected a whole number from 0 to 100000000, found '-5'"},

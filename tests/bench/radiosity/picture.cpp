@@ -27,7 +27,6 @@
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/prepare.hpp>
 
-#include "apps/audited_picture.hpp"
 #include "apps/commands/render_outputs.hpp"
 #include "apps/gather_picture.hpp"
 #include "apps/picture.hpp"

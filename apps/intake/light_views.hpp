@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What cameras see of a model's light, and a camera where the automatic one sees next to none of it: a house with lamps in its rooms.
+// What cameras see of a model's light, and a camera where the automatic one sees next to none of it: a house with lamps in
+// its rooms; and lamps for rooms that have none.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include <radiosity/scene/scene.hpp>
+#include <raycast/box.hpp>
 #include <raycast/object.hpp>
 #include <raycast/scene.hpp>
 
@@ -30,6 +33,10 @@ class LightViews {
   // there is no lamp, or no place. Does not depend on the order of the polygons of a lamp.
   [[nodiscard]] std::optional<Camera> inside() const;
 
+  // A lamp for a closed room in which nothing shines: a square close under the ceiling (z up) of the room within these bounds. It looks
+  // down, where most of the air is around and below it. Null when no place was found.
+  [[nodiscard]] std::shared_ptr<const raycast::Object> ceiling_lamp(const raycast::Box& room) const;
+
  private:
   struct LampPoint {
     std::uint32_t object = 0;
@@ -37,7 +44,7 @@ class LightViews {
   };
 
   [[nodiscard]] bool lit(std::uint32_t object, const raycast::SurfacePoint& at) const;
-  // How far it is to the first surface; 0 where that shows its back.
+  // How far it is to the first surface; 0 when that shows its back, or there is none: the point is not in the air of a room.
   [[nodiscard]] double free_way(const glm::dvec3& from, const glm::dvec3& direction) const;
   [[nodiscard]] std::optional<Camera> across_room(glm::dvec3 middle) const;
 

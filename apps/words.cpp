@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "apps/scene_file/words.hpp"
+#include "apps/words.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
-namespace apps::scene_file {
+namespace apps {
 namespace {
 
 constexpr std::size_t longest = 40;
@@ -63,4 +63,4 @@ std::string list_of(std::span<const std::string_view> words) {
   return words.size() > most ? text + ", ..." : text;
 }
 
-}  // namespace apps::scene_file
+}  // namespace apps

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Steps as SVG: one drawing for the page, and the strip of all steps for print.
+// Steps as SVG: one drawing for the page, and the strip of all steps for print; and the page.
 //
 // Edges are dark, what is new red, the arguments of the step blue. Along each edge run its two half-edges, each a half arrow on
 // its left side beside the face that it names. The background of a panel is the outer face. A dashed edge is one
@@ -33,5 +33,10 @@ namespace apps::euler {
 
 // The last frame alone, as a file.
 [[nodiscard]] std::string picture(const Story& story, const Layout& layout);
+
+// The stepper: one page that shows a script step by step; no network, no library, works from a file. It holds all drawings and all records
+// as data; its own script shows one step, marks the fields that the step changed, and moves what both pictures have. `#step=12` in the
+// address opens that step.
+[[nodiscard]] std::string page(const Story& story);
 
 }  // namespace apps::euler

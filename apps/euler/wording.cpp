@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "apps/euler/caption.hpp"
+#include "apps/euler/wording.hpp"
 
+#include <algorithm>
 #include <cstdlib>
-#include <vector>
 
+#include <brep/euler_script_words.hpp>
 #include <brep/euler_table.hpp>
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
+
+#include "apps/words.hpp"
 
 namespace apps::euler {
 namespace {
@@ -78,6 +81,35 @@ std::string walk(const Records& r, brep::Element of) {
     h = face ? r.halfedges[h].next : r.halfedges[h ^ 1U].next;
   } while (h != anchors[of.index]);
   return out + "; " + std::to_string(steps) + (face ? (steps == 1 ? " edge" : " edges") : (steps == 1 ? " edge leaves" : " edges leave"));
+}
+
+std::vector<std::string> statement_words() {
+  std::vector<std::string> words = {"undo", "redo", "raw", "expect", "refused", "set_anchor"};
+  for (const brep::OperatorForm& row : brep::operator_forms) {
+    words.emplace_back(row.name);
+    for (const std::string_view word : row.textbook) {
+      if (!word.empty()) { words.emplace_back(word); }
+    }
+  }
+  return words;
+}
+
+std::string meant(std::string_view line, const std::vector<std::string>& known) {
+  const std::size_t equals = line.find('=');
+  const std::size_t begin = line.find_first_not_of(" \t", equals == line.npos ? 0 : equals + 1);
+  if (begin == line.npos) { return {}; }
+  const std::string_view word = line.substr(begin, line.find_first_of(" \t\r(", begin) - begin);
+  if (std::find(known.begin(), known.end(), word) != known.end()) { return {}; }
+  return suggestion(word, known);
+}
+
+std::string meant_in(std::string_view script, std::uint32_t line) {
+  for (; line > 1; --line) {
+    const std::size_t end = script.find('\n');
+    if (end == script.npos) { return {}; }
+    script.remove_prefix(end + 1);
+  }
+  return meant(script.substr(0, script.find('\n')), statement_words());
 }
 
 }  // namespace apps::euler

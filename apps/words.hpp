@@ -6,8 +6,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-namespace apps::scene_file {
+namespace apps {
 
 // The known word that is fewest edits away (Damerau 1964, Levenshtein 1966), when those are at most a third of its
 // letters; else empty. Ties go to the word that is listed first. Words beyond 40 letters have no neighbour.
@@ -15,8 +16,11 @@ namespace apps::scene_file {
 
 // "; did you mean 'x'?" or nothing.
 [[nodiscard]] std::string suggestion(std::string_view word, std::span<const std::string_view> known);
+[[nodiscard]] inline std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
+  return suggestion(word, std::vector<std::string_view>(known.begin(), known.end()));
+}
 
 // "a, b or c"; long lists end with "...".
 [[nodiscard]] std::string list_of(std::span<const std::string_view> words);
 
-}  // namespace apps::scene_file
+}  // namespace apps

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "apps/study/table.hpp"
+#include "apps/study/tables.hpp"
 
 #include <algorithm>
 #include <set>
 #include <utility>
 
-#include "apps/study/outcome.hpp"
+#include "apps/study/verdicts.hpp"
 
 namespace study {
 namespace {

@@ -1,37 +1,34 @@
 // SPDX-License-Identifier: MIT
-#include "apps/intake/inside_camera.hpp"
+#include "apps/intake/light_views.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <numbers>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <radiosity/scene/material.hpp>
-#include <raycast/box.hpp>
-#include <raycast/transform.hpp>
+#include <raycast/objects/polygon.hpp>
 
-#include "apps/view.hpp"
+#include "apps/bounds.hpp"
 
 namespace apps {
 namespace {
 
-raycast::Scene placed(const radiosity::Scene& scene) {
-  std::vector<raycast::PlacedObject> objects;
-  for (const radiosity::SceneObject& object : scene.objects) { objects.emplace_back(object.shape, object.placement); }
-  return raycast::Scene(std::move(objects));
-}
+struct HangingPlace {
+  glm::dvec3 point{0.0};
+  double room = 0.0;  // to what is around and below it
+};
 
 }  // namespace
 
 // What shines less than a hundredth as bright as the brightest is no lamp: many programs give every material a little light of its own.
-LightViews::LightViews(const radiosity::Scene& scene) : objects_(placed(scene)) {
+LightViews::LightViews(const radiosity::Scene& scene) : objects_(placed_objects(scene)) {
   const std::vector<radiosity::InputSurface> surfaces = radiosity::surfaces(scene);
   const auto exitance = [&](const radiosity::InputSurface& s) { return radiosity::brightest(scene.materials[s.material].emission); };
   double most = 0.0;
@@ -143,6 +140,42 @@ std::optional<Camera> LightViews::inside() const {
   }
   for (const LampPoint& lamp : points_) { look(lamp.at.position + off * lamp.at.normal); }
   return best;
+}
+
+std::shared_ptr<const raycast::Object> LightViews::ceiling_lamp(const raycast::Box& box) const {
+  constexpr int steps = 9;  // odd: the middle of the room among others
+  std::vector<HangingPlace> places;
+  double most = 0.0;
+  for (int i = 0; i < steps * steps * steps; ++i) {
+    const glm::dvec3 share{(i % steps + 0.5) / steps, (i / steps % steps + 0.5) / steps, (i / steps / steps + 0.5) / steps};
+    const glm::dvec3 point = box.lo + share * box.size();
+    const double up = free_way(point, {0, 0, 1});
+    if (!(up > 0.0)) { continue; }
+    const glm::dvec3 under = point + glm::dvec3(0, 0, 0.95 * up);
+    if (objects_.covered(under, {0, 0, -1}, raycast::no_object)) { continue; }  // in a thing
+    double room_here = free_way(under, {0, 0, -1});
+    for (const glm::dvec3& side : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0)}) {
+      room_here = std::min(room_here, free_way(under, side));
+    }
+    most = std::max(most, room_here);
+    places.push_back({under, room_here});
+  }
+  if (!(most > 0.0)) { return nullptr; }
+  // In a corridor there is as much air all along: then the middle lights most of it.
+  constexpr double as_good = 0.9;
+  const HangingPlace* best = nullptr;
+  const auto off_middle = [&](const HangingPlace& p) { return glm::length(glm::dvec2(p.point) - glm::dvec2(box.centre())); };
+  for (const HangingPlace& p : places) {
+    if (p.room < as_good * most) { continue; }
+    const double nearer = best != nullptr ? off_middle(*best) - off_middle(p) : HUGE_VAL;
+    const double equal = 1e-9 * box.diameter();
+    if (nearer > equal || (nearer >= -equal && p.room > best->room)) { best = &p; }
+  }
+  std::vector<glm::dvec3> corners;
+  for (const glm::dvec3 corner : {glm::dvec3(-1, -1, 0), glm::dvec3(-1, 1, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, -1, 0)}) {
+    corners.push_back(best->point + 0.25 * best->room * corner);
+  }
+  return raycast::Polygon::make(std::move(corners)).object;
 }
 
 }  // namespace apps

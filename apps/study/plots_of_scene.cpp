@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "apps/study/figures.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "apps/study/outcome.hpp"
 #include "apps/study/plot.hpp"
+#include "apps/study/verdicts.hpp"
 
 namespace study {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/euler/solid.hpp"
+#include "apps/euler/solid_view.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -11,7 +11,7 @@
 
 #include <brep/handles.hpp>
 
-#include "apps/euler/svg.hpp"
+#include "apps/euler/outputs.hpp"
 #include "apps/text.hpp"
 
 namespace apps::euler {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "apps/euler/labels.hpp"
+#include "apps/euler/names.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 namespace apps::euler {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/study/pages.hpp"
+#include "apps/study/folder.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,10 +9,8 @@
 
 #include "apps/files.hpp"
 #include "apps/study/error_picture.hpp"
-#include "apps/study/figures.hpp"
-#include "apps/study/page.hpp"
+#include "apps/study/plot.hpp"
 #include "apps/study/svg.hpp"
-#include "apps/study/tables.hpp"
 
 namespace study {
 namespace {

@@ -7,15 +7,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "apps/study/cost_points.hpp"
 #include "apps/study/numbers.hpp"
-#include "apps/study/pareto.hpp"
 #include "apps/study/results.hpp"
-#include "apps/study/slope.hpp"
 
 namespace study {
 

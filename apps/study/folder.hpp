@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A study as files in a folder:
+//
+//   index.html                       everything: one page that holds all of its pictures, needs no script and no network, and can be printed
+//   results.csv results.json         all numbers; an error below the noise of its reference is given as that noise, and marked (verdicts.hpp)
+//   SCENE_cpu.svg, SCENE_memory.svg, SCENE_links.svg, SCENE_reconstruction.svg
+//   SCENE_error_METHOD.svg           false-colour error pictures
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/study/results.hpp"
+
+namespace study {
+
+// What write_pages() writes, without the folder. No two are the same.
+[[nodiscard]] std::vector<std::string> page_files(const Study& study);
+
+// Writes them all, the folder too where there is none. A sentence when something could not be written; what was written before stays.
+[[nodiscard]] std::optional<std::string> write_pages(const Study& study, const std::string& folder);
+
+[[nodiscard]] std::string page(const Study& study);
+
+// A field of CSV (RFC 4180): quoted where it holds a comma, a quote or a line end.
+[[nodiscard]] std::string csv_field(std::string_view text);
+
+// One line a run and reconstruction (none, simple, weighted), after one line of names. What was not measured is empty; a run without
+// result has its reason in `refused`. `below_noise` names the columns whose value is only an upper bound, apart by spaces.
+[[nodiscard]] std::string to_csv(const Study& study);
+
+// The same, nested, and what was derived from it: Pareto fronts and slopes. Its keys are described in examples/scenes/README.md.
+[[nodiscard]] std::string to_json(const Study& study);
+
+}  // namespace study
