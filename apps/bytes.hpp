@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -25,6 +26,15 @@ void put(std::string& out, Number value) {
 template <glm::length_t n, class Number>
 void put(std::string& out, const glm::vec<n, Number>& vector) {
   for (glm::length_t k = 0; k < n; ++k) { put(out, vector[k]); }
+}
+
+// The bits of a number of `size` bytes that begins there; the caller has looked whether they are there.
+[[nodiscard]] inline std::uint64_t bits_at(std::string_view bytes, std::size_t at, std::size_t size, bool big_endian = false) {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    bits |= std::uint64_t{static_cast<unsigned char>(bytes[at + i])} << 8 * (big_endian ? size - 1 - i : i);
+  }
+  return bits;
 }
 
 // RFC 4648.

@@ -9,6 +9,7 @@
 #include <brep/euler_script.hpp>
 #include <brep/euler_table.hpp>
 
+#include "apps/bytes.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/scene_file/grammar.hpp"
 #include "apps/utf8.hpp"
@@ -90,8 +91,7 @@ bool begins_scene(std::string_view word, bool first) {
 
 bool is_binary_stl(std::string_view bytes) {
   if (bytes.size() < 84) { return false; }
-  std::uint64_t triangles = 0;
-  for (std::size_t i = 4; i-- > 0;) { triangles = triangles << 8U | static_cast<unsigned char>(bytes[80 + i]); }
+  const std::uint64_t triangles = bits_at(bytes, 80, 4);
   return triangles > 0 && bytes.size() == 84 + 50 * triangles;
 }
 

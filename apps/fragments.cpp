@@ -105,7 +105,7 @@ void add_lamp(radiosity::LitRegion& region, std::size_t k, std::span<const std::
   const bool narrow = is_narrow(region.lamp(k), point(own[0]).position);
   if (narrow && same()) {
     constexpr std::uint32_t last = block_side - 1;
-    for (const std::uint32_t w : {1u, 3u, 4u, 6u}) {  // the border, but for what has been asked
+    for (const std::uint32_t w : {1u, 3u, 4u, 6u}) {  // the border, except for what has been asked
       for (const std::uint32_t i : {fragment[w][0], fragment[w][last], fragment[0][w], fragment[last][w]}) {
         const double v = visible(i);
         least = std::min(least, v);

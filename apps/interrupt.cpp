@@ -39,7 +39,7 @@ extern "C" void on_signal(int number) {
 }  // namespace
 
 void guard_process() {
-  // A file that is opened must not become a standard stream that was closed. What reads nor writes fails, as before.
+  // Standard streams that were closed are opened on /dev/null, so that no other file takes their numbers. Writing to them fails, as before.
   while (true) {
     const int file = ::open("/dev/null", O_RDONLY);
     if (file < 0 || file > STDERR_FILENO) {

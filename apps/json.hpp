@@ -59,7 +59,7 @@ class JsonWriter {
     return *this;
   }
 
-  // By its type: a truth value, a count, a number, text, what an optional holds or null, a list of any of these, or what a function writes.
+  // By its type: a truth value, a count, a number, text, what an optional holds or null, a list of any of these, a vector of three, or what a function writes.
   template <class Value>
   JsonWriter& value(const Value& value) {
     if constexpr (std::is_same_v<Value, bool>) {
@@ -72,6 +72,8 @@ class JsonWriter {
       string(value);
     } else if constexpr (std::is_invocable_v<const Value&, JsonWriter&>) {
       value(*this);
+    } else if constexpr (requires { value.x + value.y + value.z; }) {
+      this->value(std::array{static_cast<double>(value.x), static_cast<double>(value.y), static_cast<double>(value.z)});
     } else if constexpr (requires { value.has_value(); }) {
       value.has_value() ? this->value(*value) : null();
     } else {

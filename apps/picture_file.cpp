@@ -18,7 +18,7 @@
 namespace apps {
 namespace {
 
-// A threshold between 0 and 1 for the pixel. It keeps off both ends, so that values that are a level, but for rounding, stay that level.
+// A threshold between 0 and 1 for the pixel. It keeps off both ends, so that values that are a level, up to rounding, stay that level.
 double threshold(std::uint32_t x, std::uint32_t y) {
   const auto fraction = [](double value) { return value - std::floor(value); };
   return 0.001 + 0.998 * fraction(52.9829189 * fraction(0.06711056 * x + 0.00583715 * y));

@@ -158,8 +158,7 @@ void add_lists(Facts& facts, const Report& report) {
     json.object("what", item.what, "why", item.why, "saved", item.saved, "seconds", item.seconds);
   });
   add_list(facts, "surfaces", audit.surfaces, [](JsonWriter& json, const radiosity::SurfaceMean& surface) {
-    const radiosity::Color& c = surface.radiosity;
-    json.object("name", surface.name, "area", surface.area, "radiosity", std::array{c.x, c.y, c.z});
+    json.object("name", surface.name, "area", surface.area, "radiosity", surface.radiosity);
   });
   add_list(facts, "files", report.files, sentence);
 }

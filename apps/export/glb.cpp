@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include <brep/ears.hpp>
+#include <raycast/box.hpp>
 
 #include "apps/bytes.hpp"
 #include "apps/color.hpp"
@@ -25,14 +26,11 @@ class Writer {
   // `coordinates`: of each vertex in the texture of the mesh; empty when it has none.
   Writer(const ExportMesh& mesh, const std::vector<glm::vec2>& coordinates, const Tone& tone)
       : mesh_(mesh), coordinates_(coordinates), tone_(tone) {
-    glm::dvec3 lo(0.0), hi(0.0);
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      const glm::dvec3& p = mesh.vertices[v].position;
-      lo = v == 0 ? p : glm::min(lo, p);
-      hi = v == 0 ? p : glm::max(hi, p);
-    }
-    centre_ = 0.5 * lo + 0.5 * hi;
-    if (hi != lo) { size_ = glm::length(hi - lo); }
+    raycast::Box box;
+    for (const ExportVertex& vertex : mesh.vertices) { box.extend(vertex.position); }
+    if (mesh.vertices.empty()) { return; }
+    centre_ = box.centre();
+    if (box.hi != box.lo) { size_ = box.diameter(); }
   }
 
   std::string file() {
@@ -113,16 +111,11 @@ class Writer {
           lo = glm::min(lo, glm::vec3(mesh_.vertices[v].position - centre_));
           hi = glm::max(hi, glm::vec3(mesh_.vertices[v].position - centre_));
         }
-        json.fields("min", numbers(lo), "max", numbers(hi));
+        json.fields("min", lo, "max", hi);
       }
       json.close();
     }
     json.object("bufferView", 4, "byteOffset", 4 * part.first_index, "componentType", 5125, "count", part.indices, "type", "SCALAR");
-  }
-
-  template <class Vector>
-  static std::array<double, 3> numbers(const Vector& v) {
-    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
   }
 
   // Looks along its -z, with its y up.
@@ -145,9 +138,7 @@ class Writer {
       json.close();
     }
     json.close();
-    for (std::size_t i = 0; i < parts; ++i) {
-      json.object("name", mesh_.groups[parts_[i].group].name, "mesh", i, "translation", numbers(centre_));
-    }
+    for (std::size_t i = 0; i < parts; ++i) { json.object("name", mesh_.groups[parts_[i].group].name, "mesh", i, "translation", centre_); }
     for (std::size_t i = 0; i < cameras; ++i) {
       json.object("name", mesh_.cameras[i].name, "camera", i, "matrix", camera_matrix(mesh_.cameras[i]));
     }

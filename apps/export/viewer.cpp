@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdint>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/result/mesh.hpp>
+#include <raycast/box.hpp>
 
 #include "apps/bytes.hpp"
 #include "apps/export/export_mesh.hpp"
@@ -31,20 +31,15 @@ struct Arrays {
   std::string parent;                // 32 bits a node: its parent, or its own number on an input face
 };
 
-std::array<double, 3> numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
 }  // namespace
 
 std::string viewer_page(const SceneFile& file, const radiosity::Solution& solution, const Camera& camera, double exposure,
                         const std::string& title, const std::string& sentence) {
   const radiosity::Mesh& mesh = solution.shown();
-  glm::dvec3 lo(0.0), hi(0.0);
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    lo = i == 0 ? mesh.positions[i] : glm::min(lo, mesh.positions[i]);
-    hi = i == 0 ? mesh.positions[i] : glm::max(hi, mesh.positions[i]);
-  }
-  const glm::dvec3 centre = 0.5 * lo + 0.5 * hi;
-  const double size = std::max(glm::length(hi - lo), 1e-300);
+  raycast::Box box;
+  for (const glm::dvec3& p : mesh.positions) { box.extend(p); }
+  const glm::dvec3 centre = box.empty() ? glm::dvec3(0.0) : box.centre();
+  const double size = std::max(box.diameter(), 1e-300);
 
   Arrays arrays;
   for (const glm::dvec3& p : mesh.positions) {
@@ -73,8 +68,8 @@ std::string viewer_page(const SceneFile& file, const radiosity::Solution& soluti
   json.key("cameras").open_array();
   const auto add = [&](const Camera& c) {
     const PictureSize picture = c.size.value_or(PictureSize{});
-    json.object("name", c.name, "eye", numbers((c.eye - centre) / size), "forward", numbers(glm::normalize(c.forward)), "up",
-                numbers(glm::normalize(c.up)), "fov", c.field_of_view, "aspect", static_cast<double>(picture.width) / picture.height);
+    json.object("name", c.name, "eye", (c.eye - centre) / size, "forward", glm::normalize(c.forward), "up", glm::normalize(c.up), "fov",
+                c.field_of_view, "aspect", static_cast<double>(picture.width) / picture.height);
   };
   add(camera);
   for (const Camera& c : file.cameras) {

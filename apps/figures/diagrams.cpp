@@ -8,8 +8,6 @@
 #include <brep/circulators.hpp>
 
 #include <radiosity/picture/reconstruct.hpp>
-#include <radiosity/run/run.hpp>
-#include <radiosity/run/stages.hpp>
 
 #include "apps/explain/recording.hpp"
 #include "apps/figures/figures.hpp"
@@ -150,10 +148,7 @@ Drawing weights_at_a_rim(const std::string& scene) {
   options.audit_points = 0;
   options.threads = 1;
   radiosity::detail::Run run{file.scene, options, {}, {}};
-  for (const auto next : {radiosity::stage::build, radiosity::stage::refine, radiosity::stage::expose, radiosity::stage::link,
-                          radiosity::stage::solve, radiosity::stage::reconstruct}) {
-    if (next(run)) { return {}; }
-  }
+  if (!solve(run)) { return {}; }
   // The rim's vertex nearest to the eye; the half-edges that leave it, one a face.
   const radiosity::SurfaceBRep& brep = run.scene.surfaces[0].brep;
   const auto nearness = [&](brep::VertexId v) {

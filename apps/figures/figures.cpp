@@ -4,7 +4,6 @@
 #include <brep/euler_script_parse.hpp>
 
 #include <radiosity/radiosity.hpp>
-#include <radiosity/run/run.hpp>
 #include <radiosity/run/stages.hpp>
 
 #include "apps/euler/outputs.hpp"
@@ -74,6 +73,14 @@ std::string pictures(const std::vector<std::string>& pngs, unsigned width, unsig
 
 }  // namespace
 
+bool solve(radiosity::detail::Run& run) {
+  for (const auto next : {radiosity::stage::build, radiosity::stage::refine, radiosity::stage::expose, radiosity::stage::link,
+                          radiosity::stage::solve, radiosity::stage::reconstruct}) {
+    if (next(run)) { return false; }
+  }
+  return true;
+}
+
 Pictures both_reconstructions(const std::string& scene, unsigned width, unsigned height, double epsilon) {
   const SceneFile file = std::move(*parse_scene(scene).file);
   radiosity::Options options;
@@ -82,10 +89,7 @@ Pictures both_reconstructions(const std::string& scene, unsigned width, unsigned
   options.audit_points = 0;
   options.threads = 1;
   radiosity::detail::Run run{file.scene, options, {}, {}};
-  for (const auto next : {radiosity::stage::build, radiosity::stage::refine, radiosity::stage::expose, radiosity::stage::link,
-                          radiosity::stage::solve, radiosity::stage::reconstruct}) {
-    if (next(run)) { return {}; }
-  }
+  if (!solve(run)) { return {}; }
   radiosity::Mesh weighted = run.picture(run.solution.radiosity, radiosity::Reconstruction::weighted);
   radiosity::Mesh simple = run.picture(run.solution.radiosity, radiosity::Reconstruction::simple);
   radiosity::detail::to_scene(weighted, run.scene.frame);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <radiosity/run/run.hpp>
+
 #include "apps/study/drawing.hpp"
 
 namespace apps::figures {
@@ -21,6 +23,9 @@ struct Figure {
 [[nodiscard]] std::vector<Figure> make();
 
 [[nodiscard]] std::string page(const std::vector<Figure>& figures);
+
+// Solves up to the reconstruction; false when there is no solution.
+[[nodiscard]] bool solve(radiosity::detail::Run& run);
 
 // --- one each; the others are drawn by the stepper
 [[nodiscard]] study::Drawing hierarchy_over_faces(const std::string& scene);  // figure 3

@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "apps/bytes.hpp"
 #include "apps/intake/gltf_data.hpp"
 #include "apps/intake/json_reader.hpp"
 #include "apps/intake/model.hpp"
@@ -243,12 +244,6 @@ ModelResult read_gltf(std::string_view bytes, const SideFile& side_file) {
   return GltfReader(bytes, std::nullopt, std::nullopt, side_file).run();
 }
 
-std::uint32_t word_at(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 4; i-- > 0;) { value = value << 8U | static_cast<unsigned char>(bytes[at + i]); }
-  return value;
-}
-
 // A header of twelve bytes, then chunks: the text first, the bytes second.
 ModelResult read_glb(std::string_view bytes, const SideFile& side_file) {
   const auto refuse = [](std::size_t at, const std::string& sentence) {
@@ -256,20 +251,21 @@ ModelResult read_glb(std::string_view bytes, const SideFile& side_file) {
     errors.add({0, static_cast<std::uint32_t>(at + 1)}, sentence);
     return ModelResult{errors.take(), std::nullopt};
   };
+  const auto word_at = [&](std::size_t at) { return bits_at(bytes, at, 4); };
   constexpr std::uint32_t json = 0x4e4f534a, bin = 0x004e4942;
   if (!bytes.starts_with("glTF")) { return refuse(0, "expected a binary glTF file, which begins with the letters glTF"); }
   if (bytes.size() < 20) { return refuse(bytes.size(), "the file ends within its header"); }
-  if (word_at(bytes, 4) != 2) { return refuse(4, "expected version 2 of glTF, found version " + std::to_string(word_at(bytes, 4))); }
-  const std::size_t length = word_at(bytes, 12);
-  if (word_at(bytes, 16) != json) { return refuse(16, "expected the text (JSON) as the first chunk"); }
+  if (word_at(4) != 2) { return refuse(4, "expected version 2 of glTF, found version " + std::to_string(word_at(4))); }
+  const std::size_t length = word_at(12);
+  if (word_at(16) != json) { return refuse(16, "expected the text (JSON) as the first chunk"); }
   if (length > bytes.size() - 20) { return refuse(12, "the file ends within its text; it has " + std::to_string(bytes.size()) + " bytes"); }
   std::optional<std::string_view> binary;
   const std::size_t next = 20 + (length + 3) / 4 * 4;
-  if (next + 8 <= bytes.size() && word_at(bytes, next + 4) == bin) {
-    if (word_at(bytes, next) > bytes.size() - next - 8) {
+  if (next + 8 <= bytes.size() && word_at(next + 4) == bin) {
+    if (word_at(next) > bytes.size() - next - 8) {
       return refuse(next, "the file ends within its binary chunk; it has " + std::to_string(bytes.size()) + " bytes");
     }
-    binary = bytes.substr(next + 8, word_at(bytes, next));
+    binary = bytes.substr(next + 8, word_at(next));
   }
   return GltfReader(bytes.substr(20, length), binary, 20, side_file).run();
 }

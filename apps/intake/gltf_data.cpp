@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "apps/bytes.hpp"
+
 namespace apps::intake {
 namespace {
 
@@ -48,9 +50,8 @@ std::optional<ComponentType> component_type(const JsonValue& value) {
   return value.number() >= 5120.0 && i < types.size() && types[i].size > 0 ? std::optional(types[i]) : std::nullopt;
 }
 
-double number_at(const char* bytes, const ComponentType& type, bool normalized) {
-  std::uint32_t bits = 0;
-  for (std::size_t i = type.size; i-- > 0;) { bits = bits << 8U | static_cast<unsigned char>(bytes[i]); }
+double number_at(std::string_view bytes, std::size_t at, const ComponentType& type, bool normalized) {
+  const auto bits = static_cast<std::uint32_t>(bits_at(bytes, at, type.size));
   if (type.is_float) { return static_cast<double>(std::bit_cast<float>(bits)); }
   const unsigned width = static_cast<unsigned>(8 * type.size);
   double value = bits;
@@ -144,8 +145,8 @@ bool GltfData::elements(const Elements& at, std::vector<double>& out, std::strin
   }
   out.reserve(at.count * at.components);
   for (std::size_t i = 0; i < at.count; ++i) {
-    const char* const number = bytes->data() + begin + first + i * stride;
-    for (std::size_t k = 0; k < at.components; ++k) { out.push_back(number_at(number + k * type->size, *type, at.normalized)); }
+    const std::size_t number = begin + first + i * stride;
+    for (std::size_t k = 0; k < at.components; ++k) { out.push_back(number_at(*bytes, number + k * type->size, *type, at.normalized)); }
   }
   return true;
 }

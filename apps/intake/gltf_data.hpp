@@ -2,7 +2,7 @@
 #pragma once
 
 // The numbers of a glTF file: buffers (the binary chunk of a GLB, data in the text itself, files beside it) and the accessors that say what
-// stands where in them. Whatever reaches beyond a buffer is an error; nothing is made larger than the bytes that are there, but for
+// stands where in them. Whatever reaches beyond a buffer is an error; nothing is made larger than the bytes that are there, except for
 // accessors without any, which are zeros. A sparse accessor is one with some of its elements substituted.
 
 #include <array>

@@ -252,13 +252,8 @@ class PlyReader {
 
   // The next value; the caller has looked whether it is there. Every type fits into a double.
   double value(Type type) {
-    std::uint64_t bits = 0;
-    const std::size_t size = size_of(type);
-    for (std::size_t i = 0; i < size; ++i) {
-      const auto byte = std::uint64_t{static_cast<unsigned char>(bytes_[at_ + i])};
-      bits |= byte << 8 * (big_ ? size - 1 - i : i);
-    }
-    at_ += size;
+    const std::uint64_t bits = bits_at(bytes_, at_, size_of(type), big_);
+    at_ += size_of(type);
     switch (type) {
       case Type::int8:
         return static_cast<std::int8_t>(bits);

@@ -9,7 +9,7 @@
 
 namespace apps::scene_file {
 
-// The scene of the statements. Its worth is nothing when errors were added.
+// The scene of the statements. Not to be used when errors were added.
 [[nodiscard]] SceneFile build(const SceneSyntax& syntax, const SideFile& side_file, Errors& errors);
 
 // (csg.cpp) A union, intersection or difference, and the shapes of its leaves in the order of the file, whose sheets are its sheets.

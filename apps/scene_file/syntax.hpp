@@ -73,7 +73,7 @@ struct ObjectSyntax {
   std::optional<Place> inside;
   std::optional<Name> file;        // of a mesh that another file holds
   std::optional<Place> two_sided;  // of such a mesh: what encloses nothing reflects on both sides
-  std::vector<Given> given;        // the clauses of its own kind, as the table of the grammar names them, but for vertices and faces
+  std::vector<Given> given;        // the clauses of its own kind, as the table of the grammar names them, except for vertices and faces
   std::vector<PlacedVertex> vertices;
   std::vector<std::uint32_t> corners;
   std::vector<FaceSyntax> faces;

@@ -83,11 +83,8 @@ constexpr Case cases_of_boundary[] = {
        const Scene flush = room_with_box();
        Scene hung = flush;
        hung.objects[2] = square("lamp", {0.5, 0.5, 0.999}, 0.15, false, 1);
-       Options finer = coarse();
-       finer.epsilon = 0.02;
-       finer.min_area = 1e-4;
-       const Solution a = findings.solve(flush, finer);
-       const Solution b = findings.solve(hung, finer);
+       const Solution a = findings.solve(flush, finer());
+       const Solution b = findings.solve(hung, finer());
        double off = 0.0;
        for (const char* name : {"room.z0", "room.x0", "box.z1"}) { off = std::max(off, relative(mean(b, name), mean(a, name))); }
        findings.at_most("lamp 1e-3 below the ceiling against in it, relative", off, 0.02);

@@ -34,6 +34,14 @@ inline Options coarse() {
   return options;
 }
 
+// For what does depend on it.
+inline Options finer() {
+  Options options = coarse();
+  options.epsilon = 0.02;
+  options.min_area = 1e-4;
+  return options;
+}
+
 // Mean radiosity of a named surface; NaN, which keeps no bound, when there is none.
 inline Color mean_color(const Solution& solution, std::string_view surface) {
   for (const radiosity::SurfaceMean& s : solution.audit.surfaces) {
@@ -42,6 +50,13 @@ inline Color mean_color(const Solution& solution, std::string_view surface) {
   return Color{std::numeric_limits<double>::quiet_NaN()};
 }
 inline double mean(const Solution& solution, std::string_view surface) { return mean_color(solution, surface).x; }
+
+// The exposed area of a named surface; 0 when there is none.
+inline double area(const Solution& solution, std::string_view surface) {
+  const auto& all = solution.audit.surfaces;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const radiosity::SurfaceMean& s) { return s.name == surface; });
+  return found == all.end() ? 0.0 : found->area;
+}
 
 inline double relative(double value, double reference) { return std::abs(value / reference - 1.0); }
 

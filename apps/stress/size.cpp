@@ -125,9 +125,8 @@ constexpr Case cases_of_size[] = {
        scene.objects.push_back(object("ring", raycast::Torus::make({0.5, 0.5, 0.5}, {0, 0.6, 0.8}, 1e-4, 1e-6).object));
        const Solution solution = findings.solve(scene, coarse());
        findings.at_most("minor radius 1e-6, major 1e-4, in a furnace: |B - 1|", worst(solution, 1.0), 1e-3);
-       double area = 0.0;
-       for (const radiosity::SurfaceMean& s : solution.audit.surfaces) { area = s.name == "ring" ? s.area : area; }
-       findings.at_most("area of the ring, relative", relative(area, 4.0 * std::numbers::pi * std::numbers::pi * 1e-4 * 1e-6), 0.1);
+       findings.at_most("area of the ring, relative",
+                        relative(area(solution, "ring"), 4.0 * std::numbers::pi * std::numbers::pi * 1e-4 * 1e-6), 0.1);
      }},
     {"superquadric", "superquadrics of exponents .05 and 10", "crossings are bracketed between the coordinate planes, not searched",
      [](Findings& findings) {
@@ -135,9 +134,7 @@ constexpr Case cases_of_size[] = {
        scene.objects.push_back(object("square", raycast::Superquadric::make({0.3, 0.3, 0.3}, {0.15, 0.15, 0.15}, 0.05, 0.05).object));
        const Solution boxy = findings.solve(scene, coarse());
        findings.at_most("exponents .05 in a furnace: |B - 1|", worst(boxy, 1.0), 1e-3);
-       double area = 0.0;
-       for (const radiosity::SurfaceMean& s : boxy.audit.surfaces) { area = s.name == "square" ? s.area : area; }
-       findings.at_most("exponents .05: area against the cube's, relative", relative(area, 6.0 * 0.09), 0.1);
+       findings.at_most("exponents .05: area against the cube's, relative", relative(area(boxy, "square"), 6.0 * 0.09), 0.1);
        scene.objects.back() = object("needles", raycast::Superquadric::make({0.5, 0.5, 0.5}, {0.3, 0.3, 0.3}, 10.0, 10.0).object);
        findings.at_most("exponents 10 in a furnace: |B - 1|", worst(findings.solve(scene, coarse()), 1.0), 1e-3);
      }},

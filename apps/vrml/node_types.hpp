@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace apps::vrml {
 
@@ -23,7 +24,7 @@ struct FieldEntry {
 
 struct NodeType {
   std::string_view name;
-  std::span<const FieldEntry> fields;
+  std::vector<FieldEntry> fields;
   bool group = false;  // may have children
 };
 
