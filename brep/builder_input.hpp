@@ -92,7 +92,7 @@ enum class DefectKind : std::uint8_t {
   duplicate_face,    // a face was entered twice: the same corners in the same order
   nonmanifold_edge,  // more than two faces meet at an edge
   doubled_edge,      // two faces run along an edge in the same direction, and no flip can help: the surface is one-sided
-  flipped_face,      // a face or a patch of faces runs against the rest of its component
+  flipped_face,      // a face or a group of faces runs against the rest of its component
   open_border,       // edges with a face on one side only: one defect for each chain of them
   several_fans,      // the faces around a vertex form more than one fan
   unused_vertex      // no face has the vertex as a corner

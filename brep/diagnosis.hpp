@@ -161,7 +161,7 @@ class Diagnosis {
       const auto all = uses.of(e);
       const std::uint32_t u = all[0].from(), w = all[0].to(), f = uses.face(all[0].corner);
       const auto ends = [&] { return to_string(VertexId{u}) + " to " + to_string(VertexId{w}); };
-      if (all.size() == 2 && all[0].forward == all[1].forward && orientation.one_sided[orientation.patch[f]]) {
+      if (all.size() == 2 && all[0].forward == all[1].forward && orientation.one_sided[orientation.part[f]]) {
         const FaceId g{uses.face(all[1].corner)};
         add(DefectKind::doubled_edge, {VertexId{u}, VertexId{w}, FaceId{f}, g},
             "the edge from " + ends() + " is used in this direction by two faces, " + to_string(FaceId{f}) + " and " + to_string(g) +
@@ -181,7 +181,7 @@ class Diagnosis {
     UnionFind groups(builder_.face_count());
     std::vector<std::uint32_t> sizes(orientation.one_sided.size(), 0);
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
-      if (orientation.patch[f] != invalid_index) { ++sizes[orientation.patch[f]]; }
+      if (orientation.part[f] != invalid_index) { ++sizes[orientation.part[f]]; }
     }
     for (std::uint32_t e = 0; e < uses.edge_count(); ++e) {
       const auto all = uses.of(e);
@@ -195,7 +195,7 @@ class Diagnosis {
     }
     for (std::uint32_t f = 0; f < builder_.face_count(); ++f) {
       if (members[f].empty()) { continue; }
-      const std::size_t others = sizes[orientation.patch[f]] - members[f].size();
+      const std::size_t others = sizes[orientation.part[f]] - members[f].size();
       std::string sentence = members[f].size() == 1
                                  ? to_string(FaceId{f}) + " is flipped: it runs along its edges the same way as the neighbouring faces"
                                  : std::to_string(members[f].size()) + " faces are flipped against the " + std::to_string(others) +

@@ -103,7 +103,7 @@ class EarClipper {
 
 // Corners of the triangles, as indices into `polygon`, which has at least 3 corners; n - 2 of them, some perhaps without area. O(n^2)
 // as a rule.
-// When all of them turn as the polygon does, they cover each of its points once; a simple planar polygon is cut so, but for rounding.
+// When all of them turn as the polygon does, they cover each of its points once; a simple planar polygon is cut so, except for rounding.
 [[nodiscard]] inline std::vector<std::array<std::uint32_t, 3>> ears(std::span<const glm::dvec3> polygon) {
   return detail::EarClipper(polygon).run();
 }

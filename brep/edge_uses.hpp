@@ -102,22 +102,22 @@ class EdgeUses {
 // Which faces must be flipped so that neighbours agree, and where that is impossible.
 //
 // Two faces agree when they run along their common edge in opposite directions. Over the edges with exactly two faces the
-// agreement is carried from face to face; so the faces fall into patches, and in each patch every face runs with the first one or
-// against it. The minority is flipped, in a tie those who run against the first face. A patch where two ways around lead to
+// agreement is carried from face to face; so the faces fall into parts, and in each part every face runs with the first one or
+// against it. The minority is flipped, in a tie those who run against the first face. A part where two ways around lead to
 // different answers has only one side, as a Moebius strip has; nothing in it is flipped.
 struct FlipPlan {
-  std::vector<std::uint32_t> patch;  // of each face; invalid_index for skipped faces
-  std::vector<bool> flip;            // of each face
-  std::vector<bool> one_sided;       // of each patch
+  std::vector<std::uint32_t> part;  // of each face; invalid_index for skipped faces
+  std::vector<bool> flip;           // of each face
+  std::vector<bool> one_sided;      // of each part
 
   FlipPlan(const Builder& builder, const EdgeUses& uses, const std::vector<bool>& skip)
-      : patch(builder.face_count(), invalid_index), flip(builder.face_count(), false) {
+      : part(builder.face_count(), invalid_index), flip(builder.face_count(), false) {
     std::vector<std::uint32_t> members;
     for (std::uint32_t seed = 0; seed < builder.face_count(); ++seed) {
-      if (skip[seed] || patch[seed] != invalid_index) { continue; }
+      if (skip[seed] || part[seed] != invalid_index) { continue; }
       const auto id = static_cast<std::uint32_t>(one_sided.size());
       one_sided.push_back(false);
-      patch[seed] = id;
+      part[seed] = id;
       members.assign(1, seed);
       std::size_t against = 0;
       for (std::size_t i = 0; i < members.size(); ++i) {
@@ -128,8 +128,8 @@ struct FlipPlan {
           if (pair.size() != 2) { continue; }
           const std::uint32_t g = uses.face(pair[pair[0].corner == c ? 1 : 0].corner);
           const bool expected = flip[f] != (pair[0].forward == pair[1].forward);
-          if (patch[g] == invalid_index) {
-            patch[g] = id;
+          if (part[g] == invalid_index) {
+            part[g] = id;
             flip[g] = expected;
             members.push_back(g);
           } else if (flip[g] != expected) {
@@ -147,7 +147,7 @@ struct FlipPlan {
 //
 // A border runs as its faces do, after the flips of a FlipPlan. Where several borders touch in a vertex they are told apart so that
 // no chain visits a vertex twice. On an oriented surface every chain is closed; a chain that is not ends at an edge where
-// more than two faces meet, or on a one-sided patch.
+// more than two faces meet, or on a one-sided part.
 struct Border {
   struct Edge {
     std::uint32_t from, to, corner;

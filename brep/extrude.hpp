@@ -47,7 +47,7 @@ concept Placed = requires(typename B::vertex_type& data) {
 //      |       |         | | f | |
 //      |       |         | *---* |       place(brep, new vertex, old vertex) is called for each corner, in the order of the
 //      *-------*         |/     \|       loop.
-//                        *-------*       Returns the cap; that is f, but for a one-edge face it is the new face.
+//                        *-------*       Returns the cap: f, or of a one-edge face the new face.
 //
 // Refused (nothing changes): f is dead; no handle is left.
 // Inverse: join_faces for the n edges of the cap, last made first, then join_vertices for the n edges of the collar.

@@ -67,7 +67,7 @@ class Outline {
     return true;
   }
 
-  // Do two edges touch that are not neighbours, but for bridges and coinciding corners around a hole, or does the outline turn back on
+  // Do two edges touch that are not neighbours, except for bridges and coinciding corners around a hole, or does the outline turn back on
   // itself? Then one of the corners.
   // O(n log n) for reasonable outlines (sweep along x), O(n^2) at worst.
   [[nodiscard]] std::optional<std::size_t> self_contact() const {

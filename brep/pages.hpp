@@ -16,7 +16,7 @@
 namespace brep {
 
 inline constexpr unsigned page_shift = 10;       // 1024 elements a page: a million faces have a short table
-inline constexpr unsigned first_page_shift = 4;  // but for the first pages, of 16, 16, 32, ... 512: a box pays little
+inline constexpr unsigned first_page_shift = 4;  // except for the first pages, of 16, 16, 32, ... 512: a box pays little
 
 // The default: the heap. (Not std::allocator, whose namespace would take part in the lookup of every function that is called on a BRep.)
 template <class T>

@@ -118,7 +118,7 @@ class StatisticsOf {
       component_[f] = component_[root];
       Component& c = result_.components[component_[f]];
       ++c.faces;
-      if (orientation_.one_sided[orientation_.patch[f]]) { c.two_sided = false; }
+      if (orientation_.one_sided[orientation_.part[f]]) { c.two_sided = false; }
     }
   }
 

@@ -16,7 +16,7 @@ namespace raycast {
 inline constexpr std::uint32_t unknown_sheet = 0xffffffff;
 
 // Sixteen segments in the world, as the caller fills them in. Lanes that are not set take no part. Sheets of the ends save time: what a
-// segment does at an end that lies on a flat sheet is known without double precision. They change no answer but for a segment that runs
+// segment does at an end that lies on a flat sheet is known without double precision. They change no answer except for a segment that runs
 // into its owner through a reentrant edge on which its end lies.
 struct alignas(64) Segments16 {
   double ox[16] = {}, oy[16] = {}, oz[16] = {}, dx[16] = {}, dy[16] = {}, dz[16] = {};

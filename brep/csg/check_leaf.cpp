@@ -25,7 +25,7 @@
 
 namespace brep::csg::detail {
 
-// Are two faces of one boundary apart, but for common vertices and edges?
+// Are two faces of one boundary apart, except for common vertices and edges?
 class SelfContacts : public Contacts {
  public:
   using Contacts::Contacts;
@@ -49,7 +49,7 @@ class SelfContacts : public Contacts {
   }
 
  private:
-  // Does g lie on one side of the plane of f but for a vertex that both have? Common in smooth surfaces, and quickly answered.
+  // Does g lie on one side of the plane of f except for a vertex that both have? Common in smooth surfaces, and quickly answered.
   [[nodiscard]] bool at_most_a_vertex(std::uint32_t f, std::uint32_t g) const {
     const WorkFace &ff = work_.faces[f], &gg = work_.faces[g];
     std::uint32_t on = invalid_index;

@@ -36,7 +36,7 @@ namespace detail {
 
 }  // namespace detail
 
-// In the units of the leaves. Exact but for the rounding of coordinates (2^-27 spacings) and sums.
+// In the units of the leaves. Exact except for the rounding of coordinates (2^-27 spacings) and sums.
 template <class F>
 [[nodiscard]] double area(const Solid<F>& solid) {
   double sum = 0.0;

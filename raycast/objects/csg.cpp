@@ -56,7 +56,7 @@ HALFLIGHT_INLINE void Csg::approximate(double tolerance, brep::Builder& out) con
   if (flat() || tolerance >= 0.98 * tolerance_) {
     return append(polygons_, out);  // a placement knows its stretch to 0.2 %
   }
-  // What can be done with coarse chords can be done with fine ones, but for features that fall below the grid, or too many faces.
+  // What can be done with coarse chords can be done with fine ones, except for features that fall below the grid, or too many faces.
   for (; tolerance < 0.98 * tolerance_; tolerance *= 2) {
     const CsgBoundaryResult finer = csg_boundary(*tree_, region_, tolerance);
     if (finer.boundary && finer.boundary->brep.face_count() > 0) { return detail::append(finer.boundary->brep, out); }

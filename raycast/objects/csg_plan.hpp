@@ -5,7 +5,7 @@
 //
 // The chord tolerance that is asked for is meant for a part as large as the solid. A smaller leaf gets a smaller one, by powers of four, so
 // that leaves of like size keep equal chords and coincide where their surfaces do. Around a small leaf, the others are as fine as it is. A
-// leaf that is far larger than the solid is coarse, but for the surroundings of the solid; it is cut off there on a grid of its own, for
+// leaf that is far larger than the solid is coarse, except for the surroundings of the solid; it is cut off there on a grid of its own, for
 // the common grid must resolve the solid. So the effort follows the solid, not the size of what it was cut from.
 
 #include <algorithm>

@@ -4,10 +4,10 @@
 // Union, intersection and difference of solids as a tree, and where a line is inside of it: the spans of all leaves merged (Roth 1982).
 //
 // The crossings of a line with all leaves are visited in order; every crossing turns its leaf on or off, and where that turns the whole
-// tree the line crosses the surface of the result. Leaves whose surfaces coincide are crossed at parameters that differ by rounding;
-// taken one by one they would leave a film in front of a window that is cut flush with its wall. So crossings of different leaves that
-// follow each other closer than `film`, measured across both surfaces, are one crossing: what is thinner is nothing, and gaps that are
-// narrower are closed. Of several sheets that coincide the surface is that of the first leaf that bounds the result there, as in brep/csg.
+// tree the line crosses the surface of the result. Leaves whose surfaces coincide are crossed at parameters that differ by rounding; taken
+// one by one they would leave a film in front of a window that is cut flush with its wall. So crossings of different leaves that follow
+// each other closer than `film`, measured across both surfaces, count as one: layers thinner than `film` are removed, and narrower gaps are
+// filled. Of several sheets that coincide the surface is that of the first leaf that bounds the result there, as in brep/csg.
 //
 // The sheets of all leaves have one numbering, in the order of the leaves. Where a subtracted leaf bounds the result, the surface is that
 // of the leaf with its normal reversed.

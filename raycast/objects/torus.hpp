@@ -74,7 +74,7 @@ class Torus final : public Object {
           r_(r) {}
 
     [[nodiscard]] Sample operator()(double s) const;
-    // The part of the line within the ball of radius 1 + r and the slab |z| <= r. Both a few u too large.
+    // The part of the line within the sphere of radius 1 + r and the slab |z| <= r. Both a few u too large.
     [[nodiscard]] bool clip(double& lo, double& hi) const;
     [[nodiscard]] bool one_extremum() const { return !(std::abs(cubic().turn) < 1.0); }
     // lo, the extrema of the quartic in between in increasing order, hi.
