@@ -35,7 +35,7 @@ namespace detail {
   return options.reconstruction != Reconstruction::none ? audit.surface_error : audit.leaf_error;
 }
 
-// What the solution holds, but for its BReps, which end with the run.
+// What the solution holds, except for its BReps, which end with the run.
 HALFLIGHT_INLINE std::uint64_t bytes_of(const Solution& solution) {
   const Mesh& mesh = solution.mesh;
   return solution.hierarchy.capacity() * (sizeof(Node) + sizeof(Color) + 2 * sizeof(double)) +

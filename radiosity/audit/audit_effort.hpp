@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How many points, and how many paths at each, an audit takes. Whoever looks at a measurement to decide whether to go on measuring stops
-// more often when it is wrong in the wanted direction. So a small pilot decides, and what is reported is measured at fresh points
-// whose number was fixed before.
+// How many points, and how many paths at each, an audit takes. An audit that went on until its result looked good enough would end more
+// often where it errs to that side. So a small pilot decides how much is measured, and what is reported is measured at fresh points whose
+// number was fixed before.
 
 #include <algorithm>
 #include <cmath>

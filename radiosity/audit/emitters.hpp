@@ -14,8 +14,8 @@
 // overlap others or be hidden, and every direction has a density() that can be computed, which the balance heuristic needs (Veach and
 // Guibas 1995).
 //
-// Where nothing shines more than half as bright again as all surfaces do in the mean, no direction is better than another: then there are
-// no shapes, for of a furnace they would be thousands, and each ray would meet many.
+// Where nothing shines more than half as bright again as all surfaces do in the mean, as in a furnace, no direction is better than another:
+// then no shapes are made, because they would be thousands that every ray has to be tested against.
 
 #include <algorithm>
 #include <array>

@@ -5,8 +5,8 @@
 // surfaces, and at those that rays from the lamps meet. The former find what a far lamp lights of a large scene, the latter a bright spot
 // before a near one; each misses what the other finds, so the larger is taken.
 //
-// Errors are relative to the reflected light. As a rule it is about as bright as what the lamps emit is in the mean over all surfaces;
-// where most of their light gets lost (a sun before a window, a lamp under the open sky) or the surfaces are dark, it may be a thousandth
+// Errors are relative to the reflected light. As a rule it is about as bright as the light of the lamps would be if it were spread over all
+// surfaces; where most of it gets lost (a sun before a window, a lamp under the open sky) or the surfaces are dark, it may be a thousandth
 // of that.
 
 #include <radiosity/audit/path_tracer.hpp>

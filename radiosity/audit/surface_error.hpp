@@ -3,9 +3,9 @@
 
 // The error of a solution on all surfaces, each part of their area counting alike: the mesh against path-traced radiosities at random
 // points of it (error_estimate.hpp). A third of the points is spread evenly over the area, a third by the square of the reflected
-// radiosity, and a third by the square of what a leaf differs from its corners, for where there is light and where it changes most of the
-// error is. Each point counts with the inverse of its density, which is at most 3. Without the last third the intervals of scenes with
-// small bright spots and sharp shadows are up to four times as wide (primitives 2.5 % to 8.7 %, with it 3.8 % to 5.2 %).
+// radiosity, and a third by the square of the difference between a leaf and its corners, because most of the error lies where there is
+// light and where it changes. Each point counts with the inverse of its density, which is at most 3. Without the last third the intervals
+// of scenes with small bright spots and sharp shadows are up to four times as wide (primitives 2.5 % to 8.7 %, with it 3.8 % to 5.2 %).
 
 #include <cstdint>
 #include <vector>

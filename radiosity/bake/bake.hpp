@@ -13,7 +13,7 @@
 // irradiance that it receives is (B - E) / reflectance. Counter-clockwise corners are seen from the front. Which side is up does not
 // matter.
 //
-// A run ends early with the best that it has when Control::cancel becomes true, after Options::time (BF-refinement), or for want of
+// A run ends early with the best that it has when Control::cancel becomes true, after Options::time (BF-refinement), or for lack of
 // Options::memory; see there.
 //
 // The input is repaired and merged as intake.hpp tells, and nothing of it is kept. What was changed comes back as sentences. Nothing is

@@ -12,9 +12,9 @@
 // Rays lie in the coordinates of the mesh. Both functions are called from many threads at once. Which side of a triangle is met does not
 // matter.
 //
-// A caster in single precision finds the triangle on which a ray begins or ends, a little before it or behind. So rays begin and end a
-// skin above the surfaces on which they stand: what stands closer to a surface than that is not seen from it. The skin is
-// `precision` of the largest coordinate, and what the intake may have moved a vertex by.
+// A caster in single precision has the triangle on which a ray begins or ends a little off its true place, and would find that triangle
+// itself. So rays begin and end a skin above the surfaces on which they stand: what stands closer to a surface than that is not seen from
+// it. The skin is `precision` of the largest coordinate, plus what the intake may have moved a vertex by.
 //
 // No ray is cast, by anyone, where nothing can stand in between (Options::shortcuts), for the exact shadows of lamps, and where surfaces
 // coincide: there the polygons themselves decide. So a caster should stop rays at all triangles, and at nothing else.

@@ -55,7 +55,7 @@ HALFLIGHT_INLINE ClusterExchange ClusterSampler::operator()(const ClusterEnd& p,
       const double r2 = glm::dot(d, d);
       const double leaves = glm::dot(x.normal, d);
       const double arrives = -glm::dot(y.normal, d);
-      const double edge_on = 1e-12 * std::sqrt(r2);  // of one plane, but for rounding
+      const double edge_on = 1e-12 * std::sqrt(r2);  // of one plane, except for rounding
       if (!(leaves > edge_on && arrives > edge_on)) { continue; }
       weights[i] = std::min(leaves * arrives / r2 * x.per_shown * y.per_shown, most_weight) / (std::numbers::pi * r2);
       segments.set(i, {x.position, d}, x.object, y.object, x.sheet, y.sheet);

@@ -11,7 +11,7 @@
 //                      clusters, become children of the root
 //
 // Binary trees are flattened: a cluster has up to eight children, and few clusters have less than four. Each child of a cluster is a
-// cluster or an input face. Clusters do not mix the faces of an object with those of others, but for the groups above objects.
+// cluster or an input face. Clusters do not mix the faces of an object with those of others, except for the groups above objects.
 
 #include <cstddef>
 #include <cstdint>

@@ -9,8 +9,8 @@
 //   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point
 //   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighed so
 //                       that only what is hidden is sampled, and they stop at 64 when these agree (fewer where many lamps were joined).
-//                       Of a large lamp of which little is seen (a sky through a window) up to 512 finer ones find the rim of that
-//                       In place of curved objects that are slow or not convex segments meet meshes within 0.04 % of their diameter
+//                       Of a large lamp of which little is seen (a sky through a window) up to 512 finer ones find the rim of that.
+//                       Curved objects that are slow to meet, or not convex, are met as meshes within 0.04 % of their diameter
 // Curved lamps are always asked by segments where something may stand between. Nothing here is random: the result depends on the region and
 // the point alone.
 

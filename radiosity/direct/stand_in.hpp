@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Meshes of triangles that segments meet in place of a curved object that is slow to meet.
+// Triangle meshes that stand in for curved objects whose meeting with a segment takes long to compute.
 
 #include <memory>
 #include <vector>

@@ -6,8 +6,8 @@
 // are, and only then find that nothing of them is exposed (exposure.hpp).
 //
 // Proven, in the sense of raycast::Scene::covered: a face is buried when a later object is the same surface at the same place, or when a
-// convex solid holds its corners, and all that finer patches can bulge, deeper than the tolerance of occlusion. Faces for which neither
-// is found are treated as visible: of curved solids those with gaps to the next that are narrower than the bulge of its chord patches.
+// convex solid holds its corners, and all that finer patches can bulge, deeper than the tolerance of occlusion. Faces for which neither is
+// found are treated as visible, such as those of a curved solid that lies in another one with a gap narrower than its patches can bulge.
 
 #include <vector>
 

@@ -20,7 +20,7 @@ class Extremes {
   Extremes() = default;
   explicit Extremes(const std::vector<Surface>& surfaces);
 
-  // Does any point lie more than `slack` above the plane through `point` with this normal? A walk down a tree, but for scenes of which
+  // Does any point lie more than `slack` above the plane through `point` with this normal? A walk down a tree, except for scenes of which
   // very much lies in the plane.
   [[nodiscard]] bool any_above(const glm::dvec3& point, const glm::dvec3& normal, double slack) const;
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Polygons that know nothing of one another: the input of classical hierarchical radiosity (Hanrahan, Salzman and Aupperle 1991),
-// with which the paper compares itself. Every face of a boundary becomes a polygon with vertices of its own and is the root of a
-// quad-tree of its own; oracle, form factors and visibility stay the same. What goes is all that needs shared topology: vertices
-// that follow a curved surface (the parts of a polygon lie in its plane), reconstruction across the edge between two
-// polygons, and the elimination of T-vertices.
+// Polygons that share nothing with one another: the input of classical hierarchical radiosity (Hanrahan, Salzman and Aupperle 1991), with
+// which the paper compares itself. Every face of a boundary becomes a polygon with vertices of its own and is the root of a quad-tree of
+// its own; oracle, form factors and visibility stay the same. All that needs shared topology is lost: vertices that follow a curved surface
+// (the parts of a polygon lie in its plane), reconstruction across the edge between two polygons, and the elimination of T-vertices.
 //
 // Also here: cutting all faces evenly, for methods without a hierarchy.
 

@@ -94,7 +94,7 @@ struct Change {
 // "412 polygons were not planar by up to 1.8 mm: split". Without the place, which only the caller can name. Lengths are taken as metres.
 [[nodiscard]] std::string sentence(const Change& change);
 
-// Does the sentence tell the size? What lies where it should but for rounding has none to tell.
+// Does the sentence tell the size? What lies where it should up to rounding has none to tell.
 [[nodiscard]] bool tells_size(const Change& change);
 
 // 0.0018 as "1.8 mm"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Lamps that lie flush in a wall or a ceiling: a quadrilateral in the plane of a larger one. Programs of which both sides shine write them
-// either way up, and rounding puts them before or behind the surface; a solver would lose all of their light in the wall. So such a lamp is
-// laid into the plane, and where it shows its front to the back of the surface that it lies on, it is turned (shells.hpp, objects.hpp).
+// Lamps that lie flush in a wall or a ceiling: a quadrilateral in the plane of a larger one. Programs in which both sides of a lamp shine
+// write them either way up, and rounding puts them before or behind the surface; a solver would lose all of their light in the wall. So
+// such a lamp is laid into the plane, and where it shows its front to the back of the surface that it lies on, it is turned (shells.hpp,
+// objects.hpp).
 
 #include <cstdint>
 #include <span>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Coplanar neighbours of one material become one face: a wall of two triangles, or of two hundred, is one root of the hierarchy. What the
-// topology is for: the neighbours are known.
+// Coplanar neighbours of one material become one face: a wall of two triangles, or of two hundred, is one root of the hierarchy. The
+// topology makes that easy, because each face knows its neighbours.
 //
 // A region of coplanar faces with one simple outline becomes that outline, convex or not. Where it has holes its faces are joined as long
 // as they stay convex. Corners on a straight line that no other face needs are taken away.

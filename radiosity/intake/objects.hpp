@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// From faces to objects. A closed shell becomes a solid. One that holds a lamp or an eye is seen from inside: a cavity of the solid around
-// it, where there is one (walls with a thickness); a room, where everything else lies in it; or else a surface, for beyond its walls a room
-// is solid. So is what several groups close together (join.hpp), for
-// an object is of one group. What is open becomes, of each group, one surface; where it has two sides its back is a surface of its own at
-// the same place.
+// From faces to objects. A closed shell becomes a solid. A shell that holds a lamp or an eye is seen from inside. It becomes a cavity of
+// the solid around it, where there is one (walls with a thickness); a room, where everything else lies in it; or else a surface, because a
+// room counts as solid beyond its walls, where other things may stand. A shell that several groups close together (join.hpp) becomes a
+// surface, too, because an object belongs to one group. What is open becomes one surface for each group; where it has two sides, its back
+// is a surface of its own at the same place.
 
 #include <cstddef>
 #include <cstdint>

@@ -101,7 +101,7 @@ class LinkEvaluator {
   // Where that has measured the share of a lamp's light that arrives, no segment is cast. It must outlive the evaluator.
   void use(const LightMeshing& light) { light_ = &light; }
 
-  // Sets the exchange, 0 when nothing arrives, and the shapes where they have an effect, or anyhow when the variation is asked for.
+  // Sets the exchange, 0 when nothing arrives, and the shapes where they have an effect, or in any case when the variation is asked for.
   // Returns its segments. Depends on the ends of the link and the seed alone; `list` saves time.
   RayCount operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation = nullptr, Doubt* doubt = nullptr) const;
 
@@ -166,7 +166,7 @@ struct Evaluation {
   const Control& control;
 };
 
-// Makes the links of these pairs, in their order, but for those that carry nothing.
+// Makes the links of these pairs, in their order, except for those that carry nothing.
 [[nodiscard]] EvaluateResult make_links(const Evaluation& by, const NodePairs& pairs, Links& links);
 
 // Measures the links from `first` on and removes those that carry nothing, unless they may carry something all the same

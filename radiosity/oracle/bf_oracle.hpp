@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The BF-oracle (paper 4.4): which end of a link is split whose error is one of the largest. That which errs more; where it cannot be split
-// any more, the other, if that would mend a quarter of the error at least, or is a cluster. A leaf alone is split by itself.
+// The BF-oracle (paper 4.4) is asked about a link whose error is one of the largest: which end is split? The one that causes more of the
+// error; where that cannot be split any more, the other, if this mends a quarter of the error at least or if the other is a cluster. Asked
+// about a leaf by itself, it splits it.
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a ray has met, as a place of the true objects, when it was cast among what stands in for slow ones (direct_light.hpp).
+// The place on the true objects of what a ray has met among the meshes that stand in for slow ones (direct_light.hpp).
 
 #include <cstdint>
 

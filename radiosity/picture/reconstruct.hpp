@@ -34,7 +34,7 @@
 
 namespace radiosity {
 
-// Connects every T-vertex of the leaves to a corner of its face, but for separate polygons. Returns the number of new faces.
+// Connects every T-vertex of the leaves to a corner of its face, except for separate polygons. Returns the number of new faces.
 std::uint64_t eliminate_t_vertices(std::vector<Surface>& surfaces);
 
 // The light of the leaves. The references must outlive it.

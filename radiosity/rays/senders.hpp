@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How large a caster may be for those that see it. Its rays and those that meet it carry its mean light, though the light of lamps has
-// split it further: from near by one sees whether the part before one's eyes is lit or in shadow.
+// How large a node that casts rays may be for those that see it. Its rays, and rays that meet it, carry the mean of its light even where
+// the light of lamps has split it further. Patches near by see whether the part before them is lit or in shadow, so there it must be small.
 
 #include <array>
 #include <cstdint>

@@ -217,7 +217,7 @@ HALFLIGHT_INLINE SpacingResult space_casters(DiscreteScene& scene, Links& of_lam
   while (spacing.step(result)) {}
   spacing.split_as_senders(result);
   const auto split = [&](std::uint32_t i) { return was_leaf[i] && !scene.hierarchy[i].leaf(); };
-  for (Link& link : of_lamps) {  // the link of a cluster has gradients anyhow
+  for (Link& link : of_lamps) {  // the link of a cluster has gradients in any case
     if (scene.hierarchy[link.p].is_cluster() || scene.hierarchy[link.q].is_cluster()) { continue; }
     if (split(link.p) || split(link.q)) { set_gradients(link, variations(scene.patches[link.p], scene.patches[link.q])); }
   }

@@ -55,7 +55,7 @@ namespace detail {
 
 // Asks `ask(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
 // the others keep their list and are shown to `look(pair, list, decision)`, in parallel. Without shortcuts what would be dropped is linked,
-// but for patches of one curved convex solid (plan.hpp).
+// except for patches of one curved convex solid (plan.hpp).
 template <class Ask, class Look>
 std::vector<Decision> decide(const DiscreteScene& scene, NodePairs& pairs, RefineResult& result, const Ask& ask, const Look& look) {
   std::vector<Decision> decisions(pairs.size(), Decision::drop);

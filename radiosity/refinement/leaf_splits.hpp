@@ -3,7 +3,7 @@
 
 // The last split of leaves, by the light: after F-refinement, once their links are evaluated, leaves are split where the light varies over
 // them, near lamps, in corners and on curved objects. The links stay at what was the leaf, which is now an inner node and hands their light
-// down by its gradient (links.hpp, bend.hpp). So each leaf is answered for more finely with no more links and no more rays.
+// down by its gradient (links.hpp, bend.hpp). So leaves become finer without more links and without more rays.
 //
 // A leaf i with the gradient g_i of its irradiance is split when by its constant (leaf_error.hpp)
 //
@@ -11,7 +11,7 @@
 //
 // and its children again when their share of that, 1/16 for a quarter of the area, is still above: two levels at most, for the gradient is
 // only the linear part of the light. The light is that of coarse_light.hpp. The links between two leaves have no gradients yet; they get
-// them where a bound says that the leaf may be split. What shadows do within a leaf no gradient knows.
+// them where a bound says that the leaf may be split. A gradient does not show where within a leaf a shadow ends.
 //
 // Leaves that are partly buried stay whole, because links could not tell what is exposed of their children, and so do leaves at blades.
 

@@ -83,7 +83,7 @@ struct Audit {
   bool converged = true;                       // solver below its residual and, when asked for, error below its target
   bool interrupted = false;                    // the best that the run had when it was told to stop; its error may not be measured
   bool coarsened = false;                      // F-refinement with larger thresholds than asked for, because of either of these:
-  std::string shortage;                        // what ended the run early for want of memory, and what to do; it has not converged then
+  std::string shortage;                        // what ended the run early for lack of memory, and what to do; it has not converged then
   // error
   // Relative L2, by what links and leaves cannot express (link_error.hpp): of what was asked for, a picture or the leaves; of the leaves.
   std::optional<double> estimated_error, estimated_leaf_error;

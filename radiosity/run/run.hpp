@@ -32,7 +32,7 @@ namespace radiosity {
 namespace detail {
 
 struct Run {
-  // The scene must outlive the run. `within`: the limits are set; what the run takes anyhow becomes known later.
+  // The scene must outlive the run. `within`: the limits are set; what the run takes in any case becomes known later.
   Run(const Scene& input, const Options& with, const Control& control, const MemoryBudget& within);
 
   // Checks the scene and compiles it; why that was not possible.

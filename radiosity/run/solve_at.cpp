@@ -24,7 +24,7 @@ namespace radiosity {
 
 namespace detail {
 
-// One run at a given fineness. `budget`: its limits are set; what the run takes anyhow becomes known later.
+// One run at a given fineness. `budget`: its limits are set; what the run takes in any case becomes known later.
 HALFLIGHT_INLINE Outcome solve_at(const Scene& scene, const Options& options, const Control& control, const MemoryBudget& budget) {
   Run run{scene, options, control, budget};
   for (const auto next : {stage::build, stage::refine, stage::expose, stage::link, stage::solve, stage::compare_matrix, stage::reconstruct,

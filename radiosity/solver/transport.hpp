@@ -11,8 +11,8 @@
 // the link of a cluster picks the three rows around the direction of its other end.
 //
 // The links come in parts, M = M_1 + M_2 + ...: those of lamps, which are known best, all others, and those that were sampled by rays
-// (rays/ray_links.hpp). What is wrong with the row sums is taken out of the parts that cause it: the noise of rays out of them alone, and
-// light that counts as arriving from behind a lamp not out of the light of the lamp.
+// (rays/ray_links.hpp). An error of the row sums is corrected in the parts that cause it: the noise of rays in the links of rays alone, and
+// light that seems to arrive from behind a lamp in all links but those of the lamp.
 //
 // In matrix form each part is D P' G P D with P the pull, G the symmetric links, P' the transpose of P, and a diagonal D that is
 // 1 unless the scene is closed: there the D make every row sum exactly what a closed scene demands.
