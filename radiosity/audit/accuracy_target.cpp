@@ -54,7 +54,8 @@ class Rounds {
 
   [[nodiscard]] const Options& options() const { return round_; }
 
-  // What ends the rounds after this one; empty when they go on, finer where the error is: in the light of lamps, in the rest, or in both.
+  // Why the rounds end after this one; empty when they go on. The next is finer where the error is: in the light of lamps, in the rest, or
+  // in both.
   [[nodiscard]] std::string next(const Audit& audit) {
     const std::optional<ErrorEstimate>& error = !of_picture_          ? audit.steering_error
                                                 : audit.picture_error ? audit.picture_error->steering

@@ -31,7 +31,7 @@ struct AuditGoal {
   }
 };
 
-// The points that steer, and the paths at each.
+// The points by which rounds are planned (Audit::steering_error), and the paths at each.
 inline constexpr std::uint64_t steering_points = 256;
 [[nodiscard]] inline std::uint32_t steering_paths(const AuditGoal& goal) {
   constexpr std::uint64_t rays_a_path = 8;  // about

@@ -156,7 +156,7 @@ HALFLIGHT_INLINE void Emitters::add_flat(std::uint32_t surface, const Polygon& p
 HALFLIGHT_INLINE void Emitters::add_curved(std::uint32_t surface, const std::vector<Polygon>& faces, const raycast::PlacedObject& object,
                                            std::uint32_t sheet, double exitance) {
   auto pieces = detail::compact_triangles(faces);
-  // How far the surface bulges out of its faces: half as much again as in the middle of the worst.
+  // How far the surface bulges out of its faces: 1.5 times what is measured in the middle of the worst face.
   double bulge = object.slack();
   for (const auto& [a, b, c] : pieces) {
     const glm::dvec3 middle = (a + b + c) / 3.0;

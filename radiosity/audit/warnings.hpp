@@ -28,8 +28,8 @@ namespace radiosity {
 // Objects of which nothing is exposed, those that a warning of duplicates names included.
 [[nodiscard]] std::vector<std::string> warnings_of_buried(const Scene& scene, const Hierarchy& hierarchy, const Exposure& exposure);
 
-// Less than a millionth of the light that lamps emit was reflected by a surface, though some surfaces reflect: what to look for. Empty:
-// more was, or nothing shines.
+// A sentence that says what to look for when surfaces reflected less than a millionth of the light of the lamps, though some surfaces
+// reflect. Empty when more was reflected, or nothing shines.
 [[nodiscard]] std::string warning_of_lost_light(const DiscreteScene& scene, const std::vector<Color>& radiosity);
 
 // One ray from each of `rays` points spread over the exposed area.

@@ -48,7 +48,7 @@ std::vector<raycast::Box> bounds_of(const Grouping& tree, const Hierarchy& roots
 class ShownAreas {
  public:
   ShownAreas() = default;
-  // `area`: of each node, what counts of it.
+  // `area`: of each node, the part that counts.
   template <class Area>
   ShownAreas(const Hierarchy& hierarchy, const Area& area) {
     std::size_t end = 0;  // of clusters and input faces

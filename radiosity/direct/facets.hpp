@@ -41,19 +41,19 @@ struct Facets {
   [[nodiscard]] bool empty() const { return facets.empty(); }
 };
 
-// Of the faces of a boundary: of one sheet, or of all that have one,
+// The facets of one sheet of a boundary, or of all its faces that belong to a sheet.
 [[nodiscard]] Facets facets_of(const Surface& surface, std::uint32_t sheet = Facets::none);
-// or of these sheets, in ascending order.
+// The facets of these sheets, which are given in ascending order.
 [[nodiscard]] Facets facets_of(const Surface& surface, std::span<const std::uint32_t> sheets);
-// Both as one.
+// Adds `more` to `facets`.
 void append(Facets& facets, const Facets& more);
-// Of a curved object, to a tolerance (a length) of the true surface.
+// The facets of a curved object, within a tolerance (a length) of the true surface.
 [[nodiscard]] Facets facets_of(const raycast::PlacedObject& object, double tolerance, std::uint32_t sheet = Facets::none);
 
 // The part of the edge's contour integral, times 2 pi, from the point x with unit normal n; a to b.
 [[nodiscard]] double contour_term(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& a, const glm::dvec3& b);
 
-// F from x to all facets that face it, though nothing hides any of them. `facing` is memory that is used again.
+// F from x to all facets that face it, as if nothing stood in between. `facing` is memory that is used again.
 [[nodiscard]] double form_factor(const Facets& facets, const glm::dvec3& x, const glm::dvec3& n, bool above_horizon,
                                  std::vector<char>& facing);
 

@@ -81,7 +81,7 @@ struct SurfaceResult {
 // One root for each input face of each surface (paper 4.2); below that of a face in convex parts are the leaves of the parts.
 [[nodiscard]] Hierarchy make_roots(std::vector<Surface>& surfaces, std::pmr::memory_resource* arrays = nullptr);
 
-// Makes the leaf of a face, a node with this index and parent, and enters it in the face.
+// Makes the leaf of a face, a node with this index and parent, and writes its index into the face.
 [[nodiscard]] Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, std::uint32_t parent, std::uint32_t index);
 
 // The corners of any node: those of its face when it is a leaf, the contour of its parts when it has some, else corner 0 of its first

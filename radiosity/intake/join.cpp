@@ -96,7 +96,7 @@ class Borders {
   }
   [[nodiscard]] bool gone(std::uint32_t face) { return !gone_.empty() && gone_[part_.find(face)]; }
 
-  // A part with an edge that no other has on its border closes nothing. Without it others may end in turn.
+  // A part with an edge that matches no other closes no shell and is left out. Without it other parts may have such an edge in turn.
   bool leave_out_what_ends() {
     gone_.resize(open_.size(), false);
     std::vector<std::uint32_t> ends;

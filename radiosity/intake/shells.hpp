@@ -85,7 +85,7 @@ class Shells {
   void turn_shells();
   // Walls with a thickness: the room is a cavity of the solid around it.
   void hollow_solids();
-  // An object is of one group, so shells of several groups become surfaces, and with them what they are the walls or the cavities of.
+  // An object belongs to one group, so shells of several groups become surfaces, and so do the shells whose walls or cavities they are.
   void part_groups();
 
   Working& mesh_;

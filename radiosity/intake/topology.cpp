@@ -180,8 +180,8 @@ class Joiner {
     topology_.vertices = fans.number(topology_.vertex);
   }
 
-  // Faces that are not the only ones to run along an edge in their direction, or that meet in an edge without being neighbours, get loose:
-  // of each such edge the later face.
+  // Faces that are not the only ones to run along an edge in their direction, or that meet in an edge without being neighbours, become
+  // loose: of each such edge the later face.
   void loosen(bool report) {
     struct Run {
       std::uint32_t from, to, side;

@@ -30,8 +30,8 @@ struct Topology {
   }
 };
 
-// Turns faces alike; those that were given for both sides have no say. Faces of components of which more than a tenth of the area had to be
-// turned, or that cannot be turned alike, are marked as mixed: nobody knows which side was meant to be seen.
+// Turns faces alike; those that were given for both sides do not count. Faces of components of which more than a tenth of the area had to
+// be turned, or that cannot be turned alike, are marked as mixed: it is not known which side was meant to be seen.
 void orient(Working& mesh);
 
 // Changes no face. `report`: what had to be cut counts as a change.

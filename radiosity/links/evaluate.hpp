@@ -123,8 +123,8 @@ class LinkEvaluator {
   // doubt.hpp. `sent`: what would arrive if nothing stood between. `at_leaves`: leaves may be split while the link stays as it is.
   [[nodiscard]] Doubt doubt_of(const Link& link, double sent, const VisibilityEstimate& seen, const Variations& varies,
                                bool at_leaves) const;
-  // What a link may exchange of which none of these segments arrived, and none of those before (Laplace's mean); `sent`: if nothing
-  // stood between.
+  // The exchange that a link may have although none of these segments arrived, and none of those before (Laplace's mean). `sent`: the
+  // exchange if nothing stood between.
   [[nodiscard]] static double missed(double sent, const LinkVariation& before, std::uint64_t segments) {
     return sent / (static_cast<double>(before.blocked) + static_cast<double>(segments) + 2.0);
   }

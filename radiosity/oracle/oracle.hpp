@@ -57,9 +57,9 @@ struct Question {
   double min_area = 0.0;                     // of a leaf that may be split
   const std::vector<bool>* stuck = nullptr;  // leaves that the BRep refused to split, if there are any
 
-  // Of LightOracle alone: what can stand between the nodes,
+  // For LightOracle alone: what can stand between the nodes.
   const raycast::OccluderList* between = nullptr;
-  RayCount* rays = nullptr;  // and where segments that are cast are counted
+  RayCount* rays = nullptr;  // for LightOracle alone: counts the segments that it casts
 
   // Of BF-refinement alone: the link carries light, and its error is one of the largest.
   const LinkError* error = nullptr;

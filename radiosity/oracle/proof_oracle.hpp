@@ -31,7 +31,7 @@ class ProofOracle {
     const bool sees_itself = object.inside() || !object.convex();
     return !sees_itself || (object.flat() && a.surface == b.surface && a.surface != no_node);
   }
-  // Of a node that was there when the oracle was made: is nothing of it to be seen?
+  // Is nothing to be seen of this node, which existed when the oracle was made?
   [[nodiscard]] bool buried(std::uint32_t i) const { return i < buried_.size() && buried_[i]; }
   [[nodiscard]] const std::vector<bool>& buried() const { return buried_; }
   // A proof, or link when there is none. A cluster and itself is split.

@@ -52,7 +52,7 @@ class FinalGather {
     raycast::SurfacePoint point;
     std::uint32_t object = 0, surface = 0;
   };
-  // Where one looks from. From the air the first front that is met cannot be buried, which saves to ask.
+  // The point from which one looks. If it lies in the air, the first front that a ray meets cannot be buried, so that is not checked.
   struct Eye {
     glm::dvec3 position{0.0};  // in the frame
     bool in_air = false;

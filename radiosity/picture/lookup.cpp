@@ -114,8 +114,8 @@ HALFLIGHT_INLINE std::optional<Lookup::Found> Lookup::find(std::uint32_t object,
                                                            const raycast::SurfacePoint& place) const {
   const Sheet& on = sheets_[first_sheet_[object] + sheet];
   const glm::dvec3& point = place.position;
-  // Of several triangles one that faces the same way, and of these the nearer one: the far side of a thin solid, and beyond a crease, is
-  // on the same sheet. On a common wall they agree.
+  // Of several triangles, takes one that faces the same way, and of these the nearest: the far side of a thin solid, and what lies beyond a
+  // crease, belongs to the same sheet. On a common wall of two prisms both triangles give the same colour.
   const auto faces = [&](const ChordTriangle& flat) {
     const auto& [a, b, c] = flat.position;
     return glm::dot(glm::cross(b - a, c - a), place.normal) > 0.0;

@@ -40,8 +40,8 @@ namespace detail {
   return emission;
 }
 
-// What is seen of each node but by links: the light that comes straight from the lamps, reflected, and what it emits itself if it is no
-// lamp; its brightest channel. Lamps count as dark.
+// How bright each node looks but for links: the light that comes straight from the lamps and is reflected, and what the node emits itself
+// if it is no lamp; in its brightest channel. Lamps count as dark.
 struct Brightness {
   std::vector<double> of;
   // RMS over the exposed leaves of what they reflect of the lamps, and of all else that shines as if that were even.

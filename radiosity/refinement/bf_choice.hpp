@@ -13,10 +13,10 @@ namespace radiosity {
 
 namespace detail {
 
-// The sum of squared errors that may stay: none when time is the limit.
+// The sum of squared errors that may remain; 0 when a time limit ends the refinement.
 [[nodiscard]] double allowed_error(const BfErrors& errors, const BfGoal& goal);
 
-// Is the solution what was asked for, or the last one that there may be?
+// Does the solution meet the goal, or are there more links than there may be?
 [[nodiscard]] bool is_last(const BfState& state, const BfErrors& errors, const BfGoal& goal);
 
 // Nothing when no split is left that helps and fits. The result keeps how much memory the largest of the choices that do not fit needs.

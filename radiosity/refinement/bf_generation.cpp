@@ -62,7 +62,7 @@ HALFLIGHT_INLINE bool evaluate_generation(BfState& state) {
     scene.shown = std::move(now);
   }
   result.evaluations += state.links.size() - state.measured;
-  // Once there is a solution, a generation is brought to its end: half evaluated it would be none.
+  // Once there is a solution, a generation that has begun is completed, because one that is half evaluated is no solution.
   const Control control = result.generations == 0 ? scene.control : scene.control.unstoppable();
   const EvaluateResult round =
       measure_links({scene.evaluator, result.refined.occluders, scene.threads, control}, state.links, state.measured);
@@ -101,7 +101,7 @@ HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
   return errors;
 }
 
-// Pairs that come out of what is split, and have not been looked at.
+// Pairs of the children of what is split, which the oracle has not been asked about yet.
 struct OpenPairs {
   explicit OpenPairs(std::pmr::memory_resource* arrays) : pairs(arrays) {}
 

@@ -73,7 +73,7 @@ class LinkErrorTerms {
     }
   }
 
-  // First for all links,
+  // To be called for all links before of() is called for any.
   void add_to_nodes(const Link& link, const LinkVariation& variation) {
     const std::uint32_t p = link.p, q = link.q;
     const double g2 = square(link.exchange);
@@ -87,7 +87,7 @@ class LinkErrorTerms {
   struct Terms {
     double p = 0.0, q = 0.0;  // reduced by splitting that end
   };
-  // then of one.
+  // The terms of one link.
   [[nodiscard]] Terms of(const Link& link, const LinkVariation& variation) const {
     const Node& p = scene_.hierarchy[link.p];
     const Node& q = scene_.hierarchy[link.q];

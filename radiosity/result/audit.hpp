@@ -85,7 +85,8 @@ struct Audit {
   bool coarsened = false;                      // F-refinement with larger thresholds than asked for, because of either of these:
   std::string shortage;                        // what ended the run early for lack of memory, and what to do; it has not converged then
   // error
-  // Relative L2, by what links and leaves cannot express (link_error.hpp): of what was asked for, a picture or the leaves; of the leaves.
+  // Relative L2, estimated from what links and leaves cannot express (link_error.hpp): of a picture or the leaves, as was asked for; of the
+  // leaves.
   std::optional<double> estimated_error, estimated_leaf_error;
   std::string estimate_doubt;     // why the estimate is no bound of the error, or far above it; empty where it may be taken for one
   bool target_missed = false;     // Options::error, by the audit; Options::target, by the estimate or the audit

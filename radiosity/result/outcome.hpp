@@ -23,7 +23,7 @@ struct Solution {
   std::optional<Mesh> refined;  // the same light in finer faces (Options::mesh_error), where that was needed
   Audit audit;
 
-  // What stands behind the mesh, in the coordinates of the frame.
+  // The solution from which the mesh was made, in the coordinates of the frame.
   Frame frame;
   Hierarchy hierarchy;
   Links links;
@@ -34,7 +34,7 @@ struct Solution {
 
   std::optional<Comparison> comparison;  // when asked for
 
-  // What shows the light best as it is.
+  // The mesh that shows the light best: `refined` where there is one, else `mesh`.
   [[nodiscard]] const Mesh& shown() const { return refined ? *refined : mesh; }
 };
 

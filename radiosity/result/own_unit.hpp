@@ -20,7 +20,7 @@ namespace detail {
 [[nodiscard]] bool to_watts(Mesh& mesh, const LightUnit& unit);
 [[nodiscard]] bool to_watts(Solution& solution, const LightUnit& unit);
 
-// What `solve` makes of the scene in its own unit, in W/m2.
+// The outcome of `solve` on the scene in its own unit of light, converted to W/m2.
 template <class Solve>
 [[nodiscard]] Outcome solve_in_own_unit(const Scene& scene, const Solve& solve) {
   std::vector<std::string> sentences = faults(scene);

@@ -25,7 +25,7 @@ void hurry(Run& run, double epsilon = soon_made);
 // hurry(), and new links to evaluate in place of all others. Where much had been done they are finer, for less than a tenth of that.
 void refine_coarsely(Run& run);
 
-// Why refinement has left nothing to link, if it has not.
+// Why refinement has ended without links; nothing when it has made some.
 [[nodiscard]] std::optional<Failure> refusal(const Run& run);
 
 // "the run would need at least 3 GB of memory ..."

@@ -23,11 +23,11 @@ namespace stage {
 [[nodiscard]] std::optional<Failure> link(detail::Run& run);
 // Closes the row sums of a closed scene and solves for the radiosity of all leaves. From here on there is a solution.
 [[nodiscard]] std::optional<Failure> solve(detail::Run& run);
-// When asked for: a solution with all pairs of leaves instead of links,
+// When a comparison is asked for: a solution with all pairs of leaves instead of links.
 [[nodiscard]] std::optional<Failure> compare_matrix(detail::Run& run);
 // The mesh with radiosities at its corners.
 [[nodiscard]] std::optional<Failure> reconstruct(detail::Run& run);
-// and the mesh of the other reconstruction.
+// When a comparison is asked for: the mesh of the other reconstruction.
 [[nodiscard]] std::optional<Failure> compare_picture(detail::Run& run);
 // When asked for: a mesh in gathered light, split where that was not met by the mesh of the leaves.
 [[nodiscard]] std::optional<Failure> refine_mesh(detail::Run& run);

@@ -37,7 +37,7 @@ namespace radiosity {
 
 namespace detail {
 
-// As far as the stages of a hierarchical run ask.
+// The options of a hierarchical run, as far as its stages are used here.
 HALFLIGHT_INLINE Options options_of(const UniformOptions& uniform) {
   Options options;
   options.residual = uniform.residual;

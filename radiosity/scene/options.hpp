@@ -57,14 +57,14 @@ inline constexpr const char* name(Reconstruction reconstruction) {
 
 struct Options {
   Refinement refinement = Refinement::a_priori;
-  // BF-refinement goes on until the estimated relative L2 error is at most this,
+  // BF-refinement goes on until the estimated relative L2 error is at most this.
   double target = 0.02;
-  // or, instead, until refinement has used this many seconds (wall): the links that promise most come first, the result is the best so far
-  // and, as its only option, depends on the machine. The audit comes on top.
+  // In place of `target`: BF-refinement ends after this many seconds (wall). Links that promise most come first; the result is the best so
+  // far. It is the only option by which a result depends on the machine. The audit comes on top.
   std::optional<double> time;
-  // F-refinement (paper 4.4): a pair is linked when its estimated form factor is at most epsilon,
+  // F-refinement (paper 4.4): a pair is linked when its estimated form factor is at most epsilon.
   double epsilon = 0.005;
-  // or when both patches are no larger than min_area, relative to the total area of the scene.
+  // A pair is also linked when neither patch is larger than this share of the total area of the scene.
   double min_area = 6e-5;
   // Where a light shines a patch is split, too, while the light varies across it by more than this share of the relative L2 error (which is
   // relative to the reflected light, where that is less than a quarter as bright as the mean emission: audit/reflected_light.hpp); down

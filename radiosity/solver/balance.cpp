@@ -64,8 +64,8 @@ struct Scaled {
   return x;
 }
 
-// Sum of the squared differences of row sums and what they should be, each over the larger of the two. Rows that should be 0 have no say:
-// no scale of their own changes them.
+// Sum of the squared differences of row sums and what they should be, each over the larger of the two. Rows that should be 0 are left out,
+// because no scale of their own changes them.
 [[nodiscard]] HALFLIGHT_INLINE double distance(const std::vector<double>& rows, const std::vector<double>& wanted) {
   double sum = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {

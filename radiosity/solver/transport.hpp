@@ -46,7 +46,7 @@ class Transport {
   // Returns the area-weighted RMS by which their row sums changed, relative to the RMS of these: where an open scene has row sums near 0,
   // D may be far from 1 and change nothing.
   double scale_sampled(const std::vector<double>& rows, double most = 4.0);
-  // What all parts but the last leave of the row sums of a closed scene.
+  // The row sums that all parts but the last leave to the last one in a closed scene.
   [[nodiscard]] std::vector<double> left_by_lamps();
   // Of a closed scene, before its other links are scaled: makes the row sums of lamps 1 by a scale of theirs, which other surfaces do not
   // have. A cluster of lamps has one for all its faces, since which of them lights what near it is not known: a face then counts for the

@@ -115,7 +115,7 @@ HALFLIGHT_INLINE void add_fronts(const Surface& surface, std::uint32_t object, s
   return std::accumulate(face.contour.begin(), face.contour.end(), glm::dvec3{0.0}) / static_cast<double>(face.contour.size());
 }
 
-// In the place of a solid that is curved or has many faces.
+// The faces of its bounds, for a solid that is curved or has many faces.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<FrontFace> faces_of_box(const raycast::Box& box, std::uint32_t object) {
   std::vector<FrontFace> faces;
   for (int axis = 0; axis < 3; ++axis) {

@@ -23,7 +23,7 @@ struct SceneView {
   const Hierarchy& hierarchy;            // over the faces of the boundaries
   const Patches& patches;                // of each node
 
-  // On which sheet of its object a node lies that is no cluster.
+  // The sheet of its object on which a node lies; the node is no cluster.
   [[nodiscard]] std::uint32_t sheet(std::size_t i) const { return hierarchy[i].surface - surfaces[hierarchy[i].object].first_surface; }
 };
 

@@ -67,13 +67,13 @@ class ShadowedTarget {
   // F from x, unit normal n, to what x sees of the target.
   [[nodiscard]] double form_factor(const glm::dvec3& x, const glm::dvec3& n);
 
-  // The same in steps, for blockers of other kinds. Looks from x at all of the target that is above the horizon,
+  // The same in three steps, for blockers of other kinds. First: looks from x at all of the target that is above the horizon.
   void look(const glm::dvec3& x, const glm::dvec3& n);
-  // takes away what a polygon hides, or what lies within all of these planes through x,
+  // For each blocker: takes away what a polygon hides, or what lies within all of these planes through x.
   void hide(const Blocker& blocker);
   void hide(std::span<const HalfSpace> cone) { detail::cut_away(pieces_, cone); }
   [[nodiscard]] bool hidden() const { return pieces_.empty(); }
-  // and gives the form factor of what is left.
+  // At last: the form factor of what is left.
   [[nodiscard]] double form_factor() const;
 
  private:

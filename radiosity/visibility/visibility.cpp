@@ -129,7 +129,7 @@ class CellCounts {
                            [&](const glm::dvec3& a, const glm::dvec3& b) { return height(a) < height(b); });
 }
 
-// Does what is highest of each patch above the other see each other? For patches of which no sample is above both horizons.
+// Do the highest corners of each patch above the other see each other? Asked for patches of which no sample is above both horizons.
 [[nodiscard]] HALFLIGHT_INLINE bool highest_corners_clear(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p,
                                                           const PatchEnd& q) {
   const glm::dvec3 x = highest_corner(*p.patch, *q.patch);
