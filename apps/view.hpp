@@ -23,9 +23,9 @@ struct View {
   [[nodiscard]] double pixel_area() const { return 4.0 * half_width * half_width / size.width / size.width; }  // of the image
   [[nodiscard]] double half_height() const { return half_width * size.height / size.width; }
   [[nodiscard]] glm::dvec3 to_view(const glm::dvec3& world) const;
-  // What falls on the point (x, y) of the picture, in pixels from its top left corner, lies along this ray of view space, whose z is 1,
+  // What falls on the point (x, y) of the picture, in pixels from its top left corner, lies along this ray of view space, whose z is 1.
   [[nodiscard]] glm::dvec3 ray(double x, double y) const;
-  // and in this direction in the world, which goes 1 forward.
+  // The same direction in the world; it goes 1 forward.
   [[nodiscard]] glm::dvec3 direction(double x, double y) const;
   // The area of the image, in view space, that a unit of area takes at a place with this unit normal; 0 outside the picture or seen from
   // behind.

@@ -26,7 +26,7 @@ std::optional<PictureSize> parse_size(std::string_view text) {
   return fits(width) && fits(height) ? std::optional(PictureSize{*width, *height}) : std::nullopt;
 }
 
-// Options of the outputs,
+// What is written.
 std::vector<Argument> output_arguments(RenderOptions& options) {
   return {
       scene_argument(options.scene),
@@ -47,7 +47,7 @@ std::vector<Argument> output_arguments(RenderOptions& options) {
   };
 }
 
-// of how far the solution is refined,
+// How far the solution is refined.
 std::vector<Argument> refinement_arguments(RenderOptions& options) {
   radiosity::Options& solver = options.solver;
   // BF-refinement is asked for by what ends it.
@@ -91,7 +91,7 @@ std::vector<Argument> refinement_arguments(RenderOptions& options) {
   };
 }
 
-// of pictures,
+// How pictures are drawn.
 std::vector<Argument> picture_arguments(RenderOptions& options) {
   return {
       text("--camera", "TEXT", options.camera, "camera of the scene (default: the first; without any, an automatic view)"),
@@ -108,7 +108,7 @@ std::vector<Argument> picture_arguments(RenderOptions& options) {
   };
 }
 
-// and of the way to the solution.
+// How the solution is found and told.
 std::vector<Argument> solver_arguments(RenderOptions& options) {
   radiosity::Options& solver = options.solver;
   using radiosity::Indirect, radiosity::Reconstruction, radiosity::Solver;

@@ -22,7 +22,7 @@ struct Exercise {
 // The file as the student gets it.
 [[nodiscard]] std::string beginning(const Exercise& exercise);
 
-// --- what is wrong with a script of Euler operators,
+// --- exercises that are scripts of Euler operators: what is wrong with one, or nothing
 
 [[nodiscard]] std::optional<std::string> tetrahedron(const std::string& text);
 [[nodiscard]] std::optional<std::string> torus(const std::string& text);
@@ -31,7 +31,7 @@ struct Exercise {
 [[nodiscard]] std::optional<std::string> inverse(const std::string& text);
 [[nodiscard]] std::optional<std::string> break_and_mend(const std::string& text);
 
-// and with a file of `name = number` that was worked out by hand
+// --- exercises worked out by hand, files of `name = number`: what is wrong with one, or nothing
 
 [[nodiscard]] std::optional<std::string> form_factors(const std::string& text);
 [[nodiscard]] std::optional<std::string> push_pull(const std::string& text);
