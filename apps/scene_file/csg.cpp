@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/scene_file/build.hpp"
+#include "apps/scene_file/lexer.hpp"
 
 namespace apps::scene_file {
 namespace {

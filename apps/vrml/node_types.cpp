@@ -16,73 +16,69 @@ constexpr FieldType number{Kind::numbers, 1, false}, vec2{Kind::numbers, 2, fals
     text{Kind::strings, 1, false}, texts{Kind::strings, 1, true}, word{Kind::words, 1, false};
 
 // A node with its fields; true: it may have children.
-const std::vector<NodeType>& types() {
-  static const std::vector<NodeType> table{
-      {"AsciiText", {{"string", texts}, {"spacing", number}, {"justification", word}, {"width", numbers}}},
-      {"Cone", {{"parts", word}, {"bottomRadius", number}, {"height", number}}},
-      {"Coordinate3", {{"point", vec3s}}},
-      {"Cube", {{"width", number}, {"height", number}, {"depth", number}}},
-      {"Cylinder", {{"parts", word}, {"radius", number}, {"height", number}}},
-      {"DirectionalLight", {{"on", word}, {"intensity", number}, {"color", vec3}, {"direction", vec3}}},
-      {"FontStyle", {{"size", number}, {"family", word}, {"style", word}}},
-      {"Group", {}, true},
-      {"IndexedFaceSet", {{"coordIndex", indices}, {"materialIndex", indices}, {"normalIndex", indices}, {"textureCoordIndex", indices}}},
-      {"IndexedLineSet", {{"coordIndex", indices}, {"materialIndex", indices}, {"normalIndex", indices}, {"textureCoordIndex", indices}}},
-      {"Info", {{"string", text}}},
-      {"LOD", {{"range", numbers}, {"center", vec3}}, true},
-      {"Material",
-       {{"ambientColor", vec3s},
-        {"diffuseColor", vec3s},
-        {"specularColor", vec3s},
-        {"emissiveColor", vec3s},
-        {"shininess", numbers},
-        {"transparency", numbers}}},
-      {"MaterialBinding", {{"value", word}}},
-      {"MatrixTransform", {{"matrix", matrix}}},
-      {"Normal", {{"vector", vec3s}}},
-      {"NormalBinding", {{"value", word}}},
-      {"OrthographicCamera",
-       {{"position", vec3},
-        {"orientation", rotation},
-        {"focalDistance", number},
-        {"height", number},
-        {"nearDistance", number},
-        {"farDistance", number}}},
-      {"PerspectiveCamera",
-       {{"position", vec3},
-        {"orientation", rotation},
-        {"focalDistance", number},
-        {"heightAngle", number},
-        {"nearDistance", number},
-        {"farDistance", number}}},
-      {"PointLight", {{"on", word}, {"intensity", number}, {"color", vec3}, {"location", vec3}}},
-      {"PointSet", {{"startIndex", number}, {"numPoints", number}}},
-      {"Rotation", {{"rotation", rotation}}},
-      {"Scale", {{"scaleFactor", vec3}}},
-      {"Separator", {{"renderCulling", word}}, true},
-      {"ShapeHints", {{"vertexOrdering", word}, {"shapeType", word}, {"faceType", word}, {"creaseAngle", number}}},
-      {"Sphere", {{"radius", number}}},
-      {"SpotLight",
-       {{"on", word},
-        {"intensity", number},
-        {"color", vec3},
-        {"location", vec3},
-        {"direction", vec3},
-        {"dropOffRate", number},
-        {"cutOffAngle", number}}},
-      {"Switch", {{"whichChild", number}}, true},
-      {"Texture2", {{"filename", text}, {"image", image}, {"wrapS", word}, {"wrapT", word}}},
-      {"Texture2Transform", {{"translation", vec2}, {"rotation", number}, {"scaleFactor", vec2}, {"center", vec2}}},
-      {"TextureCoordinate2", {{"point", vec2s}}},
-      {"Transform",
-       {{"translation", vec3}, {"rotation", rotation}, {"scaleFactor", vec3}, {"scaleOrientation", rotation}, {"center", vec3}}},
-      {"TransformSeparator", {}, true},
-      {"Translation", {{"translation", vec3}}},
-      {"WWWAnchor", {{"name", text}, {"description", text}, {"map", word}}, true},
-      {"WWWInline", {{"name", text}, {"bboxSize", vec3}, {"bboxCenter", vec3}}},
-  };
-  return table;
-}
+const std::vector<NodeType> types{
+    {"AsciiText", {{"string", texts}, {"spacing", number}, {"justification", word}, {"width", numbers}}},
+    {"Cone", {{"parts", word}, {"bottomRadius", number}, {"height", number}}},
+    {"Coordinate3", {{"point", vec3s}}},
+    {"Cube", {{"width", number}, {"height", number}, {"depth", number}}},
+    {"Cylinder", {{"parts", word}, {"radius", number}, {"height", number}}},
+    {"DirectionalLight", {{"on", word}, {"intensity", number}, {"color", vec3}, {"direction", vec3}}},
+    {"FontStyle", {{"size", number}, {"family", word}, {"style", word}}},
+    {"Group", {}, true},
+    {"IndexedFaceSet", {{"coordIndex", indices}, {"materialIndex", indices}, {"normalIndex", indices}, {"textureCoordIndex", indices}}},
+    {"IndexedLineSet", {{"coordIndex", indices}, {"materialIndex", indices}, {"normalIndex", indices}, {"textureCoordIndex", indices}}},
+    {"Info", {{"string", text}}},
+    {"LOD", {{"range", numbers}, {"center", vec3}}, true},
+    {"Material",
+     {{"ambientColor", vec3s},
+      {"diffuseColor", vec3s},
+      {"specularColor", vec3s},
+      {"emissiveColor", vec3s},
+      {"shininess", numbers},
+      {"transparency", numbers}}},
+    {"MaterialBinding", {{"value", word}}},
+    {"MatrixTransform", {{"matrix", matrix}}},
+    {"Normal", {{"vector", vec3s}}},
+    {"NormalBinding", {{"value", word}}},
+    {"OrthographicCamera",
+     {{"position", vec3},
+      {"orientation", rotation},
+      {"focalDistance", number},
+      {"height", number},
+      {"nearDistance", number},
+      {"farDistance", number}}},
+    {"PerspectiveCamera",
+     {{"position", vec3},
+      {"orientation", rotation},
+      {"focalDistance", number},
+      {"heightAngle", number},
+      {"nearDistance", number},
+      {"farDistance", number}}},
+    {"PointLight", {{"on", word}, {"intensity", number}, {"color", vec3}, {"location", vec3}}},
+    {"PointSet", {{"startIndex", number}, {"numPoints", number}}},
+    {"Rotation", {{"rotation", rotation}}},
+    {"Scale", {{"scaleFactor", vec3}}},
+    {"Separator", {{"renderCulling", word}}, true},
+    {"ShapeHints", {{"vertexOrdering", word}, {"shapeType", word}, {"faceType", word}, {"creaseAngle", number}}},
+    {"Sphere", {{"radius", number}}},
+    {"SpotLight",
+     {{"on", word},
+      {"intensity", number},
+      {"color", vec3},
+      {"location", vec3},
+      {"direction", vec3},
+      {"dropOffRate", number},
+      {"cutOffAngle", number}}},
+    {"Switch", {{"whichChild", number}}, true},
+    {"Texture2", {{"filename", text}, {"image", image}, {"wrapS", word}, {"wrapT", word}}},
+    {"Texture2Transform", {{"translation", vec2}, {"rotation", number}, {"scaleFactor", vec2}, {"center", vec2}}},
+    {"TextureCoordinate2", {{"point", vec2s}}},
+    {"Transform", {{"translation", vec3}, {"rotation", rotation}, {"scaleFactor", vec3}, {"scaleOrientation", rotation}, {"center", vec3}}},
+    {"TransformSeparator", {}, true},
+    {"Translation", {{"translation", vec3}}},
+    {"WWWAnchor", {{"name", text}, {"description", text}, {"map", word}}, true},
+    {"WWWInline", {{"name", text}, {"bboxSize", vec3}, {"bboxCenter", vec3}}},
+};
 
 struct NamedType {
   std::string_view name;
@@ -104,7 +100,7 @@ auto find(const List& list, std::string_view name) {
 
 }  // namespace
 
-const NodeType* node_type(std::string_view name) { return find(spec::types(), name); }
+const NodeType* node_type(std::string_view name) { return find(spec::types, name); }
 
 const FieldType* field_type(const NodeType& node, std::string_view field) {
   const FieldEntry* const entry = find(node.fields, field);
@@ -116,6 +112,6 @@ const FieldType* named_type(std::string_view name) {
   return entry == nullptr ? nullptr : &entry->type;
 }
 
-std::span<const NodeType> node_types() { return spec::types(); }
+std::span<const NodeType> node_types() { return spec::types; }
 
 }  // namespace apps::vrml
