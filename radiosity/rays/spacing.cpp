@@ -116,7 +116,8 @@ class Spacing {
     brightness_ = std::move(importance.brightness);
     root_mean_square_ = importance.reflected;
     weight_ = std::move(importance.weight);
-    solved_ = true;
+    gain_ = 1.0;
+    rest_ = 0.5 * importance.pictured / importance.reflected;
   }
 
   [[nodiscard]] bool dark() const { return !(root_mean_square_ > 0.0); }
@@ -160,7 +161,7 @@ class Spacing {
   }
 
  private:
-  static constexpr double coarse = 4.0;  // how much more than the tolerance
+  static constexpr double coarse = 2.0;  // how much more than the tolerance
   static constexpr std::uint32_t rays_each = std::tuple_size_v<decltype(View::rays)>;
 
   // So many rays from each open node.
@@ -189,8 +190,7 @@ class Spacing {
     }
     const auto count = static_cast<double>(rays.count(i));
     const double most = brightest(scene_.reflectance[scene_.hierarchy[i].surface]);
-    if (solved_) { return {most * sum / count, most * std::sqrt(square / count)}; }
-    return {most * (1.5 * sum / count + 0.5), most * (1.5 * std::sqrt(square / count) + 0.5)};
+    return {most * (gain_ * sum / count + rest_), most * (gain_ * std::sqrt(square / count) + rest_)};
   }
 
   [[nodiscard]] View view(std::uint32_t i, const StoredRays& rays) const {
@@ -225,7 +225,7 @@ class Spacing {
   std::vector<double> brightness_;  // of each node
   double root_mean_square_ = 0.0;   // of what is reflected, over the scene
   std::vector<double> weight_;      // of each node: ViewImportance::weight
-  bool solved_ = false;             // the brightness is that of a coarse solution
+  double gain_ = 1.5, rest_ = 0.5;  // weights()
   double area_ = 0.0, least_area_ = 0.0;
   std::vector<std::uint32_t> open_;
   std::vector<View> views_;  // of the casters
