@@ -156,6 +156,7 @@ class Text {
             "of lights finer: the reflected light is " + formatted("%.2g", *audit_.reflected_share) + " as bright as the mean emission");
       }
     }
+    if (audit_.rays_for_view) { row("", "stored rays more and finer where the camera looks, for nothing but its picture is written"); }
     say("channels, threads, seed", "{settings.channels}, {settings.threads}, {settings.seed}");
     if (report_.options.reconstruction != radiosity::Reconstruction::none) {
       say("exposure, tone", "{exposure}" + std::string(report_.automatic_exposure ? " (automatic)" : "") + ", {tone}");

@@ -188,6 +188,7 @@ Facts facts_of(const Report& report) {
   facts.add("links", audit.links);
   facts.add("ray_links", audit.ray_links);
   facts.add("stored_rays", audit.stored_rays);
+  facts.add("rays_for_view", audit.rays_for_view);
   facts.add("clusters", audit.clusters);
   facts.add("cluster_links", audit.cluster_links);
   facts.add("rays", audit.rays);

@@ -225,9 +225,9 @@ ExitCode run(const RenderOptions& options) {
       return artist.audit(*picture, tone, goal, control);
     };
   }
-  const bool only_pictures = std::all_of(options.outputs.begin(), options.outputs.end(), is_picture);
-  if (settings.mesh_error && options.error_of.value_or(only_pictures ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
-    control.mesh_from = artist.viewpoint();
+  const bool only_pictures = has_picture(options) && std::all_of(options.outputs.begin(), options.outputs.end(), is_picture);
+  if (options.error_of.value_or(only_pictures ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
+    control.viewpoint = artist.viewpoint();
   }
   const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
   if (outcome.solution && outcome.solution->audit.interrupted) { control = control.unstoppable(); }  // the best so far is drawn and written

@@ -54,10 +54,10 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
       Triangle t{face.surface, corner(0), corner(k), corner(k + 1), 1.0, 0.0, glm::dot(reflected, reflected), 0.0};
       const glm::dvec3 doubled = glm::cross(t.b - t.a, t.c - t.a);
       t.area = 0.5 * glm::length(doubled);
-      if (control.mesh_from && t.area > 0.0) {  // the part of the picture that it takes at most, as its middle sees it
+      if (control.viewpoint && t.area > 0.0) {  // the part of the picture that it takes at most, as its middle sees it
         t.share = 0.0;
         for (const glm::dvec3& p : {t.a, t.b, t.c, (t.a + t.b + t.c) / 3.0}) {
-          t.share = std::max(t.share, control.mesh_from->share(light.frame().to_scene(p), doubled / (2.0 * t.area)));
+          t.share = std::max(t.share, control.viewpoint->share(light.frame().to_scene(p), doubled / (2.0 * t.area)));
         }
         t.area *= t.share;
       }
@@ -88,8 +88,8 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
       sample.place = {light.objects().object(input.object).project(input.sheet, chord), input.object, t->surface};
       if (light.objects().covered(sample.place.point.position, sample.place.point.normal, input.object)) { return; }
       sample.weight = 1.0 / (all_area * density(*t));
-      if (control.mesh_from) {
-        sample.weight *= seen_share(control.mesh_from, light, sample.place) / t->share;
+      if (control.viewpoint) {
+        sample.weight *= seen_share(control.viewpoint, light, sample.place) / t->share;
         if (!(sample.weight > 0.0)) { return; }
       }
       const Material& material = light.material(t->surface);

@@ -23,7 +23,7 @@ class MeshErrorMeter {
   // Gathers light at `points` points of the mesh, in the scene's coordinates; half of them are spread by area, half by the square of the
   // reflected light. `scene` and `light` must outlive this. When cancelled there are no points.
   MeshErrorMeter(const Scene& scene, const FinalGather& light, const Mesh& mesh, std::uint64_t points, std::uint64_t seed, unsigned threads,
-                 const Control& control);  // `control.mesh_from`: errors count by the picture
+                 const Control& control);  // `control.viewpoint`: errors count by the picture
 
   // Of another mesh of the same surfaces. Nothing without points, or when they see no light.
   [[nodiscard]] std::optional<ErrorEstimate> measure(const Mesh& mesh) const;

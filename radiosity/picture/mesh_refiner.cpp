@@ -79,7 +79,7 @@ HALFLIGHT_INLINE MeshRefiner::MeshRefiner(const FinalGather& light, std::vector<
 }
 
 HALFLIGHT_INLINE void MeshRefiner::measure_outlines() {
-  if (control_->mesh_from) { outlines_ = outline_errors(*light_, surfaces_, *control_->mesh_from, threads_); }
+  if (control_->viewpoint) { outlines_ = outline_errors(*light_, surfaces_, *control_->viewpoint, threads_); }
 }
 
 HALFLIGHT_INLINE double MeshRefiner::outlines() const {
@@ -115,7 +115,7 @@ HALFLIGHT_INLINE MeshRefiner::Places MeshRefiner::places_of(const Face& face) co
       const glm::dvec3 weight{1.0 - root, root * (1.0 - v), root * v};
       const auto place = exposed_at(weight.x * corners[0] + weight.y * corners[k] + weight.z * corners[k + 1]);
       if (!place) { continue; }
-      const double share = seen_share(control_->mesh_from, *light_, *place);
+      const double share = seen_share(control_->viewpoint, *light_, *place);
       places.tests.push_back({*place, static_cast<std::uint32_t>(k), weight, share * area / static_cast<double>(on_each)});
     }
   }

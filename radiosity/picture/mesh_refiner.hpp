@@ -36,7 +36,7 @@ namespace radiosity {
 class MeshRefiner {
  public:
   // `surfaces`: with the faces of the leaves, whose T-vertices are still there. The references must outlive this.
-  // `control.mesh_from`: errors count by the picture.
+  // `control.viewpoint`: errors count by the picture.
   MeshRefiner(const FinalGather& light, std::vector<Surface> surfaces, const LeafLight& leaves, Meshing meshing, unsigned threads,
               const Control& control);
 

@@ -42,9 +42,6 @@ inline constexpr double least_share_beside_lamps = 4.0;
     return {false, "they pay from some " + std::to_string(rays_from) + " input faces on, there are " + std::to_string(faces), false, true};
   }
   constexpr std::uint64_t most_pairs = 4'000'000;
-  if (options.indirect == Indirect::automatic && 2 * lamps > faces && lamps * faces <= most_pairs) {
-    return {false, "most input faces shine, and are few enough to be linked"};
-  }
   return {true, {}, uncut > most_single_lamps || lamps * faces > most_pairs || 2 * lamps > faces};
 }
 

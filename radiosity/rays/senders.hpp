@@ -29,7 +29,8 @@ struct View {
     std::uint32_t leaf = no_node;
     float distance = 0.0f;
   };
-  double area = 0.0;  // of the caster, as a share of all
+  std::uint32_t node = no_node;  // the caster
+  double area = 0.0;             // of it, as a share of all, times its weight in the picture (view_importance.hpp)
   double reflectance = 0.0;
   std::array<Seen, 16> rays{};
 };

@@ -19,6 +19,7 @@
 #include <radiosity/rays/leaf_locator.hpp>
 #include <radiosity/rays/senders.hpp>
 #include <radiosity/rays/stored_rays.hpp>
+#include <radiosity/rays/view_importance.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 
@@ -98,6 +99,25 @@ class Spacing {
       if (!scene.lamps[scene.hierarchy[i].surface]) { open_.push_back(i); }
     }
     least_area_ = min_area * area_;
+    weight_.assign(scene.hierarchy.size(), 1.0);
+  }
+
+  // Errors count by the picture from here, too: what is seen of a coarse spacing says how much. To be called first.
+  void look_from(const Viewpoint& from, SpacingResult& result) {
+    const std::vector<std::uint32_t> input_faces = open_;
+    tolerance_ *= coarse;
+    while (step(result)) {}
+    tolerance_ /= coarse;
+    if (result.cancelled || result.too_large > 0) { return; }
+    result.casters.clear();
+    ViewImportance importance = view_importance(scene_, std::exchange(views_, {}), brightness_, from);
+    open_ = input_faces;
+    if (!(importance.reflected > 0.0)) { return; }
+    brightness_ = std::move(importance.brightness);
+    root_mean_square_ = importance.reflected;
+    weight_ = std::move(importance.weight);
+    gain_ = 1.0;
+    rest_ = 0.5 * importance.pictured / importance.reflected;
   }
 
   [[nodiscard]] bool dark() const { return !(root_mean_square_ > 0.0); }
@@ -114,9 +134,9 @@ class Spacing {
       const Node& node = scene_.hierarchy[i];
       const Weights weight = weights(i, rays);
       const double varies = node.radius * rays.nearness(i, 0.1 * node.radius);
-      const bool fine = varies * weight.mean * std::sqrt(node.area / area_) <= tolerance_;
-      if (fine || (node.leaf() && !(node.area > least_area_))) {
-        result.casters.push_back({i, weight.scatter});
+      const bool fine = varies * weight.mean * std::sqrt(weight_[i] * node.area / area_) <= tolerance_;
+      if (fine || (node.leaf() && !(weight_[i] * node.area > least_area_))) {
+        result.casters.push_back({i, weight.scatter * std::sqrt(weight_[i])});
         views_.push_back(view(i, rays));
       } else {
         wanting.push_back(i);
@@ -141,6 +161,7 @@ class Spacing {
   }
 
  private:
+  static constexpr double coarse = 2.0;  // how much more than the tolerance
   static constexpr std::uint32_t rays_each = std::tuple_size_v<decltype(View::rays)>;
 
   // So many rays from each open node.
@@ -169,11 +190,11 @@ class Spacing {
     }
     const auto count = static_cast<double>(rays.count(i));
     const double most = brightest(scene_.reflectance[scene_.hierarchy[i].surface]);
-    return {most * (1.5 * sum / count + 0.5), most * (1.5 * std::sqrt(square / count) + 0.5)};
+    return {most * (gain_ * sum / count + rest_), most * (gain_ * std::sqrt(square / count) + rest_)};
   }
 
   [[nodiscard]] View view(std::uint32_t i, const StoredRays& rays) const {
-    View result{scene_.exposure.area[i] / area_, brightest(scene_.reflectance[scene_.hierarchy[i].surface]), {}};
+    View result{i, weight_[i] * scene_.exposure.area[i] / area_, brightest(scene_.reflectance[scene_.hierarchy[i].surface]), {}};
     std::transform(rays.of(i).begin(), rays.of(i).end(), result.rays.begin(), [](const StoredRay& ray) {
       return View::Seen{ray.to, ray.length};
     });
@@ -191,7 +212,10 @@ class Spacing {
       }
       for (std::uint32_t k = 0; k < hierarchy[i].child_count; ++k) { open_.push_back(hierarchy[i].first_child + k); }
     }
-    for (std::size_t i = brightness_.size(); i < hierarchy.size(); ++i) { brightness_.push_back(brightness_[hierarchy[i].parent]); }
+    for (std::size_t i = brightness_.size(); i < hierarchy.size(); ++i) {
+      brightness_.push_back(brightness_[hierarchy[i].parent]);
+      weight_.push_back(weight_[hierarchy[i].parent]);
+    }
     scene_.expose();
   }
 
@@ -200,6 +224,8 @@ class Spacing {
   double tolerance_;
   std::vector<double> brightness_;  // of each node
   double root_mean_square_ = 0.0;   // of what is reflected, over the scene
+  std::vector<double> weight_;      // of each node: ViewImportance::weight
+  double gain_ = 1.5, rest_ = 0.5;  // weights()
   double area_ = 0.0, least_area_ = 0.0;
   std::vector<std::uint32_t> open_;
   std::vector<View> views_;  // of the casters
@@ -214,7 +240,8 @@ HALFLIGHT_INLINE SpacingResult space_casters(DiscreteScene& scene, Links& of_lam
   for (std::size_t i = 0; i < before; ++i) { was_leaf[i] = scene.hierarchy[i].leaf(); }
   detail::Spacing spacing{scene, of_lamps, tolerance, min_area};
   if (spacing.dark()) { return result; }
-  while (spacing.step(result)) {}
+  if (scene.control.viewpoint) { spacing.look_from(*scene.control.viewpoint, result); }
+  while (result.too_large == 0 && spacing.step(result)) {}
   spacing.split_as_senders(result);
   const auto split = [&](std::uint32_t i) { return was_leaf[i] && !scene.hierarchy[i].leaf(); };
   for (Link& link : of_lamps) {  // the link of a cluster has gradients in any case

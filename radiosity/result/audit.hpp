@@ -57,6 +57,7 @@ struct Audit {
   std::uint64_t nodes = 0, leaves = 0, links = 0, rays = 0;
   std::uint64_t leaf_splits = 0;  // of the nodes: leaves that were split once links were there, for light that varies over them
   std::uint64_t ray_links = 0, stored_rays = 0;     // among the links, made of rays; these
+  bool rays_for_view = false;                       // they are more where Control::viewpoint looks (rays/view_importance.hpp)
   std::uint64_t clusters = 0, cluster_links = 0;    // among the nodes; among the links, with one at an end
   std::optional<ImprintedEdges> imprinted;          // of discontinuity meshing, where that was done
   std::uint64_t rays_avoided = 0;                   // at least; by the two proofs:

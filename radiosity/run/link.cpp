@@ -35,6 +35,7 @@ namespace detail {
   const Audit& audit = run.solution.audit;
   const SpacingResult spacing = space_casters(scene, run.solution.links, audit.epsilon, audit.min_area);
   run.rays_of_spacing += spacing.rays;
+  run.solution.audit.rays_for_view = scene.control.viewpoint.has_value();
   if (spacing.cancelled) { return cancelled(); }
   if (spacing.too_large > 0) {
     return Failure{Failure::Kind::out_of_memory,

@@ -152,12 +152,13 @@ struct Control {
   // is split. Nothing is kept for it: a run that nobody watches pays nothing.
   std::function<void(const Question&, Decision)> decided = {};
 
-  // With Options::mesh_error: the error of the mesh is that of its picture from here.
-  std::optional<Viewpoint> mesh_from = {};
+  // Nothing but pictures from here is wanted: with stored rays, what matters for them is resolved more finely (rays/view_importance.hpp),
+  // and with Options::mesh_error the error of the mesh is that of its picture.
+  std::optional<Viewpoint> viewpoint = {};
 
   [[nodiscard]] bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
   // The same, but nothing stops the run.
-  [[nodiscard]] Control unstoppable() const { return {nullptr, progress, after_generation, picture_error, decided, mesh_from}; }
+  [[nodiscard]] Control unstoppable() const { return {nullptr, progress, after_generation, picture_error, decided, viewpoint}; }
   void report(std::string_view stage, double fraction) const {
     if (progress) { progress(stage, fraction); }
   }

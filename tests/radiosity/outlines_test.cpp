@@ -198,7 +198,7 @@ TEST_CASE("a mesh for a camera is refined at its outlines until they are as good
   options.audit_points = 0;
   options.mesh_error = 0.02;
   radiosity::Control control;
-  control.mesh_from = Pinhole{{3.0, 0.5, 1.2}, {0.0, 0.0, 0.5}}.viewpoint(1e-6);
+  control.viewpoint = Pinhole{{3.0, 0.5, 1.2}, {0.0, 0.0, 0.5}}.viewpoint(1e-6);
   options.threads = 1;
   const radiosity::Solution one = scenes::solved(scene, options, control);
   REQUIRE(one.refined);
@@ -212,6 +212,6 @@ TEST_CASE("a mesh for a camera is refined at its outlines until they are as good
   const radiosity::Solution three = scenes::solved(scene, options, control);
   CHECK((three.refined->positions == one.refined->positions));  // not to be printed
   CHECK(three.audit.mesh->outlines_after == mesh.outlines_after);
-  control.mesh_from.reset();
+  control.viewpoint.reset();
   CHECK(scenes::solved(scene, options, control).audit.mesh->outlines_before == 0.0);
 }

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/rays/view_importance.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/bundle.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/scene.hpp>
+
+#include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/rays/senders.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/support/parallel.hpp>
+#include <radiosity/visibility/visibility.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// One call of view_importance(). Casters are told by their index.
+class ViewedCasters {
+ public:
+  ViewedCasters(const DiscreteScene& scene, const std::vector<View>& views, const std::vector<double>& direct)
+      : scene_{scene}, views_{views}, direct_{direct}, at_(scene.hierarchy.size(), no_node) {
+    for (std::uint32_t k = 0; k < views.size(); ++k) { at_[views[k].node] = k; }
+    for (std::size_t i = 0; i < at_.size(); ++i) {  // parents before children
+      const std::uint32_t parent = scene.hierarchy[i].parent;
+      if (at_[i] == no_node && parent != no_node) { at_[i] = at_[parent]; }
+    }
+  }
+
+  [[nodiscard]] ViewImportance operator()(const Viewpoint& from) {
+    reflect();
+    ViewImportance result;
+    result.brightness = brightness_of_nodes();
+    double area = 0.0;
+    double square = 0.0;
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      const double reflected = reflected_of(k);
+      area += area_of(k);
+      square += area_of(k) * reflected * reflected;
+    }
+    result.reflected = area > 0.0 ? std::sqrt(square / area) : 0.0;
+    result.weight.assign(scene_.hierarchy.size(), 1.0);
+    const std::vector<double> seen = seen_shares(from);
+    double taken = 0.0;
+    double picture = 0.0;  // its squared norm
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      if (!(views_[k].reflectance > 0.0)) { continue; }
+      taken += area_of(k) * seen[k];
+      picture += area_of(k) * seen[k] * reflected_of(k) * reflected_of(k);
+    }
+    if (!(picture > 0.0)) { return result; }
+    result.pictured = std::sqrt(picture / taken);
+    const std::vector<double> sent = sent_shares(seen);
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+      const std::uint32_t k = at_[i];
+      if (k != no_node) { result.weight[i] = std::clamp(share * 0.5 * (seen[k] + sent[k]) * square / picture, 1.0, most_weight); }
+    }
+    // What stands above casters counts as the most of them.
+    for (std::size_t i = at_.size(); i-- > 0;) {
+      const std::uint32_t parent = scene_.hierarchy[i].parent;
+      if (parent != no_node && at_[parent] == no_node) { result.weight[parent] = std::max(result.weight[parent], result.weight[i]); }
+    }
+    return result;
+  }
+
+ private:
+  // A picture takes means over what its points see, which takes out most of what single casters have wrong. With 1 in place of this,
+  // pictures of rooms behind windows err by 4.2 instead of 4.7 % and take twice the time.
+  static constexpr double share = 0.4;
+  static constexpr double most_weight = 1e4;  // what is seen through a keyhole need not be resolved further
+
+  [[nodiscard]] double area_of(std::size_t k) const { return scene_.exposure.area[views_[k].node]; }
+  [[nodiscard]] double reflected_of(std::size_t k) const {
+    const std::uint32_t node = views_[k].node;
+    return direct_[node] - brightest(scene_.emission[scene_.hierarchy[node].surface]) + indirect_[k];
+  }
+
+  // The light that is reflected more than once, by Jacobi iterations over the views.
+  void reflect() {
+    indirect_.assign(views_.size(), 0.0);
+    std::vector<double> next(views_.size(), 0.0);
+    constexpr int reflections = 8;  // of light that walls reflect by .7, some 94 %
+    for (int k = 0; k < reflections; ++k) {
+      for (std::size_t c = 0; c < views_.size(); ++c) {
+        double sum = 0.0;
+        for (const View::Seen& seen : views_[c].rays) {
+          if (seen.leaf == no_node) { continue; }
+          sum += direct_[seen.leaf] + (at_[seen.leaf] != no_node ? indirect_[at_[seen.leaf]] : 0.0);
+        }
+        next[c] = views_[c].reflectance * sum / static_cast<double>(views_[c].rays.size());
+      }
+      indirect_.swap(next);
+    }
+  }
+
+  // Above casters it is the area average.
+  [[nodiscard]] std::vector<double> brightness_of_nodes() const {
+    const Hierarchy& hierarchy = scene_.hierarchy;
+    std::vector<double> brightness(hierarchy.size(), 0.0);
+    for (std::size_t i = hierarchy.size(); i-- > 0;) {  // children before parents
+      if (at_[i] != no_node) { brightness[i] = direct_[i] + indirect_[at_[i]]; }
+      const std::uint32_t parent = hierarchy[i].parent;
+      const double area = parent != no_node ? scene_.exposure.area[parent] : 0.0;
+      if (area > 0.0 && at_[parent] == no_node) { brightness[parent] += scene_.exposure.area[i] / area * brightness[i]; }
+    }
+    return brightness;
+  }
+
+  // The part of the picture that a unit of area takes of each caster: the mean over 16 points.
+  [[nodiscard]] std::vector<double> seen_shares(const Viewpoint& from) const {
+    const glm::dvec3 eye = (from.eye - scene_.frame.centre) * scene_.frame.scale;
+    std::vector<double> shares(views_.size(), 0.0);
+    parallel_for(views_.size(), scene_.threads, [&](std::size_t k) {
+      const std::uint32_t node = views_[k].node;
+      const Patch& patch = scene_.patches[node];
+      const std::uint32_t object = scene_.hierarchy[node].object;
+      raycast::Segments16 to_eye;
+      std::array<double, 16> seen{};
+      for (std::uint32_t i = 0; i < 16; ++i) {
+        const glm::dvec3 x = sample(patch, (i % 4 + 0.5) / 4.0, (i / 4 + 0.5) / 4.0);
+        seen[i] = from.share(scene_.frame.to_scene(x), patch.normal);
+        if (seen[i] > 0.0) { to_eye.set(i, {x, eye - x}, object, raycast::no_object, scene_.view().sheet(node)); }
+      }
+      std::uint32_t hint = raycast::no_shape;
+      const std::uint32_t hidden = scene_.objects.occluded16(to_eye, hint);
+      for (std::uint32_t i = 0; i < 16; ++i) { shares[k] += (hidden >> i & 1u) == 0 ? seen[i] / 16.0 : 0.0; }
+    });
+    return shares;
+  }
+
+  // The part of the picture that the light from a unit of area of each caster has, by what those that the camera sees see of it.
+  [[nodiscard]] std::vector<double> sent_shares(const std::vector<double>& seen) const {
+    std::vector<double> sent(views_.size(), 0.0);
+    for (std::size_t c = 0; c < views_.size(); ++c) {
+      const double each = area_of(c) * seen[c] * views_[c].reflectance / static_cast<double>(views_[c].rays.size());
+      for (const View::Seen& by_ray : views_[c].rays) {
+        const std::uint32_t to = by_ray.leaf != no_node ? at_[by_ray.leaf] : no_node;
+        if (to != no_node && area_of(to) > 0.0) { sent[to] += each / area_of(to); }
+      }
+    }
+    return sent;
+  }
+
+  const DiscreteScene& scene_;
+  const std::vector<View>& views_;
+  const std::vector<double>& direct_;
+  std::vector<std::uint32_t> at_;  // of each node: the caster at or above it
+  std::vector<double> indirect_;   // of each caster
+};
+
+}  // namespace detail
+
+HALFLIGHT_INLINE ViewImportance view_importance(const DiscreteScene& scene, const std::vector<View>& views,
+                                                const std::vector<double>& direct, const Viewpoint& from) {
+  return detail::ViewedCasters{scene, views, direct}(from);
+}
+
+}  // namespace radiosity
