@@ -114,8 +114,9 @@ HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Materi
   intake::join_groups(mesh);
   intake::split_faulty(mesh, false);
   intake::orient(mesh);
-  const intake::Topology before = intake::topology_of(mesh, false);
+  const intake::Topology before = intake::topology_of(mesh, true);
   intake::settle_backs(mesh, before);
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) { mesh.faces[f].shell = before.component[f]; }
   if (options.merge) { intake::merge_coplanar(mesh, before); }
   intake::flatten(mesh);
   intake::split_faulty(mesh, true);
