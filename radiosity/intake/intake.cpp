@@ -16,6 +16,7 @@
 
 #include <radiosity/intake/backs.hpp>
 #include <radiosity/intake/clean.hpp>
+#include <radiosity/intake/facing.hpp>
 #include <radiosity/intake/join.hpp>
 #include <radiosity/intake/merge.hpp>
 #include <radiosity/intake/objects.hpp>
@@ -49,6 +50,8 @@ inline constexpr std::array<Wording, static_cast<std::size_t>(ChangeKind::merged
     {"1 polygon looked another way than its neighbours: turned", "# polygons looked another way than their neighbours: turned"},
     {"across 1 edge polygons cannot look the same way, as on a Moebius strip: cut",
      "across # edges polygons cannot look the same way, as on a Moebius strip: cut"},
+    {"1 polygon showed its back to the light and its front to the inside of things: turned",
+     "# polygons showed their backs to the light and their fronts to the inside of things: turned"},
     {"1 polygon fits to none of its neighbours: a surface of its own", "# polygons fit to none of their neighbours: surfaces of their own"},
     {"1 closed shell looked inwards with no lamp or camera in it: turned",
      "# closed shells looked inwards with no lamp or camera in them: turned"},
@@ -114,6 +117,7 @@ HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Materi
   intake::join_groups(mesh);
   intake::split_faulty(mesh, false);
   intake::orient(mesh);
+  intake::turn_to_light(mesh, materials, options);
   const intake::Topology before = intake::topology_of(mesh, true);
   intake::settle_backs(mesh, before);
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) { mesh.faces[f].shell = before.component[f]; }

@@ -74,6 +74,7 @@ enum class ChangeKind : unsigned char {
   nonmanifold,  // edges of more than two faces: cut
   turned,       // polygons that looked another way than their neighbours: turned
   moebius,      // edges across which faces cannot be turned alike: cut
+  to_light,     // polygons of solids that are one another's walls, whose backs alone the light reaches: turned
   loose,        // polygons that fit to none of their neighbours: surfaces of their own
   inside_out,   // closed shells with nothing in them that looked inwards: turned
   room,         // closed shells around a lamp or an eye that looked outwards: turned, as rooms
