@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "apps/intake/model.hpp"
 #include "apps/scene_file.hpp"
 
