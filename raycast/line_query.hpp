@@ -43,6 +43,32 @@ template <class Visit>
   return slabs(nodes[0].box, t0, t1, entry) && portable::walk(bvh, Open{0}, everything, leaf, inner);
 }
 
+// Calls visit(item) for the items whose leaf the line meets within [t0, limit], nearer leaves first; visit may lower `limit`, so that what
+// lies beyond is left out.
+template <class Visit>
+void nearest_along(const Bvh& bvh, const SlabTest& slabs, double t0, const double& limit, Visit&& visit) {
+  if (bvh.empty()) { return; }
+  struct Open {
+    std::uint32_t child;
+    double at;
+  };
+  const Bvh::Node* const nodes = bvh.nodes().data();
+  const auto near = [&](const Open& open) { return !(open.at > limit); };
+  const auto leaf = [&](const Open& open) {
+    for (const std::uint32_t item : bvh.items(nodes[open.child])) { visit(item); }
+    return false;
+  };
+  const auto inner = [&](const Open& open, auto& put_off) {
+    const std::size_t bottom = put_off.size();
+    for (const std::uint32_t child : {nodes[open.child].first, nodes[open.child].first + 1}) {
+      double entry = 0.0;
+      if (slabs(nodes[child].box, t0, limit, entry)) { put_off.push_sorted(bottom, Open{child, entry}); }
+    }
+    return false;
+  };
+  static_cast<void>(portable::walk(bvh, Open{0, t0}, near, leaf, inner));
+}
+
 // The objects of a compiled scene whose bounds the line may meet within [t0, limit], nearer ones first as far as it is cheap to know:
 // visit(object) -> bool, until one returns true. visit may lower `limit`. Rooms are not among them, and an object of many shapes is
 // visited once for its guard.

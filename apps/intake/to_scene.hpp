@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "apps/intake/model.hpp"
 #include "apps/scene_file.hpp"
 

@@ -84,9 +84,11 @@ HALFLIGHT_INLINE void drop_degenerate(Working& mesh) {
   });
 }
 
-HALFLIGHT_INLINE void drop_duplicates(Working& mesh) {
+HALFLIGHT_INLINE void drop_duplicates(Working& mesh, const std::vector<bool>& among) {
   std::vector<std::pair<std::vector<std::uint32_t>, std::uint32_t>> keys;
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) { keys.emplace_back(canonical(mesh.faces[f].corners), f); }
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    if (among.empty() || among[f]) { keys.emplace_back(canonical(mesh.faces[f].corners), f); }
+  }
   std::sort(keys.begin(), keys.end());
   std::vector<bool> gone(mesh.faces.size(), false);
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {

@@ -6,6 +6,7 @@
 // of its extent: that is the rounding of six digits, or of single precision. It becomes planar by moving vertices, the others by cuts.
 
 #include <span>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -18,7 +19,8 @@ namespace radiosity::intake {
 void drop_degenerate(Working& mesh);
 
 // Faces with the same corners in the same order as a later one are left out: the later one covers the earlier (as objects do).
-void drop_duplicates(Working& mesh);
+// `among`: only those faces; empty: all.
+void drop_duplicates(Working& mesh, const std::vector<bool>& among = {});
 
 // Faces that are no simple polygons, or not nearly planar, are cut into triangles. `strict`: those that are nearly planar, too.
 void split_faulty(Working& mesh, bool strict);

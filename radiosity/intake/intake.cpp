@@ -16,6 +16,7 @@
 
 #include <radiosity/intake/backs.hpp>
 #include <radiosity/intake/clean.hpp>
+#include <radiosity/intake/facing.hpp>
 #include <radiosity/intake/join.hpp>
 #include <radiosity/intake/merge.hpp>
 #include <radiosity/intake/objects.hpp>
@@ -49,13 +50,16 @@ inline constexpr std::array<Wording, static_cast<std::size_t>(ChangeKind::merged
     {"1 polygon looked another way than its neighbours: turned", "# polygons looked another way than their neighbours: turned"},
     {"across 1 edge polygons cannot look the same way, as on a Moebius strip: cut",
      "across # edges polygons cannot look the same way, as on a Moebius strip: cut"},
+    {"1 polygon showed its back to the light and its front to the inside of things: turned",
+     "# polygons showed their backs to the light and their fronts to the inside of things: turned"},
     {"1 polygon fits to none of its neighbours: a surface of its own", "# polygons fit to none of their neighbours: surfaces of their own"},
     {"1 closed shell looked inwards with no lamp or camera in it: turned",
      "# closed shells looked inwards with no lamp or camera in them: turned"},
     {"1 closed shell around a lamp or a camera looked outwards: turned, as a room",
      "# closed shells around lamps or cameras looked outwards: turned, as rooms"},
     {"1 vertex of a lamp lay beside a wall, by @: moved onto it", "# vertices of lamps lay beside walls, by up to @: moved onto them"},
-    {"1 lamp lay on a surface and looked into it: turned", "# lamps lay on surfaces and looked into them: turned"},
+    {"1 lamp lay on a surface, or close before it, and looked into it: turned",
+     "# lamps lay on surfaces, or close before them, and looked into them: turned"},
     {"1 surface has polygons of both orientations: it reflects on both sides",
      "# surfaces have polygons of both orientations: they reflect on both sides"},
     {"1 polygon became part of a coplanar neighbour", "# polygons became parts of coplanar neighbours"},
@@ -114,8 +118,10 @@ HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Materi
   intake::join_groups(mesh);
   intake::split_faulty(mesh, false);
   intake::orient(mesh);
-  const intake::Topology before = intake::topology_of(mesh, false);
+  intake::turn_to_light(mesh, materials, options);
+  const intake::Topology before = intake::topology_of(mesh, true);
   intake::settle_backs(mesh, before);
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) { mesh.faces[f].shell = before.component[f]; }
   if (options.merge) { intake::merge_coplanar(mesh, before); }
   intake::flatten(mesh);
   intake::split_faulty(mesh, true);

@@ -126,9 +126,33 @@ class Joiner {
       return;
     }
     if (edge.size() == 1) { return; }
+    if (std::vector<Use> rest = mate_pieces(edge); rest.size() < edge.size()) {
+      if (!rest.empty()) { join(rest, report); }
+      return;
+    }
     const auto up = static_cast<std::size_t>(std::count_if(edge.begin(), edge.end(), [](const Use& use) { return use.up; }));
     if (2 * up == edge.size() && edge.size() <= 16 && join_around(edge)) { return; }
     if (report) { mesh_.changed(ChangeKind::nonmanifold, mesh_.faces[edge[0].face].polygon); }
+  }
+
+  // Where solids touch in an edge each of them is usually a piece of its own: two sides of one piece, and of no more, are neighbours,
+  // whichever way the other pieces look. What remains.
+  std::vector<Use> mate_pieces(std::span<const Use> edge) {
+    std::vector<Use> rest(edge.begin(), edge.end());
+    const auto piece = [&](const Use& use) { return mesh_.faces[use.face].piece; };
+    std::stable_sort(rest.begin(), rest.end(), [&](const Use& a, const Use& b) { return piece(a) < piece(b); });
+    std::vector<Use> left;
+    for (std::size_t first = 0, end = 0; first < rest.size(); first = end) {
+      while (end < rest.size() && piece(rest[end]) == piece(rest[first])) { ++end; }
+      const bool pair = piece(rest[first]) != none && end == first + 2 && rest[first].up != rest[first + 1].up &&
+                        !back_to_back(mesh_.faces[rest[first].face], mesh_.faces[rest[first + 1].face]);
+      if (pair) {
+        mate(rest[first], rest[first + 1]);
+      } else {
+        left.insert(left.end(), rest.begin() + static_cast<std::ptrdiff_t>(first), rest.begin() + static_cast<std::ptrdiff_t>(end));
+      }
+    }
+    return left;
   }
 
   void mate(const Use& a, const Use& b) {
@@ -271,6 +295,7 @@ HALFLIGHT_INLINE void orient(Working& mesh) {
     }
     const bool mixed = one_sided || 10.0 * std::min(along, against) > along + against;
     for (const std::uint32_t at : component) {
+      mesh.faces[at].piece = f;
       mesh.faces[at].mixed = mixed;
       if ((side[at] > 0) == (along >= against)) { continue; }
       mesh.faces[at].turn();

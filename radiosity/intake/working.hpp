@@ -37,6 +37,7 @@ struct Face {
   std::vector<Source> more = {};  // besides `polygon`: its duplicates, and those that were merged
   std::uint32_t shell = group;    // faces of one shell may be neighbours: a group, or groups that close a shell together (join.hpp)
   std::uint32_t back = none;      // the material of the polygons for its other side (backs.hpp)
+  std::uint32_t piece = none;     // faces of one piece hang together across edges that no other face has (orient)
 
   void stand_for(const Face& other) {
     more.push_back({other.polygon, other.turned});

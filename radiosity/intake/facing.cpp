@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/intake/backs.hpp>
+#include <radiosity/intake/clean.hpp>
+#include <radiosity/intake/facing.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include <brep/polygon.hpp>
+
+#include <raycast/inline.hpp>
+
+namespace radiosity::intake {
+namespace detail {
+
+// The pieces by consecutive numbers, and their borders.
+struct PieceBorders {
+  std::vector<std::uint32_t> piece;  // of a face
+  std::uint32_t pieces = 0;
+  std::vector<double> length, met;  // of a piece: of its border; of the part of that on which other faces lie
+  std::vector<double> area, backs;  // of a piece; of those of its faces that were given for both sides
+  std::vector<bool> twins;          // of a piece: at the place of each of its faces lies another one, or it was given for both sides
+
+  explicit PieceBorders(Working& mesh) {
+    std::vector<std::uint32_t> number(mesh.faces.size(), none);
+    for (const Face& face : mesh.faces) {
+      if (number[face.piece] == none) {
+        number[face.piece] = pieces++;
+        area.push_back(0.0);
+        backs.push_back(0.0);
+      }
+      piece.push_back(number[face.piece]);
+      const double its = brep::area(mesh.outline(face));
+      area[piece.back()] += its;
+      backs[piece.back()] += face.back != none ? its : 0.0;
+    }
+    length.assign(pieces, 0.0);
+    met.assign(pieces, 0.0);
+    find_twins(mesh);
+    for (std::uint32_t p = 0; p < pieces; ++p) { twins[p] = twins[p] || backs[p] > 0.9 * area[p]; }
+    measure(mesh);
+  }
+
+ private:
+  void find_twins(const Working& mesh) {
+    std::vector<std::pair<std::vector<std::uint32_t>, std::uint32_t>> places;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      places.emplace_back(mesh.faces[f].corners, f);
+      std::sort(places.back().first.begin(), places.back().first.end());
+    }
+    std::sort(places.begin(), places.end());
+    twins.assign(pieces, true);
+    place_.resize(places.size());
+    for (std::size_t first = 0, end = 0; first < places.size(); first = end) {
+      while (end < places.size() && places[end].first == places[first].first) { ++end; }
+      for (std::size_t i = first; i < end; ++i) { place_[places[i].second] = static_cast<std::uint32_t>(first); }
+      if (end == first + 1) { twins[piece[places[first].second]] = false; }
+    }
+  }
+
+  // An edge is met where a face of another piece lies on it, and not only one at the same place.
+  void measure(const Working& mesh) {
+    struct Side {
+      std::uint32_t low, high, piece, place;
+    };
+    std::vector<Side> sides;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      const std::vector<std::uint32_t>& corners = mesh.faces[f].corners;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto [low, high] = std::minmax(corners[i], corners[i + 1 < corners.size() ? i + 1 : 0]);
+        sides.push_back({low, high, piece[f], place_[f]});
+      }
+    }
+    const auto key = [](const Side& s) { return std::tie(s.low, s.high, s.piece, s.place); };
+    std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return key(a) < key(b); });
+    for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
+      while (end < sides.size() && sides[end].low == sides[first].low && sides[end].high == sides[first].high) { ++end; }
+      const std::span<const Side> edge = std::span<const Side>(sides).subspan(first, end - first);
+      const double size = glm::length(mesh.positions[edge[0].high] - mesh.positions[edge[0].low]);
+      for (std::size_t i = 0, next = 0; i < edge.size(); i = next) {
+        while (next < edge.size() && edge[next].piece == edge[i].piece) { ++next; }
+        if (next == i + 2) { continue; }
+        const auto elsewhere = [&](const Side& s) { return s.piece != edge[i].piece && s.place != edge[i].place; };
+        length[edge[i].piece] += size;
+        met[edge[i].piece] += std::any_of(edge.begin(), edge.end(), elsewhere) ? size : 0.0;
+      }
+    }
+  }
+
+  std::vector<std::uint32_t> place_;  // of a face: the same number where other faces have the same corners
+};
+
+// 1: the front is where the piece is seen from, -1: the back is, 0: nobody knows.
+inline int seen_side(const PieceView& view, bool twins) {
+  constexpr double tol_dark = 1e-9, much_longer = 2.0;
+  const double much_lighter = twins ? 100.0 : 10.0, f = view.front.light, b = view.back.light;
+  if (std::max(f, b) > tol_dark) { return f > much_lighter * b ? 1 : b > much_lighter * f ? -1 : 0; }
+  if (twins) { return 0; }
+  return view.front.way > much_longer * view.back.way ? 1 : view.back.way > much_longer * view.front.way ? -1 : 0;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE void turn_to_light(Working& mesh, std::span<const Material> materials, const IntakeOptions& options) {
+  const detail::PieceBorders borders(mesh);
+  const auto asks = [&](std::uint32_t p) { return borders.length[p] > 0.0 && 2.0 * borders.met[p] >= borders.length[p]; };
+  bool any = false;
+  for (std::uint32_t p = 0; p < borders.pieces; ++p) { any = any || asks(p); }
+  if (!any) { return; }
+  const std::vector<PieceView> views = SideLight(mesh, borders.piece, borders.pieces).solve(materials, options.eyes);
+  std::vector<bool> asked(mesh.faces.size());
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const std::uint32_t p = borders.piece[f];
+    asked[f] = asks(p);
+    const int side = asks(p) ? detail::seen_side(views[p], borders.twins[p]) : 0;
+    if (side == 0) { continue; }
+    Face& face = mesh.faces[f];
+    if (side < 0) {
+      face.turn();
+      mesh.changed(ChangeKind::to_light, face.polygon);
+    }
+    face.mixed = false;
+    if (face.back != none) { leave_out_backs(mesh, face); }
+    face.back = none;
+  }
+  drop_duplicates(mesh, asked);  // twins of which one was turned
+}
+
+}  // namespace radiosity::intake
