@@ -15,7 +15,8 @@
 // Guibas 1995).
 //
 // Where nothing shines more than half as bright again as all surfaces do in the mean, no direction is better than another: then there are
-// no shapes, for of a furnace they would be thousands, and each ray would meet many.
+// no shapes, for of a furnace they would be thousands, and each ray would meet many. But a sun far away may have nearly all of the area and
+// fill next to nothing of the sky: so either only walls of rooms shine, or everything does, half as bright as the brightest at least.
 
 #include <algorithm>
 #include <array>
@@ -63,7 +64,7 @@ class Emitters {
   static constexpr std::uint32_t none = 0xffffffff;
   static constexpr std::size_t most_single_faces = 64;  // more of them are a body
 
-  // Does nothing shine more than half as bright again as all surfaces do in the mean?
+  // Does light come about evenly from all sides? See above.
   [[nodiscard]] static bool even(const std::vector<Surface>& surfaces, const std::vector<Color>& emission);
 
   struct Shape {
