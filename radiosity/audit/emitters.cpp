@@ -67,7 +67,8 @@ HALFLIGHT_INLINE std::vector<std::array<glm::dvec3, 3>> compact_triangles(const 
 }  // namespace detail
 
 HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
-  double area = 0.0, power = 0.0, brightest = 0.0;
+  double area = 0.0, power = 0.0, brightest = 0.0, dimmest = std::numeric_limits<double>::infinity();
+  bool all_around = true;  // all that shines are walls of rooms
   for (const Surface& surface : surfaces) {
     for (const brep::FaceId f : brep::faces(surface.brep)) {
       const std::uint32_t sheet = surface.brep.data(f).sheet;
@@ -77,9 +78,11 @@ HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const
       area += of_face;
       power += of_face * exitance;
       brightest = std::max(brightest, exitance);
+      dimmest = std::min(dimmest, exitance);
+      all_around = all_around && (exitance == 0.0 || surface.object->inside());
     }
   }
-  return brightest * area <= 1.5 * power;
+  return brightest * area <= 1.5 * power && (all_around || brightest <= 2.0 * dimmest);
 }
 
 // How many flat faces shine alike.

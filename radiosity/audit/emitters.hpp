@@ -15,7 +15,9 @@
 // Guibas 1995).
 //
 // Where nothing shines more than half as bright again as all surfaces do in the mean, as in a furnace, no direction is better than another:
-// then no shapes are made, because they would be thousands that every ray has to be tested against.
+// then no shapes are made, because they would be thousands that every ray has to be tested against. A sun far away may have nearly all of
+// the area and fill next to nothing of the sky; so that holds only where nothing but walls of rooms shines, or where everything does, at
+// least half as bright as the brightest.
 
 #include <algorithm>
 #include <array>
@@ -63,7 +65,7 @@ class Emitters {
   static constexpr std::uint32_t none = 0xffffffff;
   static constexpr std::size_t most_single_faces = 64;  // more of them are a body
 
-  // Does nothing shine more than half as bright again as all surfaces do in the mean?
+  // Does light come about evenly from all sides? See above.
   [[nodiscard]] static bool even(const std::vector<Surface>& surfaces, const std::vector<Color>& emission);
 
   struct Shape {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -22,6 +23,7 @@
 
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/audit/pixel_draw.hpp>
 #include <radiosity/audit/surface_error.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/frame.hpp>
@@ -50,10 +52,12 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
                                                                    std::uint64_t seed, const Control& control) const {
   std::uint64_t keys = 0;
   Measured measured;
+  std::uint64_t rays_to_draw = 0;
+  const PixelDraw draw = draw_of(picture, rays_to_draw, control);
   const auto measure = [&](std::uint64_t points, std::uint32_t paths, Measured& to) {
-    to.side = static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(points))));
-    const std::uint64_t first = std::exchange(keys, keys + std::uint64_t{to.side} * to.side);
-    to.samples.assign(std::size_t{to.side} * to.side, {});
+    const std::uint32_t side = PixelDraw::side(points);
+    to.samples.assign(PixelDraw::size(side), {});
+    const std::uint64_t first = std::exchange(keys, keys + to.samples.size());
     constexpr std::size_t batch = 512;  // between two looks at the cancel flag
     for (std::size_t done = 0; done < to.samples.size() && !control.cancelled(); done += batch) {
       parallel_for(
@@ -61,14 +65,15 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
           [&](std::size_t offset) {
             if (control.cancelled()) { return; }
             const std::size_t i = done + offset;
-            to.samples[i] = measure_pixel(picture, seed, first + i, i % to.side, i / to.side, to.side, paths);
+            to.samples[i] = measure_pixel(picture, seed, first + i, draw, i, side, paths);
           },
           4);
       control.report("audit", static_cast<double>(done) / static_cast<double>(to.samples.size()));
     }
     for (const Sample& sample : to.samples) {
       to.rays += sample.rays;
-      if (sample.valid) { to.sums.add(sample.square, sample.reference, sample.noise); }
+      const double w = sample.weight;
+      if (sample.valid) { to.sums.add(w * sample.square, w * sample.reference, w * w * sample.noise); }
     }
     return !control.cancelled();
   };
@@ -84,8 +89,13 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   PictureError result;
   result.error = *error;
   result.points = measured.sums.square.size();
-  result.rays = measured.rays;
-  result.audited = static_cast<double>(result.points) / static_cast<double>(measured.samples.size());
+  result.rays = measured.rays + rays_to_draw;
+  double all = 0.0;
+  for (const Sample& sample : measured.samples) {
+    all += sample.weight;
+    result.audited += sample.valid ? sample.weight : 0.0;
+  }
+  result.audited /= all;
   const auto [over2, over8] = shares_off(picture, measured);
   result.over2 = over2;
   result.over8 = over8;
@@ -123,32 +133,66 @@ HALFLIGHT_INLINE std::optional<PictureAudit::Seen> PictureAudit::seen(const Show
   return std::nullopt;
 }
 
+HALFLIGHT_INLINE std::optional<Color> PictureAudit::emitted(const ShownPicture& picture, std::uint32_t x, std::uint32_t y,
+                                                            std::uint64_t& rays) const {
+  bool sees = false;
+  Color emitted{0.0};
+  // Somewhat beyond the pixel too: few paths would miss a lamp that covers a sliver of it, which the picture shows.
+  for (std::uint32_t k = 0; k < 25; ++k) {
+    const auto at = seen(picture, x - 0.25 + 0.375 * (k % 5), y - 0.25 + 0.375 * (k / 5), rays);
+    const Color own = at ? emission(*at) : Color{0.0};  // where nothing is, nothing is emitted
+    if (k == 0) { emitted = own; }
+    if (own != emitted || (!all_emit_ && !is_black(own))) { return std::nullopt; }
+    sees = sees || at.has_value();
+  }
+  return sees ? std::optional{emitted} : std::nullopt;
+}
+
+HALFLIGHT_INLINE PixelDraw PictureAudit::draw_of(const ShownPicture& picture, std::uint64_t& rays, const Control& control) const {
+  const std::size_t pixels = std::size_t{picture.width} * picture.height;
+  std::vector<Color> radiosity(pixels);
+  std::vector<std::size_t> order(pixels);
+  double rest = 0.0;  // importance of the pixels that are not looked at yet
+  for (std::size_t p = 0; p < pixels; ++p) {
+    const Color shown = picture.radiosity(static_cast<std::uint32_t>(p % picture.width), static_cast<std::uint32_t>(p / picture.width));
+    radiosity[p] = std::isfinite(glm::dot(shown, shown)) ? shown : Color{0.0};
+    order[p] = p;
+    rest += glm::dot(radiosity[p], radiosity[p]);
+  }
+  const auto square = [&](std::size_t p) { return glm::dot(radiosity[p], radiosity[p]); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return std::pair{square(b), a} < std::pair{square(a), b}; });
+  // A pixel that less than one of so many points would fall on wastes few of them.
+  constexpr double many = 4096.0;
+  std::vector<char> left_out(pixels, 0);
+  double kept = 0.0;
+  for (std::size_t k = 0; k < pixels && many * square(order[k]) > kept + rest && !control.cancelled(); ++k) {
+    const std::size_t p = order[k];
+    rest -= square(p);
+    if (emitted(picture, static_cast<std::uint32_t>(p % picture.width), static_cast<std::uint32_t>(p / picture.width), rays)) {
+      kept += square(p);
+    } else {
+      left_out[p] = 1;
+    }
+  }
+  return {picture.width, picture.height, pixel_importance(picture.width, picture.height, radiosity, left_out)};
+}
+
 HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const ShownPicture& picture, std::uint64_t seed, std::uint64_t key,
-                                                                  std::size_t column, std::size_t row, std::uint32_t side,
+                                                                  const PixelDraw& draw, std::size_t i, std::uint32_t side,
                                                                   std::uint32_t paths) const {
   Sample sample;
   Random random{seed, key, 0x706978656cull};
-  const auto place = [&](std::size_t cell, std::uint32_t pixels) {
-    const double at = (static_cast<double>(cell) + random.uniform()) / side * pixels;
-    return std::min(static_cast<std::uint32_t>(at), pixels - 1);
-  };
-  sample.x = place(column, picture.width);
-  sample.y = place(row, picture.height);
-  bool sees = false;
-  Color emitted{0.0};
-  for (std::uint32_t k = 0; k < 16; ++k) {
-    const auto at = seen(picture, sample.x + (k % 4 + 0.5) / 4.0, sample.y + (k / 4 + 0.5) / 4.0, sample.rays);
-    const Color own = at ? emission(*at) : Color{0.0};  // where nothing is, nothing is emitted
-    if (k == 0) { emitted = own; }
-    if (own != emitted) { return sample; }
-    sees = sees || at.has_value();
-  }
-  if (!sees || (!all_emit_ && !is_black(emitted))) { return sample; }
+  const PixelDraw::Pixel pixel = draw.draw(i, side, random);
+  sample.x = pixel.x;
+  sample.y = pixel.y;
+  sample.weight = pixel.weight;
+  const std::optional<Color> emits = emitted(picture, sample.x, sample.y, sample.rays);
+  if (!emits) { return sample; }
   bool edge = false;  // of a lamp
   const TwoEstimates light{seed, key, paths, [&](PathNumbers& numbers) -> PathTracer::Light {
                              const double u = numbers.uniform();
                              const auto at = seen(picture, sample.x + u, sample.y + numbers.uniform(), sample.rays);
-                             edge = edge || (at ? emission(*at) : Color{0.0}) != emitted;
+                             edge = edge || (at ? emission(*at) : Color{0.0}) != *emits;
                              if (!at) { return {}; }
                              return tracer_.radiosity(at->point.position, at->point.normal, at->object, at->sheet, numbers, sample.rays);
                            }};
@@ -156,13 +200,16 @@ HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const ShownPic
   const Color shown = unit_.to_unit(picture.radiosity(sample.x, sample.y));
   const auto level = [&](double b) { return picture.level(unit_.to_watts(Color{b}).x); };
   sample.square = glm::dot(light.all[0] - shown, light.all[1] - shown);
-  sample.reference = glm::dot(light.all[0] - emitted, light.all[1] - emitted);
+  sample.reference = glm::dot(light.all[0] - *emits, light.all[1] - *emits);
   sample.noise = light.noise();
   for (int c = 0; c < 3; ++c) {
     const double off = level(0.5 * (light.all[0][c] + light.all[1][c])) - level(shown[c]);
     sample.levels = std::max(sample.levels, std::abs(off));
-    sample.noise_in_levels = std::max(sample.noise_in_levels, std::abs(level(light.all[0][c]) - level(light.all[1][c])));
-    sample.square_in_levels += (level(light.all[0][c]) - level(shown[c])) * (level(light.all[1][c]) - level(shown[c]));
+    const double one = level(light.all[0][c]) - level(shown[c]), other = level(light.all[1][c]) - level(shown[c]);
+    sample.most_levels = std::max({sample.most_levels, std::abs(one), std::abs(other)});
+    if (one * other > 0.0) { sample.least_levels = std::max(sample.least_levels, std::min(std::abs(one), std::abs(other))); }
+    sample.noise_in_levels = std::max(sample.noise_in_levels, std::abs(one - other));
+    sample.square_in_levels += one * other;
   }
   sample.valid = true;
   return sample;
@@ -170,29 +217,39 @@ HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const ShownPic
 
 HALFLIGHT_INLINE std::array<ShareBounds, 2> PictureAudit::shares_off(const ShownPicture& picture, const Measured& measured) {
   // Two standard errors of the mean of both estimates are the RMS difference between them, over the pixels of a tile. Three are taken: of a
-  // hundred right pixels, two errors would show five to be wrong.
-  std::array<double, 16> doubt{}, count{};
+  // hundred right pixels, two errors would show five to be wrong. From n pixels it takes Student's quantile, 3 + 7.5 / n + 17 / n^2, for as
+  // much (Abramowitz and Stegun 26.7.5).
+  std::array<double, 16> doubt{}, count{}, pixels{};
+  double all = 0.0;
   ErrorSums squares;
   for (const Sample& sample : measured.samples) {
     if (!sample.valid) { continue; }
-    doubt[tile(picture, sample)] += sample.noise_in_levels * sample.noise_in_levels;
-    count[tile(picture, sample)] += 1.0;
-    squares.add(sample.square_in_levels, 1.0, 0.0);
+    doubt[tile(picture, sample)] += sample.weight * sample.noise_in_levels * sample.noise_in_levels;
+    count[tile(picture, sample)] += sample.weight;
+    pixels[tile(picture, sample)] += 1.0;
+    all += sample.weight;
+    squares.add(sample.weight * sample.square_in_levels, sample.weight, 0.0);
   }
-  for (std::size_t t = 0; t < 16; ++t) { doubt[t] = count[t] > 0.0 ? 1.5 * std::sqrt(doubt[t] / count[t]) : 0.0; }
+  for (std::size_t t = 0; t < 16; ++t) {
+    const double n = pixels[t];
+    doubt[t] = n > 0.0 ? 0.5 * (3.0 + 7.5 / n + 17.0 / (n * n)) * std::sqrt(doubt[t] / count[t]) : 0.0;
+  }
   // However noisy a pixel: not more of them can be so far off than their mean square allows (Chebyshev).
   const std::optional<ErrorEstimate> rms = squares.estimate();
   const auto allowed = [&](double levels) { return rms ? rms->high * rms->high / (levels * levels) : 1.0; };
+  // Nor are more than twice as many so far off as seem to be by either of the two estimates: each errs to the side away from what is shown
+  // in at least 3 of 10 pixels, even where its noise is mostly small and seldom large, and then it shows what is off.
   const auto share = [&](double levels) {
     ShareBounds bounds;
-    const double one = 1.0 / static_cast<double>(squares.square.size());
+    double seen = 0.0;
     for (const Sample& sample : measured.samples) {
       if (!sample.valid) { continue; }
-      const double by_noise = doubt[tile(picture, sample)];
-      bounds.least += sample.levels - by_noise > levels ? one : 0.0;
+      const double by_noise = doubt[tile(picture, sample)], one = sample.weight / all;
+      bounds.least += std::min(sample.levels - by_noise, sample.least_levels) > levels ? one : 0.0;
       bounds.most += sample.levels + by_noise > levels ? one : 0.0;
+      seen += sample.most_levels > levels ? one : 0.0;
     }
-    bounds.most = std::max(bounds.least, std::min(bounds.most, allowed(levels)));
+    bounds.most = std::max(bounds.least, std::min({bounds.most, allowed(levels), 2.0 * seen}));
     return bounds;
   };
   return {share(2.0), share(8.0)};
@@ -200,10 +257,17 @@ HALFLIGHT_INLINE std::array<ShareBounds, 2> PictureAudit::shares_off(const Shown
 
 HALFLIGHT_INLINE std::optional<PictureError::Tile> PictureAudit::worst_tile(const ShownPicture& picture, const Measured& measured) {
   double mean_reference = 0.0;
-  for (const double r : measured.sums.reference) { mean_reference += r / static_cast<double>(measured.sums.reference.size()); }
+  double all = 0.0;
+  for (const Sample& sample : measured.samples) {
+    if (!sample.valid) { continue; }
+    mean_reference += sample.weight * sample.reference;
+    all += sample.weight;
+  }
+  mean_reference /= all;
   std::array<ErrorSums, 16> tiles;
   for (const Sample& sample : measured.samples) {
-    if (sample.valid) { tiles[tile(picture, sample)].add(sample.square, mean_reference, sample.noise); }
+    const double w = sample.weight;
+    if (sample.valid) { tiles[tile(picture, sample)].add(w * sample.square, w * mean_reference, w * w * sample.noise); }
   }
   std::optional<PictureError::Tile> worst;
   for (std::uint32_t t = 0; t < tiles.size(); ++t) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The error of a picture: what the camera does not see does not count, and what it sees large counts much. Pixels are drawn evenly; the
-// truth of a pixel is the mean of the path-traced radiosity over its square, estimated twice and independently (error_estimate.hpp).
+// The error of a picture: what the camera does not see does not count, and what it sees large counts much. Half of the pixels are drawn
+// evenly, half where the picture is bright or changes (pixel_draw.hpp). The truth of a pixel is the mean of the path-traced radiosity over
+// its square, estimated twice and independently (error_estimate.hpp).
 // Pixels in which a lamp shows are left out, for its radiosity is exact by definition and would hide all else, unless every surface
 // emits; so are those that see nothing. Errors are relative to the reflected radiosity. It does not matter how the picture was made.
 
@@ -19,6 +20,7 @@
 
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/audit/pixel_draw.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/light_unit.hpp>
 #include <radiosity/scene/material.hpp>
@@ -51,16 +53,17 @@ class PictureAudit {
  private:
   struct Sample {
     std::uint32_t x = 0, y = 0;
+    double weight = 1.0;
     double square = 0.0, reference = 0.0, noise = 0.0;
-    double levels = 0.0, noise_in_levels = 0.0;  // the largest difference of a channel; of its two estimates from each other
-    double square_in_levels = 0.0;               // as `square`, of all channels
+    double levels = 0.0, noise_in_levels = 0.0;    // the largest difference of a channel; of its two estimates from each other
+    double least_levels = 0.0, most_levels = 0.0;  // the same by the estimate that differs less, 0 where they differ to both sides; more
+    double square_in_levels = 0.0;                 // as `square`, of all channels
     std::uint64_t rays = 0;
     bool valid = false;
   };
   struct Measured {
     std::vector<Sample> samples;
     ErrorSums sums;
-    std::uint32_t side = 0;
     std::uint64_t rays = 0;
   };
   struct Seen {
@@ -74,9 +77,14 @@ class PictureAudit {
   [[nodiscard]] std::optional<Seen> seen(const ShownPicture& picture, double x, double y, std::uint64_t& rays) const;
   [[nodiscard]] const Color& emission(const Seen& at) const { return tracer_.material(tracer_.surface(at.object, at.sheet)).emission; }
 
-  // A pixel of the cell (column, row) of side x side cells of the picture.
-  [[nodiscard]] Sample measure_pixel(const ShownPicture& picture, std::uint64_t seed, std::uint64_t key, std::size_t column,
-                                     std::size_t row, std::uint32_t side, std::uint32_t paths) const;
+  // What is emitted there, when that is the same all over the pixel. Nothing when the pixel does not count: it sees nothing, or shows a lamp.
+  [[nodiscard]] std::optional<Color> emitted(const ShownPicture& picture, std::uint32_t x, std::uint32_t y, std::uint64_t& rays) const;
+
+  // Of the brightest pixels those that do not count are found first, or they would be drawn again and again for nothing.
+  [[nodiscard]] PixelDraw draw_of(const ShownPicture& picture, std::uint64_t& rays, const Control& control) const;
+
+  [[nodiscard]] Sample measure_pixel(const ShownPicture& picture, std::uint64_t seed, std::uint64_t key, const PixelDraw& draw,
+                                     std::size_t i, std::uint32_t side, std::uint32_t paths) const;
 
   [[nodiscard]] static std::size_t tile(const ShownPicture& picture, const Sample& sample) {
     return 4 * (std::size_t{4} * sample.y / picture.height) + std::size_t{4} * sample.x / picture.width;
