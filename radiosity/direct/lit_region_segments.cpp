@@ -19,7 +19,9 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/facets.hpp>
 #include <radiosity/direct/lamp_samples.hpp>
+#include <radiosity/visibility/shadow.hpp>
 
 // LitRegion: what of a lamp is seen, by segments to its samples.
 
@@ -29,6 +31,8 @@ namespace detail {
 
 // How far segments stay off the surfaces at their ends, in a scene of size 1 to 2: more than single precision's error.
 inline constexpr double off_surface = 1e-5;
+
+inline constexpr std::size_t least_carrying = 4;  // samples of a lamp that face a point, for the share that is seen to follow from them
 
 }  // namespace detail
 
@@ -78,18 +82,55 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
   seen_.clear();
   double all = 0.0;
   double seen = 0.0;
+  std::size_t carrying = 0;
   for (std::size_t first = 0; first < lamp.samples.size(); first += 16) {
     const Asked16 asked = ask16(reach, x, n, std::span{lamp.samples}.subspan(first, 16));
     for (unsigned k = 0; k < 16; ++k) {
       weight_.push_back(asked.weight[k]);
       seen_.push_back(static_cast<char>(asked.seen >> k & 1u));
       all += asked.weight[k];
+      carrying += asked.weight[k] > 0.0 ? 1 : 0;
       if (seen_.back() != 0) { seen += asked.weight[k]; }
     }
-    if (4 * (first + 16) != lamp.samples.size()) { continue; }
+    if (4 * (first + 16) != lamp.samples.size() || carrying < detail::least_carrying) { continue; }
     if (seen == all || (seen == 0.0 && survey(reach).dark)) { return seen > 0.0 ? 1.0 : 0.0; }
   }
+  if (carrying < detail::least_carrying) { return seen_share_of_facets(reach, x, n); }
   if (!lamp.fine.empty() && seen < all) { refine(reach, x, n, all, seen); }
+  return all > 0.0 ? seen / all : 0.0;
+}
+
+HALFLIGHT_INLINE double LitRegion::seen_share_of_facets(Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
+  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  if (glm::dot(n, lamp.centre - x) <= -lamp.radius) { return 0.0; }
+  std::vector<LampSample> samples;
+  std::vector<double> area;
+  Piece above, below;
+  for (const Facets::Facet& facet : lamp.facets.facets) {
+    if (!(facet.height(x) > light_->slack_)) { continue; }
+    detail::part(facet.contour, {x, n}, above, below);
+    if (above.empty()) { continue; }
+    glm::dvec3 middle{0.0}, twice_area{0.0};
+    for (std::size_t i = 0; i < above.size(); ++i) {
+      middle += above[i] / static_cast<double>(above.size());
+      twice_area += glm::cross(above[i] - above[0], above[i + 1 < above.size() ? i + 1 : 0] - above[0]);
+    }
+    const auto nearest = std::min_element(lamp.samples.begin(), lamp.samples.end(), [&](const LampSample& a, const LampSample& b) {
+      const glm::dvec3 to_a = a.position - middle, to_b = b.position - middle;
+      return glm::dot(to_a, to_a) < glm::dot(to_b, to_b);
+    });
+    samples.push_back({middle, facet.normal, nearest->owner});
+    area.push_back(glm::length(twice_area));
+  }
+  double all = 0.0, seen = 0.0;
+  for (std::size_t first = 0; first < samples.size(); first += 16) {
+    const std::size_t count = std::min<std::size_t>(16, samples.size() - first);
+    const Asked16 asked = ask16(reach, x, n, std::span{samples}.subspan(first, count));
+    for (std::size_t k = 0; k < count; ++k) {
+      all += area[first + k] * asked.weight[k];
+      if ((asked.seen >> k & 1u) != 0) { seen += area[first + k] * asked.weight[k]; }
+    }
+  }
   return all > 0.0 ? seen / all : 0.0;
 }
 

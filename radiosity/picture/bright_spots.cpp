@@ -154,13 +154,13 @@ HALFLIGHT_INLINE void BrightSpots::make_groups() {
   }
 }
 
-HALFLIGHT_INLINE BrightSpots::From::From(const BrightSpots& spots, const raycast::SurfacePoint& point) : spots_{&spots} {
+HALFLIGHT_INLINE BrightSpots::From::From(const BrightSpots& spots, const glm::dvec3& position, const glm::dvec3* normal) : spots_{&spots} {
   until_.reserve(spots.groups_.size());
   double sum = 0.0;
   for (const Group& group : spots.groups_) {
-    const glm::dvec3 d = group.middle - point.position;
+    const glm::dvec3 d = group.middle - position;
     const double square = glm::dot(d, d) + group.radius * group.radius, length = std::sqrt(square);
-    const double here = std::clamp((glm::dot(d, point.normal) + group.radius) / length, 0.0, 1.0);
+    const double here = normal == nullptr ? 1.0 : std::clamp((glm::dot(d, *normal) + group.radius) / length, 0.0, 1.0);
     const double spread = 1.0 - glm::length(group.normal);
     const double there = std::clamp((group.radius - glm::dot(d, group.normal)) / length + spread, 0.0, 1.0);
     const double light = group.power * here * there / (std::numbers::pi * square);
@@ -197,6 +197,15 @@ HALFLIGHT_INLINE double BrightSpots::From::density(std::uint32_t surface, std::u
   const Spot& spot = spots_->spots_[i];
   const double light = until_[spot.group] - (spot.group > 0 ? until_[spot.group - 1] : 0.0);
   return light / until_.back() * spot.power / spots_->groups_[spot.group].power / spot.area;
+}
+
+HALFLIGHT_INLINE double BrightSpots::From::aimed(std::uint32_t surface, const Lookup::Found& found, const raycast::SurfacePoint& here,
+                                                 const raycast::SurfacePoint& there) const {
+  const double density = found.within ? this->density(surface, found.triangle) : 0.0;
+  if (!(density > 0.0)) { return 0.0; }
+  const glm::dvec3 d = there.position - here.position;
+  const double leaving = glm::dot(d, here.normal), arriving = -glm::dot(d, there.normal), square = glm::dot(d, d);
+  return leaving > 0.0 && arriving > 0.0 ? density * std::numbers::pi * square * square / (leaving * arriving) : 0.0;
 }
 
 }  // namespace radiosity

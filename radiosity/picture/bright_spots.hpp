@@ -43,16 +43,25 @@ class BrightSpots {
   // What a point of a surface sees of them.
   class From {
    public:
-    From(const BrightSpots& spots, const raycast::SurfacePoint& point);
+    From(const BrightSpots& spots, const raycast::SurfacePoint& point) : From{spots, point.position, &point.normal} {}
+    // The same of points near this one, whichever way they face.
+    From(const BrightSpots& spots, const glm::dvec3& position) : From{spots, position, nullptr} {}
     // Is what even rays find of the spots so uneven that its root mean square over rays is more than `light`, the irradiance at the point
     // (sums of channels, W/m2)? `visible`: the share of the spots that nothing hides, where that is known.
     [[nodiscard]] bool stand_out(double light, double visible = 1.0) const;
+    // Does a single even ray spread more by the spots than this light? So it is with paths, which meet each spot by chance alone.
+    [[nodiscard]] bool spread_more_than(double light) const { return square_ > light * light; }
     // A point of the spots, by numbers in (0, 1). They must stand out.
     [[nodiscard]] Target choose(const std::array<double, 4>& numbers) const;
     // The probability by area with which that chooses points of this triangle of an input surface; 0 where it is no spot.
     [[nodiscard]] double density(std::uint32_t surface, std::uint32_t triangle) const;
+    // The probability with which that chooses a place that was met from `here`, in that of an even ray from there.
+    [[nodiscard]] double aimed(std::uint32_t surface, const Lookup::Found& found, const raycast::SurfacePoint& here,
+                               const raycast::SurfacePoint& there) const;
 
    private:
+    From(const BrightSpots& spots, const glm::dvec3& position, const glm::dvec3* normal);
+
     const BrightSpots* spots_;
     std::vector<double> until_;  // by group: of the light of the spots, what comes from it and those before it, W/m2
     double square_ = 0.0;        // mean square of what even rays find of the spots, though nothing hides them

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -147,16 +146,8 @@ HALFLIGHT_INLINE FinalGather::Arriving FinalGather::arriving(const Sender& sende
   if (is_black(materials_[surface].reflectance)) { return {materials_[surface].emission - lamp}; }
   const std::optional<Lookup::Found> light = lookup_.find(found.object, found.sheet, found.point);
   if (!light) { return {}; }
-  Arriving result{light->radiosity - lamp, 0.0, light->coarse_within};
-  if (!sender.aimed || !light->within) { return result; }
-  const double density = sender.spots.density(surface, light->triangle);
-  if (density > 0.0) {
-    const glm::dvec3 d = found.point.position - sender.from;
-    const double here = glm::dot(d, sender.place.point.normal), there = -glm::dot(d, found.point.normal);
-    const double square = glm::dot(d, d);
-    if (here > 0.0 && there > 0.0) { result.aimed = density * std::numbers::pi * square * square / (here * there); }
-  }
-  return result;
+  const raycast::SurfacePoint here{sender.from, sender.place.point.normal};
+  return {light->radiosity - lamp, sender.aimed ? sender.spots.aimed(surface, *light, here, found.point) : 0.0, light->coarse_within};
 }
 
 HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const {
@@ -208,14 +199,18 @@ HALFLIGHT_INLINE unsigned FinalGather::cast_at_spots(const Sender& sender, const
   return arrived;
 }
 
-HALFLIGHT_INLINE double FinalGather::mend_near(Sum& sum, double all, double error, std::uint64_t key) const {
+HALFLIGHT_INLINE double FinalGather::mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, double error,
+                                               std::uint64_t key) const {
   Color near{0.0};
   for (const NearLight::Seen& seen : sum.near) { near += seen.light; }
   const double share = (near.x + near.y + near.z) / all;
   if (!(share > detail::least_near)) { return 0.0; }
   const double wanted = std::min(detail::most_paths, std::pow(detail::spread_of_paths * share / error, 2.0));
   constexpr std::uint32_t step = NearLight::paths_at_once;
-  const NearLight::Sum better = near_.light(sum.near, step * std::max(1u, static_cast<std::uint32_t>(wanted / step)), key);
+  const BrightSpots::From spots{spots_, place.point.position};
+  const bool aimed = !spots_.empty() && spots.spread_more_than(all / rays);
+  const std::uint32_t paths = step * std::max(1u, static_cast<std::uint32_t>(wanted / step));
+  const NearLight::Sum better = near_.light(sum.near, paths, key, aimed ? &spots : nullptr);
   sum.light += better.light - near;
   return better.variance;
 }
@@ -261,7 +256,9 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
   }
   const double all = rays;
   double of_near = 0.0;
-  if (!sender.aimed && !sum.near.empty()) { of_near = mend_near(sum, std::max(4.0 * mean_of_parts(), all * solved_light), error, key); }
+  if (!sender.aimed && !sum.near.empty()) {
+    of_near = mend_near(sum, place, std::max(4.0 * mean_of_parts(), all * solved_light), rays, error, key);
+  }
   return {sum.light / all, (16.0 * variance_of_mean() + of_near) / (all * all), sum.nearness / all};
 }
 

@@ -117,9 +117,10 @@ class FinalGather {
   void cast_evenly(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const;
   // Returns how many of its sixteen rays arrive.
   unsigned cast_at_spots(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const;
-  // Replaces the light of what is near by a better estimate where it matters; `all`: light that is known to arrive, sum of channels.
+  // Replaces the light of what is near by a better estimate where it matters; `all`: light that is known to arrive, sum of channels over
+  // `rays` rays.
   // Returns the variance that this adds.
-  [[nodiscard]] double mend_near(Sum& sum, double all, double error, std::uint64_t key) const;
+  [[nodiscard]] double mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, double error, std::uint64_t key) const;
   // What the solution says of a place: the sum of the channels that it reflects.
   [[nodiscard]] double irradiance_solved(const Place& place) const;
 

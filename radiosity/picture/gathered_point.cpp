@@ -23,11 +23,16 @@ inline constexpr double inner_sphere = 0.7;         // part of a sphere's radius
 inline constexpr double same_way = 0.9;             // cosine of two normals between which light is carried over
 inline constexpr double out_of_plane = 0.2;         // of a sphere's radius: what is farther off its tangent plane is another surface
 inline constexpr double explained_by_noise = 1.25;  // squares of what a plane leaves over, in those that the noise would leave
+// How far a plane that explains its points may leave their range, in the width of this; and at most, as a factor.
+inline constexpr double beyond_range = 0.5, most_beyond = 2.0;
+inline constexpr double little_left = 0.05;  // what a plane leaves over, to the mean light: so little is explained, too
 
 // A plane through the light of the points in a sphere.
 struct PlaneFit {
   Color light{0.0}, by_u{0.0}, by_v{0.0};  // at the middle, and its changes by one radius
+  Color mean{0.0}, least{0.0}, most{0.0};  // of its points
   double misfit = 0.0;                     // squares that it leaves over, in those that the noise of the points would leave
+  double rest = 0.0;                       // their mean, in the square of the mean light
 };
 
 [[nodiscard]] HALFLIGHT_INLINE PlaneFit fit_plane(const GatheredPoint& point, double sphere, std::span<const GatheredPoint* const> near) {
@@ -57,13 +62,18 @@ struct PlaneFit {
   plane.by_u = (ru * c - rv * b) / determinant;
   plane.by_v = (rv * a - ru * b) / determinant;
   plane.light = mean - plane.by_u * mu - plane.by_v * mv;
+  plane.mean = plane.least = plane.most = mean;
   double left = 0.0, noise = 0.0;
   each([&](double own, double u, double v, const GatheredPoint& other) {
     const Color rest = other.gathered - plane.light - u * plane.by_u - v * plane.by_v;
     left += own * (rest.x + rest.y + rest.z) * (rest.x + rest.y + rest.z);
+    plane.least = glm::min(plane.least, other.gathered);
+    plane.most = glm::max(plane.most, other.gathered);
     noise += own * other.variance;
   });
   plane.misfit = left > 0.0 ? left / noise : 0.0;
+  const double sum_of_mean = mean.x + mean.y + mean.z;
+  plane.rest = left > 0.0 ? left / (w * sum_of_mean * sum_of_mean) : 0.0;
   return plane;
 }
 
@@ -82,13 +92,19 @@ HALFLIGHT_INLINE double GatheredPoint::weight(const glm::dvec3& place, const glm
 }
 
 HALFLIGHT_INLINE bool GatheredPoint::covers(const glm::dvec3& place, const glm::dvec3& normal_there, std::uint32_t object_there) const {
-  constexpr double least = (1.0 - detail::inner_sphere * detail::inner_sphere) * (1.0 - detail::inner_sphere * detail::inner_sphere);
-  return weight(place, normal_there, object_there) >= least;
+  constexpr double inner = (1.0 - detail::inner_sphere * detail::inner_sphere) * (1.0 - detail::inner_sphere * detail::inner_sphere);
+  return weight(place, normal_there, object_there) >= inner;
 }
 
 HALFLIGHT_INLINE Color GatheredPoint::at(const glm::dvec3& place) const {
   const glm::dvec3 d = place - position;
-  return light + glm::dot(d, s) * by_s + glm::dot(d, t) * by_t;
+  const Color beyond_mean = light + glm::dot(d, s) * by_s + glm::dot(d, t) * by_t - mean;
+  double part = 1.0;
+  for (int k = 0; k < 3; ++k) {
+    const double allowed = (beyond_mean[k] < 0.0 ? least[k] : most[k]) - mean[k];
+    if (std::abs(beyond_mean[k]) > std::abs(allowed)) { part = std::min(part, allowed / beyond_mean[k]); }
+  }
+  return mean + part * beyond_mean;
 }
 
 HALFLIGHT_INLINE void fit(GatheredPoint& point, std::span<const GatheredPoint* const> near) {
@@ -102,9 +118,14 @@ HALFLIGHT_INLINE void fit(GatheredPoint& point, std::span<const GatheredPoint* c
     sphere = std::max(point.radius, sphere / step);
     plane = detail::fit_plane(point, sphere, near);
   }
-  point.light = glm::max(plane.light, Color{0.0});
+  point.light = plane.light;
   point.by_s = plane.by_u / sphere;
   point.by_t = plane.by_v / sphere;
+  const bool explained = plane.misfit <= detail::explained_by_noise || plane.rest <= detail::little_left * detail::little_left;
+  const Color beyond = explained ? detail::beyond_range * (plane.most - plane.least) : Color{0.0};
+  point.mean = plane.mean;
+  point.least = glm::max(plane.least - beyond, plane.least / detail::most_beyond);
+  point.most = glm::min(plane.most + beyond, plane.most * detail::most_beyond);
 }
 
 }  // namespace radiosity

@@ -8,6 +8,9 @@
 // most of the noise of the rays. That sphere may be wider than the one for which the point is good: where points are close for other
 // reasons than the light, they have much noise to share and little to tell apart. The widest sphere is taken in which a plane explains what
 // was gathered up to the noise that it has.
+//
+// Beyond its points a plane soon says nonsense, less than no light at all beside a lamp. So what it says is held within bounds that the
+// points give (neighbour clamping, Krivanek 2006): all channels by the same part, or the light would change its colour there.
 
 #include <cstdint>
 #include <span>
@@ -38,6 +41,8 @@ struct GatheredPoint {
   Color light{0.0};
   glm::dvec3 s{0.0}, t{0.0};
   Color by_s{0.0}, by_t{0.0};
+  Color mean{0.0};              // by weight, of the points of the sphere
+  Color least{0.0}, most{0.0};  // of what the fit may say
 
   // The weight of this point at a place, when its sphere has this radius: 0 where it says nothing, 1 at the point itself.
   [[nodiscard]] double weight(const glm::dvec3& place, const glm::dvec3& normal_there, std::uint32_t object_there, double sphere) const;
@@ -46,7 +51,7 @@ struct GatheredPoint {
   }
   // Is a place so near that no further point is needed?
   [[nodiscard]] bool covers(const glm::dvec3& place, const glm::dvec3& normal_there, std::uint32_t object_there) const;
-  // What the fit says at a place of the sphere.
+  // What the fit says at a place of the sphere, within its bounds.
   [[nodiscard]] Color at(const glm::dvec3& place) const;
 };
 

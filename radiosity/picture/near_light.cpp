@@ -24,6 +24,7 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/lamp_samples.hpp>
+#include <radiosity/picture/bright_spots.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/met.hpp>
 #include <radiosity/scene/material.hpp>
@@ -107,7 +108,40 @@ HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumb
   }
 }
 
-HALFLIGHT_INLINE void NearLight::go_on(Paths& paths, std::span<PathNumbers> numbers, bool last) const {
+HALFLIGHT_INLINE void NearLight::light_by_spots(Paths& paths, std::span<PathNumbers> numbers, const BrightSpots::From& spots,
+                                                bool last) const {
+  raycast::Segments16 rays;
+  std::array<BrightSpots::Target, paths_at_once> targets;
+  paths.each([&](unsigned k) {
+    const auto& [at, object, sheet] = paths.end[k];
+    const double u0 = numbers[k].uniform(), u1 = numbers[k].uniform(), u2 = numbers[k].uniform();
+    targets[k] = spots.choose({u0, u1, u2, 0.5});
+    const glm::dvec3 d = targets[k].point.position - at.position;
+    if (!(glm::dot(d, at.normal) > 0.0) || !(glm::dot(d, targets[k].point.normal) < 0.0)) { return; }
+    const double lift = direct_->lift(object), reach = lookup_->objects().diameter();
+    rays.set(k, {at.position + lift * at.normal, reach * glm::normalize(d)}, lift > 0.0 ? raycast::no_object : object, raycast::no_object,
+             sheet);
+  });
+  if (rays.lanes == 0) { return; }
+  const raycast::Hits16 hits = direct_->objects().closest16(rays);
+  for (std::uint32_t rest = hits.met & rays.lanes; rest != 0; rest &= rest - 1) {
+    const auto k = static_cast<unsigned>(std::countr_zero(rest));
+    const raycast::Hit& hit = hits.hit[k];
+    if (!hit.front || direct_->whole(hit.object) != targets[k].object) { continue; }
+    const Met next = met(lookup_->objects(), *direct_, hit, rays.at(k));
+    const raycast::SurfacePoint& at = paths.end[k].point;
+    const glm::dvec3 off = next.point.position - targets[k].point.position, d = targets[k].point.position - at.position;
+    if (next.sheet != targets[k].sheet || glm::dot(off, off) > 1e-6 * glm::dot(d, d)) { continue; }
+    const std::optional<Lookup::Found> found = lookup_->find(next.object, next.sheet, next.point);
+    if (!found || (!last && glm::length(d) < found->coarse_within)) { continue; }
+    const std::uint32_t surface = lookup_->surface(next.object, next.sheet);
+    const double aimed = spots.aimed(surface, *found, at, next.point);
+    const Color lamp = direct_->is_lamp(surface) ? (*materials_)[surface].emission : Color{0.0};
+    if (aimed > 0.0) { paths.light[k] += paths.carried[k] * (found->radiosity - lamp) / (1.0 + aimed); }
+  }
+}
+
+HALFLIGHT_INLINE void NearLight::go_on(Paths& paths, std::span<PathNumbers> numbers, const BrightSpots::From* spots, bool last) const {
   const double reach = lookup_->objects().diameter();
   raycast::Segments16 rays;
   paths.each([&](unsigned k) {
@@ -136,12 +170,16 @@ HALFLIGHT_INLINE void NearLight::go_on(Paths& paths, std::span<PathNumbers> numb
       paths.end[k] = next;
       return;
     }
-    if (found) { paths.light[k] += paths.carried[k] * (found->radiosity - lamp); }
+    if (found) {
+      const double aimed = spots != nullptr ? spots->aimed(surface, *found, paths.end[k].point, next.point) : 0.0;
+      paths.light[k] += paths.carried[k] * (found->radiosity - lamp) / (1.0 + aimed);
+    }
     paths.lanes &= ~own;
   });
 }
 
-HALFLIGHT_INLINE NearLight::Sum NearLight::light(std::span<const Seen> seen, std::uint32_t paths, std::uint64_t key) const {
+HALFLIGHT_INLINE NearLight::Sum NearLight::light(std::span<const Seen> seen, std::uint32_t paths, std::uint64_t key,
+                                                 const BrightSpots::From* spots) const {
   constexpr int most_reflections = 3;
   const auto channels = [](const Color& c) { return c.x + c.y + c.z; };
   double all = 0.0;
@@ -174,7 +212,9 @@ HALFLIGHT_INLINE NearLight::Sum NearLight::light(std::span<const Seen> seen, std
     }
     for (int reflections = 1; next.lanes != 0; ++reflections) {
       light_by_lamps(next, numbers);
-      go_on(next, numbers, reflections == most_reflections);
+      const bool last = reflections == most_reflections;
+      if (spots != nullptr) { light_by_spots(next, numbers, *spots, last); }
+      go_on(next, numbers, spots, last);
     }
     for (unsigned k = 0; k < paths_at_once; ++k) {
       const Color part = next.light[k] / chosen[k];

@@ -6,6 +6,9 @@
 // point sees, and the corner came out bright. There the light of some of the places that a point sees is followed by paths, to the lamps and
 // to places that are no longer near (a second gathering near by; Christensen 1999 for photon maps), and stands for the light of all.
 //
+// A path that ends by chance on a small bright spot is noise: a row of bright and dark crumbs along a corner. Where spots are that bright,
+// each end of a path sends a ray to one of them, too (bright_spots.hpp), by the balance heuristic.
+//
 // Half of the places are chosen by the light that the mesh says they have, half anyhow; what the paths say is unbiased.
 
 #include <cstdint>
@@ -13,6 +16,7 @@
 #include <vector>
 
 #include <radiosity/direct/direct_light.hpp>
+#include <radiosity/picture/bright_spots.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/met.hpp>
 #include <radiosity/scene/material.hpp>
@@ -36,9 +40,9 @@ class NearLight {
     double variance = 0.0;  // of the sum of its channels
   };
   // The light of all these places, by some paths: a multiple of paths_at_once. How many must not depend on what they find: to stop once they
-  // agree would favour those that miss what is bright and rare. `key` fixes the paths.
+  // agree would favour those that miss what is bright and rare. `key` fixes the paths; `spots`: what rays are aimed at, or none.
   static constexpr unsigned paths_at_once = 8;
-  [[nodiscard]] Sum light(std::span<const Seen> seen, std::uint32_t paths, std::uint64_t key) const;
+  [[nodiscard]] Sum light(std::span<const Seen> seen, std::uint32_t paths, std::uint64_t key, const BrightSpots::From* spots) const;
 
  private:
   // Paths from places that are seen, to find how much light these send out, but for that of lamps.
@@ -46,7 +50,9 @@ class NearLight {
   // Adds what lamps send to the ends of the paths.
   void light_by_lamps(Paths& paths, std::span<PathNumbers> numbers) const;
   // Casts a ray from the end of each: it ends with the light of what is met, or goes on from there when that is near.
-  void go_on(Paths& paths, std::span<PathNumbers> numbers, bool last) const;
+  void go_on(Paths& paths, std::span<PathNumbers> numbers, const BrightSpots::From* spots, bool last) const;
+  // Adds what spots send to the ends, from where a ray would end.
+  void light_by_spots(Paths& paths, std::span<PathNumbers> numbers, const BrightSpots::From& spots, bool last) const;
 
   const Lookup* lookup_;
   const DirectLight* direct_;

@@ -44,6 +44,10 @@ HALFLIGHT_INLINE void part(std::span<const glm::dvec3> polygon, const HalfSpace&
   return std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return plane.height(p) <= 0.0; });
 }
 
+[[nodiscard]] HALFLIGHT_INLINE bool all_inside(std::span<const glm::dvec3> polygon, const HalfSpace& plane) {
+  return std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return plane.height(p) >= 0.0; });
+}
+
 HALFLIGHT_INLINE void cut_away(std::vector<Piece>& pieces, std::span<const HalfSpace> planes) {
   const std::size_t count = pieces.size();
   std::size_t kept = 0;  // of the old ones; new ones are appended behind them
@@ -55,13 +59,21 @@ HALFLIGHT_INLINE void cut_away(std::vector<Piece>& pieces, std::span<const HalfS
       ++kept;
       continue;
     }
+    // A piece that passes beside the common part, near one of its corners, is found out when nothing is left: it stays in one, for each
+    // further blocker meets every piece.
+    const std::size_t before = pieces.size();
     Piece rest = pieces[i];
     for (const HalfSpace& plane : planes) {
+      if (all_inside(rest, plane)) { continue; }
       part(rest, plane, inside, outside);
       if (!outside.empty()) { pieces.push_back(outside); }
       rest = inside;
       if (rest.empty()) { break; }
     }
+    if (!rest.empty()) { continue; }
+    pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(before), pieces.end());
+    if (kept != i) { pieces[kept] = pieces[i]; }
+    ++kept;
   }
   pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(kept), pieces.begin() + static_cast<std::ptrdiff_t>(count));
 }

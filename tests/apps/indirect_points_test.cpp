@@ -2,6 +2,7 @@
 // Points of indirect light: what lies between them.
 #include "catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -130,4 +131,34 @@ TEST_CASE("a point of indirect light says nothing about another object, another 
   CHECK_FALSE(points.at(50, 40, place, glm::normalize(glm::dvec3{1, 0, 1}), 0));
   CHECK_FALSE(points.at(50, 40, place + glm::dvec3{0, 0, 0.05}, up, 0));
   CHECK_FALSE(points.at(71, 40, place + glm::dvec3{0.201, 0, 0}, up, 0));
+}
+
+// Beside a lamp light falls off faster than any plane. Its colour is the same everywhere, and so is that of what lies between the points,
+// for planes are linear in the light and bounds hold all channels by the same part.
+TEST_CASE("between points of indirect light it stays within a factor of two of theirs, in their colour") {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    CAPTURE(seed);
+    radiosity::Random random{seed, 0};
+    apps::IndirectPoints points{200, 200};
+    double least = 1e30, most = 0.0;
+    for (int k = 0; k < 400; ++k) {
+      const double x = 200 * random.uniform(), y = 200 * random.uniform();
+      const double light = 1.0 / (1e-3 + 1e-4 * (x * x + y * y));
+      least = std::min(least, light);
+      most = std::max(most, light);
+      apps::IndirectPoint point = point_at(x, y, 20, light * Color{1.0, 0.5, 0.25});
+      point.variance = std::pow(0.01 * light, 2);
+      points.add(point);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) { points.fit(i); }
+    for (int k = 0; k < 2000; ++k) {
+      const double x = 200 * random.uniform(), y = 200 * random.uniform();
+      const auto found = points.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), {0.01 * x, 0.01 * y, 0.0}, {0, 0, 1}, 0);
+      if (!found) { continue; }
+      CHECK(found->x >= 0.5 * least);
+      CHECK(found->x <= 2.0 * most);
+      CHECK(std::abs(found->y - 0.5 * found->x) <= 1e-9 * found->x);
+      CHECK(std::abs(found->z - 0.25 * found->x) <= 1e-9 * found->x);
+    }
+  }
 }

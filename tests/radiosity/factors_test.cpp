@@ -76,6 +76,20 @@ TEST_CASE("a point sees nothing of a square behind a larger one, and all of it b
   CHECK(seen(half) == test::Approx(0.5 * free).epsilon(1e-14));  // by symmetry
 }
 
+// The square has corners on both sides of either plane, but passes beside their edge.
+TEST_CASE("what a cone does not touch stays in one piece") {
+  radiosity::Piece square;
+  for (const glm::dvec3& p : {glm::dvec3{1, 0, 1}, glm::dvec3{0, 1, 1}, glm::dvec3{-1, 0, 1}, glm::dvec3{0, -1, 1}}) {
+    square.push_back(p);
+  }
+  std::vector<radiosity::Piece> pieces{square};
+  const glm::dvec3 tip{0.6, 0.6, 1};
+  const std::array<radiosity::HalfSpace, 2> cone{radiosity::HalfSpace{tip, {1, 0, 0}}, radiosity::HalfSpace{tip, {0, 1, 0}}};
+  radiosity::detail::cut_away(pieces, cone);
+  REQUIRE(pieces.size() == 1);
+  CHECK(std::equal(pieces[0].begin(), pieces[0].end(), square.begin(), square.end()));
+}
+
 TEST_CASE("factors: reciprocity is exact, and a closed room with a lamp and a box on its floor has row sums of 1") {
   const Factors f = factors_of(scenes::room_with_box());
   CHECK(f.rays == 0);
