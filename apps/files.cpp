@@ -8,6 +8,9 @@
 #include <cstring>
 #include <filesystem>
 #include <random>
+#include <string>
+#include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -97,7 +100,18 @@ std::optional<std::string> write_file(const std::string& path, std::string_view 
   const auto to = destination(path);
   const bool through = to && (to->descriptor >= 0 || to->through);
   if (to && (through ? write_through(*to, bytes) : replace(*to, bytes))) { return std::nullopt; }
+  if (through && errno == EPIPE) { return std::nullopt; }  // whoever reads has read enough
   return "cannot write " + path + ": " + std::strerror(errno);
+}
+
+NewFolder::NewFolder(std::string path) : path_(std::move(path)) {
+  std::error_code failed;
+  made_ = std::filesystem::create_directories(path_, failed);
+}
+
+NewFolder::~NewFolder() {
+  std::error_code failed;
+  if (made_) { std::filesystem::remove(path_, failed); }  // does nothing when something is in it
 }
 
 void remove_unfinished_file() noexcept {

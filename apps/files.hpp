@@ -14,8 +14,21 @@
 namespace apps {
 
 // Replaces the file at `path` by `bytes`, or writes them to the stream that it names. The permissions of an old file are kept, but not
-// its power to run as another user (setuid, setgid).
+// its power to run as another user (setuid, setgid). A pipe whose reader has gone is no fault: it has read what it wanted.
 [[nodiscard]] std::optional<std::string> write_file(const std::string& path, std::string_view bytes);
+
+// Makes a folder, when it is not there, for files to come. When none has come, as of a command that was interrupted, it goes again.
+class NewFolder {
+ public:
+  explicit NewFolder(std::string path);
+  ~NewFolder();
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+
+ private:
+  std::string path_;
+  bool made_ = false;
+};
 
 // Removes the temporary that write_file() has open just now, if any. For signal handlers: async-signal-safe.
 void remove_unfinished_file() noexcept;

@@ -245,48 +245,79 @@ HALFLIGHT_INLINE void Scene::approach(const Line& line, const End& a, std::uint3
   }
 }
 
-// Takes the hit if it is nearer, or as near as rounding can tell and covering. Ties are looked for within `tie_reach`: beyond, the
+// Is the hit as near as `first`, the nearest one, as well as rounding can tell? Ties are looked for within `tie_reach`: beyond, the
 // nearer parameter decides.
+HALFLIGHT_INLINE bool Scene::ties(const Segment& ray, const Hit& first, const Hit& hit) const {
+  const double tolerance = skin(end_at(first.object), hit.object), gap = std::abs(hit.t - first.t);
+  return gap * glm::length(ray.direction) <= tie_reach * tolerance &&
+         gap * std::abs(along(hit.object, ray, {hit.t, hit.sheet})) <= tolerance;
+}
+
+// Of the hits that tie with the nearest one that covers is taken. All of them are remembered: were each compared with the one taken before
+// alone, a row of surfaces, each within the tolerance of the next, would lead away from the first.
 HALFLIGHT_INLINE void Scene::offer(const Segment& ray, const Hit& hit, Nearest& nearest) const {
-  const double length = glm::length(ray.direction);
-  Hit& best = nearest.hit;
-  bool take = best.object == no_object || hit.t < best.t;
-  if (best.object != no_object) {
-    const End other = end_at(best.object);
-    const double tolerance = skin(other, hit.object), gap = std::abs(hit.t - best.t);
-    if (gap * length <= tie_reach * tolerance && gap * std::abs(along(hit.object, ray, {hit.t, hit.sheet})) <= tolerance) {
-      take = hit.front != best.front ? hit.front : hit.object > best.object;
+  auto& [best, limit, count, tied] = nearest;
+  const bool first = count == 0 || hit.t < tied[0].t;
+  if (!first && !ties(ray, tied[0], hit)) { return; }
+  if (first) {
+    const std::uint32_t before = std::exchange(count, 1);
+    const auto others = tied;
+    tied[0] = hit;
+    for (std::uint32_t k = 0; k < before && count < tied.size(); ++k) {
+      if (ties(ray, hit, others[k])) { tied[count++] = others[k]; }
     }
+    const Record& r = records_[hit.object];
+    limit = hit.t + tie_reach * (rounding_ + r.slack + slack_ + r.touch) / glm::length(ray.direction);
+  } else if (count < tied.size()) {
+    tied[count++] = hit;
+  } else if (tied.back().object < hit.object) {
+    tied.back() = hit;
   }
-  if (!take) { return; }
-  best = hit;
-  const Record& r = records_[hit.object];
-  nearest.limit = hit.t + tie_reach * (rounding_ + r.slack + slack_ + r.touch) / length;
+  const auto covers = [](const Hit& a, const Hit& b) { return a.front != b.front ? b.front : a.object < b.object; };
+  best = *std::max_element(tied.begin(), tied.begin() + count, covers);
 }
 
 HALFLIGHT_INLINE bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const {
+  if (owner != no_object && left_out_[owner]) { return true; }
   const Segment out_of_p{p, n};  // t is a length
   const Line line(out_of_p);
   const End end = end_at(owner);
+  struct Coincident {
+    std::uint32_t object;
+    glm::dvec3 point, normal;
+  };
+  std::vector<Coincident> later;  // as a rule none
   const auto covers = [&](std::uint32_t i) {
     if (i == owner) { return false; }
     const PlacedObject& object = objects_[i];
     const Record& r = records_[i];
     const double near = skin(end, i);
     if (!object.inside() && !object.bounds().contains(p, near)) { return false; }
-    // A coincident surface of object i, its normal at a cosine to n.
-    const auto coincides = [&](double cosine) { return cosine > tol_same_way && i > owner; };
-    if (r.corner_count) { return std::abs(glm::dot(r.normal, p - r.point)) <= near && coincides(glm::dot(r.normal, n)) && passes(line, r); }
+    const bool may_cover = i > owner && !left_out_[i];
+    if (r.corner_count) {
+      const double off = glm::dot(r.normal, p - r.point);
+      if (may_cover && std::abs(off) <= near && glm::dot(r.normal, n) > tol_same_way && passes(line, r)) {
+        later.push_back({i, p - off * r.normal, r.normal});
+      }
+      return false;
+    }
     Spans spans;
     object.spans(out_of_p, spans);
     for (const Span& span : spans) {
       if (object.solid() && span.in.t <= near && span.out.t > near) { return true; }
-      if (std::abs(span.out.t) <= near && coincides(along(i, out_of_p, span.out))) { return true; }
+      if (may_cover && std::abs(span.out.t) <= near && along(i, out_of_p, span.out) > tol_same_way) {
+        const SurfacePoint at = object.project(span.out.sheet, out_of_p.at(span.out.t));
+        later.push_back({i, at.position, at.normal});
+      }
     }
     return false;
   };
   const double near = end.base + slack_ + end.touch;  // at least every skin
-  return std::any_of(compiled_.rooms.begin(), compiled_.rooms.end(), covers) || objects_along(compiled_, out_of_p, -near, near, covers);
+  if (std::any_of(compiled_.rooms.begin(), compiled_.rooms.end(), covers)) { return true; }
+  if (objects_along(compiled_, out_of_p, -near, near, covers)) { return true; }
+  // What is buried itself covers nothing: of a row of surfaces that coincide each with the next, the first buries the last.
+  std::sort(later.begin(), later.end(), [](const Coincident& a, const Coincident& b) { return a.object > b.object; });
+  return std::any_of(later.begin(), later.end(), [&](const Coincident& c) { return !covered(c.point, c.normal, c.object); });
 }
 
 }  // namespace raycast

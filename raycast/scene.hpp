@@ -22,9 +22,11 @@
 // This law, object by object, is blocks(). The fast searches answer from single precision where its error bound allows, and ask
 // blocks() elsewhere: their answers are those of asking blocks() about every object, bit for bit, for any instruction set.
 //
-// All queries are const, thread-safe, and use no heap (a line that crosses a mesh more than eight times excepted).
+// All queries are const, thread-safe, and use no heap (a line that crosses a mesh more than eight times excepted, and covered() where
+// surfaces coincide).
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -63,7 +65,7 @@ class Scene {
   void ask(OtherCaster caster) { other_ = std::move(caster); }
 
   // From now on no ray meets these objects: each is the same surface at the same place as one that comes after it and is not left out.
-  // Their own points may be asked about as before.
+  // Their own points count as covered.
   void leave_out(std::span<const std::uint32_t> copies);
 
   [[nodiscard]] const PlacedObject& object(std::uint32_t i) const { return objects_[i]; }
@@ -113,8 +115,9 @@ class Scene {
   [[nodiscard]] Hits16 closest16(const Segments16& rays) const;
 
   // Is the point p with air normal n (unit) of an object's surface buried: does another object fill the air just in front of p (p is
-  // inside it, or it stands on p), or does a later object's surface coincide and face the same way? Surfaces without thickness
-  // that stand back to back (a sheet with two sides) do not bury each other.
+  // inside it, or it stands on p), or does a later object's surface that is not buried coincide and face the same way? Surfaces without
+  // thickness that stand back to back (a sheet with two sides) do not bury each other. So at every place something is seen: of all
+  // that coincide there the foremost, or a later one within its skin.
   [[nodiscard]] bool covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const;
 
  private:
@@ -137,6 +140,8 @@ class Scene {
   struct Nearest {
     Hit hit{infinity, no_object, 0, true};
     double limit = infinity;
+    std::uint32_t count = 0;
+    std::array<Hit, 4> tied{};  // the nearest hit, then those as near as rounding can tell; of more than four the last object
   };
   struct Search {  // for the first hit of a ray
     Segment ray;
@@ -204,6 +209,7 @@ class Scene {
   void approach_bounded(Search& search) const;
   [[nodiscard]] std::optional<Crossing> first_crossing(const Search& search, const Entries& entries, unsigned i, float limit) const;
   void decide(Search& search, const Entries& entries, float limit) const;
+  [[nodiscard]] bool ties(const Segment& ray, const Hit& first, const Hit& hit) const;
   void offer(const Segment& ray, const Hit& hit, Nearest& nearest) const;
 
   std::vector<PlacedObject> objects_;

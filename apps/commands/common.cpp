@@ -57,7 +57,8 @@ std::optional<SceneFile> load_model(const std::string& path, const std::string& 
   if (!result.model) {
     code = ExitCode::invalid_input;
     const FileGuess guess = guess_kind(bytes);
-    const auto sentence = guess.kind == FileKind::empty ? wrong_kind(shown(path), bytes, FileKind::scene) : std::nullopt;
+    auto sentence = guess.kind == FileKind::empty ? wrong_kind(shown(path), bytes, FileKind::scene) : std::nullopt;
+    if (guess.kind == FileKind::scene) { sentence = shown(path) + " is a scene of halflight; give it a name that ends with .scene"; }
     sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, shown(path)).c_str(), stderr));
     return std::nullopt;
   }

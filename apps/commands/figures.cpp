@@ -2,21 +2,23 @@
 // halflight figures -o DIR: the paper's figures 1 to 8.
 #include <filesystem>
 #include <memory>
-#include <system_error>
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/figures/figures.hpp"
+#include "apps/files.hpp"
 
 namespace apps {
 namespace {
 
 ExitCode run(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
   const auto path = [&](const std::string& file) { return (std::filesystem::path(folder) / file).string(); };
-  if (const ExitCode code = check_outputs({path("index.html")}, {}); code != ExitCode::ok) { return code; }
+  {
+    const NewFolder only_to_check(folder);
+    if (const ExitCode code = check_outputs({path("index.html")}, {}); code != ExitCode::ok) { return code; }
+  }
   const std::vector<figures::Figure> all = figures::make();
+  const NewFolder made(folder);
   for (const figures::Figure& figure : all) {
     if (!save(path(figure.file), figure.svg)) { return ExitCode::failure; }
   }

@@ -113,7 +113,8 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
 // What --memory leaves for the run: less what the program and the scene hold now. The picture is drawn when the run holds its solution
 // alone, a third of its peak at most.
 std::optional<std::uint64_t> memory_left(const RenderOptions& options, const Camera& camera) {
-  const std::uint64_t held = resident_memory().value_or(0);
+  constexpr std::uint64_t unread = 4'000'000;  // of the program itself: parts that are read only when they are run
+  const std::uint64_t held = resident_memory().value_or(0) + unread;
   const PictureSize size = options.size.value_or(camera.size.value_or(PictureSize{}));
   constexpr std::uint64_t band = 20'000'000, pixel = 60;  // of samples; of colours and their coded form
   const std::uint64_t picture = has_picture(options) ? band + pixel * size.width * size.height : 0;

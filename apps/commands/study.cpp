@@ -15,6 +15,7 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/commands/model_arguments.hpp"
+#include "apps/files.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/memory.hpp"
 #include "apps/progress.hpp"
@@ -237,8 +238,7 @@ ExitCode run(const StudyOptions& given) {
     options.paths = 256;
     options.dense = 300;
   }
-  std::error_code failed;
-  fs::create_directories(options.folder, failed);
+  const NewFolder folder(options.folder);
   if (!fs::is_directory(options.folder)) {
     complain("cannot make the folder " + options.folder);
     return ExitCode::failure;

@@ -139,7 +139,7 @@ HALFLIGHT_INLINE std::vector<std::string> warnings_of_buried(const Scene& scene,
 }
 
 HALFLIGHT_INLINE std::string warning_of_lost_light(const DiscreteScene& scene, const std::vector<Color>& radiosity) {
-  double emitted = 0.0, reflected = 0.0;
+  double emitted = 0.0, reflected = 0.0, unlit = 0.0;  // unlit: area that only reflects
   bool reflects = false;
   for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {
     const std::uint32_t surface = scene.hierarchy[i].surface;
@@ -150,8 +150,11 @@ HALFLIGHT_INLINE std::string warning_of_lost_light(const DiscreteScene& scene, c
     const Color rest = radiosity[i] - emission;
     reflected += area * (rest.x + rest.y + rest.z);
     reflects = reflects || (is_black(emission) && !is_black(scene.reflectance[surface]));
+    unlit += is_black(emission) ? area : 0.0;
   }
-  if (!reflects || !(emitted > 0.0) || reflected >= 1e-6 * emitted) { return {}; }
+  // Of a sun's light no more arrives than what it lights takes of the sphere around it, be everything as it should.
+  const double reach = scene.objects.diameter(), share = reach > 0.0 ? std::min(1.0, unlit / (reach * reach)) : 1.0;
+  if (!reflects || !(emitted > 0.0) || reflected >= 1e-6 * share * emitted) { return {}; }
   return std::string(reflected > 0.0 ? "less than a millionth" : "nothing") +
          " of the light that is emitted is reflected by any surface: lamps may look away from what they should light, or lie behind "
          "a wall, or what they shine on shows its back; turn their polygons, or give them two sides";

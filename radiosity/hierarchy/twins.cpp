@@ -94,14 +94,20 @@ HALFLIGHT_INLINE std::vector<std::array<std::uint32_t, 2>> twins(const std::vect
   for (std::size_t first = 0; first < places.size();) {
     std::size_t last = first + 1;
     while (last < places.size() && places[last].bounds == places[first].bounds) { ++last; }
-    // Each with the next one that is its twin, among the 64 that follow: of many at one place each covers the one before.
-    for (std::size_t i = first; i < last; ++i) {
-      for (std::size_t k = i + 1; k < std::min(last, i + 65); ++k) {
-        const std::uint32_t a = places[i].object;
-        const std::uint32_t b = places[k].object;
-        if (!detail::lies_in(surfaces[a], surfaces[b]) || !detail::lies_in(surfaces[b], surfaces[a])) { continue; }
-        pairs.push_back({a, b});
-        break;
+    // From the last to the first: each is a copy of a later one that is no copy itself, or is none. So however many differ a little each
+    // from the next, what is seen in the place of a copy is the same as it. Looked at are the 64 that follow.
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = last; i-- > first;) {
+      const std::uint32_t a = places[i].object;
+      const auto is_same = [&](std::uint32_t b) {
+        return detail::lies_in(surfaces[a], surfaces[b]) && detail::lies_in(surfaces[b], surfaces[a]);
+      };
+      const auto end = kept.rend() - static_cast<std::ptrdiff_t>(kept.size() - std::min<std::size_t>(kept.size(), 64));
+      const auto later = std::find_if(kept.rbegin(), end, is_same);
+      if (later != end) {
+        pairs.push_back({a, *later});
+      } else {
+        kept.push_back(a);
       }
     }
     first = last;

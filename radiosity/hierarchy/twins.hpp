@@ -14,7 +14,7 @@ namespace radiosity {
 
 // Pairs (earlier, later) of objects whose surfaces are the same: each corner of one is a corner of the other, or lies on it when it is
 // curved, and the other way round, to 1e-9 of the size, and both face the same way. Compared are objects whose bounds agree to a millionth
-// of the scene. Each object is the earlier one of one pair at most; the pairs are sorted by it.
+// of the scene. Each object is the earlier one of one pair at most, and then the later one of none; the pairs are sorted by the earlier.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> twins(const std::vector<Surface>& surfaces);
 
 }  // namespace radiosity

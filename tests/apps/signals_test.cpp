@@ -117,6 +117,31 @@ TEST_CASE("a pipe that nobody reads any more ends a command quietly, whether or 
   }
 }
 
+TEST_CASE("an output to a pipe that nobody reads any more is no fault") {
+  const Place place;
+  for (const std::string& command : {"render " + scene_path("two_plates") + " --audit 0 --quiet --json -",
+                                     "factors " + scene_path("two_plates") + " --csv -", "explain " + scene_path("two_plates") + " -o -"}) {
+    const std::string line =
+        "cd '" + place.path().string() + "' && { sleep 0.1; '" HALFLIGHT_PROGRAM "' " + command + " 2>err; echo $? >code; } | true";
+    REQUIRE(std::system(line.c_str()) == 0);
+    INFO(command << "\n" << place.read("err"));
+    CHECK(place.read("err").find("cannot write") == std::string::npos);
+    CHECK(place.read("code") == "0\n");
+  }
+}
+
+TEST_CASE("figures that are interrupted before the first leave no folder, and a folder that was there stays") {
+  const Place place;
+  fs::create_directory(place.path() / "old");
+  for (const char* folder : {"old", "new"}) {
+    const std::string line =
+        "cd '" + place.path().string() + "' && timeout -s INT 0.01 '" HALFLIGHT_PROGRAM "' figures -o " + folder + " >out 2>err";
+    static_cast<void>(std::system(line.c_str()));
+  }
+  CHECK(fs::is_directory(place.path() / "old"));
+  CHECK_FALSE((fs::exists(place.path() / "new") && fs::is_empty(place.path() / "new")));
+}
+
 TEST_CASE("what cannot be said is a failure: a full device, a closed standard output") {
   const Place place;
   for (const std::string& command :
