@@ -51,8 +51,9 @@ class SceneMaker {
          radiosity::length_text(options_.metres) + " (--units)");
     return std::move(file_);
   }
-  std::optional<SceneFile> part_alone(std::vector<std::string>& faults) {
+  std::optional<SceneFile> part_alone(const std::vector<glm::dvec3>& eyes, std::vector<std::string>& faults) {
     model_.cameras.clear();
+    eyes_ = eyes;
     return part(faults) ? std::optional(std::move(file_)) : std::nullopt;
   }
 
@@ -149,6 +150,7 @@ class SceneMaker {
     radiosity::IntakeOptions options;
     options.two_sided = options_.two_sided;
     options.merge = options_.merge;
+    options.eyes = eyes_;
     for (const Camera& camera : file_.cameras) { options.eyes.push_back(camera.eye); }
     for (const ModelLight& light : model_.lights) { options.eyes.push_back(light.position); }
     const radiosity::PolygonView view{model_.positions, model_.corners, model_.first_corner, model_.material,
@@ -309,6 +311,7 @@ class SceneMaker {
   std::vector<glm::dvec3> given_positions_;  // before they were placed
   bool given_z_up_ = false;
   std::vector<radiosity::Room> rooms_;
+  std::vector<glm::dvec3> eyes_;  // of cameras that are not the model's
 };
 
 }  // namespace
@@ -317,10 +320,10 @@ std::optional<SceneFile> to_scene(Model model, UpAxis up, const ModelOptions& op
   return SceneMaker(std::move(model), options).scene(up, faults);
 }
 
-std::optional<SceneFile> to_part(Model model, bool two_sided, std::vector<std::string>& faults) {
+std::optional<SceneFile> to_part(Model model, bool two_sided, const std::vector<glm::dvec3>& eyes, std::vector<std::string>& faults) {
   ModelOptions options;
   options.two_sided = two_sided;
-  return SceneMaker(std::move(model), options).part_alone(faults);
+  return SceneMaker(std::move(model), options).part_alone(eyes, faults);
 }
 
 }  // namespace apps

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "apps/intake/model.hpp"
 #include "apps/scene_file.hpp"
 
@@ -47,7 +49,8 @@ struct ModelOptions {
 [[nodiscard]] std::optional<SceneFile> to_scene(Model model, UpAxis up, const ModelOptions& options, std::vector<std::string>& faults);
 
 // The objects and materials alone, in the file's own coordinates: without cameras and without a lamp that it does not have. `two_sided` as
-// in ModelOptions.
-[[nodiscard]] std::optional<SceneFile> to_part(Model model, bool two_sided, std::vector<std::string>& faults);
+// in ModelOptions. `eyes`: of cameras around it, in its coordinates; they tell what is seen from inside.
+[[nodiscard]] std::optional<SceneFile> to_part(Model model, bool two_sided, const std::vector<glm::dvec3>& eyes,
+                                               std::vector<std::string>& faults);
 
 }  // namespace apps

@@ -8,8 +8,12 @@
 #include <unordered_map>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
 
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
@@ -49,6 +53,7 @@ class Builder {
   std::vector<std::uint32_t> sheet_materials(const ObjectSyntax& object, const raycast::Object& shape, const Name* around = nullptr);
   Made make(const ObjectSyntax& object);
   Made make_from_file(const ObjectSyntax& object);
+  [[nodiscard]] std::vector<glm::dvec3> eyes_of(const ObjectSyntax& object) const;
   void operand_materials(const ObjectSyntax& object, const Name* around, const CsgShape& csg, std::size_t& leaf,
                          std::vector<std::uint32_t>& out);
   std::uint32_t sheet_index(const Name& sheet, const raycast::Object& shape, const SheetNames& names);
@@ -159,6 +164,16 @@ Made Builder::make(const ObjectSyntax& object) {
   return made;
 }
 
+// The eyes of the cameras in the coordinates of a mesh that stands in the scene itself. Where a group stands is not known yet.
+std::vector<glm::dvec3> Builder::eyes_of(const ObjectSyntax& object) const {
+  const auto own = [&](const Item& item) { return std::get_if<ObjectSyntax>(&item) == &object; };
+  std::vector<glm::dvec3> eyes;
+  if (std::none_of(syntax_.items.begin(), syntax_.items.end(), own) || glm::determinant(object.placement.linear) == 0.0) { return eyes; }
+  const glm::dmat3 back = glm::inverse(object.placement.linear);
+  for (const Camera& camera : file_.cameras) { eyes.push_back(back * (camera.eye - object.placement.translation)); }
+  return eyes;
+}
+
 // The objects of a file of another program, in its own coordinates. Its materials are added to the scene's, under the name of the mesh.
 Made Builder::make_from_file(const ObjectSyntax& object) {
   Made made;
@@ -183,7 +198,7 @@ Made Builder::make_from_file(const ObjectSyntax& object) {
   if (!read.model) { return made; }
   read.model->name_file(file.text);
   std::vector<std::string> faults;
-  auto part = to_part(std::move(*read.model), object.two_sided.has_value(), faults);
+  auto part = to_part(std::move(*read.model), object.two_sided.has_value(), eyes_of(object), faults);
   for (const std::string& sentence : faults) { errors_.add(file.place, file.text + ": " + sentence); }
   if (!part) { return made; }
   for (const std::string& note : part->notes) { file_.notes.push_back(object.name.text + ": " + note); }

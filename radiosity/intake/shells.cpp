@@ -181,10 +181,45 @@ HALFLIGHT_INLINE bool Shells::holds_another(const Component& shell) const {
                      [&](const Component& other) { return &other != &shell && holds(shell, other.box.centre()); });
 }
 
+HALFLIGHT_INLINE bool Shells::is_furnished(const Component& shell) const {
+  constexpr std::size_t most_asked = 1000;
+  const raycast::Box box = shell.box.grown(mesh_.tolerance);
+  bool furnished = false;
+  for (const Component& other : std::span<const Component>(components_).first(std::min(components_.size(), most_asked))) {
+    const bool opposite = other.closed && other.volume != 0.0 && (other.volume > 0.0) != (shell.volume > 0.0);
+    if (&other == &shell || !opposite || shines(other) || !box.contains(other.box.lo) || !box.contains(other.box.hi)) { continue; }
+    if (!holds(shell, other.box.centre())) { continue; }
+    if (std::abs(other.volume) > 0.5 * std::abs(shell.volume)) { return false; }
+    furnished = true;
+  }
+  return furnished;
+}
+
+HALFLIGHT_INLINE Component* Shells::pierced_by(std::span<const Place> places, const Component& lamp) {
+  Component* best = nullptr;
+  for (Component& shell : components_) {
+    if ((shell.role != Role::solid && shell.role != Role::room) || &shell == &lamp) { continue; }
+    if (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume)) { continue; }
+    const auto held = static_cast<std::size_t>(std::count_if(
+        places.begin(), places.end(), [&](const Place& place) { return holds(shell, place.front) || holds(shell, place.behind); }));
+    if (held > 0 && held < places.size() && is_furnished(shell)) { best = &shell; }
+  }
+  return best;
+}
+
 HALFLIGHT_INLINE bool Shells::shines_inwards(const Component& lamp, const Component* around) const {
-  if (lamp.role != Role::solid || lamp.volume > 0.0) { return false; }
+  if (lamp.role != Role::solid) { return false; }
+  if (lamp.volume > 0.0) {
+    double whole = 0.0, bright = 0.0;
+    for (const std::uint32_t f : lamp.faces) {
+      const double area = brep::area(mesh_.outline(mesh_.faces[f]));
+      whole += area;
+      bright += is_black(materials_[mesh_.faces[f].material].emission) ? 0.0 : area;
+    }
+    return 2.0 * bright < whole && is_furnished(lamp);
+  }
   if (holds_another(lamp)) { return true; }
-  return around != nullptr ? around->volume > 0.0 : components_.size() == 1;
+  return around != nullptr ? around->volume > 0.0 && !is_furnished(*around) : components_.size() == 1;
 }
 
 HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
@@ -193,14 +228,20 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
   std::size_t lamps = 0;
   for (Component& component : components_) {
     std::vector<Place> places;
+    std::vector<std::uint32_t> bright;
     for (const std::uint32_t f : component.faces) {
-      if (places.size() >= most_points || is_black(materials_[mesh_.faces[f].material].emission)) { continue; }
+      if (!is_black(materials_[mesh_.faces[f].material].emission)) { bright.push_back(f); }
+    }
+    for (std::size_t i = 0; i < std::min(most_points, bright.size()); ++i) {
+      const std::uint32_t f = bright[i * bright.size() / std::min(most_points, bright.size())];
       const std::span<const glm::dvec3> outline = mesh_.outline(mesh_.faces[f]);
       const glm::dvec3 middle = brep::centroid(outline), off = 4.0 * mesh_.tolerance * glm::normalize(brep::vector_area(outline));
       places.push_back({middle + off, middle - off});
     }
     if (places.empty() || ++lamps > most_lamps) { continue; }
-    Component* const around = innermost(places, &component);
+    Component* around = innermost(places, &component);
+    Component* const pierced = pierced_by(places, component);
+    if (pierced != nullptr && (around == nullptr || std::abs(pierced->volume) < std::abs(around->volume))) { around = pierced; }
     rooms.push_back(shines_inwards(component, around) ? &component : around);
   }
   for (const glm::dvec3& eye : options_.eyes) {

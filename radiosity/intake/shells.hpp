@@ -77,8 +77,14 @@ class Shells {
   void find_nested_rooms(bool room_known);
   [[nodiscard]] bool shines(const Component& shell) const;
   [[nodiscard]] bool holds_another(const Component& shell) const;
-  // Is a lamp that looks inwards a room with shining walls? It is when something is in it, when it is alone, or when the innermost shell
-  // around it looks outwards, as walls do around their room. Else it is a lamp, a bulb for instance, that is inside out.
+  // Does the shell hold things that look the other way, as those of a room do, and that leave half of it free, so that it is not the outer
+  // side of walls?
+  [[nodiscard]] bool is_furnished(const Component& shell) const;
+  // The innermost furnished shell through whose walls a lamp reaches, such as a bulb that is sunk into the ceiling.
+  [[nodiscard]] Component* pierced_by(std::span<const Place> places, const Component& lamp);
+  // Is a shell that shines on the inside, at least in part, a room? One that looks outwards is when it shines in part and is furnished. One
+  // that looks inwards is when something is in it, when it is alone, or when the innermost shell around it looks outwards, as walls do
+  // around their room, and is not furnished itself. Else it is a lamp, a bulb for instance, that is inside out.
   [[nodiscard]] bool shines_inwards(const Component& lamp, const Component* around) const;
   // Shells around lamps and eyes. Some may be null.
   [[nodiscard]] std::vector<Component*> find_rooms();

@@ -16,6 +16,7 @@
 
 #include "catch.hpp"
 #include "radiosity/foreign_rooms.hpp"
+#include "radiosity/lattice_furniture.hpp"
 #include "radiosity/polygon_soup.hpp"
 
 using radiosity::ChangeKind;
@@ -220,4 +221,65 @@ TEST_CASE("intake: walls of a thickness hold rooms, and a room inside out holds 
   soup::add_box(bottle, {0, 0, 0}, {1, 1, 3});
   soup::add_box(bottle, {0.1, 0.1, 0.1}, {0.9, 0.9, 2.5});
   CHECK(bottle.take_in().rooms.empty());
+}
+
+// Lamps let into a ceiling or a wall stick out beyond it, and no camera is known: what is in the room tells that it is one.
+TEST_CASE("intake: a furnished room through whose walls lamps reach is a room, whichever way all was wound") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  RandomRooms random(seed);
+  for (int round = 0; round < 16; ++round) {
+    const bool flipped = round % 2 == 1, walls = round % 4 > 1;
+    const glm::dvec3 hi{number_in(random, 3.0, 6.0), number_in(random, 3.0, 6.0), number_in(random, 2.5, 4.0)};
+    Soup room;
+    room.names = {"room"};
+    soup::add_box(room, glm::dvec3(0.0), hi, 1, !flipped);
+    if (walls) { soup::add_box(room, glm::dvec3(-0.2), hi + 0.2, 1, flipped); }
+    for (int i = 0; i < 3; ++i) {
+      room.names.push_back("lamp" + std::to_string(i));
+      const glm::dvec3 lo{0.2 + 0.25 * i * hi.x, number_in(random, 0.5, 1.5), hi.z - number_in(random, 0.02, 0.1)};
+      soup::add_box(room, lo, lo + glm::dvec3(0.2, 0.3, 0.12), 1 + i, flipped, 1);
+    }
+    room.names.emplace_back("thing");
+    soup::add_box(room, 0.1 * hi, glm::dvec3(0.25, 0.3, number_in(random, 0.2, 0.7)) * hi, 1, flipped);
+    const radiosity::Intake intake = room.take_in();
+    soup::check_sound(room, intake);
+    REQUIRE(intake.rooms.size() == 1);
+    CHECK(intake.rooms[0].within_walls == walls);
+    const std::vector<furniture::SeenPoint> seen{{{0, 0.5 * hi.y, 0.5 * hi.z}, {1, 0, 0}}, {0.5 * hi * glm::dvec3(1, 1, 0), {0, 0, 1}}};
+    const furniture::Sides sides = furniture::sides_of(intake.objects, seen, 1e-6);
+    CHECK(sides.missing == 0);
+    CHECK(sides.backs == 0);
+  }
+}
+
+// The lamp is a face of the room's own shell, which three groups close together.
+TEST_CASE("intake: a furnished room with a shining face in its shell is a room, whichever way its groups were wound") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  RandomRooms random(seed);
+  for (int round = 0; round < 16; ++round) {
+    const glm::dvec3 hi{number_in(random, 3.0, 6.0), number_in(random, 3.0, 6.0), number_in(random, 2.5, 4.0)};
+    Soup sides;
+    add_sides(sides, random, glm::dvec3(0.0), hi, random() % 2 == 0, true);
+    Soup soup;
+    soup.names = sides.names;
+    for (std::size_t f = 0; f < sides.count(); ++f) {
+      soup.polygon(sides.outline(f), sides.group[f] == 6 ? 1 : 0);
+      soup.group.back() = sides.group[f];
+    }
+    for (int i = 0; i < 4; ++i) {  // of both orientations
+      soup.names.push_back("thing" + std::to_string(i));
+      const glm::dvec3 lo{0.2 + 0.7 * i, number_in(random, 0.5, 1.5), 0.2};
+      soup::add_box(soup, lo, lo + glm::dvec3(0.3, 0.3, 0.5), 1, i % 2 == 0);
+    }
+    const radiosity::Intake intake = soup.take_in();
+    soup::check_sound(soup, intake);
+    CHECK(intake.rooms.size() == 1);
+    for (const radiosity::SceneObject& object : intake.objects) {
+      if (!object.name.starts_with("side")) { continue; }
+      const raycast::SurfacePoint at = object.shape->project(0, object.shape->bounds().centre());
+      CHECK(glm::dot(0.5 * hi - at.position, at.normal) > 0.0);
+    }
+  }
 }
