@@ -79,7 +79,7 @@ enum class ChangeKind : unsigned char {
   inside_out,   // closed shells with nothing in them that looked inwards: turned
   room,         // closed shells around a lamp or an eye that looked outwards: turned, as rooms
   lamp_laid,    // vertices of lamps that lay beside a wall: moved onto it; size: the largest distance
-  lamp_turned,  // lamps that lay on a wall and looked into it: turned
+  lamp_turned,  // lamps that lay on a wall, or close before it, and looked into it: turned
   both_sides,   // surfaces of mixed orientation: made to reflect on both sides
   merged        // polygons that became part of a larger one; size: none
 };

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -75,6 +76,31 @@ inline std::vector<Wall> walls_beside(Working& mesh, const Topology& topology, c
   return walls;
 }
 
+// The face that is close before the middle of a lamp, while behind it the way is free.
+inline std::optional<std::uint32_t> face_before(Working& mesh, const raycast::Bvh& bvh, const std::vector<bool>& lamp, std::uint32_t face) {
+  constexpr double close = 0.02, free = 0.2;  // of the lamp's size
+  const std::span<const glm::dvec3> outline = mesh.outline(mesh.faces[face]);
+  const double size = std::sqrt(brep::area(outline));
+  const glm::dvec3 normal = raycast::plane_of(outline).normal, middle = brep::centroid(outline);
+  std::optional<std::uint32_t> before;
+  double nearest = close * size;
+  bool blocked = false;
+  const raycast::Segment through{middle - free * size * normal, (free + close) * size * normal};
+  static_cast<void>(raycast::any_along(bvh, raycast::SlabTest(through), 0.0, 1.0, [&](std::uint32_t other) {
+    const raycast::Plane plane = raycast::plane_of(mesh.outline(mesh.faces[other]));
+    const double along = glm::dot(plane.normal, normal), height = glm::dot(plane.point - middle, plane.normal);
+    if (other == face || along == 0.0 || raycast::RayFrame(through).winding(mesh.outline(mesh.faces[other])) == 0) { return false; }
+    const double way = height / along;  // along the lamp's normal
+    if (way < 0.0 && way > -free * size) { blocked = true; }
+    if (way > 0.0 && way <= nearest && std::abs(along) > 0.99 && !lamp[other]) {
+      nearest = way;
+      before = other;
+    }
+    return blocked;
+  }));
+  return blocked ? std::nullopt : before;
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE std::vector<FlushFace> lay_lamps(Working& mesh, const Topology& topology, std::span<const Material> materials) {
@@ -98,7 +124,13 @@ HALFLIGHT_INLINE std::vector<FlushFace> lay_lamps(Working& mesh, const Topology&
     if (!lamp[f]) { continue; }
     std::vector<detail::Wall> walls = detail::walls_beside(mesh, topology, bvh, f);
     std::erase_if(walls, [&](const detail::Wall& wall) { return lamp[wall.face]; });
-    if (walls.empty()) { continue; }
+    if (walls.empty()) {
+      if (const auto before = detail::face_before(mesh, bvh, lamp, f)) {
+        const glm::dvec3 normal = brep::vector_area(mesh.outline(mesh.faces[f]));
+        found.push_back({f, *before, glm::dot(normal, brep::vector_area(mesh.outline(mesh.faces[*before]))) < 0.0, true});
+      }
+      continue;
+    }
     std::sort(walls.begin(), walls.end(), [](const detail::Wall& a, const detail::Wall& b) {
       return std::tuple(std::abs(a.height), a.face) < std::tuple(std::abs(b.height), b.face);
     });
@@ -120,12 +152,13 @@ HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::s
                                  std::span<const FlushFace> flush, const std::vector<bool>& backs, Shells& shells) {
   struct Lamp {
     double area = 0.0, front = 0.0, back = 0.0;  // of what shines; of that with something right before, behind it
+    double apart = 0.0;                          // of that with the front of something close before it
     bool one_sided = true;
     std::uint32_t polygon = none;
   };
   std::map<std::uint32_t, Lamp> lamps;  // by component
   for (std::size_t first = 0, end = 0; first < flush.size(); first = end) {
-    bool front = false, back = false;
+    bool front = false, back = false, apart = false;
     const std::uint32_t face = flush[first].lamp;
     for (; end < flush.size() && flush[end].lamp == face; ++end) {
       const std::uint32_t under = flush[end].under, component = topology.component[under];
@@ -133,11 +166,14 @@ HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::s
       if (shell.role == Role::nothing) { continue; }
       const bool both = shell.role == Role::surface && !shell.one_sided && backs[under];
       const bool opposite = flush[end].opposite != shells.turned(component);
+      apart = apart || (flush[end].apart && opposite);
+      if (flush[end].apart) { continue; }
       front = front || both || opposite;
       back = back || both || !opposite;
     }
     Lamp& lamp = lamps[topology.component[face]];
     const double area = brep::area(mesh.outline(mesh.faces[face]));
+    lamp.apart += apart ? area : 0.0;
     lamp.front += front ? area : 0.0;
     lamp.back += back ? area : 0.0;
   }
@@ -149,7 +185,12 @@ HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::s
       lamp.polygon = std::min(lamp.polygon, mesh.faces[f].polygon);
     }
     const bool front = 2.0 * lamp.front > lamp.area, back = 2.0 * lamp.back > lamp.area;
-    if (shells.components()[component].role != Role::surface || (!front && !back)) { continue; }
+    if (shells.components()[component].role != Role::surface) { continue; }
+    if (!front && !back && lamp.one_sided && 2.0 * lamp.apart > lamp.area) {
+      shells.turn(component);
+      mesh.changed(ChangeKind::lamp_turned, lamp.polygon);
+    }
+    if (!front && !back) { continue; }
     const bool turn = front && !back;
     shells.lay_lamp(component, turn, !(front && back));
     if (turn && lamp.one_sided) { mesh.changed(ChangeKind::lamp_turned, lamp.polygon); }

@@ -301,6 +301,11 @@ HALFLIGHT_INLINE void Shells::lay_lamp(std::uint32_t component, bool turn, bool 
   turned_[component] = turn;
 }
 
+HALFLIGHT_INLINE void Shells::turn(std::uint32_t component) {
+  turned_.resize(components_.size());
+  turned_[component] = true;
+}
+
 HALFLIGHT_INLINE void Shells::find_roles() {
   const std::vector<Twins> twins = find_twins();
   for (const Twins& t : twins) { t.outer->role = Role::surface; }

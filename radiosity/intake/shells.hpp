@@ -45,6 +45,7 @@ class Shells {
   [[nodiscard]] std::span<const Component> components() const { return components_; }
   // The component is a lamp that lies on a surface. `turn`: away from that. `one_sided`: what looks into it is not seen.
   void lay_lamp(std::uint32_t component, bool turn, bool one_sided);
+  void turn(std::uint32_t component);
 
   [[nodiscard]] std::span<const Room> rooms() const { return rooms_; }
   [[nodiscard]] bool turned(std::uint32_t component) const { return !turned_.empty() && turned_[component]; }

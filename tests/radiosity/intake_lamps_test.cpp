@@ -60,6 +60,30 @@ TEST_CASE("intake: a lamp that lies flush in a ceiling shines into the room") {
   }
 }
 
+TEST_CASE("intake: a lamp that hangs close under a ceiling shines into the room, whichever way up it was given") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  RandomRooms random(seed);
+  for (int round = 0; round < 8; ++round) {
+    const Soup room = furnished_room(random, round % 2 == 1, number_in(random, 0.002, 0.012));  // of a lamp of .6 m or more
+    Soup up, high;
+    for (std::size_t f = 0; f < room.count(); ++f) {
+      std::vector<glm::dvec3> outline = room.outline(f);
+      if (room.material[f] == 1) { std::reverse(outline.begin(), outline.end()); }
+      up.polygon(outline, room.material[f]);
+      for (glm::dvec3& p : outline) { p.z -= room.material[f] == 1 ? 0.3 : 0.0; }
+      high.polygon(outline, room.material[f]);
+      up.group.back() = high.group.back() = room.group[f];
+    }
+    up.names = high.names = room.names;
+    const radiosity::Intake taken = up.take_in();
+    CHECK(count_of(taken, ChangeKind::lamp_turned) == 1);
+    CHECK(count_of(room.take_in(), ChangeKind::lamp_turned) == 0);
+    CHECK(count_of(high.take_in(), ChangeKind::lamp_turned) == 0);  // it was meant to light the ceiling
+    check_same_light(light_of(room, room.take_in()), light_of(up, taken));
+  }
+}
+
 TEST_CASE("intake: a lamp on a wall without a thickness shines to its own side") {
   for (const bool down : {false, true}) {
     Soup soup;
