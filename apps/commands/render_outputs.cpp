@@ -16,6 +16,7 @@
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/scene.hpp>
 
+#include "apps/dark_picture.hpp"
 #include "apps/export/export_mesh.hpp"
 #include "apps/export/lightmap.hpp"
 #include "apps/export/viewer.hpp"
@@ -140,8 +141,8 @@ std::vector<RenderOutput> encode(const RenderOptions& options, const Picture& pi
 namespace {
 
 // The picture, with its time and error in the report. Nothing when interrupted.
-std::optional<Picture> drawn(const RenderOptions& options, const Camera& camera, Artist& artist, const radiosity::Solution& solution,
-                             const Tone& tone, const radiosity::Control& control, Report& report) {
+std::optional<Picture> drawn(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
+                             const radiosity::Solution& solution, const Tone& tone, const radiosity::Control& control, Report& report) {
   std::vector<radiosity::StageTime> stages;
   radiosity::detail::Stopwatch watch(stages);
   const radiosity::Mesh& mesh = options.method == PictureMethod::mesh ? solution.shown() : solution.mesh;
@@ -149,6 +150,9 @@ std::optional<Picture> drawn(const RenderOptions& options, const Camera& camera,
   if (!picture) { return std::nullopt; }
   report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
   watch.lap("picture");
+  if (std::string sentence = warning_of_dark_picture(*picture, file, artist.view()); !sentence.empty()) {
+    report.audit.warnings.push_back(std::move(sentence));
+  }
   if (!report.audit.picture_error && options.solver.audit_points > 0) {
     report.audit.picture_error = artist.audit(*picture, tone, radiosity::goal_to_know(report.audit, options.solver.audit_points), control);
     watch.lap("picture audit");
@@ -171,7 +175,7 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
   report.tone = tone.curve;
   report.automatic_exposure = !options.exposure || options.exposure->of_automatic;
   const std::optional<Picture> picture =
-      has_picture(options) ? drawn(options, camera, artist, solution, tone, control, report) : std::nullopt;
+      has_picture(options) ? drawn(options, file, camera, artist, solution, tone, control, report) : std::nullopt;
   if (has_picture(options) && !picture) { return std::nullopt; }
   std::optional<ExportMesh> exported;
   const auto is_exported = [&](const std::string& path) {

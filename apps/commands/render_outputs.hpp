@@ -85,6 +85,7 @@ class Artist {
 
   [[nodiscard]] Tone tone(const radiosity::Mesh& mesh) const;
   [[nodiscard]] PictureSize size() const { return view_.size; }
+  [[nodiscard]] const View& view() const { return view_; }
   [[nodiscard]] radiosity::Viewpoint viewpoint() const {
     return {view_.eye, [view = view_](const glm::dvec3& p, const glm::dvec3& n) { return view.share(p, n); }, view_.pixel_area()};
   }

@@ -15,6 +15,7 @@
 
 #include <brep/polygon.hpp>
 
+#include <raycast/box.hpp>
 #include <raycast/inline.hpp>
 
 namespace radiosity::intake {
@@ -26,6 +27,7 @@ struct PieceBorders {
   std::uint32_t pieces = 0;
   std::vector<double> length, met;  // of a piece: of its border; of the part of that on which other faces lie
   std::vector<double> area, backs;  // of a piece; of those of its faces that were given for both sides
+  std::vector<raycast::Box> box;    // of a piece
   std::vector<bool> twins;          // of a piece: at the place of each of its faces lies another one, or it was given for both sides
 
   explicit PieceBorders(Working& mesh) {
@@ -35,17 +37,27 @@ struct PieceBorders {
         number[face.piece] = pieces++;
         area.push_back(0.0);
         backs.push_back(0.0);
+        box.emplace_back();
       }
       piece.push_back(number[face.piece]);
       const double its = brep::area(mesh.outline(face));
       area[piece.back()] += its;
       backs[piece.back()] += face.back != none ? its : 0.0;
+      for (const std::uint32_t v : face.corners) { box[piece.back()].extend(mesh.positions[v]); }
     }
     length.assign(pieces, 0.0);
     met.assign(pieces, 0.0);
     find_twins(mesh);
     for (std::uint32_t p = 0; p < pieces; ++p) { twins[p] = twins[p] || backs[p] > 0.9 * area[p]; }
     measure(mesh);
+  }
+
+  // Do closed pieces lie in the bounds of this one? Then it is rather the walls of a room than a part of a solid.
+  [[nodiscard]] bool surrounds(std::uint32_t p) const {
+    for (std::uint32_t q = 0; q < pieces; ++q) {
+      if (length[q] == 0.0 && q != p && box[p].contains(box[q].lo) && box[p].contains(box[q].hi)) { return true; }
+    }
+    return false;
   }
 
  private:
@@ -115,11 +127,19 @@ HALFLIGHT_INLINE void turn_to_light(Working& mesh, std::span<const Material> mat
   for (std::uint32_t p = 0; p < borders.pieces; ++p) { any = any || asks(p); }
   if (!any) { return; }
   const std::vector<PieceView> views = SideLight(mesh, borders.piece, borders.pieces).solve(materials, options.eyes);
+  std::vector<int> side_of(borders.pieces, 0);
+  for (std::uint32_t p = 0; p < borders.pieces; ++p) {
+    if (!asks(p)) { continue; }
+    side_of[p] = detail::seen_side(views[p], borders.twins[p]);
+    // The sun lights the outside of a house more than its rooms, which are seen all the same.
+    const bool outwards = side_of[p] < 0 && views[p].back.way > views[p].front.way;
+    if (outwards && borders.surrounds(p)) { side_of[p] = 0; }
+  }
   std::vector<bool> asked(mesh.faces.size());
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     const std::uint32_t p = borders.piece[f];
     asked[f] = asks(p);
-    const int side = asks(p) ? detail::seen_side(views[p], borders.twins[p]) : 0;
+    const int side = side_of[p];
     if (side == 0) { continue; }
     Face& face = mesh.faces[f];
     if (side < 0) {

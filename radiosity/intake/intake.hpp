@@ -13,6 +13,7 @@
 //                planar or crosses itself is cut along the best diagonals
 //     t_joints   a vertex on the edge of another face becomes a corner of that face            t_joints.hpp
 //     join       groups whose borders match, and which close a shell together, are one shell   join.hpp
+//     facing     pieces of solids that are each other's walls look to the light                facing.hpp, side_light.hpp
 //     topology   faces are turned alike; where that cannot be, or more than two faces meet,    topology.hpp
 //                the surface is cut
 //     merge      coplanar neighbours of one material become one face (fewer input faces)       merge.hpp

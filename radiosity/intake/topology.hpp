@@ -3,8 +3,9 @@
 
 // Which faces hang together. Faces of one shell (working.hpp) that run along an edge in opposite directions are neighbours across it. First
 // the faces are turned so that this holds wherever two meet, each component as the larger part of its area looks. Where it cannot hold (a
-// Moebius strip), and where more than two faces meet, the surface is cut; of an even number of faces, half of them in each direction, those
-// are neighbours that have the solid between them.
+// Moebius strip), and where more than two faces meet, the surface is cut. But faces that hang together elsewhere, across edges of their own,
+// are one piece, and two sides of one piece are neighbours there, too, as those of each of two boxes that touch in an edge. Of an even
+// number of other faces, half of them in each direction, those are neighbours that have the solid between them.
 //
 // Where two fans of faces touch in one vertex each fan gets a vertex of its own, so that afterwards every component is a manifold: a
 // boundary with at most one gap at each vertex. Faces for which that is impossible become loose: they have no neighbours.
@@ -30,8 +31,9 @@ struct Topology {
   }
 };
 
-// Turns faces alike; those that were given for both sides do not count. Faces of components of which more than a tenth of the area had to
-// be turned, or that cannot be turned alike, are marked as mixed: it is not known which side was meant to be seen.
+// Turns faces alike, and numbers the pieces (Face::piece); faces that were given for both sides do not count. Faces of components of which
+// more than a tenth of the area had to be turned, or that cannot be turned alike, are marked as mixed: it is not known which side was meant
+// to be seen.
 void orient(Working& mesh);
 
 // Changes no face. `report`: what had to be cut counts as a change.

@@ -168,6 +168,21 @@ TEST_CASE("a mesh of a scene may be a file of another program; groups use it in 
   CHECK_FALSE(apps::parse_scene(head + "mesh b file \"my room.obj\"\n").file);
 }
 
+TEST_CASE("cameras of a scene tell which of its meshes are seen from inside") {
+  std::string box = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+  box += "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";  // looks outwards
+  const std::string head = "material m reflectance 0.5\nmaterial l reflectance 0 emission 1\nsphere s center 0 0 40 radius 1 material l\n";
+  const auto inside = [&](const std::string& eye) {
+    const auto result = apps::parse_scene(head + "mesh b file box.obj scale 4 move 10 0 0\ncamera c eye " + eye + " target 11 1 1\n",
+                                          models::beside({{"box.obj", box}}));
+    INFO(apps::to_text(result, "s"));
+    REQUIRE(result.file);
+    return result.file->scene.objects.back().placement.inside;
+  };
+  CHECK(inside("12 2 2"));
+  CHECK_FALSE(inside("2 2 2"));
+}
+
 TEST_CASE("the program takes files of other programs wherever it takes scenes, and says what it changed") {
   const program::Place place;
   place.write("room.obj", models::room_obj + "o lamp\nusemtl lamp\nv 1 2.9 1\nv 2 2.9 1\nv 2 2.9 2\nv 1 2.9 2\nf 9 10 11 12\n");

@@ -53,6 +53,22 @@ TEST_CASE("render gathers light for a picture, and draws the mesh when asked to;
   CHECK(report["wall_seconds"]["picture"].number() > 0.0);
 }
 
+TEST_CASE("a picture that is black all over says what it sees instead of light") {
+  const Place place;
+  place.write("back.scene",
+              "camera front eye 0 0 -5 target 0 0 0 up 0 1 0\n"
+              "camera behind eye 0 0 5 target 0 0 0 up 0 1 0\n"
+              "material lamp reflectance 0 emission 10\n"
+              "polygon panel material lamp {\nvertex -9 -9 0\nvertex -9 9 0\nvertex 9 9 0\nvertex 9 -9 0\n}\n");
+  const Run seen = place.run("render back.scene -o a.png --size 32x24 --audit 0 --camera front");
+  INFO(seen.err << seen.out);
+  CHECK(seen.out.find("picture is black") == std::string::npos);
+  const Run behind = place.run("render back.scene -o a.png --size 32x24 --audit 0 --camera behind");
+  INFO(behind.err << behind.out);
+  CHECK(behind.out.find("100 % first meets the backs of surfaces") != std::string::npos);
+  CHECK(behind.out.find("--two-sided") != std::string::npos);
+}
+
 TEST_CASE("a target or a time asks for BF-refinement, and the report says what ended it") {
   const Place place;
   const std::string arguments = "render " + scene("two_plates") + " -o a.png --json a.json --size 64x48 --audit 0";

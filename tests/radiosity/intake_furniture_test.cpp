@@ -47,7 +47,58 @@ std::vector<Case> damages() {
   return cases;
 }
 
+struct Box {
+  glm::dvec3 lo, hi;
+};
+
+// A chair whose back rest stands on the rear edge of its seat, a shelf whose boards end at its sides, a partition of two pillars and a
+// lintel: each a group of boxes.
+std::vector<std::vector<Box>> household() {
+  std::vector<Box> chair{{{0.5, 0.5, 0.43}, {0.96, 0.96, 0.47}}, {{0.5, 0.93, 0.47}, {0.96, 0.96, 0.95}}};
+  for (const double x : {0.53, 0.89}) {
+    for (const double y : {0.53, 0.89}) { chair.push_back({{x, y, 0.0}, {x + 0.04, y + 0.04, 0.43}}); }
+  }
+  std::vector<Box> shelf{{{2.5, 0.1, 0}, {2.52, 0.4, 2}}, {{3.38, 0.1, 0}, {3.4, 0.4, 2}}, {{2.52, 0.39, 0}, {3.38, 0.4, 2}}};
+  for (int i = 0; i < 6; ++i) { shelf.push_back({{2.52, 0.1, 0.396 * i}, {3.38, 0.39, 0.396 * i + 0.02}}); }
+  return {chair, shelf, {{{0, 2, 0}, {1, 2.1, 3}}, {{1.9, 2, 0}, {4, 2.1, 3}}, {{1, 2, 2.05}, {1.9, 2.1, 3}}}};
+}
+
 }  // namespace
+
+TEST_CASE("intake: a chair, a shelf and a partition with a door show their fronts, whichever way they were wound") {
+  const unsigned seed = std::random_device{}();
+  for (int round = 0; round < 12; ++round) {
+    INFO("seed " << seed << ", round " << round);
+    std::mt19937 random(seed + static_cast<unsigned>(round));
+    soup::Soup soup;
+    soup.names = {"room"};
+    soup::add_box(soup, glm::dvec3(0.0), {4, 4, 3}, 1, true);
+    soup.names.emplace_back("lamp");
+    soup.polygon({{1, 1, 2.9}, {1, 1.5, 2.9}, {2, 1.5, 2.9}, {2, 1, 2.9}}, 1);
+    for (const std::vector<Box>& thing : household()) {
+      soup.names.push_back("thing" + std::to_string(soup.names.size()));
+      soup::Soup boxes;
+      for (const Box& box : thing) { soup::add_box(boxes, box.lo, box.hi); }
+      for (std::size_t f = 0; f < boxes.count(); ++f) {
+        std::vector<glm::dvec3> outline = boxes.outline(f);
+        if (round % 3 == 1 || (round % 3 == 2 && random() % 2 == 0)) { std::reverse(outline.begin(), outline.end()); }
+        soup.polygon(outline);
+        std::reverse(outline.begin(), outline.end());
+        if (round > 5 && random() % 7 == 0) { soup.polygon(outline); }
+      }
+    }
+    const radiosity::Intake intake = soup.take_in();
+    soup::check_sound(soup, intake);
+    const std::vector<furniture::SeenPoint> seen{
+        {{0.7, 0.7, 0.47}, {0, 0, 1}},   {{0.7, 0.7, 0.43}, {0, 0, -1}}, {{0.7, 0.93, 0.8}, {0, -1, 0}}, {{0.7, 0.96, 0.8}, {0, 1, 0}},
+        {{2.9, 0.2, 0.812}, {0, 0, 1}},  {{2.52, 0.2, 1.0}, {1, 0, 0}},  {{3.4, 0.2, 1.0}, {1, 0, 0}},   {{2.9, 0.39, 1.0}, {0, -1, 0}},
+        {{1.5, 2.05, 2.05}, {0, 0, -1}}, {{1.9, 2.05, 1.0}, {-1, 0, 0}}, {{1.0, 2.05, 1.0}, {1, 0, 0}},  {{0.5, 2, 1.0}, {0, -1, 0}},
+        {{1.5, 2, 2.5}, {0, -1, 0}},     {{3.0, 2.1, 1.0}, {0, 1, 0}}};
+    const furniture::Sides sides = furniture::sides_of(intake.objects, seen, 1e-5);
+    CHECK(sides.missing == 0);
+    CHECK(sides.backs == 0);
+  }
+}
 
 TEST_CASE("intake: boxes on and against each other show their fronts, whichever way they were wound") {
   const unsigned seed = std::random_device{}();
