@@ -148,14 +148,31 @@ HALFLIGHT_INLINE std::optional<Color> PictureAudit::emitted(const ShownPicture& 
   return sees ? std::optional{emitted} : std::nullopt;
 }
 
+namespace detail {
+
+// The picture over a power of two that makes its brightest channel 1 to 2, so that squares are finite in any unit of light. What is not
+// finite counts as dark.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<Color> in_its_own_unit(const ShownPicture& picture) {
+  std::vector<Color> radiosity(std::size_t{picture.width} * picture.height);
+  double most = 0.0;
+  for (std::size_t p = 0; p < radiosity.size(); ++p) {
+    const Color shown = picture.radiosity(static_cast<std::uint32_t>(p % picture.width), static_cast<std::uint32_t>(p / picture.width));
+    radiosity[p] = std::isfinite(shown.x) && std::isfinite(shown.y) && std::isfinite(shown.z) ? shown : Color{0.0};
+    most = std::max(most, brightest(radiosity[p]));
+  }
+  const double unit = most > 0.0 ? std::ldexp(1.0, -std::ilogb(most)) : 1.0;
+  for (Color& b : radiosity) { b *= unit; }
+  return radiosity;
+}
+
+}  // namespace detail
+
 HALFLIGHT_INLINE PixelDraw PictureAudit::draw_of(const ShownPicture& picture, std::uint64_t& rays, const Control& control) const {
   const std::size_t pixels = std::size_t{picture.width} * picture.height;
-  std::vector<Color> radiosity(pixels);
+  const std::vector<Color> radiosity = detail::in_its_own_unit(picture);
   std::vector<std::size_t> order(pixels);
   double rest = 0.0;  // importance of the pixels that are not looked at yet
   for (std::size_t p = 0; p < pixels; ++p) {
-    const Color shown = picture.radiosity(static_cast<std::uint32_t>(p % picture.width), static_cast<std::uint32_t>(p / picture.width));
-    radiosity[p] = std::isfinite(glm::dot(shown, shown)) ? shown : Color{0.0};
     order[p] = p;
     rest += glm::dot(radiosity[p], radiosity[p]);
   }

@@ -61,7 +61,7 @@ Scene chain(Random& random, Scene& outermost) {
   outermost = room();
   outermost.objects.push_back(things.front());
   for (std::size_t k = things.size() - 1; k > 0; --k) {
-    std::swap(things[k], things[static_cast<std::size_t>(random.uniform() * (k + 1.0))]);
+    std::swap(things[k], things[static_cast<std::size_t>(random.uniform() * static_cast<double>(k + 1))]);
   }
   Scene scene = room();
   for (std::size_t k = 0; k < things.size(); ++k) {

@@ -100,6 +100,7 @@ TEST_CASE("a picture of a room: the meadow around it, however large, takes nothi
     radiosity::Options options;
     options.audit_points = 0;
     options.reconstruction = radiosity::Reconstruction::none;
+    options.indirect = radiosity::Indirect::rays;
     options.seed = random();
     radiosity::Control from_inside;
     from_inside.viewpoint = within_the_room();
@@ -131,4 +132,5 @@ TEST_CASE("a picture of a room: the meadow around it, however large, takes nothi
 TEST_CASE("light goes by stored rays, too, where most input faces shine: under a sky of many faces") {
   CHECK(radiosity::choose_rays(1000, 700, 700, {}).cast);
   CHECK(radiosity::choose_rays(1000, 20, 20, {}).cast);
+  CHECK_FALSE(radiosity::choose_rays(700, 690, 690, {}).cast);  // a lamp of many faces, and little else
 }
