@@ -118,7 +118,7 @@ TEST_CASE("near duplicates: rays meet one that is not covered, at the place of t
   }
 }
 
-TEST_CASE("near duplicates: the floor is as bright as with the outermost alone") {
+TEST_CASE("near duplicates: the floor is as bright as with the outermost alone", "[slow]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   Random random{seed, 3};

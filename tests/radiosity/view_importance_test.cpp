@@ -88,7 +88,7 @@ radiosity::Viewpoint within_the_room() {
 
 }  // namespace
 
-TEST_CASE("a picture of a room: the meadow around it, however large, takes nothing of what the room needs") {
+TEST_CASE("a picture of a room: the meadow around it, however large, takes nothing of what the room needs", "[slow]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
