@@ -129,7 +129,7 @@ TEST_CASE("sun: the error of its light on a plate is measured and holds the trut
     CHECK(error.high < 0.2);
     held += error.low <= truth + 1e-4 && truth - 1e-4 <= error.high ? 1 : 0;  // the light of one triangle varies less than that
   }
-  // Intervals of 95 % hold in fewer cases here: 14 of 20 have been seen, for the error sits at the few edges of the plate. Were the sun's
-  // light missed, as it was, none would.
+  // Intervals of 95 % should hold 19 times. 14 to 16 have been seen, with 500 points and with 2000, and it is not known why. This only asks
+  // that the light of the sun is not missed, for then none would hold.
   CHECK(held >= 8);
 }
