@@ -116,7 +116,7 @@ TEST_CASE("a picture of a room: the meadow around it, however large, takes nothi
     const double floor = truth.audit.surfaces.front().radiosity.x;  // so that all rooms count alike
     for (std::size_t k = 0; k < truth.audit.surfaces.size(); ++k) {
       const radiosity::SurfaceMean& exact = truth.audit.surfaces[k];
-      if (exact.name.find("wall") != 0) { continue; }
+      if (exact.name != "wall") { continue; }  // some faces of the box are not seen, and one lies on the floor
       const auto square = [&](double b) { return exact.area * b * b / (floor * floor); };
       norm += square(exact.radiosity.x);
       off_by_area += square(by_area.audit.surfaces[k].radiosity.x - exact.radiosity.x);
@@ -124,8 +124,8 @@ TEST_CASE("a picture of a room: the meadow around it, however large, takes nothi
     }
     UNSCOPED_INFO("so far " << std::sqrt(off_by_area / norm) << " by area, " << std::sqrt(off_by_view / norm) << " by the picture");
   }
-  // Found: .13 to .21 by the picture, .30 to .85 by the area, with a third of the rays.
-  CHECK(off_by_view < off_by_area);
+  // Found over the walls, as the root of the relative square: .13 to .20 by the picture, .30 to .56 by the area, with a third of the rays.
+  CHECK(off_by_view < 0.6 * off_by_area);
   CHECK(rays_by_view < 0.6 * rays_by_area);
 }
 
