@@ -117,19 +117,21 @@ TEST_CASE("sun: the error of its light on a plate is measured and holds the trut
       const auto corner = [&](std::uint32_t k) { return solution.mesh.positions[solution.mesh.corners[face.first_corner + k].vertex]; };
       for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
         const glm::dvec3 a = corner(0), b = corner(k), c = corner(k + 1);
-        const double area = glm::length(glm::cross(b - a, c - a));
-        const double truth = sun.lights((a + b + c) / 3.0), off = face.radiosity.x - truth;
-        square += area * off * off;
-        light += area * truth * truth;
+        // The light changes almost linearly over a triangle. Of a quadratic function the mean at the middles of its sides is exact.
+        const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+        for (const glm::dvec3& x : {0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)}) {
+          const double truth = sun.lights(x), off = face.radiosity.x - truth;
+          square += area / 3.0 * off * off;
+          light += area / 3.0 * truth * truth;
+        }
       }
     }
     const double truth = std::sqrt(square / light);
     CAPTURE(truth, error.relative_l2, error.low, error.high);
     CHECK(std::isfinite(error.high));
     CHECK(error.high < 0.2);
-    held += error.low <= truth + 1e-4 && truth - 1e-4 <= error.high ? 1 : 0;  // the light of one triangle varies less than that
+    held += error.low <= truth + 1e-5 && truth - 1e-5 <= error.high ? 1 : 0;  // paths and links both know the sun by facets
   }
-  // Intervals of 95 % should hold 19 times. 14 to 16 have been seen, with 500 points and with 2000, and it is not known why. This only asks
-  // that the light of the sun is not missed, for then none would hold.
-  CHECK(held >= 8);
+  // Intervals of 95 %: 383 of 400 were seen to hold. Fewer than 15 of 20 do less often than once in 3000 runs.
+  CHECK(held >= 15);
 }
