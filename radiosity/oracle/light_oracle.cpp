@@ -34,11 +34,19 @@ namespace radiosity {
 
 namespace detail {
 
+// A leaf no larger than min_area may differ by this many times as much as others: places beside lamps are few, but the light there changes
+// within a hand's breadth. The factor grows as the leaf becomes smaller, so that no lamp however near asks for leaves without end.
+[[nodiscard]] HALFLIGHT_INLINE double tolerance_of(const Node& to, double min_area) {
+  return to.leaf() && !(to.area > min_area) ? std::max(4.0, std::sqrt(min_area / to.area)) : 1.0;
+}
+inline constexpr double smallest_beside_lamps = 65536.0;  // of min_area: a side is 256 times as short
+
 // Does the light that arrives, from `low` to `high` where nothing stands between, vary by more than epsilon (RMS)? see(round) casts
-// segments and tells which part of them arrives. `small`: edges of shadows do not count, and the rest a quarter.
+// segments and tells which part of them arrives. `tolerance`: that many times epsilon; above 1 edges of shadows do not count.
 template <class See>
-[[nodiscard]] bool varies(double low, double high, double epsilon, bool small, RayCount& rays, const See& see) {
-  const double variation = (small ? 0.25 : 1.0) * (high - low) / std::sqrt(12.0);
+[[nodiscard]] bool varies(double low, double high, double epsilon, double tolerance, RayCount& rays, const See& see) {
+  const bool small = tolerance > 1.0;
+  const double variation = (high - low) / (std::sqrt(12.0) * tolerance);
   if (!(std::max(variation, small ? 0.0 : 0.5 * high) > epsilon)) { return false; }  // sqrt(V (1 - V)) is at most one half
   // The smallest shadow that matters covers this part of the patch. Segments enough to meet it three times are cast, unless they are too
   // many or their first have told.
@@ -80,6 +88,9 @@ struct FactorRange {
   };
   for (const glm::dvec3& x : patch.contour) { look(x); }
   look(nearest_point(to, lamp.centre));
+  // A lamp that stands across the patch does not shine on the nearest point, but before it, most about half as far as it is high.
+  const double height = std::max(lamp.radius, std::abs(glm::dot(to.normal, lamp.centre - to.centre)));
+  look(nearest_point(to, lamp.centre + 0.58 * height * lamp.normal));
   return range;
 }
 
@@ -205,15 +216,15 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(const Question& question
     const std::uint32_t split = wants_cluster_split(receiver, lamp, weight, rays);
     return split != no_node && nodes[split].area > question.min_area ? split : no_node;
   }
-  const bool small = !(to.area > question.min_area);
-  if (!(to.area > question.min_area / 16.0)) { return no_node; }
-  if (by_lamp) { return varies_by_lamp(receiver, lamp, weight, small, rays) ? receiver : no_node; }
+  if (!(to.area > question.min_area / detail::smallest_beside_lamps)) { return no_node; }
+  const double tolerance = detail::tolerance_of(to, question.min_area);
+  if (by_lamp) { return varies_by_lamp(receiver, lamp, weight, tolerance, rays) ? receiver : no_node; }
 
   const detail::FactorRange factor = detail::is_near_and_long(from, to, scene_.patches[lamp])
                                          ? detail::factors_to_outline(to, scene_.patches[receiver], from, scene_.patches[lamp])
                                          : detail::factors_to_disk(to, scene_.patches[receiver], from);
   const auto end_at = [&](std::uint32_t i) { return PatchEnd{&scene_.patches[i], nodes[i].object, nullptr, scene_.sheet(i)}; };
-  const bool split = detail::varies(weight * factor.low, weight * factor.high, epsilon_, small, rays, [&](std::uint64_t round) {
+  const bool split = detail::varies(weight * factor.low, weight * factor.high, epsilon_, tolerance, rays, [&](std::uint64_t round) {
     const VisibilityEstimate seen = visibility(scene_, *question.between, end_at(receiver), end_at(lamp), 1,
                                                Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull + round});
     return std::pair{seen.fraction, seen.rays};
@@ -221,7 +232,7 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(const Question& question
   return split ? receiver : no_node;
 }
 
-HALFLIGHT_INLINE bool LightOracle::varies_by_lamp(std::uint32_t receiver, std::uint32_t lamp, double weight, bool small,
+HALFLIGHT_INLINE bool LightOracle::varies_by_lamp(std::uint32_t receiver, std::uint32_t lamp, double weight, double tolerance,
                                                   RayCount& rays) const {
   const Node& to = scene_.hierarchy[receiver];
   const Node& from = scene_.hierarchy[lamp];
@@ -239,7 +250,7 @@ HALFLIGHT_INLINE bool LightOracle::varies_by_lamp(std::uint32_t receiver, std::u
   };
   for (const glm::dvec3& x : scene_.patches[receiver].contour) { look(x); }
   look(nearest_point(to, from.centre));
-  return detail::varies(weight * low, weight * high, epsilon_, small, rays, [&](std::uint64_t round) {
+  return detail::varies(weight * low, weight * high, epsilon_, tolerance, rays, [&](std::uint64_t round) {
     const LampExchange::Result seen =
         (*lamps_)(lamp, receiver, 1, Random{seed_, (std::uint64_t{receiver} << 32) | lamp, 0x736861646f77ull + round});
     return std::pair{seen.fraction, seen.rays};

@@ -44,8 +44,9 @@ class LightOracle {
   [[nodiscard]] double scene_area() const { return scene_area_; }
 
   // Asked once it is known what can stand between the two. Splits the end whose light varies too much because of the other, down to
-  // min_area; where F varies by more than four times as much, down to a sixteenth of that: beside a bright lamp that touches a wall the
-  // light changes within a hand's breadth, and such places are few.
+  // min_area. A leaf of at most that area is split where F varies by more than sqrt(min_area / area) times as much, at least four times:
+  // beside a bright lamp the light changes within a hand's breadth, and such places are few. What is split already needs no new leaves, so
+  // a link goes down to its children as it would above min_area.
   [[nodiscard]] Decision operator()(const Question& question) const {
     const std::uint32_t split = wants_split(question);
     if (split == no_node) { return Decision::link; }
@@ -60,7 +61,7 @@ class LightOracle {
   }
 
   // Of a patch and a cluster of lamps; as of two patches.
-  [[nodiscard]] bool varies_by_lamp(std::uint32_t receiver, std::uint32_t lamp, double weight, bool small, RayCount& rays) const;
+  [[nodiscard]] bool varies_by_lamp(std::uint32_t receiver, std::uint32_t lamp, double weight, double tolerance, RayCount& rays) const;
   [[nodiscard]] std::uint32_t wants_cluster_split(std::uint32_t receiver, std::uint32_t source, double weight, RayCount& rays) const;
 
   SceneView scene_;

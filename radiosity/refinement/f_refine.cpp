@@ -143,8 +143,9 @@ struct FRefinement {
   double min_area;  // in the squared unit of the frame
   double light_min_area;
   MeasuredLight measured;
-  NodePairs pairs;          // open
-  std::vector<bool> stuck;  // leaves that the BRep refused to split
+  NodePairs pairs;                 // open
+  std::vector<bool> stuck;         // leaves that the BRep refused to split
+  std::uint32_t nodes_before = 0;  // when split_leaves() began
   RefineResult result;
 };
 
@@ -215,7 +216,7 @@ HALFLIGHT_INLINE void tell(const FRefinement& state, const std::vector<Decision>
     if (decisions[i] == Decision::split_p) { asked[state.pairs[i].p] = true; }
     if (decisions[i] == Decision::split_q) { asked[state.pairs[i].q] = true; }
   }
-  const auto before = static_cast<std::uint32_t>(hierarchy.size());
+  const std::uint32_t before = state.nodes_before = static_cast<std::uint32_t>(hierarchy.size());
   std::uint64_t nodes = before;
   for (std::uint32_t i = 0; i < before; ++i) { nodes += asked[i] && hierarchy[i].leaf() ? hierarchy[i].corners : 0; }
   if (!state.fits(nodes, state.result.linked.size(), state.pairs.size())) { return false; }
@@ -225,12 +226,27 @@ HALFLIGHT_INLINE void tell(const FRefinement& state, const std::vector<Decision>
   return true;
 }
 
+// A link whose small end was split just now for another lamp, or another face of the same one, is asked about again: where the light of one
+// face rises as that of another falls, resolving one of them alone would make the sum worse.
+[[nodiscard]] HALFLIGHT_INLINE bool asked_again(const FRefinement& state, const NodePair& pair, Decision decision) {
+  const Hierarchy& nodes = state.scene.hierarchy;
+  const auto split_now = [&](const Node& to) {
+    return !to.leaf() && to.first_child >= state.nodes_before && !(to.area > state.light_min_area);
+  };
+  const auto shines = [&](const Node& by) { return !is_black(state.scene.emission[by.surface]); };
+  const Node &p = nodes[pair.p], &q = nodes[pair.q];
+  if (decision != Decision::link || p.is_cluster() || q.is_cluster()) { return false; }
+  return (split_now(p) && shines(q)) || (split_now(q) && shines(p));
+}
+
 // How many pairs the next generation will have; nothing when these, or the links that are made now, are more than there may be.
 [[nodiscard]] HALFLIGHT_INLINE std::optional<std::uint64_t> count_opened(FRefinement& state, const std::vector<Decision>& decisions) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   std::uint64_t links = state.result.linked.size(), opened = 0;
   for (std::size_t i = 0; i < state.pairs.size(); ++i) {
-    links += decisions[i] == Decision::link ? 1 : 0;
+    const bool again = asked_again(state, state.pairs[i], decisions[i]);
+    links += decisions[i] == Decision::link && !again ? 1 : 0;
+    opened += again ? 1 : 0;
     if (decisions[i] != Decision::split_p && decisions[i] != Decision::split_q) { continue; }
     const std::uint64_t children = hierarchy[decisions[i] == Decision::split_p ? state.pairs[i].p : state.pairs[i].q].child_count;
     opened += state.pairs[i].p == state.pairs[i].q ? children * (children + 1) / 2 : children;
@@ -253,7 +269,7 @@ HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, s
   }
 }
 
-// Links the pairs for which that was decided, and replaces those that are split by the pairs of the children.
+// Links the pairs for which that was decided, keeps those that are asked about again, and replaces those that are split by the pairs of the children.
 HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Decision>& decisions, NodePairs& next) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   for (std::size_t i = 0; i < state.pairs.size(); ++i) {
@@ -268,7 +284,7 @@ HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Deci
     if (split_p || split_q) {
       split_p ? descend(hierarchy, p, q, list, next) : descend(hierarchy, q, p, list, next);
     } else {
-      state.result.linked.push_back(state.pairs[i]);
+      (asked_again(state, state.pairs[i], decisions[i]) ? next : state.result.linked).push_back(state.pairs[i]);
     }
   }
 }
