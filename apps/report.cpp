@@ -17,6 +17,11 @@ std::string error_text(const std::optional<radiosity::ErrorEstimate>& error) {
   return percent(error->relative_l2) + "  (" + percent(error->low) + " to " + percent(error->high) + ")";
 }
 
+// Does the interval leave open how large the error is? Below half a percent nobody asks.
+bool wide(const radiosity::ErrorEstimate& error) {
+  return error.high > 0.005 && error.high - error.low > std::max(0.01, 1.5 * error.relative_l2);
+}
+
 std::string text_row(std::string_view label, const std::string& value) { return "  " + left(std::string(label), 24, 1) + value + "\n"; }
 
 class Text {
@@ -49,6 +54,11 @@ class Text {
     if (audit_.picture_error) { out_ += picture_error_text(*audit_.picture_error, report_.picture ? report_.picture->camera : ""); }
     if (report_.options.reconstruction != radiosity::Reconstruction::none) { row("surfaces", error_text(audit_.surface_error)); }
     row("leaf constants", error_text(audit_.leaf_error));
+    const auto& surfaces = audit_.surface_error ? audit_.surface_error : audit_.leaf_error;
+    if ((surfaces && wide(*surfaces)) || (audit_.picture_error && wide(audit_.picture_error->error))) {
+      row("", "wide: an audit takes no longer than the solution, or " + grouped(1000 * std::uint64_t{report_.options.audit_points}) +
+                  " plain rays; --audit " + std::to_string(4 * std::uint64_t{report_.options.audit_points}) + " allows four times as many");
+    }
     if (audit_.mesh) { mesh(*audit_.mesh); }
     if (audit_.estimated_error) {
       const bool picture = report_.options.reconstruction < radiosity::Reconstruction::constant;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <raycast/compiled.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -39,6 +40,40 @@ HALFLIGHT_INLINE std::size_t Compiled::bytes() const {
          std::accumulate(guards.begin(), guards.end(), guards.capacity() * sizeof(Guard), cells) +
          (others.capacity() + leaves.capacity() + rooms.capacity() + room_bodies.capacity()) * sizeof(std::uint32_t) +
          (first_sheet.capacity() + 4 * sheets.capacity()) * sizeof(std::uint32_t) + roles.capacity() + bounds.capacity() * sizeof(FloatBox);
+}
+
+HALFLIGHT_INLINE double Compiled::walk_work() const {
+  const auto leaf_work = [&](std::uint32_t leaf) {
+    const std::uint32_t first = leaf_first(leaf), count = leaf_count(leaf);
+    switch (leaf_kind(leaf)) {
+      case Kind::body: {
+        double planes_there = 0.0;
+        for (std::uint32_t j = first; j < first + count; ++j) { planes_there += bodies[j].count; }
+        return planes_there / 4.0;  // one after the other, for its entry and its exit
+      }
+      case Kind::guard:
+        return 0.0;
+      case Kind::cylinder:
+      case Kind::form:
+      case Kind::other:
+        return 2.0 * count;
+      default:
+        return 1.0;
+    }
+  };
+  FloatBox whole;
+  double sum = 0.0;
+  for (const Node& node : nodes) {
+    for (std::size_t c = 0; c < fan_out; ++c) {
+      FloatBox box;
+      for (std::size_t k = 0; k < 3; ++k) { box.lo[k] = node.bound[k][c], box.hi[k] = node.bound[k + 3][c]; }
+      if (&node == &nodes.front()) { whole.extend(box); }
+      const auto area = static_cast<double>(box.half_area());
+      if (area > 0.0 && std::isfinite(area)) { sum += area * (raycast::is_leaf(node.child[c]) ? leaf_work(node.child[c]) : 1.0); }
+    }
+  }
+  const auto all = static_cast<double>(whole.half_area());
+  return all > 0.0 && std::isfinite(all) ? sum / all : 0.0;
 }
 
 HALFLIGHT_INLINE bool leaves_at_once(const Compiled& scene, std::uint32_t owner, std::uint32_t sheet, const float (&to)[3], float length) {

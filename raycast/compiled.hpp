@@ -129,6 +129,9 @@ struct Compiled {
   [[nodiscard]] glm::dvec3 local(const glm::dvec3& p) const { return (p - centre) * scale; }
   [[nodiscard]] std::uint32_t object_of(std::uint32_t shape) const;
   [[nodiscard]] std::size_t bytes() const;
+  // Of a ray through the whole tree, without an end: how many nodes it opens and what it does in their leaves, where eight faces or spheres
+  // side by side count as one node. Each is met as often as its bounds are smaller than the whole (MacDonald and Booth 1990).
+  [[nodiscard]] double walk_work() const;
 };
 
 // Does a segment of this length that begins on a sheet of its owner, and ends at `to`, leave the owner at once? Then what lies of it in the

@@ -75,6 +75,8 @@ class Scene {
   // About what the first hit of a ray costs, in rays through a scene of few polygons. A ray comes through the bounds of an object as often
   // as their surface is smaller than that of the scene (Cauchy 1832).
   [[nodiscard]] double ray_work() const;
+  // What it costs to find the objects that it may meet, in the same unit, beyond what that is among few polygons.
+  [[nodiscard]] double walk_work() const;
   [[nodiscard]] std::size_t bytes() const {  // of the compiled scene, without the objects themselves
     return objects_.capacity() * sizeof(PlacedObject) + records_.capacity() * sizeof(Record) + corners_.capacity() * sizeof(glm::dvec3) +
            walls_.capacity() * sizeof(Plane) + compiled_.bytes();

@@ -61,8 +61,10 @@ std::vector<Argument> refinement_arguments(RenderOptions& options) {
   const std::vector<std::string> ends{"--error", "--target", "--time"};  // of the refinement: one at most
   return {
       above_zero("--error", solver.error, 1.0,
-                 "refine until the measured relative L2 error is at most this; out of reach, that is at 10 million links, the finest "
-                 "thresholds or after three rounds without gain, it ends with the best solution and exit code 4"),
+                 "refine until the measured relative L2 error is at most this; out of reach, that is at 10 million links, the work "
+                 "of 40 million rays (about a minute of CPU time; audits take as much again, or twice to show that it is met), 2 GB "
+                 "without --memory, the finest thresholds or after three rounds without gain, it ends with the best solution and exit "
+                 "code 4"),
       one_of<std::optional<ErrorOf>, ErrorOf>(
           "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},
           "what --error and --mesh-error are about: picture, what the camera sees (the default of --error with a picture, of --mesh-error "
@@ -115,7 +117,9 @@ std::vector<Argument> solver_arguments(RenderOptions& options) {
   return {
       whole_number("--threads", solver.threads, 1, most_threads, "threads (default: all); results do not depend on it"),
       whole_number("--seed", solver.seed, 0, std::numeric_limits<std::uint64_t>::max(), "seed of all random choices"),
-      whole_number("--audit", solver.audit_points, 0, 100'000'000, "points at which the error is measured; 0: none"),
+      whole_number("--audit", solver.audit_points, 0, 100'000'000,
+                   "points at which the error is measured, the surfaces and the picture each, in no more rays than the solution took, or "
+                   "1000 a point, fewer where rays are dear; 0: none"),
       one_of<Indirect, Indirect>("--indirect", solver.indirect,
                                  {{"auto", Indirect::automatic}, {"links", Indirect::links}, {"rays", Indirect::rays}},
                                  "auto, links or rays: how light between surfaces that do not shine travels"),

@@ -12,6 +12,7 @@
 
 #include <raycast/inline.hpp>
 
+#include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/result/audit.hpp>
@@ -26,6 +27,13 @@ namespace radiosity {
 
 // About half of what the solver accepts (too_many_links), because a round has up to twice the links of the one before.
 inline constexpr std::uint64_t link_budget = 10'000'000;
+
+// What the solutions and pictures of all rounds may take, in rays of paths among few polygons (audit_effort.hpp), which are about a
+// microsecond each. It does not depend on the target, nor on what audits found.
+inline constexpr std::uint64_t work_budget = 40'000'000;
+
+// Bytes that a round may take when Options::memory says nothing. A lamp a millimetre from a wall has links without end.
+inline constexpr std::uint64_t memory_of_rounds = 2'000'000'000;
 
 namespace detail {
 
@@ -50,6 +58,7 @@ class Rounds {
     round_.epsilon = 0.04;
     round_.min_area = 3.84e-3;
     round_.target = 0.16;
+    if (!round_.memory) { round_.memory = memory_of_rounds; }
   }
 
   [[nodiscard]] const Options& options() const { return round_; }
@@ -75,7 +84,13 @@ class Rounds {
     round_.target *= 0.5;
     const bool floor =
         round_.refinement == Refinement::a_priori ? round_.epsilon < 1e-5 || *round_.light_epsilon < 1e-6 : round_.target < 1e-4;
+    // A round mostly takes about twice the work of the one before it.
+    const std::uint64_t work = rays_worth(audit) + (audit.picture_error ? audit.picture_error->picture_work : 0);
+    work_ += work;
     if (audit.links > link_budget) { return "its limit of " + std::to_string(link_budget / 1'000'000) + " million links"; }
+    if (work_ + 2 * work > work_budget) {
+      return "its limit of work, as much as " + std::to_string(work_budget / 1'000'000) + " million rays";
+    }
     return floor ? "the finest thresholds" : without_gain_ == 3 ? "three rounds without gain" : "";
   }
 
@@ -84,6 +99,7 @@ class Rounds {
   bool of_picture_;
   std::optional<double> least_;  // error that was seen
   int without_gain_ = 0;         // rounds
+  std::uint64_t work_ = 0;       // of all rounds
   const std::optional<ErrorEstimate> nothing_{};
 };
 

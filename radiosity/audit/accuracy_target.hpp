@@ -4,9 +4,11 @@
 // The rounds that meet an error target: ever finer solutions, until the audit confirms that one is fine enough.
 //
 // The target does not change the rounds; it only decides after which of them the run ends. So a tighter target ends at the same solution as
-// a looser one, or at a finer one; or sooner, where its larger audit shows that it is met. A run gives up when the next round would need
-// more than link_budget links, when the thresholds have reached their floor, or when three rounds running were no better than the best
-// before them; Audit::rounds_ended_by says which. It then returns the last one, unless an earlier one is better beyond the doubt of both
+// a looser one, or at a finer one; or sooner, where its larger audit shows that it is met. A run gives up when a round needed
+// more than link_budget links, when the next one would bring the work of all above work_budget, when the thresholds have reached their
+// floor, or when three rounds running were no better than the best before them; Audit::rounds_ended_by says which. It ends, too, when a
+// round would take more memory than Options::memory allows, or memory_of_rounds where that says nothing (Audit::shortage). All that is
+// counted, not timed, and does not depend on the target. It then returns the last one, unless an earlier one is better beyond the doubt of both
 // audits. The size of an audit depends on the target; so that the rounds do not, they are planned and compared by points of their own
 // (Audit::steering_error, PictureError::steering).
 

@@ -52,8 +52,11 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
                                                                    std::uint64_t seed, const Control& control) const {
   std::uint64_t keys = 0;
   Measured measured;
-  std::uint64_t rays_to_draw = 0;
-  const PixelDraw draw = draw_of(picture, rays_to_draw, control);
+  std::uint64_t rays = 0;  // of all pilots, too
+  const double price = prepared_->objects.ray_work() + prepared_->objects.walk_work();
+  AuditGoal own = goal.among_rays_of(price);
+  const PixelDraw draw = draw_of(picture, own.rays / 8, rays, control);
+  own.rays -= std::min(own.rays, rays);
   const auto measure = [&](std::uint64_t points, std::uint32_t paths, Measured& to) {
     const std::uint32_t side = PixelDraw::side(points);
     to.samples.assign(PixelDraw::size(side), {});
@@ -71,13 +74,13 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
       control.report("audit", static_cast<double>(done) / static_cast<double>(to.samples.size()));
     }
     for (const Sample& sample : to.samples) {
+      rays += sample.rays;
       to.rays += sample.rays;
       const double w = sample.weight;
       if (sample.valid) { to.sums.add(w * sample.square, w * sample.reference, w * w * sample.noise); }
     }
     return !control.cancelled();
   };
-  const AuditGoal own = goal.among_rays_of(prepared_->objects.ray_work());
   Measured steering;
   if (own.rays_to_steer > 0 && !measure(steering_points, steering_paths(own), steering)) { return std::nullopt; }
   if (!measure_to_goal<Measured>(
@@ -89,7 +92,7 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   PictureError result;
   result.error = *error;
   result.points = measured.sums.square.size();
-  result.rays = measured.rays + rays_to_draw;
+  result.rays = rays;
   double all = 0.0;
   for (const Sample& sample : measured.samples) {
     all += sample.weight;
@@ -101,6 +104,8 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   result.over8 = over8;
   result.worst = worst_tile(picture, measured);
   result.steering = steering.sums.estimate();
+  constexpr double rays_a_pixel = 4.0;  // about, of a picture in gathered light
+  result.picture_work = static_cast<std::uint64_t>(rays_a_pixel * price * picture.width * picture.height);
   return result;
 }
 
@@ -167,29 +172,35 @@ namespace detail {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE PixelDraw PictureAudit::draw_of(const ShownPicture& picture, std::uint64_t& rays, const Control& control) const {
+HALFLIGHT_INLINE PixelDraw PictureAudit::draw_of(const ShownPicture& picture, std::uint64_t most, std::uint64_t& rays,
+                                                 const Control& control) const {
   const std::size_t pixels = std::size_t{picture.width} * picture.height;
   const std::vector<Color> radiosity = detail::in_its_own_unit(picture);
+  const auto square = [&](std::size_t p) { return glm::dot(radiosity[p], radiosity[p]); };
   std::vector<std::size_t> order(pixels);
   double rest = 0.0;  // importance of the pixels that are not looked at yet
   for (std::size_t p = 0; p < pixels; ++p) {
     order[p] = p;
-    rest += glm::dot(radiosity[p], radiosity[p]);
+    rest += square(p);
   }
-  const auto square = [&](std::size_t p) { return glm::dot(radiosity[p], radiosity[p]); };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return std::pair{square(b), a} < std::pair{square(a), b}; });
-  // A pixel that less than one of so many points would fall on wastes few of them.
+  // A pixel that less than one of so many points would fall on wastes few of them; but a lamp has many pixels that are equally bright.
   constexpr double many = 4096.0;
+  constexpr int enough = 64;  // pixels in a row that count: where lamps end
   std::vector<char> left_out(pixels, 0);
   double kept = 0.0;
-  for (std::size_t k = 0; k < pixels && many * square(order[k]) > kept + rest && !control.cancelled(); ++k) {
+  std::optional<Color> of_lamp;  // what all of its pixels show mostly
+  int in_a_row = 0;
+  for (std::size_t k = 0; k < pixels && rays < most && !control.cancelled(); ++k) {
     const std::size_t p = order[k];
+    if (in_a_row >= enough && many * square(p) <= kept + rest) { break; }
     rest -= square(p);
-    if (emitted(picture, static_cast<std::uint32_t>(p % picture.width), static_cast<std::uint32_t>(p / picture.width), rays)) {
-      kept += square(p);
-    } else {
-      left_out[p] = 1;
-    }
+    const auto x = static_cast<std::uint32_t>(p % picture.width), y = static_cast<std::uint32_t>(p / picture.width);
+    const bool counts = of_lamp != radiosity[p] && emitted(picture, x, y, rays).has_value();
+    in_a_row = counts ? in_a_row + 1 : 0;
+    left_out[p] = counts ? 0 : 1;
+    kept += counts ? square(p) : 0.0;
+    if (!counts) { of_lamp = radiosity[p]; }
   }
   return {picture.width, picture.height, pixel_importance(picture.width, picture.height, radiosity, left_out)};
 }

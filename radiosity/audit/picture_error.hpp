@@ -80,8 +80,9 @@ class PictureAudit {
   // What is emitted there, when that is the same all over the pixel. Nothing when the pixel does not count: it sees nothing, or shows a lamp.
   [[nodiscard]] std::optional<Color> emitted(const ShownPicture& picture, std::uint32_t x, std::uint32_t y, std::uint64_t& rays) const;
 
-  // Of the brightest pixels those that do not count are found first, or they would be drawn again and again for nothing.
-  [[nodiscard]] PixelDraw draw_of(const ShownPicture& picture, std::uint64_t& rays, const Control& control) const;
+  // Of the brightest pixels those that do not count are found first, or they would be drawn again and again for nothing. `most`: rays, at
+  // most, about; which pixels are found decides nothing but where pixels are drawn.
+  [[nodiscard]] PixelDraw draw_of(const ShownPicture& picture, std::uint64_t most, std::uint64_t& rays, const Control& control) const;
 
   [[nodiscard]] Sample measure_pixel(const ShownPicture& picture, std::uint64_t seed, std::uint64_t key, const PixelDraw& draw,
                                      std::size_t i, std::uint32_t side, std::uint32_t paths) const;

@@ -62,8 +62,8 @@ struct Audit {
   std::optional<ImprintedEdges> imprinted;          // of discontinuity meshing, where that was done
   std::uint64_t rays_avoided = 0;                   // at least; by the two proofs:
   std::uint64_t pairs_clear = 0, pairs_hidden = 0;  // links that nothing can block; pairs, with all below, that one object hides
-  std::uint64_t audit_rays = 0;
-  double ray_work = 1.0;    // what a ray costs, in rays among few polygons
+  std::uint64_t audit_rays = 0;                     // over all surfaces, those of its pilots, too
+  double ray_work = 1.0;                            // what a ray of a path costs, in rays among few polygons
   std::uint64_t bytes = 0;  // held by the result: BReps, hierarchy, links, compiled objects; the peak is that of the last stage
   // the linear system
   struct Range {

@@ -63,7 +63,8 @@ struct PictureError {
     ErrorEstimate error;
   };
   std::optional<Tile> worst;
-  std::uint64_t points = 0, rays = 0;
+  std::uint64_t points = 0, rays = 0;     // rays of its pilots, too
+  std::uint64_t picture_work = 0;         // about what the picture took, in rays of paths among few polygons
   std::optional<ErrorEstimate> steering;  // from points and paths whose number does not depend on what is wanted
 };
 

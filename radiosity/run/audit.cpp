@@ -34,27 +34,25 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
   SurfaceErrorMeter meter{run.scene.input,    run.scene.objects, *run.tracer,
                           run.scene.exposure, solution.shown(),  run.direct ? &*run.direct : nullptr,
                           options.seed};
-  audit.ray_work = run.scene.objects.ray_work();
+  audit.ray_work = run.scene.objects.ray_work() + run.scene.objects.walk_work();
   const AuditGoal to_know = goal_to_know(audit, options.audit_points);
-  const std::uint64_t solution_rays = rays_worth(audit);
-  AuditGoal goal = to_know;
-  if (options.error) {  // a quarter is left for what steers the next round
-    goal = {options.audit_points, 3 * solution_rays / 4, *options.error, std::max<std::uint64_t>(25'000'000, 2 * solution_rays)};
-    goal.rays_to_steer = solution_rays / 4;
-  }
+  AuditGoal goal = options.error ? goal_of_round(audit, options.audit_points, *options.error) : to_know;
   if (options.error && control.picture_error) {
     Mesh shown = solution.mesh;
     to_scene(shown, solution.frame);
     audit.picture_error = control.picture_error(shown, solution.frame, goal);
     // The error over all surfaces decides nothing then: until the picture is good enough, a little of it will do.
     const bool last = audit.picture_error && audit.picture_error->error.within(*options.error);
-    goal = last ? to_know : AuditGoal{options.audit_points / 4, solution_rays / 4};
+    goal = last ? to_know : AuditGoal{options.audit_points / 4, rays_worth(audit) / 4};
   }
   goal = goal.among_rays_of(audit.ray_work);
   const bool reconstructed = options.reconstruction != Reconstruction::none;
   const auto sums = [&](const SurfaceError& error) -> const ErrorSums& { return reconstructed ? error.reconstructed : error.leaf; };
   const auto measure = [&](std::uint64_t points, std::uint32_t paths, SurfaceError& to) {
-    return meter.measure(points, paths, run.scene.threads, control, to);
+    const std::uint64_t before = to.rays;
+    const bool complete = meter.measure(points, paths, run.scene.threads, control, to);
+    audit.audit_rays += to.rays - before;
+    return complete;
   };
   if (goal.rays_to_steer > 0) {  // before all else, so that its points are the same ones for any target
     SurfaceError steering;
@@ -68,7 +66,6 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
   audit.leaf_error = measured.leaf.estimate();
   if (reconstructed) { audit.surface_error = measured.reconstructed.estimate(); }
   audit.audit_points = measured.points();
-  audit.audit_rays = measured.rays;
 }
 
 // Says where the estimate from links is more than three times too small or too large for what path tracing found, whatever the interval

@@ -72,7 +72,8 @@ struct Options {
   // quarter of epsilon. Default: a quarter of epsilon. Leaves are split once more to a quarter of this (refinement/leaf_splits.hpp).
   std::optional<double> light_epsilon;
   // Accuracy target: target, or epsilon and min_area, fall round by round until the audited relative L2 error is at most this: that of the
-  // picture when Control::picture_error is given, else that over all surfaces.
+  // picture when Control::picture_error is given, else that over all surfaces. Ends, too, when it has taken its budget of links, work or
+  // memory, or gains no more (audit/accuracy_target.hpp).
   std::optional<double> error;
 
   // The mesh is made once more in gathered light (picture/mesh_refiner.hpp), with faces split until its colours are off by at most this
@@ -107,7 +108,7 @@ struct Options {
   // For studies: the solution brings a Comparison (comparison.hpp), with a dense solution when it has no more leaves than this.
   std::optional<std::uint32_t> compare;
 
-  std::uint32_t audit_points = 2000;  // at least, at which the error is measured (audit_effort.hpp); 0: no error estimate
+  std::uint32_t audit_points = 2000;  // about, at which the error is measured (audit_effort.hpp: and its cost); 0: no error estimate
   unsigned threads = 0;               // 0: as many as the machine has; results do not depend on it
   // Bytes that the run may take on top of what the process holds when it begins, predicted from the numbers of nodes, links and pairs
   // before they are made (memory.hpp). A run that would need more ends with the best solution that fits, which says so by audit.shortage:

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+
+// What audits and rounds to an accuracy target cost: no more than the stated budget, whatever they meet.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <utility>
+
+#include <raycast/objects/sphere.hpp>
+
+#include <radiosity/audit/accuracy_target.hpp>
+#include <radiosity/audit/audit_effort.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/audit.hpp>
+#include <radiosity/result/error_estimate.hpp>
+#include <radiosity/run/solve_at.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+
+#include "catch.hpp"
+#include "scenes.hpp"
+
+using radiosity::AuditGoal;
+using radiosity::Color;
+using radiosity::ErrorEstimate;
+using radiosity::ErrorSums;
+
+namespace {
+
+struct Points {
+  ErrorSums sums;
+  std::uint64_t rays = 0;
+};
+
+// Points of which a share sees light, with errors and noise of their own; `fixed` rays each, and some for each path.
+struct Kind {
+  double share, off, spread;
+  std::uint64_t fixed, rays_a_path;
+};
+
+// What an audit of such points took in all, and what came of it.
+struct Taken {
+  std::uint64_t rays = 0, pilots = 0;
+  Points result;
+};
+
+Taken audited(const Kind& kind, const AuditGoal& goal, std::uint64_t seed) {
+  Taken taken;
+  std::uint64_t asked = 0;
+  const auto measure = [&](std::uint64_t points, std::uint32_t paths, Points& to) {
+    for (std::uint64_t i = 0; i < points; ++i) {
+      radiosity::Random at{seed, asked++};
+      to.rays += kind.fixed;
+      if (at.uniform() >= kind.share) { continue; }
+      const double noise = kind.spread / std::sqrt(paths);
+      const double a = noise * (at.uniform() - 0.5), b = noise * (at.uniform() - 0.5);
+      to.sums.add((kind.off + a) * (kind.off + b), 1.0, std::pow(0.5 * (a - b) * (a - b), 2) / 3.0);
+      to.rays += 2 * paths * kind.rays_a_path;
+    }
+    taken.pilots += 1;
+    taken.rays += to.rays;
+    return true;
+  };
+  REQUIRE(radiosity::measure_to_goal<Points>(
+      measure, [](const Points& p) -> const ErrorSums& { return p.sums; }, goal, taken.result));
+  return taken;
+}
+
+}  // namespace
+
+TEST_CASE("an audit takes no more rays than it may, pilots included, or the least that gives an interval") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0};
+  for (int k = 0; k < 300; ++k) {
+    const Kind kind{std::pow(10.0, -3.0 * random.uniform()), std::pow(10.0, -4.0 + 3.0 * random.uniform()),
+                    std::pow(10.0, -3.0 + 4.0 * random.uniform()), 1 + static_cast<std::uint64_t>(30.0 * random.uniform()),
+                    1 + static_cast<std::uint64_t>(40.0 * random.uniform())};
+    const auto points = 16 + static_cast<std::uint64_t>(2000.0 * random.uniform());
+    AuditGoal goal{points, static_cast<std::uint64_t>(std::pow(10.0, 3.0 + 3.0 * random.uniform()))};
+    if (k % 2 == 0) {
+      goal.wanted = std::pow(10.0, -2.5 + 1.5 * random.uniform());
+      goal.rays_to_show = 2 * goal.rays;
+    }
+    const Taken taken = audited(kind, goal, seed + static_cast<std::uint64_t>(k));
+    // The least: a pilot and an audit of the fewest points, with four paths for each estimate, or with 16 in the pilot where it is rich.
+    const std::uint64_t fewest =
+        std::max<std::uint64_t>(goal.wanted ? 250 : 16, std::max(points / 4, std::clamp<std::uint64_t>(points / 8, 16, 512)));
+    const auto seen = [&](std::uint64_t n) {  // points of so many, by six standard errors at most
+      const double mean = kind.share * static_cast<double>(n);
+      return std::min(static_cast<double>(n), mean + 6.0 * std::sqrt(mean) + 6.0);
+    };
+    const std::uint64_t paths = goal.rays < 256 * fewest ? 4 : 16;
+    const double least =
+        2.0 * static_cast<double>(fewest * kind.fixed) + 2.0 * seen(fewest) * static_cast<double>((paths + 16) * kind.rays_a_path);
+    const double most = static_cast<double>(std::max(goal.rays, goal.rays_to_show));
+    CAPTURE(k, kind.share, kind.off, kind.spread, kind.fixed, kind.rays_a_path, points, goal.rays, goal.rays_to_show, taken.rays, least);
+    // What a point costs is known from a pilot: points that cost more by chance may come after it.
+    CHECK(static_cast<double>(taken.rays) <= 1.25 * most + least);
+  }
+}
+
+TEST_CASE("an audit of what is black ends with its search for light, a quarter of its rays, and measures nothing") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0};
+  for (int k = 0; k < 50; ++k) {
+    const auto points = 16 + static_cast<std::uint64_t>(4000.0 * random.uniform());
+    const std::uint64_t fixed = 1 + static_cast<std::uint64_t>(50.0 * random.uniform());
+    const AuditGoal goal{points, static_cast<std::uint64_t>(std::pow(10.0, 3.0 + 4.0 * random.uniform()))};
+    const Taken taken = audited({0.0, 0.0, 0.0, fixed, 1}, goal, seed);
+    CAPTURE(k, points, fixed, goal.rays, taken.rays);
+    CHECK(taken.rays <= std::max(goal.rays / 4, std::clamp<std::uint64_t>(points / 8, 16, 512) * fixed));
+    CHECK_FALSE(taken.result.sums.estimate());
+  }
+}
+
+TEST_CASE("a target out of reach ends within the stated work, and after the same rounds as any other") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0};
+  for (int k = 0; k < 200; ++k) {
+    const auto key = static_cast<std::uint64_t>(k);
+    const double growth = 1.1 + 0.9 * random.uniform(), first = std::pow(10.0, 3.0 + 4.0 * random.uniform());
+    const auto picture_work = static_cast<std::uint64_t>(std::pow(10.0, 7.0 * random.uniform()));
+    // Rounds of random gain, of which audits see with random noise what they are off.
+    const auto run = [&](double wanted) {
+      std::uint64_t work = 0, rounds = 0;
+      double error = 0.5;
+      radiosity::Options options;
+      options.error = wanted;
+      const radiosity::Outcome outcome = radiosity::detail::solve_to_error(options, true, [&](const radiosity::Options& round, auto) {
+        CHECK(round.memory.has_value());
+        radiosity::Random gain{seed, key, rounds};
+        error *= 0.8 + 0.1 * gain.uniform();
+        radiosity::Solution solution;
+        radiosity::Audit& audit = solution.audit;
+        audit.links = static_cast<std::uint64_t>(std::min(9e6, first * std::pow(growth, static_cast<double>(rounds))));
+        audit.light_epsilon = round.epsilon;
+        audit.picture_error = radiosity::PictureError{};
+        audit.picture_error->picture_work = picture_work;
+        audit.picture_error->steering = ErrorEstimate{error, 0.01 * error, 0.98 * error, 1.02 * error};
+        audit.picture_error->error = *audit.picture_error->steering;
+        work += audit.links + picture_work;
+        ++rounds;
+        return radiosity::Outcome{std::move(solution), {}};
+      });
+      REQUIRE(outcome.solution);
+      CHECK((rounds == 1 || work <= 40'000'000));
+      return std::pair{rounds, outcome.solution->audit};
+    };
+    const auto [rounds, missed] = run(1e-9);
+    const auto [again, looser] = run(0.01);
+    CAPTURE(k, growth, first, picture_work, rounds, again, missed.rounds_ended_by);
+    CHECK(missed.target_missed);
+    CHECK_FALSE(missed.rounds_ended_by.empty());
+    CHECK(again <= rounds);
+    CHECK(missed.picture_error->error.relative_l2 <= looser.picture_error->error.relative_l2);
+  }
+}
+
+TEST_CASE("the audits of random scenes cost what is stated: as much as the solution, or 1000 rays a point where that is more") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0};
+  for (int k = 0; k < 6; ++k) {
+    radiosity::Scene scene = scenes::two_plates(0.2 + 0.7 * random.uniform());
+    const auto material = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.push_back({"ball", Color{0.9 * random.uniform()}, Color{0.0}});
+    for (int ball = 0; ball < 10 * k; ++ball) {
+      const glm::dvec3 centre{3.0 * random.uniform(), 3.0 * random.uniform(), 3.0 * random.uniform()};
+      scene.objects.push_back({"ball", raycast::Sphere::make(centre, 0.02 + 0.1 * random.uniform()).object, {}, {material}});
+    }
+    radiosity::Options options;
+    options.epsilon = 0.05;
+    options.min_area = 1e-3;
+    options.audit_points = 200;
+    options.seed = seed + static_cast<std::uint64_t>(k);
+    if (k % 2 == 1) { options.error = 1e-6; }  // of which this is one round
+    const radiosity::Outcome outcome = radiosity::detail::solve_within_memory(scene, options, {}, 0);
+    REQUIRE(outcome.solution);
+    const radiosity::Audit& audit = outcome.solution->audit;
+    const std::uint64_t worth = radiosity::rays_worth(audit), most = std::max<std::uint64_t>(worth, options.error ? 0 : 200'000);
+    CAPTURE(k, audit.ray_work, worth, audit.audit_rays);
+    // The least: pilot, audit and steering points with few paths each, of some ten rays; more where the scene is white.
+    constexpr double least = 2.0 * (256 + 250 + 50) * 16 * 12;
+    CHECK(static_cast<double>(audit.audit_rays) * audit.ray_work <= 1.25 * static_cast<double>(most) + audit.ray_work * least);
+  }
+}
