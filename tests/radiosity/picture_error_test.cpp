@@ -47,9 +47,16 @@ PictureError measured_picture(const radiosity::Scene& scene, const ShownPicture&
 TEST_CASE("picture audit: a picture of a furnace that is right is found right, one that is off by 5 % as much off everywhere") {
   const radiosity::Scene scene = scenes::furnace_with_things(0.5);  // B = 1, half of it reflected
   const glm::dvec3 eye{0.5, 0.02, 0.5};
-  const PictureError right = measured_picture(scene, seen_from(eye, [](auto, auto) { return Color{1.0}; }));
-  CHECK(right.error.low == 0.0);
-  CHECK(right.over8.least == 0.0);
+  int found_right = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const PictureError right = measured_picture(scene, seen_from(eye, [](auto, auto) { return Color{1.0}; }), 1, 400, seed);
+    CAPTURE(seed, right.error.low, right.error.high);
+    CHECK(right.error.high < 0.025);
+    CHECK(right.over8.least == 0.0);
+    found_right += right.error.low == 0.0 ? 1 : 0;
+  }
+  CAPTURE(found_right);
+  CHECK(found_right >= 36);  // of 40 intervals one in 40 lies above 0: fewer in one of 300 cases
   int held = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const PictureError off = measured_picture(scene, seen_from(eye, [](auto, auto) { return Color{1.05}; }), 1, 400, seed);
