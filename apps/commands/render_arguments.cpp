@@ -62,7 +62,7 @@ std::vector<Argument> refinement_arguments(RenderOptions& options) {
   return {
       above_zero("--error", solver.error, 1.0,
                  "refine until the measured relative L2 error is at most this; out of reach, that is at 10 million links, the work "
-                 "of 40 million rays (about a minute of CPU time; audits take as much again, or twice to show that it is met), 2 GB "
+                 "of 40 million rays (one to three minutes of CPU time; audits take as much again, or twice to show that it is met), 2 GB "
                  "without --memory, the finest thresholds or after three rounds without gain, it ends with the best solution and exit "
                  "code 4"),
       one_of<std::optional<ErrorOf>, ErrorOf>(

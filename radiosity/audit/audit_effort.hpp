@@ -10,7 +10,8 @@
 //   an audit without a target    as much as the solution was worth, or 1000 rays a point where that is more
 //   of a round to a target       as much as the solution of the round was worth
 //   that is to show the target   twice as much, or rays_that_show where that is more; only when its pilot finds the target met
-// Beyond that goes only the least that gives an interval: a quarter of the points, with four paths for each of two estimates.
+// What a point costs is known from the pilot alone: where few points see light, to a quarter. Beyond that goes only the least that gives an
+// interval: a quarter of the points, with four paths for each of two estimates.
 
 #include <algorithm>
 #include <cmath>
