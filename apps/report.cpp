@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/support/left_out.hpp>
 
@@ -56,7 +57,7 @@ class Text {
     row("leaf constants", error_text(audit_.leaf_error));
     const auto& surfaces = audit_.surface_error ? audit_.surface_error : audit_.leaf_error;
     if ((surfaces && wide(*surfaces)) || (audit_.picture_error && wide(audit_.picture_error->error))) {
-      row("", "wide: an audit takes no longer than the solution, or " + grouped(1000 * std::uint64_t{report_.options.audit_points}) +
+      row("", "wide: an audit takes no longer than the solution, or " + grouped(radiosity::rays_a_point * report_.options.audit_points) +
                   " plain rays; --audit " + std::to_string(4 * std::uint64_t{report_.options.audit_points}) + " allows four times as many");
     }
     if (audit_.mesh) { mesh(*audit_.mesh); }

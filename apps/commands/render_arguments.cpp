@@ -117,9 +117,10 @@ std::vector<Argument> solver_arguments(RenderOptions& options) {
   return {
       whole_number("--threads", solver.threads, 1, most_threads, "threads (default: all); results do not depend on it"),
       whole_number("--seed", solver.seed, 0, std::numeric_limits<std::uint64_t>::max(), "seed of all random choices"),
-      whole_number("--audit", solver.audit_points, 0, 100'000'000,
-                   "points at which the error is measured, the surfaces and the picture each, in no more rays than the solution took, or "
-                   "1000 a point, fewer where rays are dear; 0: none"),
+      whole_number(
+          "--audit", solver.audit_points, 0, 100'000'000,
+          "points at which the error is measured, the surfaces and the picture each, in about as many rays as the solution took, or "
+          "1500 a point, fewer where rays are dear; 0: none"),
       one_of<Indirect, Indirect>("--indirect", solver.indirect,
                                  {{"auto", Indirect::automatic}, {"links", Indirect::links}, {"rays", Indirect::rays}},
                                  "auto, links or rays: how light between surfaces that do not shine travels"),

@@ -8,8 +8,8 @@
 // more than link_budget links, when the next one would bring the work of all above work_budget, when the thresholds have reached their
 // floor, or when three rounds running were no better than the best before them; Audit::rounds_ended_by says which. It ends, too, when a
 // round would take more memory than Options::memory allows, or memory_of_rounds where that says nothing (Audit::shortage). All that is
-// counted, not timed, and does not depend on the target. It then returns the last one, unless an earlier one is better beyond the doubt of both
-// audits. The size of an audit depends on the target; so that the rounds do not, they are planned and compared by points of their own
+// counted, not timed, and does not depend on the target. It then returns the last one, unless an earlier one is better beyond the doubt of
+// both audits. The size of an audit depends on the target; so that the rounds do not, they are planned and compared by points of their own
 // (Audit::steering_error, PictureError::steering).
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 //
 // What an audit may cost is counted in rays, not in seconds, so that results are the same on any machine. Its unit is a ray of a path among
 // few polygons, about a microsecond; where rays are dearer there are fewer of them (raycast::Scene). Pilots are part of it:
-//   an audit without a target    as much as the solution was worth, or 1000 rays a point where that is more
+//   an audit without a target    as much as the solution was worth, or 1500 rays a point where that is more
 //   of a round to a target       as much as the solution of the round was worth
 //   that is to show the target   twice as much, or rays_that_show where that is more; only when its pilot finds the target met
 // What a point costs is known from the pilot alone: where few points see light, to a quarter. Beyond that goes only the least that gives an
@@ -52,10 +52,12 @@ inline constexpr std::uint64_t steering_points = 256;
   return audit.links + static_cast<std::uint64_t>(audit.ray_work * static_cast<double>(audit.rays) / 8.0);
 }
 
-// For an audit without a target: as long as the solution took, or 1000 rays a point.
+inline constexpr std::uint64_t rays_a_point = 1500;
+
+// For an audit without a target: as long as the solution took, or so many rays a point.
 [[nodiscard]] inline AuditGoal goal_to_know(const Audit& audit, std::uint32_t points) {
   const std::uint64_t worth = rays_worth(audit);
-  return {points, std::max<std::uint64_t>(worth, 1000 * std::uint64_t{points}), {}, 0, worth / 2};
+  return {points, std::max<std::uint64_t>(worth, rays_a_point * points), {}, 0, worth / 2};
 }
 
 // For the audit of a round to a target. A quarter is left for what steers the next round.

@@ -164,7 +164,7 @@ TEST_CASE("a target out of reach ends within the stated work, and after the same
   }
 }
 
-TEST_CASE("the audits of random scenes cost what is stated: as much as the solution, or 1000 rays a point where that is more") {
+TEST_CASE("the audits of random scenes cost what is stated: as much as the solution, or 1500 rays a point where that is more") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
@@ -185,7 +185,8 @@ TEST_CASE("the audits of random scenes cost what is stated: as much as the solut
     const radiosity::Outcome outcome = radiosity::detail::solve_within_memory(scene, options, {}, 0);
     REQUIRE(outcome.solution);
     const radiosity::Audit& audit = outcome.solution->audit;
-    const std::uint64_t worth = radiosity::rays_worth(audit), most = std::max<std::uint64_t>(worth, options.error ? 0 : 200'000);
+    const std::uint64_t worth = radiosity::rays_worth(audit),
+                        most = std::max<std::uint64_t>(worth, options.error ? 0 : radiosity::rays_a_point * options.audit_points);
     CAPTURE(k, audit.ray_work, worth, audit.audit_rays);
     // The least: pilot, audit and steering points with few paths each, of some ten rays; more where the scene is white.
     constexpr double least = 2.0 * (256 + 250 + 50) * 16 * 12;
