@@ -48,29 +48,51 @@ HALFLIGHT_INLINE void part(std::span<const glm::dvec3> polygon, const HalfSpace&
   return std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return plane.height(p) >= 0.0; });
 }
 
+// Where a piece lies by a plane, as far as its sphere tells: 1 inside, -1 outside, 0 unknown.
+[[nodiscard]] HALFLIGHT_INLINE int side_of_sphere(const Piece& piece, const HalfSpace& plane) {
+  constexpr double rounding = 1.0 + 1e-9;  // of heights and radii
+  if (piece.square_of_radius() < 0.0) { return 0; }
+  const double height = plane.height(piece.centre());
+  if (!(height * height > rounding * piece.square_of_radius() * glm::dot(plane.normal, plane.normal))) { return 0; }
+  return height > 0.0 ? 1 : -1;
+}
+
+[[nodiscard]] HALFLIGHT_INLINE bool any_outside(const Piece& piece, std::span<const HalfSpace> planes) {
+  return std::any_of(planes.begin(), planes.end(), [&](const HalfSpace& plane) {
+    const int side = side_of_sphere(piece, plane);
+    return side < 0 || (side == 0 && all_outside(piece, plane));
+  });
+}
+
 HALFLIGHT_INLINE void cut_away(std::vector<Piece>& pieces, std::span<const HalfSpace> planes) {
   const std::size_t count = pieces.size();
   std::size_t kept = 0;  // of the old ones; new ones are appended behind them
-  Piece inside;
-  Piece outside;
+  Piece buffer[2];
   for (std::size_t i = 0; i < count; ++i) {
-    if (std::any_of(planes.begin(), planes.end(), [&](const HalfSpace& plane) { return all_outside(pieces[i], plane); })) {
+    if (any_outside(pieces[i], planes)) {
       if (kept != i) { pieces[kept] = pieces[i]; }
       ++kept;
       continue;
     }
     // A piece that passes beside the common part, near one of its corners, is found out when nothing is left: it stays in one, for each
     // further blocker meets every piece.
-    const std::size_t before = pieces.size();
-    Piece rest = pieces[i];
+    const std::size_t before = pieces.size(), most = before + planes.size();
+    if (pieces.capacity() < most) { pieces.reserve(2 * most); }  // so that pieces stay where they are
+    const Piece* rest = &pieces[i];
     for (const HalfSpace& plane : planes) {
-      if (all_inside(rest, plane)) { continue; }
-      part(rest, plane, inside, outside);
-      if (!outside.empty()) { pieces.push_back(outside); }
-      rest = inside;
-      if (rest.empty()) { break; }
+      if (all_inside(*rest, plane)) { continue; }
+      Piece& inside = buffer[rest == &buffer[0] ? 1 : 0];
+      Piece& outside = pieces.emplace_back();
+      part(*rest, plane, inside, outside);
+      if (outside.empty()) {
+        pieces.pop_back();
+      } else {
+        outside.bound();
+      }
+      rest = &inside;
+      if (rest->empty()) { break; }
     }
-    if (!rest.empty()) { continue; }
+    if (!rest->empty()) { continue; }
     pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(before), pieces.end());
     if (kept != i) { pieces[kept] = pieces[i]; }
     ++kept;
@@ -84,7 +106,15 @@ HALFLIGHT_INLINE void ShadowedTarget::look(const glm::dvec3& x, const glm::dvec3
   horizon_ = {x, n};
   detail::part(target_, horizon_, first_, second_);
   pieces_.clear();
-  if (!first_.empty()) { pieces_.push_back(first_); }
+  sides_.clear();
+  if (first_.empty()) { return; }
+  first_.bound();
+  pieces_.push_back(first_);
+  for (std::size_t i = 0; i < first_.size(); ++i) {
+    const glm::dvec3 across = glm::cross(first_[i] - x, first_[i + 1 < first_.size() ? i + 1 : 0] - x);
+    const HalfSpace side{x, glm::dot(across, first_.centre() - x) < 0.0 ? -across : across};
+    if (glm::dot(across, across) > 0.0) { sides_.push_back(side); }
+  }
 }
 
 HALFLIGHT_INLINE void ShadowedTarget::hide(const Blocker& blocker) {
@@ -92,6 +122,8 @@ HALFLIGHT_INLINE void ShadowedTarget::hide(const Blocker& blocker) {
   const HalfSpace before{target_[0], m_};
   const double height = glm::dot(blocker.normal, x - blocker.contour[0]);
   if (std::abs(height) <= slack_) { return; }  // seen edge on
+  const auto beside = [&](const HalfSpace& side) { return detail::all_outside(blocker.contour, side); };
+  if (std::any_of(sides_.begin(), sides_.end(), beside)) { return; }
   detail::part(blocker.contour, horizon_, first_, second_);
   shade_ = first_;
   detail::part(shade_, before, first_, second_);

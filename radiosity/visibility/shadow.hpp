@@ -22,8 +22,25 @@ namespace radiosity {
 // A convex polygon, without heap up to twelve corners.
 class Piece {
  public:
-  void push_back(const glm::dvec3& p) { corners_.push_back(p); }
-  void clear() { corners_.clear(); }
+  void push_back(const glm::dvec3& p) {
+    corners_.push_back(p);
+    square_of_radius_ = -1.0;
+  }
+  void clear() {
+    corners_.clear();
+    square_of_radius_ = -1.0;
+  }
+  // A sphere that holds it, for quick tests: the mean of the corners, and the square of the largest distance of one. Negative where
+  // bound() has not been called since the last corner was added.
+  [[nodiscard]] const glm::dvec3& centre() const { return centre_; }
+  [[nodiscard]] double square_of_radius() const { return square_of_radius_; }
+  void bound() {
+    glm::dvec3 sum{0.0};
+    for (const glm::dvec3& p : corners_) { sum += p; }
+    centre_ = sum / static_cast<double>(corners_.size());
+    square_of_radius_ = 0.0;
+    for (const glm::dvec3& p : corners_) { square_of_radius_ = std::max(square_of_radius_, glm::dot(p - centre_, p - centre_)); }
+  }
   [[nodiscard]] std::size_t size() const { return corners_.size(); }
   [[nodiscard]] bool empty() const { return corners_.empty(); }
   [[nodiscard]] const glm::dvec3& operator[](std::size_t i) const { return corners_[i]; }
@@ -32,6 +49,8 @@ class Piece {
 
  private:
   brep::SmallList<glm::dvec3, 12> corners_;
+  glm::dvec3 centre_{0.0};
+  double square_of_radius_ = -1.0;
 };
 
 struct HalfSpace {
@@ -46,7 +65,7 @@ namespace detail {
 // Parts `polygon` at the plane: what lies in the half-space, border included, and the rest. An output without area may be left empty.
 void part(std::span<const glm::dvec3> polygon, const HalfSpace& plane, Piece& inside, Piece& outside);
 
-// Cuts the common part of the half-spaces out of every piece.
+// Cuts the common part of the half-spaces out of every piece. Those of which the sphere is known are done sooner.
 void cut_away(std::vector<Piece>& pieces, std::span<const HalfSpace> planes);
 
 }  // namespace detail
@@ -88,6 +107,7 @@ class ShadowedTarget {
   HalfSpace horizon_;
   std::vector<Piece> pieces_;
   std::vector<HalfSpace> planes_;
+  std::vector<HalfSpace> sides_;  // through the point and the edges of what it sees of the target, which is inside
   Piece first_, second_, shade_;
 };
 
