@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <queue>
 #include <span>
 #include <utility>
@@ -15,26 +17,40 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <raycast/bundle.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/scene.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/geometry/chord.hpp>
 #include <radiosity/picture/lookup.hpp>
+#include <radiosity/picture/met.hpp>
+#include <radiosity/picture/spot_photons.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/support/sobol.hpp>
 
 namespace radiosity {
 
 namespace detail {
 
 inline constexpr std::uint32_t no_spot = 0xffffffff;
-// What reflects so much more than all surfaces do in the mean is a spot.
+// What reflects so much more than all surfaces do in the mean, but for brighter spots, is a spot: a housing with a lamp in it may hold most
+// of all light and let little of it out, and beside it a lit strip of wall would be none.
 inline constexpr double least_contrast = 4.0;
+inline constexpr int most_rounds = 8;
 // Of those that a point sends out evenly, about.
 inline constexpr double even_rays = 256.0;
 // Each takes some operations a point; a point sends hundreds of rays.
-inline constexpr std::size_t most_groups = 128;
+inline constexpr std::size_t most_groups = 256;
+// Photons: so many are to land on what is no spot, but no more are sent out than these.
+inline constexpr std::uint32_t wanted_photons = 1u << 14, most_photons = 1u << 17, photons_at_once = 1u << 12;
+inline constexpr double photon_reach = 0.1;  // of the diameter of the scene
+// In photons: how much what spots would send though nothing stood between counts beside the photons around a point.
+inline constexpr double unhidden_photons = 12.0;
 
 // The area of what a triangle stands for: that of four triangles whose new corners are on the surface, and a third of what these add, for
 // the error of a chord falls by four.
@@ -81,8 +97,21 @@ HALFLIGHT_INLINE BrightSpots::BrightSpots(const Lookup& lookup, const DirectLigh
       }
     }
   }
-  std::erase_if(spots_, [&](const Spot& spot) { return !(spot.power * area > detail::least_contrast * power * spot.area); });
-  if (!spots_.empty()) { make_groups(); }
+  auto last = spots_.end();  // from there on they are spots
+  for (int round = 0; round < detail::most_rounds && area > 0.0; ++round) {
+    const double least = detail::least_contrast * power / area;
+    const auto first = std::stable_partition(spots_.begin(), last, [&](const Spot& spot) { return !(spot.power > least * spot.area); });
+    if (first == last) { break; }
+    for (auto spot = first; spot != last; ++spot) {
+      area -= spot->area;
+      power -= spot->power;
+    }
+    last = first;
+  }
+  spots_.erase(spots_.begin(), last);
+  if (spots_.empty()) { return; }
+  make_groups();
+  send_photons(direct);
 }
 
 HALFLIGHT_INLINE BrightSpots::Group BrightSpots::group_of(std::uint32_t first, std::uint32_t last) const {
@@ -129,7 +158,7 @@ HALFLIGHT_INLINE void BrightSpots::make_groups() {
   std::priority_queue<std::pair<double, std::uint32_t>> open;  // worth of a cut, group
   const auto enter = [&](std::uint32_t g) {
     const Group& group = groups_[g];
-    if (group.last - group.first > 1) { open.emplace(group.power * group.radius * (1.5 - glm::length(group.normal)), g); }
+    if (group.last - group.first > 1) { open.emplace(std::sqrt(group.power) * group.radius * (1.5 - glm::length(group.normal)), g); }
   };
   groups_.push_back(group_of(0, static_cast<std::uint32_t>(spots_.size())));
   enter(0);
@@ -154,49 +183,124 @@ HALFLIGHT_INLINE void BrightSpots::make_groups() {
   }
 }
 
-HALFLIGHT_INLINE BrightSpots::From::From(const BrightSpots& spots, const glm::dvec3& position, const glm::dvec3* normal) : spots_{&spots} {
-  until_.reserve(spots.groups_.size());
+HALFLIGHT_INLINE BrightSpots::Chosen BrightSpots::group_at(std::span<const double> until, double number) {
+  const auto g = static_cast<std::size_t>(std::upper_bound(until.begin(), until.end() - 1, number) - until.begin());
+  const double before = g > 0 ? until[g - 1] : 0.0;
+  return {g, (number - before) / (until[g] - before)};
+}
+
+HALFLIGHT_INLINE const BrightSpots::Spot& BrightSpots::spot_at(const Group& group, double number) const {
+  const auto first = spots_.begin() + group.first, last = spots_.begin() + group.last;
+  return *std::upper_bound(first, last - 1, number * group.power, [](double value, const Spot& s) { return value < s.until; });
+}
+
+HALFLIGHT_INLINE BrightSpots::Target BrightSpots::point_of(const Spot& spot, double u, double v) const {
+  const auto& [a, b, c] = lookup_->triangle(lookup_->surface(spot.object, spot.sheet), spot.triangle).position;
+  const double root = std::sqrt(u);
+  const glm::dvec3 chord = (1.0 - root) * a + root * (1.0 - v) * b + root * v * c;
+  return {lookup_->objects().object(spot.object).project(spot.sheet, chord), spot.object, spot.sheet};
+}
+
+HALFLIGHT_INLINE void BrightSpots::send16(const DirectLight& direct, std::uint32_t first, const std::vector<double>& until,
+                                          Photons& photons) const {
+  const Sobol4 sequence{7};
+  const double reach = lookup_->objects().diameter();
+  raycast::Segments16 rays;
+  std::array<std::uint32_t, 16> group{};
+  for (unsigned k = 0; k < 16; ++k) {
+    const std::array<double, 4> u = sequence(first + k);
+    const auto [g, rest] = group_at(until, u[0]);
+    const Spot& spot = spot_at(groups_[g], rest);
+    const double left = (rest * groups_[g].power - (spot.until - spot.power)) / spot.power;  // of the first number: it is the fourth
+    const Target from = point_of(spot, u[3], std::clamp(left, 0.0, 1.0));
+    rays.set(k, {from.point.position, reach * cosine_direction(from.point.normal, u[1], u[2])}, from.object, raycast::no_object,
+             from.sheet);
+    group[k] = static_cast<std::uint32_t>(g);
+    ++photons.sent[g];
+  }
+  const raycast::Hits16 hits = direct.objects().closest16(rays);
+  for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
+    const auto k = static_cast<unsigned>(std::countr_zero(rest));
+    if (!hits.hit[k].front) { continue; }
+    const Met at = met(lookup_->objects(), direct, hits.hit[k], rays.at(k));
+    const auto found = lookup_->find(at.object, at.sheet, at.point);
+    const bool on_spot = found && spot_of_[lookup_->surface(at.object, at.sheet)][found->triangle] != detail::no_spot;
+    photons.elsewhere[group[k]] += on_spot ? 0 : 1;
+    photons.landed.push_back({at.point.position, at.point.normal, group[k], 0.0});
+  }
+}
+
+HALFLIGHT_INLINE void BrightSpots::send_photons(const DirectLight& direct) {
+  Photons photons{std::vector<std::uint32_t>(groups_.size(), 0), std::vector<std::uint32_t>(groups_.size(), 0), {}};
+  std::uint32_t sent = 0, elsewhere = 0;
+  while (sent < detail::most_photons && elsewhere < detail::wanted_photons) {
+    // A group of which most light goes to other spots, in a housing, sends fewer.
+    std::vector<double> until;
+    double all = 0.0;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      until.push_back(all += groups_[g].power * (photons.elsewhere[g] + 1.0) / (photons.sent[g] + 1.0));
+    }
+    for (double& u : until) { u /= all; }
+    for (const std::uint32_t end = sent + detail::photons_at_once; sent < end; sent += 16) { send16(direct, sent, until, photons); }
+    elsewhere = std::accumulate(photons.elsewhere.begin(), photons.elsewhere.end(), 0u);
+  }
+  for (SpotPhotons::Photon& photon : photons.landed) { photon.power = groups_[photon.group].power / photons.sent[photon.group]; }
+  photons_ = SpotPhotons{std::move(photons.landed), detail::photon_reach * lookup_->objects().diameter()};
+}
+
+HALFLIGHT_INLINE double BrightSpots::From::unhidden(const glm::dvec3& position, const glm::dvec3* normal,
+                                                    std::vector<double>& light) const {
   double sum = 0.0;
-  for (const Group& group : spots.groups_) {
+  for (const Group& group : spots_->groups_) {
     const glm::dvec3 d = group.middle - position;
     const double square = glm::dot(d, d) + group.radius * group.radius, length = std::sqrt(square);
     const double here = normal == nullptr ? 1.0 : std::clamp((glm::dot(d, *normal) + group.radius) / length, 0.0, 1.0);
     const double spread = 1.0 - glm::length(group.normal);
     const double there = std::clamp((group.radius - glm::dot(d, group.normal)) / length + spread, 0.0, 1.0);
-    const double light = group.power * here * there / (std::numbers::pi * square);
-    sum += light;
-    until_.push_back(sum);
-    square_ += light * group.radiosity;
-    factor_ += light / group.radiosity;
+    light.push_back(group.power * here * there / (std::numbers::pi * square));
+    sum += light.back();
   }
+  return sum;
 }
 
-HALFLIGHT_INLINE bool BrightSpots::From::stand_out(double light, double visible) const {
-  const double meeting = detail::even_rays * visible * factor_;  // rays lie evenly: of what many of them meet only the border is noise
-  return visible * square_ > light * light * std::sqrt(1.0 + meeting);
+HALFLIGHT_INLINE BrightSpots::From::From(const BrightSpots& spots, const glm::dvec3& position, const glm::dvec3* normal) : spots_{&spots} {
+  if (spots.empty()) { return; }
+  std::vector<double> weight;
+  const double all = unhidden(position, normal, weight);
+  const SpotPhotons::Found found = spots.photons_.around(position, normal);
+  double landed = 0.0;
+  for (const std::uint32_t i : found.photons) { landed += spots.photons_[i].power; }
+  for (double& w : weight) { w *= detail::unhidden_photons / all; }
+  const double count = static_cast<double>(found.photons.size());
+  for (const std::uint32_t i : found.photons) {
+    const SpotPhotons::Photon& photon = spots.photons_[i];
+    const double light = photon.power / (std::numbers::pi * found.radius * found.radius);
+    const double radiosity = spots.groups_[photon.group].radiosity;
+    weight[photon.group] += count * photon.power / landed;
+    square_ += light * radiosity;
+    factor_ += light / radiosity;
+  }
+  double sum = 0.0;
+  for (const double w : weight) { until_.push_back(sum += w); }
+  for (double& until : until_) { until /= sum; }
+}
+
+HALFLIGHT_INLINE double BrightSpots::From::contrast(double light) const {
+  const double meeting = detail::even_rays * factor_;
+  return square_ > 0.0 ? std::sqrt(square_ / std::sqrt(1.0 + meeting)) / light : 0.0;
 }
 
 HALFLIGHT_INLINE BrightSpots::Target BrightSpots::From::choose(const std::array<double, 4>& numbers) const {
-  const double at = numbers[0] * until_.back();
-  const auto g = static_cast<std::size_t>(std::upper_bound(until_.begin(), until_.end() - 1, at) - until_.begin());
-  const Group& group = spots_->groups_[g];
-  const double before = g > 0 ? until_[g - 1] : 0.0;
-  const double rest = (at - before) / (until_[g] - before) * group.power;
-  const auto first = spots_->spots_.begin() + group.first, last = spots_->spots_.begin() + group.last;
-  const Spot& spot = *std::upper_bound(first, last - 1, rest, [](double value, const Spot& s) { return value < s.until; });
-  const std::uint32_t surface = spots_->lookup_->surface(spot.object, spot.sheet);
-  const auto& [a, b, c] = spots_->lookup_->triangle(surface, spot.triangle).position;
-  const double root = std::sqrt(numbers[1]), v = numbers[2];
-  const glm::dvec3 chord = (1.0 - root) * a + root * (1.0 - v) * b + root * v * c;
-  return {spots_->lookup_->objects().object(spot.object).project(spot.sheet, chord), spot.object, spot.sheet};
+  const auto [g, rest] = group_at(until_, numbers[0]);
+  return spots_->point_of(spots_->spot_at(spots_->groups_[g], rest), numbers[1], numbers[2]);
 }
 
 HALFLIGHT_INLINE double BrightSpots::From::density(std::uint32_t surface, std::uint32_t triangle) const {
   const std::uint32_t i = spots_->spot_of_[surface][triangle];
   if (i == detail::no_spot) { return 0.0; }
   const Spot& spot = spots_->spots_[i];
-  const double light = until_[spot.group] - (spot.group > 0 ? until_[spot.group - 1] : 0.0);
-  return light / until_.back() * spot.power / spots_->groups_[spot.group].power / spot.area;
+  const double group = until_[spot.group] - (spot.group > 0 ? until_[spot.group - 1] : 0.0);
+  return group * spot.power / spots_->groups_[spot.group].power / spot.area;
 }
 
 HALFLIGHT_INLINE double BrightSpots::From::aimed(std::uint32_t surface, const Lookup::Found& found, const raycast::SurfacePoint& here,

@@ -6,8 +6,9 @@
 // Here a point can choose points of the spots instead, by the light that it may get from them, and tell how likely a choice was; both ways
 // are then combined by the balance heuristic (Veach and Guibas 1995).
 //
-// The spots are triangles of the solution's mesh, in groups: from a point each group is as likely as the light that it sends there though
-// nothing stood between, each triangle of it by its power, each point of a triangle alike.
+// The spots are triangles of the solution's mesh, in groups. From a point each group is as likely as the light that it sends there, by the
+// photons that landed around the point (spot_photons.hpp); a small part goes by what it would send though nothing stood between, for where
+// photons are few. Each triangle of a group is chosen by its power, each point of a triangle alike.
 
 #include <array>
 #include <cstddef>
@@ -21,6 +22,7 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/picture/lookup.hpp>
+#include <radiosity/picture/spot_photons.hpp>
 #include <radiosity/scene/material.hpp>
 
 namespace radiosity {
@@ -46,12 +48,12 @@ class BrightSpots {
     From(const BrightSpots& spots, const raycast::SurfacePoint& point) : From{spots, point.position, &point.normal} {}
     // The same of points near this one, whichever way they face.
     From(const BrightSpots& spots, const glm::dvec3& position) : From{spots, position, nullptr} {}
-    // Is what even rays find of the spots so uneven that its root mean square over rays is more than `light`, the irradiance at the point
-    // (sums of channels, W/m2)? `visible`: the share of the spots that nothing hides, where that is known.
-    [[nodiscard]] bool stand_out(double light, double visible = 1.0) const;
+    // The root mean square of what even rays find of the spots, in this light, the irradiance at the point (sum of channels, W/m2). Where
+    // many of them meet spots it is that of the border alone, for rays lie evenly. Up to 1 the spots are no reason to aim at them.
+    [[nodiscard]] double contrast(double light) const;
     // Does a single even ray spread more by the spots than this light? So it is with paths, which meet each spot by chance alone.
     [[nodiscard]] bool spread_more_than(double light) const { return square_ > light * light; }
-    // A point of the spots, by numbers in (0, 1). They must stand out.
+    // A point of the spots, by numbers in (0, 1).
     [[nodiscard]] Target choose(const std::array<double, 4>& numbers) const;
     // The probability by area with which that chooses points of this triangle of an input surface; 0 where it is no spot.
     [[nodiscard]] double density(std::uint32_t surface, std::uint32_t triangle) const;
@@ -61,10 +63,12 @@ class BrightSpots {
 
    private:
     From(const BrightSpots& spots, const glm::dvec3& position, const glm::dvec3* normal);
+    // By group, what it would send here though nothing stood between, W/m2; and their sum.
+    [[nodiscard]] double unhidden(const glm::dvec3& position, const glm::dvec3* normal, std::vector<double>& light) const;
 
     const BrightSpots* spots_;
-    std::vector<double> until_;  // by group: of the light of the spots, what comes from it and those before it, W/m2
-    double square_ = 0.0;        // mean square of what even rays find of the spots, though nothing hides them
+    std::vector<double> until_;  // by group: the probability of it and of those before it
+    double square_ = 0.0;        // mean square of what even rays find of the spots
     double factor_ = 0.0;        // share of these rays that meet one
   };
 
@@ -87,11 +91,30 @@ class BrightSpots {
   // Sorts the spots of a group where they differ most, by place or by normal. Returns the first of the second part.
   [[nodiscard]] std::uint32_t cut(const Group& group);
   [[nodiscard]] Group group_of(std::uint32_t first, std::uint32_t last) const;
+  // A group by a number in (0, 1), where `until` has the probability of each and those before it; the number within its range.
+  struct Chosen {
+    std::size_t group = 0;
+    double rest = 0.0;
+  };
+  [[nodiscard]] static Chosen group_at(std::span<const double> until, double number);
+  // A spot of a group by power.
+  [[nodiscard]] const Spot& spot_at(const Group& group, double number) const;
+  // A point of a spot's triangle, by two numbers in (0, 1): all are as likely.
+  [[nodiscard]] Target point_of(const Spot& spot, double u, double v) const;
+  struct Photons {
+    std::vector<std::uint32_t> sent, elsewhere;  // by group; of these, how many landed on what is no spot
+    std::vector<SpotPhotons::Photon> landed;
+  };
+  // Sends out photons until enough have landed on what is no spot.
+  void send_photons(const DirectLight& direct);
+  // Sends sixteen, from number `first` on; `until`: by group, the probability of it and of those before it.
+  void send16(const DirectLight& direct, std::uint32_t first, const std::vector<double>& until, Photons& photons) const;
 
   const Lookup* lookup_ = nullptr;
   std::vector<Spot> spots_;  // by group
   std::vector<Group> groups_;
   std::vector<std::vector<std::uint32_t>> spot_of_;  // by input surface and triangle: number of the spot, or none
+  SpotPhotons photons_;
 };
 
 }  // namespace radiosity

@@ -132,8 +132,8 @@ HALFLIGHT_INLINE LitRegion FinalGather::lit_region(std::span<const Place> places
 
 namespace detail {
 
-// Rays to bright spots, for each even one: sixteen after every 64.
-inline constexpr double aimed_rays = 0.25;
+// Rays to bright spots come by sixteen, after every 64 even ones, at most four times: the more, the more the spots stand out.
+inline constexpr double most_aimed = 4.0;
 
 // Light from near by is followed where it is at least this share of all; its paths are taken to differ by this part of their mean.
 inline constexpr double least_near = 0.05, spread_of_paths = 1.0, most_paths = 256.0;
@@ -146,8 +146,11 @@ HALFLIGHT_INLINE FinalGather::Arriving FinalGather::arriving(const Sender& sende
   if (is_black(materials_[surface].reflectance)) { return {materials_[surface].emission - lamp}; }
   const std::optional<Lookup::Found> light = lookup_.find(found.object, found.sheet, found.point);
   if (!light) { return {}; }
-  const raycast::SurfacePoint here{sender.from, sender.place.point.normal};
-  return {light->radiosity - lamp, sender.aimed ? sender.spots.aimed(surface, *light, here, found.point) : 0.0, light->coarse_within};
+  double aimed = 0.0;
+  if (sender.aimed > 0) {
+    aimed = sender.aimed / 4.0 * sender.spots.aimed(surface, *light, {sender.from, sender.place.point.normal}, found.point);
+  }
+  return {light->radiosity - lamp, aimed, light->coarse_within};
 }
 
 HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const {
@@ -166,23 +169,23 @@ HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol
     if (!hit.front) { continue; }
     const Met at = met(hit, segments.at(k));
     const Arriving found = arriving(sender, at);
-    if (!sender.aimed && hit.t * reach < found.coarse_within) { sum.near.push_back({at, found.light}); }
-    sum.add(first / 16 % 4, found.light / (1.0 + detail::aimed_rays * found.aimed));
+    const bool near = hit.t * reach < found.coarse_within;
+    if (near) { sum.near.push_back({at, found.light}); }
+    sum.add(first / 16 % 4, near ? found.light : found.light / (1.0 + found.aimed));
   }
 }
 
-HALFLIGHT_INLINE unsigned FinalGather::cast_at_spots(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const {
+HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const {
   const double reach = objects().diameter();
   raycast::Segments16 segments;
   std::array<BrightSpots::Target, 16> targets;
-  unsigned arrived = 0;
   for (unsigned k = 0; k < 16; ++k) {
     targets[k] = sender.spots.choose(sequence(first + k));
     const glm::dvec3 d = targets[k].point.position - sender.from;
     if (!(glm::dot(d, sender.place.point.normal) > 0.0) || !(glm::dot(d, targets[k].point.normal) < 0.0)) { continue; }
     segments.set(k, {sender.from, reach * glm::normalize(d)}, sender.owner, raycast::no_object, sender.sheet);
   }
-  if (segments.lanes == 0) { return 0; }
+  if (segments.lanes == 0) { return; }
   const raycast::Hits16 hits = direct_.objects().closest16(segments);
   for (std::uint32_t rest = hits.met & segments.lanes; rest != 0; rest &= rest - 1) {
     const auto k = static_cast<unsigned>(std::countr_zero(rest));
@@ -192,11 +195,9 @@ HALFLIGHT_INLINE unsigned FinalGather::cast_at_spots(const Sender& sender, const
     const glm::dvec3 off = found.point.position - targets[k].point.position, d = targets[k].point.position - sender.from;
     if (found.sheet != targets[k].sheet || glm::dot(off, off) > 1e-6 * glm::dot(d, d)) { continue; }
     const Arriving light = arriving(sender, found);
-    if (!(light.aimed > 0.0)) { continue; }
-    sum.add(k / 4, light.light / (1.0 + detail::aimed_rays * light.aimed));
-    ++arrived;
+    if (!(light.aimed > 0.0) || hits.hit[k].t * reach < light.coarse_within) { continue; }
+    sum.add(k / 4, light.light / (1.0 + light.aimed));
   }
-  return arrived;
 }
 
 HALFLIGHT_INLINE double FinalGather::mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, double error,
@@ -229,15 +230,15 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
                                                              std::uint64_t key) const {
   const Sobol4 sequence{1, key}, aiming{2, key};
   const double lift = direct_.lift(place.object);
-  // Whether rays go to the spots is asked first, and again when sixteen have told how much of the spots is hidden. Each ray is weighed by
-  // what was known before it was cast, so the mean of all stays unbiased.
   Sender sender{place,
                 place.point.position + lift * place.point.normal,
                 lift > 0.0 ? raycast::no_object : place.object,
                 place.surface - lookup_.surface(place.object, 0),
                 {spots_, place.point}};
   const double solved_light = irradiance_solved(place);
-  sender.aimed = !spots_.empty() && sender.spots.stand_out(solved_light);
+  if (const double contrast = sender.spots.contrast(solved_light); contrast > 1.0) {
+    sender.aimed = static_cast<std::uint32_t>(std::min(contrast, detail::most_aimed));
+  }
   Sum sum;
   std::uint32_t rays = 0;
   const auto mean_of_parts = [&] { return (sum.part[0] + sum.part[1] + sum.part[2] + sum.part[3]) / 4.0; };
@@ -250,15 +251,12 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
   const auto exact_enough = [&] { return variance_of_mean() <= error * error * mean_of_parts() * mean_of_parts(); };
   for (; rays < least || (rays < most && (rays % 64 != 0 || !exact_enough())); rays += 16) {
     cast_evenly(sender, sequence, rays, sum);
-    if (!sender.aimed || rays % 64 != 48) { continue; }
-    const double arrived = cast_at_spots(sender, aiming, rays / 64 * 16, sum);
-    if (rays == 48) { sender.aimed = sender.spots.stand_out(solved_light, arrived / 16.0); }
+    if (rays % 64 != 48) { continue; }
+    for (std::uint32_t k = 0; k < sender.aimed; ++k) { cast_at_spots(sender, aiming, (rays / 64 * sender.aimed + k) * 16, sum); }
   }
   const double all = rays;
   double of_near = 0.0;
-  if (!sender.aimed && !sum.near.empty()) {
-    of_near = mend_near(sum, place, std::max(4.0 * mean_of_parts(), all * solved_light), rays, error, key);
-  }
+  if (!sum.near.empty()) { of_near = mend_near(sum, place, std::max(4.0 * mean_of_parts(), all * solved_light), rays, error, key); }
   return {sum.light / all, (16.0 * variance_of_mean() + of_near) / (all * all), sum.nearness / all};
 }
 

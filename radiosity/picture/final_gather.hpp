@@ -93,7 +93,7 @@ class FinalGather {
     glm::dvec3 from{0.0};
     std::uint32_t owner = raycast::no_object, sheet = 0;
     BrightSpots::From spots;
-    bool aimed = false;  // some of its rays go to the spots
+    std::uint32_t aimed = 0;  // so many times sixteen of its rays go to the spots, after every 64 even ones
   };
   // What rays found, in the unit of an even one.
   struct Sum {
@@ -106,7 +106,7 @@ class FinalGather {
       part[p] += more.x + more.y + more.z;
     }
   };
-  // The light that comes along a ray, and the probability of its direction when a spot is aimed at, in that of an even ray.
+  // The light that comes along a ray, and how many aimed rays are to be expected in its direction for an even one.
   struct Arriving {
     Color light{0.0};
     double aimed = 0.0;
@@ -115,8 +115,8 @@ class FinalGather {
   [[nodiscard]] Arriving arriving(const Sender& sender, const Met& found) const;
   // Sixteen rays each, from number `first` of the sequence on.
   void cast_evenly(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const;
-  // Returns how many of its sixteen rays arrive.
-  unsigned cast_at_spots(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const;
+  // What is near is left to even rays (mend_near).
+  void cast_at_spots(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const;
   // Replaces the light of what is near by a better estimate where it matters; `all`: light that is known to arrive, sum of channels over
   // `rays` rays.
   // Returns the variance that this adds.
