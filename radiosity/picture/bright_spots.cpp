@@ -45,9 +45,9 @@ inline constexpr int most_rounds = 8;
 // Of those that a point sends out evenly, about.
 inline constexpr double even_rays = 256.0;
 // Each takes some operations a point; a point sends hundreds of rays.
-inline constexpr std::size_t most_groups = 256;
+inline constexpr std::size_t most_groups = 128;
 // Photons: so many are to land on what is no spot, but no more are sent out than these.
-inline constexpr std::uint32_t wanted_photons = 1u << 14, most_photons = 1u << 17, photons_at_once = 1u << 12;
+inline constexpr std::uint32_t wanted_photons = 1u << 13, most_photons = 1u << 16, photons_at_once = 1u << 12;
 inline constexpr double photon_reach = 0.1;  // of the diameter of the scene
 // In photons: how much what spots would send though nothing stood between counts beside the photons around a point.
 inline constexpr double unhidden_photons = 12.0;
@@ -270,7 +270,7 @@ HALFLIGHT_INLINE BrightSpots::From::From(const BrightSpots& spots, const glm::dv
   const SpotPhotons::Found found = spots.photons_.around(position, normal);
   double landed = 0.0;
   for (const std::uint32_t i : found.photons) { landed += spots.photons_[i].power; }
-  for (double& w : weight) { w *= detail::unhidden_photons / all; }
+  for (double& w : weight) { w *= all > 0.0 ? detail::unhidden_photons / all : 0.0; }
   const double count = static_cast<double>(found.photons.size());
   for (const std::uint32_t i : found.photons) {
     const SpotPhotons::Photon& photon = spots.photons_[i];

@@ -237,7 +237,7 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
                 {spots_, place.point}};
   const double solved_light = irradiance_solved(place);
   if (const double contrast = sender.spots.contrast(solved_light); contrast > 1.0) {
-    sender.aimed = static_cast<std::uint32_t>(std::min(contrast, detail::most_aimed));
+    sender.aimed = static_cast<std::uint32_t>(std::clamp(0.5 * contrast, 1.0, detail::most_aimed));
   }
   Sum sum;
   std::uint32_t rays = 0;
