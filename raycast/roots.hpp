@@ -25,18 +25,42 @@ struct Sample {
 };
 
 // f(s) -> Sample, with different signs at a < b: it rises through 0 or falls. The zero to 2 u of the larger |end|, or to where the value
-// is 0. `s` is the first guess.
+// is 0. `s` is the first guess. Two things would let halving take fifty values, one a bit:
+// - Where f rises like a root of the distance from a or b, its zero may lie any number of powers of two from there, and Newton's steps lead
+//   out or grow without end. So the distance from that end is halved in its logarithm, the geometric mean.
+// - At the zero Newton's steps are rounding, and lead out of the bracket as often as in. Then a point a little beyond the zero closes it.
 template <class F>
 [[nodiscard]] double bracketed_root(F&& f, double a, double b, bool rising, double s) {
+  const double start = a, end = b, shortest = eps_root * std::max(std::abs(a), std::abs(b)), rounding = 8.0 * shortest;
+  const auto far = [](double least, double most) { return least < most / 16.0; };
+  const auto between = [&](double least, double most) {
+    return far(least, most) ? std::sqrt(std::max(least, shortest) * most) : 0.5 * (least + most);
+  };
   double last = b - a;
+  bool beyond = false;  // s was put beyond the zero that Newton's steps had found
   for (int i = 0; i < 200; ++i) {
     const Sample at = f(s);
     if (at.value == 0.0) { return s; }
-    ((at.value < 0.0) == rising ? a : b) = s;
-    double next = s - at.value / at.slope;
-    if (!(next > a && next < b && std::abs(next - s) <= 0.5 * last)) { next = a + 0.5 * (b - a); }
+    const bool before = (at.value < 0.0) == rising;
+    (before ? a : b) = s;
+    if (b - a <= 2.0 * shortest) { return a + 0.5 * (b - a); }
+    const double step = at.value / at.slope;
+    double next = s - step;
+    if (next > a && next < b && std::abs(next - s) <= 0.5 * last) {
+      if (std::abs(next - s) <= shortest) { return next; }
+      beyond = false;
+    } else if (!beyond && std::abs(step) <= rounding && b - a > 4.0 * rounding) {
+      next = before ? s + rounding : s - rounding;
+      beyond = true;
+    } else {
+      const bool to_start = next <= a || (next < b && a > start && far(a - start, b - start));
+      const bool to_end = next >= b || (next > a && b < end && far(end - b, end - a));
+      next = to_start == to_end ? a + 0.5 * (b - a) : to_start ? start + between(a - start, b - start) : end - between(end - b, end - a);
+      if (!(next > a && next < b)) { next = a + 0.5 * (b - a); }
+      if (!(next > a && next < b)) { return next; }
+      beyond = false;
+    }
     last = std::abs(next - s);
-    if (last <= eps_root * std::max(std::abs(a), std::abs(b)) || next <= a || next >= b) { return next; }
     s = next;
   }
   return s;

@@ -35,6 +35,7 @@ HALFLIGHT_INLINE std::pair<double, double> Superellipse::along(double x, double 
 HALFLIGHT_INLINE Sample Superellipse::width(double z) const {
   if (!(z > 0.0)) { return {1.0, p_ > 1.0 ? 0.0 : p_ < 1.0 ? -infinity : -1.0}; }
   if (!(z < 1.0)) { return {0.0, p_ > 1.0 ? -infinity : p_ < 1.0 ? 0.0 : -1.0}; }
+  if (z < flat_) { return {1.0, 0.0}; }
   const double zp = power(z), yp = zp < 0.5 ? 1.0 - zp : rest(z), y = root(yp);
   return {y, -(zp / z) * (y / yp)};  // (z / y)^(p - 1)
 }
