@@ -23,6 +23,7 @@
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/leaf_error.hpp>
+#include <radiosity/refinement/link_error_terms.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/solver/transport.hpp>
 #include <radiosity/support/parallel.hpp>
@@ -30,124 +31,6 @@
 namespace radiosity {
 
 namespace detail {
-
-struct NodeLight {
-  Color mean{0.0};
-  Color variance{0.0};  // over the leaves of the node
-};
-
-// `radiosity`: of every node, inner nodes area averages.
-HALFLIGHT_INLINE std::vector<NodeLight> light_of_nodes(const Hierarchy& hierarchy, const std::vector<double>& area,
-                                                       const std::vector<Color>& radiosity) {
-  std::vector<NodeLight> light(hierarchy.size());
-  for (std::size_t i = hierarchy.size(); i-- > 0;) {
-    light[i].mean = radiosity[i];
-    const Node& node = hierarchy[i];
-    if (node.leaf() || !(area[i] > 0.0)) { continue; }
-    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
-      const Color off = radiosity[c] - radiosity[i];
-      light[i].variance += area[c] / area[i] * (light[c].variance + off * off);
-    }
-  }
-  return light;
-}
-
-// The terms of a link's squared error (link_error.hpp).
-class LinkErrorTerms {
- public:
-  LinkErrorTerms(const AlikeErrors& alike, const DiscreteScene& scene, const std::vector<Color>& radiosity)
-      : alike_{alike},
-        scene_{scene},
-        area_{scene.exposure.area},
-        light_{light_of_nodes(scene.hierarchy, area_, radiosity)},
-        mixtures_(light_.size(), 0.0),
-        rests_(light_.size(), 0.0) {
-    const Hierarchy& hierarchy = scene.hierarchy;
-    for (std::size_t i = hierarchy.size(); i-- > 0;) {
-      const Node& node = hierarchy[i];
-      if (!node.is_cluster()) { continue; }
-      if (of_clusters_.size() <= node.cluster) { of_clusters_.resize(node.cluster + 1, Color{0.0}); }
-      Color sum{0.0};
-      for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { sum += area_[c] * rho(hierarchy[c]); }
-      of_clusters_[node.cluster] = area_[i] > 0.0 ? sum / area_[i] : sum;
-    }
-  }
-
-  // To be called for all links before of() is called for any.
-  void add_to_nodes(const Link& link, const LinkVariation& variation) {
-    const std::uint32_t p = link.p, q = link.q;
-    const double g2 = square(link.exchange);
-    if (scene_.hierarchy[q].is_cluster()) { mixtures_[p] += mixture(received(g2, p), q, variation.q); }
-    if (scene_.hierarchy[p].is_cluster()) { mixtures_[q] += mixture(received(g2, q), p, variation.p); }
-    if (alike_.across) { return; }
-    rests_[p] += rest(received(g2, p), q, variation.p);
-    rests_[q] += rest(received(g2, q), p, variation.q);
-  }
-
-  struct Terms {
-    double p = 0.0, q = 0.0;  // reduced by splitting that end
-  };
-  // The terms of one link.
-  [[nodiscard]] Terms of(const Link& link, const LinkVariation& variation) const {
-    const Node& p = scene_.hierarchy[link.p];
-    const Node& q = scene_.hierarchy[link.q];
-    const double g2 = square(link.exchange);
-    const Color to_p = received(g2, link.p);
-    const Color to_q = received(g2, link.q);
-    // At most 1: a link that lit each place from one other alone would pass on s_q itself.
-    const double cross = std::min(1.0, square(variation.cross));
-    Terms terms{over(to_p, link.q, link.p, variation.p), over(to_q, link.p, link.q, variation.q)};
-    terms.p += p.is_cluster() ? mixture(to_q, link.p, variation.p) * mixtures_[link.q]
-                              : glm::dot(to_q, light_[link.p].variance) * (varies(variation.p) + cross);
-    terms.q += q.is_cluster() ? mixture(to_p, link.q, variation.q) * mixtures_[link.p]
-                              : glm::dot(to_p, light_[link.q].variance) * (varies(variation.q) + cross);
-    if (variation.sampling > 0.0f) {
-      const double noise = square(variation.sampling);
-      const bool split_p = p.is_cluster() == q.is_cluster() ? p.radius >= q.radius : p.is_cluster();
-      (q.is_cluster() || !split_p ? terms.q : terms.p) += glm::dot(received(noise, link.p), bright(link.q));
-      (p.is_cluster() || split_p ? terms.p : terms.q) += glm::dot(received(noise, link.q), bright(link.p));
-    }
-    return terms;
-  }
-
- private:
-  [[nodiscard]] static double square(double x) { return x * x; }
-  [[nodiscard]] static double varies(const LinkVariation::End& end) { return square(end.rest) + square(end.shadow); }
-  [[nodiscard]] const Color& rho(const Node& node) const {
-    return node.is_cluster() ? of_clusters_[node.cluster] : scene_.reflectance[node.surface];
-  }
-  // What node i reflects of a radiosity of 1, squared; g2: the exchange, squared.
-  [[nodiscard]] Color received(double g2, std::uint32_t i) const {
-    const Color r = rho(scene_.hierarchy[i]);
-    return area_[i] > 0.0 ? g2 / area_[i] * r * r : Color{0.0};
-  }
-  // Mean of B^2: a cluster shows other faces to each direction.
-  [[nodiscard]] Color bright(std::uint32_t from) const {
-    return light_[from].mean * light_[from].mean + (scene_.hierarchy[from].is_cluster() ? light_[from].variance : Color{0.0});
-  }
-  // Error by the wrong mixture of the faces of a cluster.
-  [[nodiscard]] double mixture(const Color& to, std::uint32_t from, const LinkVariation::End& end) const {
-    return std::sqrt(glm::dot(to, light_[from].variance) * varies(end));
-  }
-  [[nodiscard]] double rest(const Color& to, std::uint32_t from, const LinkVariation::End& end) const {
-    return static_cast<double>(end.rest) * std::sqrt(glm::dot(to, bright(from)));
-  }
-  // What a link from `from` adds to the squared error over node i.
-  [[nodiscard]] double over(const Color& to, std::uint32_t from, std::uint32_t i, const LinkVariation::End& end) const {
-    const double own = rest(to, from, end);
-    const bool apart = scene_.hierarchy[i].leaf() || scene_.hierarchy[i].is_cluster();
-    const double all = apart ? own * own : alike_.across ? *alike_.across * own * own : own * rests_[i];
-    return std::min(1.0, alike_.at_leaves) * all + square(end.shadow) * glm::dot(to, bright(from));
-  }
-
-  const AlikeErrors& alike_;
-  const DiscreteScene& scene_;
-  const std::vector<double>& area_;
-  std::vector<NodeLight> light_;
-  std::vector<Color> of_clusters_;  // mean reflectance
-  // Of each node, the sums over its links, which err alike there: by wrong mixtures of clusters' faces, and the rests.
-  std::vector<double> mixtures_, rests_;
-};
 
 HALFLIGHT_INLINE ErrorEstimation estimate_link_errors(const AlikeErrors& alike, const DiscreteScene& scene, const MeasuredLinks& links,
                                                       const std::vector<Color>& radiosity) {
@@ -170,11 +53,11 @@ HALFLIGHT_INLINE ErrorEstimation estimate_link_errors(const AlikeErrors& alike, 
   return result;
 }
 
-// A sample of links, spread evenly over them, that are measured.
+// A sample of links that are measured.
 struct LinkSample {
   std::vector<std::uint32_t> from;  // indices of the links
   MeasuredLinks links;
-  double each = 0.0;  // links that one stands for
+  std::vector<double> each;  // links that one stands for
 };
 
 // Links in two tables, as if in one.
@@ -198,17 +81,63 @@ struct LinkTables {
   return samples;
 }
 
-// Measures `most` of the links at most. The exchange stays as it is.
-HALFLIGHT_INLINE void measure_sample(const DiscreteScene& scene, const LinkTables& links, std::size_t most, LinkSample& sample) {
-  const std::size_t count = std::min(sample.from.size(), most);
-  sample.links.resize(count);
-  parallel_for(count, scene.threads, [&](std::size_t i) {
-    Link& link = sample.links[i].link = links[sample.from[i * sample.from.size() / count]];
+// Of `sample.from`, the sums from the first to each of the probabilities by which links are drawn, 1 in all: a third by the scale of the
+// squared error, a third by the most that it can be, and a third evenly. Of links drawn evenly the few that carry most would be missed, or
+// stand for hundreds that carry next to nothing.
+HALFLIGHT_INLINE std::vector<double> drawn_by(const LinkErrorTerms& errors, const LinkTables& links, const LinkSample& sample) {
+  std::vector<LinkErrorTerms::Carried> carried(sample.from.size());
+  LinkErrorTerms::Carried all;
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    carried[i] = errors.carried(links[sample.from[i]]);
+    all.squared += carried[i].squared;
+    all.most += carried[i].most;
+  }
+  const double even = 1.0 / static_cast<double>(carried.size());
+  std::vector<double> sums(carried.size());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    const double squared = all.squared > 0.0 ? carried[i].squared / all.squared : even;
+    sums[i] = sum += (squared + (all.most > 0.0 ? carried[i].most / all.most : even) + even) / 3.0;
+  }
+  return sums;
+}
+
+// Measures `most` of the links at most: all, or those in whose part of 0 to 1 one of as many equal steps ends (systematic sampling; Madow
+// 1949). The exchange stays as it is.
+HALFLIGHT_INLINE void measure_sample(const DiscreteScene& scene, const LinkErrorTerms& errors, const LinkTables& links, std::size_t most,
+                                     LinkSample& sample) {
+  std::vector<std::uint32_t> chosen;
+  if (sample.from.size() <= most) {
+    chosen = sample.from;
+    sample.each.assign(chosen.size(), 1.0);
+  } else {
+    const std::vector<double> sums = drawn_by(errors, links, sample);
+    const double step = sums.back() / static_cast<double>(most);
+    std::size_t steps = 0;  // that end before link i
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const std::size_t before = steps;
+      while (steps < most && (static_cast<double>(steps) + 0.5) * step < sums[i]) { ++steps; }
+      if (steps == before) { continue; }
+      chosen.push_back(sample.from[i]);
+      sample.each.push_back(static_cast<double>(steps - before) * step / (sums[i] - (i > 0 ? sums[i - 1] : 0.0)));
+    }
+  }
+  sample.links.resize(chosen.size());
+  parallel_for(chosen.size(), scene.threads, [&](std::size_t i) {
+    Link& link = sample.links[i].link = links[chosen[i]];
     const float closed = link.exchange;
     (void)scene.evaluator(link, {}, &sample.links[i].variation);
     link.exchange = closed;
   });
-  sample.each = count > 0 ? static_cast<double>(sample.from.size()) / static_cast<double>(count) : 0.0;
+}
+
+// The squared errors of all the links of which these are a sample.
+HALFLIGHT_INLINE double sum_over(const LinkSample& sample, const ErrorEstimation& errors) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < errors.links.size(); ++i) {
+    sum += sample.each[i] * (static_cast<double>(errors.links[i].p) + static_cast<double>(errors.links[i].q));
+  }
+  return sum;
 }
 
 // The errors of leaves, from samples of the links.
@@ -226,16 +155,17 @@ HALFLIGHT_INLINE LeafErrors sampled_leaf_errors(const DiscreteScene& scene, std:
   LeafErrors leaves;
   Links scaled;  // as if they were all
   for (const LinkSample* sample : samples) {
-    const auto arrives = [&](std::uint32_t i, std::uint32_t sender, double exchange, float linear) {
+    const auto arrives = [&](std::uint32_t i, std::uint32_t sender, double exchange, float linear, double each) {
       if (hierarchy[i].is_cluster() || !(area[i] > 0.0)) { return; }
       const Color light = exchange / area[i] * double{linear} * scene.reflectance[hierarchy[i].surface] * radiosity[sender];
-      leaves.apart += sample->each * over_leaves[i] / area[i] * glm::dot(light, light);
+      leaves.apart += each * over_leaves[i] / area[i] * glm::dot(light, light);
     };
-    for (const auto& [link, list, variation] : sample->links) {
+    for (std::size_t k = 0; k < sample->links.size(); ++k) {
+      const auto& [link, list, variation] = sample->links[k];
       scaled.push_back(link);
-      scaled.back().exchange *= static_cast<float>(sample->each);
-      arrives(link.p, link.q, static_cast<double>(link.exchange), variation.p.linear);
-      arrives(link.q, link.p, static_cast<double>(link.exchange), variation.q.linear);
+      scaled.back().exchange *= static_cast<float>(sample->each[k]);
+      arrives(link.p, link.q, static_cast<double>(link.exchange), variation.p.linear, sample->each[k]);
+      arrives(link.q, link.p, static_cast<double>(link.exchange), variation.q.linear, sample->each[k]);
     }
   }
   // A leaf that is a whole input face has no siblings; and where the sample is all the links, their gradients tell more.
@@ -256,11 +186,11 @@ HALFLIGHT_INLINE void add_unseen(const DiscreteScene& scene, const PairSample& u
     pairs.back().q = pair.y;
   }
   auto [of_lights, others] = lights_and_others(scene, {{pairs, {}}});
-  measure_sample(scene, {{pairs, {}}}, 1024, of_lights);
-  measure_sample(scene, {{pairs, {}}}, 1024, others);
+  const LinkErrorTerms terms{alike, scene, radiosity};
+  measure_sample(scene, terms, {{pairs, {}}}, 1024, of_lights);
+  measure_sample(scene, terms, {{pairs, {}}}, 1024, others);
   for (const LinkSample* sample : {&of_lights, &others}) {
-    const double squares = estimate_link_errors(alike, scene, sample->links, radiosity).of_links;
-    result.unseen += static_cast<double>(unseen.each()) * sample->each * squares;
+    result.unseen += static_cast<double>(unseen.each()) * sum_over(*sample, estimate_link_errors(alike, scene, sample->links, radiosity));
   }
   result.of_links += result.unseen;
 }
@@ -269,15 +199,17 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, co
                                                   const std::vector<Color>& radiosity, const EvaluateResult& evaluated) {
   const LinkTables links{tables};
   auto [of_lights, others] = lights_and_others(scene, links);
-  measure_sample(scene, links, 1024, of_lights);
-  measure_sample(scene, links, 3072, others);
+  const AlikeErrors independent;
+  const LinkErrorTerms terms{independent, scene, radiosity};
+  measure_sample(scene, terms, links, 1024, of_lights);
+  measure_sample(scene, terms, links, 3072, others);
   const LeafErrors leaves = sampled_leaf_errors(scene, {&of_lights, &others}, links.size(), radiosity);
   ErrorEstimation result;
   result.of_leaves = leaves.sum;
   const AlikeErrors alike{std::sqrt(evaluated.doubt.alike(scene.hierarchy, scene.exposure.area)), leaves.alike()};
   for (const LinkSample* sample : {&of_lights, &others}) {
     const ErrorEstimation errors = estimate_link_errors(alike, scene, sample->links, radiosity);
-    result.of_links += sample->each * errors.of_links;
+    result.of_links += sum_over(*sample, errors);
     result.norm = errors.norm;
   }
   add_unseen(scene, evaluated.unseen, alike, radiosity, result);
