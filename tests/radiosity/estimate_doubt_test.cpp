@@ -28,23 +28,74 @@
 #include "scenes.hpp"
 #include "solved.hpp"
 
+namespace {
+
+// A plate under a black screen with a square hole, a lamp close above that: what a point sees of the lamp is a rectangle.
+struct LightThroughHole {
+  static constexpr double reflectance = 0.5;
+  double hole, z, h, x, y, side;  // half the side of the hole and of the lamp; heights of both, and where they stand
+  radiosity::Scene scene;
+
+  static radiosity::Polygon down(double x0, double y0, double x1, double y1, double at) {
+    return {{x0, y0, at}, {x0, y1, at}, {x1, y1, at}, {x1, y0, at}};
+  }
+
+  LightThroughHole(double half, radiosity::Random& random)
+      : hole{half},
+        z{0.3 + 0.5 * random.uniform()},
+        h{z + 1.0},
+        x{random.uniform() - 0.5},
+        y{random.uniform() - 0.5},
+        side{0.2 + 0.6 * random.uniform()} {
+    constexpr double far = 4.0;
+    scene.materials = {{"plate", radiosity::Color{reflectance}, radiosity::Color{0.0}},
+                       {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}},
+                       {"black", radiosity::Color{0.0}, radiosity::Color{0.0}}};
+    scene.objects = {scenes::square("plate", {0, 0, 0}, 1.0, true),
+                     scenes::plate("lamp", down(x - side, y - side, x + side, y + side, h), 1),
+                     scenes::plate("a", down(-far, -far, x - hole, far, z), 2),
+                     scenes::plate("b", down(x + hole, -far, far, far, z), 2),
+                     scenes::plate("c", down(x - hole, -far, x + hole, y - hole, z), 2),
+                     scenes::plate("d", down(x - hole, y + hole, x + hole, far, z), 2)};
+  }
+
+  // What the plate reflects there.
+  [[nodiscard]] double lights(const glm::dvec3& p) const {
+    const auto seen = [&](double at, double from) { return from + h / z * (at - from); };  // an edge of the hole in the plane of the lamp
+    const double x0 = std::max(x - side, seen(x - hole, p.x)), x1 = std::min(x + side, seen(x + hole, p.x));
+    const double y0 = std::max(y - side, seen(y - hole, p.y)), y1 = std::min(y + side, seen(y + hole, p.y));
+    return x0 < x1 && y0 < y1 ? reflectance * radiosity::point_to_polygon(p, {0, 0, 1}, down(x0, y0, x1, y1, h)) : 0.0;
+  }
+};
+
+// Balls close to the floor of a random room, few of them closed.
+radiosity::Scene ball_over_plate(radiosity::Random& random) {
+  radiosity::Scene scene = scenes::two_plates(0.05 + 0.9 * random.uniform());
+  const auto material = static_cast<std::uint32_t>(scene.materials.size());
+  scene.materials.push_back({"ball", radiosity::Color{0.3 + 0.6 * random.uniform()}, radiosity::Color{0.0}});
+  const double radius = 0.05 + 0.2 * random.uniform();
+  scene.objects.push_back({"ball", raycast::Sphere::make({random.uniform(), random.uniform(), radius}, radius).object, {}, {material}});
+  return scene;
+}
+
+}  // namespace
+
 TEST_CASE("where the estimate is more than 3 times off what path tracing found, the report says so, and only there") {
-  // Balls close to the floor of random rooms, few of them closed, at coarse settings: estimates of all kinds.
+  // Coarse settings, and light through holes: estimates of all kinds.
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   int contradicted = 0;
   for (int k = 0; k < 12 || (contradicted == 0 && k < 60); ++k) {
-    radiosity::Scene scene = scenes::two_plates(0.05 + 0.9 * random.uniform());
-    const auto material = static_cast<std::uint32_t>(scene.materials.size());
-    scene.materials.push_back({"ball", radiosity::Color{0.3 + 0.6 * random.uniform()}, radiosity::Color{0.0}});
-    const double radius = 0.05 + 0.2 * random.uniform();
-    scene.objects.push_back({"ball", raycast::Sphere::make({random.uniform(), random.uniform(), radius}, radius).object, {}, {material}});
+    const bool hole = k % 4 == 3;
+    const radiosity::Scene scene =
+        hole ? LightThroughHole{std::pow(10.0, -2.5 + 2.0 * random.uniform()), random}.scene : ball_over_plate(random);
     radiosity::Options options;
     options.epsilon = std::pow(10.0, -3.0 + 2.0 * random.uniform());
     options.audit_points = 1000;
     options.threads = 1;
     const radiosity::Audit audit = scenes::solved(scene, options).audit;
+    if (hole && !audit.leaf_error) { continue; }  // its light was not met
     REQUIRE(audit.leaf_error);
     const radiosity::ErrorEstimate& error = *audit.leaf_error;
     const double estimate = audit.estimated_leaf_error.value_or(0.0);
@@ -63,39 +114,18 @@ TEST_CASE("where the estimate is more than 3 times off what path tracing found, 
 }
 
 TEST_CASE("light through a hole of any size: the estimate is no less than a third of the error, or says that it is no bound") {
-  // A plate under a black screen with a square hole, a lamp close above that: what a point sees of the lamp is a rectangle.
   INFO("seed 83");
   radiosity::Random random{83, 0};
-  const auto down = [](double x0, double y0, double x1, double y1, double z) {
-    return radiosity::Polygon{{x0, y0, z}, {x0, y1, z}, {x1, y1, z}, {x1, y0, z}};
-  };
-  constexpr double reflectance = 0.5;
   int doubted = 0;
   for (int k = 0; k < 12; ++k) {
-    const double hole = std::pow(10.0, -3.5 + 3.0 * (k + random.uniform()) / 12.0), z = 0.3 + 0.5 * random.uniform(), h = z + 1.0;
-    const double x = random.uniform() - 0.5, y = random.uniform() - 0.5, side = 0.2 + 0.6 * random.uniform(), far = 4.0;
-    radiosity::Scene scene;
-    scene.materials = {{"plate", radiosity::Color{reflectance}, radiosity::Color{0.0}},
-                       {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}},
-                       {"black", radiosity::Color{0.0}, radiosity::Color{0.0}}};
-    scene.objects = {scenes::square("plate", {0, 0, 0}, 1.0, true),
-                     scenes::plate("lamp", down(x - side, y - side, x + side, y + side, h), 1),
-                     scenes::plate("a", down(-far, -far, x - hole, far, z), 2),
-                     scenes::plate("b", down(x + hole, -far, far, far, z), 2),
-                     scenes::plate("c", down(x - hole, -far, x + hole, y - hole, z), 2),
-                     scenes::plate("d", down(x - hole, y + hole, x + hole, far, z), 2)};
+    const double hole = std::pow(10.0, -3.5 + 3.0 * (k + random.uniform()) / 12.0);
+    const LightThroughHole through{hole, random};
     radiosity::Options options;
     options.epsilon = 0.02;
     options.min_area = 1e-4;
     options.audit_points = 16;
     options.threads = 1;
-    const radiosity::Solution solution = scenes::solved(scene, options);
-    const auto truth_at = [&](const glm::dvec3& p) {
-      const auto seen = [&](double at, double from) { return from + h / z * (at - from); };  // an edge of the hole in the plane of the lamp
-      const double x0 = std::max(x - side, seen(x - hole, p.x)), x1 = std::min(x + side, seen(x + hole, p.x));
-      const double y0 = std::max(y - side, seen(y - hole, p.y)), y1 = std::min(y + side, seen(y + hole, p.y));
-      return x0 < x1 && y0 < y1 ? reflectance * radiosity::point_to_polygon(p, {0, 0, 1}, down(x0, y0, x1, y1, h)) : 0.0;
-    };
+    const radiosity::Solution solution = scenes::solved(through.scene, options);
     double error = 0.0, norm = 0.0;
     for (const radiosity::MeshFace& face : solution.mesh.faces) {
       if (face.surface != 0) { continue; }
@@ -106,7 +136,7 @@ TEST_CASE("light through a hole of any size: the estimate is no less than a thir
         for (int i = 0; i < 64; ++i) {
           double u = (i % 8 + 0.5) / 8.0, v = (i / 8 + 0.5) / 8.0;
           if (u + v > 1.0) { u = 1.0 - u, v = 1.0 - v; }
-          const double b = truth_at(a + u * ab + v * ac);
+          const double b = through.lights(a + u * ab + v * ac);
           error += area * (b - face.radiosity.x) * (b - face.radiosity.x);
           norm += area * b * b;
         }
