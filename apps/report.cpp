@@ -112,6 +112,7 @@ class Text {
             ? "{links}, {ray_links} of them made of {stored_rays} stored rays, {cluster_links} with one of {clusters} clusters of lamps"
         : audit_.clusters > 0    ? "{links}, {cluster_links} of them with one of {clusters} clusters"
         : audit_.stored_rays > 0 ? "{links}, {ray_links} of them made of {stored_rays} stored rays"
+        : audit_.link_splits > 0 ? "{links}; {link_splits} more were split for the light that they carry"
                                  : "{links}");
     say("rays", "{rays} cast, {rays_avoided} avoided: {pairs_clear} pairs proven clear, {pairs_blocked} proven blocked");
     row("memory",

@@ -186,6 +186,7 @@ Facts facts_of(const Report& report) {
     facts.add("discontinuities", {});
   }
   facts.add("links", audit.links);
+  facts.add("link_splits", audit.link_splits);
   facts.add("ray_links", audit.ray_links);
   facts.add("stored_rays", audit.stored_rays);
   facts.add("rays_for_view", audit.rays_for_view);

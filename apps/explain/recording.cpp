@@ -83,15 +83,23 @@ class Watch {
   Watch(Recording& recording, std::atomic<bool>& too_many) : recording_{recording}, too_many_{too_many} {}
 
   void take(const radiosity::Question& question, Decision decision) {
-    if (by_ends_.contains(key(question.p, question.q))) { return; }
-    Pair pair{question.p, question.q, none, 0, 0.0, decision, decision, {}};
+    if (const auto known = by_ends_.find(key(question.p, question.q)); known != by_ends_.end()) {
+      Pair& pair = recording_.pairs[known->second];
+      if (pair.decision == Decision::link && decision > Decision::link) {  // by the light that it carries; what replaces it comes last
+        pair.decision = decision;
+        pair.by_light = true;
+        least_generation_ = recording_.pairs.back().generation + 1;
+      }
+      return;
+    }
+    Pair pair{question.p, question.q, none, 0, 0.0, decision, decision, false, {}};
     pair.estimate = radiosity::form_factor_estimate(question.node_p(), question.node_q());
     if (decision >= radiosity::first_seeing) { pair.by_form_factor = radiosity::FOracle{}(question); }
     for (const auto& [a, b] : {std::pair{question.node_p().parent, question.q}, std::pair{question.p, question.node_q().parent}}) {
       const auto found = by_ends_.find(key(a, b));
       if (a != radiosity::no_node && b != radiosity::no_node && found != by_ends_.end()) { pair.parent = found->second; }
     }
-    if (pair.parent != none) { pair.generation = recording_.pairs[pair.parent].generation + 1; }
+    if (pair.parent != none) { pair.generation = std::max(recording_.pairs[pair.parent].generation + 1, least_generation_); }
     if (question.hierarchy.size() > recording_.born.size()) { recording_.born.resize(question.hierarchy.size(), pair.generation); }
     by_ends_.emplace(key(pair.p, pair.q), static_cast<std::uint32_t>(recording_.pairs.size()));
     recording_.pairs.push_back(std::move(pair));
@@ -104,6 +112,7 @@ class Watch {
   }
   Recording& recording_;
   std::atomic<bool>& too_many_;
+  std::uint32_t least_generation_ = 0;
   std::map<std::uint64_t, std::uint32_t> by_ends_;
 };
 
@@ -310,21 +319,19 @@ RecordResult record(const radiosity::Scene& scene, const std::string& name, cons
   control.decided = [&](const radiosity::Question& question, Decision decision) { watch.take(question, decision); };
   Run run{scene, options_of(wanted), control, {}};
   if (const auto failure = radiosity::stage::build(run)) { return {std::nullopt, true, failure->sentences}; }
-  const std::size_t faces = run.scene.hierarchy.size();
-  if (faces > most_faces) {
+  if (const std::size_t faces = run.scene.hierarchy.size(); faces > most_faces) {
     return refused("the scene has " + std::to_string(faces) + " input faces; at most " + std::to_string(most_faces) +
                    " can be looked at one by one, so choose a smaller scene");
   }
   if (!run.needs_links()) { return refused("there is nothing to explain: no surface shines, or none reflects, so no light is exchanged"); }
-  const auto unrefined = radiosity::stage::refine(run);
-  if (unrefined && !too_many) { return {std::nullopt, true, unrefined->sentences}; }
-  if (too_many) {
-    return refused("at epsilon " + number(wanted.epsilon) + " the oracle is asked about more than " + std::to_string(most_pairs) +
-                   " pairs or there are more than " + std::to_string(most_nodes) +
-                   " patches, more than one can look at; a larger --epsilon or --min-area asks about fewer");
-  }
-  for (const auto next : {radiosity::stage::expose, radiosity::stage::link, radiosity::stage::solve}) {
-    if (const auto failure = next(run)) { return {std::nullopt, true, failure->sentences}; }
+  for (const auto next : {radiosity::stage::refine, radiosity::stage::expose, radiosity::stage::link, radiosity::stage::solve}) {
+    const auto failure = next(run);
+    if (too_many) {
+      return refused("at epsilon " + number(wanted.epsilon) + " the oracle is asked about more than " + std::to_string(most_pairs) +
+                     " pairs or there are more than " + std::to_string(most_nodes) +
+                     " patches, more than one can look at; a larger --epsilon or --min-area asks about fewer");
+    }
+    if (failure) { return {std::nullopt, true, failure->sentences}; }
   }
   record_nodes(run, recording);
   for (const radiosity::Color& b : run.solution.radiosity) { recording.radiosity.push_back(b[recording.channel]); }

@@ -41,6 +41,7 @@ struct Pair {
   double estimate = 0.0;  // the larger of both disk estimates, paper 4.3
   radiosity::Decision by_form_factor = radiosity::Decision::link;
   radiosity::Decision decision = radiosity::Decision::link;
+  bool by_light = false;  // it was a link until the light that this carried was known
   std::string sentence;
 };
 

@@ -69,6 +69,7 @@ std::string sentence_of(const Recording& recording, const Pair& pair) {
   const std::string compared = estimate_of(recording, pair) + (above ? " > " : " <= ") + number(epsilon);
   if (pair.decision == Decision::link) { return compared + (above ? ", but neither is larger than the least area: link" : ": link"); }
   const std::string split = pair.decision == Decision::split_p ? of_p : of_q;
+  if (pair.by_light) { return compared + ": link, but the light that it brings varies too much over " + split + ": split " + split; }
   if (pair.by_form_factor == Decision::link) {
     return compared + ", but the light of the lamp varies too much over " + split + ": split " + split;
   }

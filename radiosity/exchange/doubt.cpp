@@ -31,6 +31,13 @@ HALFLIGHT_INLINE void DoubtSum::add(const DoubtSum& other) {
   depth_ = std::max(depth_, other.depth_);
 }
 
+HALFLIGHT_INLINE void DoubtSum::remove(std::uint32_t p, std::uint32_t q, const Doubt& doubt) {
+  remove(p, static_cast<double>(doubt.p));
+  remove(q, static_cast<double>(doubt.q));
+  square_ = std::max(0.0, square_ - static_cast<double>(doubt.square));
+  chord_ = std::max(0.0, chord_ - static_cast<double>(doubt.chord));
+}
+
 HALFLIGHT_INLINE double DoubtSum::rms(const Hierarchy& hierarchy, const std::vector<double>& area, double total) const {
   double sum = square_ + chord_ * depth_;
   for (std::size_t i = 0; i < across_.size(); ++i) { sum += hierarchy[i].leaf() ? 0.0 : area[i] * across_[i] * across_[i]; }
@@ -56,6 +63,12 @@ HALFLIGHT_INLINE void DoubtSum::add(std::uint32_t node, double error) {
   }
   across_[node] += error;
   squares_[node] += error * error;
+}
+
+HALFLIGHT_INLINE void DoubtSum::remove(std::uint32_t node, double error) {
+  if (!(error > 0.0) || node >= across_.size()) { return; }
+  across_[node] = std::max(0.0, across_[node] - error);  // what is left may be rounding alone
+  squares_[node] = std::max(0.0, squares_[node] - error * error);
 }
 
 }  // namespace radiosity

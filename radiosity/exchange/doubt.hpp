@@ -31,6 +31,8 @@ class DoubtSum {
  public:
   void add(std::uint32_t p, std::uint32_t q, const Doubt& doubt);
   void add(const DoubtSum& other);
+  // Takes back what was added for a link that is no longer there. The largest chord stays, as a bound.
+  void remove(std::uint32_t p, std::uint32_t q, const Doubt& doubt);
   // Expected RMS error of the row sums; `area` of each node, `total` of the scene. The mean of what the chords take, times the most that
   // they can take, bounds its mean square.
   [[nodiscard]] double rms(const Hierarchy& hierarchy, const std::vector<double>& area, double total) const;
@@ -40,6 +42,7 @@ class DoubtSum {
 
  private:
   void add(std::uint32_t node, double error);
+  void remove(std::uint32_t node, double error);
 
   std::vector<double> across_, squares_;  // of each node: the sum, and the sum of the squares
   double square_ = 0.0, chord_ = 0.0, depth_ = 0.0;

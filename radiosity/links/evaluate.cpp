@@ -46,6 +46,25 @@ namespace radiosity {
 // Pairs of points, in rounds of 16, for each link of a cluster: a mean over many faces that hide each other, so never few.
 inline constexpr std::uint32_t cluster_rounds = 4;
 
+// By how much chords in place of curves may change the light between two patches, relative to it.
+[[nodiscard]] HALFLIGHT_INLINE double chord_depth(const Node& p, const Node& q) {
+  return 0.5 * (p.deviation * p.deviation + q.deviation * q.deviation);
+}
+
+HALFLIGHT_INLINE Doubt LinkDoubt::of(const Link& link, const Hierarchy& hierarchy) const {
+  const double depth = chord_depth(hierarchy[link.p], hierarchy[link.q]);
+  return {p, q, square, static_cast<float>(2.0 * static_cast<double>(link.exchange) * depth), static_cast<float>(depth)};
+}
+
+HALFLIGHT_INLINE void EvaluateResult::add(const EvaluateResult& other) {
+  rays += other.rays;
+  proven_clear += other.proven_clear;
+  blocked += other.blocked;
+  unseen.add(other.unseen);
+  doubt.add(other.doubt);
+  cancelled = cancelled || other.cancelled;
+}
+
 HALFLIGHT_INLINE LinkEvaluator::LinkEvaluator(const SceneView& scene, const Exposure& exposure, const ShownAreas& shown, std::uint64_t seed)
     : scene_{scene}, exposure_{&exposure}, sampler_{scene, &exposure, shown}, seed_{seed} {}
 
@@ -174,7 +193,7 @@ HALFLIGHT_INLINE Doubt LinkEvaluator::doubt_of(const Link& link, double sent, co
   const auto buried = [&](std::uint32_t i, double area) {  // variance of the exposed area, relative
     return exposure_->partly_buried[i] ? std::max(0.0, (exposure_->whole[i] - area) / (256.0 * area)) : 0.0;
   };
-  const double depth = 0.5 * (square(p.deviation) + square(q.deviation));
+  const double depth = chord_depth(p, q);
   const double independent =
       (unseen + square(arrives) * buried(link.q, area_q)) / area_p + (unseen + square(arrives) * buried(link.p, area_p)) / area_q;
   return {across(p, varies.p, seen.spread_p, area_p), across(q, varies.q, seen.spread_q, area_q), static_cast<float>(independent),
@@ -261,10 +280,14 @@ void evaluate_in_order(const Evaluation& by, std::size_t count, EvaluateResult& 
   }
 }
 
-HALFLIGHT_INLINE EvaluateResult make_links(const Evaluation& by, const NodePairs& pairs, Links& links) {
+HALFLIGHT_INLINE EvaluateResult make_links(const Evaluation& by, const NodePairs& pairs, Links& links, LinkDoubts* doubts) {
   EvaluateResult result;
   links.clear();
   links.resize(pairs.size());  // each at its place until all of a batch are known
+  if (doubts != nullptr) {
+    doubts->clear();
+    doubts->reserve(pairs.size());
+  }
   std::size_t kept = 0;
   evaluate_in_order(
       by, pairs.size(), result,
@@ -281,6 +304,7 @@ HALFLIGHT_INLINE EvaluateResult make_links(const Evaluation& by, const NodePairs
           if (!hidden && doubt.square > 0.0f) { result.unseen.add(pairs[i].p, pairs[i].q); }
           return false;
         }
+        if (doubts != nullptr) { doubts->push_back({pairs[i].list, doubt.p, doubt.q, doubt.square}); }
         links[kept++] = links[i];
         return true;
       },

@@ -43,6 +43,11 @@ class PairSample {
     pairs_.resize(least);
     each_ *= 2;
   }
+  void add(const PairSample& other) {
+    for (const glm::uvec2& pair : other.pairs_) {
+      for (std::uint64_t k = 0; k < other.each_; ++k) { add(pair.x, pair.y); }
+    }
+  }
   [[nodiscard]] const std::vector<glm::uvec2>& pairs() const { return pairs_; }
   [[nodiscard]] std::uint64_t each() const { return each_; }  // pairs that one stands for
 
@@ -59,7 +64,21 @@ struct EvaluateResult {
   PairSample unseen;               // of those that are not proven to be blocked; not of measured links
   DoubtSum doubt;                  // of the links left out, and, unless measured links hold theirs, of all
   bool cancelled = false;
+
+  // Adds what was found for further links.
+  void add(const EvaluateResult& other);
 };
+
+// What is kept of a link that may be split once its light is known: what can stand between its ends, and its share of the doubt
+// (doubt.hpp), but for its chord, which follows from the link.
+struct LinkDoubt {
+  std::uint32_t list = OccluderLists::none;  // of its ends
+  float p = 0.0f, q = 0.0f, square = 0.0f;
+
+  [[nodiscard]] Doubt of(const Link& link, const Hierarchy& hierarchy) const;
+};
+
+using LinkDoubts = BigArray<LinkDoubt>;
 
 // How far the light of a link is from what the link can express, at each end: RMS values relative to the mean.
 struct LinkVariation {
@@ -166,8 +185,8 @@ struct Evaluation {
   const Control& control;
 };
 
-// Makes the links of these pairs, in their order, except for those that carry nothing.
-[[nodiscard]] EvaluateResult make_links(const Evaluation& by, const NodePairs& pairs, Links& links);
+// Makes the links of these pairs, in their order, except for those that carry nothing. With `doubts`, what is kept of each link.
+[[nodiscard]] EvaluateResult make_links(const Evaluation& by, const NodePairs& pairs, Links& links, LinkDoubts* doubts = nullptr);
 
 // Measures the links from `first` on and removes those that carry nothing, unless they may carry something all the same
 // (LinkVariation::sampling).

@@ -13,26 +13,19 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-#include <brep/circulators.hpp>
-#include <brep/handles.hpp>
-
 #include <raycast/inline.hpp>
 
-#include <radiosity/clusters/clusters.hpp>
 #include <radiosity/exchange/doubt.hpp>
-#include <radiosity/exchange/exchange.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
-#include <radiosity/links/evaluate.hpp>
 #include <radiosity/refinement/coarse_light.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/leaf_error.hpp>
-#include <radiosity/scene/options.hpp>
+#include <radiosity/refinement/link_fitting.hpp>
 #include <radiosity/support/memory.hpp>
-#include <radiosity/support/parallel.hpp>
 
 namespace radiosity {
 
@@ -69,11 +62,7 @@ class LeafSplitting {
       : scene_{scene}, hierarchy_{scene.hierarchy}, area_{scene.exposure.area}, links_{links}, light_{coarse_light(scene, links, 3)} {
     const double share = 0.25 * rule.light_epsilon;
     least_error_ = share * share * light_.reflected_square;
-    double total = 0.0;
-    for (std::size_t i = 0; i < hierarchy_.size(); ++i) {
-      if (is_input_face(hierarchy_, i) && area_[i] > 0.0) { total += hierarchy_[i].area; }
-    }
-    least_area_ = rule.min_area * total;
+    least_area_ = rule.min_area * exposed_faces_area(scene);
   }
 
   [[nodiscard]] LeafSplits operator()(DoubtSum& doubt) {
@@ -90,7 +79,7 @@ class LeafSplitting {
     const std::vector<double> area_before = area_;
     result.count = split(std::move(wanted));
     scene_.expose();
-    fit_links(area_before);
+    fit_links(scene_, links_, area_before);
     return result;
   }
 
@@ -156,25 +145,10 @@ class LeafSplitting {
 
   // Gives links between leaves their gradients where one of these is a candidate. What these leave at a leaf counts once it is split.
   void set_gradients_at_candidates(DoubtSum& doubt) {
-    constexpr std::size_t batch = 1 << 15;
-    std::vector<std::size_t> touched;
-    std::vector<Doubt> doubts;
-    for (std::size_t first = 0; first < links_.size() && !scene_.control.cancelled(); first += batch) {
-      touched.clear();
-      for (std::size_t k = first; k < std::min(links_.size(), first + batch); ++k) {
-        const Link& link = links_[k];
-        if (between_leaves(link) && (candidate_[link.p] != 0 || candidate_[link.q] != 0)) { touched.push_back(k); }
-      }
-      doubts.assign(touched.size(), {});
-      parallel_for(touched.size(), scene_.threads, [&](std::size_t k) {
-        Link& link = links_[touched[k]];
-        const Variations light = variations(scene_.patches[link.p], scene_.patches[link.q]);
-        set_gradients(link, light);
-        doubts[k].p = static_cast<float>(static_cast<double>(link.exchange) * light.p.rest / area_[link.p]);
-        doubts[k].q = static_cast<float>(static_cast<double>(link.exchange) * light.q.rest / area_[link.q]);
-      });
-      for (std::size_t k = 0; k < touched.size(); ++k) { doubt.add(links_[touched[k]].p, links_[touched[k]].q, doubts[k]); }
-    }
+    std::vector<char> leaf(hierarchy_.size());
+    for (std::size_t i = 0; i < leaf.size(); ++i) { leaf[i] = hierarchy_[i].leaf() ? 1 : 0; }
+    set_gradients_at(scene_, links_, candidate_, leaf,
+                     [&](std::size_t k, const Doubt& left) { doubt.add(links_[k].p, links_[k].q, left); });
   }
 
   [[nodiscard]] std::vector<Wanted> find_wanted() const {
@@ -205,23 +179,11 @@ class LeafSplitting {
     return nodes;
   }
 
-  // Has a leaf of a curved object an edge sharper than a right angle, as a blade has? A new vertex there lies off the edge of the leaf on
-  // the other side, which stays whole where it is dark, and a face of the mesh between the two would show the wrong side.
-  [[nodiscard]] bool at_blade(std::uint32_t i) const {
-    const Surface& surface = scene_.surfaces[hierarchy_[i].object];
-    if (surface.object->flat() || surface.topology != Topology::shared) { return false; }
-    for (const brep::HalfedgeId h : brep::halfedges_of(surface.brep, hierarchy_[i].face)) {
-      const std::uint32_t other = surface.brep.data(surface.brep.face(brep::twin(h))).node;
-      if (other != no_node && glm::dot(hierarchy_[i].normal, hierarchy_[other].normal) < -0.1) { return true; }
-    }
-    return false;
-  }
-
   std::uint64_t split(std::vector<Wanted> wanted) {
     std::uint64_t count = 0;
     for (std::size_t k = 0; k < wanted.size(); ++k) {  // it grows
       const Wanted leaf = wanted[k];
-      if (at_blade(leaf.node) || !subdivide(scene_.surfaces, hierarchy_, leaf.node, scene_.meshing)) { continue; }
+      if (at_blade(scene_, leaf.node) || !subdivide(scene_.surfaces, hierarchy_, leaf.node, scene_.meshing)) { continue; }
       ++count;
       const Node& node = hierarchy_[leaf.node];
       for (std::uint32_t c = node.first_child; leaf.again && c < node.first_child + node.child_count; ++c) {
@@ -230,22 +192,6 @@ class LeafSplitting {
       }
     }
     return count;
-  }
-
-  // As if the links had been evaluated with the areas of now: those of curved leaves are sums over their children.
-  void fit_links(const std::vector<double>& area_before) {
-    const auto grown = [&](std::uint32_t i) { return area_before[i] > 0.0 ? area_[i] / area_before[i] : 1.0; };
-    const auto is_new = [&](std::uint32_t i) { return std::abs(grown(i) - 1.0) > 1e-12; };
-    for (Link& link : links_) {
-      if (!scene_.evaluator.between_patches(link) || (!is_new(link.p) && !is_new(link.q))) { continue; }
-      link.exchange = static_cast<float>(static_cast<double>(link.exchange) * grown(link.p) * grown(link.q));
-    }
-    if (!scene_.clustered()) { return; }
-    ShownAreas now = scene_.exposed_shown();
-    for (Link& link : links_) {
-      if (!scene_.evaluator.between_patches(link)) { refit_cluster_link(hierarchy_, link, scene_.shown, now); }
-    }
-    scene_.shown = std::move(now);
   }
 
   DiscreteScene& scene_;

@@ -56,6 +56,7 @@ struct Audit {
   std::uint64_t polygons = 0;  // input faces: the roots of the hierarchy, whatever their number of corners and holes
   std::uint64_t nodes = 0, leaves = 0, links = 0, rays = 0;
   std::uint64_t leaf_splits = 0;  // of the nodes: leaves that were split once links were there, for light that varies over them
+  std::uint64_t link_splits = 0;  // links that were replaced by links of the children of an end, for light that they could not express
   std::uint64_t ray_links = 0, stored_rays = 0;     // among the links, made of rays; these
   bool rays_for_view = false;                       // they are more where Control::viewpoint looks (rays/view_importance.hpp)
   std::uint64_t clusters = 0, cluster_links = 0;    // among the nodes; among the links, with one at an end

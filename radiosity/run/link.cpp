@@ -18,6 +18,7 @@
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/leaf_splits.hpp>
+#include <radiosity/refinement/link_splits.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
@@ -59,6 +60,16 @@ namespace detail {
   return std::nullopt;
 }
 
+// Whether links may be split once they are evaluated: where light goes by stored rays those of lamps alone are there, which the light oracle
+// has split; leaves that were cut along the edges of shadows stay as they are.
+[[nodiscard]] HALFLIGHT_INLINE bool may_split_links(Run& run, std::uint64_t links) {
+  const DiscreteScene& scene = run.scene;
+  if (run.rays.cast || scene.light_meshing || run.stopped()) { return false; }
+  const MemoryBudget::Counts needed{scene.hierarchy.size(), links, 0, run.refined.occluders.bytes() + links * sizeof(LinkDoubt)};
+  if (!scene.budget.allows(needed)) { run.link_splits.too_large = scene.budget.peak(needed); }
+  return run.link_splits.too_large == 0;
+}
+
 // The links that refinement has chosen.
 HALFLIGHT_INLINE void link_by_forms(Run& run) {
   DiscreteScene& scene = run.scene;
@@ -67,8 +78,19 @@ HALFLIGHT_INLINE void link_by_forms(Run& run) {
     scene.lamp_exchange.emplace(scene.view(), &scene.exposure, scene.shown);
     scene.evaluator.use(*scene.lamp_exchange);
   }
-  run.evaluated = make_links({scene.evaluator, run.refined.occluders, scene.threads, scene.control}, std::exchange(run.refined.linked, {}),
-                             run.solution.links);
+  const NodePairs pairs = std::exchange(run.refined.linked, {});
+  const bool split = may_split_links(run, pairs.size());
+  run.evaluated = make_links({scene.evaluator, run.refined.occluders, scene.threads, scene.control}, pairs, run.solution.links,
+                             split ? &run.doubts : nullptr);
+}
+
+// Splits links whose light varies over their ends in a way that they cannot express.
+HALFLIGHT_INLINE void split_links(Run& run) {
+  LinkDoubts doubts = std::exchange(run.doubts, {});
+  if (doubts.size() != run.solution.links.size() || run.stopped()) { return; }
+  const Audit& audit = run.solution.audit;
+  run.link_splits =
+      split_links_by_light(run.scene, {run.refined, run.solution.links, doubts, run.evaluated}, {audit.light_epsilon, audit.min_area});
 }
 
 // Leaves that were cut along the edges of shadows stay as they are.
@@ -94,6 +116,7 @@ HALFLIGHT_INLINE std::optional<Failure> link(detail::Run& run) {
       detail::link_by_forms(run);
     }
     if (std::optional<Failure> failure = detail::refusal(run)) { return failure; }
+    detail::split_links(run);
     detail::split_leaves_once_more(run);
     run.solution.audit.interrupted = run.stopped();
     std::optional<Failure> failure = run.rays.cast ? detail::link_by_rays(run) : std::nullopt;

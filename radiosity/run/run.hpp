@@ -17,6 +17,7 @@
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/refinement/leaf_splits.hpp>
+#include <radiosity/refinement/link_splits.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
@@ -60,6 +61,8 @@ struct Run {
   std::uint64_t rays_of_spacing = 0;
   RayLinks ray_links;  // their links go into the solution
   EvaluateResult evaluated;
+  LinkDoubts doubts;  // of the links, until these are split
+  LinkSplits link_splits;
   LeafSplits leaf_splits;
   double unseen = 0.0;  // part of the estimated error
   std::optional<Transport> transport;

@@ -36,6 +36,7 @@ HALFLIGHT_INLINE std::optional<Failure> summarise(detail::Run& run) {
   audit.nodes = hierarchy.size();
   audit.leaves = static_cast<std::uint64_t>(std::count_if(hierarchy.begin(), hierarchy.end(), [](const Node& n) { return n.leaf(); }));
   audit.leaf_splits = run.leaf_splits.count;
+  audit.link_splits = run.link_splits.count;
   audit.links = links.size() + run.solution.ray_links.size();
   audit.ray_links = run.solution.ray_links.size();
   audit.stored_rays = run.ray_links.rays;
@@ -56,6 +57,9 @@ HALFLIGHT_INLINE std::optional<Failure> summarise(detail::Run& run) {
   }
   if (run.leaf_splits.too_large > 0) {
     audit.left_out.push_back({"splitting leaves over which light varies", "memory would not suffice", ""});
+  }
+  if (run.link_splits.too_large > 0) {
+    audit.left_out.push_back({"splitting links whose light varies more than they can express", "memory would not suffice", ""});
   }
   if (run.needs_links() && !run.rays.cast) {
     audit.left_out.push_back({"stored rays for the light between surfaces that do not shine", run.rays.reason, ""});

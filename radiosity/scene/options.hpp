@@ -150,7 +150,8 @@ struct Control {
   std::function<std::optional<PictureError>(const Mesh&, const Frame&, const AuditGoal&)> picture_error;
 
   // Called in each generation of F-refinement with the pairs that were looked at and what became of each, in their order, before anything
-  // is split. Nothing is kept for it: a run that nobody watches pays nothing.
+  // is split; and once links are evaluated, with those that are split for the light that they carry (refinement/link_splits.hpp) and the
+  // pairs that replace them. Nothing is kept for it: a run that nobody watches pays nothing.
   std::function<void(const Question&, Decision)> decided = {};
 
   // Nothing but pictures from here is wanted: with stored rays, what matters for them is resolved more finely (rays/view_importance.hpp),
