@@ -85,10 +85,9 @@ class Watch {
   void take(const radiosity::Question& question, Decision decision) {
     if (const auto known = by_ends_.find(key(question.p, question.q)); known != by_ends_.end()) {
       Pair& pair = recording_.pairs[known->second];
-      if (pair.decision == Decision::link && decision > Decision::link) {  // by the light that it carries; what replaces it comes last
+      if (pair.decision == Decision::link && decision > Decision::link) {  // by the light that it carries
         pair.decision = decision;
         pair.by_light = true;
-        least_generation_ = recording_.pairs.back().generation + 1;
       }
       return;
     }
@@ -99,7 +98,7 @@ class Watch {
       const auto found = by_ends_.find(key(a, b));
       if (a != radiosity::no_node && b != radiosity::no_node && found != by_ends_.end()) { pair.parent = found->second; }
     }
-    if (pair.parent != none) { pair.generation = std::max(recording_.pairs[pair.parent].generation + 1, least_generation_); }
+    if (pair.parent != none) { pair.generation = recording_.pairs[pair.parent].generation + 1; }
     if (question.hierarchy.size() > recording_.born.size()) { recording_.born.resize(question.hierarchy.size(), pair.generation); }
     by_ends_.emplace(key(pair.p, pair.q), static_cast<std::uint32_t>(recording_.pairs.size()));
     recording_.pairs.push_back(std::move(pair));
@@ -112,7 +111,6 @@ class Watch {
   }
   Recording& recording_;
   std::atomic<bool>& too_many_;
-  std::uint32_t least_generation_ = 0;
   std::map<std::uint64_t, std::uint32_t> by_ends_;
 };
 

@@ -105,14 +105,16 @@ namespace {
 
 std::string refinement(const Recording& r) {
   std::string out = "\nRefinement by form factor (paper 4.4), threshold " + number(r.wanted.epsilon) + "\n";
-  std::size_t links = 0, generation = none;
-  for (const Pair& pair : r.pairs) {
-    if (pair.generation != generation) {
-      generation = pair.generation;
-      out += "generation " + std::to_string(generation) + ":\n";
+  std::size_t links = 0;
+  std::uint32_t last = 0;
+  for (const Pair& pair : r.pairs) { last = std::max(last, pair.generation); }
+  for (std::uint32_t generation = 0; generation <= last && !r.pairs.empty(); ++generation) {  // links that are split open pairs later on
+    out += "generation " + std::to_string(generation) + ":\n";
+    for (const Pair& pair : r.pairs) {
+      if (pair.generation != generation) { continue; }
+      links += pair.decision == Decision::link ? 1 : 0;
+      out += "  " + r.names[pair.p] + " - " + r.names[pair.q] + ": " + pair.sentence + "\n";
     }
-    links += pair.decision == Decision::link ? 1 : 0;
-    out += "  " + r.names[pair.p] + " - " + r.names[pair.q] + ": " + pair.sentence + "\n";
   }
   const auto leaves =
       static_cast<std::size_t>(std::count_if(r.nodes.begin(), r.nodes.end(), [](const radiosity::Node& node) { return node.leaf(); }));

@@ -38,6 +38,7 @@ class LinkSplitting {
         hierarchy_{scene.hierarchy},
         area_{scene.exposure.area},
         of_{of},
+        epsilon_{rule.epsilon},
         share_{0.35 * rule.light_epsilon},
         least_area_{0.25 * rule.min_area * exposed_faces_area(scene)} {}
 
@@ -169,7 +170,7 @@ class LinkSplitting {
   void tell(const std::vector<Choice>& chosen) const {
     for (const Choice& c : chosen) {
       const Link& link = of_.links[c.link];
-      scene_.control.decided({hierarchy_, link.p, link.q, scene_.shown, share_, least_area_, &stuck_},
+      scene_.control.decided({hierarchy_, link.p, link.q, scene_.shown, epsilon_, least_area_, &stuck_},
                              c.at_p ? Decision::split_p : Decision::split_q);
     }
   }
@@ -224,7 +225,7 @@ class LinkSplitting {
     std::size_t seeing = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (scene_.control.decided) {
-        scene_.control.decided({hierarchy_, pairs[i].p, pairs[i].q, scene_.shown, share_, least_area_, &stuck_}, decisions[i]);
+        scene_.control.decided({hierarchy_, pairs[i].p, pairs[i].q, scene_.shown, epsilon_, least_area_, &stuck_}, decisions[i]);
       }
       if (decisions[i] >= first_seeing) { pairs[seeing++] = pairs[i]; }
     }
@@ -267,6 +268,7 @@ class LinkSplitting {
   Hierarchy& hierarchy_;
   const std::vector<double>& area_;
   const EvaluatedLinks& of_;
+  double epsilon_ = 0.0;
   double share_ = 0.0;
   double least_area_ = 0.0;
   std::vector<bool> stuck_;  // leaves that the BRep refused to split

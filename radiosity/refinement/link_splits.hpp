@@ -32,6 +32,7 @@
 namespace radiosity {
 
 struct LinkSplitRule {
+  double epsilon = 0.0;  // of the links that there are: for those who watch (Control::decided)
   double light_epsilon = 0.0;
   double min_area = 0.0;  // relative to the area of the input faces that are not buried
 };

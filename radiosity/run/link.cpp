@@ -61,13 +61,13 @@ namespace detail {
 }
 
 // Whether links may be split once they are evaluated: where light goes by stored rays those of lamps alone are there, which the light oracle
-// has split; leaves that were cut along the edges of shadows stay as they are.
+// has split; leaves that were cut along the edges of shadows stay as they are. Says so in run.refined when memory does not suffice.
 [[nodiscard]] HALFLIGHT_INLINE bool may_split_links(Run& run, std::uint64_t links) {
   const DiscreteScene& scene = run.scene;
   if (run.rays.cast || scene.light_meshing || run.stopped()) { return false; }
   const MemoryBudget::Counts needed{scene.hierarchy.size(), links, 0, run.refined.occluders.bytes() + links * sizeof(LinkDoubt)};
-  if (!scene.budget.allows(needed)) { run.link_splits.too_large = scene.budget.peak(needed); }
-  return run.link_splits.too_large == 0;
+  if (!scene.budget.allows(needed)) { run.refined.too_large = scene.budget.peak(needed); }
+  return run.refined.too_large == 0;
 }
 
 // The links that refinement has chosen.
@@ -89,8 +89,10 @@ HALFLIGHT_INLINE void split_links(Run& run) {
   LinkDoubts doubts = std::exchange(run.doubts, {});
   if (doubts.size() != run.solution.links.size() || run.stopped()) { return; }
   const Audit& audit = run.solution.audit;
-  run.link_splits =
-      split_links_by_light(run.scene, {run.refined, run.solution.links, doubts, run.evaluated}, {audit.light_epsilon, audit.min_area});
+  run.link_splits = split_links_by_light(run.scene, {run.refined, run.solution.links, doubts, run.evaluated},
+                                         {audit.epsilon, audit.light_epsilon, audit.min_area});
+  // Without some of its splits a run would differ from one that asks for its thresholds and may take more.
+  run.refined.too_large = run.link_splits.too_large;
 }
 
 // Leaves that were cut along the edges of shadows stay as they are.
@@ -115,8 +117,8 @@ HALFLIGHT_INLINE std::optional<Failure> link(detail::Run& run) {
       scene.expose();
       detail::link_by_forms(run);
     }
+    if (!run.refined.too_large) { detail::split_links(run); }
     if (std::optional<Failure> failure = detail::refusal(run)) { return failure; }
-    detail::split_links(run);
     detail::split_leaves_once_more(run);
     run.solution.audit.interrupted = run.stopped();
     std::optional<Failure> failure = run.rays.cast ? detail::link_by_rays(run) : std::nullopt;

@@ -58,9 +58,6 @@ HALFLIGHT_INLINE std::optional<Failure> summarise(detail::Run& run) {
   if (run.leaf_splits.too_large > 0) {
     audit.left_out.push_back({"splitting leaves over which light varies", "memory would not suffice", ""});
   }
-  if (run.link_splits.too_large > 0) {
-    audit.left_out.push_back({"splitting links whose light varies more than they can express", "memory would not suffice", ""});
-  }
   if (run.needs_links() && !run.rays.cast) {
     audit.left_out.push_back({"stored rays for the light between surfaces that do not shine", run.rays.reason, ""});
   }

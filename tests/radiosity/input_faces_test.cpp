@@ -181,6 +181,7 @@ TEST_CASE("input faces: in a concave room of concave faces a furnace glows evenl
     CAPTURE(epsilon);
     radiosity::Options options;
     options.epsilon = epsilon;
+    options.light_epsilon = epsilon;  // or links of whole faces are split by their light
     options.min_area = 1e-3;
     options.audit_points = 0;
     const radiosity::Outcome outcome = radiosity::solve(scene, options);

@@ -80,7 +80,7 @@ struct RunToSplit {
   }
   radiosity::LinkSplits split() {
     return radiosity::split_links_by_light(run.scene, {run.refined, run.solution.links, doubts, run.evaluated},
-                                           {run.solution.audit.light_epsilon, run.solution.audit.min_area});
+                                           {run.solution.audit.epsilon, run.solution.audit.light_epsilon, run.solution.audit.min_area});
   }
   bool same_links() const {
     bool same = links.size() == run.solution.links.size();

@@ -24,8 +24,8 @@ namespace {
 
 radiosity::Options coarse(double mesh_error) {
   radiosity::Options options;
-  options.epsilon = 0.05;
-  options.min_area = 2e-3;
+  options.epsilon = 0.08;
+  options.min_area = 5e-3;
   options.audit_points = 0;
   options.threads = 1;
   options.mesh_error = mesh_error;
