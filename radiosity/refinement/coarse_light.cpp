@@ -16,11 +16,11 @@ namespace radiosity {
 
 namespace detail {
 
-[[nodiscard]] HALFLIGHT_INLINE std::vector<double> mean_of_channels(const std::vector<Color>& colors) {
-  std::vector<double> means;
-  means.reserve(colors.size());
-  for (const Color& c : colors) { means.push_back((c.x + c.y + c.z) / 3.0); }
-  return means;
+[[nodiscard]] HALFLIGHT_INLINE std::vector<double> brightest_channels(const std::vector<Color>& colors) {
+  std::vector<double> values;
+  values.reserve(colors.size());
+  for (const Color& c : colors) { values.push_back(brightest(c)); }
+  return values;
 }
 
 // Area averages of inner nodes, from the values of the leaves.
@@ -39,8 +39,8 @@ HALFLIGHT_INLINE void average_up(const Hierarchy& hierarchy, const std::vector<d
 HALFLIGHT_INLINE CoarseLight coarse_light(const DiscreteScene& scene, const Links& links, std::uint32_t reflections) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const std::vector<double>& area = scene.exposure.area;
-  const std::vector<double> emission = detail::mean_of_channels(scene.emission);
-  CoarseLight light{std::vector<double>(hierarchy.size(), 0.0), detail::mean_of_channels(scene.reflectance)};
+  const std::vector<double> emission = detail::brightest_channels(scene.emission);
+  CoarseLight light{std::vector<double>(hierarchy.size(), 0.0), detail::brightest_channels(scene.reflectance)};
   std::vector<double>& radiosity = light.radiosity;
   for (std::size_t i = 0; i < hierarchy.size(); ++i) { radiosity[i] = hierarchy[i].leaf() ? emission[hierarchy[i].surface] : 0.0; }
   std::vector<double> arrived(hierarchy.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A coarse solution over evaluated links, to judge by where light matters: grey (the mean of the channels), every link as if it were even
+// A coarse solution over evaluated links, to judge by where light matters: grey (the brightest channel), every link as if it were even
 // over both its ends, clusters as if they were diffuse, and no light that was reflected more than a few times. One pass over the links a
 // reflection, so it costs some per cent of what their evaluation does.
 
