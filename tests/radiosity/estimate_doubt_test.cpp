@@ -156,7 +156,7 @@ TEST_CASE("light through a hole of any size: the estimate is no less than a thir
   CHECK(doubted > 0);
 }
 
-TEST_CASE("an estimate that comes from a sample of the links is the same with every seed, within a third: a box with random holes") {
+TEST_CASE("an estimate from a sample of the links is the same with every seed, within a third, for a box with random holes") {
   // Cylinders cut each other and the sides of the box: thin patches, many of which touch at an edge under a sharp angle.
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
