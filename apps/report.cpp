@@ -57,8 +57,9 @@ class Text {
     row("leaf constants", error_text(audit_.leaf_error));
     const auto& surfaces = audit_.surface_error ? audit_.surface_error : audit_.leaf_error;
     if ((surfaces && wide(*surfaces)) || (audit_.picture_error && wide(audit_.picture_error->error))) {
-      row("", "wide: an audit takes no longer than the solution, or " + grouped(radiosity::rays_a_point * report_.options.audit_points) +
-                  " plain rays; --audit " + std::to_string(4 * std::uint64_t{report_.options.audit_points}) + " allows four times as many");
+      row("", "wide: an audit takes at most twice what the solution was worth, or " +
+                  grouped(2 * std::uint64_t{radiosity::rays_a_point} * report_.options.audit_points) + " plain rays; --audit " +
+                  std::to_string(4 * std::uint64_t{report_.options.audit_points}) + " allows four times as many");
     }
     if (audit_.mesh) { mesh(*audit_.mesh); }
     if (audit_.estimated_error) {

@@ -14,16 +14,55 @@ namespace radiosity {
 
 namespace detail {
 
-// The number of points that shows what the goal asks for, by what a pilot of `few` points saw, of which `met` count. It gives the standard
-// error of the mean that is needed. The pilot's own doubt stands in for an error that it hides; an error below `negligible` need not be
-// known.
-[[nodiscard]] HALFLIGHT_INLINE double points_needed(const AuditGoal& goal, const ErrorSums::Moments& seen, double few, double met) {
-  constexpr double negligible = 0.005;
+// The standard error of the mean that shows what the goal asks for, by what a pilot saw in which `met` points count. The pilot's own doubt
+// stands in for an error that it hides; an error below `negligible` need not be known.
+[[nodiscard]] HALFLIGHT_INLINE double standard_error_needed(const AuditGoal& goal, const ErrorSums::Moments& seen, double met) {
+  constexpr double negligible = 0.005, reserve = 1.1;  // a pilot sees the variance mostly too small
   const double target = goal.wanted ? *goal.wanted * *goal.wanted : 0.0;
   const double doubt = std::sqrt(seen.variance / met);
-  const double off = goal.wanted ? std::max(std::abs(target - seen.ratio), 0.1 * target) / 2.5
-                                 : std::max(0.25 * std::max(seen.ratio, doubt), 0.5 * negligible * negligible);
-  return 1.2 * seen.variance / (off * off) * few / met;  // with those that see none
+  return (goal.wanted ? std::max(std::abs(target - seen.ratio), 0.1 * target) / 2.5
+                      : std::max(0.25 * std::max(seen.ratio, doubt), 0.5 * negligible * negligible)) /
+         reserve;
+}
+
+// What a pilot tells of more paths at each point, or fewer. The noise is that of a product of two estimates, so its variance falls at least
+// with the square of their number. What is left is what the points themselves differ by; a pilot that sees nothing but noise does not know
+// it, so a tenth is kept for it.
+struct PathModel {
+  double variance = 0.0, noise_share = 0.0;  // of one point (ErrorSums::Moments)
+  double rays = 0.0;                         // a point
+  std::uint32_t paths = 4;                   // of the pilot
+
+  [[nodiscard]] double variance_at(std::uint32_t of) const {
+    const double fewer = static_cast<double>(paths) / of, noise = std::clamp(noise_share, 1.0 / 32.0, 0.9);
+    return variance * (1.0 - noise + noise * fewer * fewer);
+  }
+  [[nodiscard]] double rays_at(std::uint32_t of) const { return rays * of / paths; }
+};
+
+// The points and paths that give the standard error `off` for the least rays, or the least one for `left` rays. At least `fewest` points,
+// of which the share `met` sees light, and as many as `anyhow` rays pay for.
+[[nodiscard]] HALFLIGHT_INLINE Effort best_effort(const PathModel& model, double off, double met, double fewest, double anyhow,
+                                                  double left) {
+  constexpr std::uint32_t least = 4, most_more = 8;
+  Effort best;
+  double best_variance = 0.0, best_rays = 0.0;
+  // Down to a quarter of the paths where there is next to no noise, or where the rays do not go further.
+  std::uint32_t first = model.noise_share < 1.0 / 32.0 ? std::max(least, model.paths / 4) : model.paths;
+  while (first > least && fewest * model.rays_at(first) > left) { first /= 4; }
+  first = std::max(first, least);
+  for (std::uint32_t paths = first; paths <= most_more * model.paths; paths *= 2) {
+    const double rays = model.rays_at(paths), most = std::max(fewest, left / rays);
+    if (paths > first && fewest * rays > left) { break; }
+    const double enough = std::clamp(model.variance_at(paths) / (off * off * met), std::max(fewest, std::min(most, anyhow / rays)), most);
+    const double variance = std::max(off * off, model.variance_at(paths) / (enough * met));
+    const bool better = variance < 0.99 * best_variance || (variance < 1.01 * best_variance && enough * rays < best_rays);
+    if (paths > first && !better) { continue; }
+    best = {static_cast<std::uint64_t>(enough), paths, false};
+    best_variance = variance;
+    best_rays = enough * rays;
+  }
+  return best;
 }
 
 HALFLIGHT_INLINE Effort next_effort(const AuditGoal& goal, std::uint64_t least, const Effort& pilot, const ErrorSums& sums,
@@ -42,7 +81,8 @@ HALFLIGHT_INLINE Effort next_effort(const AuditGoal& goal, std::uint64_t least, 
   if (goal.wanted && seen->ratio - 4.0 * std::sqrt(seen->variance / met) > target) {  // too large, whatever the noise
     return {pilot.points, pilot.paths, false};
   }
-  const double needed = points_needed(goal, *seen, few, met);
+  const double off = standard_error_needed(goal, *seen, met);
+  const double needed = seen->variance / (off * off) * few / met;
   const std::uint64_t rays = goal.wanted && seen->ratio <= target ? std::max(goal.rays, goal.rays_to_show) : goal.rays;
   // The noise of the paths falls with the square of their number, so more paths at fewer points pay until it is half of the variance.
   // From few points its share is mostly seen too small. Where the least number of points shows the target, they may cost no more than
@@ -54,15 +94,30 @@ HALFLIGHT_INLINE Effort next_effort(const AuditGoal& goal, std::uint64_t least, 
   if (seen->noise_share > 0.2 && affordable(needed > static_cast<double>(least) ? rays : goal.rays)) {
     return {pilot.points, 4 * pilot.paths};
   }
-  std::uint32_t paths = pilot.paths;
-  if (seen->noise_share < 1.0 / 32.0 && paths > 4) { paths /= 4; }
-  const double rays_a_point = own / few, left = std::max(0.0, static_cast<double>(rays) - used);
-  const double most = std::max(static_cast<double>(least), left / rays_a_point);
-  for (double taken = fewest * rays_a_point; paths > 4 && taken > left; taken /= 4.0) { paths /= 4; }
   // A pilot in which a few points outshine all others knows little of either mean.
   const bool uneven = seen->equal_points < std::min(16.0, met / 4.0);
-  const double anyhow = uneven ? most : std::min(most, static_cast<double>(goal.rays_anyhow) / rays_a_point);
-  return {static_cast<std::uint64_t>(std::clamp(needed, std::max(fewest, anyhow), std::max(fewest, most))), paths, false};
+  const double left = std::max(0.0, static_cast<double>(rays) - used);
+  return best_effort({seen->variance, seen->noise_share, own / few, pilot.paths}, off, met / few, fewest,
+                     uneven ? left : static_cast<double>(goal.rays_anyhow), left);
+}
+
+HALFLIGHT_INLINE std::optional<Effort> effort_to_narrow(const AuditGoal& goal, const Effort& wide, const ErrorSums& sums,
+                                                        std::uint64_t rays) {
+  const std::optional<ErrorSums::Moments> seen = sums.moments();
+  const std::optional<ErrorEstimate> error = sums.estimate();
+  if (!seen || !error || !is_wide(*error) || !(seen->variance > 0.0)) { return std::nullopt; }
+  const auto points = static_cast<double>(wide.points), met = static_cast<double>(sums.square.size());
+  const PathModel model{seen->variance, std::max(seen->noise_share, 1.0 / 32.0), static_cast<double>(rays) / points, wide.paths};
+  // A standard error of half of the mean square makes the interval as wide as its root; some less leaves room for chance.
+  constexpr double narrow = 0.25;
+  const double doubt = std::sqrt(seen->variance / met);
+  const double most = std::max(seen->ratio, 0.0) + doubt;
+  const double left = static_cast<double>(goal.rays_if_wide);
+  const Effort then = best_effort(model, narrow * std::max(seen->ratio, doubt), met / points, points / 2.0, 0.0, left);
+  const double reached = std::sqrt(model.variance_at(then.paths) * points / (static_cast<double>(then.points) * met));
+  const bool pays =
+      reached < 0.5 * most && reached < 0.8 * doubt && static_cast<double>(then.points) * model.rays_at(then.paths) <= 1.01 * left;
+  return pays ? std::optional{then} : std::nullopt;
 }
 
 }  // namespace detail

@@ -7,11 +7,15 @@
 //
 // What an audit may cost is counted in rays, not in seconds, so that results are the same on any machine. Its unit is a ray of a path among
 // few polygons, about a microsecond; where rays are dearer there are fewer of them (raycast::Scene). Pilots are part of it:
-//   an audit without a target    as much as the solution was worth, or 1500 rays a point where that is more
+//   an audit without a target    as much as the solution was worth, or 1500 rays a point where that is more; as much again where the interval
+//                                comes out wider than the error itself, and would become narrow by that
 //   of a round to a target       as much as the solution of the round was worth
 //   that is to show the target   twice as much, or rays_that_show where that is more; only when its pilot finds the target met
 // What a point costs is known from the pilot alone: where few points see light, to a quarter. Beyond that goes only the least that gives an
 // interval: a quarter of the points, with four paths for each of two estimates.
+//
+// Where the interval came out too wide, that audit becomes the pilot of another one, and is reported no more: both together would lean to
+// the side that made the first one wide.
 
 #include <algorithm>
 #include <cmath>
@@ -30,12 +34,13 @@ struct AuditGoal {
   std::optional<double> wanted{};   // relative L2 that is to be shown, or shown to be missed; else the error is to be known to a quarter
   std::uint64_t rays_to_show = 0;   // at most when the pilot finds the error to be what is wanted: that is then all that is left to do
   std::uint64_t rays_anyhow = 0;    // at least: a pilot may have met the few points that matter by chance, or missed them
+  std::uint64_t rays_if_wide = 0;   // at most, more than all that, when the interval comes out wider than the error that it is of
   std::uint64_t rays_to_steer = 0;  // at most, for what decides how to refine further: it must not depend on what is wanted
 
   // The same where a ray costs `work` times as much (raycast::Scene::ray_work).
   [[nodiscard]] AuditGoal among_rays_of(double work) const {
     const auto fewer = [work](std::uint64_t count) { return static_cast<std::uint64_t>(static_cast<double>(count) / work); };
-    return {points, fewer(rays), wanted, fewer(rays_to_show), fewer(rays_anyhow), fewer(rays_to_steer)};
+    return {points, fewer(rays), wanted, fewer(rays_to_show), fewer(rays_anyhow), fewer(rays_if_wide), fewer(rays_to_steer)};
   }
 };
 
@@ -57,7 +62,8 @@ inline constexpr std::uint64_t rays_a_point = 1500;
 // For an audit without a target: as long as the solution took, or so many rays a point.
 [[nodiscard]] inline AuditGoal goal_to_know(const Audit& audit, std::uint32_t points) {
   const std::uint64_t worth = rays_worth(audit);
-  return {points, std::max<std::uint64_t>(worth, rays_a_point * points), {}, 0, worth / 2};
+  const std::uint64_t rays = std::max<std::uint64_t>(worth, rays_a_point * points);
+  return {points, rays, {}, 0, worth / 2, rays};
 }
 
 // For the audit of a round to a target. A quarter is left for what steers the next round.
@@ -83,6 +89,15 @@ struct Effort {
 [[nodiscard]] Effort next_effort(const AuditGoal& goal, std::uint64_t least, const Effort& pilot, const ErrorSums& seen, std::uint64_t rays,
                                  std::uint64_t spent);
 
+// Is the interval of the error wider than the error itself, or is the error lost in the noise?
+[[nodiscard]] inline bool is_wide(const ErrorEstimate& error) {
+  return error.high > 0.0 && (error.low <= 0.0 || error.high - error.low > error.relative_l2);
+}
+
+// What makes the interval of an audit narrow, for AuditGoal::rays_if_wide at most; nothing when it is narrow, or would hardly become so.
+// `rays`: of that audit.
+[[nodiscard]] std::optional<Effort> effort_to_narrow(const AuditGoal& goal, const Effort& audit, const ErrorSums& sums, std::uint64_t rays);
+
 }  // namespace detail
 
 // `measure(points, paths, result)` adds that many fresh points to the result and returns false when it was cancelled; a Measured has
@@ -100,7 +115,12 @@ template <class Measured>
     spent += pilot.rays;
     effort = detail::next_effort(goal, least, effort, sums(pilot), pilot.rays, spent);
   }
-  return !effort.light || measure(effort.points, effort.paths, result);
+  if (!effort.light) { return true; }
+  if (!measure(effort.points, effort.paths, result)) { return false; }
+  const std::optional<detail::Effort> further = detail::effort_to_narrow(goal, effort, sums(result), result.rays);
+  if (!further) { return true; }
+  result = {};
+  return measure(further->points, further->paths, result);
 }
 
 }  // namespace radiosity

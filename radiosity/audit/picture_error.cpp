@@ -217,23 +217,24 @@ HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const ShownPic
   const std::optional<Color> emits = emitted(picture, sample.x, sample.y, sample.rays);
   if (!emits) { return sample; }
   bool edge = false;  // of a lamp
-  const TwoEstimates light{seed, key, paths, [&](PathNumbers& numbers) -> PathTracer::Light {
-                             const double u = numbers.uniform();
-                             const auto at = seen(picture, sample.x + u, sample.y + numbers.uniform(), sample.rays);
-                             edge = edge || (at ? emission(*at) : Color{0.0}) != *emits;
-                             if (!at) { return {}; }
-                             return tracer_.radiosity(at->point.position, at->point.normal, at->object, at->sheet, numbers, sample.rays);
-                           }};
+  const PathEstimates light{seed, key, paths, [&](PathNumbers& numbers) -> PathTracer::Light {
+                              const double u = numbers.uniform();
+                              const auto at = seen(picture, sample.x + u, sample.y + numbers.uniform(), sample.rays);
+                              edge = edge || (at ? emission(*at) : Color{0.0}) != *emits;
+                              if (!at) { return {}; }
+                              return tracer_.radiosity(at->point.position, at->point.normal, at->object, at->sheet, numbers, sample.rays);
+                            }};
   if (edge) { return sample; }
   const Color shown = unit_.to_unit(picture.radiosity(sample.x, sample.y));
   const auto level = [&](double b) { return picture.level(unit_.to_watts(Color{b}).x); };
-  sample.square = glm::dot(light.all[0] - shown, light.all[1] - shown);
-  sample.reference = glm::dot(light.all[0] - *emits, light.all[1] - *emits);
+  sample.square = light.square_off(shown);
+  sample.reference = light.square_off(*emits);
   sample.noise = light.noise();
+  const Color halves[2] = {light.half(0), light.half(1)};
   for (int c = 0; c < 3; ++c) {
-    const double off = level(0.5 * (light.all[0][c] + light.all[1][c])) - level(shown[c]);
+    const double off = level(0.5 * (halves[0][c] + halves[1][c])) - level(shown[c]);
     sample.levels = std::max(sample.levels, std::abs(off));
-    const double one = level(light.all[0][c]) - level(shown[c]), other = level(light.all[1][c]) - level(shown[c]);
+    const double one = level(halves[0][c]) - level(shown[c]), other = level(halves[1][c]) - level(shown[c]);
     sample.most_levels = std::max({sample.most_levels, std::abs(one), std::abs(other)});
     if (one * other > 0.0) { sample.least_levels = std::max(sample.least_levels, std::min(std::abs(one), std::abs(other))); }
     sample.noise_in_levels = std::max(sample.noise_in_levels, std::abs(one - other));

@@ -122,19 +122,18 @@ HALFLIGHT_INLINE SurfaceErrorMeter::Sample SurfaceErrorMeter::measure_one(std::u
   // Of a leaf that counts as exposed a corner may be buried all the same (exposure.hpp): seen from within what buries it, all is wrong.
   if (objects_->covered(point.position, point.normal, input.object)) { return sample; }
 
-  const TwoEstimates light{seed_, key, paths, [&](PathNumbers& numbers) {
-                             return tracer_->radiosity(point.position, point.normal, input.object, input.sheet, numbers, sample.rays);
-                           }};
+  const PathEstimates light{seed_, key, paths, [&](PathNumbers& numbers) {
+                              return tracer_->radiosity(point.position, point.normal, input.object, input.sheet, numbers, sample.rays);
+                            }};
   const Color& emission = tracer_->material(face.surface).emission;
   const double weight_of_point = 1.0 / (total_ * density(*triangle));
-  sample.leaf = weight_of_point * glm::dot(light.all[0] - face.radiosity, light.all[1] - face.radiosity);
-  sample.reconstructed = weight_of_point * glm::dot(light.all[0] - shown, light.all[1] - shown);
-  sample.reference = weight_of_point * glm::dot(light.all[0] - emission, light.all[1] - emission);
+  sample.leaf = weight_of_point * light.square_off(face.radiosity);
+  sample.reconstructed = weight_of_point * light.square_off(shown);
+  sample.reference = weight_of_point * light.square_off(emission);
   if (direct_ != nullptr) {
     const Color once = shown_by(*direct_);
-    sample.direct = weight_of_point * glm::dot(light.direct[0] - once, light.direct[1] - once);
-    const Color rest = shown - once;
-    sample.other = weight_of_point * glm::dot(light.all[0] - light.direct[0] - rest, light.all[1] - light.direct[1] - rest);
+    sample.direct = weight_of_point * light.direct_square_off(once);
+    sample.other = weight_of_point * light.other_square_off(shown - once);
   }
   sample.noise = weight_of_point * weight_of_point * light.noise();
   sample.valid = true;

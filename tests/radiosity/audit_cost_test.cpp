@@ -85,6 +85,8 @@ TEST_CASE("an audit takes about the rays that it may, pilots included, or the le
     if (k % 2 == 0) {
       goal.wanted = std::pow(10.0, -2.5 + 1.5 * random.uniform());
       goal.rays_to_show = 2 * goal.rays;
+    } else if (k % 4 == 1) {
+      goal.rays_if_wide = goal.rays;
     }
     const Taken taken = audited(kind, goal, seed + static_cast<std::uint64_t>(k));
     // The least: a pilot and an audit of the fewest points, with four paths for each estimate, or with 16 in the pilot where it is rich.
@@ -97,7 +99,7 @@ TEST_CASE("an audit takes about the rays that it may, pilots included, or the le
     const std::uint64_t paths = goal.rays < 256 * fewest ? 4 : 16;
     const double least =
         2.0 * static_cast<double>(fewest * kind.fixed) + 2.0 * seen(fewest) * static_cast<double>((paths + 16) * kind.rays_a_path);
-    const double most = static_cast<double>(std::max(goal.rays, goal.rays_to_show));
+    const double most = static_cast<double>(std::max(goal.rays, goal.rays_to_show) + goal.rays_if_wide);
     CAPTURE(k, kind.share, kind.off, kind.spread, kind.fixed, kind.rays_a_path, points, goal.rays, goal.rays_to_show, taken.rays, least);
     // What a point costs is known from a pilot, in which 16 points see light at least: to a quarter, so twice as much is four standard
     // errors off.
