@@ -101,23 +101,31 @@ HALFLIGHT_INLINE Effort next_effort(const AuditGoal& goal, std::uint64_t least, 
                      uneven ? left : static_cast<double>(goal.rays_anyhow), left);
 }
 
-HALFLIGHT_INLINE std::optional<Effort> effort_to_narrow(const AuditGoal& goal, const Effort& wide, const ErrorSums& sums,
-                                                        std::uint64_t rays) {
+HALFLIGHT_INLINE std::optional<Effort> further_effort(const AuditGoal& goal, const Effort& audit, const ErrorSums& sums,
+                                                      std::uint64_t rays_of_audit, std::uint64_t spent) {
   const std::optional<ErrorSums::Moments> seen = sums.moments();
   const std::optional<ErrorEstimate> error = sums.estimate();
-  if (!seen || !error || !is_wide(*error) || !(seen->variance > 0.0)) { return std::nullopt; }
-  const auto points = static_cast<double>(wide.points), met = static_cast<double>(sums.square.size());
-  const PathModel model{seen->variance, std::max(seen->noise_share, 1.0 / 32.0), static_cast<double>(rays) / points, wide.paths};
-  // A standard error of half of the mean square makes the interval as wide as its root; some less leaves room for chance.
-  constexpr double narrow = 0.25;
-  const double doubt = std::sqrt(seen->variance / met);
-  const double most = std::max(seen->ratio, 0.0) + doubt;
-  const double left = static_cast<double>(goal.rays_if_wide);
-  const Effort then = best_effort(model, narrow * std::max(seen->ratio, doubt), met / points, points / 2.0, 0.0, left);
+  if (!seen || !error || !(seen->variance > 0.0)) { return std::nullopt; }
+  const auto points = static_cast<double>(audit.points), met = static_cast<double>(sums.square.size());
+  const double doubt = std::sqrt(seen->variance / met), target = goal.wanted ? *goal.wanted * *goal.wanted : 0.0;
+  // A standard error of half of the mean square makes the interval as wide as its root; some less leaves room for chance. So it does for
+  // a target: the interval ends two standard errors above the mean.
+  double off = 0.25 * std::max(seen->ratio, doubt), most = 0.5 * (std::max(seen->ratio, 0.0) + doubt);
+  auto left = static_cast<double>(goal.rays_if_wide);
+  if (goal.wanted) {
+    if (error->within(*goal.wanted) || seen->ratio > target) { return std::nullopt; }
+    left = static_cast<double>(std::max(goal.rays, goal.rays_to_show)) - static_cast<double>(spent);
+    off = (target - std::max(seen->ratio, 0.0)) / 3.0;
+    most = (target - std::max(seen->ratio, 0.0)) / 2.0;
+  } else if (!is_wide(*error)) {
+    return std::nullopt;
+  }
+  if (!(left > 0.0) || !(off > 0.0)) { return std::nullopt; }
+  const PathModel model{seen->variance, std::max(seen->noise_share, 1.0 / 32.0), static_cast<double>(rays_of_audit) / points, audit.paths};
+  const Effort then = best_effort(model, off, met / points, points / 2.0, 0.0, left);
   const double reached = std::sqrt(model.variance_at(then.paths) * points / (static_cast<double>(then.points) * met));
-  const bool pays =
-      reached < 0.5 * most && reached < 0.8 * doubt && static_cast<double>(then.points) * model.rays_at(then.paths) <= 1.01 * left;
-  return pays ? std::optional{then} : std::nullopt;
+  const bool fits = static_cast<double>(then.points) * model.rays_at(then.paths) <= 1.01 * left;
+  return fits && reached < most && reached < 0.8 * doubt ? std::optional{then} : std::nullopt;
 }
 
 }  // namespace detail

@@ -14,8 +14,8 @@
 // What a point costs is known from the pilot alone: where few points see light, to a quarter. Beyond that goes only the least that gives an
 // interval: a quarter of the points, with four paths for each of two estimates.
 //
-// Where the interval came out too wide, that audit becomes the pilot of another one, and is reported no more: both together would lean to
-// the side that made the first one wide.
+// Where the interval came out too wide, or leaves open a target that seems to be met, that audit becomes the pilot of another one, and is
+// reported no more: both together would lean to the side that made the first one so.
 
 #include <algorithm>
 #include <cmath>
@@ -94,9 +94,11 @@ struct Effort {
   return error.high > 0.0 && (error.low <= 0.0 || error.high - error.low > error.relative_l2);
 }
 
-// What makes the interval of an audit narrow, for AuditGoal::rays_if_wide at most; nothing when it is narrow, or would hardly become so.
-// `rays`: of that audit.
-[[nodiscard]] std::optional<Effort> effort_to_narrow(const AuditGoal& goal, const Effort& audit, const ErrorSums& sums, std::uint64_t rays);
+// What makes the interval of an audit narrow, for AuditGoal::rays_if_wide at most; or shows a target that the audit found met but did not
+// show, for what is left of rays and rays_to_show. Nothing where the audit does as it is, or where that would hardly be reached.
+// `rays`: of that audit; `spent`: with all pilots.
+[[nodiscard]] std::optional<Effort> further_effort(const AuditGoal& goal, const Effort& audit, const ErrorSums& sums, std::uint64_t rays,
+                                                   std::uint64_t spent);
 
 }  // namespace detail
 
@@ -109,7 +111,8 @@ template <class Measured>
   constexpr std::uint64_t rays_a_path = 8;  // about
   const std::uint64_t least = std::max<std::uint64_t>(goal.wanted ? 250 : 16, goal.points / 4);
   detail::Effort effort{std::clamp<std::uint64_t>(goal.points / 8, 16, 512), goal.rays < 2 * 16 * rays_a_path * least ? 4u : 16u};
-  for (std::uint64_t spent = 0; effort.pilot;) {
+  std::uint64_t spent = 0;
+  while (effort.pilot) {
     Measured pilot;
     if (!measure(effort.points, effort.paths, pilot)) { return false; }
     spent += pilot.rays;
@@ -117,7 +120,7 @@ template <class Measured>
   }
   if (!effort.light) { return true; }
   if (!measure(effort.points, effort.paths, result)) { return false; }
-  const std::optional<detail::Effort> further = detail::effort_to_narrow(goal, effort, sums(result), result.rays);
+  const std::optional<detail::Effort> further = detail::further_effort(goal, effort, sums(result), result.rays, spent + result.rays);
   if (!further) { return true; }
   result = {};
   return measure(further->points, further->paths, result);
