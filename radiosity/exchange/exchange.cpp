@@ -14,14 +14,14 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include <brep/small_list.hpp>
-
 #include <raycast/inline.hpp>
 
 #include <radiosity/exchange/edge_pair.hpp>
+#include <radiosity/exchange/kernel_sums.hpp>
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/bend.hpp>
 #include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/support/instruction_sets.hpp>
 
 namespace radiosity {
 
@@ -60,15 +60,19 @@ HALFLIGHT_INLINE double contour_exchange(std::span<const glm::dvec3> p, std::spa
 }
 
 // Far rule: sum over both rules of weight weight cos cos / (pi r^2).
-[[nodiscard]] HALFLIGHT_INLINE double kernel_exchange(std::span<const QuadraturePoint> p, const glm::dvec3& n,
-                                                      std::span<const QuadraturePoint> q, const glm::dvec3& m) {
-  double sum = 0.0;
-  for (const QuadraturePoint& a : p) {
+[[nodiscard]] HALFLIGHT_INLINE double kernel_exchange(const Patch& p, std::span<const QuadraturePoint> rule_p, const Patch& q,
+                                                      std::span<const QuadraturePoint> rule_q) {
+  if (KernelPoints::fits(rule_p) && KernelPoints::fits(rule_q)) {
+    const double sum = sum_of_kernel({p.normal, rule_p}, {q.normal, rule_q}, instruction_set());
+    return std::max(0.0, sum / std::numbers::pi);
+  }
+  double sum = 0.0;  // of faces with many corners
+  for (const QuadraturePoint& a : rule_p) {
     double row = 0.0;
-    for (const QuadraturePoint& b : q) {
+    for (const QuadraturePoint& b : rule_q) {
       const glm::dvec3 d = b.position - a.position;
       const double r2 = glm::dot(d, d);
-      row += b.weight * glm::dot(n, d) * -glm::dot(m, d) / (r2 * r2);
+      row += b.weight * glm::dot(p.normal, d) * -glm::dot(q.normal, d) / (r2 * r2);
     }
     sum += a.weight * row;
   }
@@ -102,8 +106,7 @@ HALFLIGHT_INLINE int above_horizon(const Patch& p, const Patch& q, double share)
 namespace detail {
 
 // From the light at the Gauss points of a patch (the weight included). Without light: none.
-template <std::size_t N>
-[[nodiscard]] Variation variation(const Patch& patch, const brep::SmallList<double, N>& light) {
+[[nodiscard]] HALFLIGHT_INLINE Variation variation(const Patch& patch, std::span<const double> light) {
   Variation result;
   double sum = 0.0;
   double square = 0.0;
@@ -125,18 +128,12 @@ template <std::size_t N>
   return result;
 }
 
-}  // namespace detail
-
-HALFLIGHT_INLINE Variations variations(const Patch& p, const Patch& q) {
-  brep::SmallList<double, 36> light_p;
-  brep::SmallList<double, 36> light_q;
-  brep::SmallList<glm::dvec3, 36> normal_q;
-  for (std::size_t j = 0; j < q.rule3.size(); ++j) {
-    light_q.push_back(0.0);
-    normal_q.push_back(normal_over(q, q.rule3[j].position));
-  }
+// The light of the kernel at the Gauss points of both patches, in vectors of any length.
+[[nodiscard]] HALFLIGHT_INLINE Variations variations_of_many(const Patch& p, const Patch& q, double& square) {
+  std::vector<double> light_p, light_q(q.rule3.size(), 0.0);
+  std::vector<glm::dvec3> normal_q;
+  for (const QuadraturePoint& b : q.rule3) { normal_q.push_back(normal_over(q, b.position)); }
   double sum = 0.0;
-  double square = 0.0;
   for (const QuadraturePoint& a : p.rule3) {
     const glm::dvec3 normal_p = normal_over(p, a.position);
     double row = 0.0;
@@ -154,7 +151,26 @@ HALFLIGHT_INLINE Variations variations(const Patch& p, const Patch& q) {
     light_p.push_back(row);
     sum += row;
   }
-  Variations result{detail::variation(p, light_p), detail::variation(q, light_q), 0.0, sum / std::numbers::pi};
+  return {variation(p, light_p), variation(q, light_q), 0.0, sum};
+}
+
+// Without limits; `light` still times pi. `square`: of the kernel, with the weights of both points.
+[[nodiscard]] HALFLIGHT_INLINE Variations variations_of_kernel(const Patch& p, const Patch& q, double& square) {
+  square = 0.0;
+  if (!KernelPoints::fits(p.rule3) || !KernelPoints::fits(q.rule3)) { return variations_of_many(p, q, square); }
+  KernelLight light;
+  light_of_kernel({p, p.rule3}, {q, q.rule3}, light, instruction_set());
+  square = light.square;
+  return {variation(p, {light.on_p, p.rule3.size()}), variation(q, {light.on_q, q.rule3.size()}), 0.0, light.total};
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE Variations variations(const Patch& p, const Patch& q) {
+  double square = 0.0;
+  Variations result = detail::variations_of_kernel(p, q, square);
+  const double sum = result.light;
+  result.light = sum / std::numbers::pi;
   const auto variance = [](const Variation& v) { return v.linear * v.linear + v.rest * v.rest; };
   if (sum > 0.0) {
     const double all = square * p.area * q.area / (sum * sum) - 1.0;
@@ -213,9 +229,9 @@ HALFLIGHT_INLINE Patch above(const Patch& patch, const Patch& other) {
   const double distance = glm::length(q.centre - p.centre);
   const double extent = p.radius + q.radius;
   // Round ratios would be met as equalities by the patches of regular meshes, and rounding would choose the rule.
-  if (extent < 0.0997 * distance) { return kernel_exchange(p.rule2, p.normal, q.rule2, q.normal); }
-  if (extent < 0.3493 * distance) { return kernel_exchange(p.rule3, p.normal, q.rule3, q.normal); }
-  if (extent < 0.6491 * distance) { return kernel_exchange(p.rule4, p.normal, q.rule4, q.normal); }
+  if (extent < 0.0997 * distance) { return kernel_exchange(p, p.rule2, q, q.rule2); }
+  if (extent < 0.3493 * distance) { return kernel_exchange(p, p.rule3, q, q.rule3); }
+  if (extent < 0.6491 * distance) { return kernel_exchange(p, p.rule4, q, q.rule4); }
   // Against a patch a thousand times its size a patch is hardly more than a point, and the difference of both contours cancels.
   if (p.radius < 0.997e-3 * q.radius) { return point_exchange(p, q); }
   if (q.radius < 0.997e-3 * p.radius) { return point_exchange(q, p); }

@@ -28,6 +28,12 @@ class Random {
 
   [[nodiscard]] constexpr std::uint64_t bits() { return scramble(state_++); }
 
+  // The next `count` numbers are drawn elsewhere: bits() of them are scramble(s), scramble(s + 1), ... of the s that this returns.
+  [[nodiscard]] constexpr std::uint64_t pass(std::uint64_t count) {
+    state_ += count;
+    return state_ - count;
+  }
+
   // Uniform in [0, 1), 53 bits.
   [[nodiscard]] constexpr double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 

@@ -7,10 +7,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+#include <brep/small_list.hpp>
 
 #include <raycast/bundle.hpp>
 #include <raycast/compiled.hpp>
@@ -20,8 +25,10 @@
 
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/support/instruction_sets.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/scene_view.hpp>
+#include <radiosity/visibility/segment_samples.hpp>
 
 namespace radiosity {
 
@@ -139,6 +146,71 @@ class CellCounts {
   return scene.objects.occluded16(segment, list, last_occluder) == 0;
 }
 
+// Draws the segments of a round.
+class Rounds {
+ public:
+  Rounds(const PatchEnd& p, const PatchEnd& q) : p_{p}, q_{q}, softening_{0.01 * std::min(p.patch->area, q.patch->area)} {
+    for (std::uint32_t i = 0; i < segments_per_round; ++i) {
+      drawn_.segments.source[i] = p.object, drawn_.segments.target[i] = q.object;
+      drawn_.segments.source_sheet[i] = p.sheet, drawn_.segments.target_sheet[i] = q.sheet;
+    }
+    if (whole(p) && whole(q)) { pieces_.emplace(detail::SamplePieces{*p.patch}, detail::SamplePieces{*q.patch}); }
+  }
+
+  [[nodiscard]] const detail::SampledSegments& draw(Random& random, std::uint32_t shift) {
+    raycast::Segments16& segments = drawn_.segments;
+    if (pieces_) {
+      detail::draw_segments(pieces_->first, pieces_->second, random.pass(detail::numbers_per_round), shift, softening_, drawn_,
+                            detail::instruction_set());
+    }
+    std::uint32_t lanes = 0;  // that may carry light
+    for (std::uint32_t i = 0; i < segments_per_round; ++i) {
+      if (!pieces_) { draw(random, i, detail::opposite_cell(i, shift)); }
+      lanes |= drawn_.weight[i] > 0.0 ? 1u << i : 0u;
+    }
+    segments.lanes = lanes;
+    return drawn_;
+  }
+
+ private:
+  [[nodiscard]] static bool whole(const PatchEnd& end) { return end.exposed == nullptr && detail::SamplePieces::fits(*end.patch); }
+
+  void draw(Random& random, std::uint32_t i, std::uint32_t opposite) {
+    const glm::dvec3 x = draw_exposed(p_, i, random);
+    const glm::dvec3 y = draw_exposed(q_, opposite, random);
+    const glm::dvec3 d = y - x;
+    const double r2 = glm::dot(d, d) + softening_;
+    drawn_.weight[i] = std::max(0.0, glm::dot(p_.patch->normal, d)) * std::max(0.0, -glm::dot(q_.patch->normal, d)) / (r2 * r2);
+    drawn_.segments.set(i, {x, d}, p_.object, q_.object, p_.sheet, q_.sheet);
+  }
+
+  PatchEnd p_, q_;
+  double softening_;  // bounds the weight of touching points
+  std::optional<std::pair<detail::SamplePieces, detail::SamplePieces>> pieces_;
+  detail::SampledSegments drawn_;
+};
+
+// What became of the segments of a round, one bit each.
+struct RoundSeen {
+  std::uint32_t cast = 0, occluded = 0, shift = 0;
+};
+
+// The spreads over both ends.
+HALFLIGHT_INLINE void set_spreads(std::span<const RoundSeen> rounds, VisibilityEstimate& estimate) {
+  CellCounts cells_p;
+  CellCounts cells_q;
+  for (const RoundSeen& round : rounds) {
+    for (std::uint32_t i = 0; i < segments_per_round; ++i) {
+      if ((round.cast >> i & 1u) == 0) { continue; }
+      const bool arrives = (round.occluded >> i & 1u) == 0;
+      cells_p.add(i, arrives);
+      cells_q.add(detail::opposite_cell(i, round.shift), arrives);
+    }
+  }
+  estimate.spread_p = cells_p.spread();
+  estimate.spread_q = cells_q.spread();
+}
+
 HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p,
                                                const PatchEnd& q, std::uint32_t rounds, Random random, std::vector<CastSegment>* seen) {
   VisibilityEstimate estimate;
@@ -148,45 +220,31 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const ray
     return estimate;
   }
   const raycast::OccluderList known = scene.plan.shortcuts ? list : raycast::OccluderList{};
-  const double softening = 0.01 * std::min(p.patch->area, q.patch->area);  // bounds the weight of touching points
   double total = 0.0;
   double arrived = 0.0;
-  std::uint32_t clear = 0;
   std::uint32_t blocked = 0;
-  CellCounts cells_p;
-  CellCounts cells_q;
+  brep::SmallList<RoundSeen, 16> rounds_seen;
   std::uint32_t last_occluder = raycast::no_shape;
-  const auto opposite = [](std::uint32_t cell, std::uint32_t shift) { return (cell * 5u ^ shift) & 15u; };
+  Rounds source{p, q};
   for (std::uint32_t round = 0; round < rounds; ++round) {
     const auto shift = static_cast<std::uint32_t>(random.bits() & 15u);
-    raycast::Segments16 segments;
-    std::array<double, segments_per_round> weights{};
+    const auto& [segments, weights] = source.draw(random, shift);
+    const std::uint32_t cast = segments.lanes;
+    const std::uint32_t occluded = scene.objects.occluded16(segments, known, last_occluder) & cast;
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
-      const glm::dvec3 x = draw_exposed(p, i, random);
-      const glm::dvec3 y = draw_exposed(q, opposite(i, shift), random);
-      const glm::dvec3 d = y - x;
-      const double r2 = glm::dot(d, d) + softening;
-      weights[i] = std::max(0.0, glm::dot(p.patch->normal, d)) * std::max(0.0, -glm::dot(q.patch->normal, d)) / (r2 * r2);
-      if (weights[i] > 0.0) { segments.set(i, {x, d}, p.object, q.object, p.sheet, q.sheet); }
-    }
-    const std::uint32_t occluded = scene.objects.occluded16(segments, known, last_occluder);
-    for (std::uint32_t i = 0; i < segments_per_round; ++i) {
-      if (!(weights[i] > 0.0)) { continue; }
+      if ((cast >> i & 1u) == 0) { continue; }
       const bool arrives = (occluded >> i & 1u) == 0;
       if (seen != nullptr) { seen->push_back({segments.at(i), arrives}); }
       total += weights[i];
       arrived += arrives ? weights[i] : 0.0;
-      ++estimate.rays.cast;
-      ++(arrives ? clear : blocked);
-      cells_p.add(i, arrives);
-      cells_q.add(opposite(i, shift), arrives);
     }
-    if (clear + blocked >= segments_per_round / 2 && (clear == 0 || blocked == 0)) { break; }
+    estimate.rays.cast += static_cast<std::uint64_t>(std::popcount(cast));
+    blocked += static_cast<std::uint32_t>(std::popcount(occluded));
+    rounds_seen.push_back({cast, occluded, shift});
+    const bool agree = blocked == 0 || blocked == estimate.rays.cast;
+    if (agree && estimate.rays.cast >= segments_per_round / 2) { break; }
   }
-  if (clear > 0 && blocked > 0) {
-    estimate.spread_p = cells_p.spread();
-    estimate.spread_q = cells_q.spread();
-  }
+  if (blocked > 0 && blocked < estimate.rays.cast) { set_spreads({rounds_seen.data(), rounds_seen.size()}, estimate); }
   if (total > 0.0) {
     estimate.fraction = arrived / total;
     return estimate;
