@@ -66,8 +66,9 @@ namespace detail {
 
 }  // namespace detail
 
-// G = A_p F_pq in the unit of the squared coordinates; 0 when the patches do not face each other.
-[[nodiscard]] double exchange(const Patch& p, const Patch& q);
+// G = A_p F_pq in the unit of the squared coordinates; 0 when the patches do not face each other. `known`: variations(p, q), if they are
+// known; they have summed the kernel that a far rule would sum.
+[[nodiscard]] double exchange(const Patch& p, const Patch& q, const Variations* known = nullptr);
 
 }  // namespace radiosity
 

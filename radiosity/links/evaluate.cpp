@@ -91,17 +91,19 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
     if (doubt != nullptr) { doubt->square = static_cast<float>(doubt_of_cluster_link(link, of_link)); }
     return {seen.rays, 0};
   }
-  const double unoccluded = exchange(p, q);
+  const Node& node_p = scene_.hierarchy[link.p];
+  const Node& node_q = scene_.hierarchy[link.q];
+  const bool varying = variation != nullptr || !node_p.leaf() || !node_q.leaf();
+  const Variations light_varies = varying ? variations(p, q) : Variations{};
+  const double unoccluded = exchange(p, q, varying ? &light_varies : nullptr);
   if (!(unoccluded > 0.0)) {
     // The patches face away from each other; where they are curved, parts of their surfaces may not.
-    const double light = variation != nullptr && (p.bent || q.bent) ? variations(p, q).light : 0.0;
+    const double light = variation != nullptr && (p.bent || q.bent) ? light_varies.light : 0.0;
     if (!(light > 0.0)) { return {}; }
     const VisibilityEstimate seen = visibility(scene_, list, end(link.p), end(link.q), 1, Random{seed_, key_of(link)});
     variation->sampling = static_cast<float>(seen.fraction > 0.0 ? light : missed(light, *variation, seen.rays.cast));
     return seen.rays;
   }
-  const Node& node_p = scene_.hierarchy[link.p];
-  const Node& node_q = scene_.hierarchy[link.q];
   const std::uint64_t key = key_of(link);
   const PatchEnd end_p = end(link.p);
   const PatchEnd end_q = end(link.q);
@@ -110,9 +112,7 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
   // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
   const double share = exposed_share(end_p, area_p, q) * exposed_share(end_q, area_q, p);
   link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
-  Variations light_varies;
-  if (variation != nullptr || !node_p.leaf() || !node_q.leaf()) {
-    light_varies = variations(p, q);
+  if (varying) {
     set_gradients(link, light_varies);
     if (variation != nullptr && seen.fraction > 0.0) {
       *variation = {variation_at(light_varies.p, seen.spread_p / seen.fraction),
