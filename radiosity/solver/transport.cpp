@@ -21,6 +21,7 @@
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/link_schedule.hpp>
 #include <radiosity/solver/balance.hpp>
+#include <radiosity/support/instruction_sets.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/visibility/exposure.hpp>
 
@@ -92,6 +93,10 @@ HALFLIGHT_INLINE void Transport::apply(std::size_t number, const std::vector<dou
   }
   parallel_rounds(part.round_sizes, threads_, [&](std::size_t round, std::size_t b) {
     const LinkSchedule::Block block = part.schedule.rounds()[round][b];
+    if (clusters_ == 0) {
+      carry(part.links.subspan(block.begin, block.end - block.begin), sent_, arrived_, detail::instruction_set());
+      return;
+    }
     for (std::size_t k = block.begin; k < block.end; ++k) {
       const Link& link = part.links[k];
       if (is_cluster(link.p) || is_cluster(link.q)) {
@@ -125,13 +130,6 @@ HALFLIGHT_INLINE void Transport::pull(std::size_t part, std::size_t i, const std
     own.divide(exposure_->area[i]);
   }
   sent[i] = own;
-}
-
-HALFLIGHT_INLINE void Transport::carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& gradient_from,
-                                       const glm::dvec3& gradient_to) {
-  const double exchange = static_cast<double>(link.exchange);
-  to.value += exchange * (from.value + glm::dot(gradient_from, from.slope));
-  to.slope += exchange * from.value * gradient_to;
 }
 
 HALFLIGHT_INLINE void Transport::push(std::size_t part, std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const {

@@ -27,6 +27,8 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/geometry/direction_lattice.hpp>
+#include <raycast/isa.hpp>
+
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/link_schedule.hpp>
@@ -70,6 +72,8 @@ class Transport {
   void pull(std::size_t part, std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const;
   // What one end of a link sends, added to what arrives at the other, times its area.
   static void carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& gradient_from, const glm::dvec3& gradient_to);
+  // Likewise both ways over many links between patches. The same bits with every instruction set (carry.cpp).
+  static void carry(std::span<const Link> links, const std::vector<Moments>& sent, std::vector<Moments>& arrived, raycast::Isa set);
   // Adds what arrived at node i, by the links of a part and from its parent, to its children or, for a leaf, to y. Parents first.
   void push(std::size_t part, std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const;
 
@@ -142,5 +146,6 @@ class Transport {
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/solver/carry.cpp>
 #include <radiosity/solver/transport.cpp>
 #endif

@@ -15,7 +15,9 @@
 #include <raycast/isa.hpp>
 
 #include <radiosity/exchange/kernel_sums.hpp>
+#include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/solver/transport.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/segment_samples.hpp>
 #include <radiosity/visibility/visibility.hpp>
@@ -117,6 +119,36 @@ TEST_CASE("kernel sums: every instruction set gives the same bits, those of the 
       CHECK(std::memcmp(light.on_q, first.on_q, q.rule3.size() * sizeof(double)) == 0);
       CHECK(light.total == first.total);
       CHECK(light.square == first.square);
+    }
+  }
+}
+
+TEST_CASE("links: light is carried to the same bits with every instruction set") {
+  const std::uint64_t seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 generator{seed};
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return glm::dvec3{normal(generator), normal(generator), normal(generator)}; };
+  constexpr std::uint32_t nodes = 20;
+  using Moments = radiosity::Transport::Moments;
+  std::vector<Moments> sent(nodes);
+  for (Moments& m : sent) { m = {normal(generator), vector()}; }
+  radiosity::Links links(1000);
+  for (radiosity::Link& link : links) {
+    link.p = static_cast<std::uint32_t>(generator() % nodes);
+    link.q = static_cast<std::uint32_t>(generator() % nodes);
+    link.exchange = static_cast<float>(std::abs(normal(generator)));
+    if (generator() % 2 == 0) { link.shape_p = radiosity::EndShape::of_patch(glm::vec3{vector()}); }
+    if (generator() % 2 == 0) { link.shape_q = radiosity::EndShape::of_patch(glm::vec3{vector()}); }
+  }
+  std::vector<Moments> first(nodes);
+  radiosity::Transport::carry(links, sent, first, Isa::portable);
+  for (const Isa set : sets_of_this_machine()) {
+    std::vector<Moments> arrived(nodes);
+    radiosity::Transport::carry(links, sent, arrived, set);
+    for (std::uint32_t i = 0; i < nodes; ++i) {
+      CHECK(arrived[i].value == first[i].value);
+      CHECK(arrived[i].slope == first[i].slope);
     }
   }
 }
