@@ -59,13 +59,26 @@ __attribute__((target("avx2"), always_inline)) inline void carry_one_way(double 
   _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), more));
 }
 
+// Has the link no gradient? Most have none: those between leaves.
+[[nodiscard]] inline bool is_even(const Link& link) {
+  std::uint32_t words[3];
+  static_assert(sizeof(words) == sizeof(link.shape_p) + sizeof(link.shape_q));
+  std::memcpy(words, reinterpret_cast<const char*>(&link) + offsetof(Link, shape_p), sizeof(words));
+  return (words[0] | words[1] | words[2]) == 0;
+}
+
 __attribute__((target("avx2"))) inline void carry_both_ways(std::span<const Link> links, const double* sent, double* arrived) {
   static_assert(offsetof(Link, shape_p) == 12 && offsetof(Link, shape_q) == 18);
   for (const Link& link : links) {
-    const char* const bytes = reinterpret_cast<const char*>(&link);
-    const __m256d p = one_and_gradient(bytes + offsetof(Link, shape_p) - 2), q = one_and_gradient(bytes + offsetof(Link, shape_q) - 2);
     const auto exchange = static_cast<double>(link.exchange);
     const std::size_t at_p = 4 * std::size_t{link.p}, at_q = 4 * std::size_t{link.q};
+    if (is_even(link)) {
+      arrived[at_q] += exchange * sent[at_p];
+      arrived[at_p] += exchange * sent[at_q];
+      continue;
+    }
+    const char* const bytes = reinterpret_cast<const char*>(&link);
+    const __m256d p = one_and_gradient(bytes + offsetof(Link, shape_p) - 2), q = one_and_gradient(bytes + offsetof(Link, shape_q) - 2);
     carry_one_way(exchange, _mm256_loadu_pd(sent + at_p), arrived + at_q, p, q);
     carry_one_way(exchange, _mm256_loadu_pd(sent + at_q), arrived + at_p, q, p);
   }
