@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -22,8 +21,8 @@
 #include <raycast/transform.hpp>
 
 #include "apps/intake/model.hpp"
-#include "apps/intake/texture.hpp"
 #include "apps/mesh_file/reading.hpp"
+#include "apps/vrml/looks.hpp"
 #include "apps/vrml/scene_graph.hpp"
 
 namespace apps::vrml {
@@ -123,42 +122,6 @@ class ModelMaker final : public Visitor {
   static std::string at(const Node& node) { return "at line " + std::to_string(node.place.line); }
   static glm::dvec3 point(const State& state, const glm::dvec3& p) { return glm::dvec3(state.transform * glm::dvec4(p, 1.0)); }
 
-  // Numbers of the material of this state; those beyond the last begin again with the first.
-  std::uint32_t material(const State& state, std::size_t index, bool two_sided = false) {
-    const auto count = [&](const char* field, std::size_t size) {
-      const Field* const found = state.material != nullptr ? state.material->find(field) : nullptr;
-      return found != nullptr ? found->numbers.size() / size : 0;
-    };
-    const std::size_t all = std::max({count("diffuseColor", 3), count("emissiveColor", 3), std::size_t{1}});
-    index %= all;
-    const auto [known, is_new] =
-        materials_.emplace(std::tuple(state.material, state.texture, index, two_sided), static_cast<std::uint32_t>(model.materials.size()));
-    if (!is_new) { return known->second; }
-    const auto color = [&](const char* field, const glm::dvec3& otherwise) {
-      const std::size_t n = count(field, 3);
-      if (n == 0) { return otherwise; }
-      const double* const c = &state.material->find(field)->numbers[3 * (index % n)];
-      return glm::max(glm::dvec3(c[0], c[1], c[2]), glm::dvec3(0.0));
-    };
-    ModelMaterial made;
-    made.name = state.material == nullptr      ? "default"
-                : state.material->name.empty() ? "material" + std::to_string(model.materials.size())
-                                               : state.material->name;
-    if (all > 1) { made.name += "." + std::to_string(index); }
-    const auto picture = picture_of(state.texture);
-    made.reflectance = color("diffuseColor", glm::dvec3(0.8)) * picture.value_or(glm::dvec3(1.0));
-    made.emission = std::numbers::pi * color("emissiveColor", glm::dvec3(0.0));
-    made.two_sided = two_sided;
-    if (count("transparency", 1) > 0 && state.material->number("transparency", 0.0) > 0.0) {
-      notes_.add("materials that let light through are taken as opaque", at(*state.material));
-    }
-    model.materials.push_back(std::move(made));
-    return known->second;
-  }
-
-  std::optional<radiosity::Color> picture_of(const Node* texture) {
-    return pictures_.of(texture, [&] { return texture != nullptr ? mean_of_texture(*texture, side_file_, notes_) : std::nullopt; });
-  }
   // An analytic solid; `parts`: of each of its sheets, which part of the node it is.
   template <class MadeObject>
   void add(MadeObject made, const char* kind, const std::vector<std::size_t>& parts, const Node& node, const State& state) {
@@ -169,7 +132,7 @@ class ModelMaker final : public Visitor {
     }
     const bool by_part = state.binding == Binding::per_part || state.binding == Binding::per_part_indexed;
     std::vector<std::uint32_t> materials;
-    for (const std::size_t part : parts) { materials.push_back(material(state, by_part ? part : 0)); }
+    for (const std::size_t part : parts) { materials.push_back(looks_.material(state, {by_part ? part : 0})); }
     if (!by_part) { materials.resize(1); }
     model.objects.push_back({node.name.empty() ? kind : node.name, std::move(made.object), placement, std::move(materials)});
     model.origins.push_back({kind, node.place});
@@ -225,7 +188,7 @@ class ModelMaker final : public Visitor {
     const std::uint32_t group = new_group(node);
     const auto polygon = [&](std::vector<std::uint32_t> corners, std::size_t part) {
       if (mirrored(state)) { std::reverse(corners.begin(), corners.end()); }
-      model.polygon(corners, material(state, by_part ? part : 0, true), group, node.place.line);
+      model.polygon(corners, looks_.material(state, {by_part ? part : 0}, true), group, node.place.line);
     };
     for (std::size_t i = 0; sides && i < sides_of_part; ++i) {
       const std::size_t next = (i + 1) % sides_of_part;
@@ -256,7 +219,7 @@ class ModelMaker final : public Visitor {
     const bool turn = state.clockwise != mirrored(state), two_sided = !(state.ordered && state.solid);
     std::map<std::uint32_t, std::uint32_t> vertices;  // of the file, here
     std::vector<std::uint32_t> corners;
-    std::size_t face = 0, first = 0;
+    Looks::FaceCorners of;
     for (std::size_t i = 0; i <= index.numbers.size(); ++i) {
       const double number = i < index.numbers.size() ? index.numbers[i] : -1.0;
       if (number >= 0.0) {
@@ -278,44 +241,20 @@ class ModelMaker final : public Visitor {
       }
       if (corners.size() >= 3) {
         if (turn) { std::reverse(corners.begin(), corners.end()); }
-        const std::uint32_t line = first < index.places.size() ? index.places[first].line : 0;
-        model.polygon(corners, material(state, material_of(node, state, face, first), two_sided), group, line);
+        of.count = corners.size();
+        model.polygon(corners, looks_.material(state, looks_.numbers(node, state, of), two_sided), group, index.places[of.first].line);
       }
-      face += corners.empty() ? 0 : 1;
+      of.face += corners.empty() ? 0 : 1;
+      of.before += corners.size();
       corners.clear();
-      first = i + 1;
-    }
-  }
-
-  // Of a face, whose first corner is this one among all indices.
-  std::size_t material_of(const Node& node, const State& state, std::size_t face, std::size_t corner) {
-    const auto listed = [&](std::size_t i) {
-      const Field* const list = node.find("materialIndex");
-      return list != nullptr && i < list->numbers.size() && list->numbers[i] >= 0.0
-                 ? static_cast<std::size_t>(std::min(list->numbers[i], 1e9))
-                 : i;
-    };
-    switch (state.binding) {
-      case Binding::per_part:
-      case Binding::per_face:
-        return face;
-      case Binding::per_part_indexed:
-      case Binding::per_face_indexed:
-        return listed(face);
-      case Binding::per_vertex:
-      case Binding::per_vertex_indexed:
-        notes_.add("faces with a material for each corner have that of the first one", at(node));
-        return state.binding == Binding::per_vertex ? corner - face : listed(corner);  // a -1 stands before each face but the first
-      default:
-        return 0;
+      of.first = i + 1;
     }
   }
 
   const SideFile& side_file_;
   Errors& errors_;
   Notes& notes_;
-  intake::PictureMeans<const Node*> pictures_;
-  std::map<std::tuple<const Node*, const Node*, std::size_t, bool>, std::uint32_t> materials_;
+  Looks looks_{model, side_file_, notes_};
   std::map<std::string, std::shared_ptr<const Node>> inlines_;
   std::unordered_map<const Node*, std::string> files_;  // of the nodes that were inlined
 };

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "apps/vrml/looks.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+namespace apps::vrml {
+namespace {
+
+std::string at(const Node& node) { return "at line " + std::to_string(node.place.line); }
+
+// How many values the state's material has for the field.
+std::size_t values(const State& state, std::string_view field, std::size_t size) {
+  const Field* const found = state.material != nullptr ? state.material->find(field) : nullptr;
+  return found != nullptr ? found->numbers.size() / size : 0;
+}
+
+}  // namespace
+
+std::uint32_t Looks::material(const State& state, Numbers numbers, bool two_sided) {
+  const std::size_t all = std::max({values(state, "diffuseColor", 3), values(state, "emissiveColor", 3), std::size_t{1}});
+  for (std::size_t& number : numbers) { number %= all; }
+  std::sort(numbers.begin(), numbers.end());
+  if (numbers.front() == numbers.back()) { numbers.resize(1); }
+  const auto next = static_cast<std::uint32_t>(model_.materials.size());
+  const auto [known, is_new] = known_.emplace(std::tuple(state.material, state.texture, numbers, two_sided), next);
+  if (!is_new) { return known->second; }
+  model_.materials.push_back(made(state, numbers, all));
+  model_.materials.back().two_sided = two_sided;
+  return next;
+}
+
+ModelMaterial Looks::made(const State& state, const Numbers& numbers, std::size_t all) {
+  const auto color = [&](const char* field, const glm::dvec3& otherwise) {
+    const std::size_t n = values(state, field, 3);
+    if (n == 0) { return otherwise; }
+    glm::dvec3 sum(0.0);
+    for (const std::size_t number : numbers) {
+      const double* const c = &state.material->find(field)->numbers[3 * (number % n)];
+      sum += glm::max(glm::dvec3(c[0], c[1], c[2]), glm::dvec3(0.0));
+    }
+    return sum / static_cast<double>(numbers.size());
+  };
+  ModelMaterial material;
+  material.name = state.material == nullptr      ? "default"
+                  : state.material->name.empty() ? "material" + std::to_string(model_.materials.size())
+                                                 : state.material->name;
+  if (all > 1) { material.name += numbers.size() > 1 ? ".mean" : "." + std::to_string(numbers[0]); }
+  const Node* const texture = state.texture;
+  const auto picture =
+      pictures_.of(texture, [&] { return texture != nullptr ? mean_of_texture(*texture, side_file_, notes_) : std::nullopt; });
+  material.reflectance = color("diffuseColor", glm::dvec3(0.8)) * picture.value_or(glm::dvec3(1.0));
+  material.emission = std::numbers::pi * color("emissiveColor", glm::dvec3(0.0));
+  if (values(state, "transparency", 1) > 0 && state.material->number("transparency", 0.0) > 0.0) {
+    notes_.add("materials that let light through are taken as opaque", at(*state.material));
+  }
+  return material;
+}
+
+Looks::Numbers Looks::numbers(const Node& face_set, const State& state, const FaceCorners& of) {
+  const Field* const list = face_set.find("materialIndex");
+  const auto listed = [&](std::size_t i, double otherwise) {
+    const double number = list != nullptr && i < list->numbers.size() && list->numbers[i] >= 0.0 ? list->numbers[i] : otherwise;
+    return static_cast<std::size_t>(std::min(number, 1e9));
+  };
+  switch (state.binding) {
+    case Binding::per_part:
+    case Binding::per_face:
+      return {of.face};
+    case Binding::per_part_indexed:
+    case Binding::per_face_indexed:
+      return {listed(of.face, static_cast<double>(of.face))};
+    case Binding::per_vertex:
+    case Binding::per_vertex_indexed: {
+      notes_.add("faces with a material for each corner have the mean of their colours", at(face_set));
+      Numbers numbers;
+      const Field& index = *face_set.find("coordIndex");
+      for (std::size_t k = 0; k < of.count; ++k) {  // without a list of their own they go by the coordinates
+        const std::size_t i = of.first + k;
+        numbers.push_back(state.binding == Binding::per_vertex ? of.before + k : listed(i, index.numbers[i]));
+      }
+      return numbers;
+    }
+    default:
+      return {0};
+  }
+}
+
+}  // namespace apps::vrml
