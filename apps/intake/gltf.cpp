@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, materials, cameras, lights. Skins, morphs and
 // compressed meshes are passed over with a word; what a file marks as required and is none of these is refused by its geometry alone.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -67,10 +68,14 @@ class GltfReader {
     const auto t = array_of<3>(node["translation"]).value_or(std::array{0.0, 0.0, 0.0});
     const auto r = array_of<4>(node["rotation"]).value_or(std::array{0.0, 0.0, 0.0, 1.0});
     const auto s = array_of<3>(node["scale"]).value_or(std::array{1.0, 1.0, 1.0});
-    const glm::dmat3 linear = glm::mat3_cast(glm::dquat(r[3], r[0], r[1], r[2]));
+    return placed({t[0], t[1], t[2]}, glm::dquat(r[3], r[0], r[1], r[2]), {s[0], s[1], s[2]});
+  }
+
+  static glm::dmat4 placed(const glm::dvec3& translation, const glm::dquat& rotation, const glm::dvec3& scale) {
+    const glm::dmat3 linear = glm::mat3_cast(rotation);
     glm::dmat4 matrix(1.0);
-    for (int c = 0; c < 3; ++c) { matrix[c] = glm::dvec4(linear[c] * s[static_cast<std::size_t>(c)], 0.0); }
-    matrix[3] = glm::dvec4(t[0], t[1], t[2], 1.0);
+    for (int c = 0; c < 3; ++c) { matrix[c] = glm::dvec4(linear[c] * scale[c], 0.0); }
+    matrix[3] = glm::dvec4(translation, 1.0);
     return matrix;
   }
 
@@ -113,11 +118,35 @@ class GltfReader {
       open.pop_back();
       const JsonValue& node = nodes[index];
       const glm::dmat4 matrix = parent * transform(node);
-      if (node["mesh"]) { mesh(node, matrix, index); }
+      if (node["mesh"]) { instances(node, matrix, index); }
       if (node["camera"]) { camera(node, matrix); }
       if (node["skin"]) { notes_.add("skins are not read: meshes stand as they are drawn", "node " + std::to_string(index)); }
       if (const JsonValue& named = node["extensions"]["KHR_lights_punctual"]["light"]) { light(named, matrix, index); }
       for (std::size_t i = node["children"].items().size(); i-- > 0;) { push(node["children"][i], matrix); }
+    }
+  }
+
+  // EXT_mesh_gpu_instancing: the mesh of a node once for each element of accessors of translations, rotations and scales.
+  void instances(const JsonValue& node, const glm::dmat4& matrix, std::size_t index) {
+    const JsonValue& attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+    if (!attributes) { return mesh(node, matrix, index); }
+    std::string fault;
+    std::optional<std::size_t> count;
+    const auto of = [&](std::string_view name, std::size_t components) {
+      auto numbers = attributes[name] ? data_->numbers(attributes[name], components, fault) : std::nullopt;
+      if (numbers) { count = std::min(count.value_or(nowhere), numbers->size() / components); }
+      return numbers;
+    };
+    const auto moved = of("TRANSLATION", 3), turned = of("ROTATION", 4), scaled = of("SCALE", 3);
+    if (!fault.empty()) { return error(attributes.offset(), fault); }
+    for (std::size_t i = 0; i < count.value_or(0) && !errors_.full() && model_.polygons() <= most_polygons; ++i) {
+      const auto at = [&](const auto& numbers, std::size_t components, std::size_t k, double otherwise) {
+        return numbers ? (*numbers)[components * i + k] : otherwise;
+      };
+      const glm::dquat turn(at(turned, 4, 3, 1.0), at(turned, 4, 0, 0.0), at(turned, 4, 1, 0.0), at(turned, 4, 2, 0.0));
+      const glm::dvec3 scale(at(scaled, 3, 0, 1.0), at(scaled, 3, 1, 1.0), at(scaled, 3, 2, 1.0));
+      const glm::dvec3 move(at(moved, 3, 0, 0.0), at(moved, 3, 1, 0.0), at(moved, 3, 2, 0.0));
+      mesh(node, matrix * placed(move, turn, scale), index);
     }
   }
 
@@ -137,14 +166,26 @@ class GltfReader {
     }
   }
 
+  // The extension by which the numbers of a primitive are packed: of itself, or of the views in which they stand.
+  [[nodiscard]] std::optional<std::string_view> compression(const JsonValue& primitive) const {
+    constexpr std::string_view draco = "KHR_draco_mesh_compression";
+    if (primitive["extensions"][draco]) { return draco; }
+    for (const JsonValue* const accessor : {&primitive["attributes"]["POSITION"], &primitive["indices"]}) {
+      const JsonValue& view = (*root_)["accessors"][accessor->index().value_or(nowhere)]["bufferView"];
+      const JsonValue& extensions = (*root_)["bufferViews"][view.index().value_or(nowhere)]["extensions"];
+      for (const std::string_view packed : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+        if (extensions[packed]) { return packed; }
+      }
+    }
+    return std::nullopt;
+  }
+
   void triangles(const JsonValue& primitive, const glm::dmat4& matrix, std::uint32_t group) {
     const std::string place = "in " + mesh_file::shown(model_.groups[group]);
     const std::size_t mode = primitive["mode"] ? primitive["mode"].index().value_or(nowhere) : 4;
     if (mode < 4 || mode > 6) { return pass_over("points and lines have no surface: left out", place); }
-    for (const char* const packed : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
-      if (primitive["extensions"][packed]) {
-        return pass_over("meshes compressed by " + std::string(packed) + " are not read: left out", place);
-      }
+    if (const auto packed = compression(primitive)) {
+      return pass_over("meshes compressed by " + std::string(*packed) + " are not read: left out", place);
     }
     if (primitive["targets"]) { notes_.add("morph targets are not read: meshes stand as they are drawn", place); }
     std::string fault;
