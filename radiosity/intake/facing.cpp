@@ -26,6 +26,7 @@ struct PieceBorders {
   std::vector<std::uint32_t> piece;  // of a face
   std::uint32_t pieces = 0;
   std::vector<double> length, met;  // of a piece: of its border; of the part of that on which other faces lie
+  std::vector<double> divides;      // of a piece: the part of its border on which two other faces lie, one on each side of it
   std::vector<double> area, backs;  // of a piece; of those of its faces that were given for both sides
   std::vector<raycast::Box> box;    // of a piece
   std::vector<bool> twins;          // of a piece: at the place of each of its faces lies another one, or it was given for both sides
@@ -47,6 +48,7 @@ struct PieceBorders {
     }
     length.assign(pieces, 0.0);
     met.assign(pieces, 0.0);
+    divides.assign(pieces, 0.0);
     find_twins(mesh);
     for (std::uint32_t p = 0; p < pieces; ++p) { twins[p] = twins[p] || backs[p] > 0.9 * area[p]; }
     measure(mesh);
@@ -101,13 +103,26 @@ struct PieceBorders {
         if (next == i + 2) { continue; }
         const auto elsewhere = [&](const Side& s) { return s.piece != edge[i].piece && s.place != edge[i].place; };
         length[edge[i].piece] += size;
-        met[edge[i].piece] += std::any_of(edge.begin(), edge.end(), elsewhere) ? size : 0.0;
+        const auto other = std::find_if(edge.begin(), edge.end(), elsewhere);
+        if (other == edge.end()) { continue; }
+        met[edge[i].piece] += size;
+        const bool third = std::any_of(other, edge.end(), [&](const Side& s) { return elsewhere(s) && s.place != other->place; });
+        divides[edge[i].piece] += third ? size : 0.0;
       }
     }
   }
 
   std::vector<std::uint32_t> place_;  // of a face: the same number where other faces have the same corners
 };
+
+// A wall without thickness between two rooms, or between two parts of one: light falls on both sides, and the other one has no polygon
+// of its own.
+inline bool is_divider(const PieceBorders& borders, const PieceView& view, std::uint32_t p) {
+  constexpr double tol_dark = 1e-9, much_lighter = 10.0, tol_covered = 0.01;
+  const double f = view.front.light, b = view.back.light;
+  return 2.0 * borders.divides[p] >= borders.length[p] && view.covered < tol_covered && std::min(f, b) > tol_dark &&
+         std::max(f, b) <= much_lighter * std::min(f, b);
+}
 
 // 1: the front is where the piece is seen from, -1: the back is, 0: nobody knows.
 inline int seen_side(const PieceView& view, bool twins) {
@@ -140,8 +155,13 @@ HALFLIGHT_INLINE void turn_to_light(Working& mesh, std::span<const Material> mat
     const std::uint32_t p = borders.piece[f];
     asked[f] = asks(p);
     const int side = side_of[p];
-    if (side == 0) { continue; }
     Face& face = mesh.faces[f];
+    if (side == 0 && asked[f] && !face.mixed && face.back == none && is_black(materials[face.material].emission) &&
+        detail::is_divider(borders, views[p], p)) {
+      face.back = face.material;
+      mesh.changed(ChangeKind::dividing, face.polygon);
+    }
+    if (side == 0) { continue; }
     if (side < 0) {
       face.turn();
       mesh.changed(ChangeKind::to_light, face.polygon);

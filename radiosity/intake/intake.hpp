@@ -13,7 +13,8 @@
 //                planar or crosses itself is cut along the best diagonals
 //     t_joints   a vertex on the edge of another face becomes a corner of that face            t_joints.hpp
 //     join       groups whose borders match, and which close a shell together, are one shell   join.hpp
-//     facing     pieces of solids that are each other's walls look to the light                facing.hpp, side_light.hpp
+//     facing     pieces of solids that are each other's walls look to the light, what divides    facing.hpp, side_light.hpp
+//                two rooms looks to both
 //     topology   faces are turned alike; where that cannot be, or more than two faces meet,    topology.hpp
 //                the surface is cut
 //     merge      coplanar neighbours of one material become one face (fewer input faces)       merge.hpp
@@ -81,6 +82,8 @@ enum class ChangeKind : unsigned char {
   room,         // closed shells around a lamp or an eye that looked outwards: turned, as rooms
   lamp_laid,    // vertices of lamps that lay beside a wall: moved onto it; size: the largest distance
   lamp_turned,  // lamps that lay on a wall, or close before it, and looked into it: turned
+  lamp_halved,  // lamps of which both sides shine, one of them close before a surface: the other one alone
+  dividing,     // polygons with light on both sides, as walls between rooms: made to reflect on both
   both_sides,   // surfaces of mixed orientation: made to reflect on both sides
   merged        // polygons that became part of a larger one; size: none
 };

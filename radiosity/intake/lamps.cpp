@@ -76,12 +76,13 @@ inline std::vector<Wall> walls_beside(Working& mesh, const Topology& topology, c
   return walls;
 }
 
-// The face that is close before the middle of a lamp, while behind it the way is free.
-inline std::optional<std::uint32_t> face_before(Working& mesh, const raycast::Bvh& bvh, const std::vector<bool>& lamp, std::uint32_t face) {
+// The face that is close before the middle of a lamp, while behind it the way is free. `side`: 1; -1: close behind it, and free before it.
+inline std::optional<std::uint32_t> face_before(Working& mesh, const raycast::Bvh& bvh, const std::vector<bool>& lamp, std::uint32_t face,
+                                                double side) {
   constexpr double close = 0.02, free = 0.2;  // of the lamp's size
   const std::span<const glm::dvec3> outline = mesh.outline(mesh.faces[face]);
   const double size = std::sqrt(brep::area(outline));
-  const glm::dvec3 normal = raycast::plane_of(outline).normal, middle = brep::centroid(outline);
+  const glm::dvec3 normal = side * raycast::plane_of(outline).normal, middle = brep::centroid(outline);
   std::optional<std::uint32_t> before;
   double nearest = close * size;
   bool blocked = false;
@@ -125,9 +126,12 @@ HALFLIGHT_INLINE std::vector<FlushFace> lay_lamps(Working& mesh, const Topology&
     std::vector<detail::Wall> walls = detail::walls_beside(mesh, topology, bvh, f);
     std::erase_if(walls, [&](const detail::Wall& wall) { return lamp[wall.face]; });
     if (walls.empty()) {
-      if (const auto before = detail::face_before(mesh, bvh, lamp, f)) {
+      for (const double side : {1.0, -1.0}) {
+        const auto near = detail::face_before(mesh, bvh, lamp, f, side);
+        if (!near) { continue; }
         const glm::dvec3 normal = brep::vector_area(mesh.outline(mesh.faces[f]));
-        found.push_back({f, *before, glm::dot(normal, brep::vector_area(mesh.outline(mesh.faces[*before]))) < 0.0, true});
+        const bool opposite = glm::dot(normal, brep::vector_area(mesh.outline(mesh.faces[*near]))) < 0.0;
+        found.push_back({f, *near, opposite, side > 0.0 ? FlushFace::Gap::before : FlushFace::Gap::behind});
       }
       continue;
     }
@@ -152,13 +156,13 @@ HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::s
                                  std::span<const FlushFace> flush, const std::vector<bool>& backs, Shells& shells) {
   struct Lamp {
     double area = 0.0, front = 0.0, back = 0.0;  // of what shines; of that with something right before, behind it
-    double apart = 0.0;                          // of that with the front of something close before it
-    bool one_sided = true;
+    double gap_before = 0.0, gap_behind = 0.0;   // of that with the front of something close before it, behind it
+    bool one_sided = true, both_shine = true;
     std::uint32_t polygon = none;
   };
   std::map<std::uint32_t, Lamp> lamps;  // by component
   for (std::size_t first = 0, end = 0; first < flush.size(); first = end) {
-    bool front = false, back = false, apart = false;
+    bool front = false, back = false, before = false, behind = false;
     const std::uint32_t face = flush[first].lamp;
     for (; end < flush.size() && flush[end].lamp == face; ++end) {
       const std::uint32_t under = flush[end].under, component = topology.component[under];
@@ -166,14 +170,16 @@ HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::s
       if (shell.role == Role::nothing) { continue; }
       const bool both = shell.role == Role::surface && !shell.one_sided && backs[under];
       const bool opposite = flush[end].opposite != shells.turned(component);
-      apart = apart || (flush[end].apart && opposite);
-      if (flush[end].apart) { continue; }
+      before = before || (flush[end].gap == FlushFace::Gap::before && (both || opposite));
+      behind = behind || (flush[end].gap == FlushFace::Gap::behind && (both || !opposite));
+      if (flush[end].gap != FlushFace::Gap::no) { continue; }
       front = front || both || opposite;
       back = back || both || !opposite;
     }
     Lamp& lamp = lamps[topology.component[face]];
     const double area = brep::area(mesh.outline(mesh.faces[face]));
-    lamp.apart += apart ? area : 0.0;
+    lamp.gap_before += before ? area : 0.0;
+    lamp.gap_behind += behind ? area : 0.0;
     lamp.front += front ? area : 0.0;
     lamp.back += back ? area : 0.0;
   }
@@ -182,13 +188,19 @@ HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::s
       if (!detail::shines(mesh.faces[f], materials)) { continue; }
       lamp.area += brep::area(mesh.outline(mesh.faces[f]));
       lamp.one_sided = lamp.one_sided && !backs[f];
+      lamp.both_shine = lamp.both_shine && backs[f];
       lamp.polygon = std::min(lamp.polygon, mesh.faces[f].polygon);
     }
     const bool front = 2.0 * lamp.front > lamp.area, back = 2.0 * lamp.back > lamp.area;
     if (shells.components()[component].role != Role::surface) { continue; }
-    if (!front && !back && lamp.one_sided && 2.0 * lamp.apart > lamp.area) {
+    const bool before = 2.0 * lamp.gap_before > lamp.area, behind = 2.0 * lamp.gap_behind > lamp.area;
+    if (!front && !back && before && lamp.one_sided) {
       shells.turn(component);
       mesh.changed(ChangeKind::lamp_turned, lamp.polygon);
+    }
+    if (!front && !back && before != behind && lamp.both_shine) {
+      shells.show_one_side(component, before);
+      mesh.changed(ChangeKind::lamp_halved, lamp.polygon);
     }
     if (!front && !back) { continue; }
     const bool turn = front && !back;

@@ -306,6 +306,12 @@ HALFLIGHT_INLINE void Shells::turn(std::uint32_t component) {
   turned_[component] = true;
 }
 
+HALFLIGHT_INLINE void Shells::show_one_side(std::uint32_t component, bool back) {
+  components_[component].one_sided = true;
+  turned_.resize(components_.size());
+  turned_[component] = back;
+}
+
 HALFLIGHT_INLINE void Shells::find_roles() {
   const std::vector<Twins> twins = find_twins();
   for (const Twins& t : twins) { t.outer->role = Role::surface; }

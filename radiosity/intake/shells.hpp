@@ -46,6 +46,8 @@ class Shells {
   // The component is a lamp that lies on a surface. `turn`: away from that. `one_sided`: what looks into it is not seen.
   void lay_lamp(std::uint32_t component, bool turn, bool one_sided);
   void turn(std::uint32_t component);
+  // Of a surface its front alone is seen, or its back alone, which then is its front.
+  void show_one_side(std::uint32_t component, bool back);
 
   [[nodiscard]] std::span<const Room> rooms() const { return rooms_; }
   [[nodiscard]] bool turned(std::uint32_t component) const { return !turned_.empty() && turned_[component]; }

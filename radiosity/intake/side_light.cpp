@@ -126,6 +126,9 @@ HALFLIGHT_INLINE void SideLight::shoot() {
     const std::uint32_t face = point.side / 2, piece = piece_[face];
     const glm::dvec3 normal = (point.side % 2 == 0 ? 1.0 : -1.0) * plane_[face].normal;
     const glm::dvec3 from = point.position + 4.0 * mesh_.tolerance * normal;
+    if (point.side % 2 == 0 && first_met(point.position - 4.0 * mesh_.tolerance * normal, normal, face).way <= 8.0 * mesh_.tolerance) {
+      views_[piece].covered += point.area / area[piece];
+    }
     SideView& view = point.side % 2 == 0 ? views_[piece].front : views_[piece].back;
     Random random(0x11647, k);
     for (std::uint32_t r = 0; r < rays_; ++r) {

@@ -29,6 +29,7 @@ struct SideView {
 
 struct PieceView {
   SideView front, back;
+  double covered = 0.0;  // the part of its area on which other faces lie
 };
 
 class SideLight {
