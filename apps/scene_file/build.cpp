@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apps/scene_file/build.hpp"
+#include "apps/scene_file/builder.hpp"
 
 #include <algorithm>
 #include <string>
@@ -17,56 +18,11 @@
 #include <raycast/transform.hpp>
 
 #include "apps/bounds.hpp"
-#include "apps/intake/to_scene.hpp"
 #include "apps/scene_file/groups.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"
 
 namespace apps::scene_file {
-namespace {
-
-// An object with its shape and materials, made once however often its group is used.
-struct Made {
-  std::shared_ptr<const raycast::Object> shape;
-  std::vector<std::uint32_t> material;
-  std::vector<radiosity::SceneObject> parts = {};  // of a mesh from a file, in place of one shape
-};
-
-using SheetNames = std::unordered_map<std::string_view, std::uint32_t>;
-
-class Builder {
- public:
-  Builder(const SceneSyntax& syntax, const SideFile& side_file, Errors& errors)
-      : syntax_(syntax), side_file_(side_file), errors_(errors), groups_(syntax, errors) {}
-  SceneFile build();
-
- private:
-  void materials();
-  void cameras();
-  void unique_names(const std::vector<Item>& items);
-  void make(const std::vector<Item>& items);
-  std::optional<std::uint32_t> material_index(const Name& name);
-  std::vector<std::uint32_t> sheet_materials(const ObjectSyntax& object, const raycast::Object& shape, const Name* around = nullptr);
-  Made make(const ObjectSyntax& object);
-  Made make_from_file(const ObjectSyntax& object);
-  [[nodiscard]] std::vector<glm::dvec3> eyes_of(const ObjectSyntax& object) const;
-  void operand_materials(const ObjectSyntax& object, const Name* around, const CsgShape& csg, std::size_t& leaf,
-                         std::vector<std::uint32_t>& out);
-  std::uint32_t sheet_index(const Name& sheet, const raycast::Object& shape, const SheetNames& names);
-  void place();
-  void place(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at);
-  void place(radiosity::SceneObject placed, const ObjectSyntax& object, Place at);
-
-  const SceneSyntax& syntax_;
-  const SideFile& side_file_;
-  Errors& errors_;
-  const Groups groups_;
-  SceneFile file_;
-  std::unordered_map<std::string_view, std::uint32_t> material_index_;
-  std::vector<std::string_view> material_names_;
-  std::unordered_map<const ObjectSyntax*, Made> made_;
-};
-
 SceneFile Builder::build() {
   materials();
   cameras();
@@ -76,6 +32,7 @@ SceneFile Builder::build() {
     unique_names(group.items);
     make(group.items);
   }
+  if (errors_.count() == 0) { see_from_inside(); }
   if (errors_.count() == 0) { place(); }
   if (errors_.count() == 0 && file_.scene.objects.empty()) {
     std::vector<std::string_view> words;
@@ -160,60 +117,6 @@ Made Builder::make(const ObjectSyntax& object) {
   return made;
 }
 
-// The eyes of the cameras in the coordinates of a mesh that stands in the scene itself. Where a group stands is not known yet.
-std::vector<glm::dvec3> Builder::eyes_of(const ObjectSyntax& object) const {
-  const auto own = [&](const Item& item) { return std::get_if<ObjectSyntax>(&item) == &object; };
-  std::vector<glm::dvec3> eyes;
-  if (std::none_of(syntax_.items.begin(), syntax_.items.end(), own) || glm::determinant(object.placement.linear) == 0.0) { return eyes; }
-  const glm::dmat3 back = glm::inverse(object.placement.linear);
-  for (const Camera& camera : file_.cameras) { eyes.push_back(back * (camera.eye - object.placement.translation)); }
-  return eyes;
-}
-
-// The objects of a file of another program, in its own coordinates. Its materials are added to the scene's, under the name of the mesh.
-Made Builder::make_from_file(const ObjectSyntax& object) {
-  Made made;
-  const Name& file = *object.file;
-  std::string fault = "cannot be read from here";
-  const auto bytes = side_file_ ? side_file_(file.text, fault) : std::nullopt;
-  if (!bytes) {
-    errors_.add(file.place, "the file " + in_quotes(file.text) + " " + fault);
-    return made;
-  }
-  const ModelFormat* const format = model_format(file.text, *bytes);
-  if (format == nullptr) {
-    errors_.add(file.place,
-                "the file " + in_quotes(file.text) + " is of no known format; expected a name that ends with " + model_endings());
-    return made;
-  }
-  ModelResult read = format->read(*bytes, side_file_);
-  for (const InputError& error : read.errors) {
-    const std::string at = error.place.line > 0 ? to_string(error.place) : "byte " + std::to_string(error.place.column);
-    errors_.add(file.place, file.text + ":" + at + ": " + error.sentence);
-  }
-  if (!read.model) { return made; }
-  read.model->name_file(file.text);
-  std::vector<std::string> faults;
-  auto part = to_part(std::move(*read.model), object.two_sided.has_value(), eyes_of(object), faults);
-  for (const std::string& sentence : faults) { errors_.add(file.place, file.text + ": " + sentence); }
-  if (!part) { return made; }
-  for (const std::string& note : part->notes) { file_.notes.push_back(object.name.text + ": " + note); }
-  const auto first = static_cast<std::uint32_t>(file_.scene.materials.size());
-  const auto whole = object.material ? material_index(*object.material) : std::nullopt;
-  if (!object.material) {
-    for (radiosity::Material& material : part->scene.materials) {
-      material.name = object.name.text + "." + material.name;
-      file_.scene.materials.push_back(std::move(material));
-    }
-  }
-  for (radiosity::SceneObject& its : part->scene.objects) {
-    for (std::uint32_t& m : its.material) { m = object.material ? whole.value_or(0) : first + m; }
-    if (object.material) { its.material.resize(1); }
-  }
-  made.parts = std::move(part->scene.objects);
-  return made;
-}
-
 // One material for every sheet of every leaf, in their order: the leaf's own, or that of the nearest statement around it.
 void Builder::operand_materials(const ObjectSyntax& object, const Name* around, const CsgShape& csg, std::size_t& leaf,
                                 std::vector<std::uint32_t>& out) {
@@ -239,7 +142,7 @@ std::optional<std::uint32_t> Builder::material_index(const Name& name) {
 }
 
 // Sheets by name; where the sheets of a shape have no names of their own, numbers alone serve.
-SheetNames sheet_names(const raycast::Object& shape) {
+static SheetNames sheet_names(const raycast::Object& shape) {
   SheetNames names;
   for (std::uint32_t i = 0; i < shape.sheet_count(); ++i) { names.emplace(shape.sheet_name(i), i); }
   return names;
@@ -286,6 +189,16 @@ std::vector<std::uint32_t> Builder::sheet_materials(const ObjectSyntax& object, 
 }
 
 void Builder::place() {
+  const auto tell = [&](const std::vector<Item>& items) {
+    for (const Item& item : items) {
+      const auto* const object = std::get_if<ObjectSyntax>(&item);
+      const auto made = object == nullptr ? made_.end() : made_.find(object);
+      if (made == made_.end()) { continue; }
+      for (const std::string& note : made->second.notes) { file_.notes.push_back(object->name.text + ": " + note); }
+    }
+  };
+  tell(syntax_.items);
+  for (const GroupSyntax& group : syntax_.groups) { tell(group.items); }
   place_all(syntax_.items, groups_, errors_,
             [this](const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at) {
               place(object, prefix, outer, at);
@@ -296,7 +209,8 @@ void Builder::place(const ObjectSyntax& object, const std::string& prefix, const
   const Made& made = made_.at(&object);
   raycast::Placement placement = raycast::compose(outer, object.placement);
   const std::string name = prefix + object.name.text;
-  for (const radiosity::SceneObject& part : made.parts) {
+  const bool seen_inside = !made.around_eyes.empty() && !eyes_.within(bounds_of(made.parts), placement, &object).empty();
+  for (const radiosity::SceneObject& part : seen_inside ? made.around_eyes : made.parts) {
     place({name + "." + part.name, part.shape, raycast::compose(placement, part.placement), part.material}, object, at);
   }
   if (!made.parts.empty()) { return; }
@@ -321,8 +235,6 @@ void Builder::place(radiosity::SceneObject placed, const ObjectSyntax& object, P
   file_.scene.objects.push_back(std::move(placed));
   file_.origins.push_back({object.kind->word, object.name.place});
 }
-
-}  // namespace
 
 SceneFile build(const SceneSyntax& syntax, const SideFile& side_file, Errors& errors) { return Builder(syntax, side_file, errors).build(); }
 

@@ -128,7 +128,8 @@ TEST_CASE("a mesh of a scene may be a file of another program; groups use it in 
   CHECK_FALSE(result.file);
   CHECK(apps::to_text(result, "s") == "s:6:13: error: bad.obj:1:6: expected a coordinate, found the end of the line; a vertex has three\n");
   const auto good = parse(
-      "define g { mesh a file \"my room.obj\" scale 2 }\nuse g as one move 10 0 0\nuse g as two\nmesh b file \"my room.obj\" material m\n");
+      "define g { mesh a file \"my room.obj\" scale 2 }\nuse g as one move 10 0 0\nuse g as two move 0 0 20\nmesh b file \"my room.obj\" "
+      "material m\n");  // neither use holds b, which shines
   INFO(apps::to_text(good, "s"));
   REQUIRE(good.file);
   const auto& objects = good.file->scene.objects;

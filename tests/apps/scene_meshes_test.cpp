@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Meshes from files within a scene: what encloses a camera or a lamp of the scene is seen from inside, wherever its group is used.
+
+#include <cstdio>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include <radiosity/radiosity.hpp>
+#include <raycast/scene.hpp>
+
+#include "apps/bounds.hpp"
+#include "models.hpp"
+
+namespace {
+
+std::string text_of(const glm::dvec3& v) {
+  char text[80];
+  static_cast<void>(std::snprintf(text, sizeof text, "%.17g %.17g %.17g", v.x, v.y, v.z));
+  return text;
+}
+
+// A box from 0 0 0 to 2 3 4 that looks outwards, and another from 5 0 0 to 7 3 4, each a group.
+std::string two_boxes() {
+  std::string text;
+  for (int box = 0; box < 2; ++box) {
+    text += "o box" + std::to_string(box) + "\n";
+    for (int i = 0; i < 8; ++i) {
+      text += "v " + text_of(glm::dvec3((i & 1) * 2.0 + 5.0 * box, (i >> 1 & 1) * 3.0, (i >> 2 & 1) * 4.0)) + "\n";
+    }
+    for (const char* const face : {"-8 -6 -5 -7", "-4 -3 -1 -2", "-8 -7 -3 -4", "-6 -2 -1 -5", "-8 -4 -2 -6", "-7 -5 -1 -3"}) {
+      text += std::string("f ") + face + "\n";
+    }
+  }
+  return text;
+}
+
+// Where the clauses of a statement put a point.
+glm::dvec3 placed(const glm::dvec3& point, const std::string& clauses) {
+  const auto probe = apps::parse_scene("material m\nsphere s center 0 0 0 radius 1 material m" + clauses + "\n", {});
+  REQUIRE(probe.file);
+  const raycast::Placement& placement = probe.file->scene.objects[0].placement;
+  return placement.linear * point + placement.translation;
+}
+
+}  // namespace
+
+TEST_CASE("a mesh in a group is a room in those uses that hold a camera or a lamp, and a solid in the others") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  for (int round = 0; round < 20; ++round) {
+    std::string scene = "material m reflectance 0.5\nmaterial lamp reflectance 0 emission 5\n";
+    const int uses = 1 + static_cast<int>(random() % 4);
+    const bool nested = round % 2 == 1;
+    scene += "define g { mesh a file boxes.obj move 1 1 1 material m }\n";
+    if (nested) { scene += "define h { use g as inner rotate 0 0 1 30 scale 2 }\n"; }
+    std::string things;
+    std::vector<bool> room;             // of each box of each use
+    std::vector<raycast::Segment> out;  // of each, from its middle
+    for (int u = 0; u < uses; ++u) {
+      const glm::dvec3 move(40.0 * u, number(-5, 5), number(-5, 5)), axis(number(-1, 1), number(-1, 1), 1.0);
+      const std::string clauses = " scale " + std::to_string(number(0.2, 1.0)) + " rotate " + text_of(axis) + " " +
+                                  std::to_string(number(0, 360)) + " move " + text_of(move);
+      scene += "use " + std::string(nested ? "h" : "g") + " as u" + std::to_string(u) + clauses + "\n";
+      for (int box = 0; box < 2; ++box) {
+        const int what = static_cast<int>(random() % 3);  // nothing, a camera, a lamp
+        room.push_back(what > 0);
+        const std::string around = (nested ? " rotate 0 0 1 30 scale 2" : "") + clauses, name = std::to_string(u) + std::to_string(box);
+        const glm::dvec3 middle = placed(glm::dvec3(2.0 + 5.0 * box, 2.5, 3.0), around);
+        out.push_back({middle, placed(glm::dvec3(2.0 + 5.0 * box, 8.5, 3.0), around) - middle});
+        const glm::dvec3 inside(number(1.5, 2.5) + 5.0 * box, number(1.5, 3.5), number(1.5, 4.5));
+        if (what == 1) { things += "camera c" + name + " eye " + text_of(placed(inside, around)) + " look 0 1 0\n"; }
+        if (what == 2) {
+          things += "disk l" + name + " center " + text_of(inside) + " normal 0 0 -1 radius 0.2 material lamp" + around + "\n";
+        }
+      }
+    }
+    CAPTURE(round, scene, things);
+    const auto result = apps::parse_scene(scene + things, models::beside({{"boxes.obj", two_boxes()}}));
+    INFO(apps::to_text(result, "s"));
+    REQUIRE(result.file);
+    CHECK(radiosity::faults(result.file->scene).empty());
+    // One form of the mesh serves all uses that hold something: a box is a room in all of them once it is in one.
+    std::vector<bool> any(2, false), expected;
+    for (std::size_t i = 0; i < room.size(); ++i) { any[i % 2] = any[i % 2] || room[i]; }
+    for (std::size_t i = 0; i < room.size(); ++i) { expected.push_back((room[i] || room[i ^ 1U]) && any[i % 2]); }
+    // From the middle of a room the fronts of its walls are seen.
+    const raycast::Scene objects(apps::placed_objects(result.file->scene));
+    std::vector<bool> found;
+    for (const raycast::Segment& ray : out) {
+      const auto hit = objects.closest(ray);
+      found.push_back(hit && hit->front);
+    }
+    CHECK(found == expected);
+  }
+}
