@@ -39,8 +39,15 @@ namespace {
 
 // Files that another one names lie beside it, or where their whole path says. Those that were read are noted in `read`.
 SideFile beside(const std::string& path, FilesBeside& read) {
-  return [folder = std::filesystem::path(path).parent_path(), &read](const std::string& name, std::string& fault) {
+  return [folder = std::filesystem::path(path).parent_path(), &read](const std::string& name,
+                                                                     std::string& fault) -> std::optional<std::string> {
     const std::string whole = (folder / name).string();
+    std::error_code unknown;
+    const std::filesystem::file_status status = std::filesystem::status(whole, unknown);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {  // of a pipe nobody may write the other end
+      fault = "is no file";
+      return std::nullopt;
+    }
     auto bytes = read_text(whole, fault);
     if (bytes) {
       read.paths.push_back(whole);

@@ -139,7 +139,10 @@ class GltfReader {
     };
     const auto moved = of("TRANSLATION", 3), turned = of("ROTATION", 4), scaled = of("SCALE", 3);
     if (!fault.empty()) { return error(attributes.offset(), fault); }
-    for (std::size_t i = 0; i < count.value_or(0) && !errors_.full() && model_.polygons() <= most_polygons; ++i) {
+    if (count.value_or(0) > max_objects) {
+      return error(attributes.offset(), "the node has more than " + std::to_string(max_objects) + " instances");
+    }
+    for (std::size_t i = 0; i < count.value_or(0) && !errors_.full() && !too_large_; ++i) {
       const auto at = [&](const auto& numbers, std::size_t components, std::size_t k, double otherwise) {
         return numbers ? (*numbers)[components * i + k] : otherwise;
       };
@@ -159,7 +162,7 @@ class GltfReader {
     model_.groups.push_back(std::move(name));
     std::size_t number = 0;
     for (const JsonValue& primitive : mesh["primitives"].items()) {
-      if (errors_.full() || model_.polygons() > most_polygons) { return; }
+      if (errors_.full() || too_large_) { return; }
       model_.begin_part("meshes[" + std::to_string(*node["mesh"].index()) + "].primitives[" + std::to_string(number++) + "] of nodes[" +
                         std::to_string(index) + "] " + mesh_file::shown(model_.groups[group]));
       triangles(primitive, matrix, group);
@@ -199,6 +202,7 @@ class GltfReader {
     const auto first = static_cast<std::uint32_t>(model_.positions.size());
     const std::size_t vertices = positions->size() / 3, count = given ? given->size() : vertices;
     if (model_.positions.size() + vertices > 3 * most_polygons || model_.polygons() + count > most_polygons) {
+      too_large_ = true;
       return error(primitive.offset(), "the scene has more than " + std::to_string(most_polygons) + " triangles");
     }
     for (std::size_t v = 0; v < vertices; ++v) {
@@ -276,6 +280,7 @@ class GltfReader {
   GltfData* data_ = nullptr;
   std::uint32_t default_material_ = 0;
   std::string why_;
+  bool too_large_ = false;
   Model model_;
   Notes notes_;
   Errors errors_;

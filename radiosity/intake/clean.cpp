@@ -27,6 +27,7 @@ namespace radiosity::intake {
 namespace detail {
 
 inline constexpr std::size_t most_corners = 1024;  // the search for self-intersections is quadratic
+inline constexpr std::size_t most_split = 20'000;  // so is that for triangles: two seconds
 
 // Takes away a b b c and a b a.
 inline void simplify(std::vector<std::uint32_t>& corners) {
@@ -75,6 +76,10 @@ inline bool crosses_itself(std::span<const glm::dvec3> outline, std::span<const 
 
 HALFLIGHT_INLINE void drop_degenerate(Working& mesh) {
   std::erase_if(mesh.faces, [&](Face& face) {
+    if (face.corners.size() > detail::most_split) {
+      mesh.changed(ChangeKind::too_long, face.polygon);
+      return true;
+    }
     detail::simplify(face.corners);
     const double width = face.corners.size() < 3 ? 0.0 : detail::width(mesh.outline(face));
     if (width >= mesh.tolerance || (face.corners.size() > 3 && detail::has_triangles(mesh, face))) { return false; }
@@ -91,13 +96,16 @@ HALFLIGHT_INLINE void drop_duplicates(Working& mesh, const std::vector<bool>& am
   }
   std::sort(keys.begin(), keys.end());
   std::vector<bool> gone(mesh.faces.size(), false);
-  for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
-    if (keys[i].first != keys[i + 1].first) { continue; }
-    gone[keys[i].second] = true;
-    Face& later = mesh.faces[keys[i + 1].second];
-    later.stand_for(mesh.faces[keys[i].second]);
-    if (later.back == none) { later.back = mesh.faces[keys[i].second].back; }
-    mesh.changed(ChangeKind::duplicate, mesh.faces[keys[i].second].polygon);
+  for (std::size_t first = 0, end = 0; first < keys.size(); first = end) {
+    while (end < keys.size() && keys[end].first == keys[first].first) { ++end; }
+    Face& last = mesh.faces[keys[end - 1].second];
+    for (std::size_t i = end - 1; i-- > first;) {
+      const Face& earlier = mesh.faces[keys[i].second];
+      gone[keys[i].second] = true;
+      last.stand_for(earlier);
+      if (last.back == none) { last.back = earlier.back; }
+      mesh.changed(ChangeKind::duplicate, earlier.polygon);
+    }
   }
   std::erase_if(mesh.faces, [&](const Face& face) { return gone[static_cast<std::size_t>(&face - mesh.faces.data())]; });
 }
@@ -132,9 +140,11 @@ HALFLIGHT_INLINE void split_faulty(Working& mesh, bool strict) {
                                                                           : ChangeKind::touching;
       mesh.changed(how, face.polygon, flat ? 0.0 : slack);
     }
+    const std::vector<std::uint32_t> corners = std::move(face.corners);
+    face.corners.clear();  // of which each triangle would get a copy
     for (const auto& [a, b, c] : triangles) {
       Face triangle = face;
-      triangle.corners = {face.corners[a], face.corners[b], face.corners[c]};
+      triangle.corners = {corners[a], corners[b], corners[c]};
       if (!raycast::polygon_fault(mesh.outline(triangle))) { faces.push_back(std::move(triangle)); }
     }
   }

@@ -36,6 +36,7 @@ struct Wording {
 inline constexpr std::array<Wording, static_cast<std::size_t>(ChangeKind::merged) + 1> wordings{{
     {"1 polygon has a corner that is not finite or does not exist: left out",
      "# polygons have corners that are not finite or do not exist: left out"},
+    {"1 polygon has more than 20 000 corners: left out", "# polygons have more than 20 000 corners: left out"},
     {"1 vertex lay on another one, @ beside it: made one", "# vertices lay on others, beside them by up to @: made one"},
     {"1 polygon has no area: left out", "# polygons have no area: left out"},
     {"1 polygon is only @ wide: left out", "# polygons are at most @ wide: left out"},

@@ -64,6 +64,7 @@ struct IntakeOptions {
 
 enum class ChangeKind : unsigned char {
   unusable,     // polygons whose corners do not exist or are not finite: left out
+  too_long,     // polygons with more than 20 000 corners: left out
   welded,       // vertices that lay within the tolerance of another one: made one; size: the largest distance
   no_area,      // polygons without area: left out
   sliver,       // polygons narrower than the tolerance: left out; size: the largest width
