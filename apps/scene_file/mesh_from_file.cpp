@@ -12,6 +12,7 @@
 
 #include "apps/bounds.hpp"
 #include "apps/intake/to_scene.hpp"
+#include "apps/scene_file/lexer.hpp"
 #include "apps/words.hpp"
 
 namespace apps::scene_file {
