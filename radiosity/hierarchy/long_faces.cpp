@@ -37,19 +37,30 @@ inline constexpr double least_long_share = 0.01;
 
 namespace detail {
 
-// A face along its longest edge.
+// Are two edges, one after the other, one straight line?
+[[nodiscard]] HALFLIGHT_INLINE bool goes_straight_on(const glm::dvec3& before, const glm::dvec3& after) {
+  constexpr double straight = 1e-9;  // sine of the angle
+  return glm::dot(before, after) > 0.0 && glm::length(glm::cross(before, after)) <= straight * glm::length(before) * glm::length(after);
+}
+
+// A face along its longest side. A side may have corners within it, where a neighbour was cut.
 struct FaceLength {
   glm::dvec3 along{0.0};  // unit
   glm::dvec3 middle{0.0};
   double length = 0.0, width = 0.0, area = 0.0;
 
   explicit FaceLength(const Polygon& polygon) {
+    const std::size_t count = polygon.size();
+    const auto edge = [&](std::size_t i) { return polygon[(i + 1) % count] - polygon[i % count]; };
     double longest = 0.0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const glm::dvec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
-      if (glm::length(edge) > longest * (1.0 + 0x1p-20)) {
-        longest = glm::length(edge);
-        along = edge / longest;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (goes_straight_on(edge(i + count - 1), edge(i))) { continue; }  // within a side
+      std::size_t last = i;
+      while (last + 1 < i + count && goes_straight_on(edge(last), edge(last + 1))) { ++last; }
+      const glm::dvec3 side = polygon[(last + 1) % count] - polygon[i];
+      if (glm::length(side) > longest * (1.0 + 0x1p-20)) {
+        longest = glm::length(side);
+        along = side / longest;
       }
     }
     double low = 0.0;
@@ -77,10 +88,6 @@ HALFLIGHT_INLINE void cut_long_faces(std::vector<Surface>& surfaces, double min_
   }
   const double smallest = 4.0 * min_area * area;
   for (Surface& surface : surfaces) {
-    std::vector<std::uint32_t> faces_of_sheet(surface.object->sheet_count(), 0);
-    for (const brep::FaceId f : brep::faces(surface.brep)) {
-      if (surface.brep.data(f).sheet != brep::no_sheet) { ++faces_of_sheet[surface.brep.data(f).sheet]; }
-    }
     const auto is_long = [&](const SurfaceBRep& brep, brep::FaceId f, double proportion) {
       const detail::FaceLength face{corner_polygon(brep, f)};
       return face.length > proportion * face.width && face.area > smallest;
@@ -97,11 +104,10 @@ HALFLIGHT_INLINE void cut_long_faces(std::vector<Surface>& surfaces, double min_
       };
       return on_surface(cut.a, cut.on_a) && on_surface(cut.b, cut.on_b) ? cut : brep::Cut{};
     };
-    const auto in_parts = [&](brep::FaceId f) { return surface.object->flat() && faces_of_sheet[surface.brep.data(f).sheet] > 1; };
     std::vector<brep::FaceId> faces;
-    for (const brep::FaceId f : brep::faces(surface.brep)) {
-      if (surface.brep.data(f).sheet == brep::no_sheet || in_parts(f) || !is_long(surface.brep, f, longest_face)) { continue; }
-      if (glm::length(brep::vector_area(surface.brep, f)) >= least_long_share * area) { faces.push_back(f); }
+    for (const std::vector<brep::FaceId>& parts : input_faces(surface)) {
+      if (parts.size() > 1 || !is_long(surface.brep, parts[0], longest_face)) { continue; }
+      if (glm::length(brep::vector_area(surface.brep, parts[0])) >= least_long_share * area) { faces.push_back(parts[0]); }
     }
     // A refusal leaves the face as it was: whole, it costs more links, and is no less valid.
     for (const brep::FaceId f : faces) { (void)brep::split_recursively(surface.brep, f, across, finished, 1u << 17); }

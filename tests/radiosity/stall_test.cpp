@@ -134,6 +134,51 @@ TEST_CASE("long rooms: the number of links does not grow with the proportion") {
   }
 }
 
+TEST_CASE("long rooms of slabs: what walls cut out of a long face is cut across, too") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };
+  for (int i = 0; i < 12; ++i) {
+    const double length = std::pow(10.0, uniform(1.2, 2.0)), t = uniform(0.05, 0.2);
+    // Floor and ceiling reach under the walls, and those between the two at the ends.
+    const glm::dvec3 inner{1.0, length, uniform(0.8, 1.5)}, outer = inner + glm::dvec3{t};
+    const int turn = std::uniform_int_distribution<>{0, 2}(random);
+    const auto turned = [&](const glm::dvec3& p) { return glm::dvec3{p[turn], p[(turn + 1) % 3], p[(turn + 2) % 3]}; };
+    std::vector<radiosity::SceneObject> slabs;
+    const auto add = [&](const glm::dvec3& from, const glm::dvec3& to) {
+      slabs.push_back(scenes::object("slab", scenes::box(turned(from), turned(to))));
+    };
+    add({-t, -t, -t}, {outer.x, outer.y, 0.0});
+    add({-t, -t, inner.z}, outer);
+    add({-t, -t, 0.0}, {0.0, outer.y, inner.z});
+    add({inner.x, -t, 0.0}, {outer.x, outer.y, inner.z});
+    add({0.0, -t, 0.0}, {inner.x, 0.0, inner.z});
+    add({0.0, inner.y, 0.0}, {inner.x, outer.y, inner.z});
+    const radiosity::Scene scene = lit(std::move(slabs));
+    radiosity::PrepareResult made = radiosity::prepare(scene);
+    REQUIRE(made.prepared);
+    std::vector<radiosity::Surface>& surfaces = made.prepared->surfaces;
+    radiosity::cut_at_walls(surfaces, made.prepared->objects.diameter());
+    constexpr double min_area = 2e-4;
+    radiosity::cut_long_faces(surfaces, min_area);
+    double all = 0.0;
+    for (const radiosity::Node& root : radiosity::make_roots(surfaces)) { all += root.area; }
+    INFO("length " << length << ", thickness " << t << ", turned " << turn);
+    for (const radiosity::Surface& surface : surfaces) {
+      CHECK(brep::validate(surface.brep).empty());
+      for (const brep::FaceId f : brep::faces(surface.brep)) {
+        const double area = glm::length(brep::vector_area(surface.brep, f));
+        if (area < 0.01 * all || area <= 4.0 * min_area * all) { continue; }
+        const radiosity::Polygon corners = radiosity::corner_polygon(surface.brep, f);
+        double longest = 0.0;
+        for (const glm::dvec3& a : corners) { longest = std::max(longest, glm::length(a - corners.front())); }
+        CHECK(longest * longest < 8.2 * area);  // of a rectangle of 8 : 1 the diagonal is sqrt 65 widths long
+      }
+    }
+  }
+}
+
 TEST_CASE("pairs grow like the number of objects: of those at one place or inside each other only what shows is refined") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
