@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -313,14 +314,22 @@ void Painter::show(std::size_t block, const Tone& tone, Picture& picture) const 
   const std::vector<Fragment>& fragments = blocks_[block];
   auto next = fragments.begin();
   each_pixel(block, [&](std::uint32_t x, std::uint32_t y) {
+    const std::size_t pixel = std::size_t{y} * view_.size.width + x;
     Color sum{0.0}, all{0.0};
+    float share = 0.0f;
+    std::optional<Color> emission;  // of the first fragment
     for (; next != fragments.end() && next->x == x && next->y == y; ++next) {
       const radiosity::Material& material = light_.material(next->place.surface);
+      if (emission.value_or(material.emission) != material.emission) { picture.partly_lamp[pixel] = 1; }
+      emission = material.emission;
+      share += next->share;
       const Color b = material.emission + material.reflectance * irradiance_[block][static_cast<std::size_t>(next - fragments.begin())];
       sum += static_cast<double>(next->share) * tone(b);
       all += static_cast<double>(next->share) * b;
     }
-    picture.set(std::size_t{y} * view_.size.width + x, sum, all);
+    const bool beyond = share < 1.0f - 1e-4f;  // part of it shows nothing, which emits nothing
+    if (beyond && !radiosity::is_black(emission.value_or(Color{0.0}))) { picture.partly_lamp[pixel] = 1; }
+    picture.set(pixel, sum, all);
   });
 }
 

@@ -26,12 +26,14 @@ namespace apps {
 
 // `picture` must outlive the result.
 [[nodiscard]] inline radiosity::ShownPicture audited(const Picture& picture, const View& view, const Tone& tone) {
-  return {picture.width, picture.height,
+  return {picture.width,
+          picture.height,
           [view](double x, double y) {
             return raycast::Segment{view.eye, view.direction(x, y)};
           },
           [&picture](std::uint32_t x, std::uint32_t y) { return picture.radiosity[std::size_t{y} * picture.width + x]; },
-          [tone](double radiosity) { return 255.0 * srgb_encode(tone(radiosity)); }};
+          [tone](double radiosity) { return 255.0 * srgb_encode(tone(radiosity)); },
+          [&picture](std::uint32_t x, std::uint32_t y) { return picture.partly_lamp[std::size_t{y} * picture.width + x] != 0; }};
 }
 
 }  // namespace apps

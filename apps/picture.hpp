@@ -33,9 +33,10 @@ struct Picture {
   std::uint32_t height = 0;
   std::vector<glm::vec3> shown;       // linear values from 0 to 1, rows from the top
   std::vector<glm::dvec3> radiosity;  // mean over each pixel, W/m2: the same before exposure and clamping, however weak the light is
+  std::vector<char> partly_lamp;      // 1 where the samples of a pixel are known to meet surfaces of different emission, else 0
 
   Picture(std::uint32_t width_, std::uint32_t height_)
-      : width{width_}, height{height_}, shown(std::size_t{width_} * height_), radiosity(std::size_t{width_} * height_) {}
+      : width{width_}, height{height_}, shown(std::size_t{width_} * height_), radiosity(shown.size()), partly_lamp(shown.size(), 0) {}
 
   void set(std::size_t pixel, const radiosity::Color& shown_, const radiosity::Color& radiosity_) {
     shown[pixel] = glm::vec3(shown_);

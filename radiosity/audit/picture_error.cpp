@@ -140,6 +140,7 @@ HALFLIGHT_INLINE std::optional<PictureAudit::Seen> PictureAudit::seen(const Show
 
 HALFLIGHT_INLINE std::optional<Color> PictureAudit::emitted(const ShownPicture& picture, std::uint32_t x, std::uint32_t y,
                                                             std::uint64_t& rays) const {
+  if (picture.partly_lamp && picture.partly_lamp(x, y)) { return std::nullopt; }
   bool sees = false;
   Color emitted{0.0};
   // Somewhat beyond the pixel too: few paths would miss a lamp that covers a sliver of it, which the picture shows.

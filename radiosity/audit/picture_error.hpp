@@ -39,6 +39,9 @@ struct ShownPicture {
   std::function<Color(std::uint32_t x, std::uint32_t y)> radiosity;
   // The level, 0 to 255, at which the radiosity of one channel is displayed.
   std::function<double(double radiosity)> level;
+  // Is the pixel known to show a lamp in a part of it? Then it does not count. The samples of the picture find lamps that are much smaller
+  // than a pixel where those of the audit miss them: the picture would seem to be too bright by all that the lamp shines. May be empty.
+  std::function<bool(std::uint32_t x, std::uint32_t y)> partly_lamp = nullptr;
 };
 
 class PictureAudit {
