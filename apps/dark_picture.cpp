@@ -12,7 +12,7 @@
 
 namespace apps {
 
-std::string warning_of_dark_picture(const Picture& picture, const SceneFile& file, const View& view) {
+std::string warning_of_dark_picture(const radiosity::Picture& picture, const SceneFile& file, const radiosity::View& view) {
   double most = 0.0;
   for (const radiosity::Material& material : file.scene.materials) { most = std::max(most, radiosity::brightest(material.emission)); }
   const auto lit = [&](const glm::dvec3& radiosity) { return radiosity::brightest(radiosity) > 1e-9 * most; };

@@ -48,19 +48,19 @@ std::string text_chunk(std::string_view key, std::string_view text) {
 
 }  // namespace
 
-std::vector<std::uint8_t> dithered(const Picture& picture) {
+std::vector<std::uint8_t> dithered(const radiosity::Picture& picture) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(3 * picture.shown.size());
   for (std::size_t i = 0; i < picture.shown.size(); ++i) {
     const double raise = threshold(static_cast<std::uint32_t>(i % picture.width), static_cast<std::uint32_t>(i / picture.width));
     for (int c = 0; c < 3; ++c) {
-      bytes.push_back(static_cast<std::uint8_t>(std::floor(255.0 * srgb_encode(double{picture.shown[i][c]}) + raise)));
+      bytes.push_back(static_cast<std::uint8_t>(std::floor(255.0 * radiosity::srgb_encode(double{picture.shown[i][c]}) + raise)));
     }
   }
   return bytes;
 }
 
-std::string to_png(const Picture& picture, const Tone& tone) {
+std::string to_png(const radiosity::Picture& picture, const radiosity::Tone& tone) {
   std::string bytes;
   const auto append = [](void* out, void* data, int size) {
     static_cast<std::string*>(out)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
@@ -73,7 +73,7 @@ std::string to_png(const Picture& picture, const Tone& tone) {
 
 namespace {
 
-std::vector<float> radiance(const Picture& picture) {
+std::vector<float> radiance(const radiosity::Picture& picture) {
   std::vector<float> values;
   values.reserve(3 * picture.radiosity.size());
   for (const glm::dvec3& b : picture.radiosity) {
@@ -85,7 +85,7 @@ std::vector<float> radiance(const Picture& picture) {
 }  // namespace
 
 // Not compressed. Mantissas are scaled so that the largest is 128 or more, and no pixel looks like the beginning of a compressed row.
-std::string to_hdr(const Picture& picture) {
+std::string to_hdr(const radiosity::Picture& picture) {
   std::string bytes = "#?RADIANCE\n# linear radiance, W/m2/sr\nFORMAT=32-bit_rle_rgbe\n\n-Y ";
   bytes += std::to_string(picture.height) + " +X " + std::to_string(picture.width) + "\n";
   const std::vector<float> values = radiance(picture);
@@ -103,7 +103,7 @@ std::string to_hdr(const Picture& picture) {
   return bytes;
 }
 
-std::string to_pfm(const Picture& picture) {
+std::string to_pfm(const radiosity::Picture& picture) {
   static_assert(std::endian::native == std::endian::little, "the scale below says little-endian");
   const std::vector<float> values = radiance(picture);
   std::string bytes = "PF\n";

@@ -15,18 +15,18 @@
 #include <string>
 #include <vector>
 
-#include "apps/color.hpp"
-#include "apps/picture.hpp"
+#include <radiosity/camera/mesh_picture.hpp>
+#include <radiosity/camera/tone.hpp>
 
 namespace apps {
 
 // What a PNG shows: 3 bytes a pixel, rows from the top.
-[[nodiscard]] std::vector<std::uint8_t> dithered(const Picture& picture);
+[[nodiscard]] std::vector<std::uint8_t> dithered(const radiosity::Picture& picture);
 
 // The bytes of the file; empty when memory ran out. `tone`: by which the picture was shown.
-[[nodiscard]] std::string to_png(const Picture& picture, const Tone& tone = {});
+[[nodiscard]] std::string to_png(const radiosity::Picture& picture, const radiosity::Tone& tone = {});
 
-[[nodiscard]] std::string to_hdr(const Picture& picture);
-[[nodiscard]] std::string to_pfm(const Picture& picture);
+[[nodiscard]] std::string to_hdr(const radiosity::Picture& picture);
+[[nodiscard]] std::string to_pfm(const radiosity::Picture& picture);
 
 }  // namespace apps

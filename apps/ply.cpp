@@ -17,7 +17,7 @@ namespace {
 // Gives what differs in mesh vertex, colour or normal its own number, in the order of first use. Normals are told apart to 1 / 1000.
 class Vertices {
  public:
-  std::uint32_t index(std::uint32_t vertex, const Rgb8& rgb, const glm::vec3& normal) {
+  std::uint32_t index(std::uint32_t vertex, const radiosity::Rgb8& rgb, const glm::vec3& normal) {
     std::array<std::uint32_t, 5> key{vertex, std::uint32_t{rgb[0]} << 16 | std::uint32_t{rgb[1]} << 8 | rgb[2], 0, 0, 0};
     for (int c = 0; c < 3; ++c) {
       key[2 + static_cast<std::size_t>(c)] = static_cast<std::uint32_t>(std::lround(1000.0f * normal[c]) + 2000);
@@ -34,7 +34,7 @@ bool is_float(const glm::dvec3& p) { return glm::dvec3(glm::vec3(p)) == p; }
 
 }  // namespace
 
-std::string to_ply(const ExportMesh& mesh, const Tone& tone) {
+std::string to_ply(const ExportMesh& mesh, const radiosity::Tone& tone) {
   const bool single = std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const ExportVertex& v) { return is_float(v.position); });
   bool wide = false;
   for (std::uint32_t f = 0; f < mesh.faces(); ++f) { wide = wide || mesh.face(f).size() > 255; }
@@ -50,7 +50,7 @@ std::string to_ply(const ExportMesh& mesh, const Tone& tone) {
   for (const ExportVertex& vertex : mesh.vertices) {
     for (int c = 0; c < 3; ++c) { single ? put(bytes, static_cast<float>(vertex.position[c])) : put(bytes, vertex.position[c]); }
     for (int c = 0; c < 3; ++c) { put(bytes, static_cast<float>(vertex.normal[c])); }
-    for (const std::uint8_t byte : to_rgb8(tone(vertex.radiosity))) { put(bytes, byte); }
+    for (const std::uint8_t byte : radiosity::to_rgb8(tone(vertex.radiosity))) { put(bytes, byte); }
     for (int c = 0; c < 3; ++c) { put(bytes, static_cast<float>(vertex.radiosity[c])); }
   }
   for (std::uint32_t f = 0; f < mesh.faces(); ++f) {
@@ -61,7 +61,7 @@ std::string to_ply(const ExportMesh& mesh, const Tone& tone) {
   return bytes;
 }
 
-std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, const Tone& tone) {
+std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, const radiosity::Tone& tone) {
   Vertices vertices;
   std::string vertex_bytes;
   std::string face_bytes;
@@ -69,7 +69,7 @@ std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::Inp
     face_bytes += static_cast<char>(face.corner_count);
     for (std::uint32_t k = 0; k < face.corner_count; ++k) {
       const radiosity::MeshCorner& corner = mesh.corners[face.first_corner + k];
-      const Rgb8 rgb = to_rgb8(tone(corner.radiosity));
+      const radiosity::Rgb8 rgb = radiosity::to_rgb8(tone(corner.radiosity));
       const std::uint32_t before = vertices.size();
       put(face_bytes, vertices.index(corner.vertex, rgb, corner.normal));
       if (vertices.size() == before) { continue; }

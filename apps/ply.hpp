@@ -15,7 +15,7 @@
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/scene.hpp>
 
-#include "apps/color.hpp"
+#include <radiosity/camera/tone.hpp>
 #include "apps/export/export_mesh.hpp"
 
 namespace apps {
@@ -25,8 +25,9 @@ namespace apps {
 //   vertex  x y z: float where that is exact, else double; float nx ny nz, uchar red green blue as above,
 //           float radiosity_r radiosity_g radiosity_b: the mean of the faces around, W/m2.
 //   face    list vertex_indices.
-[[nodiscard]] std::string to_ply(const ExportMesh& mesh, const Tone& tone);
+[[nodiscard]] std::string to_ply(const ExportMesh& mesh, const radiosity::Tone& tone);
 
-[[nodiscard]] std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces, const Tone& tone);
+[[nodiscard]] std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces,
+                                 const radiosity::Tone& tone);
 
 }  // namespace apps

@@ -12,7 +12,7 @@
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/options.hpp>
 
-#include "apps/color.hpp"
+#include <radiosity/camera/tone.hpp>
 #include "apps/facts.hpp"
 
 namespace apps {
@@ -44,7 +44,7 @@ struct Report {
   radiosity::Audit audit;
   double exposure = 1.0;
   bool automatic_exposure = true;
-  ToneCurve tone = ToneCurve::linear;
+  radiosity::ToneCurve tone = radiosity::ToneCurve::linear;
   std::optional<PictureReport> picture;
   std::optional<radiosity::StageTime> picture_time;  // drawing and encoding; not part of the total
   std::optional<LightmapReport> lightmap;

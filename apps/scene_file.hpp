@@ -21,6 +21,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <radiosity/camera/view.hpp>
 #include <radiosity/intake/intake.hpp>
 #include <radiosity/scene/scene.hpp>
 
@@ -34,20 +35,6 @@ inline constexpr std::size_t max_use_depth = 64;
 inline constexpr std::size_t max_polygon_corners = 1024;  // the test for self-intersection is quadratic
 inline constexpr double max_number = 1e30;                // products of four lengths stay far from overflow
 inline constexpr std::uint32_t max_picture_side = 16'384;
-
-struct PictureSize {
-  std::uint32_t width = 800;
-  std::uint32_t height = 600;
-};
-
-struct Camera {
-  std::string name;
-  glm::dvec3 eye{0.0};
-  glm::dvec3 forward{0.0, 1.0, 0.0};  // not normalised, not zero
-  glm::dvec3 up{0.0, 0.0, 1.0};       // not normalised, not parallel to forward
-  double field_of_view = 50.0;        // horizontal, in degrees
-  std::optional<PictureSize> size;    // of the picture, unless the command says otherwise
-};
 
 // What the file says about an object and a run does not need; messages and `halflight info` name it.
 struct ObjectOrigin {
@@ -73,7 +60,7 @@ struct FilesBeside {
 struct SceneFile {
   radiosity::Scene scene;
   std::vector<ObjectOrigin> origins;  // one per scene.objects
-  std::vector<Camera> cameras;
+  std::vector<radiosity::Camera> cameras;
   std::vector<std::string> notes;  // of files of other formats: what was changed or taken otherwise
   FilesBeside beside;
   std::shared_ptr<GivenPolygons> given;  // of files of other formats; null: none

@@ -18,7 +18,7 @@
 #include <radiosity/visibility/plan.hpp>
 #include <radiosity/visibility/prepare.hpp>
 
-#include "apps/bounds.hpp"
+#include <radiosity/scene/bounds.hpp>
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/commands/model_arguments.hpp"
@@ -76,7 +76,7 @@ std::string cameras(const SceneFile& file) {
   std::string out =
       "cameras: " + std::to_string(file.cameras.size()) + (file.cameras.empty() ? " (render uses an automatic view)\n" : "\n");
   for (std::size_t i = 0; i < file.cameras.size() && i < longest_list; ++i) {
-    const Camera& camera = file.cameras[i];
+    const radiosity::Camera& camera = file.cameras[i];
     out += "  " + left(camera.name, 18) + "eye " + triple(camera.eye) + "   look " + triple(camera.forward) + "   fov " +
            formatted("%.6g", camera.field_of_view) + "\n";
   }
@@ -121,7 +121,7 @@ std::string notes(const SceneFile& file) {
 }
 
 std::string summary(const SceneFile& file, const radiosity::Prepared& prepared, const std::string& name) {
-  const raycast::Box bounds = scene_bounds(file.scene);
+  const raycast::Box bounds = radiosity::scene_bounds(file.scene);
   return name + "\n" + "bounds: " + triple(bounds.lo) + "  to  " + triple(bounds.hi) + "\n" + notes(file) + materials(file.scene) +
          objects(file, prepared) + cameras(file) + plan(file.scene, prepared);
 }

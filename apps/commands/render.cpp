@@ -29,10 +29,10 @@
 namespace apps {
 namespace {
 
-std::optional<Camera> choose_camera(const SceneFile& file, const std::string& name) {
-  if (name.empty()) { return file.cameras.empty() ? automatic_camera(file.scene) : file.cameras.front(); }
+std::optional<radiosity::Camera> choose_camera(const SceneFile& file, const std::string& name) {
+  if (name.empty()) { return file.cameras.empty() ? radiosity::automatic_camera(file.scene) : file.cameras.front(); }
   std::vector<std::string> known;
-  for (const Camera& camera : file.cameras) {
+  for (const radiosity::Camera& camera : file.cameras) {
     if (camera.name == name) { return camera; }
     known.push_back(camera.name);
   }
@@ -112,10 +112,10 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
 
 // What --memory leaves for the run: less what the program and the scene hold now. The picture is drawn when the run holds its solution
 // alone, a third of its peak at most.
-std::optional<std::uint64_t> memory_left(const RenderOptions& options, const Camera& camera) {
+std::optional<std::uint64_t> memory_left(const RenderOptions& options, const radiosity::Camera& camera) {
   constexpr std::uint64_t unread = 4'000'000;  // of the program itself: parts that are read only when they are run
   const std::uint64_t held = resident_memory().value_or(0) + unread;
-  const PictureSize size = options.size.value_or(camera.size.value_or(PictureSize{}));
+  const radiosity::PictureSize size = options.size.value_or(camera.size.value_or(radiosity::PictureSize{}));
   constexpr std::uint64_t band = 20'000'000, pixel = 60;  // of samples; of colours and their coded form
   const std::uint64_t picture = has_picture(options) ? band + pixel * size.width * size.height : 0;
   if (held + picture >= *options.memory) {
@@ -137,7 +137,8 @@ ExitCode write_all(const std::vector<RenderOutput>& outputs) {
 }
 
 // Pictures from a solution that was kept.
-ExitCode draw_light(const RenderOptions& options, const SceneFile& file, const Camera& camera, const radiosity::Control& control) {
+ExitCode draw_light(const RenderOptions& options, const SceneFile& file, const radiosity::Camera& camera,
+                    const radiosity::Control& control) {
   ExitCode code = ExitCode::ok;
   const auto bytes = load_text(options.light, code);
   if (!bytes) { return code; }
@@ -147,7 +148,7 @@ ExitCode draw_light(const RenderOptions& options, const SceneFile& file, const C
     return ExitCode::invalid_input;
   }
   Artist artist(options, file, camera);
-  const Tone tone = artist.tone(read.light->mesh);
+  const radiosity::Tone tone = artist.tone(read.light->mesh);
   const auto picture = artist.draw(read.light->mesh, read.light->frame, tone, control);
   if (!picture) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
   std::string text;
@@ -162,7 +163,7 @@ ExitCode draw_light(const RenderOptions& options, const SceneFile& file, const C
 }
 
 // What is asked for of a solution, and the report.
-ExitCode write_solution(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
+ExitCode write_solution(const RenderOptions& options, const SceneFile& file, const radiosity::Camera& camera, Artist& artist,
                         const radiosity::Solution& solution, const radiosity::Options& settings, const radiosity::Control& control,
                         Progress& progress) {
   Report report;
@@ -220,7 +221,7 @@ ExitCode run(const RenderOptions& options) {
   if (settings.error && options.error_of.value_or(has_picture(options) ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
     control.picture_error = [&](const radiosity::Mesh& mesh, const radiosity::Frame& frame,
                                 const radiosity::AuditGoal& goal) -> std::optional<radiosity::PictureError> {
-      const Tone tone = artist.tone(mesh);
+      const radiosity::Tone tone = artist.tone(mesh);
       const auto picture = artist.draw(mesh, frame, tone, control);
       if (!picture) { return std::nullopt; }
       return artist.audit(*picture, tone, goal, control);

@@ -18,12 +18,12 @@ namespace apps {
 namespace {
 
 // WxH, each side from 1 to max_picture_side.
-std::optional<PictureSize> parse_size(std::string_view text) {
+std::optional<radiosity::PictureSize> parse_size(std::string_view text) {
   const std::size_t cross = std::min(text.find('x'), text.size());
   const auto width = number_in<std::uint32_t>(text.substr(0, cross));
   const auto height = number_in<std::uint32_t>(text.substr(std::min(cross + 1, text.size())));
   const auto fits = [](const auto& side) { return side && *side >= 1 && *side <= max_picture_side; };
-  return fits(width) && fits(height) ? std::optional(PictureSize{*width, *height}) : std::nullopt;
+  return fits(width) && fits(height) ? std::optional(radiosity::PictureSize{*width, *height}) : std::nullopt;
 }
 
 // What is written.
@@ -105,8 +105,9 @@ std::vector<Argument> picture_arguments(RenderOptions& options) {
           "triangles of the solution"),
       parsed("--exposure", "NUMBER", options.exposure, Exposure::parse, "a number above 0, or stops such as 1ev or -0.5ev",
              "factor from radiance to picture, or stops from the automatic one, such as 1ev or -0.5ev (default: automatic)"),
-      one_of<ToneCurve, ToneCurve>("--tone", options.tone, {{"linear", ToneCurve::linear}, {"filmic", ToneCurve::filmic}},
-                                   "linear: brightness proportional to light; filmic: bright tones are compressed as on film"),
+      one_of<radiosity::ToneCurve, radiosity::ToneCurve>(
+          "--tone", options.tone, {{"linear", radiosity::ToneCurve::linear}, {"filmic", radiosity::ToneCurve::filmic}},
+          "linear: brightness proportional to light; filmic: bright tones are compressed as on film"),
   };
 }
 

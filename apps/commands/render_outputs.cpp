@@ -16,11 +16,11 @@
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/scene.hpp>
 
+#include <radiosity/camera/gather_picture.hpp>
 #include "apps/dark_picture.hpp"
 #include "apps/export/export_mesh.hpp"
 #include "apps/export/lightmap.hpp"
 #include "apps/export/viewer.hpp"
-#include "apps/gather_picture.hpp"
 #include "apps/light_file.hpp"
 #include "apps/memory.hpp"
 #include "apps/mesh_file.hpp"
@@ -31,13 +31,13 @@
 namespace apps {
 namespace {
 
-std::string encoded(const Picture& picture, RenderFormat format, const Tone& tone) {
+std::string encoded(const radiosity::Picture& picture, RenderFormat format, const radiosity::Tone& tone) {
   return format == RenderFormat::png ? to_png(picture, tone) : format == RenderFormat::hdr ? to_hdr(picture) : to_pfm(picture);
 }
 
 // The mesh that is exported, with its lightmap among the outputs when one is asked for.
 std::optional<ExportMesh> exported_mesh(const RenderOptions& options, const SceneFile& file, const radiosity::Solution& solution,
-                                        const Tone& tone, std::vector<RenderOutput>& outputs, Report& report) {
+                                        const radiosity::Tone& tone, std::vector<RenderOutput>& outputs, Report& report) {
   std::optional<ExportMesh> mesh = options.onto_input
                                        ? given_mesh(file, solution)
                                        : solution_mesh(file, solution, options.lightmap.empty() ? solution.shown() : solution.mesh);
@@ -107,30 +107,30 @@ radiosity::Options solver_options(const RenderOptions& options) {
   return solver;
 }
 
-Tone Artist::tone(const radiosity::Mesh& mesh) const {
+radiosity::Tone Artist::tone(const radiosity::Mesh& mesh) const {
   const bool automatic = !options_.exposure || options_.exposure->of_automatic;
   const double factor = options_.exposure ? options_.exposure->factor : 1.0;
-  return {automatic ? factor * automatic_exposure(mesh, file_.scene, view_) : factor, options_.tone};
+  return {automatic ? factor * radiosity::automatic_exposure(mesh, file_.scene, view_) : factor, options_.tone};
 }
 
-std::optional<Picture> Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const Tone& tone,
-                                    const radiosity::Control& control) const {
-  if (options_.method == PictureMethod::mesh) { return apps::draw(mesh, view_, tone, 4, control.cancel); }
+std::optional<radiosity::Picture> Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Tone& tone,
+                                               const radiosity::Control& control) const {
+  if (options_.method == PictureMethod::mesh) { return radiosity::draw(mesh, view_, tone, 4, control.cancel); }
   const radiosity::FinalGather light{file_.scene, mesh, frame};
-  return apps::draw(light, view_, tone, options_.solver.threads, control);
+  return radiosity::draw(light, view_, tone, options_.solver.threads, control);
 }
 
-std::optional<radiosity::PictureError> Artist::audit(const Picture& picture, const Tone& tone, const radiosity::AuditGoal& goal,
-                                                     const radiosity::Control& control) {
+std::optional<radiosity::PictureError> Artist::audit(const radiosity::Picture& picture, const radiosity::Tone& tone,
+                                                     const radiosity::AuditGoal& goal, const radiosity::Control& control) {
   if (!asked_) {
     audit_ = radiosity::PictureAudit::make(file_.scene);
     asked_ = true;
   }
   if (!audit_) { return std::nullopt; }
-  return audit_->measure(audited(picture, view_, tone), goal, options_.solver.threads, options_.solver.seed, control);
+  return audit_->measure(radiosity::audited(picture, view_, tone), goal, options_.solver.threads, options_.solver.seed, control);
 }
 
-std::vector<RenderOutput> encode(const RenderOptions& options, const Picture& picture, const Tone& tone) {
+std::vector<RenderOutput> encode(const RenderOptions& options, const radiosity::Picture& picture, const radiosity::Tone& tone) {
   std::vector<RenderOutput> outputs;
   for (const std::string& path : options.outputs) {
     if (is_picture(path)) { outputs.push_back({path, encoded(picture, *render_format(path), tone)}); }
@@ -141,12 +141,13 @@ std::vector<RenderOutput> encode(const RenderOptions& options, const Picture& pi
 namespace {
 
 // The picture, with its time and error in the report. Nothing when interrupted.
-std::optional<Picture> drawn(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
-                             const radiosity::Solution& solution, const Tone& tone, const radiosity::Control& control, Report& report) {
+std::optional<radiosity::Picture> drawn(const RenderOptions& options, const SceneFile& file, const radiosity::Camera& camera,
+                                        Artist& artist, const radiosity::Solution& solution, const radiosity::Tone& tone,
+                                        const radiosity::Control& control, Report& report) {
   std::vector<radiosity::StageTime> stages;
   radiosity::detail::Stopwatch watch(stages);
   const radiosity::Mesh& mesh = options.method == PictureMethod::mesh ? solution.shown() : solution.mesh;
-  std::optional<Picture> picture = artist.draw(mesh, solution.frame, tone, control);
+  std::optional<radiosity::Picture> picture = artist.draw(mesh, solution.frame, tone, control);
   if (!picture) { return std::nullopt; }
   report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
   watch.lap("picture");
@@ -166,15 +167,16 @@ std::optional<Picture> drawn(const RenderOptions& options, const SceneFile& file
 
 }  // namespace
 
-std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera, Artist& artist,
-                                                const radiosity::Solution& solution, const radiosity::Control& control, Report& report) {
+std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const radiosity::Camera& camera,
+                                                Artist& artist, const radiosity::Solution& solution, const radiosity::Control& control,
+                                                Report& report) {
   if (control.cancelled()) { return std::nullopt; }
   std::vector<RenderOutput> outputs;
-  const Tone tone = artist.tone(solution.mesh);
+  const radiosity::Tone tone = artist.tone(solution.mesh);
   report.exposure = tone.exposure;
   report.tone = tone.curve;
   report.automatic_exposure = !options.exposure || options.exposure->of_automatic;
-  const std::optional<Picture> picture =
+  const std::optional<radiosity::Picture> picture =
       has_picture(options) ? drawn(options, file, camera, artist, solution, tone, control, report) : std::nullopt;
   if (has_picture(options) && !picture) { return std::nullopt; }
   std::optional<ExportMesh> exported;

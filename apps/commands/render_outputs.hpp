@@ -13,8 +13,8 @@
 #include <radiosity/radiosity.hpp>
 #include <radiosity/scene/options.hpp>
 
+#include <radiosity/camera/mesh_picture.hpp>
 #include "apps/intake/to_scene.hpp"
-#include "apps/picture.hpp"
 #include "apps/report.hpp"
 #include "apps/scene_file.hpp"
 
@@ -46,9 +46,9 @@ struct RenderOptions {
   std::optional<double> texel;       // of the lightmap, metres
   std::string json;                  // empty: none
   std::string camera;                // empty: the first of the file, or the automatic one
-  std::optional<PictureSize> size;
+  std::optional<radiosity::PictureSize> size;
   std::optional<Exposure> exposure;
-  ToneCurve tone = ToneCurve::linear;
+  radiosity::ToneCurve tone = radiosity::ToneCurve::linear;
   PictureMethod method = PictureMethod::gather;
   std::optional<double> epsilon, min_area;  // default: what suits the outputs
   bool quiet = false;
@@ -80,25 +80,27 @@ enum class RenderFormat { png, hdr, pfm, light, ply, html, exported };
 // Draws a solution as it will be shown, and audits what it has drawn.
 class Artist {
  public:
-  Artist(const RenderOptions& options, const SceneFile& file, const Camera& camera)
-      : options_{options}, file_{file}, view_{make_view(camera, options.size.value_or(camera.size.value_or(PictureSize{})))} {}
+  Artist(const RenderOptions& options, const SceneFile& file, const radiosity::Camera& camera)
+      : options_{options},
+        file_{file},
+        view_{radiosity::make_view(camera, options.size.value_or(camera.size.value_or(radiosity::PictureSize{})))} {}
 
-  [[nodiscard]] Tone tone(const radiosity::Mesh& mesh) const;
-  [[nodiscard]] PictureSize size() const { return view_.size; }
-  [[nodiscard]] const View& view() const { return view_; }
+  [[nodiscard]] radiosity::Tone tone(const radiosity::Mesh& mesh) const;
+  [[nodiscard]] radiosity::PictureSize size() const { return view_.size; }
+  [[nodiscard]] const radiosity::View& view() const { return view_; }
   [[nodiscard]] radiosity::Viewpoint viewpoint() const {
     return {view_.eye, [view = view_](const glm::dvec3& p, const glm::dvec3& n) { return view.share(p, n); }, view_.pixel_area()};
   }
   // Nothing when interrupted.
-  [[nodiscard]] std::optional<Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const Tone& tone,
-                                            const radiosity::Control& control) const;
-  [[nodiscard]] std::optional<radiosity::PictureError> audit(const Picture& picture, const Tone& tone, const radiosity::AuditGoal& goal,
-                                                             const radiosity::Control& control);
+  [[nodiscard]] std::optional<radiosity::Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame,
+                                                       const radiosity::Tone& tone, const radiosity::Control& control) const;
+  [[nodiscard]] std::optional<radiosity::PictureError> audit(const radiosity::Picture& picture, const radiosity::Tone& tone,
+                                                             const radiosity::AuditGoal& goal, const radiosity::Control& control);
 
  private:
   const RenderOptions& options_;
   const SceneFile& file_;
-  View view_;
+  radiosity::View view_;
   std::optional<radiosity::PictureAudit> audit_;
   bool asked_ = false;
 };
@@ -109,11 +111,13 @@ struct RenderOutput {
 };
 
 // The picture in each format that is asked for.
-[[nodiscard]] std::vector<RenderOutput> encode(const RenderOptions& options, const Picture& picture, const Tone& tone);
+[[nodiscard]] std::vector<RenderOutput> encode(const RenderOptions& options, const radiosity::Picture& picture,
+                                               const radiosity::Tone& tone);
 
 // Everything that is to be written, in memory; the report is completed. Nothing when interrupted.
-[[nodiscard]] std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const Camera& camera,
-                                                              Artist& artist, const radiosity::Solution& solution,
-                                                              const radiosity::Control& control, Report& report);
+[[nodiscard]] std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file,
+                                                              const radiosity::Camera& camera, Artist& artist,
+                                                              const radiosity::Solution& solution, const radiosity::Control& control,
+                                                              Report& report);
 
 }  // namespace apps

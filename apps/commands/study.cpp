@@ -12,6 +12,7 @@
 
 #include <radiosity/scene/options.hpp>
 
+#include <radiosity/camera/view.hpp>
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/commands/model_arguments.hpp"
@@ -26,7 +27,6 @@
 #include "apps/study/reference.hpp"
 #include "apps/text.hpp"
 #include "apps/version.hpp"
-#include "apps/view.hpp"
 
 namespace apps {
 namespace {
@@ -98,7 +98,7 @@ bool study_scene(const std::string& path, const StudyOptions& options, const std
   if (!file) { return false; }
   result.scene = fs::path(path).stem().string();
   result.title = title_of(*text);
-  result.camera = file->cameras.empty() ? automatic_camera(file->scene) : file->cameras.front();
+  result.camera = file->cameras.empty() ? radiosity::automatic_camera(file->scene) : file->cameras.front();
 
   study::ReferenceOptions reference;
   reference.paths = options.paths;

@@ -15,7 +15,7 @@
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 
-#include "apps/bounds.hpp"
+#include <radiosity/scene/bounds.hpp>
 
 namespace apps {
 namespace {
@@ -56,8 +56,8 @@ bool is_covered(const radiosity::Solution& solution, std::uint32_t node) {
 
 radiosity::Mesh in_depth_order(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh) {
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
-  const std::vector<raycast::PlacedObject> objects = placed_objects(file.scene);
-  const double step = 1e-4 * scene_bounds(file.scene).diameter();
+  const std::vector<raycast::PlacedObject> objects = radiosity::placed_objects(file.scene);
+  const double step = 1e-4 * radiosity::scene_bounds(file.scene).diameter();
   const std::vector<bool> before = covering(mesh, solution, inputs, objects);
   std::vector<bool> fixed(mesh.positions.size(), false);  // corners of leaves that are not covered: no gap may open
   for (const radiosity::MeshFace& face : mesh.faces) {

@@ -17,7 +17,7 @@
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 
-#include "apps/bounds.hpp"
+#include <radiosity/scene/bounds.hpp>
 #include "apps/mesh_file.hpp"
 
 namespace apps {
@@ -36,7 +36,7 @@ glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
 ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& in_place) {
   const radiosity::Mesh mesh = in_depth_order(file, solution, in_place);
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
-  const std::vector<raycast::PlacedObject> objects = placed_objects(file.scene);
+  const std::vector<raycast::PlacedObject> objects = radiosity::placed_objects(file.scene);
   ExportMesh out;
   out.cameras = file.cameras;
   std::vector<std::uint32_t> newest(mesh.positions.size(), none), next;  // of a place: its vertices, those of the group first

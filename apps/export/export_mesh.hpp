@@ -19,7 +19,7 @@
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>
 
-#include "apps/color.hpp"
+#include <radiosity/camera/tone.hpp>
 #include "apps/scene_file.hpp"
 
 namespace apps {
@@ -41,7 +41,7 @@ struct ExportMesh {
   std::vector<ExportGroup> groups;
   bool z_up = true;
   bool as_given = false;  // the positions are those of the user's file, and stay so
-  std::vector<Camera> cameras;
+  std::vector<radiosity::Camera> cameras;
   // Light as a texture (lightmap.hpp): of each corner its place there, from the first row and column on; empty when there is none.
   std::vector<glm::vec2> coordinates;
   std::string texture, texture_name;  // a PNG; the name of the file in which the same light is
@@ -68,7 +68,7 @@ struct ExportMesh {
 
 struct ExportFormat {
   std::string_view ending;
-  std::string (*write)(const ExportMesh& mesh, const Tone& tone);
+  std::string (*write)(const ExportMesh& mesh, const radiosity::Tone& tone);
 };
 
 // By the ending of the name; null when none has it.

@@ -12,8 +12,8 @@
 #include <brep/ears.hpp>
 #include <raycast/box.hpp>
 
+#include <radiosity/camera/tone.hpp>
 #include "apps/bytes.hpp"
-#include "apps/color.hpp"
 #include "apps/export/export_mesh.hpp"
 #include "apps/json.hpp"
 #include "apps/version.hpp"
@@ -24,7 +24,7 @@ namespace {
 class Writer {
  public:
   // `coordinates`: of each vertex in the texture of the mesh; empty when it has none.
-  Writer(const ExportMesh& mesh, const std::vector<glm::vec2>& coordinates, const Tone& tone)
+  Writer(const ExportMesh& mesh, const std::vector<glm::vec2>& coordinates, const radiosity::Tone& tone)
       : mesh_(mesh), coordinates_(coordinates), tone_(tone) {
     raycast::Box box;
     for (const ExportVertex& vertex : mesh.vertices) { box.extend(vertex.position); }
@@ -119,7 +119,7 @@ class Writer {
   }
 
   // Looks along its -z, with its y up.
-  static std::array<double, 16> camera_matrix(const Camera& camera) {
+  static std::array<double, 16> camera_matrix(const radiosity::Camera& camera) {
     const glm::dvec3 back = -glm::normalize(camera.forward), right = glm::normalize(glm::cross(camera.up, back)),
                      up = glm::cross(back, right);
     const glm::dvec3& e = camera.eye;
@@ -146,8 +146,8 @@ class Writer {
   }
 
   void cameras(JsonWriter& json) const {
-    json.key("cameras").list(mesh_.cameras, [&](const Camera& camera) {
-      const PictureSize size = camera.size.value_or(PictureSize{});
+    json.key("cameras").list(mesh_.cameras, [&](const radiosity::Camera& camera) {
+      const radiosity::PictureSize size = camera.size.value_or(radiosity::PictureSize{});
       const double aspect = static_cast<double>(size.width) / size.height, half = std::tan(camera.field_of_view * std::acos(-1.0) / 360.0);
       json.object("name", camera.name, "type", "perspective", "perspective", [&](JsonWriter& perspective) {
         perspective.object("aspectRatio", aspect, "yfov", 2.0 * std::atan(half / aspect), "znear", 5e-3 * size_);
@@ -216,7 +216,7 @@ class Writer {
 
   const ExportMesh& mesh_;
   const std::vector<glm::vec2>& coordinates_;
-  Tone tone_;
+  radiosity::Tone tone_;
   glm::dvec3 centre_{0.0};
   double size_ = 1.0;
   std::vector<Part> parts_;
@@ -224,7 +224,7 @@ class Writer {
   std::string binary_;
 };
 
-std::string write_glb(const ExportMesh& mesh, const Tone& tone) {
+std::string write_glb(const ExportMesh& mesh, const radiosity::Tone& tone) {
   std::vector<glm::vec2> coordinates;
   if (mesh.coordinates.empty()) { return Writer(mesh, coordinates, tone).file(); }
   const ExportMesh split = split_at_seams(mesh, coordinates);

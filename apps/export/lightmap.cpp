@@ -28,8 +28,8 @@ constexpr double usual_texels = 1 << 20;
 
 double texel_for(double area) { return std::sqrt(area / usual_texels); }
 
-LightTexture texture(const radiosity::Lightmap& map, const Tone& tone) {
-  LightTexture result{Picture(map.width, map.height), map.texel};
+LightTexture texture(const radiosity::Lightmap& map, const radiosity::Tone& tone) {
+  LightTexture result{radiosity::Picture(map.width, map.height), map.texel};
   for (std::size_t i = 0; i < map.texels.size(); ++i) {
     const radiosity::Color light(map.texels[i]);
     result.picture.set(i, tone(light), light);
@@ -108,7 +108,7 @@ class FlatFace {
 
 }  // namespace
 
-std::optional<LightTexture> solution_texture(const radiosity::Solution& solution, const Tone& tone, std::optional<double> texel,
+std::optional<LightTexture> solution_texture(const radiosity::Solution& solution, const radiosity::Tone& tone, std::optional<double> texel,
                                              ExportMesh& mesh) {
   const radiosity::Mesh& source = solution.mesh;
   std::map<std::uint32_t, std::vector<std::uint32_t>> faces;  // of each input face
@@ -141,7 +141,7 @@ std::optional<LightTexture> solution_texture(const radiosity::Solution& solution
   return texture(map, tone);
 }
 
-std::optional<LightTexture> given_texture(const SceneFile& file, const radiosity::Solution& solution, const Tone& tone,
+std::optional<LightTexture> given_texture(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Tone& tone,
                                           std::optional<double> texel, ExportMesh& mesh) {
   if (!file.given) { return std::nullopt; }
   const GivenPolygons& given = *file.given;

@@ -4,7 +4,7 @@
 #include <array>
 #include <charconv>
 
-#include "apps/color.hpp"
+#include <radiosity/camera/tone.hpp>
 #include "apps/export/export_mesh.hpp"
 #include "apps/text.hpp"
 
@@ -24,7 +24,7 @@ std::string one_line(std::string name) {
 }
 
 // Programs that read OBJ take y as up, as we do, so a scene is turned; the user's own vertices are not.
-std::string write_obj(const ExportMesh& mesh, const Tone& tone) {
+std::string write_obj(const ExportMesh& mesh, const radiosity::Tone& tone) {
   const bool turn = mesh.z_up && !mesh.as_given;
   const auto turned = [&](const glm::dvec3& v) { return turn ? glm::dvec3(v.x, v.z, -v.y) : v; };
   std::string text = "# halflight: x y z r g b, colours sRGB of radiance times " + shortest(tone.exposure) + ", tone " + name(tone.curve) +
@@ -35,7 +35,7 @@ std::string write_obj(const ExportMesh& mesh, const Tone& tone) {
     const glm::dvec3 place = turned(vertex.position);
     for (int k = 0; k < 3; ++k) { append(text, place[k]); }
     const radiosity::Color color = tone(vertex.radiosity);
-    for (int k = 0; k < 3; ++k) { text += formatted(" %.4f", srgb_encode(color[k])); }
+    for (int k = 0; k < 3; ++k) { text += formatted(" %.4f", radiosity::srgb_encode(color[k])); }
     text += '\n';
   }
   for (const ExportVertex& vertex : mesh.vertices) {

@@ -33,7 +33,7 @@ struct Arrays {
 
 }  // namespace
 
-std::string viewer_page(const SceneFile& file, const radiosity::Solution& solution, const Camera& camera, double exposure,
+std::string viewer_page(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Camera& camera, double exposure,
                         const std::string& title, const std::string& sentence) {
   const radiosity::Mesh& mesh = solution.shown();
   raycast::Box box;
@@ -66,13 +66,13 @@ std::string viewer_page(const SceneFile& file, const radiosity::Solution& soluti
   json.open_object();
   json.fields("title", title, "sentence", sentence);
   json.key("cameras").open_array();
-  const auto add = [&](const Camera& c) {
-    const PictureSize picture = c.size.value_or(PictureSize{});
+  const auto add = [&](const radiosity::Camera& c) {
+    const radiosity::PictureSize picture = c.size.value_or(radiosity::PictureSize{});
     json.object("name", c.name, "eye", (c.eye - centre) / size, "forward", glm::normalize(c.forward), "up", glm::normalize(c.up), "fov",
                 c.field_of_view, "aspect", static_cast<double>(picture.width) / picture.height);
   };
   add(camera);
-  for (const Camera& c : file.cameras) {
+  for (const radiosity::Camera& c : file.cameras) {
     if (c.name != camera.name) { add(c); }
   }
   json.close();

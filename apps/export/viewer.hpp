@@ -13,7 +13,7 @@
 namespace apps {
 
 // `camera`: the one that the page begins with. `title` and `sentence` are plain text.
-[[nodiscard]] std::string viewer_page(const SceneFile& file, const radiosity::Solution& solution, const Camera& camera, double exposure,
-                                      const std::string& title, const std::string& sentence);
+[[nodiscard]] std::string viewer_page(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Camera& camera,
+                                      double exposure, const std::string& title, const std::string& sentence);
 
 }  // namespace apps

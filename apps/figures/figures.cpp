@@ -6,10 +6,10 @@
 #include <radiosity/radiosity.hpp>
 #include <radiosity/run/stages.hpp>
 
+#include <radiosity/camera/mesh_picture.hpp>
 #include "apps/euler/outputs.hpp"
 #include "apps/euler/solid_view.hpp"
 #include "apps/html_document.hpp"
-#include "apps/picture.hpp"
 #include "apps/picture_file.hpp"
 #include "apps/scene_file.hpp"
 #include "apps/study/svg.hpp"
@@ -94,8 +94,9 @@ Pictures both_reconstructions(const std::string& scene, unsigned width, unsigned
   radiosity::Mesh simple = run.picture(run.solution.radiosity, radiosity::Reconstruction::simple);
   radiosity::detail::to_scene(weighted, run.scene.frame);
   radiosity::detail::to_scene(simple, run.scene.frame);
-  const View view = make_view(file.cameras.empty() ? automatic_camera(file.scene) : file.cameras.front(), {width, height});
-  const Tone tone{automatic_exposure(weighted, file.scene, view), ToneCurve::linear};
+  const radiosity::View view =
+      radiosity::make_view(file.cameras.empty() ? radiosity::automatic_camera(file.scene) : file.cameras.front(), {width, height});
+  const radiosity::Tone tone{radiosity::automatic_exposure(weighted, file.scene, view), radiosity::ToneCurve::linear};
   return {to_png(*draw(simple, view, tone), tone), to_png(*draw(weighted, view, tone), tone)};
 }
 

@@ -35,7 +35,7 @@ const ModelFormat* model_format(std::string_view path, std::string_view bytes) {
   return nullptr;
 }
 
-bool usable(const Camera& camera) {
+bool usable(const radiosity::Camera& camera) {
   const auto in_reach = [](const glm::dvec3& v) { return glm::length(v) <= max_number; };  // false for NaN
   const double sine = glm::length(glm::cross(camera.forward, camera.up));
   return in_reach(camera.eye) && in_reach(camera.forward) && in_reach(camera.up) &&

@@ -255,7 +255,7 @@ class GltfReader {
     if (!given) { return error(node["camera"].offset(), "there is no such camera"); }
     const JsonValue& lens = given["perspective"];
     const std::string& own = given["name"].string();
-    Camera camera;
+    radiosity::Camera camera;
     camera.name = !own.empty()                     ? own
                   : !node["name"].string().empty() ? node["name"].string()
                                                    : "camera" + std::to_string(model_.cameras.size());
@@ -266,7 +266,7 @@ class GltfReader {
     const double aspect = lens["aspectRatio"].number(4.0 / 3.0);
     camera.field_of_view = 2.0 * std::atan(aspect * std::tan(0.5 * lens["yfov"].number(0.7))) * 180.0 / std::numbers::pi;
     if (lens["aspectRatio"] && aspect > 0.05 && aspect < 20.0) {
-      camera.size = PictureSize{static_cast<std::uint32_t>(std::lround(600.0 * aspect)), 600};
+      camera.size = radiosity::PictureSize{static_cast<std::uint32_t>(std::lround(600.0 * aspect)), 600};
     }
     if (usable(camera)) { return model_.cameras.push_back(std::move(camera)); }
     notes_.add("cameras that see nothing are passed over", mesh_file::shown(camera.name));

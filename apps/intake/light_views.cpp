@@ -15,7 +15,7 @@
 #include <radiosity/scene/material.hpp>
 #include <raycast/objects/polygon.hpp>
 
-#include "apps/bounds.hpp"
+#include <radiosity/scene/bounds.hpp>
 
 namespace apps {
 namespace {
@@ -28,7 +28,7 @@ struct HangingPlace {
 }  // namespace
 
 // What shines less than a hundredth as bright as the brightest is no lamp: many programs give every material a little light of its own.
-LightViews::LightViews(const radiosity::Scene& scene) : objects_(placed_objects(scene)) {
+LightViews::LightViews(const radiosity::Scene& scene) : objects_(radiosity::placed_objects(scene)) {
   const std::vector<radiosity::InputSurface> surfaces = radiosity::surfaces(scene);
   const auto exitance = [&](const radiosity::InputSurface& s) { return radiosity::brightest(scene.materials[s.material].emission); };
   double most = 0.0;
@@ -65,7 +65,7 @@ bool LightViews::lit(std::uint32_t object, const raycast::SurfacePoint& at) cons
   });
 }
 
-double LightViews::lit_share(const Camera& camera) const {
+double LightViews::lit_share(const radiosity::Camera& camera) const {
   const glm::dvec3 forward = glm::normalize(camera.forward), right = glm::normalize(glm::cross(forward, camera.up)),
                    up = glm::cross(right, forward);
   const double half = std::tan(0.5 * camera.field_of_view * std::numbers::pi / 180.0);
@@ -92,7 +92,7 @@ double LightViews::free_way(const glm::dvec3& from, const glm::dvec3& direction)
   return hit && hit->front ? hit->t : 0.0;
 }
 
-std::optional<Camera> LightViews::across_room(glm::dvec3 middle) const {
+std::optional<radiosity::Camera> LightViews::across_room(glm::dvec3 middle) const {
   constexpr double eye_height = 0.6;  // of the way from what is below to what is above
   middle.z -= (1.0 - eye_height) * free_way(middle, {0, 0, -1});
   glm::dvec3 away{0.0};
@@ -108,7 +108,7 @@ std::optional<Camera> LightViews::across_room(glm::dvec3 middle) const {
     }
   }
   if (away == glm::dvec3{0.0}) { return std::nullopt; }
-  Camera camera;
+  radiosity::Camera camera;
   camera.name = "inside";
   camera.eye = middle + 0.9 * most * away;
   // Between a lamp and the ceiling close above it the way was found under the ceiling; the eye stands between floor and ceiling.
@@ -119,13 +119,13 @@ std::optional<Camera> LightViews::across_room(glm::dvec3 middle) const {
   return camera;
 }
 
-std::optional<Camera> LightViews::inside() const {
+std::optional<radiosity::Camera> LightViews::inside() const {
   constexpr std::size_t most_lamps = 8;
   constexpr double enough = 0.5;
-  std::optional<Camera> best;
+  std::optional<radiosity::Camera> best;
   double most = 0.0;
   const auto look = [&](const glm::dvec3& middle) {
-    const std::optional<Camera> camera = across_room(middle);
+    const std::optional<radiosity::Camera> camera = across_room(middle);
     const double share = camera && most < enough ? lit_share(*camera) : 0.0;
     if (share > most) {
       most = share;

@@ -27,11 +27,11 @@ class LightViews {
 
   // Of the rays of a coarse picture that meet a surface, the share that meet a lamp or what a lamp shines on directly. As in pictures, rays
   // go on past the backs of surfaces.
-  [[nodiscard]] double lit_share(const Camera& camera) const;
+  [[nodiscard]] double lit_share(const radiosity::Camera& camera) const;
 
   // From the far end of the room of one of the brightest lamps, across it: of these views the one that sees most of the light. Nothing when
   // there is no lamp, or no place. Does not depend on the order of the polygons of a lamp.
-  [[nodiscard]] std::optional<Camera> inside() const;
+  [[nodiscard]] std::optional<radiosity::Camera> inside() const;
 
   // A lamp for a closed room in which nothing shines: a square close under the ceiling (z up) of the room within these bounds. It looks
   // down, where most of the air is around and below it. Null when no place was found.
@@ -46,7 +46,7 @@ class LightViews {
   [[nodiscard]] bool lit(std::uint32_t object, const raycast::SurfacePoint& at) const;
   // How far it is to the first surface; 0 when that shows its back, or there is none: the point is not in the air of a room.
   [[nodiscard]] double free_way(const glm::dvec3& from, const glm::dvec3& direction) const;
-  [[nodiscard]] std::optional<Camera> across_room(glm::dvec3 middle) const;
+  [[nodiscard]] std::optional<radiosity::Camera> across_room(glm::dvec3 middle) const;
 
   raycast::Scene objects_;
   std::vector<LampPoint> points_;     // of some of the lamps

@@ -59,7 +59,7 @@ struct Model {
   std::vector<ModelMaterial> materials;
   std::vector<radiosity::SceneObject> objects;  // analytic ones; their materials are among the model's
   std::vector<ObjectOrigin> origins;            // one per object
-  std::vector<Camera> cameras;
+  std::vector<radiosity::Camera> cameras;
   std::vector<ModelLight> lights;
   std::vector<std::string> notes;  // sentences about what was passed over or taken otherwise
 
@@ -99,7 +99,7 @@ class Notes {
 };
 
 // Does it look somewhere, with its up beside its view, and through a lens that a picture can have? Others must not get into a model.
-[[nodiscard]] bool usable(const Camera& camera);
+[[nodiscard]] bool usable(const radiosity::Camera& camera);
 
 struct ModelResult : ErrorReport {
   std::optional<Model> model;  // nothing when there are errors

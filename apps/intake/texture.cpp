@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "apps/color.hpp"
+#include <radiosity/camera/tone.hpp>
 
 #if defined(__clang__)  // it shifts negative numbers
 #pragma clang attribute push(__attribute__((no_sanitize("undefined"))), apply_to = function)
@@ -40,7 +40,7 @@ std::optional<radiosity::Color> mean_color(std::string_view bytes) {
 
 std::optional<radiosity::Color> mean_of_pixels(std::span<const std::uint8_t> rgba) {
   std::array<double, 256> linear{};
-  for (std::size_t i = 0; i < linear.size(); ++i) { linear[i] = srgb_decode(static_cast<double>(i) / 255.0); }
+  for (std::size_t i = 0; i < linear.size(); ++i) { linear[i] = radiosity::srgb_decode(static_cast<double>(i) / 255.0); }
   radiosity::Color sum(0.0);
   double opaque = 0.0;
   for (std::size_t i = 0; i + 3 < rgba.size(); i += 4) {

@@ -14,10 +14,10 @@
 #include <raycast/objects/sphere.hpp>
 #include <raycast/transform.hpp>
 
-#include "apps/bounds.hpp"
+#include <radiosity/camera/view.hpp>
+#include <radiosity/scene/bounds.hpp>
 #include "apps/intake/light_views.hpp"
 #include "apps/text.hpp"
-#include "apps/view.hpp"
 #include "apps/words.hpp"
 
 namespace apps {
@@ -62,7 +62,7 @@ class SceneMaker {
     take_polygons();
     for (std::size_t i = 0; i < model_.objects.size(); ++i) {
       const radiosity::SceneObject& object = model_.objects[i];
-      if (object.placement.inside) { rooms_.push_back({placed_bounds(*object.shape, object.placement), false}); }
+      if (object.placement.inside) { rooms_.push_back({radiosity::placed_bounds(*object.shape, object.placement), false}); }
       file_.scene.objects.push_back(std::move(model_.objects[i]));
       file_.origins.push_back(model_.origins[i]);
     }
@@ -84,7 +84,7 @@ class SceneMaker {
     for (radiosity::SceneObject& object : model_.objects) {
       object.placement = raycast::compose({linear, glm::dvec3(0.0), false}, object.placement);
     }
-    for (Camera& camera : model_.cameras) {
+    for (radiosity::Camera& camera : model_.cameras) {
       camera.eye = linear * camera.eye;
       camera.forward = linear * camera.forward;
       camera.up = linear * camera.up;
@@ -148,7 +148,7 @@ class SceneMaker {
     options.two_sided = options_.two_sided;
     options.merge = options_.merge;
     options.eyes = eyes_;
-    for (const Camera& camera : file_.cameras) { options.eyes.push_back(camera.eye); }
+    for (const radiosity::Camera& camera : file_.cameras) { options.eyes.push_back(camera.eye); }
     for (const ModelLight& light : model_.lights) { options.eyes.push_back(light.position); }
     const radiosity::PolygonView view{model_.positions, model_.corners, model_.first_corner, model_.material,
                                       model_.group,     model_.groups,  two_sided_};
@@ -177,7 +177,7 @@ class SceneMaker {
   // exitance I / radius^2.
   void add_lights() {
     if (model_.lights.empty()) { return; }
-    const double size = scene_bounds(file_.scene).diameter(), radius = 0.01 * size;
+    const double size = radiosity::scene_bounds(file_.scene).diameter(), radius = 0.01 * size;
     for (const ModelLight& light : model_.lights) {
       raycast::Made<raycast::Sphere> sphere = raycast::Sphere::make(light.position, radius);
       const double exitance = light.absolute ? 1.0 / (radius * radius) : 100.0 * 2500.0;
@@ -220,7 +220,9 @@ class SceneMaker {
       if (views.lit_share(file_.cameras[i]) < LightViews::tol_dark) { dark.push_back("'" + file_.cameras[i].name + "'"); }
       if (file_.cameras[i].name == "inside") { return; }
     }
-    if (file_.cameras.empty() ? views.lit_share(automatic_camera(file_.scene)) >= LightViews::tol_dark : dark.empty()) { return; }
+    if (file_.cameras.empty() ? views.lit_share(radiosity::automatic_camera(file_.scene)) >= LightViews::tol_dark : dark.empty()) {
+      return;
+    }
     auto camera = views.inside();
     if (!camera || views.lit_share(*camera) < LightViews::tol_dark) { camera.reset(); }
     if (file_.cameras.empty()) {
@@ -238,7 +240,8 @@ class SceneMaker {
     std::vector<raycast::Box> rooms;
     const auto seen = [&](const radiosity::Room& room) {
       return !room.within_walls || file_.cameras.empty() ||
-             std::any_of(file_.cameras.begin(), file_.cameras.end(), [&](const Camera& c) { return room.bounds.contains(c.eye); });
+             std::any_of(file_.cameras.begin(), file_.cameras.end(),
+                         [&](const radiosity::Camera& c) { return room.bounds.contains(c.eye); });
     };
     const bool any = std::any_of(rooms_.begin(), rooms_.end(), seen);
     for (const radiosity::Room& room : rooms_) {
@@ -277,8 +280,8 @@ class SceneMaker {
     const std::vector<std::string_view> known = names();
     const std::string advice = "--lamp MATERIAL, one of " + list_of(known);
     if (const std::vector<raycast::Box> rooms = rooms_to_light(); !rooms.empty()) { return add_room_lamps(rooms, faults, advice); }
-    if (file_.cameras.empty()) { file_.cameras.push_back(automatic_camera(file_.scene)); }
-    const raycast::Box bounds = scene_bounds(file_.scene);
+    if (file_.cameras.empty()) { file_.cameras.push_back(radiosity::automatic_camera(file_.scene)); }
+    const raycast::Box bounds = radiosity::scene_bounds(file_.scene);
     const double size = bounds.diameter();
     const glm::dvec3 middle{bounds.centre().x, bounds.centre().y, bounds.lo.z};
     const glm::dvec3 reach{1.5 * size, 1.5 * size, 0.0}, top{0.0, 0.0, 2.0 * size};

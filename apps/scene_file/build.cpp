@@ -17,7 +17,8 @@
 
 #include <raycast/transform.hpp>
 
-#include "apps/bounds.hpp"
+#include <radiosity/scene/bounds.hpp>
+
 #include "apps/scene_file/groups.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"
@@ -59,7 +60,7 @@ void Builder::materials() {
 void Builder::cameras() {
   std::unordered_map<std::string_view, Place> names;
   for (const CameraSyntax& syntax : syntax_.cameras) {
-    Camera camera = syntax.camera;
+    radiosity::Camera camera = syntax.camera;
     const std::string who = "camera " + in_quotes(camera.name) + ": ";
     const auto [earlier, is_new] = names.emplace(syntax.camera.name, syntax.place);
     if (!is_new) { errors_.add(syntax.place, who + "its name is taken; the first one stands at " + to_string(earlier->second)); }
@@ -228,7 +229,7 @@ void Builder::place(radiosity::SceneObject placed, const ObjectSyntax& object, P
     errors_.add(at, in_quotes(name) + ": " + std::string(*sentence));
     return;
   }
-  if (!(placed_bounds(*placed.shape, placed.placement).magnitude() <= max_number)) {
+  if (!(radiosity::placed_bounds(*placed.shape, placed.placement).magnitude() <= max_number)) {
     errors_.add(at, in_quotes(name) + " reaches beyond 1e30 after its placement");
     return;
   }

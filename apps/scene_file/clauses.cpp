@@ -73,7 +73,7 @@ void Parser::material_clause(const Token& keyword, MaterialSyntax& out) {
 }
 
 void Parser::camera_clause(const Token& keyword, CameraSyntax& out) {
-  Camera& camera = out.camera;
+  radiosity::Camera& camera = out.camera;
   const Place place = token_.place;
   if (keyword.text == "eye") {
     vector(keyword, camera.eye);
@@ -87,7 +87,7 @@ void Parser::camera_clause(const Token& keyword, CameraSyntax& out) {
       error(place, "expected a horizontal field of view from 0.001 to 179 degrees, found " + std::to_string(fov));
     }
   } else {
-    PictureSize size;
+    radiosity::PictureSize size;
     const bool read = whole_number("size", max_picture_side, size.width) && whole_number("size", max_picture_side, size.height);
     if (read && (size.width == 0 || size.height == 0)) { error(place, "'size' needs at least 1 pixel each way"); }
     camera.size = size;

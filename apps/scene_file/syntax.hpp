@@ -47,7 +47,7 @@ struct MaterialSyntax {
 };
 
 struct CameraSyntax {
-  Camera camera;
+  radiosity::Camera camera;
   Place place;  // of the name
   bool sound = true;
 };

@@ -14,7 +14,7 @@
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
 
-#include "apps/color.hpp"
+#include <radiosity/camera/tone.hpp>
 #include "apps/picture_file.hpp"
 #include "apps/study/numbers.hpp"
 
@@ -28,7 +28,7 @@ constexpr double scale_height = 62.0;
 // Radiosity that draw() shows as exactly this tone at exposure 1: pi times the linear value.
 radiosity::Color shown_as(Tone tone) {
   radiosity::Color result(0.0);
-  for (int c = 0; c < 3; ++c) { result[c] = std::numbers::pi * apps::srgb_decode(((tone >> (16 - 8 * c)) & 255U) / 255.0); }
+  for (int c = 0; c < 3; ++c) { result[c] = std::numbers::pi * radiosity::srgb_decode(((tone >> (16 - 8 * c)) & 255U) / 255.0); }
   return result;
 }
 
@@ -52,7 +52,7 @@ glm::dvec3 normal_of(const std::vector<glm::dvec3>& corners) {
 
 // The cells, each in the colour that tone(cell) gives, before a wall of the background's that fills the view.
 template <class ColorOf>
-radiosity::Mesh mesh_of(const ErrorPicture& errors, const apps::View& view, const ColorOf& color) {
+radiosity::Mesh mesh_of(const ErrorPicture& errors, const radiosity::View& view, const ColorOf& color) {
   radiosity::Mesh mesh;
   double farthest = 0.0;
   for (const ErrorCell& cell : errors.cells) {
@@ -72,10 +72,10 @@ radiosity::Mesh mesh_of(const ErrorPicture& errors, const apps::View& view, cons
 }
 
 // Darkens what lies at a crease or an outline: neighbours whose normals differ.
-void draw_creases(apps::Picture& picture, const apps::Picture& normals) {
+void draw_creases(radiosity::Picture& picture, const radiosity::Picture& normals) {
   const auto differ = [&](std::uint32_t x, std::uint32_t y, std::uint32_t u, std::uint32_t v) {
-    const apps::Rgb8 a = normals.pixel(x, y);
-    const apps::Rgb8 b = normals.pixel(u, v);
+    const radiosity::Rgb8 a = normals.pixel(x, y);
+    const radiosity::Rgb8 b = normals.pixel(u, v);
     int sum = 0;
     for (std::size_t c = 0; c < 3; ++c) { sum += std::abs(int{a[c]} - int{b[c]}); }
     return sum > 48;
@@ -155,15 +155,15 @@ Tone error_tone(double part) {
   return result;
 }
 
-apps::Picture error_picture(const ErrorPicture& errors, const apps::Camera& camera, double limit, std::uint32_t width) {
-  const apps::PictureSize shape = camera.size.value_or(apps::PictureSize{});
+radiosity::Picture error_picture(const ErrorPicture& errors, const radiosity::Camera& camera, double limit, std::uint32_t width) {
+  const radiosity::PictureSize shape = camera.size.value_or(radiosity::PictureSize{});
   const auto height = static_cast<std::uint32_t>(std::max(1L, std::lround(static_cast<double>(width) * shape.height / shape.width)));
-  const apps::View view = apps::make_view(camera, {width, height});
+  const radiosity::View view = radiosity::make_view(camera, {width, height});
   const auto by_error = mesh_of(errors, view, [&](const ErrorCell& cell) { return shown_as(error_tone(cell.error / limit)); });
   const auto by_normal =
       mesh_of(errors, view, [](const ErrorCell& cell) { return std::numbers::pi * (0.5 + 0.5 * normal_of(cell.corners)); });
-  apps::Picture picture = *apps::draw(by_error, view, 1.0);
-  draw_creases(picture, *apps::draw(by_normal, view, 1.0, 1));
+  radiosity::Picture picture = *radiosity::draw(by_error, view, 1.0);
+  draw_creases(picture, *radiosity::draw(by_normal, view, 1.0, 1));
   return picture;
 }
 
@@ -174,10 +174,10 @@ Drawing error_scale(double limit) {
   return drawing;
 }
 
-Drawing error_figure(const ErrorPicture& errors, const apps::Camera& camera, double limit) {
+Drawing error_figure(const ErrorPicture& errors, const radiosity::Camera& camera, double limit) {
   constexpr double density = 1.5;  // pixels of the picture for each of the drawing
   constexpr double head = 28.0;
-  const apps::Picture picture = error_picture(errors, camera, limit, static_cast<std::uint32_t>(density * scale_width));
+  const radiosity::Picture picture = error_picture(errors, camera, limit, static_cast<std::uint32_t>(density * scale_width));
   const double height = picture.height / density;
   Drawing drawing;
   drawing.width = scale_width;

@@ -5,7 +5,7 @@
 // is right: told apart by colour-blind readers, and in grey print the blue end is darker than the orange one. All pictures
 // of a scene have the same scale. Grey: surfaces that emit, and the background. Dark lines are creases and outlines.
 
-#include "apps/picture.hpp"
+#include <radiosity/camera/mesh_picture.hpp>
 #include "apps/study/drawing.hpp"
 #include "apps/study/results.hpp"
 
@@ -18,12 +18,13 @@ namespace study {
 [[nodiscard]] Tone error_tone(double part);
 
 // Without scale and words; `width` pixels wide, as high as the camera's picture demands. Cells are convex.
-[[nodiscard]] apps::Picture error_picture(const ErrorPicture& errors, const apps::Camera& camera, double limit, std::uint32_t width);
+[[nodiscard]] radiosity::Picture error_picture(const ErrorPicture& errors, const radiosity::Camera& camera, double limit,
+                                               std::uint32_t width);
 
 // The scale with its words.
 [[nodiscard]] Drawing error_scale(double limit);
 
 // As a file of its own: method and setting above, the scale below.
-[[nodiscard]] Drawing error_figure(const ErrorPicture& errors, const apps::Camera& camera, double limit);
+[[nodiscard]] Drawing error_figure(const ErrorPicture& errors, const radiosity::Camera& camera, double limit);
 
 }  // namespace study

@@ -24,9 +24,9 @@
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/left_out.hpp>
 
+#include <radiosity/camera/view.hpp>
 #include "apps/memory.hpp"
 #include "apps/text.hpp"
-#include "apps/view.hpp"
 
 namespace study {
 namespace {
@@ -94,9 +94,9 @@ Measured errors_of_run(const radiosity::Scene& scene, const TrueRadiosity& truth
 // tell it to a quarter of itself or so.
 class PictureJudge {
  public:
-  PictureJudge(const radiosity::Scene& scene, const apps::Camera& camera)
+  PictureJudge(const radiosity::Scene& scene, const radiosity::Camera& camera)
       : scene_{scene},
-        view_{apps::make_view(camera, camera.size.value_or(apps::PictureSize{}))},
+        view_{radiosity::make_view(camera, camera.size.value_or(radiosity::PictureSize{}))},
         audit_{radiosity::PictureAudit::make(scene)} {}
 
   [[nodiscard]] std::optional<radiosity::ErrorEstimate> operator()(const radiosity::Solution& solution,
@@ -121,7 +121,7 @@ class PictureJudge {
 
  private:
   const radiosity::Scene& scene_;
-  apps::View view_;
+  radiosity::View view_;
   std::optional<radiosity::PictureAudit> audit_;
 };
 

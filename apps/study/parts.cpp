@@ -89,9 +89,9 @@ void fields(A& a, T& x) {
     a(x.method, x.setting, x.cells);
   } else if constexpr (std::is_same_v<Type, Reference>) {
     a(x.kind, x.noise, x.point_noise, x.cells, x.points, x.paths, x.cached);
-  } else if constexpr (std::is_same_v<Type, apps::PictureSize>) {
+  } else if constexpr (std::is_same_v<Type, radiosity::PictureSize>) {
     a(x.width, x.height);
-  } else if constexpr (std::is_same_v<Type, apps::Camera>) {
+  } else if constexpr (std::is_same_v<Type, radiosity::Camera>) {
     a(x.name, x.eye, x.forward, x.up, x.field_of_view, x.size);
   } else if constexpr (std::is_same_v<Type, radiosity::LeftOut>) {
     a(x.what, x.why, x.saved);

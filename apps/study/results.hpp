@@ -91,9 +91,9 @@ struct Reference {
 };
 
 struct SceneStudy {
-  std::string scene;    // its file's name without folder and ending
-  std::string title;    // the difficulty that it isolates: the scene file's first comment line
-  apps::Camera camera;  // for the error pictures: the file's first, or the automatic one
+  std::string scene;         // its file's name without folder and ending
+  std::string title;         // the difficulty that it isolates: the scene file's first comment line
+  radiosity::Camera camera;  // for the error pictures: the file's first, or the automatic one
   Reference reference;
   std::vector<Method> methods;
   std::vector<ErrorPicture> pictures;  // one a method, at the setting nearest to 1 % in time or error

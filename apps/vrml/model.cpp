@@ -62,7 +62,7 @@ class ModelMaker final : public Visitor {
     const glm::dmat3 turn =
         glm::length(axis) > 0.0 ? glm::dmat3(glm::rotate(glm::dmat4(1.0), orientation.w, glm::normalize(axis))) : glm::dmat3(1.0);
     const glm::dmat3 linear(state.transform);
-    Camera camera;
+    radiosity::Camera camera;
     camera.name = node.name.empty() ? "camera" + std::to_string(model.cameras.size()) : node.name;
     camera.eye = point(state, node.vector("position", {0.0, 0.0, 1.0}));
     camera.forward = linear * (turn * glm::dvec3(0.0, 0.0, -1.0));

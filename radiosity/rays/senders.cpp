@@ -56,12 +56,12 @@ namespace detail {
 // Of each caster, the squared L2 error of what the views receive of it from near by, relative to the area of all: each of them sees light
 // that differs from the mean by some deviation.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<double> errors_sent(const Hierarchy& hierarchy, const std::vector<std::uint32_t>& caster,
-                                                               const std::vector<View>& views, const std::vector<double>& deviation) {
+                                                               const std::vector<CasterView>& views, const std::vector<double>& deviation) {
   std::vector<double> squares(hierarchy.size(), 0.0);
-  for (const View& view : views) {
-    std::array<std::uint32_t, std::tuple_size_v<decltype(View::rays)>> near{};
+  for (const CasterView& view : views) {
+    std::array<std::uint32_t, std::tuple_size_v<decltype(CasterView::rays)>> near{};
     std::size_t count = 0;
-    for (const View::Seen& seen : view.rays) {
+    for (const CasterView::Seen& seen : view.rays) {
       const std::uint32_t sender = seen.leaf != no_node ? caster[seen.leaf] : no_node;
       if (sender == no_node || !(hierarchy[sender].radius > most_pooled * static_cast<double>(seen.distance))) { continue; }
       near[count++] = sender;
@@ -79,8 +79,9 @@ namespace detail {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::vector<Caster> split_senders(const DiscreteScene& scene, std::vector<Caster> casters, const std::vector<View>& views,
-                                                   const std::vector<double>& brightness, double tolerance) {
+HALFLIGHT_INLINE std::vector<Caster> split_senders(const DiscreteScene& scene, std::vector<Caster> casters,
+                                                   const std::vector<CasterView>& views, const std::vector<double>& brightness,
+                                                   double tolerance) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const std::vector<double> deviation = detail::deviations(scene, brightness);
   for (std::size_t before = 0; before != casters.size();) {

@@ -24,7 +24,7 @@ struct Caster {
 };
 
 // What a caster sees, by a few rays.
-struct View {
+struct CasterView {
   struct Seen {
     std::uint32_t leaf = no_node;
     float distance = 0.0f;
@@ -37,8 +37,9 @@ struct View {
 
 // Puts children in the place of casters until the RMS error that what each sends has where it is seen, by the `views` of all, is at most
 // `tolerance`. `brightness`: of each node, in the unit of the tolerance.
-[[nodiscard]] std::vector<Caster> split_senders(const DiscreteScene& scene, std::vector<Caster> casters, const std::vector<View>& views,
-                                                const std::vector<double>& brightness, double tolerance);
+[[nodiscard]] std::vector<Caster> split_senders(const DiscreteScene& scene, std::vector<Caster> casters,
+                                                const std::vector<CasterView>& views, const std::vector<double>& brightness,
+                                                double tolerance);
 
 }  // namespace radiosity
 

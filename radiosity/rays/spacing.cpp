@@ -162,7 +162,7 @@ class Spacing {
 
  private:
   static constexpr double coarse = 2.0;  // how much more than the tolerance
-  static constexpr std::uint32_t rays_each = std::tuple_size_v<decltype(View::rays)>;
+  static constexpr std::uint32_t rays_each = std::tuple_size_v<decltype(CasterView::rays)>;
 
   // So many rays from each open node.
   [[nodiscard]] StoredRays cast(SpacingResult& result) const {
@@ -193,10 +193,10 @@ class Spacing {
     return {most * (gain_ * sum / count + rest_), most * (gain_ * std::sqrt(square / count) + rest_)};
   }
 
-  [[nodiscard]] View view(std::uint32_t i, const StoredRays& rays) const {
-    View result{i, weight_[i] * scene_.exposure.area[i] / area_, brightest(scene_.reflectance[scene_.hierarchy[i].surface]), {}};
+  [[nodiscard]] CasterView view(std::uint32_t i, const StoredRays& rays) const {
+    CasterView result{i, weight_[i] * scene_.exposure.area[i] / area_, brightest(scene_.reflectance[scene_.hierarchy[i].surface]), {}};
     std::transform(rays.of(i).begin(), rays.of(i).end(), result.rays.begin(), [](const StoredRay& ray) {
-      return View::Seen{ray.to, ray.length};
+      return CasterView::Seen{ray.to, ray.length};
     });
     return result;
   }
@@ -228,7 +228,7 @@ class Spacing {
   double gain_ = 1.5, rest_ = 0.5;  // weights()
   double area_ = 0.0, least_area_ = 0.0;
   std::vector<std::uint32_t> open_;
-  std::vector<View> views_;  // of the casters
+  std::vector<CasterView> views_;  // of the casters
 };
 
 }  // namespace detail

@@ -31,7 +31,7 @@ namespace detail {
 // One call of view_importance(). Casters are told by their index.
 class ViewedCasters {
  public:
-  ViewedCasters(const DiscreteScene& scene, const std::vector<View>& views, const std::vector<double>& direct)
+  ViewedCasters(const DiscreteScene& scene, const std::vector<CasterView>& views, const std::vector<double>& direct)
       : scene_{scene}, views_{views}, direct_{direct}, at_(scene.hierarchy.size(), no_node) {
     for (std::uint32_t k = 0; k < views.size(); ++k) { at_[views[k].node] = k; }
     for (std::size_t i = 0; i < at_.size(); ++i) {  // parents before children
@@ -96,7 +96,7 @@ class ViewedCasters {
     for (int k = 0; k < reflections; ++k) {
       for (std::size_t c = 0; c < views_.size(); ++c) {
         double sum = 0.0;
-        for (const View::Seen& seen : views_[c].rays) {
+        for (const CasterView::Seen& seen : views_[c].rays) {
           if (seen.leaf == no_node) { continue; }
           sum += direct_[seen.leaf] + (at_[seen.leaf] != no_node ? indirect_[at_[seen.leaf]] : 0.0);
         }
@@ -146,7 +146,7 @@ class ViewedCasters {
     std::vector<double> sent(views_.size(), 0.0);
     for (std::size_t c = 0; c < views_.size(); ++c) {
       const double each = area_of(c) * seen[c] * views_[c].reflectance / static_cast<double>(views_[c].rays.size());
-      for (const View::Seen& by_ray : views_[c].rays) {
+      for (const CasterView::Seen& by_ray : views_[c].rays) {
         const std::uint32_t to = by_ray.leaf != no_node ? at_[by_ray.leaf] : no_node;
         if (to != no_node && area_of(to) > 0.0) { sent[to] += each / area_of(to); }
       }
@@ -155,7 +155,7 @@ class ViewedCasters {
   }
 
   const DiscreteScene& scene_;
-  const std::vector<View>& views_;
+  const std::vector<CasterView>& views_;
   const std::vector<double>& direct_;
   std::vector<std::uint32_t> at_;  // of each node: the caster at or above it
   std::vector<double> indirect_;   // of each caster
@@ -163,7 +163,7 @@ class ViewedCasters {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE ViewImportance view_importance(const DiscreteScene& scene, const std::vector<View>& views,
+HALFLIGHT_INLINE ViewImportance view_importance(const DiscreteScene& scene, const std::vector<CasterView>& views,
                                                 const std::vector<double>& direct, const Viewpoint& from) {
   return detail::ViewedCasters{scene, views, direct}(from);
 }

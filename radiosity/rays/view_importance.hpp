@@ -25,8 +25,8 @@ struct ViewImportance {
 
 // By what casters see. `direct`: what each node shows but for light that was reflected more than once. Where the camera sees nothing that
 // reflects light, all weights are 1.
-[[nodiscard]] ViewImportance view_importance(const DiscreteScene& scene, const std::vector<View>& views, const std::vector<double>& direct,
-                                             const Viewpoint& from);
+[[nodiscard]] ViewImportance view_importance(const DiscreteScene& scene, const std::vector<CasterView>& views,
+                                             const std::vector<double>& direct, const Viewpoint& from);
 
 }  // namespace radiosity
 

@@ -20,13 +20,13 @@
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/mesh.hpp>
 
-#include "apps/color.hpp"
+#include <radiosity/camera/tone.hpp>
+#include <radiosity/camera/view.hpp>
 #include "apps/export/export_mesh.hpp"
 #include "apps/export/viewer.hpp"
 #include "apps/models.hpp"
 #include "apps/program.hpp"
 #include "apps/scene_file.hpp"
-#include "apps/view.hpp"
 #include "json.hpp"
 
 namespace {

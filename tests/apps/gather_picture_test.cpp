@@ -15,8 +15,8 @@
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/options.hpp>
 
-#include "apps/gather_picture.hpp"
-#include "apps/picture.hpp"
+#include <radiosity/camera/gather_picture.hpp>
+#include <radiosity/camera/mesh_picture.hpp>
 
 namespace {
 
@@ -44,19 +44,19 @@ std::string example_text(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-apps::Picture gathered(const SolvedFile& solved, const apps::View& view, double exposure = 1.0) {
+radiosity::Picture gathered(const SolvedFile& solved, const radiosity::View& view, double exposure = 1.0) {
   const radiosity::FinalGather light{solved.file.scene, solved.solution.mesh, solved.solution.frame};
-  return apps::draw(light, view, exposure).value();
+  return radiosity::draw(light, view, exposure).value();
 }
 
 }  // namespace
 
 TEST_CASE("a point is seen in the direction of its place in the picture") {
-  apps::Camera camera;
+  radiosity::Camera camera;
   camera.eye = {1.0, -2.0, 0.5};
   camera.forward = {0.3, 1.0, -0.2};
   camera.field_of_view = 70.0;
-  const apps::View view = apps::make_view(camera, {320, 200});
+  const radiosity::View view = radiosity::make_view(camera, {320, 200});
   for (const double x : {0.0, 100.25, 320.0}) {
     for (const double y : {0.0, 33.0, 200.0}) {
       const glm::dvec3 p = view.to_view(view.eye + 3.0 * view.direction(x, y));
@@ -75,8 +75,8 @@ TEST_CASE("furnace: the gathered picture shows E / (1 - rho) everywhere") {
       "material wall reflectance 0.5 emission 1\n"
       "box room from 0 0 0 to 3 2 1 inside material wall\n"
       "camera within eye 0.5 0.4 0.3 look 3 2 1 fov 90\n");
-  const apps::View view = apps::make_view(solved.file.cameras.front(), {40, 30});
-  const apps::Picture picture = gathered(solved, view);
+  const radiosity::View view = radiosity::make_view(solved.file.cameras.front(), {40, 30});
+  const radiosity::Picture picture = gathered(solved, view);
   for (const glm::dvec3& b : picture.radiosity) { CHECK(double{b.x} == test::Approx(2.0).epsilon(2e-3)); }
 }
 
@@ -89,12 +89,12 @@ TEST_CASE("direct light does not depend on the mesh: under a square lamp it is L
       "polygon floor material floor {\n vertex -1 -1 0\n vertex 1 -1 0\n vertex 1 1 0\n vertex -1 1 0\n}\n"
       "polygon lamp material lamp {\n vertex -0.3 -0.3 1\n vertex -0.3 0.3 1\n vertex 0.3 0.3 1\n vertex 0.3 -0.3 1\n}\n",
       1.0);
-  apps::Camera camera;
+  radiosity::Camera camera;
   camera.eye = {0.0, 0.0, 0.9};
   camera.forward = {0.0, 0.0, -1.0};
   camera.up = {0.0, 1.0, 0.0};
   camera.field_of_view = 30.0;
-  const apps::View view = apps::make_view(camera, {101, 101});
+  const radiosity::View view = radiosity::make_view(camera, {101, 101});
   const double x = 0.3, q = x / std::sqrt(1.0 + x * x);
   const double factor = 4.0 / pi * q * std::atan(q);
   CHECK(double{gathered(solved, view).radiosity[50 * 101 + 50].x} == test::Approx(0.8 * 5.0 * factor).epsilon(2e-4));
@@ -105,7 +105,7 @@ TEST_CASE("direct light does not depend on the mesh: under a square lamp it is L
 TEST_CASE("indirect light is gathered until its standard error is what was asked for") {
   const SolvedFile solved = solve(example_text("room"), 0.05);
   const radiosity::FinalGather light{solved.file.scene, solved.solution.mesh, solved.solution.frame};
-  const apps::View view = apps::make_view(solved.file.cameras.front(), {4, 4});
+  const radiosity::View view = radiosity::make_view(solved.file.cameras.front(), {4, 4});
   const auto eye = light.eye(view.eye);
   for (const double at : {0.7, 1.6, 3.3}) {
     const std::array<glm::dvec3, 1> direction{view.direction(at, 2.5)};
@@ -145,13 +145,13 @@ TEST_CASE("close up, the silhouette of a sphere is smooth: within half a pixel o
       const double angle = 2.0 * pi * turn / 7.0;
       const glm::dvec3 u = glm::normalize(glm::cross(axis, glm::dvec3{0.0, 0.0, 1.0}));
       const glm::dvec3 v = glm::cross(axis, u);
-      apps::Camera camera;
+      radiosity::Camera camera;
       camera.eye = eye;
       camera.forward = std::cos(half_angle) * axis + std::sin(half_angle) * (std::cos(angle) * u + std::sin(angle) * v);
       camera.field_of_view = fov;
-      const apps::View view = apps::make_view(camera, {side, side});
+      const radiosity::View view = radiosity::make_view(camera, {side, side});
       const double pixel = 2.0 * view.half_width / side;  // an angle, in the middle of so narrow a view
-      const auto worst = [&](const apps::Picture& picture) {
+      const auto worst = [&](const radiosity::Picture& picture) {
         double result = 0.0;
         std::size_t lit = 0;
         for (std::uint32_t y = 0; y < side; ++y) {
@@ -168,7 +168,7 @@ TEST_CASE("close up, the silhouette of a sphere is smooth: within half a pixel o
         return result;
       };
       worst_objects = std::max(worst_objects, worst(gathered(solved, view, 10.0)));
-      worst_mesh = std::max(worst_mesh, worst(apps::draw(solved.solution.mesh, view, 10.0, 1).value()));
+      worst_mesh = std::max(worst_mesh, worst(radiosity::draw(solved.solution.mesh, view, 10.0, 1).value()));
     }
     INFO("field of view " << fov << " degrees: objects " << worst_objects << ", mesh " << worst_mesh << " pixels");
     CHECK(worst_objects <= 0.5);
@@ -180,12 +180,12 @@ TEST_CASE("the outline is as soft as its pixels are covered") {
   const SolvedFile solved = solve(
       "material lamp reflectance 0 emission 1\n"
       "sphere ball center 0 0 0 radius 1 material lamp\n");
-  apps::Camera camera;
+  radiosity::Camera camera;
   camera.eye = {0.0, -10.0, 0.0};
   camera.forward = {0.0, 1.0, 0.0};
   camera.field_of_view = 20.0;
-  const apps::View view = apps::make_view(camera, {40, 40});
-  const apps::Picture picture = gathered(solved, view, pi);  // shows 1 as 1
+  const radiosity::View view = radiosity::make_view(camera, {40, 40});
+  const radiosity::Picture picture = gathered(solved, view, pi);  // shows 1 as 1
   // The picture of the sphere is a disk of radius tan(asin(1/10)) on the plane at distance 1. Coverage by brute force.
   const double radius = std::tan(std::asin(0.1));
   for (std::uint32_t y = 0; y < 40; ++y) {
@@ -197,8 +197,8 @@ TEST_CASE("the outline is as soft as its pixels are covered") {
       }
       // Of 16 samples, one in each row and column, a straight edge miscounts at most two; over 64 x 64 it is off by one in 64.
       const double share = covered / 4096.0;
-      CHECK(int{picture.pixel(x, y)[0]} >= int{apps::to_byte(std::max(0.0, share - 0.14))});
-      CHECK(int{picture.pixel(x, y)[0]} <= int{apps::to_byte(std::min(1.0, share + 0.14))});
+      CHECK(int{picture.pixel(x, y)[0]} >= int{radiosity::to_byte(std::max(0.0, share - 0.14))});
+      CHECK(int{picture.pixel(x, y)[0]} <= int{radiosity::to_byte(std::min(1.0, share + 0.14))});
     }
   }
 }
@@ -206,7 +206,7 @@ TEST_CASE("the outline is as soft as its pixels are covered") {
 TEST_CASE("the picture does not depend on the threads, tells its progress and stops when asked to") {
   const SolvedFile solved = solve(example_text("room"), 0.1);
   const radiosity::FinalGather light{solved.file.scene, solved.solution.mesh, solved.solution.frame};
-  const apps::View view = apps::make_view(solved.file.cameras.front(), {80, 60});
+  const radiosity::View view = radiosity::make_view(solved.file.cameras.front(), {80, 60});
   double last = 0.0;
   radiosity::Control control;
   control.progress = [&](std::string_view stage, double part) {
@@ -214,10 +214,10 @@ TEST_CASE("the picture does not depend on the threads, tells its progress and st
     CHECK(part >= last);
     last = part;
   };
-  const apps::Picture one = apps::draw(light, view, 1.0, 1, control).value();
+  const radiosity::Picture one = radiosity::draw(light, view, 1.0, 1, control).value();
   CHECK(last == 1.0);
-  CHECK(apps::draw(light, view, 1.0, 3).value().radiosity == one.radiosity);
+  CHECK(radiosity::draw(light, view, 1.0, 3).value().radiosity == one.radiosity);
   const std::atomic<bool> cancel = true;
   control.cancel = &cancel;
-  CHECK_FALSE(apps::draw(light, view, 1.0, 2, control));
+  CHECK_FALSE(radiosity::draw(light, view, 1.0, 2, control));
 }

@@ -12,10 +12,10 @@
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/options.hpp>
 
+#include <radiosity/camera/gather_picture.hpp>
+#include <radiosity/camera/mesh_picture.hpp>
 #include "apps/checksum.hpp"
-#include "apps/gather_picture.hpp"
 #include "apps/light_file.hpp"
-#include "apps/picture.hpp"
 #include "apps/program.hpp"
 #include "apps/scene_file.hpp"
 
@@ -51,17 +51,17 @@ TEST_CASE("light from a file draws the pictures of the solution, to the bit") {
   INFO(read.reason);
   REQUIRE(read.light);
   for (const glm::dvec3 eye : {glm::dvec3{0.2, 0.2, 0.5}, {2.5, 1.5, 0.7}}) {
-    apps::Camera camera;
+    radiosity::Camera camera;
     camera.eye = eye;
     camera.forward = glm::dvec3{1.0, 1.0, 0.3} - eye;
     camera.field_of_view = 70.0;
-    const apps::View view = apps::make_view(camera, {24, 16});
+    const radiosity::View view = radiosity::make_view(camera, {24, 16});
     const auto picture = [&](const radiosity::Mesh& mesh, const radiosity::Frame& frame) {
-      return apps::draw(radiosity::FinalGather{scene, mesh, frame}, view, 1.0).value();
+      return radiosity::draw(radiosity::FinalGather{scene, mesh, frame}, view, 1.0).value();
     };
     CHECK(picture(read.light->mesh, read.light->frame).radiosity == picture(solution.mesh, solution.frame).radiosity);
-    CHECK(apps::draw(read.light->mesh, view, 1.0).value().radiosity == apps::draw(solution.mesh, view, 1.0).value().radiosity);
-    CHECK(apps::automatic_exposure(read.light->mesh, scene, view) == apps::automatic_exposure(solution.mesh, scene, view));
+    CHECK(radiosity::draw(read.light->mesh, view, 1.0).value().radiosity == radiosity::draw(solution.mesh, view, 1.0).value().radiosity);
+    CHECK(radiosity::automatic_exposure(read.light->mesh, scene, view) == radiosity::automatic_exposure(solution.mesh, scene, view));
   }
 }
 

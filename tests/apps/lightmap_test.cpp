@@ -56,7 +56,7 @@ Vector mix(const glm::dvec3& weight, const Vector& a, const Vector& b, const Vec
 }
 
 // RMS of what the texture shows less the light of the mesh there, relative to that of the light, over places of all triangles.
-double difference(const apps::ExportMesh& mesh, const apps::Picture& map, std::mt19937& random) {
+double difference(const apps::ExportMesh& mesh, const radiosity::Picture& map, std::mt19937& random) {
   double square = 0.0, reference = 0.0;
   for (std::uint32_t f = 0; f < mesh.faces(); ++f) {
     for (std::uint32_t k = 2; k < mesh.face(f).size(); ++k) {

@@ -82,7 +82,7 @@ inline study::SceneStudy scene(const std::string& name, double reference_noise) 
   result.title = "a closed room & a <lamp>: \"made up\"";
   result.camera.eye = {0.5, -1.4, 0.5};
   result.camera.field_of_view = 42.0;
-  result.camera.size = apps::PictureSize{600, 600};
+  result.camera.size = radiosity::PictureSize{600, 600};
   result.reference = {
       reference_noise > 0.0 ? "path traced" : "analytic", reference_noise, 1.2 * reference_noise, 864, 2000, 4000000, false};
   for (const Law& law : laws) {

@@ -104,7 +104,7 @@ TEST_CASE("the camera in a house stands at the height of an eye and sees what la
     std::vector<raycast::PlacedObject> placed;
     for (const auto& object : file->scene.objects) { placed.emplace_back(object.shape, object.placement); }
     const raycast::Scene objects(std::move(placed));
-    const apps::Camera& camera = file->cameras[0];
+    const radiosity::Camera& camera = file->cameras[0];
     const auto below = objects.closest({camera.eye, {0, 0, -1}}), above = objects.closest({camera.eye, {0, 0, 1}});
     CAPTURE(round, size, gap / size, camera.eye.z / extent.z);
     REQUIRE((below && above));
@@ -194,7 +194,7 @@ TEST_CASE("a house of thick walls without a lamp is lit where it is seen") {
 
   for (const bool inside : {false, true}) {  // seen from where the file's camera stands
     apps::Model model = house_without_lamp(true);
-    apps::Camera camera;
+    radiosity::Camera camera;
     camera.name = "given";
     camera.eye = inside ? glm::dvec3(1, 1, 1.5) : glm::dvec3(-8, -6, 4);
     camera.forward = glm::dvec3(2, 2, 1.5) - camera.eye;
@@ -227,7 +227,7 @@ TEST_CASE("the camera in a house does not depend on the order of polygons, and o
       if (i == n - 1) { polygons.back().erase(polygons.back().begin() + 2); }
     }
   }
-  std::optional<apps::Camera> first;
+  std::optional<radiosity::Camera> first;
   for (int round = 0; round < 6; ++round) {
     apps::Model model = house_without_lamp(true);
     model.groups.emplace_back("lamp");
@@ -242,7 +242,7 @@ TEST_CASE("the camera in a house does not depend on the order of polygons, and o
     }
     std::shuffle(polygons.begin(), polygons.end(), random);
     if (round == 5) {
-      apps::Camera outside;
+      radiosity::Camera outside;
       outside.name = "outside";
       outside.eye = {-8, -6, 4};
       outside.forward = glm::dvec3(2, 2, 1.5) - outside.eye;
@@ -253,7 +253,7 @@ TEST_CASE("the camera in a house does not depend on the order of polygons, and o
     REQUIRE(file);
     REQUIRE(file->cameras.size() == (round == 5 ? 2 : 1));
     CHECK(noted(file->notes, round == 5 ? "camera 'outside' sees next to nothing that a lamp shines on" : "from outside next to nothing"));
-    const apps::Camera& inside = file->cameras.back();
+    const radiosity::Camera& inside = file->cameras.back();
     CHECK(inside.name == "inside");
     if (!first) { first = inside; }
     CHECK(glm::length(inside.eye - first->eye) < 1e-6);

@@ -19,10 +19,10 @@
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/prepare.hpp>
 
-#include "apps/gather_picture.hpp"
-#include "apps/picture.hpp"
+#include <radiosity/camera/gather_picture.hpp>
+#include <radiosity/camera/mesh_picture.hpp>
+#include <radiosity/camera/view.hpp>
 #include "apps/scene_file.hpp"
-#include "apps/view.hpp"
 
 namespace {
 
@@ -89,6 +89,6 @@ TEST_CASE("a dark corner: gathered light is that of path tracing, up to the edge
 TEST_CASE("light in dark corners does not depend on the threads", "[picture]") {
   const CornellBox box;
   const radiosity::FinalGather light{box.file.scene, box.solution.mesh, box.solution.frame};
-  const apps::View view = apps::make_view(box.file.cameras.front(), {60, 60});
-  CHECK(apps::draw(light, view, 1.0, 1).value().radiosity == apps::draw(light, view, 1.0, 3).value().radiosity);
+  const radiosity::View view = radiosity::make_view(box.file.cameras.front(), {60, 60});
+  CHECK(radiosity::draw(light, view, 1.0, 1).value().radiosity == radiosity::draw(light, view, 1.0, 3).value().radiosity);
 }

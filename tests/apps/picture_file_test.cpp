@@ -12,8 +12,8 @@
 
 #include <radiosity/support/random.hpp>
 
+#include <radiosity/camera/mesh_picture.hpp>
 #include "apps/commands/render_outputs.hpp"
-#include "apps/picture.hpp"
 #include "apps/picture_file.hpp"
 
 namespace {
@@ -21,9 +21,9 @@ namespace {
 using radiosity::Color;
 
 // Of 16 decades of radiance.
-apps::Picture any_picture(std::uint64_t seed) {
+radiosity::Picture any_picture(std::uint64_t seed) {
   radiosity::Random random{seed, 0};
-  apps::Picture picture{37, 11};
+  radiosity::Picture picture{37, 11};
   for (std::size_t i = 0; i < picture.shown.size(); ++i) {
     const double scale = std::pow(10.0, 16.0 * random.uniform() - 8.0);
     picture.set(i, Color{random.uniform(), random.uniform(), random.uniform()},
@@ -41,7 +41,7 @@ std::uint32_t number_at(const std::string& bytes, std::size_t at) {
 }  // namespace
 
 TEST_CASE("a PNG has its signature, its size and its exposure, chunk by chunk") {
-  const std::string png = apps::to_png(apps::Picture{300, 2}, {6.25, apps::ToneCurve::filmic});
+  const std::string png = apps::to_png(radiosity::Picture{300, 2}, {6.25, radiosity::ToneCurve::filmic});
   REQUIRE(png.size() > 40);
   CHECK(png.substr(0, 8) == "\x89PNG\r\n\x1a\n");
   std::string kinds;
@@ -64,7 +64,7 @@ TEST_CASE("a PNG has its signature, its size and its exposure, chunk by chunk") 
 }
 
 TEST_CASE("a PFM holds the radiance in single precision, rows from the bottom") {
-  const apps::Picture picture = any_picture(1);
+  const radiosity::Picture picture = any_picture(1);
   const std::string pfm = apps::to_pfm(picture);
   const std::string header = "PF\n37 11\n-1.0\n";
   REQUIRE(pfm.substr(0, header.size()) == header);
@@ -84,7 +84,7 @@ TEST_CASE("a PFM holds the radiance in single precision, rows from the bottom") 
 TEST_CASE("an HDR holds the radiance to half a 128th of its largest channel, and says in what unit") {
   const std::uint64_t seed = 7;
   CAPTURE(seed);
-  apps::Picture picture = any_picture(seed);
+  radiosity::Picture picture = any_picture(seed);
   picture.set(5, Color{0.0}, Color{0.0});
   const std::string hdr = apps::to_hdr(picture);
   const std::string size = "\n\n-Y 11 +X 37\n";
@@ -109,18 +109,18 @@ TEST_CASE("dithering keeps what is a level, and between two levels the mean") {
   for (int level = 0; level < 256; ++level) {
     const double encoded = level / 255.0;
     const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-    apps::Picture picture{16, 16};
+    radiosity::Picture picture{16, 16};
     for (std::size_t i = 0; i < 256; ++i) { picture.set(i, Color{linear}, Color{0.0}); }
     for (const std::uint8_t byte : apps::dithered(picture)) { CHECK(int{byte} == level); }
   }
   radiosity::Random random{3, 0};
   for (int repeat = 0; repeat < 20; ++repeat) {
-    apps::Picture picture{64, 64};
+    radiosity::Picture picture{64, 64};
     const double linear = random.uniform();
     for (std::size_t i = 0; i < 64 * 64; ++i) { picture.set(i, Color{linear}, Color{0.0}); }
     double sum = 0.0;
     for (const std::uint8_t byte : apps::dithered(picture)) { sum += byte; }
-    CHECK(std::abs(sum / (3 * 64 * 64) - 255.0 * apps::srgb_encode(linear)) < 0.5 / 64 + 0.001);
+    CHECK(std::abs(sum / (3 * 64 * 64) - 255.0 * radiosity::srgb_encode(linear)) < 0.5 / 64 + 0.001);
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "apps/bounds.hpp"
+#include <radiosity/scene/bounds.hpp>
 #include "apps/scene_file.hpp"
 #include "scene_texts.hpp"
 

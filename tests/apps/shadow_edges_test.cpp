@@ -16,8 +16,8 @@
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/options.hpp>
 
-#include "apps/gather_picture.hpp"
-#include "apps/picture.hpp"
+#include <radiosity/camera/gather_picture.hpp>
+#include <radiosity/camera/mesh_picture.hpp>
 #include "apps/scene_file.hpp"
 
 namespace {
@@ -64,11 +64,11 @@ std::vector<double> shown(const Blade& blade) {
   options.audit_points = 0;
   const radiosity::Outcome outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
-  apps::Camera camera = parsed.file->cameras.front();
+  radiosity::Camera camera = parsed.file->cameras.front();
   camera.field_of_view = 2.0 * std::atan(half / 5.0) * 180.0 / std::numbers::pi;
-  const apps::View view = apps::make_view(camera, {side, side});
+  const radiosity::View view = radiosity::make_view(camera, {side, side});
   const radiosity::FinalGather light{scene, outcome.solution->mesh, outcome.solution->frame};
-  const apps::Picture picture = apps::draw(light, view, 1.0).value();
+  const radiosity::Picture picture = radiosity::draw(light, view, 1.0).value();
   std::vector<double> result;
   for (std::uint32_t i = 0; i < side * side; ++i) {
     const double x = (i % side + 0.5) * pixel - half, y = half - (i / side + 0.5) * pixel;

@@ -58,11 +58,11 @@ std::size_t count_parts(const std::string& text, const std::string& part) {
   return n;
 }
 
-apps::Rgb8 rgb(Tone tone) {
+radiosity::Rgb8 rgb(Tone tone) {
   return {static_cast<std::uint8_t>(tone >> 16U), static_cast<std::uint8_t>(tone >> 8U), static_cast<std::uint8_t>(tone)};
 }
 
-int difference(const apps::Rgb8& a, const apps::Rgb8& b) {
+int difference(const radiosity::Rgb8& a, const radiosity::Rgb8& b) {
   int most = 0;
   for (std::size_t c = 0; c < 3; ++c) { most = std::max(most, std::abs(int{a[c]} - int{b[c]})); }
   return most;
@@ -206,12 +206,12 @@ TEST_CASE("error pictures: white is right, blue too dark, orange too bright; bot
 
   // One cell fills the middle of the view; around it is background, and where its back shows, too.
   ErrorPicture errors{"m", "s", {{{{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}}, 0.0}}};
-  apps::Camera camera;  // looks along y from the origin
+  radiosity::Camera camera;  // looks along y from the origin
   camera.field_of_view = 90.0;
-  camera.size = apps::PictureSize{100, 80};
+  camera.size = radiosity::PictureSize{100, 80};
   for (const double error : {-0.02, -0.01, 0.0, 0.007, 0.02}) {
     errors.cells[0].error = error;
-    const apps::Picture picture = error_picture(errors, camera, 0.02, 200);
+    const radiosity::Picture picture = error_picture(errors, camera, 0.02, 200);
     CHECK(picture.width == 200);
     CHECK(picture.height == 160);
     CHECK(difference(picture.pixel(100, 80), rgb(error_tone(error / 0.02))) <= 1);

@@ -10,9 +10,9 @@
 
 #include <glm/geometric.hpp>
 
+#include <radiosity/camera/mesh_picture.hpp>
 #include "apps/intake/texture.hpp"
 #include "apps/models.hpp"
-#include "apps/picture.hpp"
 #include "apps/picture_file.hpp"
 #include "catch.hpp"
 
@@ -26,7 +26,7 @@ struct Painted {
 // Of random levels: these are kept as they are, so the mean is known.
 Painted painted(unsigned seed, std::uint32_t width, std::uint32_t height) {
   std::mt19937 random(seed);
-  apps::Picture picture(width, height);
+  radiosity::Picture picture(width, height);
   Painted out;
   for (std::size_t i = 0; i < picture.shown.size(); ++i) {
     radiosity::Color c(0.0);

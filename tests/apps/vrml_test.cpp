@@ -10,7 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
 
-#include "apps/bounds.hpp"
+#include <radiosity/scene/bounds.hpp>
 #include "apps/scene_file.hpp"
 #include "apps/vrml/scene_graph.hpp"
 #include "models.hpp"
@@ -37,7 +37,7 @@ std::vector<std::string> shapes(const apps::Model& model) {
 }
 
 raycast::Box bounds(const apps::Model& model, std::size_t object) {
-  return apps::placed_bounds(*model.objects[object].shape, model.objects[object].placement);
+  return radiosity::placed_bounds(*model.objects[object].shape, model.objects[object].placement);
 }
 
 }  // namespace

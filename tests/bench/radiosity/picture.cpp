@@ -27,11 +27,11 @@
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/prepare.hpp>
 
+#include <radiosity/camera/gather_picture.hpp>
+#include <radiosity/camera/mesh_picture.hpp>
+#include <radiosity/camera/view.hpp>
 #include "apps/commands/render_outputs.hpp"
-#include "apps/gather_picture.hpp"
-#include "apps/picture.hpp"
 #include "apps/scene_file.hpp"
-#include "apps/view.hpp"
 
 namespace {
 
@@ -44,7 +44,7 @@ struct Row {
   [[nodiscard]] double seconds() const { return solve + picture; }
 };
 
-std::optional<Row> measure(const radiosity::Scene& scene, const apps::View& view, apps::PictureMethod method) {
+std::optional<Row> measure(const radiosity::Scene& scene, const radiosity::View& view, apps::PictureMethod method) {
   apps::RenderOptions render;
   render.outputs = {"picture.png"};
   render.method = method;
@@ -58,13 +58,13 @@ std::optional<Row> measure(const radiosity::Scene& scene, const apps::View& view
   if (!outcome.solution) { return std::nullopt; }
   start = cpu_seconds();
   const auto draw = [&] {
-    if (method == apps::PictureMethod::mesh) { return apps::draw(outcome.solution->mesh, view, 1.0); }
-    return apps::draw(radiosity::FinalGather{scene, outcome.solution->mesh, outcome.solution->frame}, view, 1.0, 1);
+    if (method == apps::PictureMethod::mesh) { return radiosity::draw(outcome.solution->mesh, view, 1.0); }
+    return radiosity::draw(radiosity::FinalGather{scene, outcome.solution->mesh, outcome.solution->frame}, view, 1.0, 1);
   };
-  const apps::Picture picture = draw().value();
+  const radiosity::Picture picture = draw().value();
   row.picture = cpu_seconds() - start;
   const auto audit = radiosity::PictureAudit::make(scene);
-  const auto error = audit ? audit->measure(apps::audited(picture, view, 1.0), {4000, 16'000'000}, 1, 1) : std::nullopt;
+  const auto error = audit ? audit->measure(radiosity::audited(picture, view, 1.0), {4000, 16'000'000}, 1, 1) : std::nullopt;
   if (!error) { return std::nullopt; }
   row.error = error->error.relative_l2;
   row.doubt = error->error.standard_error;
@@ -72,7 +72,7 @@ std::optional<Row> measure(const radiosity::Scene& scene, const apps::View& view
 }
 
 // The error of a picture whose pixels are means of so many paths that it takes this time.
-double path_traced(const radiosity::Scene& scene, const apps::View& view, double seconds) {
+double path_traced(const radiosity::Scene& scene, const radiosity::View& view, double seconds) {
   const auto prepared = std::move(*radiosity::prepare(scene).prepared);
   const radiosity::PathTracer tracer{scene, prepared.objects, prepared.surfaces};
   constexpr std::uint32_t side = 24, paths = 64;
@@ -131,8 +131,8 @@ int main(int argc, char** argv) {
       return 1;
     }
     const radiosity::Scene& scene = parsed.file->scene;
-    const apps::Camera camera = parsed.file->cameras.empty() ? apps::automatic_camera(scene) : parsed.file->cameras.front();
-    const apps::View view = apps::make_view(camera, camera.size.value_or(apps::PictureSize{}));
+    const radiosity::Camera camera = parsed.file->cameras.empty() ? radiosity::automatic_camera(scene) : parsed.file->cameras.front();
+    const radiosity::View view = radiosity::make_view(camera, camera.size.value_or(radiosity::PictureSize{}));
     const auto gather = measure(scene, view, apps::PictureMethod::gather);
     const auto mesh = measure(scene, view, apps::PictureMethod::mesh);
     if (!gather || !mesh) {

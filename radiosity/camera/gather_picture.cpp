@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/gather_picture.hpp"
+#include <radiosity/camera/gather_picture.hpp>
 
 #include <algorithm>
 #include <array>
@@ -15,31 +15,29 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include <raycast/inline.hpp>
 #include <raycast/tolerances.hpp>
 
+#include <radiosity/camera/fragments.hpp>
+#include <radiosity/camera/indirect_points.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 
-#include "apps/fragments.hpp"
-#include "apps/indirect_points.hpp"
+namespace radiosity {
+namespace detail {
 
-namespace apps {
-namespace {
+inline constexpr double least_pixels = 2.0, most_pixels = 20.0;  // radius of the sphere of a point of indirect light, by measurement
 
-using radiosity::Color;
+inline constexpr float change_at_edge = 0.3f;  // of light, from one pixel to the next, or within one: an edge of a shadow, not only a slope
 
-constexpr double least_pixels = 2.0, most_pixels = 20.0;  // radius of the sphere of a point of indirect light, by measurement
+inline constexpr std::uint32_t no_surface = 0xffffffff, several_surfaces = 0xfffffffe;  // in place of the number of a surface
 
-constexpr float change_at_edge = 0.3f;  // of light, from one pixel to the next, or within one: an edge of a shadow, not only a slope
-
-constexpr std::uint32_t no_surface = 0xffffffff, several_surfaces = 0xfffffffe;  // in place of the number of a surface
-
-class Painter {
+class GatherPainter {
  public:
-  Painter(const radiosity::FinalGather& light, const View& view, unsigned threads, const radiosity::Control& control)
+  GatherPainter(const FinalGather& light, const View& view, unsigned threads, const Control& control)
       : light_{light},
         view_{view},
-        threads_{radiosity::thread_count(threads)},
+        threads_{thread_count(threads)},
         control_{control},
         columns_{(view.size.width + block_side - 1) / block_side},
         rows_{(view.size.height + block_side - 1) / block_side},
@@ -76,7 +74,7 @@ class Painter {
     for (std::size_t first = 0; first < blocks_.size(); first += batch) {
       if (control_.cancelled()) { return false; }
       const std::size_t count = std::min(batch, blocks_.size() - first);
-      radiosity::parallel_for(
+      parallel_for(
           count, threads_, [&](std::size_t i) { body(first + i); }, 4);
       control_.report("picture", from + (to - from) * static_cast<double>(first + count) / static_cast<double>(blocks_.size()));
     }
@@ -101,12 +99,12 @@ class Painter {
   void show(std::size_t block, const Tone& tone, Picture& picture) const;
   [[nodiscard]] IndirectPoint gather_at(const Fragment& fragment) const;
 
-  const radiosity::FinalGather& light_;
+  const FinalGather& light_;
   const View& view_;
   unsigned threads_;
-  const radiosity::Control& control_;
+  const Control& control_;
   std::uint32_t columns_, rows_;
-  radiosity::FinalGather::Eye eye_;
+  FinalGather::Eye eye_;
   PixelSize pixel_size_;
   IndirectPoints points_;
   std::vector<std::vector<Fragment>> blocks_;
@@ -117,7 +115,7 @@ class Painter {
   std::array<glm::dvec2, 4> four_{};
 };
 
-void Painter::glance(std::size_t block) {
+HALFLIGHT_INLINE void GatherPainter::glance(std::size_t block) {
   std::array<glm::dvec3, 16> directions{};
   std::array<std::pair<std::uint32_t, std::uint32_t>, 4> pixels{};
   unsigned waiting = 0;
@@ -143,7 +141,7 @@ void Painter::glance(std::size_t block) {
   if (waiting > 0) { look(); }
 }
 
-void Painter::look_closer(std::size_t block) {
+HALFLIGHT_INLINE void GatherPainter::look_closer(std::size_t block) {
   const auto needs_more = [&](std::uint32_t x, std::uint32_t y) {
     const std::uint32_t own = surface_of(x, y);
     if (own == several_surfaces) { return true; }
@@ -172,10 +170,9 @@ void Painter::look_closer(std::size_t block) {
   if (changed) { blocks_[block] = std::move(result); }
 }
 
-IndirectPoint Painter::gather_at(const Fragment& fragment) const {
-  const std::uint64_t key = radiosity::scramble(std::size_t{fragment.y} * view_.size.width + fragment.x) ^ fragment.place.surface;
-  const auto found =
-      light_.indirect(fragment.place, radiosity::gather_rays.least, radiosity::gather_rays.most, radiosity::gather_rays.error, key);
+HALFLIGHT_INLINE IndirectPoint GatherPainter::gather_at(const Fragment& fragment) const {
+  const std::uint64_t key = scramble(std::size_t{fragment.y} * view_.size.width + fragment.x) ^ fragment.place.surface;
+  const auto found = light_.indirect(fragment.place, gather_rays.least, gather_rays.most, gather_rays.error, key);
   IndirectPoint point;
   point.position = fragment.place.point.position;
   point.normal = fragment.place.point.normal;
@@ -185,9 +182,9 @@ IndirectPoint Painter::gather_at(const Fragment& fragment) const {
   const double size = pixel_size_(point.position);
   const double facing = std::abs(glm::dot(point.normal, glm::normalize(point.position - eye_.position)));
   const double footprint = size / std::max(facing, 0.2);  // of a pixel; where it is slanted, at most five times as long
-  const double allowed = found.nearness > 0.0 ? radiosity::gathered_part_of_distance / found.nearness : raycast::infinity;
+  const double allowed = found.nearness > 0.0 ? gathered_part_of_distance / found.nearness : raycast::infinity;
   point.radius = std::clamp(allowed, least_pixels * footprint, most_pixels * footprint);
-  point.widest = radiosity::most_fit * point.radius;
+  point.widest = most_fit * point.radius;
   point.pixels = point.radius / size;
   point.widest_pixels = point.widest / size;
   point.gathered = found.irradiance;
@@ -195,7 +192,7 @@ IndirectPoint Painter::gather_at(const Fragment& fragment) const {
   return point;
 }
 
-bool Painter::gather() {
+HALFLIGHT_INLINE bool GatherPainter::gather() {
   std::vector<std::vector<std::uint32_t>> wanted(blocks_.size());  // fragments, by block
   std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
   std::vector<IndirectPoint> found;
@@ -207,7 +204,7 @@ bool Painter::gather() {
         const Fragment& f = blocks_[b][i];
         if (f.x % stride != 0 || f.y % stride != 0) { continue; }
         const auto& p = f.place.point;
-        if (radiosity::is_black(light_.material(f.place.surface).reflectance)) { continue; }
+        if (is_black(light_.material(f.place.surface).reflectance)) { continue; }
         if (points_.covered(f.x, f.y, p.position, p.normal, f.place.object)) { continue; }
         // Not two points for neighbours; at least the smallest spheres do not depend on what is seen from them.
         const double apart = 2.0 * pixel_size_(p.position);
@@ -229,17 +226,17 @@ bool Painter::gather() {
     for (std::size_t first = 0; first < all.size(); first += batch) {
       if (control_.cancelled()) { return false; }
       const std::size_t count = std::min(batch, all.size() - first);
-      radiosity::parallel_for(
+      parallel_for(
           count, threads_, [&](std::size_t k) { found[first + k] = gather_at(blocks_[all[first + k].first][all[first + k].second]); }, 8);
       control_.report("picture", done + 0.06 * static_cast<double>(first + count) / static_cast<double>(all.size()));
     }
     for (const IndirectPoint& point : found) { points_.add(point); }
   }
-  radiosity::parallel_for(points_.size(), threads_, [&](std::size_t i) { points_.fit(i); });
+  parallel_for(points_.size(), threads_, [&](std::size_t i) { points_.fit(i); });
   return true;
 }
 
-void Painter::light_block(std::size_t block) {
+HALFLIGHT_INLINE void GatherPainter::light_block(std::size_t block) {
   const std::vector<Fragment>& fragments = blocks_[block];
   std::vector<Color>& irradiance = irradiance_[block];
   irradiance.assign(fragments.size(), Color{0.0});
@@ -250,7 +247,7 @@ void Painter::light_block(std::size_t block) {
   for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
     const std::uint32_t surface = fragments[order[begin]].place.surface;
     while (end < order.size() && fragments[order[end]].place.surface == surface) { ++end; }
-    if (radiosity::is_black(light_.material(surface).reflectance)) { continue; }
+    if (is_black(light_.material(surface).reflectance)) { continue; }
     const auto own = std::span(order).subspan(begin, end - begin);
     add_direct_light(light_, own, fragments, irradiance);
     for (const std::uint32_t i : own) {
@@ -265,7 +262,7 @@ void Painter::light_block(std::size_t block) {
 }
 
 // Does the light change by much from a pixel to a neighbour of the same surface?
-bool Painter::on_edge(std::uint32_t x, std::uint32_t y) const {
+HALFLIGHT_INLINE bool GatherPainter::on_edge(std::uint32_t x, std::uint32_t y) const {
   const auto at = [&](std::uint32_t u, std::uint32_t v) { return std::size_t{v} * view_.size.width + u; };
   const auto differs = [&](std::size_t a, std::size_t b) {
     return surfaces_[a] == surfaces_[b] && std::abs(lit_[a] - lit_[b]) > change_at_edge * std::max(lit_[a], lit_[b]);
@@ -276,7 +273,7 @@ bool Painter::on_edge(std::uint32_t x, std::uint32_t y) const {
 }
 
 // Direct light at these points of the pixel of a fragment; the first is that at the fragment's own point.
-std::vector<Color> Painter::direct_light_at(const Fragment& fragment, std::span<const glm::dvec2> places) const {
+HALFLIGHT_INLINE std::vector<Color> GatherPainter::direct_light_at(const Fragment& fragment, std::span<const glm::dvec2> places) const {
   std::vector<Fragment> points{fragment};
   std::vector<std::uint32_t> own{0};
   for (const glm::dvec2& at : places) {
@@ -292,13 +289,13 @@ std::vector<Color> Painter::direct_light_at(const Fragment& fragment, std::span<
 }
 
 // Where an edge of a shadow runs through a pixel, direct light is the mean over four points of it, or over sixteen if those differ.
-void Painter::smooth_shadows(std::size_t block) {
+HALFLIGHT_INLINE void GatherPainter::smooth_shadows(std::size_t block) {
   const std::vector<Fragment>& fragments = blocks_[block];
   const auto sum = [](const Color& c) { return c.x + c.y + c.z; };
   for (std::uint32_t i = 0; i < fragments.size(); ++i) {
     const Fragment& f = fragments[i];
     if (f.share != 1.0f || f.place.surface != surfaces_[std::size_t{f.y} * view_.size.width + f.x] || !on_edge(f.x, f.y)) { continue; }
-    if (radiosity::is_black(light_.material(f.place.surface).reflectance)) { continue; }
+    if (is_black(light_.material(f.place.surface).reflectance)) { continue; }
     std::vector<Color> light = direct_light_at(f, four_);
     const auto [least, most] =
         std::minmax_element(light.begin(), light.end(), [&](const Color& a, const Color& b) { return sum(a) < sum(b); });
@@ -310,7 +307,7 @@ void Painter::smooth_shadows(std::size_t block) {
   }
 }
 
-void Painter::show(std::size_t block, const Tone& tone, Picture& picture) const {
+HALFLIGHT_INLINE void GatherPainter::show(std::size_t block, const Tone& tone, Picture& picture) const {
   const std::vector<Fragment>& fragments = blocks_[block];
   auto next = fragments.begin();
   each_pixel(block, [&](std::uint32_t x, std::uint32_t y) {
@@ -319,7 +316,7 @@ void Painter::show(std::size_t block, const Tone& tone, Picture& picture) const 
     float share = 0.0f;
     std::optional<Color> emission;  // of the first fragment
     for (; next != fragments.end() && next->x == x && next->y == y; ++next) {
-      const radiosity::Material& material = light_.material(next->place.surface);
+      const Material& material = light_.material(next->place.surface);
       if (emission.value_or(material.emission) != material.emission) { picture.partly_lamp[pixel] = 1; }
       emission = material.emission;
       share += next->share;
@@ -333,14 +330,14 @@ void Painter::show(std::size_t block, const Tone& tone, Picture& picture) const 
   });
 }
 
-}  // namespace
+}  // namespace detail
 
-std::optional<Picture> draw(const radiosity::FinalGather& light, const View& view, const Tone& tone, unsigned threads,
-                            const radiosity::Control& control) {
+HALFLIGHT_INLINE std::optional<Picture> draw(const FinalGather& light, const View& view, const Tone& tone, unsigned threads,
+                                             const Control& control) {
   Picture picture{view.size.width, view.size.height};
-  Painter painter{light, view, threads, control};
+  detail::GatherPainter painter{light, view, threads, control};
   if (!painter.look() || !painter.gather() || !painter.light_up(tone, picture)) { return std::nullopt; }
   return picture;
 }
 
-}  // namespace apps
+}  // namespace radiosity

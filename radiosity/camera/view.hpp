@@ -1,16 +1,34 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The picture's view: a pinhole camera whose field of view is given horizontally; pixels are square.
+// The view of a picture: a pinhole camera whose field of view is given horizontally; pixels are square.
 //
 // View space: x to the right, y down, z forward; a point (x, y, z) falls on the image at (x/z, y/z), and the image
 // spans -half_width..half_width and -half_height..half_height.
 
+#include <cstdint>
+#include <optional>
+#include <string>
+
 #include <glm/vec3.hpp>
 
-#include "apps/scene_file.hpp"
+#include <radiosity/scene/scene.hpp>
 
-namespace apps {
+namespace radiosity {
+
+struct PictureSize {
+  std::uint32_t width = 800;
+  std::uint32_t height = 600;
+};
+
+struct Camera {
+  std::string name;
+  glm::dvec3 eye{0.0};
+  glm::dvec3 forward{0.0, 1.0, 0.0};  // not normalised, not zero
+  glm::dvec3 up{0.0, 0.0, 1.0};       // not normalised, not parallel to forward
+  double field_of_view = 50.0;        // horizontal, in degrees
+  std::optional<PictureSize> size;    // of the picture, unless the caller says otherwise
+};
 
 struct View {
   glm::dvec3 eye{0.0};
@@ -38,6 +56,10 @@ struct View {
 // Looks at the whole scene from outside, slightly from above (z is up). Back faces are not drawn, so this looks into a
 // room as into a doll's house. A lamp far outside, beside which all else would look less than half as large, is left out
 // of the view. Depends on nothing but bounds, and on what shines.
-[[nodiscard]] Camera automatic_camera(const radiosity::Scene& scene);
+[[nodiscard]] Camera automatic_camera(const Scene& scene);
 
-}  // namespace apps
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/camera/view.cpp>
+#endif

@@ -12,15 +12,15 @@
 
 #include <radiosity/support/random.hpp>
 
-#include "apps/indirect_points.hpp"
+#include <radiosity/camera/indirect_points.hpp>
 
 namespace {
 
 using radiosity::Color;
 
 // A point of the plane z = 0, of which pixel (x, y) shows the square from (x, y) to (x + 1, y + 1), in hundredths.
-apps::IndirectPoint point_at(double x, double y, double radius, const Color& light) {
-  apps::IndirectPoint point;
+radiosity::IndirectPoint point_at(double x, double y, double radius, const Color& light) {
+  radiosity::IndirectPoint point;
   point.position = {0.01 * x, 0.01 * y, 0.0};
   point.normal = {0.0, 0.0, 1.0};
   point.x = static_cast<std::uint32_t>(x);
@@ -46,7 +46,7 @@ TEST_CASE("between points of indirect light a linear field is exact, wherever th
     const Color middle{uniform(5, 9), uniform(5, 9), uniform(5, 9)}, by_x{uniform(-2, 2), uniform(-2, 2), 0.0},
         by_y{uniform(-2, 2), 0.0, 1.0};
     const auto field = [&](double x, double y) { return middle + 0.01 * x * by_x + 0.01 * y * by_y; };
-    apps::IndirectPoints points{100, 80};
+    radiosity::IndirectPoints points{100, 80};
     for (int k = 0; k < 150; ++k) {
       const double x = uniform(0, 100), y = uniform(0, 80);
       points.add(point_at(x, y, uniform(15, 30), field(x, y)));
@@ -69,12 +69,12 @@ TEST_CASE("noise of indirect light falls with the sphere of the fit, where a pla
     double square[2] = {0.0, 0.0};
     for (const int wide : {0, 1}) {
       radiosity::Random random{seed, 0};
-      apps::IndirectPoints points{200, 200};
+      radiosity::IndirectPoints points{200, 200};
       for (int k = 0; k < 1000; ++k) {
         const double x = 200 * random.uniform(), y = 200 * random.uniform();
         const double light = 6.0 + 0.01 * x - 0.02 * y;
         // Uniform noise of standard deviation 0.2 in each channel, the same in all: the sum has three times that.
-        apps::IndirectPoint point = point_at(x, y, 12, Color{light + 0.2 * std::sqrt(12.0) * (random.uniform() - 0.5)});
+        radiosity::IndirectPoint point = point_at(x, y, 12, Color{light + 0.2 * std::sqrt(12.0) * (random.uniform() - 0.5)});
         point.variance = 0.6 * 0.6;
         point.widest = (wide ? 3.0 : 1.0) * point.radius;
         point.widest_pixels = (wide ? 3.0 : 1.0) * point.pixels;
@@ -98,12 +98,12 @@ TEST_CASE("a wide fit does not carry indirect light over a step") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     CAPTURE(seed);
     radiosity::Random random{seed, 0};
-    apps::IndirectPoints points{200, 200};
+    radiosity::IndirectPoints points{200, 200};
     constexpr double noise = 0.1;
     const auto truth = [](double x) { return x < 100 ? 2.0 : 2.0 + 30 * noise; };
     for (int k = 0; k < 1000; ++k) {
       const double x = 200 * random.uniform(), y = 200 * random.uniform();
-      apps::IndirectPoint point = point_at(x, y, 12, Color{truth(x) + noise * std::sqrt(12.0) * (random.uniform() - 0.5)});
+      radiosity::IndirectPoint point = point_at(x, y, 12, Color{truth(x) + noise * std::sqrt(12.0) * (random.uniform() - 0.5)});
       point.variance = 9 * noise * noise;
       point.widest = 3.0 * point.radius;
       point.widest_pixels = 3.0 * point.pixels;
@@ -121,7 +121,7 @@ TEST_CASE("a wide fit does not carry indirect light over a step") {
 }
 
 TEST_CASE("a point of indirect light says nothing about another object, another side of a crease, or what lies off its plane") {
-  apps::IndirectPoints points{100, 80};
+  radiosity::IndirectPoints points{100, 80};
   points.add(point_at(50, 40, 20, Color{1.0}));
   points.fit(0);
   const glm::dvec3 place{0.5, 0.4, 0.0}, up{0, 0, 1};
@@ -139,14 +139,14 @@ TEST_CASE("between points of indirect light it stays within a factor of two of t
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     CAPTURE(seed);
     radiosity::Random random{seed, 0};
-    apps::IndirectPoints points{200, 200};
+    radiosity::IndirectPoints points{200, 200};
     double least = 1e30, most = 0.0;
     for (int k = 0; k < 400; ++k) {
       const double x = 200 * random.uniform(), y = 200 * random.uniform();
       const double light = 1.0 / (1e-3 + 1e-4 * (x * x + y * y));
       least = std::min(least, light);
       most = std::max(most, light);
-      apps::IndirectPoint point = point_at(x, y, 20, light * Color{1.0, 0.5, 0.25});
+      radiosity::IndirectPoint point = point_at(x, y, 20, light * Color{1.0, 0.5, 0.25});
       point.variance = std::pow(0.01 * light, 2);
       points.add(point);
     }

@@ -14,13 +14,13 @@
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/scene/material.hpp>
 
-namespace apps {
+namespace radiosity {
 
 // What the rays of one pixel meet of one surface, facing one way.
 struct Fragment {
   std::uint32_t x = 0, y = 0;
   float share = 0.0f;  // of the pixel
-  radiosity::FinalGather::Place place;
+  FinalGather::Place place;
   glm::dvec3 positions{0.0}, normals{0.0};  // sums over its rays
 };
 
@@ -32,20 +32,23 @@ struct PixelSize {
 };
 
 // Seen through one pixel, do these two belong together? Not where one part of a surface hides another, or on two sides of a crease.
-[[nodiscard]] bool one_piece(const radiosity::FinalGather::Place& a, const radiosity::FinalGather::Place& b, const PixelSize& pixel_size);
+[[nodiscard]] bool one_piece(const FinalGather::Place& a, const FinalGather::Place& b, const PixelSize& pixel_size);
 
 // Adds the fragments of the pixel (x, y), given what each of its rays sees.
-void add_fragments(const radiosity::FinalGather& light, std::uint32_t x, std::uint32_t y,
-                   std::span<const std::optional<radiosity::FinalGather::Place>> seen, const PixelSize& pixel_size,
-                   std::vector<Fragment>& out);
+void add_fragments(const FinalGather& light, std::uint32_t x, std::uint32_t y, std::span<const std::optional<FinalGather::Place>> seen,
+                   const PixelSize& pixel_size, std::vector<Fragment>& out);
 
-constexpr std::uint32_t block_side = 8;  // pixels
+inline constexpr std::uint32_t block_side = 8;  // pixels
 
 // Adds to the irradiance of the fragments `own`, all of one block and one surface, what comes from the lamps. Where the surface
 // fills the block, most pixels take their share of a lamp from their neighbours: all, where those see the whole lamp or nothing of it; else
 // where they agree. The shadow of a thin thing can pass between them if the lamp is narrow, for then it is as thin; so a narrow lamp is
 // looked for from all pixels at the border of the block, which a shadow of some length crosses, and if those differ, from every pixel.
-void add_direct_light(const radiosity::FinalGather& light, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
-                      std::vector<radiosity::Color>& irradiance);
+void add_direct_light(const FinalGather& light, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
+                      std::vector<Color>& irradiance);
 
-}  // namespace apps
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/camera/fragments.cpp>
+#endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/view.hpp"
+#include <radiosity/camera/view.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,38 +10,39 @@
 #include <glm/geometric.hpp>
 
 #include <raycast/box.hpp>
+#include <raycast/inline.hpp>
 
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 
-#include "apps/bounds.hpp"
+#include <radiosity/scene/bounds.hpp>
 
-namespace apps {
+namespace radiosity {
 
-glm::dvec3 View::to_view(const glm::dvec3& world) const {
+HALFLIGHT_INLINE glm::dvec3 View::to_view(const glm::dvec3& world) const {
   const glm::dvec3 p = world - eye;
   return {glm::dot(p, right), glm::dot(p, down), glm::dot(p, forward)};
 }
 
-glm::dvec3 View::ray(double x, double y) const {
+HALFLIGHT_INLINE glm::dvec3 View::ray(double x, double y) const {
   const double pitch = 2.0 * half_width / size.width;
   return {x * pitch - half_width, y * pitch - half_height(), 1.0};
 }
 
-glm::dvec3 View::direction(double x, double y) const {
+HALFLIGHT_INLINE glm::dvec3 View::direction(double x, double y) const {
   const glm::dvec3 r = ray(x, y);
   return r.x * right + r.y * down + forward;
 }
 
 // A unit of area at distance r takes cos(theta) / r^2 of the directions, and 1 / cos(phi)^3 = (r / z)^3 as much of the plane z = 1 at the
 // angle phi off the axis.
-double View::share(const glm::dvec3& world, const glm::dvec3& normal) const {
+HALFLIGHT_INLINE double View::share(const glm::dvec3& world, const glm::dvec3& normal) const {
   const glm::dvec3 p = to_view(world);
   if (!(p.z > 0.0) || std::abs(p.x) > half_width * p.z || std::abs(p.y) > half_height() * p.z) { return 0.0; }
   return std::max(0.0, glm::dot(normal, eye - world)) / (p.z * p.z * p.z);
 }
 
-View make_view(const Camera& camera, const PictureSize& size) {
+HALFLIGHT_INLINE View make_view(const Camera& camera, const PictureSize& size) {
   View view;
   view.eye = camera.eye;
   view.forward = glm::normalize(camera.forward);
@@ -52,22 +53,22 @@ View make_view(const Camera& camera, const PictureSize& size) {
   return view;
 }
 
-namespace {
+namespace detail {
 
 // All of the scene; but a lamp far outside, as a sky behind windows, is not shown when it would make all else less than half as large.
-raycast::Box worth_seeing(const radiosity::Scene& scene) {
-  const auto shines = [&](std::uint32_t material) { return !radiosity::is_black(scene.materials[material].emission); };
-  radiosity::Scene things;
+HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
+  const auto shines = [&](std::uint32_t material) { return !is_black(scene.materials[material].emission); };
+  Scene things;
   std::copy_if(scene.objects.begin(), scene.objects.end(), std::back_inserter(things.objects),
-               [&](const radiosity::SceneObject& object) { return !std::all_of(object.material.begin(), object.material.end(), shines); });
+               [&](const SceneObject& object) { return !std::all_of(object.material.begin(), object.material.end(), shines); });
   const raycast::Box all = scene_bounds(scene), rest = scene_bounds(things);
   return !things.objects.empty() && all.diameter() > 2.0 * rest.diameter() ? rest : all;
 }
 
-}  // namespace
+}  // namespace detail
 
-Camera automatic_camera(const radiosity::Scene& scene) {
-  const raycast::Box bounds = worth_seeing(scene);
+HALFLIGHT_INLINE Camera automatic_camera(const Scene& scene) {
+  const raycast::Box bounds = detail::worth_seeing(scene);
   Camera camera;
   camera.name = "automatic";
   camera.field_of_view = 40.0;
@@ -79,4 +80,4 @@ Camera automatic_camera(const radiosity::Scene& scene) {
   return camera;
 }
 
-}  // namespace apps
+}  // namespace radiosity

@@ -6,26 +6,25 @@
 //
 // A pixel is looked at by 4 rays, one in each row and column of a grid; by 16, again one in each row and column, where these or those of
 // its neighbours meet several surfaces. What they meet of one surface becomes one fragment of the pixel, which is lit once. Exposure and
-// clamping are those of the mesh picture (picture.hpp). The result does not depend on the number of threads.
+// clamping are those of the mesh picture (mesh_picture.hpp). The result does not depend on the number of threads.
 
 #include <optional>
 
 #include <radiosity/audit/picture_error.hpp>
+#include <radiosity/camera/picture.hpp>
+#include <radiosity/camera/tone.hpp>
+#include <radiosity/camera/view.hpp>
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/scene/options.hpp>
 
-#include "apps/color.hpp"
-#include "apps/picture.hpp"
-#include "apps/view.hpp"
-
-namespace apps {
+namespace radiosity {
 
 // Where there is no object the picture is black. Reports the stage "picture". Nothing when control.cancel became true.
-[[nodiscard]] std::optional<Picture> draw(const radiosity::FinalGather& light, const View& view, const Tone& tone, unsigned threads = 0,
-                                          const radiosity::Control& control = {});
+[[nodiscard]] std::optional<Picture> draw(const FinalGather& light, const View& view, const Tone& tone, unsigned threads = 0,
+                                          const Control& control = {});
 
 // `picture` must outlive the result.
-[[nodiscard]] inline radiosity::ShownPicture audited(const Picture& picture, const View& view, const Tone& tone) {
+[[nodiscard]] inline ShownPicture audited(const Picture& picture, const View& view, const Tone& tone) {
   return {picture.width,
           picture.height,
           [view](double x, double y) {
@@ -36,4 +35,8 @@ namespace apps {
           [&picture](std::uint32_t x, std::uint32_t y) { return picture.partly_lamp[std::size_t{y} * picture.width + x] != 0; }};
 }
 
-}  // namespace apps
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/camera/gather_picture.cpp>
+#endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/picture.hpp"
+#include <radiosity/camera/mesh_picture.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,14 +10,16 @@
 
 #include <glm/geometric.hpp>
 
+#include <raycast/inline.hpp>
+
 #include <radiosity/scene/material.hpp>
 
-namespace apps {
-namespace {
+namespace radiosity {
+namespace raster {
 
-constexpr std::int64_t snap = 4096;  // steps between two sample points
-constexpr double guard = 2.0;        // clipping planes stand this many half-widths off the middle
-constexpr double near_part = 1e-6;   // distance of the near plane, relative to the farthest vertex
+inline constexpr std::int64_t snap = 4096;  // steps between two sample points
+inline constexpr double guard = 2.0;        // clipping planes stand this many half-widths off the middle
+inline constexpr double near_part = 1e-6;   // distance of the near plane, relative to the farthest vertex
 
 using Polygon = std::vector<glm::dvec3>;
 
@@ -30,7 +32,7 @@ struct ClipPlane {
 
 // Sutherland-Hodgman 1974. The point on a cut edge is computed from the inner to the outer end whichever way the edge
 // is walked, so the two triangles at an edge get the same point, bit by bit.
-void clip(Polygon& polygon, const ClipPlane& plane, Polygon& scratch) {
+HALFLIGHT_INLINE void clip(Polygon& polygon, const ClipPlane& plane, Polygon& scratch) {
   scratch.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec3& a = polygon[i];
@@ -64,7 +66,7 @@ struct Piece {
 // of corner i (Olano and Greer 1997), and inverse_depth . r is 1/z.
 struct Triangle {
   std::array<glm::dvec3, 3> weight{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
-  std::array<radiosity::Color, 3> color{radiosity::Color(0.0), radiosity::Color(0.0), radiosity::Color(0.0)};
+  std::array<Color, 3> color{Color(0.0), Color(0.0), Color(0.0)};
   glm::dvec3 inverse_depth{0.0};
   std::uint32_t surface = 0;
 };
@@ -115,14 +117,14 @@ class Projector {
   Polygon scratch_;
 };
 
-Triangle shade(const std::array<glm::dvec3, 3>& p, const glm::dvec3& normal, double volume) {
+HALFLIGHT_INLINE Triangle shade(const std::array<glm::dvec3, 3>& p, const glm::dvec3& normal, double volume) {
   Triangle triangle;
   triangle.inverse_depth = normal / volume;
   for (std::size_t i = 0; i < 3; ++i) { triangle.weight[i] = glm::cross(p[(i + 1) % 3], p[(i + 2) % 3]) / volume; }
   return triangle;
 }
 
-Drawing project(const radiosity::Mesh& mesh, const View& view, std::int64_t samples) {
+HALFLIGHT_INLINE Drawing project(const Mesh& mesh, const View& view, std::int64_t samples) {
   std::vector<glm::dvec3> points;
   double farthest = 0.0;
   points.reserve(mesh.positions.size());
@@ -133,10 +135,10 @@ Drawing project(const radiosity::Mesh& mesh, const View& view, std::int64_t samp
   Drawing drawing;
   if (!(farthest > 0.0)) { return drawing; }
   Projector projector(view, farthest, samples);
-  for (const radiosity::MeshFace& face : mesh.faces) {
+  for (const MeshFace& face : mesh.faces) {
     for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
-      const std::array<const radiosity::MeshCorner*, 3> corner = {&mesh.corners[face.first_corner], &mesh.corners[face.first_corner + k],
-                                                                  &mesh.corners[face.first_corner + k + 1]};
+      const std::array<const MeshCorner*, 3> corner = {&mesh.corners[face.first_corner], &mesh.corners[face.first_corner + k],
+                                                       &mesh.corners[face.first_corner + k + 1]};
       const std::array<glm::dvec3, 3> p = {points[corner[0]->vertex], points[corner[1]->vertex], points[corner[2]->vertex]};
       // right x down = forward: view space is right-handed, so a face shows its front where normal . p < 0.
       const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
@@ -187,7 +189,7 @@ class Band {
   double pixel_;  // of one sample
 };
 
-void Band::put(const Drawing& drawing, std::uint32_t index, std::int64_t x, std::int64_t y) {
+HALFLIGHT_INLINE void Band::put(const Drawing& drawing, std::uint32_t index, std::int64_t x, std::int64_t y) {
   const Triangle& triangle = drawing.triangles[index];
   const double inverse_depth = glm::dot(triangle.inverse_depth, ray(x, y));
   Sample& sample = samples_[static_cast<std::size_t>((y - first_row_) * width_ + x)];
@@ -200,12 +202,12 @@ void Band::put(const Drawing& drawing, std::uint32_t index, std::int64_t x, std:
 }
 
 // First and last sample whose centre, (i + 1/2) snap, lies within lo..hi.
-std::pair<std::int64_t, std::int64_t> covered(std::int64_t lo, std::int64_t hi) {
+HALFLIGHT_INLINE std::pair<std::int64_t, std::int64_t> covered(std::int64_t lo, std::int64_t hi) {
   const auto floor_div = [](std::int64_t a) { return a >= 0 ? a / snap : -((-a + snap - 1) / snap); };
   return {floor_div(lo + snap / 2 - 1), floor_div(hi - snap / 2)};
 }
 
-void Band::draw(const Drawing& drawing, const Piece& piece) {
+HALFLIGHT_INLINE void Band::draw(const Drawing& drawing, const Piece& piece) {
   const auto& c = piece.corner;
   const auto [x_lo, x_hi] = std::minmax({c[0].x, c[1].x, c[2].x});
   const auto [y_lo, y_hi] = std::minmax({c[0].y, c[1].y, c[2].y});
@@ -241,42 +243,42 @@ void Band::draw(const Drawing& drawing, const Piece& piece) {
   }
 }
 
-radiosity::Color color_at(const Triangle& triangle, const glm::dvec3& ray) {
+HALFLIGHT_INLINE Color color_at(const Triangle& triangle, const glm::dvec3& ray) {
   std::array<double, 3> weight{};
   double sum = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     weight[i] = std::max(0.0, glm::dot(triangle.weight[i], ray));
     sum += weight[i];
   }
-  radiosity::Color result(0.0);
+  Color result(0.0);
   for (std::size_t i = 0; i < 3 && sum > 0.0; ++i) { result += (weight[i] / sum) * triangle.color[i]; }
   return result;
 }
 
-}  // namespace
+}  // namespace raster
 
-std::optional<Picture> draw(const radiosity::Mesh& mesh, const View& view, const Tone& tone, unsigned samples,
-                            const std::atomic<bool>* cancel) {
+HALFLIGHT_INLINE std::optional<Picture> draw(const Mesh& mesh, const View& view, const Tone& tone, unsigned samples,
+                                             const std::atomic<bool>* cancel) {
   const std::int64_t n = samples;
   const std::int64_t width = view.size.width * n;
-  const Drawing drawing = project(mesh, view, n);
+  const raster::Drawing drawing = raster::project(mesh, view, n);
   Picture picture{view.size.width, view.size.height};
   // Bands keep memory small: about a million samples each.
   const auto band_pixels = std::clamp<std::int64_t>((1 << 20) / (width * n), 1, view.size.height);
   for (std::int64_t top = 0; top < view.size.height; top += band_pixels) {
     if (cancel != nullptr && cancel->load()) { return std::nullopt; }
     const std::int64_t pixels = std::min<std::int64_t>(band_pixels, view.size.height - top);
-    Band band(width, top * n, pixels * n, view);
-    for (const Piece& piece : drawing.pieces) { band.draw(drawing, piece); }
+    raster::Band band(width, top * n, pixels * n, view);
+    for (const raster::Piece& piece : drawing.pieces) { band.draw(drawing, piece); }
     for (std::int64_t y = top; y < top + pixels; ++y) {
       for (std::int64_t x = 0; x < view.size.width; ++x) {
-        radiosity::Color sum(0.0), radiosity(0.0);
+        Color sum(0.0), radiosity(0.0);
         for (std::int64_t s = 0; s < n * n; ++s) {
           const std::int64_t sx = x * n + s % n;
           const std::int64_t sy = y * n + s / n;
           const std::uint32_t index = band.at(sx, sy).triangle;
           if (index == 0xffffffff) { continue; }
-          const radiosity::Color color = color_at(drawing.triangles[index], band.ray(sx, sy));
+          const Color color = raster::color_at(drawing.triangles[index], band.ray(sx, sy));
           radiosity += color;
           sum += tone(color);
         }
@@ -288,28 +290,28 @@ std::optional<Picture> draw(const radiosity::Mesh& mesh, const View& view, const
   return picture;
 }
 
-double automatic_exposure(const radiosity::Mesh& mesh, const radiosity::Scene& scene, const View& view) {
-  const std::vector<radiosity::InputSurface> surfaces = radiosity::surfaces(scene);
+HALFLIGHT_INLINE double automatic_exposure(const Mesh& mesh, const Scene& scene, const View& view) {
+  const std::vector<InputSurface> surfaces = radiosity::surfaces(scene);
   View small = view;  // some ten thousand samples know the percentile to less than what one sees
   const std::uint32_t shrink = std::max(1u, std::max(view.size.width, view.size.height) / 256);
   small.size = {std::max(1u, view.size.width / shrink), std::max(1u, view.size.height / shrink)};
-  const Drawing drawing = project(mesh, small, 1);
-  Band band(small.size.width, 0, small.size.height, small);
-  for (const Piece& piece : drawing.pieces) { band.draw(drawing, piece); }
+  const raster::Drawing drawing = raster::project(mesh, small, 1);
+  raster::Band band(small.size.width, 0, small.size.height, small);
+  for (const raster::Piece& piece : drawing.pieces) { band.draw(drawing, piece); }
   std::vector<double> reflected;
   double emitted = 0.0;
   for (std::int64_t y = 0; y < small.size.height; ++y) {
     for (std::int64_t x = 0; x < small.size.width; ++x) {
       const std::uint32_t index = band.at(x, y).triangle;
       if (index == 0xffffffff) { continue; }
-      const Triangle& triangle = drawing.triangles[index];
-      const radiosity::Material& material = scene.materials[surfaces[triangle.surface].material];
+      const raster::Triangle& triangle = drawing.triangles[index];
+      const Material& material = scene.materials[surfaces[triangle.surface].material];
       emitted = std::max({emitted, material.emission.x, material.emission.y, material.emission.z});
-      if (radiosity::is_black(material.reflectance)) { continue; }
-      const radiosity::Color radiosity = color_at(triangle, band.ray(x, y));
+      if (is_black(material.reflectance)) { continue; }
+      const Color radiosity = raster::color_at(triangle, band.ray(x, y));
       const double value = luminance(radiosity - material.emission);
       // Rounding of B - E at a lamp is not light; nor does a lamp's reflected light tell how bright the scene is.
-      if (value > 1e-9 * luminance(radiosity) && radiosity::is_black(material.emission)) { reflected.push_back(value); }
+      if (value > 1e-9 * luminance(radiosity) && is_black(material.emission)) { reflected.push_back(value); }
     }
   }
   if (reflected.empty()) { return emitted > 0.0 ? std::numbers::pi / emitted : 1.0; }
@@ -318,4 +320,4 @@ double automatic_exposure(const radiosity::Mesh& mesh, const radiosity::Scene& s
   return 0.8 * std::numbers::pi / *place;
 }
 
-}  // namespace apps
+}  // namespace radiosity

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Objects where they stand, and the bounds of a scene's surfaces. As a solid, a room (an object with `inside`) is unbounded: everything outside its shape. Its surface is
-// that of the shape, whose bounds are taken.
+// Objects where they stand, and the bounds of a scene's surfaces. As a solid, a room (an object with `inside`) is unbounded: everything
+// outside its shape. Its surface is that of the shape, whose bounds are taken.
 
 #include <vector>
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/scene/scene.hpp>
 #include <raycast/box.hpp>
 #include <raycast/transform.hpp>
 
-namespace apps {
+#include <radiosity/scene/scene.hpp>
+
+namespace radiosity {
 
 // Bounds of the eight placed corners of the shape's own bounds: not tight for a rotated shape. NaN gives an empty or
 // infinite box, never a finite one that is too small.
@@ -26,9 +27,9 @@ namespace apps {
   return result;
 }
 
-[[nodiscard]] inline raycast::Box scene_bounds(const radiosity::Scene& scene) {
+[[nodiscard]] inline raycast::Box scene_bounds(const Scene& scene) {
   raycast::Box result;
-  for (const radiosity::SceneObject& object : scene.objects) {
+  for (const SceneObject& object : scene.objects) {
     const raycast::Box box = placed_bounds(*object.shape, object.placement);
     result.extend(box.lo);
     result.extend(box.hi);
@@ -37,10 +38,10 @@ namespace apps {
 }
 
 // The objects of the scene where they stand, in the scene's own coordinates.
-[[nodiscard]] inline std::vector<raycast::PlacedObject> placed_objects(const radiosity::Scene& scene) {
+[[nodiscard]] inline std::vector<raycast::PlacedObject> placed_objects(const Scene& scene) {
   std::vector<raycast::PlacedObject> objects;
-  for (const radiosity::SceneObject& object : scene.objects) { objects.emplace_back(object.shape, object.placement); }
+  for (const SceneObject& object : scene.objects) { objects.emplace_back(object.shape, object.placement); }
   return objects;
 }
 
-}  // namespace apps
+}  // namespace radiosity

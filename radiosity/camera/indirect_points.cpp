@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "apps/indirect_points.hpp"
+#include <radiosity/camera/indirect_points.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/common.hpp>
 
-namespace apps {
+#include <raycast/inline.hpp>
 
-IndirectPoints::IndirectPoints(std::uint32_t width, std::uint32_t height)
+namespace radiosity {
+
+HALFLIGHT_INLINE IndirectPoints::IndirectPoints(std::uint32_t width, std::uint32_t height)
     : columns_{(width + tile - 1) / tile},
       rows_{(height + tile - 1) / tile},
       tiles_(std::size_t{columns_} * rows_),
@@ -27,24 +29,24 @@ void IndirectPoints::each_tile(const IndirectPoint& point, double pixels, const 
   }
 }
 
-void IndirectPoints::add(const IndirectPoint& point) {
+HALFLIGHT_INLINE void IndirectPoints::add(const IndirectPoint& point) {
   const auto index = static_cast<std::uint32_t>(points_.size());
   points_.push_back(point);
   each_tile(point, point.pixels, [&](std::size_t t) { tiles_[t].push_back(index); });
   in_tiles_[std::size_t{point.y / tile} * columns_ + point.x / tile].push_back(index);
 }
 
-bool IndirectPoints::covered(std::uint32_t x, std::uint32_t y, const glm::dvec3& position, const glm::dvec3& normal,
-                             std::uint32_t object) const {
+HALFLIGHT_INLINE bool IndirectPoints::covered(std::uint32_t x, std::uint32_t y, const glm::dvec3& position, const glm::dvec3& normal,
+                                              std::uint32_t object) const {
   for (const std::uint32_t i : near(x, y)) {
     if (points_[i].covers(position, normal, object)) { return true; }
   }
   return false;
 }
 
-void IndirectPoints::fit(std::size_t i) {
+HALFLIGHT_INLINE void IndirectPoints::fit(std::size_t i) {
   IndirectPoint& point = points_[i];
-  std::vector<const radiosity::GatheredPoint*> around;
+  std::vector<const GatheredPoint*> around;
   each_tile(point, point.widest_pixels, [&](std::size_t t) {
     for (const std::uint32_t k : in_tiles_[t]) {
       if (point.weight(points_[k].position, points_[k].normal, points_[k].object, point.widest) > 0.0) { around.push_back(&points_[k]); }
@@ -53,9 +55,9 @@ void IndirectPoints::fit(std::size_t i) {
   radiosity::fit(point, around);
 }
 
-std::optional<radiosity::Color> IndirectPoints::at(std::uint32_t x, std::uint32_t y, const glm::dvec3& position, const glm::dvec3& normal,
-                                                   std::uint32_t object) const {
-  radiosity::Color sum{0.0};
+HALFLIGHT_INLINE std::optional<Color> IndirectPoints::at(std::uint32_t x, std::uint32_t y, const glm::dvec3& position,
+                                                         const glm::dvec3& normal, std::uint32_t object) const {
+  Color sum{0.0};
   double weights = 0.0;
   for (const std::uint32_t i : near(x, y)) {
     const double own = points_[i].weight(position, normal, object);
@@ -64,7 +66,7 @@ std::optional<radiosity::Color> IndirectPoints::at(std::uint32_t x, std::uint32_
     weights += own;
   }
   if (!(weights > 0.0)) { return std::nullopt; }
-  return glm::max(sum / weights, radiosity::Color{0.0});
+  return glm::max(sum / weights, Color{0.0});
 }
 
-}  // namespace apps
+}  // namespace radiosity

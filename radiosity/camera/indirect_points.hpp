@@ -16,9 +16,9 @@
 #include <radiosity/picture/gathered_point.hpp>
 #include <radiosity/scene/material.hpp>
 
-namespace apps {
+namespace radiosity {
 
-struct IndirectPoint : radiosity::GatheredPoint {
+struct IndirectPoint : GatheredPoint {
   std::uint32_t x = 0, y = 0;                // its pixel
   double pixels = 0.0, widest_pixels = 0.0;  // radii of both spheres in the picture, at most
 };
@@ -36,8 +36,8 @@ class IndirectPoints {
   // Fits point i, once all are there; others may be fitted at the same time.
   void fit(std::size_t i);
   // Once all are fitted. Nothing where no sphere holds the place.
-  [[nodiscard]] std::optional<radiosity::Color> at(std::uint32_t x, std::uint32_t y, const glm::dvec3& position, const glm::dvec3& normal,
-                                                   std::uint32_t object) const;
+  [[nodiscard]] std::optional<Color> at(std::uint32_t x, std::uint32_t y, const glm::dvec3& position, const glm::dvec3& normal,
+                                        std::uint32_t object) const;
 
  private:
   static constexpr std::uint32_t tile = 8;  // pixels
@@ -55,4 +55,8 @@ class IndirectPoints {
   Tiles in_tiles_;  // points that lie in the tile
 };
 
-}  // namespace apps
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/camera/indirect_points.cpp>
+#endif

@@ -5,16 +5,18 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <sstream>
-#include <string>
+#include <utility>
 #include <vector>
 
-#include "apps/picture.hpp"
-#include "small_mesh.hpp"
-
+#include <radiosity/camera/mesh_picture.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <raycast/objects/box.hpp>
+#include <raycast/objects/sphere.hpp>
+
+#include "radiosity/scenes.hpp"
+#include "small_mesh.hpp"
 
 namespace {
 
@@ -22,17 +24,17 @@ using radiosity::Color;
 using std::numbers::pi;
 
 // Looks along -z from (0, 0, 1): at z = 0 the picture shows x and y from -1 to 1, y upwards.
-apps::View view(std::uint32_t pixels) {
-  apps::Camera camera;
+radiosity::View view(std::uint32_t pixels) {
+  radiosity::Camera camera;
   camera.eye = {0.0, 0.0, 1.0};
   camera.forward = {0.0, 0.0, -1.0};
   camera.up = {0.0, 1.0, 0.0};
   camera.field_of_view = 90.0;
-  return apps::make_view(camera, {pixels, pixels});
+  return radiosity::make_view(camera, {pixels, pixels});
 }
 
-apps::Picture picture(const radiosity::Mesh& mesh, std::uint32_t pixels, unsigned samples = 1, double exposure = 1.0) {
-  return apps::draw(mesh, view(pixels), exposure, samples).value();
+radiosity::Picture picture(const radiosity::Mesh& mesh, std::uint32_t pixels, unsigned samples = 1, double exposure = 1.0) {
+  return radiosity::draw(mesh, view(pixels), exposure, samples).value();
 }
 
 // A quadrilateral in the plane z = 0 that faces the camera.
@@ -40,12 +42,26 @@ void add_rectangle(radiosity::Mesh& mesh, double x0, double y0, double x1, doubl
   add_face(mesh, {{{x0, y0, 0.0}, color}, {{x1, y0, 0.0}, color}, {{x1, y1, 0.0}, color}, {{x0, y1, 0.0}, color}}, surface);
 }
 
+constexpr std::uint32_t wall = 0, lamp = 1;  // materials
+
+radiosity::Scene scene_of(std::vector<radiosity::SceneObject> objects) {
+  return {{{"wall", Color{0.5}, Color{0.0}}, {"lamp", Color{0.1}, Color{1000.0}}}, std::move(objects)};
+}
+
+radiosity::SceneObject sphere(const glm::dvec3& centre, double radius, std::uint32_t material) {
+  return scenes::object("sphere", raycast::Sphere::make(centre, radius).object, material);
+}
+
+radiosity::SceneObject box(const glm::dvec3& low, const glm::dvec3& high) {
+  return scenes::object("box", raycast::BoxObject::make(low, high).object, wall);
+}
+
 }  // namespace
 
 TEST_CASE("a rectangle covers exactly its pixels, the right way up") {
   radiosity::Mesh mesh;
   add_rectangle(mesh, -0.5, 0.0, 0.25, 0.75, Color(pi));  // columns 2 to 4, rows 1 to 3 of 8
-  const apps::Picture p = picture(mesh, 8);
+  const radiosity::Picture p = picture(mesh, 8);
   for (std::uint32_t y = 0; y < 8; ++y) {
     for (std::uint32_t x = 0; x < 8; ++x) {
       const bool inside = x >= 2 && x < 5 && y >= 1 && y < 4;
@@ -85,11 +101,11 @@ TEST_CASE("triangles that share edges leave no gap and no double pixel") {
         radiosity::Mesh one;
         add_face(one, {{centre, Color(pi)}, {a, Color(pi)}, {b, Color(pi)}});
         add_face(all, {{centre, Color(pi)}, {a, Color(pi)}, {b, Color(pi)}});
-        const apps::Picture p = picture(one, n);
+        const radiosity::Picture p = picture(one, n);
         for (std::size_t k = 0; k < n * n; ++k) { count[k] += p.shown[k].x > 0.999f ? 1 : 0; }
       }
     }
-    const apps::Picture together = picture(all, n);
+    const radiosity::Picture together = picture(all, n);
     std::size_t wrong = 0;
     for (std::size_t k = 0; k < n * n; ++k) { wrong += count[k] == 1 && together.shown[k].x > 0.999f ? 0 : 1; }
     // The outer border may be pulled inwards by `middle`, but never as far as the picture (1.5 - 0.3 > 1).
@@ -103,9 +119,9 @@ TEST_CASE("the nearer face hides the farther one, and of coplanar ones the later
   const Color green(0.0, pi, 0.0);
   add_face(mesh, {{{-1.0, -1.0, 0.5}, green}, {{0.0, -1.0, 0.5}, green}, {{0.0, 1.0, 0.5}, green}, {{-1.0, 1.0, 0.5}, green}}, 1);
   add_rectangle(mesh, -1.0, -1.0, 1.0, 1.0, red, 2);
-  const apps::Picture p = picture(mesh, 8);
-  CHECK(p.pixel(1, 4) == apps::Rgb8{0, 255, 0});
-  CHECK(p.pixel(6, 4) == apps::Rgb8{255, 0, 0});
+  const radiosity::Picture p = picture(mesh, 8);
+  CHECK(p.pixel(1, 4) == radiosity::Rgb8{0, 255, 0});
+  CHECK(p.pixel(6, 4) == radiosity::Rgb8{255, 0, 0});
 
   // A lamp in a ceiling that is cut differently, seen at a grazing angle.
   radiosity::Mesh ceiling;
@@ -113,11 +129,11 @@ TEST_CASE("the nearer face hides the farther one, and of coplanar ones the later
   for (int i = -7; i < 7; ++i) {
     for (int j = -7; j < 7; ++j) { add_rectangle(ceiling, i / 7.0, j / 7.0, (i + 1) / 7.0, (j + 1) / 7.0, red, 4); }
   }
-  apps::Camera camera;
+  radiosity::Camera camera;
   camera.eye = {-3.0, 0.3, 0.11};
   camera.forward = {3.0, 0.1, -0.11};
   camera.field_of_view = 30.0;
-  const apps::Picture grazing = apps::draw(ceiling, apps::make_view(camera, {300, 100}), 1.0, 1).value();
+  const radiosity::Picture grazing = radiosity::draw(ceiling, radiosity::make_view(camera, {300, 100}), 1.0, 1).value();
   std::size_t green_seen = 0;
   for (const glm::vec3& shown : grazing.shown) {
     CHECK(shown.x + shown.y <= 1.0f);
@@ -125,7 +141,7 @@ TEST_CASE("the nearer face hides the farther one, and of coplanar ones the later
   }
   radiosity::Mesh lamp;
   add_rectangle(lamp, 0.1, 0.1, 0.7, 0.8, green, 5);
-  const apps::Picture alone = apps::draw(lamp, apps::make_view(camera, {300, 100}), 1.0, 1).value();
+  const radiosity::Picture alone = radiosity::draw(lamp, radiosity::make_view(camera, {300, 100}), 1.0, 1).value();
   std::size_t expected = 0;
   for (const glm::vec3& shown : alone.shown) { expected += shown.y == 1.0f ? 1 : 0; }
   CHECK(green_seen == expected);
@@ -138,13 +154,13 @@ TEST_CASE("radiosity is linear in space, not on the screen") {
   const Color bright(pi);
   const Color dark(0.0);
   add_face(mesh, {{{-9.0, -0.5, -2.0}, dark}, {{-9.0, -0.5, 0.0}, bright}, {{9.0, -0.5, 0.0}, bright}, {{9.0, -0.5, -2.0}, dark}});
-  const apps::Picture p = picture(mesh, 512);
+  const radiosity::Picture p = picture(mesh, 512);
   // A ray through image height -h meets y = -0.5 at distance 0.5 / h.
   for (const double distance : {1.1, 1.5, 2.0, 2.7}) {
     const double row = 256.0 * (1.0 + 0.5 / distance);
     const double seen = 0.5 / ((std::floor(row) + 0.5) / 256.0 - 1.0);  // at the pixel's own centre
     const double linear = 1.0 - (seen - 1.0) / 2.0;
-    CHECK(std::abs(int{p.pixel(256, static_cast<std::uint32_t>(row))[0]} - int{apps::to_byte(linear)}) <= 1);
+    CHECK(std::abs(int{p.pixel(256, static_cast<std::uint32_t>(row))[0]} - int{radiosity::to_byte(linear)}) <= 1);
   }
 }
 
@@ -154,7 +170,7 @@ TEST_CASE("a face that passes the camera is cut at the near plane") {
                   {{50.0, -0.5, 50.0}, Color(pi)},
                   {{50.0, -0.5, -50.0}, Color(pi)},
                   {{-50.0, -0.5, -50.0}, Color(pi)}});
-  const apps::Picture p = picture(mesh, 64);
+  const radiosity::Picture p = picture(mesh, 64);
   for (std::uint32_t x = 0; x < 64; ++x) {
     CHECK(int{p.pixel(x, 20)[0]} == 0);
     CHECK(int{p.pixel(x, 40)[0]} == 255);
@@ -164,23 +180,23 @@ TEST_CASE("a face that passes the camera is cut at the near plane") {
 
 TEST_CASE("exposure is linear in light, pixels are sRGB") {
   // IEC 61966-2-1: linear 0.5 is 188, 0.18 is 118, 0.001 is 3.
-  CHECK(int{apps::to_byte(0.5)} == 188);
-  CHECK(int{apps::to_byte(0.18)} == 118);
-  CHECK(int{apps::to_byte(0.001)} == 3);
-  CHECK(int{apps::to_byte(0.0)} == 0);
-  CHECK(int{apps::to_byte(1.0)} == 255);
+  CHECK(int{radiosity::to_byte(0.5)} == 188);
+  CHECK(int{radiosity::to_byte(0.18)} == 118);
+  CHECK(int{radiosity::to_byte(0.001)} == 3);
+  CHECK(int{radiosity::to_byte(0.0)} == 0);
+  CHECK(int{radiosity::to_byte(1.0)} == 255);
   radiosity::Mesh mesh;
   add_rectangle(mesh, -1.0, -1.0, 1.0, 1.0, Color(0.25 * pi, 0.05 * pi, 40.0));
-  CHECK(picture(mesh, 4, 1, 2.0).pixel(1, 1) == apps::Rgb8{apps::to_byte(0.5), apps::to_byte(0.1), 255});
-  CHECK(picture(mesh, 4, 4, 0.5).pixel(1, 1)[0] == apps::to_byte(0.125));
+  CHECK(picture(mesh, 4, 1, 2.0).pixel(1, 1) == radiosity::Rgb8{radiosity::to_byte(0.5), radiosity::to_byte(0.1), 255});
+  CHECK(picture(mesh, 4, 4, 0.5).pixel(1, 1)[0] == radiosity::to_byte(0.125));
 }
 
 TEST_CASE("samples are clamped before they are averaged: the edge of a bright lamp stays smooth") {
   radiosity::Mesh mesh;
   add_rectangle(mesh, -1.0, -1.0, 0.125, 1.0, Color(1000.0 * pi));  // half of column 4 of 8
-  const apps::Picture p = picture(mesh, 8, 4);
+  const radiosity::Picture p = picture(mesh, 8, 4);
   CHECK(int{p.pixel(3, 3)[0]} == 255);
-  CHECK(int{p.pixel(4, 3)[0]} == int{apps::to_byte(0.5)});
+  CHECK(int{p.pixel(4, 3)[0]} == int{radiosity::to_byte(0.5)});
   CHECK(int{p.pixel(5, 3)[0]} == 0);
 }
 
@@ -190,38 +206,36 @@ TEST_CASE("the picture does not depend on its bands and stops when asked to") {
            {{{-0.9, -0.8, 0.0}, Color(pi, 0.0, 0.0)}, {{0.9, -0.3, 0.0}, Color(0.0, pi, 0.0)}, {{-0.2, 0.9, 0.0}, Color(0.0, 0.0, pi)}});
   // 1600 x 1600 at 4 x 4 samples takes many bands; every 2 x 2 block averages to the picture at half the size, whose
   // samples are every second one of it only up to colour, so compare coverage alone.
-  const apps::Picture large = picture(mesh, 1600, 1);
-  const apps::Picture small = picture(mesh, 400, 4);
+  const radiosity::Picture large = picture(mesh, 1600, 1);
+  const radiosity::Picture small = picture(mesh, 400, 4);
   std::size_t wrong = 0;
   for (std::uint32_t y = 0; y < 400; ++y) {
     for (std::uint32_t x = 0; x < 400; ++x) {
       bool any = false;
       for (std::uint32_t k = 0; k < 16; ++k) {
-        const apps::Rgb8 rgb = large.pixel(4 * x + k % 4, 4 * y + k / 4);
-        any = any || rgb != apps::Rgb8{0, 0, 0};
+        const radiosity::Rgb8 rgb = large.pixel(4 * x + k % 4, 4 * y + k / 4);
+        any = any || rgb != radiosity::Rgb8{0, 0, 0};
       }
-      wrong += any == (small.pixel(x, y) != apps::Rgb8{0, 0, 0}) ? 0 : 1;
+      wrong += any == (small.pixel(x, y) != radiosity::Rgb8{0, 0, 0}) ? 0 : 1;
     }
   }
   CHECK(wrong == 0);
   const std::atomic<bool> cancel = true;
-  CHECK_FALSE(apps::draw(mesh, view(64), 1.0, 4, &cancel));
-  CHECK(apps::draw(radiosity::Mesh{}, view(4), 1.0));
+  CHECK_FALSE(radiosity::draw(mesh, view(64), 1.0, 4, &cancel));
+  CHECK(radiosity::draw(radiosity::Mesh{}, view(4), 1.0));
 }
 
 TEST_CASE("automatic exposure shows the 98th percentile of what is seen as 0.8, whatever lies outside the view or shines") {
-  const apps::SceneResult result = apps::parse_scene(
-      "material wall reflectance 0.5\nmaterial lamp emission 1000\n"
-      "sphere a center 0 0 0 radius 1 material wall\nsphere b center 9 0 0 radius 1 material lamp\n");
-  const auto exposure = [&](const Color& light, bool lamp) {
+  const radiosity::Scene scene = scene_of({sphere({0, 0, 0}, 1.0, wall), sphere({9, 0, 0}, 1.0, lamp)});
+  const auto exposure = [&](const Color& light, bool lit) {
     radiosity::Mesh mesh;
     if (!radiosity::is_black(light)) { add_rectangle(mesh, -1.0, -1.0, 1.0, 1.0, light, 0); }
     add_rectangle(mesh, 5.0, 5.0, 9.0, 9.0, Color(1e6), 0);  // beside the view
-    if (lamp) { add_rectangle(mesh, -0.5, -0.5, 0.5, 0.5, Color(1000.0), 1); }
-    return apps::automatic_exposure(mesh, result.file->scene, view(100));
+    if (lit) { add_rectangle(mesh, -0.5, -0.5, 0.5, 0.5, Color(1000.0), 1); }
+    return radiosity::automatic_exposure(mesh, scene, view(100));
   };
   const Color light{1.0, 0.5, 0.0};
-  const double expected = 0.8 * pi / apps::luminance(light);
+  const double expected = 0.8 * pi / radiosity::luminance(light);
   CHECK(exposure(light, false) == test::Approx(expected));
   CHECK(exposure(2.0 * light, true) == test::Approx(0.5 * expected));
   CHECK(exposure(Color{0.0}, true) == test::Approx(pi / 1000.0));
@@ -231,13 +245,13 @@ TEST_CASE("automatic exposure shows the 98th percentile of what is seen as 0.8, 
     radiosity::Mesh mesh;
     add_rectangle(mesh, -1.0, -1.0, 1.0, 1.0, Color(1.0), 0);
     add_rectangle(mesh, 1.0 - side, 1.0 - side, 1.0, 1.0, Color(4.0), 0);  // the later of coplanar ones, for it is drawn later
-    CHECK(apps::automatic_exposure(mesh, result.file->scene, view(200)) == test::Approx(0.8 * pi / (side < 0.3 ? 1.0 : 4.0)));
+    CHECK(radiosity::automatic_exposure(mesh, scene, view(200)) == test::Approx(0.8 * pi / (side < 0.3 ? 1.0 : 4.0)));
   }
 }
 
 TEST_CASE("tones rise with light, from 0 to 1, filmic below linear where it is bright") {
-  for (const apps::ToneCurve curve : {apps::ToneCurve::linear, apps::ToneCurve::filmic}) {
-    const apps::Tone tone{2.0, curve};
+  for (const radiosity::ToneCurve curve : {radiosity::ToneCurve::linear, radiosity::ToneCurve::filmic}) {
+    const radiosity::Tone tone{2.0, curve};
     CHECK(tone(0.0) == 0.0);
     double last = 0.0;
     for (double b = 1e-6; b < 1e12; b *= 1.1) {
@@ -246,13 +260,12 @@ TEST_CASE("tones rise with light, from 0 to 1, filmic below linear where it is b
       CHECK(last <= 1.0);
     }
     CHECK(last == 1.0);
-    CHECK(std::abs(tone(0.4 * pi) - (curve == apps::ToneCurve::linear ? 0.8 : 0.7523)) < 1e-4);
+    CHECK(std::abs(tone(0.4 * pi) - (curve == radiosity::ToneCurve::linear ? 0.8 : 0.7523)) < 1e-4);
   }
 }
 
 TEST_CASE("the automatic view shows the whole scene") {
-  const auto result = apps::parse_scene("material m reflectance 0.5\nbox b from 100 -5 3 to 104 1 9 material m\n");
-  const apps::View v = apps::make_view(apps::automatic_camera(result.file->scene), {});
+  const radiosity::View v = radiosity::make_view(radiosity::automatic_camera(scene_of({box({100, -5, 3}, {104, 1, 9})})), {});
   for (unsigned i = 0; i < 8; ++i) {
     const glm::dvec3 p = v.to_view({(i & 1U) != 0 ? 104.0 : 100.0, (i & 2U) != 0 ? 1.0 : -5.0, (i & 4U) != 0 ? 9.0 : 3.0});
     CHECK(p.z > 0.0);
@@ -267,15 +280,19 @@ TEST_CASE("the automatic view shows a lamp near the things it lights, and the sa
   std::mt19937 random(seed);
   const auto within = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
   for (int run = 0; run < 20; ++run) {
-    std::ostringstream text;
-    text << "material m reflectance 0.5\nmaterial lamp reflectance 0.1 emission 100\nbox post from -4 -4 -4 to -3 -3 4 material m\n";
+    std::vector<radiosity::SceneObject> things{box({-4, -4, -4}, {-3, -3, 4})};
     for (int i = 0; i < 3; ++i) {
-      text << "sphere s" << i << " center " << within(-4, 4) << ' ' << within(-4, 4) << ' ' << within(-4, 4) << " radius 0.5 material m\n";
+      const double x = within(-4, 4), y = within(-4, 4), z = within(-4, 4);
+      things.push_back(sphere({x, y, z}, 0.5, wall));
     }
-    const auto camera = [&](const std::string& lamp) { return apps::automatic_camera(apps::parse_scene(text.str() + lamp).file->scene); };
-    const auto lamp = [](double at) { return "sphere light center 0 0 " + std::to_string(at) + " radius 1 material lamp\n"; };
-    CHECK(camera(lamp(within(60, 1000))).eye == camera("").eye);
-    const apps::View near = apps::make_view(camera(lamp(6.0)), {});
+    const radiosity::Camera alone = radiosity::automatic_camera(scene_of(things));
+    const auto with_lamp = [&](double height) {
+      std::vector<radiosity::SceneObject> all = things;
+      all.push_back(sphere({0, 0, height}, 1.0, lamp));
+      return radiosity::automatic_camera(scene_of(all));
+    };
+    CHECK(with_lamp(within(60, 1000)).eye == alone.eye);
+    const radiosity::View near = radiosity::make_view(with_lamp(6.0), {});
     CHECK(std::abs(near.to_view({0, 0, 7}).y) < near.half_height() * near.to_view({0, 0, 7}).z);
   }
 }

@@ -16,7 +16,7 @@
 
 #include <radiosity/scene/material.hpp>
 
-namespace apps {
+namespace radiosity {
 
 using Rgb8 = std::array<std::uint8_t, 3>;
 
@@ -47,16 +47,16 @@ struct Tone {
     return std::min(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 1.0);
   }
   // The linear values in [0,1] of a radiosity.
-  [[nodiscard]] radiosity::Color operator()(const radiosity::Color& radiosity) const {
+  [[nodiscard]] Color operator()(const Color& radiosity) const {
     return {(*this)(radiosity.x), (*this)(radiosity.y), (*this)(radiosity.z)};
   }
 };
 
 // Relative luminance of linear sRGB (ITU-R BT.709).
-[[nodiscard]] inline double luminance(const radiosity::Color& linear) { return glm::dot(linear, radiosity::Color{0.2126, 0.7152, 0.0722}); }
+[[nodiscard]] inline double luminance(const Color& linear) { return glm::dot(linear, Color{0.2126, 0.7152, 0.0722}); }
 
 [[nodiscard]] inline std::uint8_t to_byte(double linear) { return static_cast<std::uint8_t>(std::lround(255.0 * srgb_encode(linear))); }
 
-[[nodiscard]] inline Rgb8 to_rgb8(const radiosity::Color& linear) { return {to_byte(linear.x), to_byte(linear.y), to_byte(linear.z)}; }
+[[nodiscard]] inline Rgb8 to_rgb8(const Color& linear) { return {to_byte(linear.x), to_byte(linear.y), to_byte(linear.z)}; }
 
-}  // namespace apps
+}  // namespace radiosity

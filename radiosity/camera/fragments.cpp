@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/fragments.hpp"
+#include <radiosity/camera/fragments.hpp>
 
 #include <algorithm>
 #include <array>
@@ -8,19 +8,20 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/lit_region.hpp>
+#include <raycast/inline.hpp>
 #include <raycast/tolerances.hpp>
 
-namespace apps {
+namespace radiosity {
 
-bool one_piece(const radiosity::FinalGather::Place& a, const radiosity::FinalGather::Place& b, const PixelSize& pixel_size) {
+HALFLIGHT_INLINE bool one_piece(const FinalGather::Place& a, const FinalGather::Place& b, const PixelSize& pixel_size) {
   if (a.surface != b.surface || !(glm::dot(a.point.normal, b.point.normal) > 0.97)) { return false; }
   constexpr double apart = 4.0;  // pixels
   return std::abs(glm::dot(a.point.normal, b.point.position - a.point.position)) < apart * pixel_size(a.point.position);
 }
 
-void add_fragments(const radiosity::FinalGather& light, std::uint32_t x, std::uint32_t y,
-                   std::span<const std::optional<radiosity::FinalGather::Place>> seen, const PixelSize& pixel_size,
-                   std::vector<Fragment>& out) {
+HALFLIGHT_INLINE void add_fragments(const FinalGather& light, std::uint32_t x, std::uint32_t y,
+                                    std::span<const std::optional<FinalGather::Place>> seen, const PixelSize& pixel_size,
+                                    std::vector<Fragment>& out) {
   const auto first = static_cast<std::ptrdiff_t>(out.size());
   for (const auto& place : seen) {
     if (!place) { continue; }
@@ -43,7 +44,7 @@ void add_fragments(const radiosity::FinalGather& light, std::uint32_t x, std::ui
     }
     // The middle of points of a curved surface lies off it: the nearest of them is on it.
     double nearest = raycast::infinity;
-    const radiosity::FinalGather::Place of_piece = f->place;
+    const FinalGather::Place of_piece = f->place;
     for (const auto& place : seen) {
       if (!place || !one_piece(of_piece, *place, pixel_size)) { continue; }
       const double distance = glm::length(place->point.position - middle);
@@ -55,25 +56,24 @@ void add_fragments(const radiosity::FinalGather& light, std::uint32_t x, std::ui
   }
 }
 
-namespace {
-
-using radiosity::Color;
+namespace detail {
 
 // Where a surface fills a block, shadows are found by every second to third of its pixels in either direction.
-constexpr std::array<std::uint32_t, 4> lattice{0, 2, 5, 7};
-constexpr std::array<std::uint32_t, block_side> cell_of{0, 0, 0, 1, 1, 1, 2, 2};  // of a coordinate: between lattice[c] and lattice[c + 1]
+inline constexpr std::array<std::uint32_t, 4> lattice{0, 2, 5, 7};
+inline constexpr std::array<std::uint32_t, block_side> cell_of{0, 0, 0, 1,
+                                                               1, 1, 2, 2};  // of a coordinate: between lattice[c] and lattice[c + 1]
 
 // Is the shadow of a thin thing as thin as the thing? The penumbra is as wide as the lamp seems from the receiver, times the distance of
 // what is in between: blocks near that hold the thing itself and are not filled, and from a block's width on a wider lamp blurs some
 // pixels.
-bool is_narrow(const radiosity::DirectLight::Lamp& lamp, const glm::dvec3& x) {
+HALFLIGHT_INLINE bool is_narrow(const DirectLight::Lamp& lamp, const glm::dvec3& x) {
   constexpr double seems = 0.1;
   return 2.0 * lamp.radius < seems * glm::length(lamp.centre - x);
 }
 
 // Adds the light of lamp k of the region to the fragments `own`, all of one surface.
-void add_lamp(radiosity::LitRegion& region, std::size_t k, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
-              std::vector<Color>& irradiance) {
+HALFLIGHT_INLINE void add_lamp(LitRegion& region, std::size_t k, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
+                               std::vector<Color>& irradiance) {
   const auto point = [&](std::uint32_t i) { return fragments[i].place.point; };
   const auto add = [&](std::uint32_t i, double visible) {
     if (visible > 0.0) { irradiance[i] += region.lamp(k).exitance * (visible * region.unhidden(k, point(i).position, point(i).normal)); }
@@ -130,14 +130,14 @@ void add_lamp(radiosity::LitRegion& region, std::size_t k, std::span<const std::
   for (const std::uint32_t i : own) { add(i, share[fragments[i].y % block_side][fragments[i].x % block_side]); }
 }
 
-}  // namespace
+}  // namespace detail
 
-void add_direct_light(const radiosity::FinalGather& light, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
-                      std::vector<Color>& irradiance) {
-  std::vector<radiosity::FinalGather::Place> places;
+HALFLIGHT_INLINE void add_direct_light(const FinalGather& light, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
+                                       std::vector<Color>& irradiance) {
+  std::vector<FinalGather::Place> places;
   for (const std::uint32_t i : own) { places.push_back(fragments[i].place); }
-  radiosity::LitRegion region = light.lit_region(places);
-  for (std::size_t k = 0; k < region.size(); ++k) { add_lamp(region, k, own, fragments, irradiance); }
+  LitRegion region = light.lit_region(places);
+  for (std::size_t k = 0; k < region.size(); ++k) { detail::add_lamp(region, k, own, fragments, irradiance); }
 }
 
-}  // namespace apps
+}  // namespace radiosity
