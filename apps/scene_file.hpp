@@ -73,8 +73,14 @@ struct SceneResult : ErrorReport {
   std::optional<SceneFile> file;  // nothing when there are errors
 };
 
-// The scene that `text` describes. Without `side_file` no mesh can be in a file of its own.
-[[nodiscard]] SceneResult parse_scene(std::string_view text, const SideFile& side_file = {});
+// The scene that `text` describes. Without `side_file` no mesh can be in a file of its own. `first`: a camera that comes before its own.
+[[nodiscard]] SceneResult parse_scene(std::string_view text, const SideFile& side_file = {},
+                                      const std::optional<radiosity::Camera>& first = {});
+
+// A camera by the clauses of its statement, such as "eye 1 2 1.5 target 0 0 1 fov 60", or nothing and a sentence in `fault`.
+[[nodiscard]] std::optional<radiosity::Camera> parse_camera(std::string_view clauses, std::string& fault);
+// Does the text begin with the word of such a clause, so that it is no name of a camera?
+[[nodiscard]] bool begins_camera(std::string_view text);
 
 // The whole file, "-" for the standard input, or nothing and a sentence in `fault` (missing, a directory, unreadable, too large).
 [[nodiscard]] std::optional<std::string> read_text(const std::string& path, std::string& fault);

@@ -88,7 +88,7 @@ std::optional<SceneFile> load_own(const std::string& path, const std::string& te
     return std::nullopt;
   }
   FilesBeside read;
-  SceneResult result = parse_scene(text, beside(path, read));
+  SceneResult result = parse_scene(text, beside(path, read), options.camera);
   if (!result.file) {
     const auto sentence = wrong_kind(shown(path), text, FileKind::scene);
     sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, shown(path)).c_str(), stderr));

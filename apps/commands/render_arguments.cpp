@@ -93,10 +93,26 @@ std::vector<Argument> refinement_arguments(RenderOptions& options) {
   };
 }
 
+Argument camera_argument(RenderOptions& options) {
+  const auto take = [&options](const std::string& text) -> std::string {
+    if (!begins_camera(text)) {
+      options.camera = text;
+      return {};
+    }
+    std::string fault;
+    options.model.camera = parse_camera(text, fault);
+    return fault;
+  };
+  return {"--camera", "NAME",
+          "camera of the scene (default: the first; without any, an automatic view), or one of your own as in a .scene file, in metres, z "
+          "upwards: \"eye 1 2 1.6 target 3 3 1 fov 60\"",
+          take};
+}
+
 // How pictures are drawn.
 std::vector<Argument> picture_arguments(RenderOptions& options) {
   return {
-      text("--camera", "TEXT", options.camera, "camera of the scene (default: the first; without any, an automatic view)"),
+      camera_argument(options),
       parsed("--size", "WxH", options.size, parse_size, "WIDTHxHEIGHT, each 1 to " + std::to_string(max_picture_side),
              "picture size in pixels (default: the camera's, else 800x600)"),
       one_of<PictureMethod, PictureMethod>(

@@ -90,6 +90,7 @@ class SceneMaker {
       camera.up = linear * camera.up;
     }
     file_.cameras = std::move(model_.cameras);
+    if (options_.camera) { file_.cameras.insert(file_.cameras.begin(), *options_.camera); }
     for (ModelLight& light : model_.lights) { light.position = linear * light.position; }
   }
 

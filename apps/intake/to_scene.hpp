@@ -25,7 +25,7 @@ struct Lamp {
   double exitance = 100.0;  // W/m2
 };
 
-// What the command line says about files of other formats.
+// What the command line says about files of other formats, and a camera for any scene.
 struct ModelOptions {
   std::vector<Lamp> lamps;
   bool two_sided = false;
@@ -33,6 +33,7 @@ struct ModelOptions {
   double metres = 1.0;       // one unit of the file
   std::optional<UpAxis> up;  // default: the format's
   bool merge = true;
+  std::optional<radiosity::Camera> camera;  // before those of the file, in the scene's coordinates
 
   // The options as text, such that other options have another text.
   [[nodiscard]] std::string key() const;

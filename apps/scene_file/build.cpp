@@ -60,22 +60,12 @@ void Builder::materials() {
 void Builder::cameras() {
   std::unordered_map<std::string_view, Place> names;
   for (const CameraSyntax& syntax : syntax_.cameras) {
-    radiosity::Camera camera = syntax.camera;
-    const std::string who = "camera " + in_quotes(camera.name) + ": ";
     const auto [earlier, is_new] = names.emplace(syntax.camera.name, syntax.place);
-    if (!is_new) { errors_.add(syntax.place, who + "its name is taken; the first one stands at " + to_string(earlier->second)); }
-    if (!syntax.sound) { continue; }
-    const auto parallel = [&](const glm::dvec3& up) {
-      return glm::length(glm::cross(camera.forward, up)) <= 1e-9 * glm::length(camera.forward) * glm::length(up);
-    };
-    if (!(glm::length(camera.forward) > 0.0)) {
-      errors_.add(syntax.place, who + "it looks nowhere; 'target' differs from 'eye', 'look' is not 0 0 0");
-    } else if (camera.up == glm::dvec3(0.0)) {
-      camera.up = parallel({0.0, 0.0, 1.0}) ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
-    } else if (parallel(camera.up)) {
-      errors_.add(syntax.place, who + "'up' points along the view");
+    if (!is_new) {
+      errors_.add(syntax.place,
+                  "camera " + in_quotes(syntax.camera.name) + ": its name is taken; the first one stands at " + to_string(earlier->second));
     }
-    file_.cameras.push_back(std::move(camera));
+    if (syntax.sound) { file_.cameras.push_back(make_camera(syntax, errors_)); }
   }
 }
 
@@ -235,6 +225,22 @@ void Builder::place(radiosity::SceneObject placed, const ObjectSyntax& object, P
   }
   file_.scene.objects.push_back(std::move(placed));
   file_.origins.push_back({object.kind->word, object.name.place});
+}
+
+radiosity::Camera make_camera(const CameraSyntax& syntax, Errors& errors) {
+  radiosity::Camera camera = syntax.camera;
+  const std::string who = "camera " + in_quotes(camera.name) + ": ";
+  const auto parallel = [&](const glm::dvec3& up) {
+    return glm::length(glm::cross(camera.forward, up)) <= 1e-9 * glm::length(camera.forward) * glm::length(up);
+  };
+  if (!(glm::length(camera.forward) > 0.0)) {
+    errors.add(syntax.place, who + "it looks nowhere; 'target' differs from 'eye', 'look' is not 0 0 0");
+  } else if (camera.up == glm::dvec3(0.0)) {
+    camera.up = parallel({0.0, 0.0, 1.0}) ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
+  } else if (parallel(camera.up)) {
+    errors.add(syntax.place, who + "'up' points along the view");
+  }
+  return camera;
 }
 
 SceneFile build(const SceneSyntax& syntax, const SideFile& side_file, Errors& errors) { return Builder(syntax, side_file, errors).build(); }

@@ -12,6 +12,9 @@ namespace apps::scene_file {
 // The scene of the statements. Not to be used when errors were added.
 [[nodiscard]] SceneFile build(const SceneSyntax& syntax, const SideFile& side_file, Errors& errors);
 
+// A camera whose syntax is sound, with its direction upwards.
+[[nodiscard]] radiosity::Camera make_camera(const CameraSyntax& syntax, Errors& errors);
+
 // (csg.cpp) A union, intersection or difference, and the shapes of its leaves in the order of the file, whose sheets are its sheets.
 struct CsgShape {
   Shape whole;  // null after an error

@@ -10,18 +10,41 @@
 #include <system_error>
 
 #include "apps/scene_file/build.hpp"
+#include "apps/scene_file/grammar.hpp"
 #include "apps/scene_file/parser.hpp"
 
 namespace apps {
 
-SceneResult parse_scene(std::string_view text, const SideFile& side_file) {
+SceneResult parse_scene(std::string_view text, const SideFile& side_file, const std::optional<radiosity::Camera>& first) {
   Errors errors;
-  const scene_file::SceneSyntax syntax = scene_file::Parser(text, errors).scene();
+  scene_file::SceneSyntax syntax = scene_file::Parser(text, errors).scene();
+  if (first) { syntax.cameras.insert(syntax.cameras.begin(), {*first, {}}); }
   SceneResult result;
   SceneFile file = scene_file::build(syntax, side_file, errors);
   static_cast<ErrorReport&>(result) = errors.take();
   if (result.errors.empty()) { result.file = std::move(file); }
   return result;
+}
+
+bool begins_camera(std::string_view text) {
+  const std::string_view word = text.substr(0, text.find(' '));
+  return word.size() < text.size() &&
+         std::find(scene_file::camera_words.begin(), scene_file::camera_words.end(), word) != scene_file::camera_words.end();
+}
+
+std::optional<radiosity::Camera> parse_camera(std::string_view clauses, std::string& fault) {
+  const std::string text = "camera given " + std::string(clauses);
+  Errors errors;
+  const scene_file::SceneSyntax syntax = scene_file::Parser(text, errors).scene();
+  std::optional<radiosity::Camera> camera;
+  if (errors.count() == 0 && text.find('\n') == text.npos) { camera = scene_file::make_camera(syntax.cameras.front(), errors); }
+  if (errors.count() > 0) {
+    fault = errors.take().errors.back().sentence;  // those about what is missing stand first, at the name
+    return std::nullopt;
+  }
+  if (camera) { camera->name = "(given)"; }  // no file can have this name
+  if (!camera) { fault = "expected the clauses of one camera in one line"; }
+  return camera;
 }
 
 std::optional<std::string> read_text(const std::string& path, std::string& fault) {

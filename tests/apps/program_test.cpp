@@ -165,6 +165,30 @@ TEST_CASE("the error of a picture does not depend on the unit of light") {
   CHECK(error[2] == error[0]);
 }
 
+TEST_CASE("a camera in words shows what the same camera in the scene shows, to the bit") {
+  const program::Place place;
+  const std::string scene =
+      "material wall reflectance 0.5\nmaterial lamp emission 5\nbox room from 0 0 0 to 3 2 1 inside material wall\n"
+      "polygon lamp material lamp {\n vertex 1 1 0.9\n vertex 1 1.5 0.9\n vertex 1.5 1.5 0.9\n vertex 1.5 1 0.9\n}\n";
+  const std::string words = "eye 0.2 0.3 0.5 target 2 1.5 0.4 up 0.1 0 1 fov 70 size 24 16";
+  place.write("with.scene", scene + "camera one " + words + "\ncamera given eye 1 1 0.5 look 1 0 0\n");
+  place.write("without.scene", scene + "camera given eye 1 1 0.5 look 1 0 0\n");
+  const std::string coarse = " --epsilon 0.1 --quiet --audit 0 --threads 1";
+  REQUIRE(place.run("render with.scene -o with.pfm" + coarse).code == 0);
+  REQUIRE(place.run("render without.scene -o without.pfm --camera '" + words + "'" + coarse).code == 0);
+  CHECK(place.read("with.pfm") == place.read("without.pfm"));
+  const auto refused = [&](const std::string& camera, const std::string& reason) {
+    const program::Run run = place.run("render with.scene -o no.pfm --camera '" + camera + "'");
+    CHECK(run.code == 2);
+    CHECK(run.err.find(reason) != std::string::npos);
+    CHECK_FALSE(place.has("no.pfm"));
+  };
+  refused("eye 1 1 0.5", "needs 'target' or 'look'");
+  refused("eye 1 1 0.5 look 0 0 0", "looks nowhere");
+  refused("eye 1 1 x look 1 0 0", "found 'x'");
+  refused("eye 1 1 0.5 look 1 0 0\nmaterial m reflectance 0.5", "one line");
+}
+
 TEST_CASE("info says what is in a scene") {
   const Place place;
   const Run run = place.run("info " + scene("room"));
