@@ -121,6 +121,7 @@ std::string advice(const std::string& path, FileKind found, FileKind wanted) {
   }
   if (found == FileKind::mesh) { return "`halflight check " + path + "` examines it"; }
   if (found == FileKind::stl) { return "convert it to " + mesh_endings() + ", which `halflight check` reads"; }
+  if (found == FileKind::light) { return "`halflight render --light " + path + " -o OUT.png` draws a picture of it"; }
   if (found == FileKind::script) { return "`halflight euler " + path + "` plays it"; }
   if (found == FileKind::scene) {
     return "`halflight info " + path + "` says what is in it" +
@@ -135,6 +136,7 @@ std::string advice(const std::string& path, FileKind found, FileKind wanted) {
 FileGuess guess_kind(std::string_view bytes) {
   if (bytes.starts_with("\xef\xbb\xbf")) { bytes.remove_prefix(3); }
   if (bytes.find_first_not_of(blanks) == bytes.npos) { return {FileKind::empty, "empty", nullptr}; }
+  if (bytes.starts_with("halflight light ")) { return {FileKind::light, "the light of a solved scene", nullptr}; }
   for (const auto& [start, what] : signatures) {
     if (bytes.starts_with(start)) { return {FileKind::other, what, nullptr}; }
   }

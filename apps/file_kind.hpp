@@ -12,7 +12,7 @@
 
 namespace apps {
 
-enum class FileKind { unknown, empty, scene, script, mesh, stl, other };
+enum class FileKind { unknown, empty, scene, script, mesh, stl, light, other };
 
 struct FileGuess {
   FileKind kind = FileKind::unknown;

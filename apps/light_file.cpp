@@ -25,7 +25,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are read as they lie in memory");
 
-constexpr std::string_view light_opening = "halflight light 1\n";
+constexpr std::string_view light_opening = "halflight light 2\n";
 constexpr std::size_t digits = 16;  // of a checksum
 
 std::string checksum_of_bytes(std::string_view bytes) {
@@ -103,10 +103,36 @@ bool consistent(const radiosity::Mesh& mesh, std::size_t surfaces) {
   return true;
 }
 
+constexpr const char* damaged = "the file is damaged";
+
+struct LightParts {
+  std::string_view key, source, mesh;
+};
+
+// The parts of a file whose checksum is right.
+std::optional<LightParts> parts_of(std::string_view bytes, std::string& reason) {
+  reason = "not a .light file of this version";
+  if (!bytes.starts_with(light_opening)) { return std::nullopt; }
+  reason = damaged;
+  const std::size_t before = light_opening.size() + digits + 1;
+  constexpr std::size_t bytes_of_length = 8;
+  if (bytes.size() < before + bytes_of_length + bytes_of_head + digits) { return std::nullopt; }
+  if (checksum_of_bytes(bytes.substr(0, bytes.size() - digits)) != bytes.substr(bytes.size() - digits)) { return std::nullopt; }
+  const std::string_view rest = bytes.substr(before + bytes_of_length, bytes.size() - before - bytes_of_length - digits);
+  const std::uint64_t source = bits_at(bytes, before, bytes_of_length);
+  if (source > rest.size() - bytes_of_head) { return std::nullopt; }
+  reason.clear();
+  return LightParts{bytes.substr(light_opening.size(), digits), rest.substr(0, source), rest.substr(source)};
+}
+
 }  // namespace
 
-std::string to_light_file(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Scene& scene) {
+std::string to_light_file(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Scene& scene,
+                          const SceneSource& source) {
   std::string bytes = std::string(light_opening) + key_of(scene, frame) + "\n";
+  const std::string own = to_bytes(source);
+  put(bytes, std::uint64_t{own.size()});
+  bytes += own;
   for (const std::size_t count : {mesh.positions.size(), mesh.corners.size(), mesh.faces.size()}) { put(bytes, std::uint64_t{count}); }
   for (const glm::dvec3& p : mesh.positions) { put(bytes, p); }
   for (const radiosity::MeshCorner& corner : mesh.corners) {
@@ -123,17 +149,21 @@ std::string to_light_file(const radiosity::Mesh& mesh, const radiosity::Frame& f
   return bytes + checksum_of_bytes(bytes);
 }
 
+std::optional<SceneSource> source_in_light_file(std::string_view bytes, std::string& reason) {
+  const auto parts = parts_of(bytes, reason);
+  if (!parts) { return std::nullopt; }
+  auto source = read_scene_source(parts->source);
+  if (!source) { reason = damaged; }
+  return source;
+}
+
 LightResult read_light_file(std::string_view bytes, const radiosity::Scene& scene) {
-  const LightResult damaged{std::nullopt, "the file is damaged"};
-  if (!bytes.starts_with(light_opening)) { return {std::nullopt, "not a .light file of this version"}; }
-  const std::size_t before = light_opening.size() + digits + 1;
-  if (bytes.size() < before + bytes_of_head + digits) { return damaged; }
-  if (checksum_of_bytes(bytes.substr(0, bytes.size() - digits)) != bytes.substr(bytes.size() - digits)) { return damaged; }
+  LightResult result;
+  const auto parts = parts_of(bytes, result.reason);
+  if (!parts) { return result; }
   const auto frame = radiosity::make_frame(scene);
-  if (!frame || key_of(scene, *frame) != bytes.substr(light_opening.size(), digits)) {
-    return {std::nullopt, "it holds the light of another scene"};
-  }
-  LightReader in{bytes.substr(before, bytes.size() - before - digits)};
+  if (!frame || key_of(scene, *frame) != parts->key) { return {std::nullopt, "it holds the light of another scene"}; }
+  LightReader in{parts->mesh};
   Light light;
   light.frame = *frame;
   std::uint64_t positions = 0, corners = 0, faces = 0;
@@ -143,7 +173,7 @@ LightResult read_light_file(std::string_view bytes, const radiosity::Scene& scen
   const std::uint64_t most = in.left();  // no count is larger, so that the sum below does not overflow
   if (positions > most || corners > most || faces > most ||
       positions * bytes_of_position + corners * bytes_of_corner + faces * bytes_of_face != in.left()) {
-    return damaged;
+    return {std::nullopt, damaged};
   }
   light.mesh.positions.assign(positions, glm::dvec3{0.0});
   for (glm::dvec3& p : light.mesh.positions) { in.get_vector(p); }
@@ -161,7 +191,7 @@ LightResult read_light_file(std::string_view bytes, const radiosity::Scene& scen
     in.get_vector(face.radiosity);
     face.node = radiosity::no_node;
   }
-  if (!consistent(light.mesh, radiosity::surfaces(scene).size())) { return damaged; }
+  if (!consistent(light.mesh, radiosity::surfaces(scene).size())) { return {std::nullopt, damaged}; }
   return {std::move(light), {}};
 }
 

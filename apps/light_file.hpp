@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The light of a solution in a file (.light), from which further pictures of the scene are drawn without solving it again: the mesh with
-// its colours, in full precision, so that these pictures are the same to the bit.
+// The light of a solution in a file (.light), from which further pictures of the scene are drawn without solving it again: what the scene
+// was read from, and the mesh with its colours, in full precision, so that these pictures are the same to the bit.
 //
-//   "halflight light 1\n", key of the scene and "\n", then little-endian, without gaps:
+//   "halflight light 2\n", key of the scene and "\n", then little-endian, without gaps:
+//   uint64: number of bytes of the scene's source; these bytes (scene_source.hpp)
 //   uint64: number of positions, of corners, of faces
 //   a position: 3 double;   a corner: uint32 position, 3 double radiosity, 3 float normal
 //   a face: uint32 first corner, number of corners, input surface; 3 double radiosity
@@ -20,6 +21,8 @@
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/scene.hpp>
 
+#include "apps/scene_source.hpp"
+
 namespace apps {
 
 struct Light {
@@ -27,13 +30,17 @@ struct Light {
   radiosity::Frame frame;
 };
 
-// Of a sound scene.
-[[nodiscard]] std::string to_light_file(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Scene& scene);
+// Of a sound scene, which was read from `source`.
+[[nodiscard]] std::string to_light_file(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Scene& scene,
+                                        const SceneSource& source);
 
 struct LightResult {
   std::optional<Light> light;
   std::string reason;  // why there is none
 };
 [[nodiscard]] LightResult read_light_file(std::string_view bytes, const radiosity::Scene& scene);
+
+// What the scene was read from; nothing and a sentence in `reason` where that is not in the file.
+[[nodiscard]] std::optional<SceneSource> source_in_light_file(std::string_view bytes, std::string& reason);
 
 }  // namespace apps

@@ -51,10 +51,10 @@ struct GivenPolygons {
   bool z_up = false;  // in the file
 };
 
-// The files beside a scene that were read for it: meshes, materials, pictures, parts.
-struct FilesBeside {
-  std::vector<std::string> paths;
-  std::string bytes;  // of all, one after the other
+// A file beside a scene that was read for it: a mesh, materials, a picture, a part.
+struct FileBeside {
+  std::string name;  // as the scene says it
+  std::string path, bytes;
 };
 
 struct SceneFile {
@@ -62,7 +62,8 @@ struct SceneFile {
   std::vector<ObjectOrigin> origins;  // one per scene.objects
   std::vector<radiosity::Camera> cameras;
   std::vector<std::string> notes;  // of files of other formats: what was changed or taken otherwise
-  FilesBeside beside;
+  std::string text;                // the file itself, where an output is to hold it
+  std::vector<FileBeside> beside;
   std::shared_ptr<GivenPolygons> given;  // of files of other formats; null: none
 };
 

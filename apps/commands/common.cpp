@@ -38,7 +38,7 @@ std::optional<std::string> load_text(const std::string& path, ExitCode& code) {
 namespace {
 
 // Files that another one names lie beside it, or where their whole path says. Those that were read are noted in `read`.
-SideFile beside(const std::string& path, FilesBeside& read) {
+SideFile beside(const std::string& path, std::vector<FileBeside>& read) {
   return [folder = std::filesystem::path(path).parent_path(), &read](const std::string& name,
                                                                      std::string& fault) -> std::optional<std::string> {
     const std::string whole = (folder / name).string();
@@ -49,18 +49,14 @@ SideFile beside(const std::string& path, FilesBeside& read) {
       return std::nullopt;
     }
     auto bytes = read_text(whole, fault);
-    if (bytes) {
-      read.paths.push_back(whole);
-      read.bytes += *bytes;
-    }
+    if (bytes) { read.push_back({name, whole, *bytes}); }
     return bytes;
   };
 }
 
-std::optional<SceneFile> load_model(const std::string& path, const std::string& bytes, const ModelFormat& format,
+std::optional<SceneFile> load_model(const std::string& path, const std::string& bytes, const ModelFormat& format, const SideFile& side_file,
                                     const ModelOptions& options, ExitCode& code) {
-  FilesBeside read;
-  ModelResult result = format.read(bytes, beside(path, read));
+  ModelResult result = format.read(bytes, side_file);
   if (!result.model) {
     code = ExitCode::invalid_input;
     const FileGuess guess = guess_kind(bytes);
@@ -71,32 +67,35 @@ std::optional<SceneFile> load_model(const std::string& path, const std::string& 
   }
   std::vector<std::string> faults;
   auto file = to_scene(std::move(*result.model), format.up, options, faults);
-  if (file) {
-    file->beside = std::move(read);
-  } else {
+  if (!file) {
     code = ExitCode::invalid_input;
     complain_of(shown(path), faults);
   }
   return file;
 }
 
-std::optional<SceneFile> load_own(const std::string& path, const std::string& text, const ModelOptions& options, ExitCode& code) {
+std::optional<SceneFile> load_own(const std::string& path, const std::string& text, const SideFile& side_file, const ModelOptions& options,
+                                  ExitCode& code) {
   if (!options.lamps.empty()) {
     complain("--lamp is about files of other programs; in a .scene the material says it: material " + options.lamps[0].material +
              " reflectance 0.5 emission " + shortest(options.lamps[0].exitance));
     code = ExitCode::usage;
     return std::nullopt;
   }
-  FilesBeside read;
-  SceneResult result = parse_scene(text, beside(path, read), options.camera);
+  SceneResult result = parse_scene(text, side_file, options.camera);
   if (!result.file) {
     const auto sentence = wrong_kind(shown(path), text, FileKind::scene);
     sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, shown(path)).c_str(), stderr));
     code = ExitCode::invalid_input;
     return std::nullopt;
   }
-  result.file->beside = std::move(read);
   return std::move(result.file);
+}
+
+std::optional<SceneFile> load(const std::string& path, const std::string& text, const SideFile& side_file, const ModelOptions& options,
+                              ExitCode& code) {
+  const ModelFormat* const format = model_format(path, text);
+  return format ? load_model(path, text, *format, side_file, options, code) : load_own(path, text, side_file, options, code);
 }
 
 }  // namespace
@@ -109,13 +108,20 @@ std::optional<SceneFile> load_scene(const std::string& path, const std::vector<s
 
 std::optional<SceneFile> load_scene(const std::string& path, const std::string& text, const std::vector<std::string>& outputs,
                                     ExitCode& code, const ModelOptions& options) {
-  const ModelFormat* const format = model_format(path, text);
-  auto file = format ? load_model(path, text, *format, options, code) : load_own(path, text, options, code);
+  std::vector<FileBeside> read;
+  auto file = load(path, text, beside(path, read), options, code);
   if (!file) { return std::nullopt; }
-  const ExitCode fault = check_outputs(outputs, file->beside.paths);
+  std::vector<std::string> inputs;
+  for (const FileBeside& side : read) { inputs.push_back(side.path); }
+  file->beside = std::move(read);
+  const ExitCode fault = check_outputs(outputs, inputs);
   if (fault == ExitCode::ok) { return file; }
   code = fault;
   return std::nullopt;
+}
+
+std::optional<SceneFile> load_scene(const SceneSource& source, ExitCode& code) {
+  return load(source.path, source.text, files_of(source), source.options, code);
 }
 
 ExitCode check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {

@@ -12,6 +12,7 @@
 #include "apps/file_kind.hpp"
 #include "apps/intake/to_scene.hpp"
 #include "apps/scene_file.hpp"
+#include "apps/scene_source.hpp"
 
 namespace apps {
 
@@ -30,6 +31,9 @@ inline constexpr std::size_t longest_list = 200;  // lines; of the others the nu
 // The same for a text that has been read already.
 [[nodiscard]] std::optional<SceneFile> load_scene(const std::string& path, const std::string& text, const std::vector<std::string>& outputs,
                                                   ExitCode& code, const ModelOptions& options = {});
+
+// The scene that a .light file holds.
+[[nodiscard]] std::optional<SceneFile> load_scene(const SceneSource& source, ExitCode& code);
 
 // Refuses, before any work, outputs that cannot be written, that are an input, or that are the same file as another output
 // (output_paths.hpp). Empty names are passed over.

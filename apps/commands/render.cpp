@@ -136,18 +136,36 @@ ExitCode write_all(const std::vector<RenderOutput>& outputs) {
   return ExitCode::ok;
 }
 
+// The scene of a .light file: the one that is named, or else the one that the file holds.
+std::optional<SceneFile> scene_of_light(const RenderOptions& options, const std::string& bytes, ExitCode& code) {
+  if (!options.scene.empty()) {
+    ModelOptions model = options.model;
+    model.camera.reset();  // it looks at the scene as it was solved
+    return load_scene(options.scene, all_outputs(options), code, model);
+  }
+  std::string reason;
+  const auto source = source_in_light_file(bytes, reason);
+  if (source) { return load_scene(*source, code); }
+  complain(shown(options.light) + ": " + reason);
+  code = ExitCode::invalid_input;
+  return std::nullopt;
+}
+
 // Pictures from a solution that was kept.
-ExitCode draw_light(const RenderOptions& options, const SceneFile& file, const radiosity::Camera& camera,
-                    const radiosity::Control& control) {
+ExitCode draw_light(const RenderOptions& options, const radiosity::Control& control) {
   ExitCode code = ExitCode::ok;
   const auto bytes = load_text(options.light, code);
-  if (!bytes) { return code; }
-  const LightResult read = read_light_file(*bytes, file.scene);
+  const auto file = bytes ? scene_of_light(options, *bytes, code) : std::nullopt;
+  if (!file) { return code; }
+  const auto chosen = choose_camera(*file, options.camera);
+  if (!chosen) { return ExitCode::usage; }
+  const radiosity::Camera& camera = options.model.camera ? *options.model.camera : *chosen;
+  const LightResult read = read_light_file(*bytes, file->scene);
   if (!read.light) {
     complain(shown(options.light) + ": " + read.reason);
     return ExitCode::invalid_input;
   }
-  Artist artist(options, file, camera);
+  Artist artist(options, *file, camera);
   const radiosity::Tone tone = artist.tone(read.light->mesh);
   const auto picture = artist.draw(read.light->mesh, read.light->frame, tone, control);
   if (!picture) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
@@ -197,9 +215,18 @@ ExitCode run(const RenderOptions& options) {
     return ExitCode::usage;
   }
   if (const ExitCode code = check(options); code != ExitCode::ok) { return code; }
+  Progress progress(options.quiet);
+  radiosity::Control control;
+  control.cancel = &cancel;
+  control.progress = [&](std::string_view stage, double part) { progress.report(stage, part); };
+  if (!options.light.empty()) { return draw_light(options, control); }
   ExitCode code = ExitCode::ok;
-  const auto file = load_scene(options.scene, all_outputs(options), code, options.model);
+  auto text = load_text(options.scene, code);
+  auto file = text ? load_scene(options.scene, *text, all_outputs(options), code, options.model) : std::nullopt;
   if (!file) { return code; }
+  const auto is_light = [](const std::string& path) { return render_format(path) == RenderFormat::light; };
+  if (std::any_of(options.outputs.begin(), options.outputs.end(), is_light)) { file->text = std::move(*text); }
+  text.reset();
   if (options.onto_input && !file->given) {
     complain("--onto-input: " + options.scene + " gives no polygons; only files of other programs (" + model_endings() + ") do");
     return ExitCode::usage;
@@ -212,11 +239,6 @@ ExitCode run(const RenderOptions& options) {
     settings.memory = memory_left(options, *camera);
     if (!settings.memory) { return ExitCode::failure; }
   }
-  Progress progress(options.quiet);
-  radiosity::Control control;
-  control.cancel = &cancel;
-  control.progress = [&](std::string_view stage, double part) { progress.report(stage, part); };
-  if (!options.light.empty()) { return draw_light(options, *file, *camera, control); }
   Artist artist(options, *file, *camera);
   if (settings.error && options.error_of.value_or(has_picture(options) ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
     control.picture_error = [&](const radiosity::Mesh& mesh, const radiosity::Frame& frame,
@@ -244,7 +266,8 @@ ExitCode run(const RenderOptions& options) {
 Command render_command() {
   const auto options = std::make_shared<RenderOptions>();
   return {"render", "solve a scene; write a picture or a mesh and the report", render_arguments(*options),
-          [options] { return run(*options); }};
+          [options] { return run(*options); },
+          [options] { return std::string(options->scene.empty() && options->light.empty() ? "a scene, or --light" : ""); }};
 }
 
 }  // namespace apps

@@ -29,7 +29,7 @@ std::optional<radiosity::PictureSize> parse_size(std::string_view text) {
 // What is written.
 std::vector<Argument> output_arguments(RenderOptions& options) {
   return {
-      scene_argument(options.scene),
+      text("scene", "SCENE", options.scene, "the scene: a .scene file, or " + model_endings()),
       texts("-o,--output", "FILE", options.outputs,
             "what to write: a picture (.png; .hdr, .pfm: radiance), the light for further pictures (.light), a mesh with its light (.ply, "
             ".glb, .obj) or a page that shows it (.html); repeat for more; without, the report alone",
@@ -41,7 +41,9 @@ std::vector<Argument> output_arguments(RenderOptions& options) {
       above_zero("--texel", options.texel, 1e30, "side of a texel of the lightmap in metres (default: such that there are a million)")
           .needing("--lightmap"),
       text("--light", "FILE", options.light,
-           "a .light file of this scene: pictures are drawn from it, and nothing is solved; with the options of pictures alone")
+           "a .light file, of this scene or, without one, with the scene that it holds: pictures are drawn from it, and nothing is solved; "
+           "with "
+           "the options of pictures alone")
           .without({"--json", "--onto-input", "--lightmap", "--error", "--target", "--time", "--epsilon", "--min-area", "--light-epsilon",
                     "--discontinuities", "--mesh-error", "--indirect", "--solver", "--reconstruction", "--no-shortcuts"}),
   };

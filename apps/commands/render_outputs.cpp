@@ -192,7 +192,7 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
     if (is_picture(path)) {
       bytes = encoded(*picture, format, tone);
     } else if (format == RenderFormat::light) {
-      bytes = to_light_file(solution.mesh, solution.frame, file.scene);
+      bytes = to_light_file(solution.mesh, solution.frame, file.scene, {options.scene, file.text, file.beside, options.model});
     } else if (format == RenderFormat::html) {
       bytes = viewer_page(file, solution, camera, tone.exposure, options.scene, summary(solution));
     } else if (format == RenderFormat::exported) {

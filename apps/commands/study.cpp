@@ -106,7 +106,11 @@ bool study_scene(const std::string& path, const StudyOptions& options, const std
   const std::string name = result.scene + ".reference.json";
   const std::vector<std::string> caches{(fs::path(path).parent_path() / name).string(), (fs::path(options.folder) / name).string()};
   // A file of another program, those beside it, and what the command line says about them, are the scene together.
-  const std::string known = file->notes.empty() ? *text : *text + options.model.key() + file->beside.bytes;
+  std::string known = *text;
+  if (!file->notes.empty()) {
+    known += options.model.key();
+    for (const FileBeside& side : file->beside) { known += side.bytes; }
+  }
   std::string fault;
   const auto truth = study::make_reference(file->scene, known, caches, reference, control, fault);
   if (!truth) {

@@ -46,7 +46,7 @@ bool Builder::stands_alone(const ObjectSyntax& object) const {
 std::vector<glm::dvec3> Builder::eyes_of(const ObjectSyntax& object) const {
   std::vector<glm::dvec3> eyes;
   if (!stands_alone(object)) { return eyes; }
-  for (const Camera& camera : file_.cameras) {
+  for (const radiosity::Camera& camera : file_.cameras) {
     if (const auto eye = point_within(object.placement, camera.eye)) { eyes.push_back(*eye); }
   }
   return eyes;
@@ -82,7 +82,7 @@ void Builder::take_parts(SceneFile part, const ObjectSyntax& object, std::uint32
 // Makes those meshes anew among which there is a camera or a lamp that was not known when they were made.
 void Builder::see_from_inside() {
   if (std::none_of(made_.begin(), made_.end(), [](const auto& made) { return !made.second.parts.empty(); })) { return; }
-  for (const Camera& camera : file_.cameras) { eyes_.add(camera); }
+  for (const radiosity::Camera& camera : file_.cameras) { eyes_.add(camera); }
   const auto each = [&](const PlaceObject& visit) { place_all(syntax_.items, groups_, errors_, visit); };
   each([&](const ObjectSyntax& object, const std::string&, const raycast::Placement& outer, Place) {
     const Made& made = made_.at(&object);

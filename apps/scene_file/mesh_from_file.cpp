@@ -10,7 +10,7 @@
 
 #include <raycast/object.hpp>
 
-#include "apps/bounds.hpp"
+#include <radiosity/scene/bounds.hpp>
 #include "apps/intake/to_scene.hpp"
 #include "apps/scene_file/lexer.hpp"
 #include "apps/words.hpp"
@@ -48,7 +48,7 @@ std::optional<SceneFile> mesh_from_file(const ObjectSyntax& object, const SideFi
 raycast::Box bounds_of(const std::vector<radiosity::SceneObject>& parts) {
   raycast::Box box;
   for (const radiosity::SceneObject& part : parts) {
-    const raycast::Box its = placed_bounds(*part.shape, part.placement);
+    const raycast::Box its = radiosity::placed_bounds(*part.shape, part.placement);
     box.extend(its.lo);
     box.extend(its.hi);
   }

@@ -33,7 +33,7 @@ namespace apps::scene_file {
 // Points of a scene that must be seen: the eyes of cameras, and places before lamps.
 class Eyes {
  public:
-  void add(const Camera& camera) { points_.push_back({camera.eye, nullptr}); }
+  void add(const radiosity::Camera& camera) { points_.push_back({camera.eye, nullptr}); }
   // A point before each sheet of the object that shines. `of`: the statement that it comes from.
   void add_lamps(const radiosity::SceneObject& placed, const std::vector<radiosity::Material>& materials, const ObjectSyntax* of);
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <random>
 #include <string>
 
@@ -18,6 +19,7 @@
 #include "apps/light_file.hpp"
 #include "apps/program.hpp"
 #include "apps/scene_file.hpp"
+#include "apps/scene_source.hpp"
 
 namespace {
 
@@ -47,7 +49,7 @@ radiosity::Solution solved(const radiosity::Scene& scene) {
 TEST_CASE("light from a file draws the pictures of the solution, to the bit") {
   const radiosity::Scene scene = scene_of(room);
   const radiosity::Solution solution = solved(scene);
-  const apps::LightResult read = apps::read_light_file(apps::to_light_file(solution.mesh, solution.frame, scene), scene);
+  const apps::LightResult read = apps::read_light_file(apps::to_light_file(solution.mesh, solution.frame, scene, {}), scene);
   INFO(read.reason);
   REQUIRE(read.light);
   for (const glm::dvec3 eye : {glm::dvec3{0.2, 0.2, 0.5}, {2.5, 1.5, 0.7}}) {
@@ -68,7 +70,7 @@ TEST_CASE("light from a file draws the pictures of the solution, to the bit") {
 TEST_CASE("light of another scene is refused: other colours, other shapes, other places") {
   const radiosity::Scene scene = scene_of(room);
   const radiosity::Solution solution = solved(scene);
-  const std::string file = apps::to_light_file(solution.mesh, solution.frame, scene);
+  const std::string file = apps::to_light_file(solution.mesh, solution.frame, scene, {});
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = room;
     text.replace(text.find(from), from.size(), to);
@@ -82,7 +84,7 @@ TEST_CASE("light of another scene is refused: other colours, other shapes, other
 TEST_CASE("a damaged light file is refused, and one of wrong numbers under a right checksum") {
   const radiosity::Scene scene = scene_of(room);
   const radiosity::Solution solution = solved(scene);
-  const std::string file = apps::to_light_file(solution.mesh, solution.frame, scene);
+  const std::string file = apps::to_light_file(solution.mesh, solution.frame, scene, {});
   constexpr unsigned seed = 20261123;
   INFO("seed " << seed);
   std::mt19937 random{seed};
@@ -93,7 +95,7 @@ TEST_CASE("a damaged light file is refused, and one of wrong numbers under a rig
     CHECK_FALSE(apps::read_light_file(damaged, scene).light);
   }
   // Any word of the body at random: what is read then has no number that names what is not there.
-  const std::size_t body = std::string("halflight light 1\n0123456789abcdef\n").size();
+  const std::size_t body = std::string("halflight light 2\n0123456789abcdef\n").size() + 8 + apps::to_bytes({}).size();
   for (int turn = 0; turn < 200; ++turn) {
     std::string changed = file.substr(0, file.size() - 16);
     const std::size_t at = body + (turn < 100 ? random() % 24 : random() % (changed.size() - body - 4));
@@ -128,4 +130,68 @@ TEST_CASE("render keeps light and draws it again") {
   CHECK(run.code == 3);
   CHECK(run.err.find("a.scene: not a .light file") != std::string::npos);
   CHECK_FALSE(place.has("c.pfm"));
+}
+
+TEST_CASE("light holds its scene, so that it is drawn from that file alone, from anywhere") {
+  const program::Place place;
+  place.write("room.obj",
+              "mtllib room.mtl\nv 0 0 0\nv 300 0 0\nv 300 0 200\nv 0 0 200\nv 0 100 0\nv 300 100 0\nv 300 100 200\nv 0 100 200\n"
+              "usemtl red\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+              "v 100 99 50\nv 100 99 100\nv 150 99 100\nv 150 99 50\nusemtl panel\nf 9 10 11 12\n");
+  place.write("room.mtl", "newmtl red\nKd 0.6 0.2 0.2\nnewmtl panel\nKd 0 0 0\n");
+  const std::string coarse = " --epsilon 0.1", quick = " --quiet --audit 0 --threads 1 --exposure 1";
+  const std::string camera = " --camera 'eye 0.3 -0.3 0.5 target 2 -1.5 0.4 size 24 16'";
+  REQUIRE(place.run("render room.obj --units cm --lamp panel=50 -o a.pfm -o a.light" + coarse + quick + camera).code == 0);
+  const std::string picture = place.read("a.pfm");
+  CHECK(picture.size() > 24 * 16 * 12);
+  for (const char* file : {"room.obj", "room.mtl"}) { std::filesystem::remove(place.path() / file); }
+  REQUIRE(place.run("render --light a.light -o b.pfm" + quick + camera).code == 0);
+  const auto pixels = [&](const std::string& name) {
+    const std::string bytes = place.read(name);
+    return bytes.substr(bytes.size() - 24 * 16 * 12);
+  };
+  CHECK(pixels("b.pfm") == pixels("a.pfm"));
+  REQUIRE(place.run("render --light a.light -o c.pfm --size 24x16 --camera 'eye 2.5 -1.5 0.5 look -1 0.6 0'" + quick).code == 0);
+  CHECK(pixels("c.pfm") != pixels("a.pfm"));
+  program::Run run = place.run("render a.light -o d.pfm" + quick);
+  CHECK(run.code == 3);
+  CHECK(run.err.find("`halflight render --light a.light -o OUT.png` draws a picture of it") != std::string::npos);
+  run = place.run("render -o d.pfm");
+  CHECK(run.code == 2);
+  CHECK(run.err.find("render needs a scene, or --light") != std::string::npos);
+  CHECK_FALSE(place.has("d.pfm"));
+}
+
+TEST_CASE("what a scene was read from is read back, and damaged bytes are nothing or sound") {
+  constexpr unsigned seed = 20261124;
+  INFO("seed " << seed);
+  std::mt19937 random{seed};
+  const auto text = [&] {
+    std::string result(random() % 20, ' ');
+    for (char& c : result) { c = static_cast<char>(random()); }
+    return result;
+  };
+  const auto number = [&] { return static_cast<double>(random() % 1000 + 1) / 1100.0; };
+  for (int turn = 0; turn < 200; ++turn) {
+    apps::SceneSource source{text(), text(), {}, {}};
+    for (unsigned i = random() % 3; i > 0; --i) { source.beside.push_back({text(), {}, text()}); }
+    apps::ModelOptions& options = source.options;
+    options.reflectance = number();
+    options.metres = number();
+    options.two_sided = random() % 2 == 0;
+    options.merge = random() % 2 == 0;
+    if (random() % 2 == 0) { options.up = static_cast<apps::UpAxis>(random() % 3); }
+    for (unsigned i = random() % 3; i > 0; --i) { options.lamps.push_back({text(), number()}); }
+    if (random() % 2 == 0) { options.camera = radiosity::Camera{}; }
+    const std::string bytes = apps::to_bytes(source);
+    const auto read = apps::read_scene_source(bytes);
+    REQUIRE(read);
+    CHECK(apps::to_bytes(*read) == bytes);
+    CHECK(read->options.key() == options.key());
+    CHECK_FALSE(apps::read_scene_source(bytes.substr(0, random() % bytes.size())));
+    std::string changed = bytes;
+    changed[random() % changed.size()] ^= static_cast<char>(1u << random() % 8);
+    const auto other = apps::read_scene_source(changed);
+    if (other) { CHECK(other->options.metres > 0.0); }
+  }
 }

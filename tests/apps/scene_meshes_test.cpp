@@ -11,7 +11,7 @@
 #include <radiosity/radiosity.hpp>
 #include <raycast/scene.hpp>
 
-#include "apps/bounds.hpp"
+#include <radiosity/scene/bounds.hpp>
 #include "models.hpp"
 
 namespace {
@@ -89,7 +89,7 @@ TEST_CASE("a mesh in a group is a room in those uses that hold a camera or a lam
     for (std::size_t i = 0; i < room.size(); ++i) { any[i % 2] = any[i % 2] || room[i]; }
     for (std::size_t i = 0; i < room.size(); ++i) { expected.push_back((room[i] || room[i ^ 1U]) && any[i % 2]); }
     // From the middle of a room the fronts of its walls are seen.
-    const raycast::Scene objects(apps::placed_objects(result.file->scene));
+    const raycast::Scene objects(radiosity::placed_objects(result.file->scene));
     std::vector<bool> found;
     for (const raycast::Segment& ray : out) {
       const auto hit = objects.closest(ray);

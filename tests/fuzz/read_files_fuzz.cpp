@@ -67,7 +67,7 @@ void read_as_light(std::string_view body) {
   static const radiosity::Scene scene =
       apps::parse_scene("material lamp reflectance 0 emission 1\nsphere ball center 1 1 1 radius 1 material lamp\n").file->scene;
   static const std::string head = [] {
-    const std::string file = apps::to_light_file({}, *radiosity::make_frame(scene), scene);
+    const std::string file = apps::to_light_file({}, *radiosity::make_frame(scene), scene, {});
     return file.substr(0, file.size() - 3 * 8 - 16);  // without counts and checksum
   }();
   const auto signed_file = [](std::string bytes) {
@@ -76,11 +76,15 @@ void read_as_light(std::string_view body) {
     return bytes + checksum.text();
   };
   require(!apps::read_light_file(body, scene).light, "light without its checksum is refused");
+  if (const auto source = apps::read_scene_source(body)) {
+    const auto again = apps::read_scene_source(apps::to_bytes(*source));
+    require(again && apps::to_bytes(*again) == apps::to_bytes(*source), "a source is written as it was read");
+  }
   const std::string bytes = signed_file(head + std::string(body));
   const apps::LightResult result = apps::read_light_file(bytes, scene);
   require(result.light.has_value() == result.reason.empty(), "either light or a reason");
   if (result.light) {
-    require(apps::to_light_file(result.light->mesh, result.light->frame, scene) == bytes, "light is written as it was read");
+    require(apps::to_light_file(result.light->mesh, result.light->frame, scene, {}) == bytes, "light is written as it was read");
   }
 }
 
