@@ -19,12 +19,12 @@
 #include <raycast/object.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
-#include <radiosity/rays/leaf_locator.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
+#include <radiosity/visibility/leaf_locator.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {

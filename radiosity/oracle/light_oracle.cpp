@@ -209,15 +209,18 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(const Question& question
   // of one.
   const double parts = from.is_cluster() ? 1.0 : std::max(lamp_area_[from.surface], nodes[input_face(nodes, lamp)].area) / from.area;
   const double shown = to.is_cluster() ? 1.0 : shows_[to.surface];
-  const double weight = shown * emission(from) * std::sqrt(parts * to.area / scene_area_);
+  const double important = question.importance != nullptr ? question.importance->weight(receiver) : 1.0;
+  const double weight = shown * emission(from) * std::sqrt(parts * to.area * important / scene_area_);
   if (!(weight > epsilon_)) { return no_node; }
+  const double min_area = question.min_area / important;
   const bool by_lamp = lamps_ && from.is_cluster() && !to.is_cluster();
   if (!by_lamp && (to.is_cluster() || from.is_cluster())) {
     const std::uint32_t split = wants_cluster_split(receiver, lamp, weight, rays);
     return split != no_node && nodes[split].area > question.min_area ? split : no_node;
   }
-  if (!(to.area > question.min_area / detail::smallest_beside_lamps)) { return no_node; }
-  const double tolerance = detail::tolerance_of(to, question.min_area);
+  if (!(to.area > min_area / detail::smallest_beside_lamps)) { return no_node; }
+  if (question.importance != nullptr && question.importance->uneven(receiver) && to.area > min_area) { return receiver; }
+  const double tolerance = detail::tolerance_of(to, min_area);
   if (by_lamp) { return varies_by_lamp(receiver, lamp, weight, tolerance, rays) ? receiver : no_node; }
 
   const detail::FactorRange factor = detail::is_near_and_long(from, to, scene_.patches[lamp])

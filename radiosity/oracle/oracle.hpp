@@ -26,6 +26,7 @@
 
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/oracle/importance.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -59,7 +60,8 @@ struct Question {
 
   // For LightOracle alone: what can stand between the nodes.
   const raycast::OccluderList* between = nullptr;
-  RayCount* rays = nullptr;  // for LightOracle alone: counts the segments that it casts
+  RayCount* rays = nullptr;                // for LightOracle alone: counts the segments that it casts
+  const Importance* importance = nullptr;  // for LightOracle alone: for which picture nodes count, if for one
 
   // Of BF-refinement alone: the link carries light, and its error is one of the largest.
   const LinkError* error = nullptr;

@@ -16,12 +16,12 @@
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/links/evaluate.hpp>
-#include <radiosity/rays/leaf_locator.hpp>
 #include <radiosity/rays/senders.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/rays/view_importance.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/visibility/leaf_locator.hpp>
 
 namespace radiosity {
 

@@ -19,11 +19,11 @@
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/patch.hpp>
-#include <radiosity/rays/leaf_locator.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
+#include <radiosity/visibility/leaf_locator.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {

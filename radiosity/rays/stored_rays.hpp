@@ -15,9 +15,9 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
-#include <radiosity/rays/leaf_locator.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/support/big_array.hpp>
+#include <radiosity/visibility/leaf_locator.hpp>
 
 namespace radiosity {
 

@@ -135,6 +135,12 @@ struct FRefinement {
     return result.too_large == 0;
   }
 
+  // Of leaves, for the light of lamps and for the form factor of a pair.
+  [[nodiscard]] double light_min_area_of(std::uint32_t i) const { return light_min_area / fineness.importance.weight(i); }
+  [[nodiscard]] double min_area_of(std::uint32_t p, std::uint32_t q) const {
+    return min_area / std::max(fineness.importance.weight(p), fineness.importance.weight(q));
+  }
+
   DiscreteScene& scene;
   Fineness fineness;
   ProofOracle proofs;
@@ -161,13 +167,14 @@ struct FRefinement {
 HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
   DiscreteScene& scene = state.scene;
   scene.patches.extend(scene.threads);
+  state.fineness.importance.extend(scene.hierarchy, scene.patches);
   state.measured.measure(state.pairs);
   std::vector<RayCount> rays(state.pairs.size());
   std::vector<Decision> decisions = decide(
       scene, state.pairs, state.result,
       [&](std::uint32_t p, std::uint32_t q) {
         if (scene.control.cancelled()) { return Decision::drop; }
-        const Question question{scene.hierarchy, p, q, state.shown, state.fineness.epsilon, state.min_area, &state.stuck};
+        const Question question{scene.hierarchy, p, q, state.shown, state.fineness.epsilon, state.min_area_of(p, q), &state.stuck};
         const Decision proven = state.proofs(question);
         if (state.measured.takes_whole_lamp({p, q})) { return proven; }
         if (proven != Decision::link) { return proven; }
@@ -180,6 +187,7 @@ HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
         question.min_area = state.light_min_area;
         question.between = &list;
         question.rays = &rays[i];
+        question.importance = &state.fineness.importance;
         const bool measured = state.measured.receiver(state.pairs[i]) != no_node;
         decision = measured ? state.measured(state.pairs[i]) : state.light(question);
       });
@@ -202,8 +210,9 @@ HALFLIGHT_INLINE void drop_dark_pairs(FRefinement& state, std::vector<Decision>&
 HALFLIGHT_INLINE void tell(const FRefinement& state, const std::vector<Decision>& decisions) {
   for (std::size_t i = 0; i < state.pairs.size(); ++i) {
     const NodePair& pair = state.pairs[i];
-    state.scene.control.decided({state.scene.hierarchy, pair.p, pair.q, state.shown, state.fineness.epsilon, state.min_area, &state.stuck},
-                                decisions[i]);
+    state.scene.control.decided(
+        {state.scene.hierarchy, pair.p, pair.q, state.shown, state.fineness.epsilon, state.min_area_of(pair.p, pair.q), &state.stuck},
+        decisions[i]);
   }
 }
 
@@ -230,13 +239,13 @@ HALFLIGHT_INLINE void tell(const FRefinement& state, const std::vector<Decision>
 // face rises as that of another falls, resolving one of them alone would make the sum worse.
 [[nodiscard]] HALFLIGHT_INLINE bool asked_again(const FRefinement& state, const NodePair& pair, Decision decision) {
   const Hierarchy& nodes = state.scene.hierarchy;
-  const auto split_now = [&](const Node& to) {
-    return !to.leaf() && to.first_child >= state.nodes_before && !(to.area > state.light_min_area);
+  const auto split_now = [&](std::uint32_t i) {
+    return !nodes[i].leaf() && nodes[i].first_child >= state.nodes_before && !(nodes[i].area > state.light_min_area_of(i));
   };
   const auto shines = [&](const Node& by) { return !is_black(state.scene.emission[by.surface]); };
   const Node &p = nodes[pair.p], &q = nodes[pair.q];
   if (decision != Decision::link || p.is_cluster() || q.is_cluster()) { return false; }
-  return (split_now(p) && shines(q)) || (split_now(q) && shines(p));
+  return (split_now(pair.p) && shines(q)) || (split_now(pair.q) && shines(p));
 }
 
 // How many pairs the next generation will have; nothing when these, or the links that are made now, are more than there may be.

@@ -23,6 +23,7 @@
 
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/oracle/f_oracle.hpp>
+#include <radiosity/oracle/importance.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/support/parallel.hpp>
@@ -105,6 +106,7 @@ struct Fineness {
   double light_epsilon = 0.0;    // relative to the reflected light,
   double reflected = 1.0;        // which is about as bright as this times the mean emission
   AnyOracle oracle = FOracle{};  // about the form factor
+  Importance importance = {};    // finer for the picture of one camera
 };
 
 // Which pairs of input faces are linked: all, or those of which one is a lamp (DiscreteScene::lamps). The latter need a hierarchy without

@@ -11,6 +11,9 @@
 #include <raycast/inline.hpp>
 
 #include <radiosity/audit/reflected_light.hpp>
+#include <radiosity/audit/view_paths.hpp>
+#include <radiosity/hierarchy/buried.hpp>
+#include <radiosity/oracle/importance.hpp>
 #include <radiosity/rays/ray_choice.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/f_refine.hpp>
@@ -32,12 +35,31 @@ namespace detail {
   return std::min(1.0, std::pow(4.0 * std::max(dim, share), 1.25)) * std::min(1.0, share / dim);
 }
 
+// For the picture of the camera that is all that counts, if there is one.
+[[nodiscard]] HALFLIGHT_INLINE Importance importance_of_view(const Run& run) {
+  const DiscreteScene& scene = run.scene;
+  if (!scene.control.viewpoint || !run.solution.audit.reflected_share) { return {}; }
+  ViewPaths paths = view_paths(scene, *run.tracer, *scene.control.viewpoint);
+  if (!(paths.reflected > 0.0)) { return {}; }
+  const std::vector<bool> buried = buried_nodes(scene.surfaces, scene.hierarchy);
+  double area = 0.0, power = 0.0;
+  for (std::uint32_t i = 0; i < scene.hierarchy.size(); ++i) {
+    if (!is_input_face(scene.hierarchy, i) || (i < buried.size() && buried[i])) { continue; }
+    area += scene.hierarchy[i].area;
+    power += scene.hierarchy[i].area * brightest(scene.emission[scene.hierarchy[i].surface]);
+  }
+  const double of_scene = *run.solution.audit.reflected_share * power / area;
+  const double contrast = of_scene * of_scene / (paths.reflected * paths.reflected);
+  return {std::move(paths.points), contrast, area, scene.inputs.size()};
+}
+
 // With the thresholds of now.
 [[nodiscard]] HALFLIGHT_INLINE RefineResult refined_by_forms(Run& run) {
   const Audit& audit = run.solution.audit;
   Fineness fineness{audit.epsilon, audit.min_area, audit.light_epsilon};
   if (run.options.oracle) { fineness.oracle = run.options.oracle; }
   if (audit.reflected_share) { fineness.reflected = brightness_of_reflected(*audit.reflected_share); }
+  fineness.importance = importance_of_view(run);
   return radiosity::refine(run.scene, fineness, run.rays.cast ? Linked::lamps : Linked::all);
 }
 

@@ -12,7 +12,6 @@
 #include <raycast/inline.hpp>
 
 #include <radiosity/links/evaluate.hpp>
-#include <radiosity/rays/leaf_locator.hpp>
 #include <radiosity/rays/ray_links.hpp>
 #include <radiosity/rays/spacing.hpp>
 #include <radiosity/rays/stored_rays.hpp>
@@ -26,6 +25,7 @@
 #include <radiosity/run/run.hpp>
 #include <radiosity/run/stages.hpp>
 #include <radiosity/support/memory.hpp>
+#include <radiosity/visibility/leaf_locator.hpp>
 
 namespace radiosity {
 

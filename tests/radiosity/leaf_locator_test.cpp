@@ -13,7 +13,7 @@
 #include <raycast/objects/sphere.hpp>
 #include <raycast/objects/torus.hpp>
 
-#include <radiosity/rays/leaf_locator.hpp>
+#include <radiosity/visibility/leaf_locator.hpp>
 
 #include "catch.hpp"
 #include "roots.hpp"

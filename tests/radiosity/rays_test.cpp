@@ -20,12 +20,12 @@
 #include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/radiosity.hpp>
-#include <radiosity/rays/leaf_locator.hpp>
 #include <radiosity/rays/ray_choice.hpp>
 #include <radiosity/rays/ray_links.hpp>
 #include <radiosity/rays/spacing.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/visibility/leaf_locator.hpp>
 #include <radiosity/visibility/prepare.hpp>
 #include <radiosity/visibility/visibility.hpp>
 

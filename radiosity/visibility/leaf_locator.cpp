@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/rays/leaf_locator.hpp>
+#include <radiosity/visibility/leaf_locator.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -60,5 +60,5 @@ class LeafLocator {
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY
-#include <radiosity/rays/leaf_locator.cpp>
+#include <radiosity/visibility/leaf_locator.cpp>
 #endif
