@@ -88,8 +88,9 @@ struct Brightness {
 // Splits nodes for light that comes from everywhere.
 class Spacing {
  public:
-  Spacing(DiscreteScene& scene, const Links& of_lamps, double tolerance, double min_area)
-      : scene_{scene}, links_{of_lamps.size()}, tolerance_{tolerance} {
+  Spacing(DiscreteScene& scene, const Links& of_lamps, Importance& importance, double tolerance, double min_area)
+      : scene_{scene}, importance_{importance}, links_{of_lamps.size()}, tolerance_{tolerance} {
+    importance.extend(scene.hierarchy, scene.patches);
     Brightness brightness = brightness_without_lamps(scene, of_lamps);
     brightness_ = std::move(brightness.of);
     root_mean_square_ = brightness.reflected;
@@ -134,8 +135,9 @@ class Spacing {
       const Node& node = scene_.hierarchy[i];
       const Weights weight = weights(i, rays);
       const double varies = node.radius * rays.nearness(i, 0.1 * node.radius);
-      const bool fine = varies * weight.mean * std::sqrt(weight_[i] * node.area / area_) <= tolerance_;
-      if (fine || (node.leaf() && !(weight_[i] * node.area > least_area_))) {
+      const double counts = std::max(weight_[i], importance_.weight(i));
+      const bool fine = varies * weight.mean * std::sqrt(counts * node.area / area_) <= tolerance_ && !importance_.uneven(i);
+      if (fine || (node.leaf() && !(counts * node.area > least_area_))) {
         result.casters.push_back({i, weight.scatter * std::sqrt(weight_[i])});
         views_.push_back(view(i, rays));
       } else {
@@ -217,9 +219,11 @@ class Spacing {
       weight_.push_back(weight_[hierarchy[i].parent]);
     }
     scene_.expose();
+    importance_.extend(hierarchy, scene_.patches);
   }
 
   DiscreteScene& scene_;
+  Importance& importance_;
   std::uint64_t links_;
   double tolerance_;
   std::vector<double> brightness_;  // of each node
@@ -233,12 +237,13 @@ class Spacing {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE SpacingResult space_casters(DiscreteScene& scene, Links& of_lamps, double tolerance, double min_area) {
+HALFLIGHT_INLINE SpacingResult space_casters(DiscreteScene& scene, Links& of_lamps, Importance& importance, double tolerance,
+                                             double min_area) {
   SpacingResult result;
   const std::size_t before = scene.hierarchy.size();
   std::vector<bool> was_leaf(before);
   for (std::size_t i = 0; i < before; ++i) { was_leaf[i] = scene.hierarchy[i].leaf(); }
-  detail::Spacing spacing{scene, of_lamps, tolerance, min_area};
+  detail::Spacing spacing{scene, of_lamps, importance, tolerance, min_area};
   if (spacing.dark()) { return result; }
   if (scene.control.viewpoint) { spacing.look_from(*scene.control.viewpoint, result); }
   while (result.too_large == 0 && spacing.step(result)) {}

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <radiosity/hierarchy/links.hpp>
+#include <radiosity/oracle/importance.hpp>
 #include <radiosity/rays/senders.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 
@@ -27,8 +28,8 @@ struct SpacingResult {
 // `tolerance`: what each adds to the L2 error is then about the same. R and that light are found by 16 rays. Lamps are left as they are,
 // and what is buried. Then casters are split as senders (senders.hpp), to a third of the tolerance: what one sends is wrong for all that
 // see it in the same sense. `of_lamps`: evaluated links that carry the light of all lamps; an end that was a leaf and is split gets its
-// gradient.
-[[nodiscard]] SpacingResult space_casters(DiscreteScene& scene, Links& of_lamps, double tolerance, double min_area);
+// gradient. By `importance`, which takes in the nodes that are made, errors count by their weight, and uneven nodes are split.
+[[nodiscard]] SpacingResult space_casters(DiscreteScene& scene, Links& of_lamps, Importance& importance, double tolerance, double min_area);
 
 }  // namespace radiosity
 

@@ -135,11 +135,10 @@ struct FRefinement {
     return result.too_large == 0;
   }
 
+  [[nodiscard]] double weight(std::uint32_t i) const { return fineness.importance != nullptr ? fineness.importance->weight(i) : 1.0; }
   // Of leaves, for the light of lamps and for the form factor of a pair.
-  [[nodiscard]] double light_min_area_of(std::uint32_t i) const { return light_min_area / fineness.importance.weight(i); }
-  [[nodiscard]] double min_area_of(std::uint32_t p, std::uint32_t q) const {
-    return min_area / std::max(fineness.importance.weight(p), fineness.importance.weight(q));
-  }
+  [[nodiscard]] double light_min_area_of(std::uint32_t i) const { return light_min_area / weight(i); }
+  [[nodiscard]] double min_area_of(std::uint32_t p, std::uint32_t q) const { return min_area / std::max(weight(p), weight(q)); }
 
   DiscreteScene& scene;
   Fineness fineness;
@@ -167,7 +166,7 @@ struct FRefinement {
 HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
   DiscreteScene& scene = state.scene;
   scene.patches.extend(scene.threads);
-  state.fineness.importance.extend(scene.hierarchy, scene.patches);
+  if (state.fineness.importance != nullptr) { state.fineness.importance->extend(scene.hierarchy, scene.patches); }
   state.measured.measure(state.pairs);
   std::vector<RayCount> rays(state.pairs.size());
   std::vector<Decision> decisions = decide(
@@ -187,7 +186,7 @@ HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
         question.min_area = state.light_min_area;
         question.between = &list;
         question.rays = &rays[i];
-        question.importance = &state.fineness.importance;
+        question.importance = state.fineness.importance;
         const bool measured = state.measured.receiver(state.pairs[i]) != no_node;
         decision = measured ? state.measured(state.pairs[i]) : state.light(question);
       });

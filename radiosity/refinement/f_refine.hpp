@@ -103,10 +103,10 @@ std::vector<Decision> decide(const DiscreteScene& scene, NodePairs& pairs, Refin
 // `light_epsilon` is 0.
 struct Fineness {
   double epsilon = 0.0, min_area = 0.0;
-  double light_epsilon = 0.0;    // relative to the reflected light,
-  double reflected = 1.0;        // which is about as bright as this times the mean emission
-  AnyOracle oracle = FOracle{};  // about the form factor
-  Importance importance = {};    // finer for the picture of one camera
+  double light_epsilon = 0.0;        // relative to the reflected light,
+  double reflected = 1.0;            // which is about as bright as this times the mean emission
+  AnyOracle oracle = FOracle{};      // about the form factor
+  Importance* importance = nullptr;  // finer for the picture of one camera; takes in the nodes that are made
 };
 
 // Which pairs of input faces are linked: all, or those of which one is a lamp (DiscreteScene::lamps). The latter need a hierarchy without

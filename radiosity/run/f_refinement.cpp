@@ -59,7 +59,7 @@ namespace detail {
   Fineness fineness{audit.epsilon, audit.min_area, audit.light_epsilon};
   if (run.options.oracle) { fineness.oracle = run.options.oracle; }
   if (audit.reflected_share) { fineness.reflected = brightness_of_reflected(*audit.reflected_share); }
-  fineness.importance = importance_of_view(run);
+  fineness.importance = &run.importance;
   return radiosity::refine(run.scene, fineness, run.rays.cast ? Linked::lamps : Linked::all);
 }
 
@@ -72,6 +72,7 @@ HALFLIGHT_INLINE void refine_by_forms(Run& run) {
     const bool beside_lamps = *audit.reflected_share > least_share_beside_lamps;
     if (run.rays.few && beside_lamps && !run.clusters.build) { run.rays = RayChoice{true, {}}; }
   }
+  run.importance = importance_of_view(run);
   run.refined = refined_by_forms(run);
 }
 

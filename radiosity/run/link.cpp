@@ -34,7 +34,7 @@ namespace detail {
 [[nodiscard]] HALFLIGHT_INLINE std::optional<Failure> link_by_rays(Run& run) {
   DiscreteScene& scene = run.scene;
   const Audit& audit = run.solution.audit;
-  const SpacingResult spacing = space_casters(scene, run.solution.links, audit.epsilon, audit.min_area);
+  const SpacingResult spacing = space_casters(scene, run.solution.links, run.importance, audit.epsilon, audit.min_area);
   run.rays_of_spacing += spacing.rays;
   run.solution.audit.rays_for_view = scene.control.viewpoint.has_value();
   if (spacing.cancelled) { return cancelled(); }

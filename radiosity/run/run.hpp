@@ -57,6 +57,7 @@ struct Run {
   std::optional<PathTracer> tracer;  // of the boundaries before they were cut
   ClusterChoice clusters;
   RayChoice rays;
+  Importance importance;  // of nodes, for the picture of one camera
   RefineResult refined;
   std::uint64_t rays_of_spacing = 0;
   RayLinks ray_links;  // their links go into the solution
