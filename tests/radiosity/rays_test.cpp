@@ -107,7 +107,8 @@ TEST_CASE("casters cover once what does not shine and is exposed; where less lig
         if (link.exchange > 0.0f) { lamps.push_back(link); }
       }
     }
-    const radiosity::SpacingResult spacing = radiosity::space_casters(*discrete, lamps, 0.02, 1e-4);
+    radiosity::Importance by_area;
+    const radiosity::SpacingResult spacing = radiosity::space_casters(*discrete, lamps, by_area, 0.02, 1e-4);
     REQUIRE(discrete->exposure.area.size() == discrete->hierarchy.size());
     std::vector<std::uint32_t> above(discrete->hierarchy.size(), 0);
     for (const radiosity::Caster& caster : spacing.casters) { ++above[caster.node]; }
