@@ -103,9 +103,8 @@ template <class Target>
   return {std::move(names), std::move(value), std::move(description), take, values};
 }
 
-[[nodiscard]] inline Argument scene_argument(std::string& target) {
-  return text("scene", "SCENE", target, "the scene: a .scene file, or " + model_endings()).must();
-}
+[[nodiscard]] inline std::string scene_description() { return "the scene: a .scene file, or " + model_endings(); }
+[[nodiscard]] inline Argument scene_argument(std::string& target) { return text("scene", "SCENE", target, scene_description()).must(); }
 
 // A number in (0, most]; NaN is refused, too.
 template <class Target>

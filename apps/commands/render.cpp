@@ -265,9 +265,10 @@ ExitCode run(const RenderOptions& options) {
 
 Command render_command() {
   const auto options = std::make_shared<RenderOptions>();
+  const std::string what = "SCENE, " + scene_description() + "; or --light";
   return {"render", "solve a scene; write a picture or a mesh and the report", render_arguments(*options),
           [options] { return run(*options); },
-          [options] { return std::string(options->scene.empty() && options->light.empty() ? "a scene, or --light" : ""); }};
+          [options, what] { return options->scene.empty() && options->light.empty() ? what : std::string(); }};
 }
 
 }  // namespace apps

@@ -29,7 +29,7 @@ std::optional<radiosity::PictureSize> parse_size(std::string_view text) {
 // What is written.
 std::vector<Argument> output_arguments(RenderOptions& options) {
   return {
-      text("scene", "SCENE", options.scene, "the scene: a .scene file, or " + model_endings()),
+      text("scene", "SCENE", options.scene, scene_description()),
       texts("-o,--output", "FILE", options.outputs,
             "what to write: a picture (.png; .hdr, .pfm: radiance), the light for further pictures (.light), a mesh with its light (.ply, "
             ".glb, .obj) or a page that shows it (.html); repeat for more; without, the report alone",

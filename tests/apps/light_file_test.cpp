@@ -158,7 +158,7 @@ TEST_CASE("light holds its scene, so that it is drawn from that file alone, from
   CHECK(run.err.find("`halflight render --light a.light -o OUT.png` draws a picture of it") != std::string::npos);
   run = place.run("render -o d.pfm");
   CHECK(run.code == 2);
-  CHECK(run.err.find("render needs a scene, or --light") != std::string::npos);
+  CHECK(run.err.find("render needs SCENE, the scene: a .scene file") != std::string::npos);
   CHECK_FALSE(place.has("d.pfm"));
 }
 

@@ -154,7 +154,7 @@ TEST_CASE("the error of a picture does not depend on the unit of light") {
     place.write("a.scene", "material white  reflectance 0.5\nmaterial lamp  reflectance 0  emission " + emission.str() +
                                "\nbox room  from 0 0 0  to 1 1 1  inside  material white { sheet z1 material lamp }\n"
                                "camera eye  eye 0.5 0.1 0.5  target 0.5 1 0.4  fov 70\n");
-    const Run run = place.run("render a.scene -o a.png --json a.json --size 40x30 --audit 100 --epsilon 0.1 --quiet --method mesh");
+    const Run run = place.run("render a.scene -o a.png --json a.json --size 40x30 --audit 400 --epsilon 0.1 --quiet --method mesh");
     INFO(run.err);
     REQUIRE(run.code == 0);
     error[k] = json::parse(place.read("a.json"))["error"]["picture"]["relative_l2"].number();
