@@ -48,7 +48,7 @@ glm::dvec3 placed(const glm::dvec3& point, const std::string& clauses) {
 }  // namespace
 
 TEST_CASE("a mesh in a group is a room in those uses that hold a camera or a lamp, and a solid in the others") {
-  const unsigned seed = getenv("HL_SEED") ? (unsigned)atoll(getenv("HL_SEED")) : std::random_device{}();
+  const unsigned seed = std::random_device{}();
   INFO("seed " << seed);
   std::mt19937 random(seed);
   const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
@@ -93,7 +93,7 @@ TEST_CASE("a mesh in a group is a room in those uses that hold a camera or a lam
     std::vector<bool> found;
     for (const raycast::Segment& ray : out) {
       const auto hit = objects.closest(ray);
-      found.push_back(hit && hit->front);
+      found.push_back(hit && hit->front && hit->t <= 1.0);  // beyond is another use
     }
     CHECK(found == expected);
   }
