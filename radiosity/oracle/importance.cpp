@@ -24,9 +24,9 @@ namespace detail {
 // A picture takes means over what its points see, which takes out most of what single leaves have wrong; and in an ordinary room, where
 // some walls matter a few times as much as others, nothing is to change.
 inline constexpr double share_of_weight = 0.1;
-inline constexpr double most_weight = 1e4;   // what is seen through a keyhole need not be resolved further
-inline constexpr std::uint32_t few = 4;      // points of a node that tell nothing by themselves
-inline constexpr double uneven_part = 0.25;  // of the area
+inline constexpr double most_weight = 1e4;      // what is seen through a keyhole need not be resolved further
+inline constexpr std::uint32_t few_points = 4;  // points of a node that tell nothing by themselves
+inline constexpr double uneven_part = 0.25;     // of the area
 
 // Sums over the points of a node.
 struct PointSums {
@@ -71,7 +71,7 @@ HALFLIGHT_INLINE void Importance::extend(const Hierarchy& hierarchy, const Patch
     if (node.is_cluster() || !(node.area > 0.0)) { continue; }
     Of& of = nodes_[i];
     of.mean = scale_ * own.weight / node.area;
-    if (own.count < detail::few) {  // about as much as on the parent; on an input face nothing
+    if (own.count < detail::few_points) {  // about as much as on the parent; on an input face nothing
       of.mean = node.parent != no_node && !is_input_face(hierarchy, i) ? nodes_[node.parent].mean : 0.0;
       of.weight = std::clamp(of.mean, 1.0, detail::most_weight);
       continue;
