@@ -218,7 +218,7 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(const Question& question
     const std::uint32_t split = wants_cluster_split(receiver, lamp, weight, rays);
     return split != no_node && nodes[split].area > question.min_area ? split : no_node;
   }
-  if (!(to.area > min_area / detail::smallest_beside_lamps)) { return no_node; }
+  if (!(to.area > std::min(min_area, question.min_area / detail::smallest_beside_lamps))) { return no_node; }
   if (question.importance != nullptr && question.importance->uneven(receiver) && to.area > min_area) { return receiver; }
   const double tolerance = detail::tolerance_of(to, min_area);
   if (by_lamp) { return varies_by_lamp(receiver, lamp, weight, tolerance, rays) ? receiver : no_node; }

@@ -49,7 +49,8 @@ namespace detail {
     power += scene.hierarchy[i].area * brightest(scene.emission[scene.hierarchy[i].surface]);
   }
   const double of_scene = *run.solution.audit.reflected_share * power / area;
-  const double contrast = of_scene * of_scene / (paths.reflected * paths.reflected);
+  // Bright spots beside lamps, which the picture may not show, raise the RMS of the scene: a picture that is darker gains nothing by that.
+  const double contrast = std::min(1.0, of_scene * of_scene / (paths.reflected * paths.reflected));
   return {std::move(paths.points), contrast, area, scene.inputs.size()};
 }
 
