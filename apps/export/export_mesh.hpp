@@ -2,7 +2,8 @@
 #pragma once
 
 // What files for other programs are written from: vertices with a normal and a radiosity, polygons, groups. It is made of the solution, or
-// of the polygons that the user's file gave, in that file's own order and coordinates. A format is one file of this folder, and one line in export_mesh.cpp.
+// of the polygons that the user's file gave, in that file's own order and coordinates. A format is one file of this folder, and one line in
+// export_mesh.cpp.
 
 #include <cstddef>
 #include <cstdint>

@@ -6,8 +6,9 @@
 // shadow is a millionth, of the picture it is all.
 //
 // Paths from the camera (audit/view_paths.hpp) leave points on the surfaces. A node with a part p of their weight and a part a of the
-// area has the weight p / a, times the squared ratio of what the scene and the picture reflect. Where the points of a node lie together in
-// a small part of it, that part counts, and the node is uneven: it has to be split before anything can be said of its light.
+// area has the weight p / a / 10, times the squared ratio of what the scene and the picture reflect; at least 1 and at most 10 000. Where
+// the points of a node lie together in a small part of it, that part counts, and the node is uneven: it has to be split before anything
+// can be said of its light.
 
 #include <cstddef>
 #include <cstdint>

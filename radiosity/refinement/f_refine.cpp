@@ -234,7 +234,8 @@ HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, s
   }
 }
 
-// Links the pairs for which that was decided, keeps those that are asked about again, and replaces those that are split by the pairs of the children.
+// Links the pairs for which that was decided, keeps those that are asked about again, and replaces those that are split by the pairs
+// of the children.
 HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Decision>& decisions, NodePairs& next) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   for (std::size_t i = 0; i < state.pairs.size(); ++i) {
