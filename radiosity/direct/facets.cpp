@@ -136,12 +136,12 @@ HALFLIGHT_INLINE double contour_term(const glm::dvec3& x, const glm::dvec3& n, c
 }
 
 HALFLIGHT_INLINE double form_factor(const Facets& facets, const glm::dvec3& x, const glm::dvec3& n, bool above_horizon,
-                                    std::vector<char>& facing) {
+                                    double slack, std::vector<char>& facing) {
   double sum = 0.0;
   if (!above_horizon) {
     Polygon above;
     for (const Facets::Facet& facet : facets.facets) {
-      if (!(facet.height(x) > 0.0)) { continue; }
+      if (!(facet.height(x) > slack)) { continue; }
       above.clear();
       clip_to_horizon(facet.contour, x, n, above);
       if (above.size() >= 3) { sum += point_to_polygon(x, n, above); }
@@ -149,7 +149,7 @@ HALFLIGHT_INLINE double form_factor(const Facets& facets, const glm::dvec3& x, c
     return sum;
   }
   facing.resize(facets.facets.size());
-  for (std::size_t i = 0; i < facets.facets.size(); ++i) { facing[i] = facets.facets[i].height(x) > 0.0; }
+  for (std::size_t i = 0; i < facets.facets.size(); ++i) { facing[i] = facets.facets[i].height(x) > slack; }
   for (const Facets::Edge& edge : facets.edges) {
     const bool left = facing[edge.left] != 0;
     const bool right = edge.right != Facets::none && facing[edge.right] != 0;

@@ -159,7 +159,7 @@ HALFLIGHT_INLINE double LitRegion::unhidden(std::size_t k, const glm::dvec3& x, 
   if (height <= -lamp.radius) { return 0.0; }
   const bool above_horizon = height >= lamp.radius;
   const Facets& facets = above_horizon && reaches_[k].outline ? *reaches_[k].outline : lamp.facets;
-  return lamp.correction * radiosity::form_factor(facets, x, n, above_horizon, facing_);
+  return lamp.correction * radiosity::form_factor(facets, x, n, above_horizon, light_->slack_, facing_);
 }
 
 // The convex hull of the corners as they are seen from x (Andrew 1979): so it does not matter how a curved body was cut into facets.
@@ -205,7 +205,7 @@ HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, 
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
   double sum = 0.0;
   for (const Facets::Facet& facet : lamp.facets.facets) {
-    if (!(facet.height(x) > 0.0)) { continue; }
+    if (!(facet.height(x) > light_->slack_)) { continue; }
     ShadowedTarget target{facet.contour, facet.normal, {}, light_->slack_};
     target.look(x, n);
     for (const Blocker& face : reach.faces) {
