@@ -40,7 +40,12 @@ HALFLIGHT_INLINE std::optional<Failure> expose(detail::Run& run) {
   for (std::string& sentence : warnings_of_buried(scene.input, scene.hierarchy, scene.exposure)) {
     audit.warnings.push_back(std::move(sentence));
   }
-  if (!scene.plan.closed && run.needs_links()) { audit.stray = stray_rays(scene, detail::stray_ray_count); }
+  if (!scene.plan.closed && run.needs_links()) {
+    audit.stray = stray_rays(scene, detail::stray_ray_count);
+    const auto none_lost = [&] { return audit.stray->escaping + audit.stray->to_backs == 0.0; };
+    if (none_lost()) { audit.stray = stray_rays(scene, 8 * detail::stray_ray_count); }
+    scene.plan.loses_nothing = none_lost();
+  }
   run.watch.lap("expose");
   return std::nullopt;
 }

@@ -35,7 +35,7 @@ namespace detail {
 // The links of stored rays: their row sums are in a closed scene what the links of the lamps leave of 1, else what the rays of each
 // node tell beside those of others. Returns the row sums before that.
 HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run) {
-  const bool closed = run.scene.plan.closed;
+  const bool closed = run.scene.plan.loses_nothing;
   const RayLinks& made = run.ray_links;
   if (closed) { run.transport->scale_lamps(); }
   const std::vector<double> of_lamps = run.transport->row_sums();
@@ -59,10 +59,10 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
   Solution& solution = run.solution;
   Audit& audit = run.solution.audit;
   Transport& transport = run.transport.emplace(scene.hierarchy, solution.links, scene.exposure, scene.threads,
-                                               scene.plan.closed ? lamp_nodes(scene) : std::vector<bool>{});
+                                               scene.plan.loses_nothing ? lamp_nodes(scene) : std::vector<bool>{});
   const std::vector<double>& area = scene.exposure.area;
   audit.computed_row_sum = summarise_rows(scene.hierarchy, area, run.rays.cast ? add_ray_links(run) : transport.row_sums());
-  if (scene.plan.closed && solution.links.size() + solution.ray_links.size() > 0) {
+  if (scene.plan.loses_nothing && solution.links.size() + solution.ray_links.size() > 0) {
     double exposed = 0.0;
     for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }
     // The noise of rays is out of the row sums by now.
