@@ -142,7 +142,9 @@ class Text {
     if (audit_.stored_rays > 0) { say("  noise of rays", "{ray_correction} RMS, taken out of the row sums"); }
     if (audit_.closure) {
       say("  correction", "{closure} RMS (quadrature and sampling explain ",
-          percent(audit_.closure_limit) + "): the scene is proven closed, so each row must sum to 1");
+          percent(audit_.closure_limit) + "): " +
+              (audit_.stray ? "none of " + std::to_string(audit_.stray->rays) + " rays left the scene, so each row is taken to sum to 1"
+                            : "the scene is proven closed, so each row must sum to 1"));
     }
     say("energy balance", "{energy_balance} amiss, {escaped} escaped");
     say("open scene",

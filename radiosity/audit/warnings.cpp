@@ -201,6 +201,7 @@ HALFLIGHT_INLINE StrayRays stray_rays(const DiscreteScene& scene, std::uint32_t 
   stray.escaping = static_cast<double>(std::count(ends.begin(), ends.end(), End::nowhere)) / rays;
   stray.to_backs = static_cast<double>(std::count(ends.begin(), ends.end(), End::back)) / rays;
   stray.standard_error = 0.5 / std::sqrt(static_cast<double>(rays));
+  stray.rays = rays;
   return stray;
 }
 

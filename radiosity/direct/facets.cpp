@@ -135,8 +135,8 @@ HALFLIGHT_INLINE double contour_term(const glm::dvec3& x, const glm::dvec3& n, c
   return sine > 0.0 ? glm::dot(n, cross) / sine * std::atan2(sine, glm::dot(to_a, to_b)) : 0.0;
 }
 
-HALFLIGHT_INLINE double form_factor(const Facets& facets, const glm::dvec3& x, const glm::dvec3& n, bool above_horizon,
-                                    double slack, std::vector<char>& facing) {
+HALFLIGHT_INLINE double form_factor(const Facets& facets, const glm::dvec3& x, const glm::dvec3& n, bool above_horizon, double slack,
+                                    std::vector<char>& facing) {
   double sum = 0.0;
   if (!above_horizon) {
     Polygon above;

@@ -36,6 +36,7 @@ struct SurfaceMean {
 struct StrayRays {
   double escaping = 0.0, to_backs = 0.0;
   double standard_error = 0.0;  // of either, at most
+  std::uint32_t rays = 0;
 };
 
 // What became of Options::mesh_error. Errors are relative L2 over the surfaces, of the colours of the mesh against gathered light; or over

@@ -264,6 +264,35 @@ TEST_CASE("direct light: a face that is not quite plane is not shadowed by its o
   }
 }
 
+TEST_CASE("direct light: the two sides of a sheet do not light each other, however it lies", "[direct]") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0x7368656574ull};
+  for (int round = 0; round < 50; ++round) {
+    const auto vector = [&] { return glm::dvec3{random.uniform(), random.uniform(), random.uniform()} - 0.5; };
+    const glm::dvec3 at = 10.0 * vector();
+    const auto [s, t] = radiosity::orthonormal(glm::normalize(vector()));
+    const double w = 0.1 + random.uniform(), h = 0.1 + random.uniform();
+    std::vector<glm::dvec3> corners{at, at + w * s, at + w * s + h * t, at + h * t};
+    Scene scene{{{"lamp", Color{0.5}, Color{1.0}}}, {}};
+    for (const char* name : {"front", "back"}) {
+      scene.objects.push_back(scenes::object(name, raycast::Polygon::make(corners).object, 0));
+      std::reverse(corners.begin(), corners.end());
+    }
+    const World world{scene};
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      const glm::dvec3 n = side == 0 ? glm::cross(s, t) : glm::cross(t, s);
+      for (int k = 0; k < 20; ++k) {
+        const double u = random.uniform(), v = random.uniform();
+        const glm::dvec3 x = world.in_frame(at + u * w * s + v * h * t);
+        const std::array<glm::dvec3, 4> here{x, x, x, x};
+        radiosity::LitRegion region{world.light, {here, side, 0.0}, n};
+        for (std::size_t lamp = 0; lamp < region.size(); ++lamp) { CHECK(region.unhidden(lamp, x, n) * region.visible(lamp, x, n) == 0.0); }
+      }
+    }
+  }
+}
+
 TEST_CASE("direct light: the strongest lamps are taken, within the limits; flat ones and bodies however large", "[direct]") {
   Scene scene = floor_under_lamp(0.2);
   scene.objects.push_back(scenes::object("ball", raycast::Sphere::make({0, 0, 0.5}, 0.2).object, 1));

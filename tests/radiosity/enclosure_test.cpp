@@ -202,6 +202,34 @@ TEST_CASE("a lamp that lies on the walls leaves a room of polygons closed; one t
   }
 }
 
+TEST_CASE("furnaces of things that cross: rooms that are not proven closed, but lose no ray, glow evenly at any reflectance") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  Maker make{seed};
+  for (int round = 0; round < 8; ++round) {
+    const double rho = round % 2 == 0 ? 0.8 : 0.97;
+    CAPTURE(round, rho);
+    std::vector<Corners> polygons = make.in_pieces(make.prism(make.uniform(1.0, 3.0)), 3);
+    const double half = make.uniform(0.1, 0.2), bottom = make.uniform(0.2, 0.4);
+    // A sheet of two sides through the box, turned at random.
+    const double turn = make.uniform(0.0, 3.0), width = make.uniform(0.25, 0.28);
+    const glm::dvec3 along{width * std::cos(turn), width * std::sin(turn), 0.0}, up{0.0, 0.0, make.uniform(0.6, 0.9)};
+    const Corners sheet{-along + glm::dvec3{0.0, 0.0, 0.1}, along + glm::dvec3{0.0, 0.0, 0.1}, along + up, -along + up};
+    polygons = together(polygons, {sheet, Corners{sheet.rbegin(), sheet.rend()}});
+    radiosity::Scene scene = make.scene_of(polygons, {scenes::box({-half, -half, bottom}, {half, half, make.uniform(0.5, 0.7)})});
+    REQUIRE_FALSE(closed(scene));
+    scene.materials = {scenes::furnace_material(rho)};
+    radiosity::Options options;
+    options.epsilon = 0.05;
+    options.min_area = 1e-3;
+    options.audit_points = 0;
+    const radiosity::Outcome outcome = radiosity::solve(scene, options);
+    REQUIRE(outcome.solution);
+    CHECK(outcome.solution->audit.closure);
+    for (const auto& face : outcome.solution->mesh.faces) { CHECK(std::abs(face.radiosity.x - 1.0) < 1e-4); }
+  }
+}
+
 TEST_CASE("furnaces of polygons: B = E / (1 - rho) on every leaf, as in a solid room") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
