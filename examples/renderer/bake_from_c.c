@@ -24,7 +24,7 @@ int main(void) {
   halflight_set_positions(job, corners, 8, 3);
   halflight_set_triangles(job, triangles, 12, NULL);
   halflight_set_number(job, "epsilon", 0.05);
-  if (halflight_run(job) == HALFLIGHT_OK && halflight_vertex_colors(job, light, 8) == HALFLIGHT_OK) {
+  if (halflight_run(job) == HALFLIGHT_OK && halflight_read(job, HALFLIGHT_VERTEX_COLORS, light, 8) == HALFLIGHT_OK) {
     printf("expected  1.250 4.000 15.000\n");
     printf("vertex 7  %.3f %.3f %.3f\n", light[21], light[22], light[23]);
   } else {

@@ -9,18 +9,18 @@ hl = ctypes.CDLL(sys.argv[1])
 hl.halflight_version.restype = hl.halflight_message.restype = hl.halflight_change.restype = ctypes.c_char_p
 hl.halflight_create.restype = ctypes.c_void_p
 floats, indices, doubles = ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_uint32), ctypes.POINTER(ctypes.c_double)
+corner_colors, vertex_colors, lightmap_texels, lightmap_coordinates = range(4)  # halflight_result
 job_type, size, text = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_char_p
 hl.halflight_destroy.argtypes = hl.halflight_run.argtypes = hl.halflight_message.argtypes = [job_type]
 hl.halflight_set_positions.argtypes = [job_type, floats, size, size]
 hl.halflight_set_triangles.argtypes = [job_type, indices, size, indices]
 hl.halflight_add_material.argtypes = [job_type, text, doubles, doubles]
 hl.halflight_set_number.argtypes = [job_type, text, ctypes.c_double]
-hl.halflight_vertex_colors.argtypes = hl.halflight_corner_colors.argtypes = [job_type, floats, size]
+hl.halflight_read.argtypes = [job_type, ctypes.c_int, floats, size]
 hl.halflight_at.argtypes = [job_type, size, floats, ctypes.c_int, floats]
 hl.halflight_figure.argtypes = [job_type, text, doubles]
 hl.halflight_change.argtypes = [job_type, size]
 hl.halflight_make_lightmap.argtypes = [job_type, ctypes.c_double, ctypes.c_uint32, indices, indices]
-hl.halflight_lightmap_texels.argtypes = hl.halflight_lightmap_coordinates.argtypes = [job_type, floats, size]
 progress_type = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double)
 hl.halflight_set_progress.argtypes = [job_type, progress_type, ctypes.c_void_p]
 
@@ -48,8 +48,11 @@ check(job, hl.halflight_set_progress(job, watch, None))
 check(job, hl.halflight_run(job))
 
 colors = (ctypes.c_float * len(xyz))()
-check(job, hl.halflight_vertex_colors(job, colors, len(xyz) // 3))
+check(job, hl.halflight_read(job, vertex_colors, colors, len(xyz) // 3))
 print("expected     1.250 4.000 15.000")
+at_corners = (ctypes.c_float * (3 * len(triangles)))()
+check(job, hl.halflight_read(job, corner_colors, at_corners, len(triangles)))
+print("corner 35   ", *(f"{c:.3f}" for c in at_corners[-3:]))
 print("vertex 0    ", *(f"{c:.3f}" for c in colors[:3]))
 print("vertex 7    ", *(f"{c:.3f}" for c in colors[-3:]))
 inside = (ctypes.c_float * 3)()
@@ -60,8 +63,8 @@ print("on the floor", *(f"{c:.3f}" for c in inside))
 width, height = ctypes.c_uint32(), ctypes.c_uint32()
 check(job, hl.halflight_make_lightmap(job, 0.02, 1024, ctypes.byref(width), ctypes.byref(height)))
 texels, uv = (ctypes.c_float * (3 * width.value * height.value))(), (ctypes.c_float * (2 * len(triangles)))()
-check(job, hl.halflight_lightmap_texels(job, texels, width.value * height.value))
-check(job, hl.halflight_lightmap_coordinates(job, uv, len(triangles)))
+check(job, hl.halflight_read(job, lightmap_texels, texels, width.value * height.value))
+check(job, hl.halflight_read(job, lightmap_coordinates, uv, len(triangles)))
 used = [texels[i] for i in range(0, len(texels), 3) if texels[i] > 0]
 print(f"lightmap     {width.value} x {height.value}, {len(used)} texels used, light {min(used):.3f} to {max(used):.3f}")
 print("last corner ", *(f"{c:.3f}" for c in uv[-2:]))
@@ -72,9 +75,10 @@ print("change      ", hl.halflight_change(job, 0).decode())
 print("stages      ", "link" in stages)
 print("refused     ", hl.halflight_set_number(job, b"epsilon", -1), hl.halflight_message(job).decode())
 print("refused     ", hl.halflight_add_material(job, b"mirror", (ctypes.c_double * 3)(2, 0, 0), None), hl.halflight_message(job).decode())
-print("too early   ", hl.halflight_lightmap_texels(hl.halflight_create(), texels, 1))
-print("too small   ", hl.halflight_lightmap_texels(job, texels, 3), hl.halflight_message(job).decode())
-print("too small   ", hl.halflight_vertex_colors(job, colors, 3), hl.halflight_message(job).decode())
+print("too early   ", hl.halflight_read(hl.halflight_create(), lightmap_texels, texels, 1))
+print("unknown     ", hl.halflight_read(job, 4, texels, 1), hl.halflight_message(job).decode())
+print("too small   ", hl.halflight_read(job, lightmap_texels, texels, 3), hl.halflight_message(job).decode())
+print("too small   ", hl.halflight_read(job, vertex_colors, colors, 3), hl.halflight_message(job).decode())
 
 # Told to stop, a run ends soon with the best that it has.
 stop = progress_type(lambda user, stage, fraction: 1)
@@ -84,6 +88,6 @@ check(job, hl.halflight_run(job))
 interrupted, epsilon = ctypes.c_double(), ctypes.c_double()
 check(job, hl.halflight_figure(job, b"interrupted", interrupted))
 check(job, hl.halflight_figure(job, b"epsilon", epsilon))
-check(job, hl.halflight_vertex_colors(job, colors, len(xyz) // 3))
+check(job, hl.halflight_read(job, vertex_colors, colors, len(xyz) // 3))
 print(f"stopped      {interrupted.value:.0f}, with epsilon {epsilon.value}: vertex 7", *(f"{c:.3f}" for c in colors[-3:]))
 hl.halflight_destroy(job)

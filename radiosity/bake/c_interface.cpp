@@ -125,13 +125,6 @@ halflight_status copy(halflight_job* job, const std::vector<Vector>& list, const
   return HALFLIGHT_OK;
 }
 
-halflight_status copy_colors(halflight_job* job, const std::vector<radiosity::Color> radiosity::BakedColors::*colors, float* rgb,
-                             std::size_t count) {
-  if (job == nullptr) { return HALFLIGHT_INVALID; }
-  if (!job->baked) { return refuse(job, "there are no colours before halflight_run", HALFLIGHT_NOT_RUN); }
-  return copy(job, job->baked->colors.*colors, "colours", rgb, count);
-}
-
 // What the triangles of a job are to the library.
 struct JobPolygons {
   explicit JobPolygons(const halflight_job& job) : indices{job.indices}, first(job.indices.size() / 3 + 1), material(first.size() - 1, 0) {
@@ -248,12 +241,22 @@ halflight_status halflight_run(halflight_job* job) {
 
 const char* halflight_message(const halflight_job* job) { return job == nullptr ? "there is no job" : job->message.c_str(); }
 
-halflight_status halflight_corner_colors(halflight_job* job, float* rgb, size_t count) {
-  return copy_colors(job, &radiosity::BakedColors::corner, rgb, count);
-}
-
-halflight_status halflight_vertex_colors(halflight_job* job, float* rgb, size_t count) {
-  return copy_colors(job, &radiosity::BakedColors::vertex, rgb, count);
+halflight_status halflight_read(halflight_job* job, int result, float* out, size_t count) {
+  if (job == nullptr) { return HALFLIGHT_INVALID; }
+  const bool of_lightmap = result == HALFLIGHT_LIGHTMAP_TEXELS || result == HALFLIGHT_LIGHTMAP_COORDINATES;
+  if (!job->baked) { return refuse(job, "there is no result before halflight_run", HALFLIGHT_NOT_RUN); }
+  if (of_lightmap && !job->lightmap) { return refuse(job, "there is no lightmap before halflight_make_lightmap", HALFLIGHT_NOT_RUN); }
+  switch (result) {
+    case HALFLIGHT_CORNER_COLORS:
+      return copy(job, job->baked->colors.corner, "colours", out, count);
+    case HALFLIGHT_VERTEX_COLORS:
+      return copy(job, job->baked->colors.vertex, "colours", out, count);
+    case HALFLIGHT_LIGHTMAP_TEXELS:
+      return copy(job, job->lightmap->texels, "texels", out, count);
+    case HALFLIGHT_LIGHTMAP_COORDINATES:
+      return copy(job, job->lightmap->coordinates, "coordinates", out, count);
+  }
+  return refuse(job, "there is no result of the number " + std::to_string(result), HALFLIGHT_NOTHING);
 }
 
 halflight_status halflight_at(const halflight_job* job, size_t triangle, const float point[3], int back, float rgb[3]) {
@@ -284,18 +287,6 @@ halflight_status halflight_make_lightmap(halflight_job* job, double texel, uint3
   *width = job->lightmap->width;
   *height = job->lightmap->height;
   return HALFLIGHT_OK;
-}
-
-halflight_status halflight_lightmap_texels(halflight_job* job, float* rgb, size_t count) {
-  if (job == nullptr) { return HALFLIGHT_INVALID; }
-  if (!job->lightmap) { return refuse(job, "there are no texels before halflight_make_lightmap", HALFLIGHT_NOT_RUN); }
-  return copy(job, job->lightmap->texels, "texels", rgb, count);
-}
-
-halflight_status halflight_lightmap_coordinates(halflight_job* job, float* uv, size_t count) {
-  if (job == nullptr) { return HALFLIGHT_INVALID; }
-  if (!job->lightmap) { return refuse(job, "there are no coordinates before halflight_make_lightmap", HALFLIGHT_NOT_RUN); }
-  return copy(job, job->lightmap->coordinates, "coordinates", uv, count);
 }
 
 halflight_status halflight_figure(halflight_job* job, const char* name, double* value) {

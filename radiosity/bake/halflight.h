@@ -8,7 +8,7 @@
  *     halflight_set_positions(job, xyz, vertices, 3);
  *     halflight_set_triangles(job, indices, triangles, material_of_each);
  *     if (halflight_run(job) != HALFLIGHT_OK) puts(halflight_message(job));
- *     halflight_vertex_colors(job, rgb, vertices);
+ *     halflight_read(job, HALFLIGHT_VERTEX_COLORS, rgb, vertices);
  *     halflight_destroy(job);
  *
  * Positions are metres, emission and radiosity exitances in W/m2, reflectances lie in [0, 1], colours are linear. Radiance is B / pi.
@@ -76,20 +76,28 @@ HALFLIGHT_API halflight_status halflight_run(halflight_job* job);
 /* What was wrong in the last call that did not return HALFLIGHT_OK; one sentence a line. */
 HALFLIGHT_API const char* halflight_message(const halflight_job* job);
 
-/* Radiosities, three floats each: of the corners, in the order of the indices, and of the vertices. `count` is how many there is room for;
- * HALFLIGHT_INVALID when there are more. */
-HALFLIGHT_API halflight_status halflight_corner_colors(halflight_job* job, float* rgb, size_t count);
-HALFLIGHT_API halflight_status halflight_vertex_colors(halflight_job* job, float* rgb, size_t count);
+/* What can be read of a job that has run, and the numbers of one of them:
+ *     corner colours        3: radiosity of each corner, in the order of the indices
+ *     vertex colours        3: radiosity of each vertex, in the order of the positions
+ *     lightmap texels       3: radiosity of each texel, width times height of them, rows from v = 0 on
+ *     lightmap coordinates  2: u v in [0, 1] of each corner, in the order of the indices; 0 0 of triangles without light */
+typedef enum halflight_result {
+  HALFLIGHT_CORNER_COLORS = 0,
+  HALFLIGHT_VERTEX_COLORS = 1,
+  HALFLIGHT_LIGHTMAP_TEXELS = 2,
+  HALFLIGHT_LIGHTMAP_COORDINATES = 3
+} halflight_result;
+
+/* Copies a result, a halflight_result, to `out`, which has room for `count` corners, vertices or texels. HALFLIGHT_INVALID when there are
+ * more of them, HALFLIGHT_NOTHING where there is no result of this number, HALFLIGHT_NOT_RUN before halflight_run, or of a lightmap before halflight_make_lightmap. */
+HALFLIGHT_API halflight_status halflight_read(halflight_job* job, int result, float* out, size_t count);
 /* The radiosity at a point of a triangle, on its front or its back; HALFLIGHT_NOTHING where it has none. From many threads at once. */
 HALFLIGHT_API halflight_status halflight_at(const halflight_job* job, size_t triangle, const float point[3], int back, float rgb[3]);
 
-/* A lightmap: an atlas with a rectangle for every planar face of the triangles, its texels squares with sides of `texel` metres, or of as
- * more as keeps its sides within `most` texels (64 or more). 0: about a million texels. It is made of the buffers that were set, which must
- * still be there. Then its size, its texels (three floats each, width times height of them: radiosities, rows from v = 0 on), and the
- * coordinates of the corners in the order of the indices (u v, in [0, 1]; 0 0 of triangles without light). `count` as above. */
+/* Makes a lightmap, for halflight_read, and tells its size: an atlas with a rectangle for every planar face of the triangles, its texels
+ * squares with sides of `texel` metres, or of as more as keeps its sides within `most` texels (64 or more). 0: about a million texels. It is
+ * made of the buffers that were set, which must still be there. */
 HALFLIGHT_API halflight_status halflight_make_lightmap(halflight_job* job, double texel, uint32_t most, uint32_t* width, uint32_t* height);
-HALFLIGHT_API halflight_status halflight_lightmap_texels(halflight_job* job, float* rgb, size_t count);
-HALFLIGHT_API halflight_status halflight_lightmap_coordinates(halflight_job* job, float* uv, size_t count);
 
 /* Figures of the run by name: error, error_low, error_high (relative L2 and its 95 % interval), seconds, cpu_seconds, faces, leaves, links,
  * rays, residual, iterations, converged, interrupted, coarsened (1: stopped or short of memory, with a larger epsilon than asked
