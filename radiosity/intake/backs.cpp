@@ -2,6 +2,7 @@
 #include <radiosity/intake/backs.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -15,6 +16,8 @@
 #include <brep/polygon.hpp>
 
 #include <raycast/inline.hpp>
+
+#include <radiosity/intake/clean.hpp>
 
 namespace radiosity::intake {
 namespace detail {
@@ -54,13 +57,15 @@ void each_edge_of(const Face& face, const Visit& visit) {
   }
 }
 
-// The triangles of a mesh by their corners, in their order, and by their sides.
+// The triangles of a mesh by their corners, in their order, and by their sides; how many faces each edge has.
 struct Triangles {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // shell, corners or the ends of a side
   std::map<Key, std::uint32_t> by_corners, by_side;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> faces_of;  // shell, edge
 
   explicit Triangles(const Working& mesh) {
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      each_edge_of(mesh.faces[f], [&](const auto& edge) { ++faces_of[edge]; });
       const std::vector<std::uint32_t> c = canonical(mesh.faces[f].corners);
       if (c.size() != 3) { continue; }
       by_corners.emplace(Key{mesh.faces[f].shell, c[0], c[1], c[2]}, f);
@@ -75,6 +80,14 @@ struct Triangles {
   [[nodiscard]] std::uint32_t with_side(std::uint32_t shell, std::uint32_t a, std::uint32_t b) const {
     const auto found = by_side.find(Key{shell, a, b, 0});
     return found == by_side.end() ? none : found->second;
+  }
+  // Does no edge of the four triangles have a face that is none of them?
+  [[nodiscard]] bool closed(const Working& mesh, const std::array<std::uint32_t, 4>& four) const {
+    bool only_these = true;
+    for (const std::uint32_t f : four) {
+      each_edge_of(mesh.faces[f], [&](const auto& edge) { only_these = only_these && faces_of.at(edge) == 2; });
+    }
+    return only_these;
   }
 };
 
@@ -97,6 +110,9 @@ HALFLIGHT_INLINE void match_diagonals(Working& mesh) {
       const glm::dvec3 up = brep::vector_area(mesh.outline(first));
       const auto looks = [&](std::uint32_t face) { return glm::dot(brep::vector_area(mesh.outline(mesh.faces[face])), up); };
       if (!(looks(g) > 0.0 && looks(a) < 0.0 && looks(b) < 0.0)) { continue; }
+      // By itself, and not flat, this is the surface of a tetrahedron.
+      const glm::dvec3* const at = mesh.positions.data();
+      if (triangles.closed(mesh, {f, g, a, b}) && !nearly_sound(std::array{at[x], at[q], at[y], at[p]}, mesh.tolerance)) { continue; }
       done[f] = done[g] = done[a] = done[b] = true;
       const Face before = first;
       first.corners = {x, q, p};

@@ -11,7 +11,8 @@
 namespace radiosity::intake {
 
 // Two triangles whose quadrilateral was given again for its back, but cut along the other diagonal, are cut along that one, too. Programs
-// that cut polygons into triangles from their first corner on write both sides so.
+// that cut polygons into triangles from their first corner on write both sides so. A quadrilateral that has no neighbours must be nearly
+// planar (clean.hpp): otherwise its four triangles are a tetrahedron.
 void match_diagonals(Working& mesh);
 
 // Of two faces of one shell with the same corners in opposite order, the later is left out and the earlier gets it as its back; but not

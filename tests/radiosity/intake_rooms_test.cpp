@@ -158,6 +158,53 @@ TEST_CASE("intake: backs that were cut along the other diagonal change no light 
   }
 }
 
+TEST_CASE("intake: a tetrahedron is a solid, however flat it is") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  RandomRooms random(seed);
+  for (int round = 0; round < 200; ++round) {
+    // Over a quadrilateral whose diagonals cross, the fourth corner above the plane of the others: two faces look up, two down.
+    const double height = std::pow(10.0, number_in(random, -3.0, 0.0));
+    const std::array<glm::dvec3, 4> at{glm::dvec3(0, 0, 0), glm::dvec3(number_in(random, 0.7, 1.3), number_in(random, -0.2, 0.2), 0),
+                                       glm::dvec3(number_in(random, 0.7, 1.3), number_in(random, 0.7, 1.3), height),
+                                       glm::dvec3(number_in(random, -0.2, 0.2), number_in(random, 0.7, 1.3), 0)};
+    Soup tetrahedron;
+    for (const auto& [i, j, k] : {std::array{0, 1, 3}, std::array{1, 2, 3}, std::array{1, 0, 2}, std::array{3, 2, 0}}) {
+      std::array<glm::dvec3, 3> face{at[static_cast<std::size_t>(i)], at[static_cast<std::size_t>(j)], at[static_cast<std::size_t>(k)]};
+      tetrahedron.polygon({face.begin(), face.end()});
+    }
+    const radiosity::Intake taken = tetrahedron.take_in();
+    const soup::Measure m = soup::measure(taken.objects);
+    CAPTURE(round, height);
+    CHECK(m.solids == 1);
+    CHECK(taken.faces == 4);
+    const double volume = std::abs(glm::dot(at[1] - at[0], glm::cross(at[2] - at[0], at[3] - at[0]))) / 6.0;
+    CHECK(m.volume == Approx(volume).epsilon(1e-5));  // vertices may be moved by a millionth
+  }
+}
+
+TEST_CASE("intake: a curtain of bent quadrilaterals, each side cut along another diagonal, is a sheet with two sides") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  RandomRooms random(seed);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<glm::dvec3> at;
+    for (int i = 0; i < 16; ++i) { at.emplace_back(i % 4, 0.1 * number_in(random, -1.0, 1.0), i / 4); }
+    Soup front, both;
+    for (std::size_t i = 0; i < 9; ++i) {
+      const std::size_t a = i / 3 * 4 + i % 3, b = a + 1, c = a + 5, d = a + 4;
+      for (const auto& [p, q, r] : {std::array{a, b, c}, std::array{a, c, d}}) {
+        front.polygon({at[p], at[q], at[r]});
+        both.polygon({at[p], at[q], at[r]});
+      }
+      for (const auto& [p, q, r] : {std::array{d, c, b}, std::array{d, b, a}}) { both.polygon({at[p], at[q], at[r]}); }
+    }
+    const radiosity::Intake one = front.take_in(), taken = both.take_in();
+    CHECK(taken.faces == 2 * one.faces);
+    CHECK(soup::measure(taken.objects).solids == 0);
+  }
+}
+
 TEST_CASE("intake: solids that share a face, each with its own, stay solids") {
   Soup boxes;
   soup::add_box(boxes, {0, 0, 0}, {1, 1, 1});
