@@ -6,9 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include <radiosity/scene/material.hpp>
 #include <raycast/object.hpp>
 #include <raycast/scene.hpp>
+
+#include <radiosity/scene/material.hpp>
 
 namespace apps {
 

@@ -7,6 +7,7 @@
 
 #include <radiosity/camera/mesh_picture.hpp>
 #include <radiosity/camera/view.hpp>
+
 #include "apps/scene_file.hpp"
 
 namespace apps {

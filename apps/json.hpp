@@ -59,7 +59,8 @@ class JsonWriter {
     return *this;
   }
 
-  // By its type: a truth value, a count, a number, text, what an optional holds or null, a list of any of these, a vector of three, or what a function writes.
+  // By its type: a truth value, a count, a number, text, what an optional holds or null, a list of any of these, a vector of three, or what
+  // a function writes.
   template <class Value>
   JsonWriter& value(const Value& value) {
     if constexpr (std::is_same_v<Value, bool>) {

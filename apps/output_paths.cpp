@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "apps/output_paths.hpp"
-#include "apps/text.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <cerrno>
 #include <cstring>
 #include <string_view>
@@ -9,9 +11,7 @@
 #include <tuple>
 #include <utility>
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include "apps/text.hpp"
 
 namespace apps {
 namespace {

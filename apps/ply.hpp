@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
+#include <radiosity/camera/tone.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/scene.hpp>
 
-#include <radiosity/camera/tone.hpp>
 #include "apps/export/export_mesh.hpp"
 
 namespace apps {

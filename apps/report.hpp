@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include <radiosity/camera/tone.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/options.hpp>
 
-#include <radiosity/camera/tone.hpp>
 #include "apps/facts.hpp"
 
 namespace apps {

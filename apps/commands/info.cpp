@@ -12,13 +12,13 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/rays/ray_choice.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
+#include <radiosity/scene/bounds.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/left_out.hpp>
 #include <radiosity/visibility/plan.hpp>
 #include <radiosity/visibility/prepare.hpp>
 
-#include <radiosity/scene/bounds.hpp>
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/commands/model_arguments.hpp"

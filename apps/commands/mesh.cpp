@@ -16,6 +16,7 @@
 #include <brep/geometry.hpp>
 #include <brep/handles.hpp>
 #include <brep/statistics.hpp>
+
 #include <raycast/transform.hpp>
 
 #include <radiosity/hierarchy/surface.hpp>

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <radiosity/audit/audit_effort.hpp>
+#include <radiosity/camera/gather_picture.hpp>
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
@@ -16,7 +17,6 @@
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/scene.hpp>
 
-#include <radiosity/camera/gather_picture.hpp>
 #include "apps/dark_picture.hpp"
 #include "apps/export/export_mesh.hpp"
 #include "apps/export/lightmap.hpp"

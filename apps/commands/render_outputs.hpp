@@ -10,10 +10,10 @@
 #include <vector>
 
 #include <radiosity/audit/picture_error.hpp>
+#include <radiosity/camera/mesh_picture.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/scene/options.hpp>
 
-#include <radiosity/camera/mesh_picture.hpp>
 #include "apps/intake/to_scene.hpp"
 #include "apps/report.hpp"
 #include "apps/scene_file.hpp"

@@ -10,9 +10,9 @@
 #include <thread>
 #include <utility>
 
+#include <radiosity/camera/view.hpp>
 #include <radiosity/scene/options.hpp>
 
-#include <radiosity/camera/view.hpp>
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/commands/model_arguments.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A recording as sentences: why a pair was linked or split, what a link carries, what BF-refinement splits: one sentence each, the same on the page and in the
-// terminal. And the whole as text, and as a page that replays it.
+// A recording as sentences: why a pair was linked or split, what a link carries, what BF-refinement splits: one sentence each, the same on
+// the page and in the terminal. And the whole as text, and as a page that replays it.
 
 #include <string>
 

@@ -10,12 +10,13 @@
 #include <glm/vector_relational.hpp>
 
 #include <brep/polygon.hpp>
-#include <radiosity/scene/scene.hpp>
+
 #include <raycast/box.hpp>
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/scene/bounds.hpp>
+#include <radiosity/scene/scene.hpp>
 
 namespace apps {
 namespace {

@@ -11,13 +11,15 @@
 #include <glm/geometric.hpp>
 
 #include <brep/polygon.hpp>
-#include <radiosity/bake/baked_light.hpp>
-#include <radiosity/hierarchy/corner_normal.hpp>
-#include <radiosity/scene/scene.hpp>
+
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 
+#include <radiosity/bake/baked_light.hpp>
+#include <radiosity/hierarchy/corner_normal.hpp>
 #include <radiosity/scene/bounds.hpp>
+#include <radiosity/scene/scene.hpp>
+
 #include "apps/mesh_file.hpp"
 
 namespace apps {

@@ -16,11 +16,11 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <radiosity/camera/tone.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>
 
-#include <radiosity/camera/tone.hpp>
 #include "apps/scene_file.hpp"
 
 namespace apps {

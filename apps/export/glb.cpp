@@ -10,9 +10,11 @@
 #include <glm/geometric.hpp>
 
 #include <brep/ears.hpp>
+
 #include <raycast/box.hpp>
 
 #include <radiosity/camera/tone.hpp>
+
 #include "apps/bytes.hpp"
 #include "apps/export/export_mesh.hpp"
 #include "apps/json.hpp"

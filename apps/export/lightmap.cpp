@@ -12,14 +12,16 @@
 #include <glm/geometric.hpp>
 
 #include <brep/polygon.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
+#include <raycast/point_query.hpp>
+
 #include <radiosity/bake/baked_light.hpp>
 #include <radiosity/bake/lightmap.hpp>
 #include <radiosity/geometry/chord.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/result/mesh.hpp>
-#include <raycast/box.hpp>
-#include <raycast/bvh.hpp>
-#include <raycast/point_query.hpp>
 
 namespace apps {
 namespace {

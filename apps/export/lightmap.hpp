@@ -6,10 +6,10 @@
 
 #include <optional>
 
-#include <radiosity/result/outcome.hpp>
-
 #include <radiosity/camera/mesh_picture.hpp>
 #include <radiosity/camera/tone.hpp>
+#include <radiosity/result/outcome.hpp>
+
 #include "apps/export/export_mesh.hpp"
 #include "apps/scene_file.hpp"
 

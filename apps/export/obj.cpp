@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include <radiosity/camera/tone.hpp>
+
 #include "apps/export/export_mesh.hpp"
 #include "apps/text.hpp"
 

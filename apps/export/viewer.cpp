@@ -8,9 +8,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
 
+#include <raycast/box.hpp>
+
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/result/mesh.hpp>
-#include <raycast/box.hpp>
 
 #include "apps/bytes.hpp"
 #include "apps/export/export_mesh.hpp"

@@ -19,9 +19,9 @@ namespace {
 
 using study::Drawing;
 
-constexpr study::Tone blue = 0x0b5bd3, red = 0xc8310f, pale = 0xeef3fb, lit = 0xfff3d6;
+constexpr study::Srgb blue = 0x0b5bd3, red = 0xc8310f, pale = 0xeef3fb, lit = 0xfff3d6;
 
-study::Shape polygon(std::vector<glm::dvec2> points, study::Tone fill) {
+study::Shape polygon(std::vector<glm::dvec2> points, study::Srgb fill) {
   study::Shape shape;
   shape.points = std::move(points);
   shape.closed = shape.filled = true;
@@ -30,17 +30,17 @@ study::Shape polygon(std::vector<glm::dvec2> points, study::Tone fill) {
   return shape;
 }
 
-void label(Drawing& drawing, const glm::dvec2& at, std::string text, double size = 13.0, study::Tone tone = study::ink,
+void label(Drawing& drawing, const glm::dvec2& at, std::string text, double size = 13.0, study::Srgb color = study::ink,
            study::Anchor anchor = study::Anchor::middle) {
-  drawing.add(study::Label{at, std::move(text), size, anchor, tone, false, true});
+  drawing.add(study::Label{at, std::move(text), size, anchor, color, false, true});
 }
 
-void arrow(Drawing& drawing, const glm::dvec2& from, const glm::dvec2& to, study::Tone tone, bool dashed) {
-  study::Shape line = study::line(from, to, 1.2, tone);
+void arrow(Drawing& drawing, const glm::dvec2& from, const glm::dvec2& to, study::Srgb color, bool dashed) {
+  study::Shape line = study::line(from, to, 1.2, color);
   if (dashed) { line.dashes = {4.0, 3.0}; }
   drawing.add(line);
   const glm::dvec2 d = glm::normalize(to - from), n{-d.y, d.x};
-  study::Shape tip = polygon({to, to - 8.0 * d + 3.0 * n, to - 8.0 * d - 3.0 * n}, tone);
+  study::Shape tip = polygon({to, to - 8.0 * d + 3.0 * n, to - 8.0 * d - 3.0 * n}, color);
   tip.stroke_width = 0.0;
   drawing.add(tip);
 }

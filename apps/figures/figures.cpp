@@ -3,10 +3,10 @@
 
 #include <brep/euler_script_parse.hpp>
 
+#include <radiosity/camera/mesh_picture.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/run/stages.hpp>
 
-#include <radiosity/camera/mesh_picture.hpp>
 #include "apps/euler/outputs.hpp"
 #include "apps/euler/solid_view.hpp"
 #include "apps/html_document.hpp"

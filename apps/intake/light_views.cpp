@@ -12,10 +12,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <radiosity/scene/material.hpp>
 #include <raycast/objects/polygon.hpp>
 
 #include <radiosity/scene/bounds.hpp>
+#include <radiosity/scene/material.hpp>
 
 namespace apps {
 namespace {

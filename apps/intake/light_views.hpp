@@ -9,10 +9,11 @@
 #include <optional>
 #include <vector>
 
-#include <radiosity/scene/scene.hpp>
 #include <raycast/box.hpp>
 #include <raycast/object.hpp>
 #include <raycast/scene.hpp>
+
+#include <radiosity/scene/scene.hpp>
 
 #include "apps/scene_file.hpp"
 

@@ -7,7 +7,6 @@
 
 #include <glm/mat3x3.hpp>
 
-#include <radiosity/intake/intake.hpp>
 #include <raycast/box.hpp>
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/polygon.hpp>
@@ -15,7 +14,9 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/camera/view.hpp>
+#include <radiosity/intake/intake.hpp>
 #include <radiosity/scene/bounds.hpp>
+
 #include "apps/intake/light_views.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "apps/scene_file/build.hpp"
-#include "apps/scene_file/builder.hpp"
 
 #include <algorithm>
 #include <string>
@@ -19,6 +18,7 @@
 
 #include <radiosity/scene/bounds.hpp>
 
+#include "apps/scene_file/builder.hpp"
 #include "apps/scene_file/groups.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"

@@ -13,9 +13,10 @@
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/scene/scene.hpp>
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
+
+#include <radiosity/scene/scene.hpp>
 
 #include "apps/input_errors.hpp"
 #include "apps/scene_file.hpp"

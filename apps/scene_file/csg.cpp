@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Unions, intersections and differences. A file of its own: no other one needs brep/csg.
-#include <raycast/objects/csg.hpp>
-#include <raycast/objects/csg_tree.hpp>
-#include <raycast/transform.hpp>
-
 #include <string>
 #include <unordered_map>
 #include <utility>
+
+#include <raycast/objects/csg.hpp>
+#include <raycast/objects/csg_tree.hpp>
+#include <raycast/transform.hpp>
 
 #include "apps/scene_file/build.hpp"
 #include "apps/scene_file/lexer.hpp"

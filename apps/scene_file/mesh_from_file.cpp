@@ -11,6 +11,7 @@
 #include <raycast/object.hpp>
 
 #include <radiosity/scene/bounds.hpp>
+
 #include "apps/intake/to_scene.hpp"
 #include "apps/scene_file/lexer.hpp"
 #include "apps/words.hpp"

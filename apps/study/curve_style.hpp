@@ -17,18 +17,18 @@ namespace study {
 enum class Mark { circle, square, triangle, diamond, triangle_down, pentagon, cross, star, saltire };
 
 struct CurveStyle {
-  Tone tone = ink;
+  Srgb color = ink;
   Mark mark = Mark::circle;
   bool dashed = false;
 };
 
-inline constexpr std::array<Tone, 7> curve_tones = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x000000};
+inline constexpr std::array<Srgb, 7> curve_colors = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x000000};
 inline constexpr std::size_t mark_count = 9;
 
 // Any two of the first 63 styles differ in colour or mark, the first seven in both.
 [[nodiscard]] inline CurveStyle curve_style(std::size_t index) {
-  return {curve_tones[index % curve_tones.size()], static_cast<Mark>(index % mark_count),
-          index % (2 * curve_tones.size()) >= curve_tones.size()};
+  return {curve_colors[index % curve_colors.size()], static_cast<Mark>(index % mark_count),
+          index % (2 * curve_colors.size()) >= curve_colors.size()};
 }
 
 // The outline of a mark. All marks have about the area of a circle of this radius.

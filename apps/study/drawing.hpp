@@ -4,7 +4,7 @@
 // A drawing as data: shapes, labels and pictures in the order in which they cover each other. What draws (plot.hpp, error_picture.hpp)
 // fills one; to_svg() (svg.hpp) writes it.
 //
-// Units are CSS pixels; x to the right, y down. Three tones have a meaning, so that a page may exchange them in the dark.
+// Units are CSS pixels; x to the right, y down. Three colours have a meaning, so that a page may exchange them in the dark.
 
 #include <cstdint>
 #include <string>
@@ -16,20 +16,20 @@
 
 namespace study {
 
-using Tone = std::uint32_t;  // 0xrrggbb, sRGB
+using Srgb = std::uint32_t;  // 0xrrggbb, sRGB
 
-inline constexpr Tone ink = 0x222222;    // text and axes
-inline constexpr Tone paper = 0xffffff;  // the background
-inline constexpr Tone faint = 0xdddddd;  // grid lines
+inline constexpr Srgb ink = 0x222222;    // text and axes
+inline constexpr Srgb paper = 0xffffff;  // the background
+inline constexpr Srgb faint = 0xdddddd;  // grid lines
 
 // A polygon or a polyline.
 struct Shape {
   std::vector<glm::dvec2> points;
   bool closed = false;
   bool filled = false;
-  Tone fill = paper;
+  Srgb fill = paper;
   double stroke_width = 0.0;  // 0: no outline
-  Tone stroke = ink;
+  Srgb stroke = ink;
   std::vector<double> dashes;  // lengths on, off, on, ...; empty: solid
   double opacity = 1.0;
   std::string title;  // shown by a browser when one points at the shape
@@ -43,7 +43,7 @@ struct Label {
   std::string text;  // UTF-8
   double size = 12.0;
   Anchor anchor = Anchor::start;
-  Tone tone = ink;
+  Srgb color = ink;
   bool bold = false;
   bool upright = true;  // or it runs from the bottom to the top
 };
@@ -66,15 +66,15 @@ struct Drawing {
   Image& add(Image image) { return std::get<Image>(items.emplace_back(std::move(image))); }
 };
 
-[[nodiscard]] inline Shape line(const glm::dvec2& from, const glm::dvec2& to, double width, Tone tone = ink) {
+[[nodiscard]] inline Shape line(const glm::dvec2& from, const glm::dvec2& to, double width, Srgb color = ink) {
   Shape shape;
   shape.points = {from, to};
   shape.stroke_width = width;
-  shape.stroke = tone;
+  shape.stroke = color;
   return shape;
 }
 
-[[nodiscard]] inline Shape rectangle(const glm::dvec2& low, const glm::dvec2& high, Tone fill) {
+[[nodiscard]] inline Shape rectangle(const glm::dvec2& low, const glm::dvec2& high, Srgb fill) {
   Shape shape;
   shape.points = {low, {high.x, low.y}, high, {low.x, high.y}};
   shape.closed = true;

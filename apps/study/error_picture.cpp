@@ -11,24 +11,24 @@
 
 #include <glm/geometric.hpp>
 
+#include <radiosity/camera/tone.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
 
-#include <radiosity/camera/tone.hpp>
 #include "apps/picture_file.hpp"
 #include "apps/study/numbers.hpp"
 
 namespace study {
 namespace {
 
-constexpr Tone background = 0xb4b4b4;
+constexpr Srgb background = 0xb4b4b4;
 constexpr double scale_width = 480.0;
 constexpr double scale_height = 62.0;
 
-// Radiosity that draw() shows as exactly this tone at exposure 1: pi times the linear value.
-radiosity::Color shown_as(Tone tone) {
+// Radiosity that draw() shows as exactly this colour at exposure 1: pi times the linear value.
+radiosity::Color shown_as(Srgb color) {
   radiosity::Color result(0.0);
-  for (int c = 0; c < 3; ++c) { result[c] = std::numbers::pi * radiosity::srgb_decode(((tone >> (16 - 8 * c)) & 255U) / 255.0); }
+  for (int c = 0; c < 3; ++c) { result[c] = std::numbers::pi * radiosity::srgb_decode(((color >> (16 - 8 * c)) & 255U) / 255.0); }
   return result;
 }
 
@@ -50,7 +50,7 @@ glm::dvec3 normal_of(const std::vector<glm::dvec3>& corners) {
   return length > 0.0 ? area / length : glm::dvec3(0.0);
 }
 
-// The cells, each in the colour that tone(cell) gives, before a wall of the background's that fills the view.
+// The cells, each in the colour that color(cell) gives, before a wall of the background's that fills the view.
 template <class ColorOf>
 radiosity::Mesh mesh_of(const ErrorPicture& errors, const radiosity::View& view, const ColorOf& color) {
   radiosity::Mesh mesh;
@@ -98,7 +98,7 @@ void draw_scale(Drawing& drawing, double top, double limit) {
     const double x = left + bar * i / steps;
     // Each reaches a little under the next: no seam.
     drawing.add(rectangle({x, top + 8.0}, {left + bar * std::min<double>(i + 1.2, steps) / steps, top + 22.0},
-                          error_tone(2.0 * (i + 0.5) / steps - 1.0)));
+                          error_color(2.0 * (i + 0.5) / steps - 1.0)));
   }
   for (int i = -2; i <= 2; ++i) {
     const double x = left + bar * (0.5 + 0.25 * i);
@@ -141,16 +141,16 @@ double error_limit(const SceneStudy& scene) {
   return 1000.0;
 }
 
-Tone error_tone(double part) {
-  static constexpr std::array<Tone, 7> tones = {0x08306b, 0x2171b5, 0x8dbfe0, 0xf7f7f7, 0xfbc48a, 0xf08432, 0xb33c00};
+Srgb error_color(double part) {
+  static constexpr std::array<Srgb, 7> colors = {0x08306b, 0x2171b5, 0x8dbfe0, 0xf7f7f7, 0xfbc48a, 0xf08432, 0xb33c00};
   if (!std::isfinite(part)) { return background; }
   const double at = (std::clamp(part, -1.0, 1.0) + 1.0) * 3.0;
   const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(at), 5);
-  Tone result = 0;
+  Srgb result = 0;
   for (unsigned shift = 0; shift <= 16; shift += 8) {
-    const double a = (tones[i] >> shift) & 255U;
-    const double b = (tones[i + 1] >> shift) & 255U;
-    result |= static_cast<Tone>(std::lround(a + (at - static_cast<double>(i)) * (b - a))) << shift;
+    const double a = (colors[i] >> shift) & 255U;
+    const double b = (colors[i + 1] >> shift) & 255U;
+    result |= static_cast<Srgb>(std::lround(a + (at - static_cast<double>(i)) * (b - a))) << shift;
   }
   return result;
 }
@@ -159,7 +159,7 @@ radiosity::Picture error_picture(const ErrorPicture& errors, const radiosity::Ca
   const radiosity::PictureSize shape = camera.size.value_or(radiosity::PictureSize{});
   const auto height = static_cast<std::uint32_t>(std::max(1L, std::lround(static_cast<double>(width) * shape.height / shape.width)));
   const radiosity::View view = radiosity::make_view(camera, {width, height});
-  const auto by_error = mesh_of(errors, view, [&](const ErrorCell& cell) { return shown_as(error_tone(cell.error / limit)); });
+  const auto by_error = mesh_of(errors, view, [&](const ErrorCell& cell) { return shown_as(error_color(cell.error / limit)); });
   const auto by_normal =
       mesh_of(errors, view, [](const ErrorCell& cell) { return std::numbers::pi * (0.5 + 0.5 * normal_of(cell.corners)); });
   radiosity::Picture picture = *radiosity::draw(by_error, view, 1.0);

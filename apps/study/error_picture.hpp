@@ -6,6 +6,7 @@
 // of a scene have the same scale. Grey: surfaces that emit, and the background. Dark lines are creases and outlines.
 
 #include <radiosity/camera/mesh_picture.hpp>
+
 #include "apps/study/drawing.hpp"
 #include "apps/study/results.hpp"
 
@@ -15,7 +16,7 @@ namespace study {
 [[nodiscard]] double error_limit(const SceneStudy& scene);
 
 // The colour of an error; `part` is its share of the limit, clamped to -1..1.
-[[nodiscard]] Tone error_tone(double part);
+[[nodiscard]] Srgb error_color(double part);
 
 // Without scale and words; `width` pixels wide, as high as the camera's picture demands. Cells are convex.
 [[nodiscard]] radiosity::Picture error_picture(const ErrorPicture& errors, const radiosity::Camera& camera, double limit,

@@ -3,8 +3,8 @@
 
 // A study as files in a folder:
 //
-//   index.html                       everything: one page that holds all of its pictures, needs no script and no network, and can be printed
-//   results.csv results.json         all numbers; an error below the noise of its reference is given as that noise, and marked (verdicts.hpp)
+//   index.html                       everything: one page that holds all of its pictures, without script or network, and can be printed
+//   results.csv results.json         all numbers; errors below the noise of their reference are given as that noise (verdicts.hpp)
 //   SCENE_cpu.svg, SCENE_memory.svg, SCENE_links.svg, SCENE_reconstruction.svg
 //   SCENE_error_METHOD.svg           false-colour error pictures
 

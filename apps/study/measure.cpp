@@ -14,6 +14,7 @@
 #include <raycast/ray.hpp>
 
 #include <radiosity/audit/picture_error.hpp>
+#include <radiosity/camera/view.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/result/comparison.hpp>
 #include <radiosity/result/error_estimate.hpp>
@@ -24,7 +25,6 @@
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/left_out.hpp>
 
-#include <radiosity/camera/view.hpp>
 #include "apps/memory.hpp"
 #include "apps/text.hpp"
 

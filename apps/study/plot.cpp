@@ -15,7 +15,7 @@ namespace study {
 namespace {
 
 constexpr double mark_radius = 4.2;
-constexpr Tone pale_ink = 0x666666;
+constexpr Srgb pale_ink = 0x666666;
 constexpr const char* noise_note = "hollow: the error is at most this";
 
 void draw_axes(Drawing& drawing, const PlotFrame& frame, double text_size) {
@@ -56,8 +56,8 @@ Shape mark(const CurveStyle& style, const glm::dvec2& at, bool hollow, const std
   shape.points = mark_outline(style.mark, at, mark_radius);
   shape.closed = true;
   shape.filled = true;
-  shape.fill = hollow ? paper : style.tone;
-  shape.stroke = hollow ? style.tone : paper;
+  shape.fill = hollow ? paper : style.color;
+  shape.stroke = hollow ? style.color : paper;
   shape.stroke_width = hollow ? 1.6 : 0.8;
   shape.title = title;
   return shape;
@@ -66,7 +66,7 @@ Shape mark(const CurveStyle& style, const glm::dvec2& at, bool hollow, const std
 Shape curve_line(const CurveStyle& style, std::vector<glm::dvec2> points) {
   Shape shape;
   shape.points = std::move(points);
-  shape.stroke = style.tone;
+  shape.stroke = style.color;
   shape.stroke_width = 1.8;
   if (style.dashed) { shape.dashes = {6.0, 4.0}; }
   return shape;
@@ -135,7 +135,7 @@ double draw_legend(Drawing& drawing, glm::dvec2 at, const std::vector<Curve>& cu
   const auto entry = [&](Shape sample, const std::string& name, const std::string& note) {
     drawing.add(std::move(sample));
     drawing.add(Label{.at = at + glm::dvec2(36.0, 4.0), .text = name});
-    if (!note.empty()) { drawing.add(Label{.at = at + glm::dvec2(36.0, 18.0), .text = note, .size = 11.0, .tone = pale_ink}); }
+    if (!note.empty()) { drawing.add(Label{.at = at + glm::dvec2(36.0, 18.0), .text = note, .size = 11.0, .color = pale_ink}); }
   };
   const glm::dvec2 across(28.0, 0.0);
   for (const Curve& curve : curves) {

@@ -13,9 +13,9 @@ namespace {
 
 std::string number(double x) { return apps::trimmed(x, 2); }
 
-std::string hex(Tone tone) {
+std::string hex(Srgb color) {
   char text[16] = "";
-  std::snprintf(text, sizeof text, "#%06x", static_cast<unsigned>(tone & 0xffffffU));
+  std::snprintf(text, sizeof text, "#%06x", static_cast<unsigned>(color & 0xffffffU));
   return text;
 }
 
@@ -39,7 +39,7 @@ std::string element(const Shape& shape) {
 std::string element(const Label& label) {
   static constexpr const char* anchors[] = {"start", "middle", "end"};
   std::string result = "<text x=\"" + number(label.at.x) + "\" y=\"" + number(label.at.y) + "\" font-size=\"" + number(label.size) +
-                       "\" fill=\"" + hex(label.tone) + "\"";
+                       "\" fill=\"" + hex(label.color) + "\"";
   if (label.anchor != Anchor::start) { result += std::string(" text-anchor=\"") + anchors[static_cast<int>(label.anchor)] + "\""; }
   if (label.bold) { result += " font-weight=\"bold\""; }
   if (!label.upright) { result += " transform=\"rotate(-90 " + number(label.at.x) + " " + number(label.at.y) + ")\""; }

@@ -3,7 +3,7 @@
 
 // A drawing as SVG 1.1: self-contained, text stays text, coordinates to 1/100 pixel. Pictures are named as in SVG 2, by href without xlink.
 //
-// Colours are attributes and not a style sheet, so that every program reads them; a page that wants other tones in the dark selects
+// Colours are attributes and not a style sheet, so that every program reads them; a page that wants other colours in the dark selects
 // them by their value, as in  svg [fill="#222222"] { fill: white }.
 
 #include <string>

@@ -21,8 +21,8 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/scene/material.hpp>
-#include "apps/graph_walk.hpp"
 
+#include "apps/graph_walk.hpp"
 #include "apps/input_errors.hpp"
 #include "apps/intake/model.hpp"
 
@@ -57,7 +57,8 @@ inline constexpr GraphLimits graph_limits;
 // The nodes of the text under one root, or errors.
 [[nodiscard]] std::shared_ptr<const Node> parse(std::string_view text, Errors& errors, Notes& notes);
 
-// The mean colour that a Texture2 node gives to what follows it; nothing when it has no picture, or one that cannot be read, which is noted.
+// The mean colour that a Texture2 node gives to what follows it; nothing when it has no picture, or one that cannot be read, which is
+// noted.
 [[nodiscard]] std::optional<radiosity::Color> mean_of_texture(const Node& texture, const SideFile& side_file, Notes& notes);
 
 // Which of the materials a part, a face or a corner has.

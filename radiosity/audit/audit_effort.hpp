@@ -7,8 +7,8 @@
 //
 // What an audit may cost is counted in rays, not in seconds, so that results are the same on any machine. Its unit is a ray of a path among
 // few polygons, about a microsecond; where rays are dearer there are fewer of them (raycast::Scene). Pilots are part of it:
-//   an audit without a target    as much as the solution was worth, or 1500 rays a point where that is more; as much again where the interval
-//                                comes out wider than the error itself, and would become narrow by that
+//   an audit without a target    as much as the solution was worth, or 1500 rays a point where that is more; as much again where the
+//                                interval comes out wider than the error itself, and would become narrow by that
 //   of a round to a target       as much as the solution of the round was worth
 //   that is to show the target   twice as much, or rays_that_show where that is more; only when its pilot finds the target met
 // What a point costs is known from the pilot alone: where few points see light, to a quarter. Beyond that goes only the least that gives an

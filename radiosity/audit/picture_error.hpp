@@ -80,7 +80,8 @@ class PictureAudit {
   [[nodiscard]] std::optional<Seen> seen(const ShownPicture& picture, double x, double y, std::uint64_t& rays) const;
   [[nodiscard]] const Color& emission(const Seen& at) const { return tracer_.material(tracer_.surface(at.object, at.sheet)).emission; }
 
-  // What is emitted there, when that is the same all over the pixel. Nothing when the pixel does not count: it sees nothing, or shows a lamp.
+  // What is emitted there, when that is the same all over the pixel. Nothing when the pixel does not count: it sees nothing, or shows a
+  // lamp.
   [[nodiscard]] std::optional<Color> emitted(const ShownPicture& picture, std::uint32_t x, std::uint32_t y, std::uint64_t& rays) const;
 
   // Of the brightest pixels those that do not count are found first, or they would be drawn again and again for nothing. `most`: rays, at

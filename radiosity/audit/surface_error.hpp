@@ -27,11 +27,11 @@
 
 namespace radiosity {
 
-// Independent estimates of the radiosity at a point by paths of an even sequence: four groups, and two halves of two groups each, of `paths`
-// paths. `key` names the point. `trace(numbers)` traces one path and returns the light that it found.
+// Independent estimates of the radiosity at a point by paths of an even sequence: four groups, and two halves of two groups each, of
+// `paths` paths. `key` names the point. `trace(numbers)` traces one path and returns the light that it found.
 //
-// The product of what two estimates are off is free of their noise on average. All six pairs of four groups leave less of it than the one pair
-// of halves: of independent paths half the variance.
+// The product of what two estimates are off is free of their noise on average. All six pairs of four groups leave less of it than the one
+// pair of halves: of independent paths half the variance.
 struct PathEstimates {
   static constexpr std::uint32_t groups = 4;
   Color all[groups] = {};

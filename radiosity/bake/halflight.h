@@ -89,14 +89,15 @@ typedef enum halflight_result {
 } halflight_result;
 
 /* Copies a result, a halflight_result, to `out`, which has room for `count` corners, vertices or texels. HALFLIGHT_INVALID when there are
- * more of them, HALFLIGHT_NOTHING where there is no result of this number, HALFLIGHT_NOT_RUN before halflight_run, or of a lightmap before halflight_make_lightmap. */
+ * more of them, HALFLIGHT_NOTHING where there is no result of this number, HALFLIGHT_NOT_RUN before halflight_run, or of a lightmap before
+ * halflight_make_lightmap. */
 HALFLIGHT_API halflight_status halflight_read(halflight_job* job, int result, float* out, size_t count);
 /* The radiosity at a point of a triangle, on its front or its back; HALFLIGHT_NOTHING where it has none. From many threads at once. */
 HALFLIGHT_API halflight_status halflight_at(const halflight_job* job, size_t triangle, const float point[3], int back, float rgb[3]);
 
 /* Makes a lightmap, for halflight_read, and tells its size: an atlas with a rectangle for every planar face of the triangles, its texels
- * squares with sides of `texel` metres, or of as more as keeps its sides within `most` texels (64 or more). 0: about a million texels. It is
- * made of the buffers that were set, which must still be there. */
+ * squares with sides of `texel` metres, or of as more as keeps its sides within `most` texels (64 or more). 0: about a million texels. It
+ * is made of the buffers that were set, which must still be there. */
 HALFLIGHT_API halflight_status halflight_make_lightmap(halflight_job* job, double texel, uint32_t most, uint32_t* width, uint32_t* height);
 
 /* Figures of the run by name: error, error_low, error_high (relative L2 and its 95 % interval), seconds, cpu_seconds, faces, leaves, links,

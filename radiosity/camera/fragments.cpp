@@ -6,10 +6,11 @@
 #include <cmath>
 #include <cstddef>
 
-#include <radiosity/direct/direct_light.hpp>
-#include <radiosity/direct/lit_region.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/tolerances.hpp>
+
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lit_region.hpp>
 
 namespace radiosity {
 

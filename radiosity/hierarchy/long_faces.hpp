@@ -9,9 +9,9 @@
 //
 // The smallest part is half as large as that limit, so their number is bounded by the fineness of the run, however long a face is. Faces
 // that share an edge are halved at the same places. Of curved objects only faces along straight lines are cut (the sides of cylinders and
-// cones): no vertex is put beside the surface. Flat faces in convex parts (cut by diagonals) are left alone, so that they stay one root; what
-// walls cut out of a face (wall_cuts.hpp) is a root of its own, and is cut. Invariant: the boundary stays valid, each part lies on the sheet
-// of its face.
+// cones): no vertex is put beside the surface. Flat faces in convex parts (cut by diagonals) are left alone, so that they stay one root;
+// what walls cut out of a face (wall_cuts.hpp) is a root of its own, and is cut. Invariant: the boundary stays valid, each part lies on the
+// sheet of its face.
 
 #include <vector>
 

@@ -15,13 +15,12 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/ears.hpp>
 #include <brep/polygon.hpp>
 
 #include <raycast/inline.hpp>
 #include <raycast/planar.hpp>
 #include <raycast/tolerances.hpp>
-
-#include <brep/ears.hpp>
 
 namespace radiosity::intake {
 namespace detail {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/intake/backs.hpp>
-#include <radiosity/intake/clean.hpp>
 #include <radiosity/intake/facing.hpp>
 
 #include <algorithm>
@@ -17,6 +15,9 @@
 
 #include <raycast/box.hpp>
 #include <raycast/inline.hpp>
+
+#include <radiosity/intake/backs.hpp>
+#include <radiosity/intake/clean.hpp>
 
 namespace radiosity::intake {
 namespace detail {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/intake/join.hpp>
-#include <radiosity/intake/t_joints.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,6 +12,8 @@
 #include <brep/union_find.hpp>
 
 #include <raycast/inline.hpp>
+
+#include <radiosity/intake/t_joints.hpp>
 
 namespace radiosity::intake {
 namespace detail {

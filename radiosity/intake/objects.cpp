@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/intake/backs.hpp>
-#include <radiosity/intake/lamps.hpp>
 #include <radiosity/intake/objects.hpp>
-#include <radiosity/intake/shells.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -25,6 +22,10 @@
 #include <raycast/object.hpp>
 #include <raycast/objects/mesh.hpp>
 #include <raycast/objects/polygon.hpp>
+
+#include <radiosity/intake/backs.hpp>
+#include <radiosity/intake/lamps.hpp>
+#include <radiosity/intake/shells.hpp>
 
 namespace radiosity::intake {
 namespace detail {

@@ -15,6 +15,7 @@
 
 #include <radiosity/intake/topology.hpp>
 #include <radiosity/intake/working.hpp>
+#include <radiosity/scene/scene.hpp>
 
 namespace radiosity::intake {
 

@@ -12,7 +12,7 @@
 
 #include <raycast/box.hpp>
 
-#include <radiosity/intake/intake.hpp>
+#include <radiosity/intake/polygons.hpp>
 #include <radiosity/intake/topology.hpp>
 #include <radiosity/intake/working.hpp>
 #include <radiosity/scene/material.hpp>

@@ -37,8 +37,8 @@ class SideLight {
   // `piece`: of each face a number below `pieces`. The mesh must stay as it is while this lives.
   SideLight(Working& mesh, std::span<const std::uint32_t> piece, std::uint32_t pieces);
 
-  // Of each piece. The same numbers in every run. Some microseconds for each of half a million rays, or of eight for each face where that is
-  // more.
+  // Of each piece. The same numbers in every run. Some microseconds for each of half a million rays, or of eight for each face where that
+  // is more.
   [[nodiscard]] std::vector<PieceView> solve(std::span<const Material> materials, std::span<const glm::dvec3> eyes);
 
  private:

@@ -3,8 +3,8 @@
 
 // Which faces hang together. Faces of one shell (working.hpp) that run along an edge in opposite directions are neighbours across it. First
 // the faces are turned so that this holds wherever two meet, each component as the larger part of its area looks. Where it cannot hold (a
-// Moebius strip), and where more than two faces meet, the surface is cut. But faces that hang together elsewhere, across edges of their own,
-// are one piece, and two sides of one piece are neighbours there, too, as those of each of two boxes that touch in an edge. Of an even
+// Moebius strip), and where more than two faces meet, the surface is cut. But faces that hang together elsewhere, across edges of their
+// own, are one piece, and two sides of one piece are neighbours there, too, as those of each of two boxes that touch in an edge. Of an even
 // number of other faces, half of them in each direction, those are neighbours that have the solid between them.
 //
 // Where two fans of faces touch in one vertex each fan gets a vertex of its own, so that afterwards every component is a manifold: a

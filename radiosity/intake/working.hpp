@@ -15,7 +15,8 @@
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/intake/intake.hpp>
+#include <radiosity/intake/change.hpp>
+#include <radiosity/intake/polygons.hpp>
 
 namespace radiosity::intake {
 

@@ -3,8 +3,8 @@
 
 // What the mesh of a solution is too coarse for: light on a leaf as it is seen from nearer than the leaf is wide. At the foot of a box the
 // light falls off within a leaf; seen from afar the mean over the leaf is right, but in the corner between the two this is most of what a
-// point sees, and the corner came out bright. There the light of some of the places that a point sees is followed by paths, to the lamps and
-// to places that are no longer near (a second gathering near by; Christensen 1999 for photon maps), and stands for the light of all.
+// point sees, and the corner came out bright. There the light of some of the places that a point sees is followed by paths, to the lamps
+// and to places that are no longer near (a second gathering near by; Christensen 1999 for photon maps), and stands for the light of all.
 //
 // A path that ends by chance on a small bright spot is noise: a row of bright and dark crumbs along a corner. Where spots are that bright,
 // each end of a path sends a ray to one of them, too (bright_spots.hpp), by the balance heuristic.
@@ -39,8 +39,8 @@ class NearLight {
     Color light{0.0};
     double variance = 0.0;  // of the sum of its channels
   };
-  // The light of all these places, by some paths: a multiple of paths_at_once. How many must not depend on what they find: to stop once they
-  // agree would favour those that miss what is bright and rare. `key` fixes the paths; `spots`: what rays are aimed at, or none.
+  // The light of all these places, by some paths: a multiple of paths_at_once. How many must not depend on what they find: to stop once
+  // they agree would favour those that miss what is bright and rare. `key` fixes the paths; `spots`: what rays are aimed at, or none.
   static constexpr unsigned paths_at_once = 8;
   [[nodiscard]] Sum light(std::span<const Seen> seen, std::uint32_t paths, std::uint64_t key, const BrightSpots::From* spots) const;
 

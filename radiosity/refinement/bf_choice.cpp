@@ -16,7 +16,7 @@
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/bf_generation.hpp>
-#include <radiosity/refinement/bf_refine.hpp>
+#include <radiosity/refinement/bf_goal.hpp>
 #include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/refinement/link_error.hpp>
 #include <radiosity/support/memory.hpp>

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include <radiosity/refinement/bf_generation.hpp>
-#include <radiosity/refinement/bf_refine.hpp>
+#include <radiosity/refinement/bf_goal.hpp>
 
 namespace radiosity {
 

@@ -21,10 +21,10 @@
 #include <radiosity/links/link_schedule.hpp>
 #include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>
-#include <radiosity/refinement/bf_refine.hpp>
+#include <radiosity/refinement/bf_goal.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/f_refine.hpp>
-#include <radiosity/refinement/lamps.hpp>
+#include <radiosity/refinement/lamp_choice.hpp>
 #include <radiosity/refinement/leaf_error.hpp>
 #include <radiosity/refinement/link_error.hpp>
 #include <radiosity/scene/options.hpp>

@@ -12,7 +12,7 @@
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/oracle/proof_oracle.hpp>
-#include <radiosity/refinement/bf_refine.hpp>
+#include <radiosity/refinement/bf_goal.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/leaf_error.hpp>
 #include <radiosity/refinement/link_error.hpp>

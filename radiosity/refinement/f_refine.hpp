@@ -26,27 +26,12 @@
 #include <radiosity/oracle/importance.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/refinement/refine_result.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
-
-struct RefineResult {
-  NodePairs linked;                 // pairs that are to be linked
-  OccluderLists occluders;          // of these pairs
-  std::uint64_t pairs_tested = 0;   // questions to the oracle
-  std::uint64_t pairs_dropped = 0;  // proven to face away from each other
-  std::uint64_t pairs_hidden = 0;   // proven to be hidden from each other by one object, or one is buried
-  std::uint64_t pairs_dark = 0;     // of input faces: neither emits, and light that reflects reaches neither
-  std::uint64_t pairs_convex = 0;   // never asked: faces of one flat sheet or one convex solid cannot see each other
-  RayCount rays;                    // segments cast to find shadow boundaries
-  std::uint32_t generations = 0;
-  std::vector<std::uint32_t> inner;  // leaves of concave curved objects: their children will see each other
-  bool cancelled = false;
-  std::uint64_t too_many = 0;   // links that would be needed, at least, when that is more than `link_limit`
-  std::uint64_t too_large = 0;  // bytes that would be needed, at least, when that is more than the budget allows
-};
 
 // 100 million links are 2.4 GB, and 3.6 GB while they are made of pairs; a scene that asks for more is refused rather than left to exhaust
 // the memory.
@@ -108,10 +93,6 @@ struct Fineness {
   AnyOracle oracle = FOracle{};      // about the form factor
   Importance* importance = nullptr;  // finer for the picture of one camera; takes in the nodes that are made
 };
-
-// Which pairs of input faces are linked: all, or those of which one is a lamp (DiscreteScene::lamps). The latter need a hierarchy without
-// clusters, or with clusters of lamps alone (make_lamp_clusters()).
-enum class Linked { all, lamps };
 
 // Builds the links of the hierarchy, splitting leaves as needed.
 [[nodiscard]] RefineResult refine(DiscreteScene& scene, const Fineness& fineness, Linked linked = Linked::all);

@@ -12,7 +12,7 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/oracle/proof_oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/f_refine.hpp>
+#include <radiosity/refinement/refine_result.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 #include <radiosity/visibility/plan.hpp>
 

@@ -9,7 +9,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/oracle/proof_oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/f_refine.hpp>
+#include <radiosity/refinement/refine_result.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 
 namespace radiosity::detail {

@@ -33,6 +33,7 @@
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/refinement/link_error_terms.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/solver/transport.hpp>
@@ -53,12 +54,6 @@ struct ErrorEstimation {
 
   [[nodiscard]] double sum(double part) const { return of_links + part * part * of_leaves; }
   [[nodiscard]] double relative(double part) const { return norm > 0.0 ? std::sqrt(sum(part) / norm) : 0.0; }
-};
-
-// How errors of different links add up.
-struct AlikeErrors {
-  std::optional<double> across;  // inner nodes: squared errors over those of independent links; given where these are not all the links
-  double at_leaves = 1.0;        // LeafErrors::alike()
 };
 
 // The errors of links alone, and the norm.

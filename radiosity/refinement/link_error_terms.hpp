@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -15,12 +16,17 @@
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/link_error.hpp>
 #include <radiosity/scene/material.hpp>
 
 namespace radiosity {
 
 namespace detail {
+
+// How errors of different links add up.
+struct AlikeErrors {
+  std::optional<double> across;  // inner nodes: squared errors over those of independent links; given where these are not all the links
+  double at_leaves = 1.0;        // LeafErrors::alike()
+};
 
 struct NodeLight {
   Color mean{0.0};

@@ -14,12 +14,12 @@
 //     A_i E_i^2  >  (0.35 light_epsilon)^2 * (what the scene reflects, squared, over its area).
 //
 // Then the largest of its links are replaced by links of its children, until the others leave a quarter of that. The children's links are
-// looked at again with the light of the new links (coarse_light.hpp), four generations at most. A leaf is split first where it is larger than
-// a quarter of min_area, and its other links hand their light down by their gradients.
+// looked at again with the light of the new links (coarse_light.hpp), four generations at most. A leaf is split first where it is larger
+// than a quarter of min_area, and its other links hand their light down by their gradients.
 //
 // Measured at equal CPU time, where light goes by these links: a closed box with a lamp close under its ceiling has about half the error,
-// rooms with openings in thin walls a tenth less. Where light is hidden by many things at once their shadows do not add up; E_i is too large
-// then, and a scene of boxes or nested rooms pays a tenth to a half more time for hardly less error.
+// rooms with openings in thin walls a tenth less. Where light is hidden by many things at once their shadows do not add up; E_i is too
+// large then, and a scene of boxes or nested rooms pays a tenth to a half more time for hardly less error.
 //
 // Links of clusters stay as they are, and so do leaves that are partly buried and leaves at blades (leaf_splits.hpp).
 

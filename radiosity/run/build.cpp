@@ -23,7 +23,7 @@
 #include <radiosity/hierarchy/wall_cuts.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/lamps.hpp>
+#include <radiosity/refinement/lamp_choice.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/hierarchy/patch.hpp>
-#include <radiosity/matrix/dense.hpp>
-#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/run.hpp>
 
 #include <optional>
@@ -10,9 +7,12 @@
 
 #include <raycast/inline.hpp>
 
+#include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/matrix/dense.hpp>
 #include <radiosity/picture/reconstruct.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
+#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>

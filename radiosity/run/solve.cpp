@@ -17,7 +17,7 @@
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/rays/ray_links.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/lamps.hpp>
+#include <radiosity/refinement/lamp_choice.hpp>
 #include <radiosity/refinement/link_error.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>

@@ -26,9 +26,9 @@
 
 #include <glm/vec3.hpp>
 
-#include <radiosity/geometry/direction_lattice.hpp>
 #include <raycast/isa.hpp>
 
+#include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/link_schedule.hpp>

@@ -2,8 +2,8 @@
 #pragma once
 
 // Vectors of eight doubles for the inner loops of form factors and visibility. A file of such loops (*.inc) is compiled three times: for
-// the baseline of the machine, for AVX2 and for AVX-512, each function with the target attribute of its set, so that a library built without
-// any machine flag uses what the machine offers. Vectors have eight lanes in all three, sums are made in one order, and nothing is
+// the baseline of the machine, for AVX2 and for AVX-512, each function with the target attribute of its set, so that a library built
+// without any machine flag uses what the machine offers. Vectors have eight lanes in all three, sums are made in one order, and nothing is
 // contracted to a fused multiply-add: so results have the same bits on every machine.
 //
 //     #define HALFLIGHT_WIDE_FILE <radiosity/exchange/kernel_sums.inc>

@@ -7,11 +7,12 @@
 #include <random>
 #include <set>
 
+#include <glm/geometric.hpp>
+
 #include <brep/brep.hpp>
 #include <brep/circulators.hpp>
 #include <brep/euler.hpp>
 #include <brep/handles.hpp>
-#include <glm/geometric.hpp>
 
 #include "catch.hpp"
 

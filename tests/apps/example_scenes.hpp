@@ -3,8 +3,6 @@
 
 // The scenes that come with the project.
 
-#include "catch.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "apps/scene_file.hpp"
+#include "catch.hpp"
 
 inline radiosity::Scene parsed_scene(const std::string& text, const std::string& name = "text") {
   apps::SceneResult result = apps::parse_scene(text);

@@ -17,11 +17,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <radiosity/camera/tone.hpp>
+#include <radiosity/camera/view.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/mesh.hpp>
 
-#include <radiosity/camera/tone.hpp>
-#include <radiosity/camera/view.hpp>
 #include "apps/export/export_mesh.hpp"
 #include "apps/export/viewer.hpp"
 #include "apps/models.hpp"

@@ -6,13 +6,13 @@
 #include <limits>
 #include <string>
 
-#include "apps/json.hpp"
-#include "apps/report.hpp"
-#include "json.hpp"
-
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/material.hpp>
+
+#include "apps/json.hpp"
+#include "apps/report.hpp"
+#include "json.hpp"
 
 TEST_CASE("what the writer writes the reader reads") {
   apps::JsonWriter writer;

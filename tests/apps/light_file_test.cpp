@@ -8,13 +8,13 @@
 #include <random>
 #include <string>
 
+#include <radiosity/camera/gather_picture.hpp>
+#include <radiosity/camera/mesh_picture.hpp>
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/options.hpp>
 
-#include <radiosity/camera/gather_picture.hpp>
-#include <radiosity/camera/mesh_picture.hpp>
 #include "apps/checksum.hpp"
 #include "apps/light_file.hpp"
 #include "apps/program.hpp"

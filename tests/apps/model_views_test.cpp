@@ -13,11 +13,11 @@
 
 #include <glm/geometric.hpp>
 
-#include <radiosity/scene/scene.hpp>
 #include <raycast/scene.hpp>
 
-#include "apps/intake/light_views.hpp"
+#include <radiosity/scene/scene.hpp>
 
+#include "apps/intake/light_views.hpp"
 #include "models.hpp"
 
 using models::noted;

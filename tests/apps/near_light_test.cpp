@@ -13,15 +13,15 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/camera/gather_picture.hpp>
+#include <radiosity/camera/mesh_picture.hpp>
+#include <radiosity/camera/view.hpp>
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/picture/gathered_point.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/prepare.hpp>
 
-#include <radiosity/camera/gather_picture.hpp>
-#include <radiosity/camera/mesh_picture.hpp>
-#include <radiosity/camera/view.hpp>
 #include "apps/scene_file.hpp"
 
 namespace {

@@ -8,8 +8,9 @@
 
 #include <glm/geometric.hpp>
 
-#include <radiosity/radiosity.hpp>
 #include <raycast/scene.hpp>
+
+#include <radiosity/radiosity.hpp>
 
 #include "models.hpp"
 #include "program.hpp"

@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 
+#include <radiosity/camera/mesh_picture.hpp>
 #include <radiosity/support/random.hpp>
 
-#include <radiosity/camera/mesh_picture.hpp>
 #include "apps/commands/render_outputs.hpp"
 #include "apps/picture_file.hpp"
 

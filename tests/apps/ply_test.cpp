@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/ply.hpp"
-#include "small_mesh.hpp"
-
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
+
+#include "apps/ply.hpp"
+#include "small_mesh.hpp"
 
 namespace {
 

@@ -7,11 +7,12 @@
 
 #include <glm/geometric.hpp>
 
+#include <raycast/spans.hpp>
+
 #include <radiosity/scene/bounds.hpp>
+
 #include "apps/scene_file.hpp"
 #include "scene_texts.hpp"
-
-#include <raycast/spans.hpp>
 
 namespace {
 

@@ -8,10 +8,11 @@
 
 #include <glm/geometric.hpp>
 
-#include <radiosity/radiosity.hpp>
 #include <raycast/scene.hpp>
 
+#include <radiosity/radiosity.hpp>
 #include <radiosity/scene/bounds.hpp>
+
 #include "models.hpp"
 
 namespace {

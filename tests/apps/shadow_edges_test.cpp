@@ -11,13 +11,13 @@
 
 #include <glm/vec2.hpp>
 
+#include <radiosity/camera/gather_picture.hpp>
+#include <radiosity/camera/mesh_picture.hpp>
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/options.hpp>
 
-#include <radiosity/camera/gather_picture.hpp>
-#include <radiosity/camera/mesh_picture.hpp>
 #include "apps/scene_file.hpp"
 
 namespace {

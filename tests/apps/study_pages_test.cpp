@@ -58,8 +58,8 @@ std::size_t count_parts(const std::string& text, const std::string& part) {
   return n;
 }
 
-radiosity::Rgb8 rgb(Tone tone) {
-  return {static_cast<std::uint8_t>(tone >> 16U), static_cast<std::uint8_t>(tone >> 8U), static_cast<std::uint8_t>(tone)};
+radiosity::Rgb8 rgb(Srgb color) {
+  return {static_cast<std::uint8_t>(color >> 16U), static_cast<std::uint8_t>(color >> 8U), static_cast<std::uint8_t>(color)};
 }
 
 int difference(const radiosity::Rgb8& a, const radiosity::Rgb8& b) {
@@ -195,14 +195,14 @@ TEST_CASE("targets are reached by some run, and the findings name the cheapest m
 }
 
 TEST_CASE("error pictures: white is right, blue too dark, orange too bright; both ends differ in grey, too") {
-  CHECK(error_tone(0.0) == 0xf7f7f7);
-  CHECK(error_tone(-5.0) == error_tone(-1.0));
-  const auto grey = [](Tone tone) { return 0.2126 * rgb(tone)[0] + 0.7152 * rgb(tone)[1] + 0.0722 * rgb(tone)[2]; };
+  CHECK(error_color(0.0) == 0xf7f7f7);
+  CHECK(error_color(-5.0) == error_color(-1.0));
+  const auto grey = [](Srgb color) { return 0.2126 * rgb(color)[0] + 0.7152 * rgb(color)[1] + 0.0722 * rgb(color)[2]; };
   for (int i = 0; i < 50; ++i) {  // lighter towards the middle, on both sides
-    CHECK(grey(error_tone((i + 1) / 50.0)) < grey(error_tone(i / 50.0)));
-    CHECK(grey(error_tone(-(i + 1) / 50.0)) < grey(error_tone(-i / 50.0)));
+    CHECK(grey(error_color((i + 1) / 50.0)) < grey(error_color(i / 50.0)));
+    CHECK(grey(error_color(-(i + 1) / 50.0)) < grey(error_color(-i / 50.0)));
   }
-  CHECK(grey(error_tone(-1.0)) < grey(error_tone(1.0)) - 20.0);
+  CHECK(grey(error_color(-1.0)) < grey(error_color(1.0)) - 20.0);
 
   // One cell fills the middle of the view; around it is background, and where its back shows, too.
   ErrorPicture errors{"m", "s", {{{{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}}, 0.0}}};
@@ -214,8 +214,8 @@ TEST_CASE("error pictures: white is right, blue too dark, orange too bright; bot
     const radiosity::Picture picture = error_picture(errors, camera, 0.02, 200);
     CHECK(picture.width == 200);
     CHECK(picture.height == 160);
-    CHECK(difference(picture.pixel(100, 80), rgb(error_tone(error / 0.02))) <= 1);
-    CHECK(difference(picture.pixel(54, 80), rgb(error_tone(error / 0.02))) <= 1);  // the cell ends at 50 and 150
+    CHECK(difference(picture.pixel(100, 80), rgb(error_color(error / 0.02))) <= 1);
+    CHECK(difference(picture.pixel(54, 80), rgb(error_color(error / 0.02))) <= 1);  // the cell ends at 50 and 150
     CHECK(difference(picture.pixel(45, 80), rgb(0xb4b4b4)) <= 1);
   }
   std::reverse(errors.cells[0].corners.begin(), errors.cells[0].corners.end());
@@ -311,7 +311,7 @@ TEST_CASE("a method has the same colour in every scene") {
   const std::string html = page(study);
   const std::string second = html.substr(html.find("id=\"scene1\""));
   const std::string plot = second.substr(0, second.find("</svg>"));
-  CHECK(plot.find("fill=\"#d55e00\"") != std::string::npos);  // the ninth style has the second tone
+  CHECK(plot.find("fill=\"#d55e00\"") != std::string::npos);  // the ninth style has the second colour
   CHECK(plot.find("fill=\"#0072b2\"") == std::string::npos);
 }
 

@@ -166,11 +166,11 @@ TEST_CASE("numbers say no more digits than they have, and what was not measured 
 }
 
 TEST_CASE("styles: any two of 63 differ in colour or mark, the first seven in both") {
-  std::set<std::pair<Tone, Mark>> seen;
-  for (std::size_t i = 0; i < 63; ++i) { CHECK(seen.emplace(curve_style(i).tone, curve_style(i).mark).second); }
+  std::set<std::pair<Srgb, Mark>> seen;
+  for (std::size_t i = 0; i < 63; ++i) { CHECK(seen.emplace(curve_style(i).color, curve_style(i).mark).second); }
   for (std::size_t i = 0; i < 7; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      CHECK((curve_style(i).tone != curve_style(j).tone && curve_style(i).mark != curve_style(j).mark));
+      CHECK((curve_style(i).color != curve_style(j).color && curve_style(i).mark != curve_style(j).mark));
     }
   }
 }
@@ -196,7 +196,7 @@ TEST_CASE("a plot's SVG is well-formed, whatever the names, and its marks stand 
   CHECK(c.x - b.x == test::Approx(b.x - a.x));
   CHECK(c.y > b.y);
 
-  // Marks are the closed shapes in a curve's tone (hollow ones: with a line in it): one centre for each point.
+  // Marks are the closed shapes in a curve's colour (hollow ones: with a line in it): one centre for each point.
   for (const Curve& curve : curves) {
     for (const CostPoint& p : curve.points) {
       int full = 0;
@@ -207,8 +207,8 @@ TEST_CASE("a plot's SVG is well-formed, whatever the names, and its marks stand 
         glm::dvec2 centre(0.0);
         for (const glm::dvec2& q : shape->points) { centre += q / static_cast<double>(shape->points.size()); }
         if (glm::distance(centre, frame.at(p.cost, p.error)) > 1e-6) { continue; }
-        full += shape->fill == curve.style.tone ? 1 : 0;
-        hollow += shape->fill == paper && shape->stroke == curve.style.tone ? 1 : 0;
+        full += shape->fill == curve.style.color ? 1 : 0;
+        hollow += shape->fill == paper && shape->stroke == curve.style.color ? 1 : 0;
       }
       CHECK(full == (p.limited ? 0 : 1));
       CHECK(hollow == (p.limited ? 1 : 0));

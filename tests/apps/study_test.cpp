@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+
 #include "apps/scene_file.hpp"
 #include "json.hpp"
 #include "program.hpp"
-
-#include <radiosity/scene/material.hpp>
-#include <radiosity/scene/scene.hpp>
 
 namespace {
 

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <radiosity/camera/mesh_picture.hpp>
+
 #include "apps/intake/texture.hpp"
 #include "apps/models.hpp"
 #include "apps/picture_file.hpp"

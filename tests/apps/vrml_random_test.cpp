@@ -15,6 +15,7 @@
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/scene/bounds.hpp>
+
 #include "example_scenes.hpp"
 #include "models.hpp"
 #include "vrml_graph.hpp"

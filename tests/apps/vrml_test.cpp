@@ -11,6 +11,7 @@
 #include <glm/mat4x4.hpp>
 
 #include <radiosity/scene/bounds.hpp>
+
 #include "apps/scene_file.hpp"
 #include "apps/vrml/scene_graph.hpp"
 #include "models.hpp"

@@ -207,8 +207,9 @@ TEST_CASE("light of bright spots has no bias, flat or round", "[picture]") {
 
 // A path from the floor that ends by chance on the spot is rare and bright; one that is aimed at it is not. Both ways have the same mean,
 // what the floor reflects there, within five of its standard errors and .3 %, as above; the aimed one has at most half of the error.
-// By chance a path ends on the spot with the probability F of its form factor, in 16384 paths half a time to fifty times: too seldom to tell
-// from the paths themselves how far off they are. So that standard error is the one of n independent paths, radiosity sqrt(F (1 - F) / n).
+// By chance a path ends on the spot with the probability F of its form factor, in 16384 paths half a time to fifty times: too seldom to
+// tell from the paths themselves how far off they are. So that standard error is the one of n independent paths, radiosity sqrt(F (1 - F) /
+// n).
 TEST_CASE("paths of near light find bright spots without bias, and with less noise than by chance", "[picture]") {
   const auto seed = static_cast<std::uint64_t>(GENERATE(take(3, random(1, 1'000'000))));
   const SpotRoom room{seed, false};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-// Suns: spherical lamps far away, of any size. Their light on a plate is known: B = rho M (r / d)^2 cos t at the distance d from the centre,
-// when all of the sphere stands above the horizon. The audit finds it, and so it can tell how wrong a mesh is, however small a part of
-// the sky the sun takes.
+// Suns: spherical lamps far away, of any size. Their light on a plate is known: B = rho M (r / d)^2 cos t at the distance d from the
+// centre, when all of the sphere stands above the horizon. The audit finds it, and so it can tell how wrong a mesh is, however small a part
+// of the sky the sun takes.
 
 #include <array>
 #include <cmath>

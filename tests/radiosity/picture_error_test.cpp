@@ -114,7 +114,8 @@ TEST_CASE("picture audit: specks of lamps that the picture found and the audit w
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };
   int held = 0;
   for (int trial = 0; trial < 10; ++trial) {
-    // A plate as in the last test, lit by a lamp out of the picture, with specks of .05 to .25 of a pixel on it, 1e4 to 1e6 times as bright.
+    // A plate as in the last test, lit by a lamp out of the picture, with specks of .05 to .25 of a pixel on it, 1e4 to 1e6 times as
+    // bright.
     radiosity::Scene scene{{{"plate", Color{0.5}, Color{0.0}}, {"lamp", Color{0.0}, Color{400.0}}, {"speck", Color{0.0}, Color{0.0}}}, {}};
     scene.materials[2].emission = Color{std::pow(10.0, uniform(4.0, 6.0))};
     scene.objects = {scenes::plate("plate", {{-4, 3, -4}, {4, 3, -4}, {4, 3, 4}, {-4, 3, 4}}, 0),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-// Which pixels an audit draws. On made-up pictures of which truth and error are known, the intervals of the error hold the truth as often as
-// they say, even where a few pixels hold most of the energy and of the error; and where all pixels are alike nothing is lost.
+// Which pixels an audit draws. On made-up pictures of which truth and error are known, the intervals of the error hold the truth as often
+// as they say, even where a few pixels hold most of the energy and of the error; and where all pixels are alike nothing is lost.
 
 #include <algorithm>
 #include <cmath>

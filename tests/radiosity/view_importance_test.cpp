@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-// Where the picture looks, stored rays are cast as finely as the picture asks: what lies around it, however large and bright, changes little.
+// Where the picture looks, stored rays are cast as finely as the picture asks: what lies around it, however large and bright, changes
+// little.
 
 #include <cmath>
 #include <cstdint>

@@ -22,5 +22,5 @@ inline constexpr double least_lamp_contrast = 4.0;
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY
-#include <radiosity/refinement/lamps.cpp>
+#include <radiosity/refinement/lamp_choice.cpp>
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/refinement/lamps.hpp>
+#include <radiosity/refinement/lamp_choice.hpp>
 
 #include <algorithm>
 #include <cstddef>
