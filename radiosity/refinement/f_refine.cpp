@@ -65,6 +65,11 @@ HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, con
   return std::min(1.0, dim * to.light_epsilon / (0.25 * to.epsilon));
 }
 
+// A patch of up to so many times the least area is not split for the form factor of a pair: its quarters would be smaller than that. Close
+// pairs in corners and at contacts are most of all links when all of them go down to the least area, and hardly anything is gained by that:
+// by measurement, four times the area gives half of the links and the same error, and the light of lamps still splits leaves below it.
+inline constexpr double largest_linked = 4.0;
+
 // F-refinement between two generations.
 struct FRefinement {
   FRefinement(DiscreteScene& of, const Fineness& to)
@@ -73,8 +78,8 @@ struct FRefinement {
         proofs{of.surfaces, of.hierarchy},
         shown{of.hierarchy, [&](std::size_t i) { return of.hierarchy[i].area; }},
         light{of.input, of.view(), shown, light_epsilon_of_emission(to), of.seed, proofs.buried()},
-        min_area{to.min_area * light.scene_area()},
-        light_min_area{0.25 * min_area * finer_for_light(to) * finer_for_light(to)},
+        min_area{largest_linked * to.min_area * light.scene_area()},
+        light_min_area{0.25 * to.min_area * light.scene_area() * finer_for_light(to) * finer_for_light(to)},
         measured{of, proofs.buried(), light.scene_area(), to.light_epsilon, light_min_area / 16.0},
         pairs(of.budget.arrays) {
     result.linked = NodePairs(of.budget.arrays);
@@ -102,7 +107,7 @@ struct FRefinement {
   ProofOracle proofs;
   ShownAreas shown;  // by the clusters, by the whole area of their faces
   LightOracle light;
-  double min_area;  // in the squared unit of the frame
+  double min_area;  // of a leaf that is split for a form factor, in the squared unit of the frame
   double light_min_area;
   MeasuredLight measured;
   NodePairs pairs;                 // open

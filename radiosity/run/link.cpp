@@ -100,7 +100,8 @@ HALFLIGHT_INLINE void split_leaves_once_more(Run& run) {
   DiscreteScene& scene = run.scene;
   const Audit& audit = run.solution.audit;
   if (scene.light_meshing || audit.interrupted) { return; }
-  run.leaf_splits = split_leaves_by_light(scene, run.solution.links, {audit.light_epsilon, audit.min_area}, run.evaluated.doubt);
+  const LeafSplitRule rule{audit.light_epsilon, 0.25 * audit.min_area};  // as small as leaves become by the light oracle
+  run.leaf_splits = split_leaves_by_light(scene, run.solution.links, rule, run.evaluated.doubt);
   if (run.leaf_splits.count > 0 && scene.control.after_generation) { scene.control.after_generation(scene.surfaces); }
 }
 

@@ -294,7 +294,7 @@ TEST_CASE("row sums of an open scene are those of what is exposed: leaves under 
                    scenes::square("above", {0, 0, 3}, 6.0, false, 1), scenes::square("below", {0, 0, -3}, 6.0, true, 1)};
   Options options;
   options.audit_points = 0;
-  options.min_area = 3e-5;
+  options.min_area = 7.5e-6;
   const radiosity::Outcome outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   const Solution& solution = *outcome.solution;
