@@ -42,7 +42,7 @@ int main() {
 
   radiosity::Options options;
   options.epsilon = 0.05;
-  options.min_area = 1e-3;
+  options.min_area = 2.5e-4;
   options.light_epsilon = 1e9;  // so that the light oracle never objects
   options.audit_points = 500;
   const auto report = [&](const char* name) {

@@ -24,7 +24,7 @@ int main() {
   scene.objects = {{"room", room.object, {}, {1}}, {"lamp", lamp.object, {}, {0}}};
   scene.objects[0].placement.inside = true;
   radiosity::Options options;
-  options.min_area = 1e-3;
+  options.min_area = 2.5e-4;
   options.light_epsilon = 1e9;  // the light oracle never objects
   options.audit_points = 500;
   bool promise = true;
