@@ -57,8 +57,8 @@ class Text {
     row("leaf constants", error_text(audit_.leaf_error));
     const auto& surfaces = audit_.surface_error ? audit_.surface_error : audit_.leaf_error;
     if ((surfaces && wide(*surfaces)) || (audit_.picture_error && wide(audit_.picture_error->error))) {
-      row("", "wide: an audit takes at most twice what the solution was worth, or " +
-                  grouped(2 * std::uint64_t{radiosity::rays_a_point} * report_.options.audit_points) + " plain rays; --audit " +
+      row("", "wide: an audit takes at most about as long as what it judges, or " +
+                  grouped(radiosity::rays_to_know_a_point * report_.options.audit_points) + " plain rays; --audit " +
                   std::to_string(4 * std::uint64_t{report_.options.audit_points}) + " allows four times as many");
     }
     if (audit_.mesh) { mesh(*audit_.mesh); }

@@ -37,7 +37,8 @@ HALFLIGHT_INLINE Outcome solve_in_rounds(const Scene& scene, const Options& opti
     Audit& audit = outcome.solution->audit;
     std::vector<StageTime> stages;
     Stopwatch watch{stages};
-    const auto again = control.picture_error(outcome.solution->mesh, outcome.solution->frame, goal_to_know(audit, options.audit_points));
+    const AuditGoal goal = goal_to_know(audit, options.audit_points, audit.picture_error ? audit.picture_error->picture_work : 0);
+    const auto again = control.picture_error(outcome.solution->mesh, outcome.solution->frame, goal);
     if (again) { audit.picture_error = again; }
     watch.lap("audit");
     add_times(audit.stages, stages);

@@ -171,7 +171,7 @@ ExitCode draw_light(const RenderOptions& options, const radiosity::Control& cont
   if (!picture) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
   std::string text;
   if (options.solver.audit_points > 0) {
-    const auto error = artist.audit(*picture, tone, radiosity::goal_to_know({}, options.solver.audit_points), control);
+    const auto error = artist.audit(*picture, tone, radiosity::goal_to_know({}, options.solver.audit_points, artist.worth({})), control);
     if (error) { text = picture_error_text(*error, camera.name); }
   }
   const std::vector<RenderOutput> outputs = encode(options, *picture, tone);

@@ -130,6 +130,11 @@ std::optional<radiosity::PictureError> Artist::audit(const radiosity::Picture& p
   return audit_->measure(radiosity::audited(picture, view_, tone), goal, options_.solver.threads, options_.solver.seed, control);
 }
 
+std::uint64_t Artist::worth(const radiosity::Audit& audit) const {
+  if (options_.method == PictureMethod::mesh) { return 0; }
+  return radiosity::picture_worth(audit.ray_work, view_.size.width, view_.size.height);
+}
+
 std::vector<RenderOutput> encode(const RenderOptions& options, const radiosity::Picture& picture, const radiosity::Tone& tone) {
   std::vector<RenderOutput> outputs;
   for (const std::string& path : options.outputs) {
@@ -155,7 +160,8 @@ std::optional<radiosity::Picture> drawn(const RenderOptions& options, const Scen
     report.audit.warnings.push_back(std::move(sentence));
   }
   if (!report.audit.picture_error && options.solver.audit_points > 0) {
-    report.audit.picture_error = artist.audit(*picture, tone, radiosity::goal_to_know(report.audit, options.solver.audit_points), control);
+    const radiosity::AuditGoal goal = radiosity::goal_to_know(report.audit, options.solver.audit_points, artist.worth(report.audit));
+    report.audit.picture_error = artist.audit(*picture, tone, goal, control);
     watch.lap("picture audit");
     report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, its error not measured
   }

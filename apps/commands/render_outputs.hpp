@@ -91,6 +91,8 @@ class Artist {
   [[nodiscard]] radiosity::Viewpoint viewpoint() const {
     return {view_.eye, [view = view_](const glm::dvec3& p, const glm::dvec3& n) { return view.share(p, n); }, view_.pixel_area()};
   }
+  // About what the picture took (audit_effort.hpp).
+  [[nodiscard]] std::uint64_t worth(const radiosity::Audit& audit) const;
   // Nothing when interrupted.
   [[nodiscard]] std::optional<radiosity::Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame,
                                                        const radiosity::Tone& tone, const radiosity::Control& control) const;

@@ -6,9 +6,11 @@
 // number was fixed before.
 //
 // What an audit may cost is counted in rays, not in seconds, so that results are the same on any machine. Its unit is a ray of a path among
-// few polygons, about a microsecond; where rays are dearer there are fewer of them (raycast::Scene). Pilots are part of it:
-//   an audit without a target    as much as the solution was worth, or 1500 rays a point where that is more; as much again where the
-//                                interval comes out wider than the error itself, and would become narrow by that
+// few polygons, about .3 microseconds; where rays are dearer there are fewer of them: how dear, some paths from the points that are audited
+// tell (SurfaceErrorMeter::ray_price). Pilots are part of it:
+//   an audit without a target    about as much time as what it judges, the solution and of a picture that, too, but at least 3000 rays a
+//                                point (two seconds for 2000 points) and at most 120 million; half of it only where the interval comes out
+//                                wider than the error itself, and would become narrow by that
 //   of a round to a target       as much as the solution of the round was worth
 //   that is to show the target   twice as much, or rays_that_show where that is more; only when its pilot finds the target met
 // What a point costs is known from the pilot alone: where few points see light, to a quarter. Beyond that goes only the least that gives an
@@ -57,13 +59,28 @@ inline constexpr std::uint64_t steering_points = 256;
   return audit.links + static_cast<std::uint64_t>(audit.ray_work * static_cast<double>(audit.rays) / 8.0);
 }
 
-inline constexpr std::uint64_t rays_a_point = 1500;
+inline constexpr std::uint64_t rays_to_know_a_point = 3000;
 
-// For an audit without a target: as long as the solution took, or so many rays a point.
-[[nodiscard]] inline AuditGoal goal_to_know(const Audit& audit, std::uint32_t points) {
-  const std::uint64_t worth = rays_worth(audit);
-  const std::uint64_t rays = std::max<std::uint64_t>(worth, rays_a_point * points);
-  return {points, rays, {}, 0, worth / 2, rays};
+// The microseconds of a ray of a path among few polygons, in which the rays of an AuditGoal are counted.
+inline constexpr double microseconds_of_ray = 0.3;
+
+// About what a picture in gathered light took, in the same unit as rays_worth. `price`: raycast::Scene::ray_work + walk_work.
+[[nodiscard]] inline std::uint64_t picture_worth(double price, std::uint32_t width, std::uint32_t height) {
+  constexpr double rays_a_pixel = 4.0;
+  return static_cast<std::uint64_t>(rays_a_pixel * price * width * height);
+}
+
+// What an audit without a target may take in all, of a solution, and of a picture worth `picture`: as long as both took. A link takes as long
+// as three rays of paths at least, and so does a ray of a picture.
+[[nodiscard]] inline std::uint64_t most_rays_to_know(const Audit& audit, std::uint32_t points, std::uint64_t picture = 0) {
+  constexpr std::uint64_t most = 120'000'000;
+  const std::uint64_t least = rays_to_know_a_point * points;
+  return std::clamp<std::uint64_t>(3 * (rays_worth(audit) + picture), least, std::max(most, least));
+}
+
+[[nodiscard]] inline AuditGoal goal_to_know(const Audit& audit, std::uint32_t points, std::uint64_t picture = 0) {
+  const std::uint64_t half = most_rays_to_know(audit, points, picture) / 2;
+  return {points, half, {}, 0, std::min(half, rays_worth(audit)) / 2, half};
 }
 
 // For the audit of a round to a target. A quarter is left for what steers the next round.

@@ -20,6 +20,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -66,10 +67,20 @@ class PathTracer {
     Color all{0.0};     // B
     Color direct{0.0};  // the part of it that is emitted, or was reflected once
   };
+  // Counts rays and what they cost (raycast::Scene::ray_work), which takes about as long again as the rays themselves.
+  struct RayCost {
+    std::uint64_t rays = 0;
+    double work = 0.0;
+
+    // Of one ray, in microseconds.
+    [[nodiscard]] double mean() const { return rays > 0 ? work / static_cast<double>(rays) : 0.0; }
+  };
+
   // One estimate of B at the point x of a surface with unit normal n, away from the solid. `random` gives numbers by uniform(): independent
-  // ones, or those of a path of an even sequence (sobol.hpp). Light that was reflected more than `most` times is left out.
-  template <class Numbers>
-  [[nodiscard]] Light radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Numbers& random, std::uint64_t& rays,
+  // ones, or those of a path of an even sequence (sobol.hpp). Light that was reflected more than `most` times is left out. `rays`: a
+  // count, or a RayCost.
+  template <class Numbers, class Rays>
+  [[nodiscard]] Light radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Numbers& random, Rays& rays,
                                 std::uint32_t most = std::numeric_limits<std::uint32_t>::max()) const {
     const Material* material = &materials_[surface(object, sheet)];
     Light result{material->emission, material->emission};
@@ -116,10 +127,17 @@ class PathTracer {
   [[nodiscard]] const Color& emission(const raycast::Hit& hit) const { return materials_[surface(hit.object, hit.sheet)].emission; }
 
   // What the ray from x, on a sheet of `object`, meets, if that shows its front.
+  template <class Rays>
   [[nodiscard]] std::optional<raycast::Hit> first_front(const glm::dvec3& x, const glm::dvec3& direction, std::uint32_t object,
-                                                        std::uint32_t sheet, std::uint64_t& rays) const {
-    ++rays;
-    const auto hit = objects_->closest({x, direction * objects_->diameter()}, object, sheet);
+                                                        std::uint32_t sheet, Rays& rays) const {
+    const raycast::Segment ray{x, direction * objects_->diameter()};
+    const auto hit = objects_->closest(ray, object, sheet);
+    if constexpr (std::is_same_v<Rays, RayCost>) {
+      ++rays.rays;
+      rays.work += objects_->ray_work({x, ray.direction * (hit ? hit->t : 1.0)});
+    } else {
+      ++rays;
+    }
     return hit && hit->front ? hit : std::nullopt;
   }
 

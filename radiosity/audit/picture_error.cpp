@@ -54,8 +54,10 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   Measured measured;
   std::uint64_t rays = 0;  // of all pilots, too
   const double price = prepared_->objects.ray_work() + prepared_->objects.walk_work();
-  AuditGoal own = goal.among_rays_of(price);
-  const PixelDraw draw = draw_of(picture, own.rays / 8, rays, control);
+  const PixelDraw draw = draw_of(picture, goal.among_rays_of(price).rays / 8, rays, control);
+  // What is seen may lie where rays are dearer or cheaper than they are in the mean.
+  const double seen_price = ray_price(picture, draw, seed);
+  AuditGoal own = goal.among_rays_of(seen_price > 0.0 ? seen_price / microseconds_of_ray : price);
   own.rays -= std::min(own.rays, rays);
   const auto measure = [&](std::uint64_t points, std::uint32_t paths, Measured& to) {
     const std::uint32_t side = PixelDraw::side(points);
@@ -104,8 +106,7 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   result.over8 = over8;
   result.worst = worst_tile(picture, measured);
   result.steering = steering.sums.estimate();
-  constexpr double rays_a_pixel = 4.0;  // about, of a picture in gathered light
-  result.picture_work = static_cast<std::uint64_t>(rays_a_pixel * price * picture.width * picture.height);
+  result.picture_work = picture_worth(price, picture.width, picture.height);
   return result;
 }
 
@@ -243,6 +244,20 @@ HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const ShownPic
   }
   sample.valid = true;
   return sample;
+}
+
+HALFLIGHT_INLINE double PictureAudit::ray_price(const ShownPicture& picture, const PixelDraw& draw, std::uint64_t seed) const {
+  const std::uint32_t side = PixelDraw::side(256);
+  PathTracer::RayCost cost;
+  for (std::size_t i = 0; i < PixelDraw::size(side); ++i) {
+    Random random{seed, i, 0x7072696365ull};
+    const PixelDraw::Pixel pixel = draw.draw(i, side, random);
+    std::uint64_t rays = 0;
+    const auto at = seen(picture, pixel.x + 0.5, pixel.y + 0.5, rays);
+    if (!at) { continue; }
+    static_cast<void>(tracer_.radiosity(at->point.position, at->point.normal, at->object, at->sheet, random, cost));
+  }
+  return cost.mean();
 }
 
 HALFLIGHT_INLINE std::array<ShareBounds, 2> PictureAudit::shares_off(const ShownPicture& picture, const Measured& measured) {

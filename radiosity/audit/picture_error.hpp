@@ -91,6 +91,9 @@ class PictureAudit {
   [[nodiscard]] Sample measure_pixel(const ShownPicture& picture, std::uint64_t seed, std::uint64_t key, const PixelDraw& draw,
                                      std::size_t i, std::uint32_t side, std::uint32_t paths) const;
 
+  // What a ray of the paths from what is seen costs (PathTracer::RayCost): the mean over 256 pixels that are drawn so.
+  [[nodiscard]] double ray_price(const ShownPicture& picture, const PixelDraw& draw, std::uint64_t seed) const;
+
   [[nodiscard]] static std::size_t tile(const ShownPicture& picture, const Sample& sample) {
     return 4 * (std::size_t{4} * sample.y / picture.height) + std::size_t{4} * sample.x / picture.width;
   }

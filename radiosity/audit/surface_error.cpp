@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -94,10 +95,7 @@ HALFLIGHT_INLINE bool SurfaceErrorMeter::measure(std::uint64_t points, std::uint
   return true;
 }
 
-HALFLIGHT_INLINE SurfaceErrorMeter::Sample SurfaceErrorMeter::measure_one(std::uint64_t key, double from, double width,
-                                                                          std::uint32_t paths) const {
-  Sample sample;
-  Random random{seed_, key, 0x6175646974ull};
+HALFLIGHT_INLINE std::optional<SurfaceErrorMeter::Spot> SurfaceErrorMeter::spot(Random& random, double from, double width) const {
   const double at = from + width * random.uniform();
   auto triangle = std::upper_bound(triangles_.begin(), triangles_.end(), at, [](double a, const Triangle& t) { return a < t.until; });
   if (triangle == triangles_.end()) { --triangle; }
@@ -108,25 +106,49 @@ HALFLIGHT_INLINE SurfaceErrorMeter::Sample SurfaceErrorMeter::measure_one(std::u
   const glm::uvec3 corners{face.first_corner, triangle->first, triangle->second};
   glm::dvec3 chord{0.0};
   for (int k = 0; k < 3; ++k) { chord += weight[k] * mesh_->positions[mesh_->corners[corners[k]].vertex]; }
-  const auto shown_by = [&](const Mesh& of) {
+  const InputSurface& input = inputs_[face.surface];
+  if (!(exposure_->area[face.node] > 0.0)) { return std::nullopt; }
+  const raycast::SurfacePoint point = objects_->object(input.object).project(input.sheet, chord);
+  // Beside the edge of a blade the nearest point of the surface may lie on the blade's other side, which has leaves of its own.
+  if (!(glm::dot(point.normal, outward(*triangle)) > 0.0)) { return std::nullopt; }
+  // Of a leaf that counts as exposed a corner may be buried all the same (exposure.hpp): seen from within what buries it, all is wrong.
+  if (objects_->covered(point.position, point.normal, input.object)) { return std::nullopt; }
+  return Spot{&*triangle, weight, point};
+}
+
+HALFLIGHT_INLINE double SurfaceErrorMeter::ray_price() const {
+  constexpr std::uint64_t points = 256;
+  PathTracer::RayCost cost;
+  for (std::uint64_t i = 0; i < points && total_ > 0.0; ++i) {
+    Random random{seed_, i, 0x7072696365ull};
+    const std::optional<Spot> at = spot(random, static_cast<double>(i) / points, 1.0 / points);
+    if (!at) { continue; }
+    const InputSurface& input = inputs_[mesh_->faces[at->triangle->face].surface];
+    static_cast<void>(tracer_->radiosity(at->point.position, at->point.normal, input.object, input.sheet, random, cost));
+  }
+  return cost.mean();
+}
+
+HALFLIGHT_INLINE SurfaceErrorMeter::Sample SurfaceErrorMeter::measure_one(std::uint64_t key, double from, double width,
+                                                                          std::uint32_t paths) const {
+  Sample sample;
+  Random random{seed_, key, 0x6175646974ull};
+  const std::optional<Spot> at = spot(random, from, width);
+  if (!at) { return sample; }
+  const MeshFace& face = mesh_->faces[at->triangle->face];
+  const InputSurface& input = inputs_[face.surface];
+  const auto shown_by = [&, &weight = at->weight, triangle = at->triangle](const Mesh& of) {
+    const glm::uvec3 corners{face.first_corner, triangle->first, triangle->second};
     Color sum{0.0};
     for (int k = 0; k < 3; ++k) { sum += weight[k] * of.corners[corners[k]].radiosity; }
     return sum;
   };
   const Color shown = shown_by(*mesh_);
-  const InputSurface& input = inputs_[face.surface];
-  if (!(exposure_->area[face.node] > 0.0)) { return sample; }
-  const raycast::SurfacePoint point = objects_->object(input.object).project(input.sheet, chord);
-  // Beside the edge of a blade the nearest point of the surface may lie on the blade's other side, which has leaves of its own.
-  if (!(glm::dot(point.normal, outward(*triangle)) > 0.0)) { return sample; }
-  // Of a leaf that counts as exposed a corner may be buried all the same (exposure.hpp): seen from within what buries it, all is wrong.
-  if (objects_->covered(point.position, point.normal, input.object)) { return sample; }
-
-  const PathEstimates light{seed_, key, paths, [&](PathNumbers& numbers) {
+  const PathEstimates light{seed_, key, paths, [&, &point = at->point](PathNumbers& numbers) {
                               return tracer_->radiosity(point.position, point.normal, input.object, input.sheet, numbers, sample.rays);
                             }};
   const Color& emission = tracer_->material(face.surface).emission;
-  const double weight_of_point = 1.0 / (total_ * density(*triangle));
+  const double weight_of_point = 1.0 / (total_ * density(*at->triangle));
   sample.leaf = weight_of_point * light.square_off(face.radiosity);
   sample.reconstructed = weight_of_point * light.square_off(shown);
   sample.reference = weight_of_point * light.square_off(emission);

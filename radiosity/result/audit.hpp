@@ -65,6 +65,7 @@ struct Audit {
   std::uint64_t rays_avoided = 0;                   // at least; by the two proofs:
   std::uint64_t pairs_clear = 0, pairs_hidden = 0;  // links that nothing can block; pairs, with all below, that one object hides
   std::uint64_t audit_rays = 0;                     // over all surfaces, those of its pilots, too
+  double ray_price = 1.0;                           // what a ray of the audit's paths costs, in rays among few polygons
   double ray_work = 1.0;                            // what a ray of a path costs, in rays among few polygons
   std::uint64_t bytes = 0;  // held by the result: BReps, hierarchy, links, compiled objects; the peak is that of the last stage
   // the linear system

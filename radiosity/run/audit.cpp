@@ -45,7 +45,9 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
     const bool last = audit.picture_error && audit.picture_error->error.within(*options.error);
     goal = last ? to_know : AuditGoal{options.audit_points / 4, rays_worth(audit) / 4};
   }
-  goal = goal.among_rays_of(audit.ray_work);
+  const double price = meter.ray_price();
+  audit.ray_price = price > 0.0 ? price / microseconds_of_ray : audit.ray_work;
+  goal = goal.among_rays_of(audit.ray_price);
   const bool reconstructed = options.reconstruction != Reconstruction::none;
   const auto sums = [&](const SurfaceError& error) -> const ErrorSums& { return reconstructed ? error.reconstructed : error.leaf; };
   const auto measure = [&](std::uint64_t points, std::uint32_t paths, SurfaceError& to) {

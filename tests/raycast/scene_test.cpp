@@ -293,3 +293,20 @@ TEST_CASE("copies that are left out change no answer, as sources of rays or besi
   CHECK(hits > 1000);
   CHECK(blocked > 1000);
 }
+
+TEST_CASE("work of a ray: more where it passes more, behind its end nothing counts; the same from every instruction set") {
+  SEEDED(random);
+  for (int round = 0; round < 50; ++round) {
+    const int boxes = 1 + static_cast<int>(random.below(100));
+    std::vector<PlacedObject> row;
+    for (int i = 0; i < boxes; ++i) { row.push_back(placed(BoxObject::make({2.0 * i, 0, 0}, {2.0 * i + 1, 1, 1}))); }
+    const Scene scene(row), portable(row, raycast::Isa::portable);
+    const Segment ray = between({-1, 0.5, 0.5}, {2.0 * boxes, 0.5, 0.5});
+    const double through = scene.ray_work(ray), past = scene.ray_work(between({-1, 0.5, 5}, {2.0 * boxes, 0.5, 5}));
+    const double to_first = scene.ray_work({ray.origin, ray.direction / (2.0 * boxes + 1.0)});
+    CAPTURE(boxes, through, past, to_first);
+    CHECK(through == portable.ray_work(ray));
+    CHECK(through >= past + 0.5 * boxes);
+    CHECK((boxes == 1 || to_first < through));
+  }
+}
