@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <optional>
 #include <span>
 #include <string>
@@ -71,9 +72,21 @@ HALFLIGHT_INLINE bool meet(const Flat& a, const Flat& b, const Flat& c, const Fl
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::optional<std::string> polygon_fault(std::span<const glm::dvec3> corners) {
+HALFLIGHT_INLINE double planar_tolerance(std::span<const glm::dvec3> corners, double rounding) {
+  Box box;
+  for (const glm::dvec3& p : corners) { box.extend(p); }
+  const double extent = brep::extent(corners);
+  return tol_planar * extent + eps_plane * box.magnitude() + std::min(2.0 * std::sqrt(3.0) * rounding, tol_rounded * extent);
+}
+
+HALFLIGHT_INLINE std::optional<std::string> polygon_fault(std::span<const glm::dvec3> corners, double rounding) {
   const std::size_t n = corners.size();
   const auto name = [](std::size_t i) { return std::to_string(i + 1); };  // people count from one
+  const auto parts = [](double part) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.2g", part);
+    return std::string(text.data());
+  };
   if (n < 3) { return "has " + std::to_string(n) + " corners; it needs at least 3"; }
   for (std::size_t i = 0; i < n; ++i) {
     if (!usable(corners[i])) { return "has a corner (number " + name(i) + ") that is not finite (or beyond 1e60)"; }
@@ -90,14 +103,14 @@ HALFLIGHT_INLINE std::optional<std::string> polygon_fault(std::span<const glm::d
   const glm::dvec3 area = brep::vector_area(corners);
   if (!(glm::length(area) > tol_area * extent * extent)) { return "has no area: its corners lie on a line, or it crosses itself"; }
   const Plane plane = plane_of(corners);
-  if (plane.slack > tol_planar * extent + eps_plane * box.magnitude()) {
+  if (const double most = planar_tolerance(corners, rounding); plane.slack > most) {
     std::size_t worst = 0;
     const auto height = [&](std::size_t i) { return std::abs(glm::dot(corners[i] - plane.point, plane.normal)); };
     for (std::size_t i = 1; i < n; ++i) {
       if (height(i) > height(worst)) { worst = i; }
     }
-    return "is not planar: corner " + name(worst) + " lies " + std::to_string(height(worst) / extent) +
-           " of the polygon's extent off its plane (1e-6 is allowed)";
+    return "is not planar: corner " + name(worst) + " lies " + parts(height(worst) / extent) + " of the polygon's extent off its plane (" +
+           parts(most / extent) + " is allowed)";
   }
   if (n == 3) { return std::nullopt; }
   int drop = 0;

@@ -80,8 +80,13 @@ bool meet(const Flat& a, const Flat& b, const Flat& c, const Flat& d);
 }  // namespace detail
 
 // Why this is no planar simple polygon with an area, in words that follow "the polygon " / "face 7 "; nothing when it is one.
-// Straight corners are allowed. Corners may leave the mean plane by 1e-6 of the polygon's extent. O(n^2) for n corners.
-[[nodiscard]] std::optional<std::string> polygon_fault(std::span<const glm::dvec3> corners);
+// Straight corners are allowed. Corners may leave the mean plane by planar_tolerance() of the polygon. O(n^2) for n corners.
+// `rounding`: the largest error of a coordinate as it was written, in its own unit, such as half a unit of its last digit.
+[[nodiscard]] std::optional<std::string> polygon_fault(std::span<const glm::dvec3> corners, double rounding = 0.0);
+
+// How far a corner may lie off the mean plane: 1e-6 of the polygon's extent, and what rounding does. Rounding moves a corner by at most
+// sqrt(3) `rounding`, and the mean plane by no more than that; it counts up to 1e-4 of the extent.
+[[nodiscard]] double planar_tolerance(std::span<const glm::dvec3> corners, double rounding);
 
 }  // namespace raycast
 

@@ -63,6 +63,8 @@ inline constexpr double largest_square = 1e300, smallest_square = 1e-300;
 
 // Corners off their mean plane, to the polygon's extent; its area, to the square of that.
 inline constexpr double tol_planar = 1e-6, tol_area = 1e-12;
+// What rounded coordinates may add to the former, at most: farther off than this, a polygon was not meant to be planar.
+inline constexpr double tol_rounded = 1e-4;
 // The determinant of a placement, to the product of its columns' lengths: below, it flattens space. That product, in its own unit.
 inline constexpr double tol_singular = 1e-12, smallest_volume = 1e-180;
 // Entries of L^T L off those of a similarity, to the square of its scale. Shapes of the fast lanes keep their form under such a map.

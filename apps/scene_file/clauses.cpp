@@ -192,7 +192,8 @@ void Parser::own_clause(const Token& keyword, Form form, ObjectSyntax& out) {
   if (form == Form::face) { return face_clause(keyword, out); }
   if (form == Form::vertex) {
     glm::dvec3 position{0.0};
-    if (vector(keyword, position)) { out.vertices.push_back({position, keyword.place}); }
+    digits_ = 0;
+    if (vector(keyword, position)) { out.vertices.push_back({position, keyword.place, digits_}); }
     return;
   }
   const std::size_t count = form == Form::vector ? 3 : form == Form::pair ? 2 : 1;

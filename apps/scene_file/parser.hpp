@@ -74,6 +74,7 @@ class Parser {
   Errors& errors_;
   Lexer lexer_;
   Token token_;
+  std::size_t digits_ = 0;  // significant digits of the number that was written with most, since this was set to 0
 };
 
 }  // namespace apps::scene_file

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The kinds of objects: the table of the grammar, and what makes the shape of each.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -93,22 +94,31 @@ Shape make_superquadric(const ObjectSyntax& syntax, Errors& errors) {
               syntax.place(ring > 0.0 && !(ring > 1.0) ? "ring" : "exponents"), errors);
 }
 
-// Place of the vertex that lies farthest off the mean plane, if that is off by more than rounding; else `fallback`.
-Place off_plane(const std::vector<glm::dvec3>& points, const std::vector<Place>& places, Place fallback) {
+// The error of the coordinates as they are written: half a unit of the last digit that the largest of them was given. The vertex that has
+// most digits tells how many were written, because writers leave out zeros at the end. With three or fewer the numbers are exact.
+double written_rounding(const std::vector<PlacedVertex>& vertices) {
+  std::size_t digits = 0;
+  double largest = 0.0;
+  for (const PlacedVertex& vertex : vertices) {
+    digits = std::max(digits, vertex.digits);
+    for (int k = 0; k < 3; ++k) { largest = std::max(largest, std::abs(vertex.value[k])); }
+  }
+  if (digits < 4 || !(largest > 0.0)) { return 0.0; }
+  return 0.5 * std::pow(10.0, std::floor(std::log10(largest)) + 1.0 - static_cast<double>(digits));
+}
+
+// Place of the vertex that lies farthest off the mean plane, if that is off by more than `tolerance`; else `fallback`.
+Place off_plane(const std::vector<glm::dvec3>& points, const std::vector<Place>& places, double tolerance, Place fallback) {
   glm::dvec3 normal(0.0);
   glm::dvec3 mean(0.0);
-  glm::dvec3 lo = points[0];
-  glm::dvec3 hi = points[0];
   for (std::size_t i = 0; i < points.size(); ++i) {
     const glm::dvec3& p = points[i];
     normal += glm::cross(p - points[0], points[(i + 1) % points.size()] - points[0]);
     mean += p / static_cast<double>(points.size());
-    lo = glm::min(lo, p);
-    hi = glm::max(hi, p);
   }
   const double length = glm::length(normal);
   if (!(length > 0.0)) { return fallback; }
-  double worst = 1e-6 * glm::length(hi - lo);
+  double worst = tolerance;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double distance = std::abs(glm::dot(points[i] - mean, normal)) / length;
     if (distance > worst) {
@@ -134,14 +144,19 @@ Shape make_polygon(const ObjectSyntax& syntax, Errors& errors) {
     points.push_back(vertex.value);
     places.push_back(vertex.place);
   }
-  auto made = raycast::Polygon::make(points);
-  if (!made.object && points.size() > 3) { return take(std::move(made), syntax, off_plane(points, places, syntax.name.place), errors); }
+  const double rounding = written_rounding(syntax.vertices);
+  auto made = raycast::Polygon::make(points, rounding);
+  if (!made.object && points.size() > 3) {
+    const Place place = off_plane(points, places, raycast::planar_tolerance(points, rounding), syntax.name.place);
+    return take(std::move(made), syntax, place, errors);
+  }
   return take(std::move(made), syntax, syntax.name.place, errors);
 }
 
 // Every face alone, so that a fault is reported at its line.
 bool check_faces(const ObjectSyntax& syntax, Errors& errors) {
   const std::size_t before = errors.count();
+  const double rounding = written_rounding(syntax.vertices);
   std::vector<glm::dvec3> points;
   for (const FaceSyntax& face : syntax.faces) {
     if (errors.full()) { return false; }
@@ -157,7 +172,7 @@ bool check_faces(const ObjectSyntax& syntax, Errors& errors) {
       points.push_back(syntax.vertices[index].value);
     }
     if (points.size() != face.count) { continue; }
-    if (const auto fault = raycast::polygon_fault(points)) { errors.add(face.place, who(syntax) + "the face " + *fault); }
+    if (const auto fault = raycast::polygon_fault(points, rounding)) { errors.add(face.place, who(syntax) + "the face " + *fault); }
   }
   return errors.count() == before && !errors.full();
 }
@@ -171,7 +186,7 @@ Shape make_mesh(const ObjectSyntax& syntax, Errors& errors) {
     const auto first = syntax.corners.begin() + face.first;
     faces.emplace_back(first, first + face.count);
   }
-  return take(raycast::Mesh::make(positions, faces), syntax, syntax.name.place, errors);
+  return take(raycast::Mesh::make(positions, faces, written_rounding(syntax.vertices)), syntax, syntax.name.place, errors);
 }
 
 }  // namespace

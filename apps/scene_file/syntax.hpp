@@ -38,6 +38,7 @@ struct Given {
 struct PlacedVertex {
   glm::dvec3 value{0.0};
   Place place;
+  std::size_t digits = 0;  // significant digits of the coordinate that was written with most
 };
 
 struct MaterialSyntax {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The smallest parts of a scene file: tokens, numbers, names, and how reading goes on after an error.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -16,6 +17,16 @@ bool is_name(std::string_view text) {
     if (!letter && !(c >= '0' && c <= '9') && c != '_' && c != '-') { return false; }
   }
   return text.size() <= 200;
+}
+
+// Of a decimal number: its digits from the first that is not 0, without the exponent. "0.0120" has three.
+std::size_t significant_digits(std::string_view text) {
+  std::size_t count = 0;
+  for (const char c : text) {
+    if (c == 'e' || c == 'E') { break; }
+    if (c >= '0' && c <= '9' && (count > 0 || c != '0')) { ++count; }
+  }
+  return count;
 }
 
 // Empty when `text` is a finite number that is neither beyond `most` nor malformed; else what is wrong with it.
@@ -82,6 +93,7 @@ bool Parser::number(std::string_view clause, double& out, double most) {
     return false;
   }
   next();
+  digits_ = std::max(digits_, significant_digits(found.text));
   const std::string fault = number_fault(found.text, most, out);
   if (!fault.empty()) { error(found.place, in_quotes(found.text) + " " + fault); }
   return fault.empty();

@@ -33,9 +33,10 @@
 
 namespace raycast {
 
-HALFLIGHT_INLINE Made<Mesh> Mesh::make(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces) {
+HALFLIGHT_INLINE Made<Mesh> Mesh::make(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces,
+                                       double rounding) {
   std::shared_ptr<Mesh> mesh(new Mesh);
-  if (std::string refusal = mesh->take(positions, faces); !refusal.empty()) { return refusal; }
+  if (std::string refusal = mesh->take(positions, faces, rounding); !refusal.empty()) { return refusal; }
   if (std::string refusal = mesh->close_borders(); !refusal.empty()) { return refusal; }
   if (mesh->borders_.empty() && !(mesh->volume() > 0.0)) {
     return "the mesh is closed and inside out: list the corners of its faces counter-clockwise seen from outside";
@@ -182,7 +183,8 @@ HALFLIGHT_INLINE double Mesh::volume() const {
   return six / 6.0;
 }
 
-HALFLIGHT_INLINE std::string Mesh::take(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces) {
+HALFLIGHT_INLINE std::string Mesh::take(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces,
+                                        double rounding) {
   if (faces.empty()) { return "the mesh has no faces"; }
   std::vector<std::uint32_t> renamed(positions.size(), brep::no_sheet);  // keeps the order, closes the gaps
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -206,7 +208,7 @@ HALFLIGHT_INLINE std::string Mesh::take(const std::vector<glm::dvec3>& positions
       corners_.push_back(renamed[v]);
       polygon.push_back(positions[v]);
     }
-    if (std::optional<std::string> fault = polygon_fault(polygon)) { return "face " + std::to_string(f) + " " + *fault; }
+    if (std::optional<std::string> fault = polygon_fault(polygon, rounding)) { return "face " + std::to_string(f) + " " + *fault; }
     first_corner_.push_back(static_cast<std::uint32_t>(corners_.size()));
     planes_.push_back(plane_of(polygon));
     slack_ = std::max(slack_, planes_.back().slack);

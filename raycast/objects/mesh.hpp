@@ -40,7 +40,8 @@ class Mesh final : public Object {
   // Corners of the faces are indices into positions. Positions without a face are left out.
   // Refused, with the number of the face or vertex (counted from 0): an index out of range, a face that polygon_fault refuses, a surface
   // that is not a manifold with consistent orientation, a closed mesh that is inside out (its volume is not positive).
-  static Made<Mesh> make(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces);
+  static Made<Mesh> make(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces,
+                         double rounding = 0.0);
 
   // The faces of a BRep whose vertices have a `.position`, in its order; those with a `.sheet` of brep::no_sheet are holes.
   // Refused as above; the numbers in the sentence count the faces that are no holes.
@@ -120,7 +121,7 @@ class Mesh final : public Object {
   [[nodiscard]] double crossing_near(const Segment& line, std::uint32_t f) const;
   [[nodiscard]] double volume() const;
 
-  std::string take(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces);
+  std::string take(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces, double rounding);
 
   // Finds the border loops, and lets brep::close judge the whole: the mesh must be a manifold.
   std::string close_borders();
