@@ -8,9 +8,9 @@
 // What an audit may cost is counted in rays, not in seconds, so that results are the same on any machine. Its unit is a ray of a path among
 // few polygons, about .3 microseconds; where rays are dearer there are fewer of them: how dear, some paths from the points that are audited
 // tell (SurfaceErrorMeter::ray_price). Pilots are part of it:
-//   an audit without a target    about as much time as what it judges, the solution and of a picture that, too, but at least 3000 rays a
-//                                point (two seconds for 2000 points) and at most 120 million; half of it only where the interval comes out
-//                                wider than the error itself, and would become narrow by that
+//   an audit without a target    about as much time as what it judges, the solution and of a picture that, too, but at least 5000 rays a
+//                                point (three seconds for 2000 points) and at most 120 million; past half of it only where the interval
+//                                comes out wider than the error itself, and would become narrow by that
 //   of a round to a target       as much as the solution of the round was worth
 //   that is to show the target   twice as much, or rays_that_show where that is more; only when its pilot finds the target met
 // What a point costs is known from the pilot alone: where few points see light, to a quarter. Beyond that goes only the least that gives an
@@ -59,7 +59,7 @@ inline constexpr std::uint64_t steering_points = 256;
   return audit.links + static_cast<std::uint64_t>(audit.ray_work * static_cast<double>(audit.rays) / 8.0);
 }
 
-inline constexpr std::uint64_t rays_to_know_a_point = 3000;
+inline constexpr std::uint64_t rays_to_know_a_point = 5000;
 
 // The microseconds of a ray of a path among few polygons, in which the rays of an AuditGoal are counted.
 inline constexpr double microseconds_of_ray = 0.3;
@@ -111,7 +111,7 @@ struct Effort {
   return error.high > 0.0 && (error.low <= 0.0 || error.high - error.low > error.relative_l2);
 }
 
-// What makes the interval of an audit narrow, for AuditGoal::rays_if_wide at most; or shows a target that the audit found met but did not
+// What makes the interval of an audit narrow, for what is left of rays and rays_if_wide; or shows a target that the audit found met but did not
 // show, for what is left of rays and rays_to_show. Nothing where the audit does as it is, or where that would hardly be reached.
 // `rays`: of that audit; `spent`: with all pilots.
 [[nodiscard]] std::optional<Effort> further_effort(const AuditGoal& goal, const Effort& audit, const ErrorSums& sums, std::uint64_t rays,
