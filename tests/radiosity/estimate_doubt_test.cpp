@@ -151,7 +151,8 @@ TEST_CASE("light through a hole of any size: the estimate is no less than a thir
     CAPTURE(estimate);
     CHECK((estimate > truth / 3.0 || !audit.estimate_doubt.empty()));
     doubted += audit.estimate_doubt.empty() ? 0 : 1;
-    if (hole > 0.1) { CHECK(audit.estimate_doubt.empty()); }
+    const bool told_right = audit.estimate_doubt.starts_with("too high") && estimate > 3.0 * truth;
+    if (hole > 0.1) { CHECK((audit.estimate_doubt.empty() || told_right)); }
   }
   CHECK(doubted > 0);
 }
