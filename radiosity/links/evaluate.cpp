@@ -73,8 +73,8 @@ HALFLIGHT_INLINE void set_gradients(Link& link, const Variations& light) {
   link.shape_q = EndShape::of_patch(glm::vec3{light.q.slope});
 }
 
-HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation, Doubt* doubt,
-                                                    std::uint32_t rounds) const {
+HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation,
+                                                    Doubt* doubt) const {
   const Patch& p = scene_.patches[link.p];
   const Patch& q = scene_.patches[link.q];
   const double area_p = exposure_->area[link.p];
@@ -108,7 +108,7 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
   const PatchEnd end_p = end(link.p);
   const PatchEnd end_q = end(link.q);
   const std::optional<VisibilityEstimate> measured = measured_visibility(link);
-  const VisibilityEstimate seen = measured ? *measured : visibility(scene_, list, end_p, end_q, rounds, Random{seed_, key});
+  const VisibilityEstimate seen = measured ? *measured : visibility(scene_, list, end_p, end_q, patch_rounds, Random{seed_, key});
   // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
   const double share = exposed_share(end_p, area_p, q) * exposed_share(end_q, area_q, p);
   link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
@@ -294,7 +294,7 @@ HALFLIGHT_INLINE EvaluateResult make_links(const Evaluation& by, const NodePairs
       [&](std::size_t i, Doubt& doubt) {
         links[i].p = pairs[i].p;
         links[i].q = pairs[i].q;
-        return by.evaluator(links[i], by.occluders[pairs[i].list], nullptr, &doubt, by.rounds);
+        return by.evaluator(links[i], by.occluders[pairs[i].list], nullptr, &doubt);
       },
       [&](std::size_t i, const Doubt& doubt) {
         // Of a pair that was proven to exchange nothing there is no doubt.

@@ -121,9 +121,8 @@ class LinkEvaluator {
   void use(const LightMeshing& light) { light_ = &light; }
 
   // Sets the exchange, 0 when nothing arrives, and the shapes where they have an effect, or in any case when the variation is asked for.
-  // Returns its segments. Depends on the ends of the link, the seed and, between patches, the rounds alone; `list` saves time.
-  RayCount operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation = nullptr, Doubt* doubt = nullptr,
-                      std::uint32_t rounds = patch_rounds) const;
+  // Returns its segments. Depends on the ends of the link and the seed alone; `list` saves time.
+  RayCount operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation = nullptr, Doubt* doubt = nullptr) const;
 
   // Links of its clusters with patches are evaluated by it. It must outlive the evaluator.
   void use(const LampExchange& lamps) { lamps_ = &lamps; }
@@ -184,7 +183,6 @@ struct Evaluation {
   const OccluderLists& occluders;  // of the pairs or links
   unsigned threads;
   const Control& control;
-  std::uint32_t rounds = patch_rounds;  // of segments, at most, for a link between patches
 };
 
 // Makes the links of these pairs, in their order, except for those that carry nothing. With `doubts`, what is kept of each link.
