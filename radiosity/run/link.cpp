@@ -60,8 +60,8 @@ namespace detail {
   return std::nullopt;
 }
 
-// Whether links may be split once they are evaluated: where light goes by stored rays those of lamps alone are there, which the light
-// oracle has split; leaves that were cut along the edges of shadows stay as they are. Says so in run.refined when memory does not suffice.
+// Whether links may be split once they are evaluated: where light goes by stored rays those of lamps alone are there, which the light oracle
+// has split; leaves that were cut along the edges of shadows stay as they are. Says so in run.refined when memory does not suffice.
 [[nodiscard]] HALFLIGHT_INLINE bool may_split_links(Run& run, std::uint64_t links) {
   const DiscreteScene& scene = run.scene;
   if (run.rays.cast || scene.light_meshing || run.stopped()) { return false; }
@@ -100,8 +100,7 @@ HALFLIGHT_INLINE void split_leaves_once_more(Run& run) {
   DiscreteScene& scene = run.scene;
   const Audit& audit = run.solution.audit;
   if (scene.light_meshing || audit.interrupted) { return; }
-  const LeafSplitRule rule{audit.light_epsilon, 0.25 * audit.min_area};  // as small as leaves become by the light oracle
-  run.leaf_splits = split_leaves_by_light(scene, run.solution.links, rule, run.evaluated.doubt);
+  run.leaf_splits = split_leaves_by_light(scene, run.solution.links, {audit.light_epsilon, audit.min_area}, run.evaluated.doubt);
   if (run.leaf_splits.count > 0 && scene.control.after_generation) { scene.control.after_generation(scene.surfaces); }
 }
 

@@ -70,8 +70,8 @@ struct Options {
   // Where a light shines a patch is split, too, while the light varies across it by more than this share of the relative L2 error (which is
   // relative to the reflected light, where that is less than a quarter as bright as the mean emission: audit/reflected_light.hpp); down
   // to a quarter of min_area, for shadows have sharper edges than all other light, or below by the square of what this is finer than a
-  // quarter of epsilon. Default: a quarter of epsilon. Leaves of more than a quarter of min_area are split once more, to a quarter of
-  // this (refinement/leaf_splits.hpp).
+  // quarter of epsilon. Default: a quarter of epsilon. Leaves above min_area are split once more, to a quarter of this
+  // (refinement/leaf_splits.hpp).
   std::optional<double> light_epsilon;
   // Accuracy target: target, or epsilon and min_area, fall round by round until the audited relative L2 error is at most this: that of the
   // picture when Control::picture_error is given, else that over all surfaces. Ends, too, when it has taken its budget of links, work or

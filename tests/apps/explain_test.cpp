@@ -153,6 +153,7 @@ TEST_CASE("explain refuses what cannot be looked at whole, with the number and w
   const auto refusal = [](const radiosity::Scene& scene, double epsilon) {
     apps::explain::Wanted wanted;
     wanted.epsilon = epsilon;
+    wanted.min_area = 5e-4;
     const apps::explain::RecordResult result = apps::explain::record(scene, "scene", wanted);
     CHECK_FALSE(result.recording);
     return result.sentences.empty() ? std::string() : result.sentences.front();
