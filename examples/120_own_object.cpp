@@ -5,16 +5,14 @@
 #include <cstdio>
 
 #include <brep/builder_input.hpp>
-
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/scene.hpp>
 #include <raycast/circle.hpp>
 #include <raycast/object.hpp>
 #include <raycast/objects/disk.hpp>
 #include <raycast/objects/sphere.hpp>
 #include <raycast/scene.hpp>
-
-#include <radiosity/radiosity.hpp>
-#include <radiosity/result/outcome.hpp>
-#include <radiosity/scene/scene.hpp>
 
 class Lens final : public raycast::Object {
  public:

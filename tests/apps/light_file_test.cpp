@@ -174,14 +174,14 @@ TEST_CASE("what a scene was read from is read back, and damaged bytes are nothin
   const auto number = [&] { return static_cast<double>(random() % 1000 + 1) / 1100.0; };
   for (int turn = 0; turn < 200; ++turn) {
     apps::SceneSource source{text(), text(), {}, {}};
-    for (unsigned i = random() % 3; i > 0; --i) { source.beside.push_back({text(), {}, text()}); }
+    for (auto i = random() % 3; i > 0; --i) { source.beside.push_back({text(), {}, text()}); }
     apps::ModelOptions& options = source.options;
     options.reflectance = number();
     options.metres = number();
     options.two_sided = random() % 2 == 0;
     options.merge = random() % 2 == 0;
     if (random() % 2 == 0) { options.up = static_cast<apps::UpAxis>(random() % 3); }
-    for (unsigned i = random() % 3; i > 0; --i) { options.lamps.push_back({text(), number()}); }
+    for (auto i = random() % 3; i > 0; --i) { options.lamps.push_back({text(), number()}); }
     if (random() % 2 == 0) { options.camera = radiosity::Camera{}; }
     const std::string bytes = apps::to_bytes(source);
     const auto read = apps::read_scene_source(bytes);
