@@ -70,8 +70,8 @@ inline constexpr double microseconds_of_ray = 0.3;
   return static_cast<std::uint64_t>(rays_a_pixel * price * width * height);
 }
 
-// What an audit without a target may take in all, of a solution, and of a picture worth `picture`: as long as both took. A link takes as long
-// as three rays of paths at least, and so does a ray of a picture.
+// What an audit without a target may take in all, of a solution, and of a picture worth `picture`: as long as both took. A link takes as
+// long as three rays of paths at least, and so does a ray of a picture.
 [[nodiscard]] inline std::uint64_t most_rays_to_know(const Audit& audit, std::uint32_t points, std::uint64_t picture = 0) {
   constexpr std::uint64_t most = 120'000'000;
   const std::uint64_t least = rays_to_know_a_point * points;
@@ -111,8 +111,8 @@ struct Effort {
   return error.high > 0.0 && (error.low <= 0.0 || error.high - error.low > error.relative_l2);
 }
 
-// What makes the interval of an audit narrow, for what is left of rays and rays_if_wide; or shows a target that the audit found met but did not
-// show, for what is left of rays and rays_to_show. Nothing where the audit does as it is, or where that would hardly be reached.
+// What makes the interval of an audit narrow, for what is left of rays and rays_if_wide; or shows a target that the audit found met but did
+// not show, for what is left of rays and rays_to_show. Nothing where the audit does as it is, or where that would hardly be reached.
 // `rays`: of that audit; `spent`: with all pilots.
 [[nodiscard]] std::optional<Effort> further_effort(const AuditGoal& goal, const Effort& audit, const ErrorSums& sums, std::uint64_t rays,
                                                    std::uint64_t spent);

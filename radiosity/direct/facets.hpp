@@ -53,9 +53,9 @@ void append(Facets& facets, const Facets& more);
 // The part of the edge's contour integral, times 2 pi, from the point x with unit normal n; a to b.
 [[nodiscard]] double contour_term(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& a, const glm::dvec3& b);
 
-// F from x to all facets that face it, as if nothing stood in between. A facet faces x when x is higher above its plane than `slack`: a point
-// on a sheet is on the plane of its other side, too, and rounding alone would let it see that side all around it. `facing` is memory that
-// is used again.
+// F from x to all facets that face it, as if nothing stood in between. A facet faces x when x is higher above its plane than `slack`: a
+// point on a sheet is on the plane of its other side, too, and rounding alone would let it see that side all around it. `facing` is memory
+// that is used again.
 [[nodiscard]] double form_factor(const Facets& facets, const glm::dvec3& x, const glm::dvec3& n, bool above_horizon, double slack,
                                  std::vector<char>& facing);
 

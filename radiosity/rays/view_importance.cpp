@@ -80,7 +80,8 @@ class ViewedCasters {
   // A picture takes means over what its points see, which takes out most of what single casters have wrong. With 1 in place of this,
   // pictures of rooms behind windows err by 4.2 instead of 4.7 % and take twice the time.
   static constexpr double share = 0.4;
-  // Under a roof of six metres on a plain of four kilometres weights are 1e6. A keyhole needs no lower limit: it takes little of the picture.
+  // Under a roof of six metres on a plain of four kilometres weights are 1e6. A keyhole needs no lower limit: it takes little of the
+  // picture.
   static constexpr double most_weight = 1e8;
 
   [[nodiscard]] double area_of(std::size_t k) const { return scene_.exposure.area[views_[k].node]; }
