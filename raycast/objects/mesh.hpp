@@ -40,6 +40,7 @@ class Mesh final : public Object {
   // Corners of the faces are indices into positions. Positions without a face are left out.
   // Refused, with the number of the face or vertex (counted from 0): an index out of range, a face that polygon_fault refuses, a surface
   // that is not a manifold with consistent orientation, a closed mesh that is inside out (its volume is not positive).
+  // `rounding` of the positions: see polygon_fault.
   static Made<Mesh> make(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces,
                          double rounding = 0.0);
 

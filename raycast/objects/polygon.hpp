@@ -31,7 +31,7 @@ namespace raycast {
 
 class Polygon final : public Object {
  public:
-  // Refused: see polygon_fault.
+  // Refused, and `rounding`: see polygon_fault.
   static Made<Polygon> make(std::vector<glm::dvec3> corners, double rounding = 0.0) {
     if (std::optional<std::string> fault = polygon_fault(corners, rounding)) { return "the polygon " + *fault; }
     return std::shared_ptr<const Polygon>(new Polygon(std::move(corners)));
