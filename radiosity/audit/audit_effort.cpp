@@ -111,7 +111,7 @@ HALFLIGHT_INLINE std::optional<Effort> further_effort(const AuditGoal& goal, con
   // A standard error of half of the mean square makes the interval as wide as its root; some less leaves room for chance. So it does for
   // a target: the interval ends two standard errors above the mean.
   double off = 0.25 * std::max(seen->ratio, doubt), most = 0.5 * (std::max(seen->ratio, 0.0) + doubt);
-  auto left = static_cast<double>(goal.rays + goal.rays_if_wide) - static_cast<double>(spent);
+  auto left = goal.rays_if_wide > 0 ? static_cast<double>(goal.rays + goal.rays_if_wide) - static_cast<double>(spent) : 0.0;
   if (goal.wanted) {
     if (error->within(*goal.wanted) || seen->ratio > target) { return std::nullopt; }
     left = static_cast<double>(std::max(goal.rays, goal.rays_to_show)) - static_cast<double>(spent);

@@ -201,7 +201,7 @@ TEST_CASE("terminal: keys edit a line, arrows bring back earlier ones, Tab compl
   CHECK(editor.take(4) == LineEditor::State::end);
 }
 
-TEST_CASE("terminal: an unknown operator gets the nearest that is known; face and vertex walk") {
+TEST_CASE("terminal: an unknown operator gets the nearest that is known, face and vertex walk") {
   program::Place place;
   place.write("input", "mvsf\nmvfs\nface f0\nvertex v1\nvertex\nface v1\n");
   const program::Run run = place.run("euler --interactive < input");

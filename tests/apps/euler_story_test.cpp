@@ -26,7 +26,7 @@ std::size_t count(const std::string& text, const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("each operator is a frame; expectations belong to the frame before them") {
+TEST_CASE("each operator is a frame, expectations belong to the frame before them") {
   const Story story = story_of("# T\n\n# first\nh0 = make_segment\nx = split_edge h0\nexpect v 3 # good\nexpect v 4\nsplit_face h0 h99\n");
   CHECK(story.title == "T");
   REQUIRE(story.frames.size() == 4);

@@ -101,7 +101,7 @@ TEST_CASE("a symbolic link to nothing is followed: the file is made where it poi
   CHECK(apps::write_file(folder / "loop.txt", "x"));
 }
 
-TEST_CASE("a new file does not run as the owner of the old one; a protected file is refused") {
+TEST_CASE("a new file does not run as the owner of the old one, a protected file is refused") {
   const Folder folder;
   const std::string path = folder / "a.txt";
   REQUIRE_FALSE(apps::write_file(path, "old"));

@@ -64,7 +64,7 @@ TEST_CASE("a kind of object is read with its clauses, and each that it requires 
   }
 }
 
-TEST_CASE("an unknown word in an object is told with the clauses of its kind; 'inside' belongs to what encloses something") {
+TEST_CASE("an unknown word in an object is told with the clauses of its kind, 'inside' belongs to what encloses something") {
   for (const ObjectKind& kind : object_kinds()) {
     if (is_csg(kind)) { continue; }
     const auto result = apps::parse_scene("material m reflectance 0.5\n" + std::string(kind.word) + " x blaah 1 material m\n");

@@ -73,7 +73,7 @@ TEST_CASE("mesh: the written file has the counts that were told, in the coordina
   CHECK(obj.find("o ring\n") != std::string::npos);
 }
 
-TEST_CASE("mesh: every example scene, as text and JSON; what is written is read back with the same counts, closed where it was told so") {
+TEST_CASE("mesh: every example scene, as text and JSON, what is written is read back with the same counts, closed where it was told so") {
   const Place place;
   int scenes = 0;
   for (const auto& entry : program::fs::directory_iterator(HALFLIGHT_SCENES)) {

@@ -95,7 +95,7 @@ TEST_CASE("units, the up axis, reflectance and lamps come from the command line"
   for (const char* wrong : {"", "0", "-1", "inch", "1e13", "m "}) { CHECK_FALSE(apps::parse_unit(wrong)); }
 }
 
-TEST_CASE("a model without a lamp stands in a studio; what is closed around it cannot be lit from there") {
+TEST_CASE("a model without a lamp stands in a studio, what is closed around it cannot be lit from there") {
   const apps::SceneFile file = scene("a.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
   REQUIRE(file.scene.objects.size() == 3);
   CHECK(file.scene.objects[0].name == "studio");
@@ -119,7 +119,7 @@ TEST_CASE("a model without a lamp stands in a studio; what is closed around it c
   CHECK(lit.scene.objects[1].shape->project(0, lamp.centre()).normal.z == test::Approx(-1.0));
 }
 
-TEST_CASE("a mesh of a scene may be a file of another program; groups use it in many places") {
+TEST_CASE("a mesh of a scene may be a file of another program, groups use it in many places") {
   const models::Files files{
       {"my room.obj", models::room_obj}, {"room.mtl", "newmtl wall\nKd 0.25\n"}, {"bad.obj", "v 0 0\n"}, {"x.txt", "?"}};
   const std::string head = "material m reflectance 0.5 emission 1\nsphere s center 0 0 0 radius 1 material m\n";

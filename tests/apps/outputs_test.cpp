@@ -255,7 +255,7 @@ TEST_CASE("a scene comes from the standard input, too") {
   }
 }
 
-TEST_CASE("an empty name is no output; names that lead nowhere are known before the work") {
+TEST_CASE("an empty name is no output, names that lead nowhere are known before the work") {
   const Place place;
   place.write("input.scene", scene_text);
   place.write("input.obj", mesh_text);

@@ -37,7 +37,7 @@ TEST_CASE("render writes its files and the report, exit code 0") {
   CHECK(report["surfaces"].size() == 2);
 }
 
-TEST_CASE("render gathers light for a picture, and draws the mesh when asked to; the report says so") {
+TEST_CASE("render gathers light for a picture, and draws the mesh when asked to, the report says so") {
   const Place place;
   const std::string arguments = "render " + scene("two_plates") + " -o a.png --json a.json --size 64x48 --audit 0 --epsilon 0.05";
   const Run mesh = place.run(arguments + " --method mesh");
@@ -123,7 +123,7 @@ TEST_CASE("quiet is quiet on stderr, the report stays") {
   CHECK(run.out.find("not measured") != std::string::npos);
 }
 
-TEST_CASE("without an output nothing is reconstructed; the report tells the error of the leaves") {
+TEST_CASE("without an output nothing is reconstructed, the report tells the error of the leaves") {
   const Place place;
   const Run run = place.run("render " + scene("two_plates") + " --json a.json --audit 50 --epsilon 0.05 --quiet");
   CHECK(run.code == 0);

@@ -51,7 +51,7 @@ TEST_CASE("reading path: all that it names is there, and it leads past every pro
   CHECK(programs >= 13);
 }
 
-TEST_CASE("map of the paper: every section is there, and every name that it gives; a name that is gone is told") {
+TEST_CASE("map of the paper: every section is there, and every name that it gives, a name that is gone is told") {
   const std::string map = program::content(examples / "paper.md");
   for (const char* section : {"1 ", "2.1 ", "2.2 ", "3 ", "4.1 ", "4.2 ", "4.3 ", "4.4 ", "4.5 ", "5 "}) {
     INFO(section);

@@ -81,7 +81,7 @@ TEST_CASE("every command under every signal leaves no file that was not there, o
   }
 }
 
-TEST_CASE("a limit on the size of files is an error of the write in every command; old files stay, no temporary does") {
+TEST_CASE("a limit on the size of files is an error of the write in every command, old files stay, no temporary does") {
   const Place place;
   place.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
   place.write("a.euler", "h0 = make_segment\n");

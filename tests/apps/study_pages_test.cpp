@@ -76,7 +76,7 @@ TEST_CASE("CSV: fields with commas, quotes and line ends come back as they were"
   }
 }
 
-TEST_CASE("CSV: every run and reconstruction has a line of the same columns; numbers come back to the last bit unless noise limits them") {
+TEST_CASE("CSV: every run and reconstruction has a line of the same columns, numbers come back to the last bit unless noise limits them") {
   const Study study = made_up::study_of_one();
   const auto rows = parse_csv(to_csv(study));
   REQUIRE(rows.size() == 1 + 9 * 6 * 3);
@@ -194,7 +194,7 @@ TEST_CASE("targets are reached by some run, and the findings name the cheapest m
   CHECK(findings({}).empty());
 }
 
-TEST_CASE("error pictures: white is right, blue too dark, orange too bright; both ends differ in grey, too") {
+TEST_CASE("error pictures: white is right, blue too dark, orange too bright, both ends differ in grey, too") {
   CHECK(error_color(0.0) == 0xf7f7f7);
   CHECK(error_color(-5.0) == error_color(-1.0));
   const auto grey = [](Srgb color) { return 0.2126 * rgb(color)[0] + 0.7152 * rgb(color)[1] + 0.0722 * rgb(color)[2]; };

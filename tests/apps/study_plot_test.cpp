@@ -216,7 +216,7 @@ TEST_CASE("a plot's SVG is well-formed, whatever the names, and its marks stand 
   }
 }
 
-TEST_CASE("the width of a text is that of its characters, however many bytes they have; what is broken has a width, too") {
+TEST_CASE("the width of a text is that of its characters, however many bytes they have, what is broken has a width, too") {
   CHECK(text_width("", 10.0) == 0.0);
   CHECK(text_width("ab", 10.0) == test::Approx(text_width("a", 10.0) + text_width("b", 10.0)));
   CHECK(text_width("ab", 20.0) == test::Approx(2.0 * text_width("ab", 10.0)));

@@ -57,7 +57,7 @@ bool near(const radiosity::Color& a, const radiosity::Color& b) { return glm::le
 
 }  // namespace
 
-TEST_CASE("textures: the mean of a PNG is that of its pixels in linear light; what is cut or none is nothing") {
+TEST_CASE("textures: the mean of a PNG is that of its pixels in linear light, what is cut or none is nothing") {
   for (const unsigned seed : {1U, 2U, 3U}) {
     INFO("seed " << seed);
     const Painted picture = painted(seed, 5 + seed, 9);
@@ -70,7 +70,7 @@ TEST_CASE("textures: the mean of a PNG is that of its pixels in linear light; wh
   CHECK_FALSE(apps::intake::mean_color("not a picture"));
 }
 
-TEST_CASE("textures: of OBJ and glTF they count times their factors, wherever they lie; unreadable ones are told") {
+TEST_CASE("textures: of OBJ and glTF they count times their factors, wherever they lie, unreadable ones are told") {
   const Painted wood = painted(7, 8, 8), glow = painted(8, 3, 4);
   const models::Files files{{"a.mtl",
                              "newmtl wood\nmap_Kd -s 1 2 1 my/wood.png\nKd 0.5 0.5 0.25\nnewmtl plain\nKd 0 0 0\nmap_Kd my\\wood.png\n"

@@ -95,7 +95,7 @@ TEST_CASE("VRML: transforms act on what follows, the last one first") {
   }
 }
 
-TEST_CASE("VRML: what a Separator changes stays in it; a Group passes it on") {
+TEST_CASE("VRML: what a Separator changes stays in it, a Group passes it on") {
   const std::string red = "DEF red Material { diffuseColor 1 0 0 }", go = "Translation { translation 1 0 0 }";
   const auto of = [&](const std::string& body) { return shapes(read("Group { " + body + " Sphere { } }")); };
   using List = std::vector<std::string>;
@@ -118,7 +118,7 @@ TEST_CASE("VRML: what a Separator changes stays in it; a Group passes it on") {
   CHECK(shapes(inlined) == List{"box:default@1", "box:default@4", "sphere:default@3"});
 }
 
-TEST_CASE("VRML: cubes, cylinders and cones stay analytic; their parts have the materials of the binding") {
+TEST_CASE("VRML: cubes, cylinders and cones stay analytic, their parts have the materials of the binding") {
   const std::string materials =
       "Material { diffuseColor [ 0.1 0 0, 0.2 0 0, 0.3 0 0, 0.4 0 0, 0.5 0 0, 0.6 0 0 ] } MaterialBinding { value PER_PART }";
   const apps::Model model =
@@ -188,7 +188,7 @@ TEST_CASE("VRML: face sets with every binding, orders and hints") {
   CHECK_FALSE(noted(read("Group { ShapeHints { creaseAngle 0 } " + triangle).notes, "creaseAngle"));
 }
 
-TEST_CASE("VRML: cameras, also those to choose from; lights become small lamps") {
+TEST_CASE("VRML: cameras, also those to choose from, lights become small lamps") {
   const std::string body =
       "Group { DEF Cameras Switch { whichChild 0 DEF front PerspectiveCamera { position 0 0 5 } "
       "DEF right PerspectiveCamera { position 5 0 0 orientation 0 1 0 1.5707963267948966 heightAngle 1 } "

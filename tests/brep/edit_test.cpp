@@ -75,7 +75,7 @@ TEST_CASE("collapse_edge between quadrilaterals: v-1 e-1, the faces become trian
   CHECK(not_simple(m) == 0);
 }
 
-TEST_CASE("collapse_edge refuses what would make parallel edges or loops; it names the common neighbour") {
+TEST_CASE("collapse_edge refuses what would make parallel edges or loops, it names the common neighbour") {
   // A prism over a triangle: the three edges that join its triangles are fine; the edges of a triangle too; but after the ends of a
   // tube of triangles are taken away (an hourglass), the waist is not.
   Mesh m = shapes::build(shapes::torus_builder(3, 7));  // the waist has three edges and no face inside

@@ -78,7 +78,7 @@ TEST_CASE("names and functions stand for handles") {
   CHECK(shapes::records(a) == shapes::records(b));
 }
 
-TEST_CASE("comments are captions; one at the head with an empty line behind it is the title") {
+TEST_CASE("comments are captions, one at the head with an empty line behind it is the title") {
   const Script script = parse("# Title\n# more\n\n# one\n# two\n\n# three\nh0 = make_segment # four\r\n\r# end\n");
   CHECK(script.title == "Title");
   CHECK(script.introduction == "more");

@@ -45,7 +45,7 @@ TEST_CASE("split_face then join_faces restores every record of a cube, anchors i
   }
 }
 
-TEST_CASE("bridge joins two cubes or gives one a handle; cut takes either back") {
+TEST_CASE("bridge joins two cubes or gives one a handle, cut takes either back") {
   const Bare cube = shapes::build<Bare>(shapes::cube_builder());
   const FaceId bottom{0}, top{1};
   Bare m = cube;
@@ -78,7 +78,7 @@ TEST_CASE("weld unites two corners of a cube by a loop edge, and unweld parts th
   CHECK_THAT(m, IsIsomorphicTo(cube));
 }
 
-TEST_CASE("a torus comes down to one vertex, two edges and one face by joins, which keep the handle; then only cut or unweld go on") {
+TEST_CASE("a torus comes down to one vertex, two edges and one face by joins, which keep the handle, then only cut or unweld go on") {
   auto m = shapes::build<Bare>(shapes::torus_builder(3, 4));
   Random random(7);
   while (m.edge_count() > 2) {

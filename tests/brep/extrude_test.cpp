@@ -172,7 +172,7 @@ TEST_CASE("triangulate_face of polygons with straight corners and of random star
   }
 }
 
-TEST_CASE("triangulate without positions cuts fans; faces of one and two edges stay; a crossed face is refused and nothing changes") {
+TEST_CASE("triangulate without positions cuts fans, faces of one and two edges stay, a crossed face is refused and nothing changes") {
   for (std::uint32_t seed = 1; seed <= 30; ++seed) {
     INFO("seed " << seed);
     Random random(seed);

@@ -56,7 +56,7 @@ Bare glued_by_definition(const B& m, HalfedgeId a, HalfedgeId c) {
 
 }  // namespace
 
-TEST_CASE("the two sides of a sheet glued to each other vanish; the sides of a segment are one face and refused") {
+TEST_CASE("the two sides of a sheet glued to each other vanish, the sides of a segment are one face and refused") {
   Mesh m = shapes::build(shapes::pillow_builder({{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
   const HalfedgeId a = m.halfedge(FaceId{0});
   Mesh turned = m;

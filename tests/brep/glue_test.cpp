@@ -99,7 +99,7 @@ TEST_CASE("gluing is undone by cutting the seam: double its edges, split its ver
   CHECK_THAT(m, IsIsomorphicTo(two));
 }
 
-TEST_CASE("a hole punched through a cube: genus 1; through a cube with inset caps it has the right volume; and it is undone") {
+TEST_CASE("a hole punched through a cube: genus 1, through a cube with inset caps it has the right volume, and it is undone") {
   Mesh m = shapes::build(shapes::cube_builder());
   const auto inward = [](Mesh& b, VertexId lifted, VertexId base) {
     const glm::dvec3 p = b.data(base).position, axis{0.5, 0.5, p.z};
@@ -140,7 +140,7 @@ TEST_CASE("a hole punched through a cube: genus 1; through a cube with inset cap
   CHECK(faults(m) == "");
 }
 
-TEST_CASE("punch_hole between two shells makes one; between faces that share a vertex or an edge it is legal") {
+TEST_CASE("punch_hole between two shells makes one, between faces that share a vertex or an edge it is legal") {
   Mesh m = shapes::build(several({{shapes::cube_builder(), {0, 0, 0}}, {shapes::cube_builder(), {0, 0, 5}}}));
   Mesh copy = m;
   REQUIRE(punch_hole(m, m.halfedge(FaceId{1}), m.halfedge(FaceId{6})));

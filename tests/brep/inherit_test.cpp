@@ -151,7 +151,7 @@ TEST_CASE("a face type that cannot be copied starts with default data") {
   CHECK(m.data(m.face(twin(n))).number == nullptr);
 }
 
-TEST_CASE("what killed data own is released at once; with a log it is kept until its step cannot come back") {
+TEST_CASE("what killed data own is released at once, with a log it is kept until its step cannot come back") {
   const auto value = std::make_shared<int>(1);
   BRep<Shared, Shared, Shared> m;
   HalfedgeId h = *make_segment(m);

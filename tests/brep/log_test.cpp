@@ -47,7 +47,7 @@ void write_new_data(DataLogged& m, int& number) {
 
 }  // namespace
 
-TEST_CASE("undo and redo restore every record, free list and datum; replay makes the same BRep") {
+TEST_CASE("undo and redo restore every record, free list and datum, replay makes the same BRep") {
   std::size_t most_handles = 0, most_shells = 0;
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     INFO("seed " << seed);

@@ -100,7 +100,7 @@ TEST_CASE("in steady state no operator allocates, and no refusal does") {
   CHECK((after == before && m.bytes() == bytes));
 }
 
-TEST_CASE("a BRep can be copied and moved; the moved-from one is empty and usable") {
+TEST_CASE("a BRep can be copied and moved, the moved-from one is empty and usable") {
   struct Data {
     std::vector<int> list;
   };

@@ -159,7 +159,7 @@ TEST_CASE("sheets that touch in a vertex get their backs and are parted") {
   CHECK(shell_count(shapes::build(r.builder)) == 2);
 }
 
-TEST_CASE("corners repeated in a row are taken away; what has no three corners is dropped") {
+TEST_CASE("corners repeated in a row are taken away, what has no three corners is dropped") {
   Faces faces = faces_of(shapes::cube_builder());
   faces[0].push_back(faces[0].front());
   faces[1].insert(faces[1].begin() + 2, 2, faces[1][2]);

@@ -117,7 +117,7 @@ TEST_CASE("cut_ring: T-vertices of finer neighbours stay T-vertices, and are eli
   for (const FaceId f : faces(m)) { CHECK(NoTVertices{}(m, f)); }
 }
 
-TEST_CASE("cut_ring: a flat ellipse keeps convex cells that cover it; what has too few corners is refused") {
+TEST_CASE("cut_ring: a flat ellipse keeps convex cells that cover it, what has too few corners is refused") {
   Mesh m = shapes::build(shapes::prism_builder(16));
   for (VertexId v : vertices(m)) { m.data(v).position.x *= 1e-3; }
   const double whole = area(m, prism_top);

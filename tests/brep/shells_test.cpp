@@ -47,7 +47,7 @@ TEST_CASE("a cube, a tetrahedron and a torus in one BRep are three shells with t
   CHECK(seen.size() == 2 * m.edge_count());
 }
 
-TEST_CASE("nothing has no shells; segments and loops have genus 0; counts add up to those of the BRep after random operators") {
+TEST_CASE("nothing has no shells, segments and loops have genus 0, counts add up to those of the BRep after random operators") {
   Bare m;
   CHECK(shells(m).empty());
   shapes::Random random(11);

@@ -14,7 +14,7 @@ using outlines::Points;
 using shapes::faults;
 using shapes::Mesh;
 
-TEST_CASE("a plane through a cube cuts four faces; T-vertices of the neighbours are shared; parts lie on one side") {
+TEST_CASE("a plane through a cube cuts four faces, T-vertices of the neighbours are shared, parts lie on one side") {
   Mesh m = shapes::build(shapes::cube_builder());
   const glm::dvec3 point{0.3, 0.0, 0.0}, across{2.0, 0.5, 0.0};
   const auto parts = split_recursively(m, AlongPlane{point, across}, BesidePlane{point, across});

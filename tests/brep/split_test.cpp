@@ -91,7 +91,7 @@ TEST_CASE("conditions and split objects: every pair on stars, spirals and stairc
   }
 }
 
-TEST_CASE("conditions follow the laws of logic; operands are asked from the left, and lambdas are equal citizens") {
+TEST_CASE("conditions follow the laws of logic, operands are asked from the left, and lambdas are equal citizens") {
   const Mesh m = shapes::build(shapes::prism_builder(5));
   int asked = 0;
   const auto yes = [&](const Mesh&, FaceId) { return ++asked, true; };
@@ -110,7 +110,7 @@ TEST_CASE("conditions follow the laws of logic; operands are asked from the left
   CHECK(asked == 4);
 }
 
-TEST_CASE("a lambda that halves a face by planes reaches any area; the neighbours stay closed") {
+TEST_CASE("a lambda that halves a face by planes reaches any area, the neighbours stay closed") {
   const auto halve = [](const Mesh& m, FaceId f) {
     const auto p = positions(m, f);
     glm::dvec3 along{0.0};

@@ -100,7 +100,7 @@ TEST_CASE("volume changes its sign with the direction of the faces and does not 
   CHECK(*statistics(far).components[0].volume == Approx(-1.0).epsilon(1e-15));
 }
 
-TEST_CASE("unusable faces are counted and left out; repeated positions are told") {
+TEST_CASE("unusable faces are counted and left out, repeated positions are told") {
   Builder b = shapes::cube_builder();
   b.face({0, 1}, 0);
   b.face({0, 99, 1}, 0);

@@ -107,7 +107,7 @@ TEST_CASE("an audit takes about the rays that it may, pilots included, or the le
   }
 }
 
-TEST_CASE("an audit that goes on narrows what was wide and shows targets that were left open; what was enough stays as it is") {
+TEST_CASE("an audit that goes on narrows what was wide and shows targets that were left open, what was enough stays as it is") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};

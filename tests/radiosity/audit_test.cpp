@@ -161,7 +161,7 @@ TEST_CASE("an audit of a target decides from fresh points, or ends at its rays")
   }
 }
 
-TEST_CASE("an audit costs what it may: as much as the solution; more only to show the wanted error, and then no more than that takes") {
+TEST_CASE("an audit costs what it may: as much as the solution, more only to show the wanted error, and then no more than that takes") {
   // Points whose errors and noise are random, from 1e-4 to 1e-1; a path is a ray.
   struct Points {
     radiosity::ErrorSums sums;
@@ -221,7 +221,7 @@ TEST_CASE("a run with an accuracy target ends when it is cancelled while its aud
   CHECK_FALSE(outcome.solution->audit.surface_error);
 }
 
-TEST_CASE("plan: a lamp flush with the ceiling of a room leaves it closed; a lamp below it does not") {
+TEST_CASE("plan: a lamp flush with the ceiling of a room leaves it closed, a lamp below it does not") {
   CHECK(prepared(scenes::room_with_box()).plan.closed);
   Scene lowered = scenes::room_with_box();
   lowered.objects[2].placement.translation.z = -0.1;

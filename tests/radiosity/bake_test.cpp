@@ -175,7 +175,7 @@ TEST_CASE("bake: between corners the light is that of the solution, on the side 
   CHECK(back->x == 10.0);
 }
 
-TEST_CASE("bake: what cannot be solved is refused with a sentence; polygons that are left out take the light beside them") {
+TEST_CASE("bake: what cannot be solved is refused with a sentence, polygons that are left out take the light beside them") {
   const std::vector<radiosity::Material> materials{{"grey", glm::dvec3(0.5), glm::dvec3(1.0)}};
   const std::vector<float> xyz{0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5};
   const auto sentences = [&](const radiosity::MeshView& mesh) {
@@ -210,7 +210,7 @@ glm::dvec3 sample(const radiosity::Lightmap& map, const glm::dvec2& at) { return
 
 // Where the light is the same everywhere on a polygon and differs from polygon to polygon, any texel of a neighbour in the atlas would
 // show.
-TEST_CASE("lightmap: no polygon reaches into another one, wherever it is sampled; its texels fit") {
+TEST_CASE("lightmap: no polygon reaches into another one, wherever it is sampled, its texels fit") {
   for (const unsigned seed : {1U, 2U, 3U}) {
     INFO("seed " << seed);
     std::mt19937 random(seed);

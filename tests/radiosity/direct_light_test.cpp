@@ -293,7 +293,7 @@ TEST_CASE("direct light: the two sides of a sheet do not light each other, howev
   }
 }
 
-TEST_CASE("direct light: the strongest lamps are taken, within the limits; flat ones and bodies however large", "[direct]") {
+TEST_CASE("direct light: the strongest lamps are taken, within the limits, flat ones and bodies however large", "[direct]") {
   Scene scene = floor_under_lamp(0.2);
   scene.objects.push_back(scenes::object("ball", raycast::Sphere::make({0, 0, 0.5}, 0.2).object, 1));
   scene.objects.push_back(scenes::object("dome", raycast::Sphere::make({0, 0, 0.5}, 3.0).object, 1));

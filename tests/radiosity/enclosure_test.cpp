@@ -172,7 +172,7 @@ TEST_CASE("a room of polygons is closed however it is cut and turned, and open w
   }
 }
 
-TEST_CASE("what stands in a room of polygons leaves it closed; what stands outside or passes through a wall does not") {
+TEST_CASE("what stands in a room of polygons leaves it closed, what stands outside or passes through a wall does not") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   Maker make{seed};
@@ -204,7 +204,7 @@ TEST_CASE("what stands in a room of polygons leaves it closed; what stands outsi
   }
 }
 
-TEST_CASE("a lamp that lies on the walls leaves a room of polygons closed; one that hangs free or faces the wall does not") {
+TEST_CASE("a lamp that lies on the walls leaves a room of polygons closed, one that hangs free or faces the wall does not") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   Maker make{seed};

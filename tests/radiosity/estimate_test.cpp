@@ -209,7 +209,7 @@ TEST_CASE("the estimate is within a factor of 3 of the error of the leaves: a la
   }
 }
 
-TEST_CASE("a torus under a lamp: a target is reached, or said to be missed; estimate and audit agree within a factor of 3") {
+TEST_CASE("a torus under a lamp: a target is reached, or said to be missed, estimate and audit agree within a factor of 3") {
   const radiosity::Scene scene = under_lamp(raycast::Torus::make({0, 0, 0}, {0, 0, 1}, 1.0, 0.4).object, 2.0, 1.0);
   for (const double target : {0.1, 0.05}) {
     radiosity::Options options = by_target(target);

@@ -150,7 +150,7 @@ TEST_CASE("reference: rooms with things in the way: form factors and script F wi
   }
 }
 
-TEST_CASE("reference: the rooms of View3D, form factors and script F; row sums of the closed ones within 1e-5 of 1 and of the emissivity") {
+TEST_CASE("reference: the rooms of View3D, form factors and script F, row sums of the closed ones within 1e-5 of 1 and of the emissivity") {
   const std::string file = reference::of_others("view3d/view3d.json");
   if (file.empty()) { SKIP_TEST("no figures of View3D in " HALFLIGHT_REFERENCE_DATA); }
   const json::Value data = json::parse_file(file);

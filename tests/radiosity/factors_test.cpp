@@ -213,7 +213,7 @@ TEST_CASE("factors: a closed room with round things in it: row sums of 1 within 
   for (std::size_t k = 0; k < f.factor.size(); ++k) { CHECK(f.factor[k].value == again.factor[k].value); }
 }
 
-TEST_CASE("factors: surfaces are named sheets; the faces of a mesh are one surface for each material") {
+TEST_CASE("factors: surfaces are named sheets, the faces of a mesh are one surface for each material") {
   Scene scene = grey();
   scene.materials.push_back({"red", radiosity::Color{0.5, 0.1, 0.1}, radiosity::Color{0.0}});
   const std::vector<glm::dvec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

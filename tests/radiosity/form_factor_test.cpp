@@ -115,7 +115,7 @@ TEST_CASE("additivity: a patch exchanges what its four quarters exchange") {
   }
 }
 
-TEST_CASE("what lies behind the horizon gets nothing; a patch across the horizon gets its upper part") {
+TEST_CASE("what lies behind the horizon gets nothing, a patch across the horizon gets its upper part") {
   const Patch floor = make_patch(rectangle(O, X, Y));
   CHECK(exchange(floor, make_patch(rectangle({0.0, 0.0, -1.0}, Y, X))) == 0.0);
   CHECK(exchange(floor, make_patch(rectangle({2.0, 0.0, 0.0}, X, Y))) == 0.0);  // coplanar
@@ -124,7 +124,7 @@ TEST_CASE("what lies behind the horizon gets nothing; a patch across the horizon
   CHECK(exchange(floor, make_patch(rectangle({0.0, 0.0, -1.0}, Y, 2.0 * Z))) == test::Approx(upper).epsilon(1e-9));
 }
 
-TEST_CASE("scaling by a power of two scales the exchange exactly; moving changes nothing beyond rounding") {
+TEST_CASE("scaling by a power of two scales the exchange exactly, moving changes nothing beyond rounding") {
   const Polygon p = rectangle({0.1, 0.2, 0.0}, 0.7 * X, 0.9 * Y);
   const Polygon q = rectangle({0.3, 0.1, 0.6}, 0.8 * Y, 0.5 * X + 0.2 * Z);
   const double g = exchange(make_patch(p), make_patch(q));

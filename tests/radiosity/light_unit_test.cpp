@@ -118,7 +118,7 @@ TEST_CASE("a channel that is faint beside the others has the same relative bits,
   }
 }
 
-TEST_CASE("light beyond the largest number is refused, not infinite; the largest emission without it is solved") {
+TEST_CASE("light beyond the largest number is refused, not infinite, the largest emission without it is solved") {
   Scene scene = scenes::room_with_box();
   for (radiosity::Material& m : scene.materials) { m.emission *= 3e307; }
   const Solution strong = solved(scene, few_links());

@@ -101,7 +101,7 @@ TEST_CASE("a user's oracle that repeats the rule of BF-refinement gives the same
   CHECK(of_others == 0);
 }
 
-TEST_CASE("an oracle that always asks for a split ends at min_area; one that always links leaves the input faces as they are") {
+TEST_CASE("an oracle that always asks for a split ends at min_area, one that always links leaves the input faces as they are") {
   const radiosity::Scene scene = scenes::two_plates(0.5);
   Options options = oracle_options();
   options.light_epsilon = 1e9;

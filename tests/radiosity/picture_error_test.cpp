@@ -85,7 +85,7 @@ TEST_CASE("picture audit: an error in one tile is found in that tile") {
   CHECK(error.error.high >= 0.25);
 }
 
-TEST_CASE("picture audit: lamps are left out, whatever the picture shows there; so is what meets nothing") {
+TEST_CASE("picture audit: lamps are left out, whatever the picture shows there, so is what meets nothing") {
   // A vertical plate of side 4 in front of the camera, lit by a sphere lamp in front of it, which hides a part of it.
   radiosity::Scene scene{{{"plate", Color{0.5}, Color{0.0}}, {"lamp", Color{0.0}, Color{400.0}}}, {}};
   scene.objects = {scenes::plate("plate", {{-2, 3, -2}, {2, 3, -2}, {2, 3, 2}, {-2, 3, 2}}, 0),

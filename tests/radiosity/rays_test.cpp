@@ -90,7 +90,7 @@ TEST_CASE("links of rays between the walls of a cube are its form factors, withi
   }
 }
 
-TEST_CASE("casters cover once what does not shine and is exposed; where less light is seen they are fewer") {
+TEST_CASE("casters cover once what does not shine and is exposed, where less light is seen they are fewer") {
   // Lamps that reach all, a corner, and nothing but each other's back.
   const auto casters_by = [](double lamp_height, double emission) {
     const radiosity::Scene scene =

@@ -89,7 +89,7 @@ double by_side(const radiosity::Node& node) { return 1.0 + node.surface; }
 
 }  // namespace
 
-TEST_CASE("weighted reconstruction: no colour bleeds over the edge of a box; simple reconstruction mixes both sides") {
+TEST_CASE("weighted reconstruction: no colour bleeds over the edge of a box, simple reconstruction mixes both sides") {
   const radiosity::Scene scene = lone(scenes::box({0, 0, 0}, {1, 2, 1}));
   for (const auto kind : {Reconstruction::weighted, Reconstruction::simple}) {
     const Reconstructed r = reconstructed(scene, kind, by_side);

@@ -156,7 +156,7 @@ TEST_CASE("a cell of air holds no point of the solid, and a fourth of the air in
   CHECK(4 * found > air);
 }
 
-TEST_CASE("in the hollow of a thick wall a pair is clear, without a ray; within the wall it is not") {
+TEST_CASE("in the hollow of a thick wall a pair is clear, without a ray, within the wall it is not") {
   const std::vector<PlacedObject> objects{placed(thick_box(0.2))};
   const Scene scene(objects);
   const auto pair = [&](double low, double high) {

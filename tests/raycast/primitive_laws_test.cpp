@@ -282,7 +282,7 @@ TEST_CASE("instances of instances share one object and answer as the composed pl
   CHECK(torus.object.use_count() == 1);
 }
 
-TEST_CASE("disks: met within the radius, at any size and distance; their mesh has their area") {
+TEST_CASE("disks: met within the radius, at any size and distance, their mesh has their area") {
   SEEDED(random);
   int met = 0;
   for (int i = 0; i < 20000; ++i) {

@@ -191,7 +191,7 @@ TEST_CASE("no ray of ten million escapes from a closed room", "[slow]") {
   no_ray_escapes(random, 10'000'000);
 }
 
-TEST_CASE("zero-length and non-finite rays meet nothing; an empty scene is empty") {
+TEST_CASE("zero-length and non-finite rays meet nothing, an empty scene is empty") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Scene scene({placed(Sphere::make({0, 0, 0}, 1)), placed(BoxObject::make({-3, -3, -3}, {3, 3, 3}), room())});
   for (const dvec3& d : {dvec3(0), dvec3(-0.0), dvec3(1e-320, 0, 0), dvec3(nan, 0, 1), dvec3(infinity, 0, 0)}) {
@@ -294,7 +294,7 @@ TEST_CASE("copies that are left out change no answer, as sources of rays or besi
   CHECK(blocked > 1000);
 }
 
-TEST_CASE("work of a ray: more where it passes more, behind its end nothing counts; the same from every instruction set") {
+TEST_CASE("work of a ray: more where it passes more, behind its end nothing counts, the same from every instruction set") {
   SEEDED(random);
   for (int round = 0; round < 50; ++round) {
     const int boxes = 1 + static_cast<int>(random.below(100));

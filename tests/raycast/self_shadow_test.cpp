@@ -147,7 +147,7 @@ TEST_CASE("of two equal objects in one place, and of two that nearly coincide, t
   }
 }
 
-TEST_CASE("an object sunk into the owner of an end hides nothing; what stands out of it does") {
+TEST_CASE("an object sunk into the owner of an end hides nothing, what stands out of it does") {
   const Scene scene({placed(Sphere::make({0, 0, 0}, 1.0)), placed(Sphere::make({0, 0, 0.5}, 0.45)),
                      placed(BoxObject::make({0.3, -0.2, 0.5}, {0.5, 0.2, 1.5}))});
   const dvec3 chord{0.0, 0.0, 0.9};  // of the big sphere, inside both spheres
