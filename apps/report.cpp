@@ -23,6 +23,10 @@ bool wide(const radiosity::ErrorEstimate& error) {
   return error.high > 0.005 && error.high - error.low > std::max(0.01, 1.5 * error.relative_l2);
 }
 
+std::string lost_rays(const radiosity::StrayRays& stray) {
+  return (stray.lost() > 0 ? std::to_string(stray.lost()) : "none") + " of " + std::to_string(stray.rays) + " rays";
+}
+
 std::string text_row(std::string_view label, const std::string& value) { return "  " + left(std::string(label), 24, 1) + value + "\n"; }
 
 class Text {
@@ -143,7 +147,7 @@ class Text {
     if (audit_.closure) {
       say("  correction", "{closure} RMS (quadrature and sampling explain ",
           percent(audit_.closure_limit) + "): " +
-              (audit_.stray ? "none of " + std::to_string(audit_.stray->rays) + " rays left the scene, so each row is taken to sum to 1"
+              (audit_.stray ? lost_rays(*audit_.stray) + " left the scene, so each row is taken to sum to 1"
                             : "the scene is proven closed, so each row must sum to 1"));
     }
     say("energy balance", "{energy_balance} amiss, {escaped} escaped");

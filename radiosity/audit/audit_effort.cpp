@@ -58,7 +58,7 @@ struct PathModel {
     const double variance = std::max(off * off, model.variance_at(paths) / (enough * met));
     const bool better = variance < 0.99 * best_variance || (variance < 1.01 * best_variance && enough * rays < best_rays);
     if (paths > first && !better) { continue; }
-    best = {static_cast<std::uint64_t>(enough), paths, false};
+    best = {static_cast<std::uint64_t>(std::max(fewest, steady(enough))), paths, false};
     best_variance = variance;
     best_rays = enough * rays;
   }

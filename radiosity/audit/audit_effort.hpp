@@ -30,6 +30,10 @@
 
 namespace radiosity {
 
+// The power of the fourth root of 2 below x, which is positive. Numbers of points are such ones: other casters and compilers find some rays
+// elsewhere, at edges, and an audit of one point more draws all of its points anew.
+[[nodiscard]] inline double steady(double x) { return std::exp2(std::floor(4.0 * std::log2(x)) / 4.0); }
+
 struct AuditGoal {
   std::uint64_t points = 2000;      // about: a quarter of them at least, more where the points differ much
   std::uint64_t rays = 0;           // at most, pilots included, unless the least number of points takes more; as dear as among few polygons
@@ -41,7 +45,8 @@ struct AuditGoal {
 
   // The same where a ray costs `work` times as much (raycast::Scene::ray_work).
   [[nodiscard]] AuditGoal among_rays_of(double work) const {
-    const auto fewer = [work](std::uint64_t count) { return static_cast<std::uint64_t>(static_cast<double>(count) / work); };
+    const double price = steady(work);
+    const auto fewer = [price](std::uint64_t count) { return static_cast<std::uint64_t>(static_cast<double>(count) / price); };
     return {points, fewer(rays), wanted, fewer(rays_to_show), fewer(rays_anyhow), fewer(rays_if_wide), fewer(rays_to_steer)};
   }
 };

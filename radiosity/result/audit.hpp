@@ -4,6 +4,7 @@
 // What every run says about itself: how wrong it is, how long it took, what it left out. The error is measured, not guessed
 // (error_estimate.hpp, surface_error.hpp).
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -37,6 +38,9 @@ struct StrayRays {
   double escaping = 0.0, to_backs = 0.0;
   double standard_error = 0.0;  // of either, at most
   std::uint32_t rays = 0;
+
+  // The number of rays that end so.
+  [[nodiscard]] std::uint32_t lost() const { return static_cast<std::uint32_t>(std::lround((escaping + to_backs) * rays)); }
 };
 
 // What became of Options::mesh_error. Errors are relative L2 over the surfaces, of the colours of the mesh against gathered light; or over

@@ -245,7 +245,7 @@ TEST_CASE("a room with a hole in its ceiling, of a tenth of its width or more, i
   Maker make{seed};
   for (int round = 0; round < 8; ++round) {
     std::vector<Corners> walls = make.prism(make.uniform(1.0, 3.0));
-    // The hole is at least a thousandth of the area: so 20 of 20 000 rays leave the room, and none with a probability of e^-20.
+    // The hole is at least a thousandth of the area: so 20 of 20 000 rays leave the room, and four or fewer with a probability of 2e-5.
     const double part = std::pow(10.0, make.uniform(-1.0, -0.3));
     CAPTURE(round, part);
     const Corners ceiling = walls[1];
