@@ -181,16 +181,16 @@ ExitCode draw_light(const RenderOptions& options, const radiosity::Control& cont
 }
 
 // What is asked for of a solution, and the report.
-ExitCode write_solution(const RenderOptions& options, const SceneFile& file, const radiosity::Camera& camera, Artist& artist,
-                        const radiosity::Solution& solution, const radiosity::Options& settings, const radiosity::Control& control,
-                        Progress& progress) {
+ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, const radiosity::Options& settings,
+                        const radiosity::Control& control, Progress& progress) {
+  const RenderOptions& options = artist.options();
   Report report;
   report.scene = options.scene;
-  report.taken_in = file.notes;
+  report.taken_in = artist.file().notes;
   report.options = settings;
   report.audit = solution.audit;
   leave_out_others(report.audit.stages);
-  const auto outputs = encode(options, file, camera, artist, solution, control, report);
+  const auto outputs = encode(artist, solution, control, report);
   progress.done();
   if (!outputs) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
   if (const ExitCode code = write_all(*outputs); code != ExitCode::ok) { return code; }
@@ -258,7 +258,7 @@ ExitCode run(const RenderOptions& options) {
   progress.done();
   if (!outcome.solution) { return report_failure(outcome.failure, options.scene); }
 
-  return write_solution(options, *file, *camera, artist, *outcome.solution, settings, control, progress);
+  return write_solution(artist, *outcome.solution, settings, control, progress);
 }
 
 }  // namespace

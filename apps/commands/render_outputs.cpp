@@ -146,17 +146,17 @@ std::vector<RenderOutput> encode(const RenderOptions& options, const radiosity::
 namespace {
 
 // The picture, with its time and error in the report. Nothing when interrupted.
-std::optional<radiosity::Picture> drawn(const RenderOptions& options, const SceneFile& file, const radiosity::Camera& camera,
-                                        Artist& artist, const radiosity::Solution& solution, const radiosity::Tone& tone,
+std::optional<radiosity::Picture> drawn(Artist& artist, const radiosity::Solution& solution, const radiosity::Tone& tone,
                                         const radiosity::Control& control, Report& report) {
+  const RenderOptions& options = artist.options();
   std::vector<radiosity::StageTime> stages;
   radiosity::detail::Stopwatch watch(stages);
   const radiosity::Mesh& mesh = options.method == PictureMethod::mesh ? solution.shown() : solution.mesh;
   std::optional<radiosity::Picture> picture = artist.draw(mesh, solution.frame, tone, control);
   if (!picture) { return std::nullopt; }
-  report.picture = PictureReport{camera.name, artist.size().width, artist.size().height, options.method};
+  report.picture = PictureReport{artist.camera().name, artist.size().width, artist.size().height, options.method};
   watch.lap("picture");
-  if (std::string sentence = warning_of_dark_picture(*picture, file, artist.view()); !sentence.empty()) {
+  if (std::string sentence = warning_of_dark_picture(*picture, artist.file(), artist.view()); !sentence.empty()) {
     report.audit.warnings.push_back(std::move(sentence));
   }
   if (!report.audit.picture_error && options.solver.audit_points > 0) {
@@ -173,17 +173,17 @@ std::optional<radiosity::Picture> drawn(const RenderOptions& options, const Scen
 
 }  // namespace
 
-std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file, const radiosity::Camera& camera,
-                                                Artist& artist, const radiosity::Solution& solution, const radiosity::Control& control,
+std::optional<std::vector<RenderOutput>> encode(Artist& artist, const radiosity::Solution& solution, const radiosity::Control& control,
                                                 Report& report) {
+  const RenderOptions& options = artist.options();
+  const SceneFile& file = artist.file();
   if (control.cancelled()) { return std::nullopt; }
   std::vector<RenderOutput> outputs;
   const radiosity::Tone tone = artist.tone(solution.mesh);
   report.exposure = tone.exposure;
   report.tone = tone.curve;
   report.automatic_exposure = !options.exposure || options.exposure->of_automatic;
-  const std::optional<radiosity::Picture> picture =
-      has_picture(options) ? drawn(options, file, camera, artist, solution, tone, control, report) : std::nullopt;
+  const std::optional<radiosity::Picture> picture = has_picture(options) ? drawn(artist, solution, tone, control, report) : std::nullopt;
   if (has_picture(options) && !picture) { return std::nullopt; }
   std::optional<ExportMesh> exported;
   const auto is_exported = [&](const std::string& path) {
@@ -200,7 +200,7 @@ std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, co
     } else if (format == RenderFormat::light) {
       bytes = to_light_file(solution.mesh, solution.frame, file.scene, {options.scene, file.text, file.beside, options.model});
     } else if (format == RenderFormat::html) {
-      bytes = viewer_page(file, solution, camera, tone.exposure, options.scene, summary(solution));
+      bytes = viewer_page(file, solution, artist.camera(), tone.exposure, options.scene, summary(solution));
     } else if (format == RenderFormat::exported) {
       if (exported) { bytes = export_format(path)->write(*exported, tone); }
     } else {

@@ -83,8 +83,12 @@ class Artist {
   Artist(const RenderOptions& options, const SceneFile& file, const radiosity::Camera& camera)
       : options_{options},
         file_{file},
+        camera_{camera},
         view_{radiosity::make_view(camera, options.size.value_or(camera.size.value_or(radiosity::PictureSize{})))} {}
 
+  [[nodiscard]] const RenderOptions& options() const { return options_; }
+  [[nodiscard]] const SceneFile& file() const { return file_; }
+  [[nodiscard]] const radiosity::Camera& camera() const { return camera_; }
   [[nodiscard]] radiosity::Tone tone(const radiosity::Mesh& mesh) const;
   [[nodiscard]] radiosity::PictureSize size() const { return view_.size; }
   [[nodiscard]] const radiosity::View& view() const { return view_; }
@@ -102,6 +106,7 @@ class Artist {
  private:
   const RenderOptions& options_;
   const SceneFile& file_;
+  const radiosity::Camera& camera_;
   radiosity::View view_;
   std::optional<radiosity::PictureAudit> audit_;
   bool asked_ = false;
@@ -117,9 +122,7 @@ struct RenderOutput {
                                                const radiosity::Tone& tone);
 
 // Everything that is to be written, in memory; the report is completed. Nothing when interrupted.
-[[nodiscard]] std::optional<std::vector<RenderOutput>> encode(const RenderOptions& options, const SceneFile& file,
-                                                              const radiosity::Camera& camera, Artist& artist,
-                                                              const radiosity::Solution& solution, const radiosity::Control& control,
-                                                              Report& report);
+[[nodiscard]] std::optional<std::vector<RenderOutput>> encode(Artist& artist, const radiosity::Solution& solution,
+                                                              const radiosity::Control& control, Report& report);
 
 }  // namespace apps

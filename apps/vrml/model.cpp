@@ -162,7 +162,7 @@ class ModelMaker final : public Visitor {
     if (sides && top && bottom) {  // sheets: side, bottom, top
       return add(raycast::Cylinder::make({0.0, -0.5 * height, 0.0}, {0.0, height, 0.0}, radius), "cylinder", {0, 2, 1}, node, state);
     }
-    open_parts(node, state, radius, radius, height, sides, top, bottom);
+    open_parts(node, state, {radius, radius, height, sides, top, bottom});
   }
 
   void cone(const Node& node, const State& state) {
@@ -171,18 +171,24 @@ class ModelMaker final : public Visitor {
     if (sides && bottom) {
       return add(raycast::Cone::make({0.0, -0.5 * height, 0.0}, {0.0, height, 0.0}, radius, 0.0), "cone", {0, 1}, node, state);
     }
-    open_parts(node, state, radius, 0.0, height, sides, false, bottom);
+    open_parts(node, state, {radius, 0.0, height, sides, false, bottom});
   }
 
+  // Parts of a cylinder or a cone, with its radii at both ends.
+  struct OpenParts {
+    double low, high, height;
+    bool sides, top, bottom;
+  };
+
   // Without all its parts it encloses nothing: polygons, seen from both sides.
-  void open_parts(const Node& node, const State& state, double low, double high, double height, bool sides, bool top, bool bottom) {
+  void open_parts(const Node& node, const State& state, const OpenParts& shape) {
     const bool by_part = state.binding == Binding::per_part || state.binding == Binding::per_part_indexed;
     std::array<std::vector<std::uint32_t>, 2> rings;
     for (int end = 0; end < 2; ++end) {
       for (int i = 0; i < sides_of_part; ++i) {
-        const double a = 2.0 * std::numbers::pi * i / sides_of_part, r = end == 0 ? low : high;
+        const double a = 2.0 * std::numbers::pi * i / sides_of_part, r = end == 0 ? shape.low : shape.high;
         rings[static_cast<std::size_t>(end)].push_back(static_cast<std::uint32_t>(model.positions.size()));
-        model.positions.push_back(point(state, {r * std::sin(a), (end - 0.5) * height, r * std::cos(a)}));
+        model.positions.push_back(point(state, {r * std::sin(a), (end - 0.5) * shape.height, r * std::cos(a)}));
       }
     }
     const std::uint32_t group = new_group(node);
@@ -190,12 +196,12 @@ class ModelMaker final : public Visitor {
       if (mirrored(state)) { std::reverse(corners.begin(), corners.end()); }
       model.polygon(corners, looks_.material(state, {by_part ? part : 0}, true), group, node.place.line);
     };
-    for (std::size_t i = 0; sides && i < sides_of_part; ++i) {
+    for (std::size_t i = 0; shape.sides && i < sides_of_part; ++i) {
       const std::size_t next = (i + 1) % sides_of_part;
       polygon({rings[0][i], rings[0][next], rings[1][next], rings[1][i]}, 0);
     }
-    if (top) { polygon(rings[1], 1); }
-    if (bottom) { polygon({rings[0].rbegin(), rings[0].rend()}, high > 0.0 ? 2 : 1); }
+    if (shape.top) { polygon(rings[1], 1); }
+    if (shape.bottom) { polygon({rings[0].rbegin(), rings[0].rend()}, shape.high > 0.0 ? 2 : 1); }
   }
 
   static bool mirrored(const State& state) { return glm::determinant(glm::dmat3(state.transform)) < 0.0; }
