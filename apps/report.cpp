@@ -24,7 +24,13 @@ bool wide(const radiosity::ErrorEstimate& error) {
 }
 
 std::string lost_rays(const radiosity::StrayRays& stray) {
-  return (stray.lost() > 0 ? std::to_string(stray.lost()) : "none") + " of " + std::to_string(stray.rays) + " rays";
+  const std::string lost = (stray.closed_lost > 0 ? std::to_string(stray.closed_lost) : "none") + " of ";
+  if (stray.closed_rays == stray.rays) {
+    return lost + std::to_string(stray.rays) + " rays left the scene, so each row is taken to sum to 1";
+  }
+  const double share = static_cast<double>(stray.closed_rays) / static_cast<double>(stray.rays);
+  return lost + std::to_string(stray.closed_rays) + " rays left parts of the scene, " + percent(share) +
+         " of its area, so each row there is taken to sum to 1";
 }
 
 std::string text_row(std::string_view label, const std::string& value) { return "  " + left(std::string(label), 24, 1) + value + "\n"; }
@@ -146,9 +152,8 @@ class Text {
     if (audit_.stored_rays > 0) { say("  noise of rays", "{ray_correction} RMS, taken out of the row sums"); }
     if (audit_.closure) {
       say("  correction", "{closure} RMS (quadrature and sampling explain ",
-          percent(audit_.closure_limit) + "): " +
-              (audit_.stray ? lost_rays(*audit_.stray) + " left the scene, so each row is taken to sum to 1"
-                            : "the scene is proven closed, so each row must sum to 1"));
+          percent(audit_.closure_limit) +
+              "): " + (audit_.stray ? lost_rays(*audit_.stray) : "the scene is proven closed, so each row must sum to 1"));
     }
     say("energy balance", "{energy_balance} amiss, {escaped} escaped");
     say("open scene",

@@ -151,6 +151,8 @@ void add_lists(Facts& facts, const Report& report) {
     facts.add("stray_rays.escaping", audit.stray->escaping, "%");
     facts.add("stray_rays.to_backs", audit.stray->to_backs, "%");
     facts.add("stray_rays.standard_error", audit.stray->standard_error, "%");
+    facts.add("stray_rays.closed_share", audit.stray->rays > 0 ? static_cast<double>(audit.stray->closed_rays) / audit.stray->rays : 0.0,
+              "%");
   } else {
     facts.add("stray_rays", {});
   }

@@ -160,49 +160,4 @@ HALFLIGHT_INLINE std::string warning_of_lost_light(const DiscreteScene& scene, c
          "a wall, or what they shine on shows its back; turn their polygons, or give them two sides";
 }
 
-HALFLIGHT_INLINE StrayRays stray_rays(const DiscreteScene& scene, std::uint32_t rays) {
-  const Hierarchy& hierarchy = scene.hierarchy;
-  const Patches& patches = scene.patches;
-  const Exposure& exposure = scene.exposure;
-  const raycast::Scene& objects = scene.objects;
-  std::vector<std::uint32_t> leaves;
-  std::vector<double> until;  // cumulative area
-  double total = 0.0;
-  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
-    if (!hierarchy[i].leaf() || !(exposure.area[i] > 0.0)) { continue; }
-    leaves.push_back(i);
-    until.push_back(total += exposure.area[i]);
-  }
-  if (leaves.empty()) { return {}; }
-  enum class End : char { front, back, nowhere };
-  std::vector<End> ends(rays, End::front);
-  parallel_for(rays, scene.threads, [&](std::size_t k) {
-    Random random{scene.seed, k, 0x7374726179ull};
-    const double at = (static_cast<double>(k) + random.uniform()) / rays * total;
-    const auto found = static_cast<std::size_t>(std::upper_bound(until.begin(), until.end(), at) - until.begin());
-    const std::uint32_t i = leaves[std::min(found, leaves.size() - 1)];
-    const ExposedPoints* const points = exposure.points(i);
-    glm::dvec3 p{0.0};
-    if (points != nullptr) {
-      p = points->draw(patches[i], static_cast<std::uint32_t>(random.bits() & 15u), random);
-    } else {
-      const double u = random.uniform();
-      p = sample(patches[i], u, random.uniform());
-    }
-    const Node& node = hierarchy[i];
-    const std::uint32_t sheet = node.surface - scene.surfaces[node.object].first_surface;
-    const raycast::SurfacePoint from = objects.object(node.object).project(sheet, p);
-    const double u = random.uniform();
-    const auto hit =
-        objects.closest({from.position, cosine_direction(from.normal, u, random.uniform()) * objects.diameter()}, node.object, sheet);
-    ends[k] = !hit ? End::nowhere : hit->front ? End::front : End::back;
-  });
-  StrayRays stray;
-  stray.escaping = static_cast<double>(std::count(ends.begin(), ends.end(), End::nowhere)) / rays;
-  stray.to_backs = static_cast<double>(std::count(ends.begin(), ends.end(), End::back)) / rays;
-  stray.standard_error = 0.5 / std::sqrt(static_cast<double>(rays));
-  stray.rays = rays;
-  return stray;
-}
-
 }  // namespace radiosity

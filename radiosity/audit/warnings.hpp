@@ -32,9 +32,6 @@ namespace radiosity {
 // reflect. Empty when more was reflected, or nothing shines.
 [[nodiscard]] std::string warning_of_lost_light(const DiscreteScene& scene, const std::vector<Color>& radiosity);
 
-// One ray from each of `rays` points spread over the exposed area.
-[[nodiscard]] StrayRays stray_rays(const DiscreteScene& scene, std::uint32_t rays);
-
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY

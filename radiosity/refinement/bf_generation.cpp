@@ -22,9 +22,9 @@
 #include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/bf_goal.hpp>
+#include <radiosity/refinement/closed_parts.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/f_refine.hpp>
-#include <radiosity/refinement/lamp_choice.hpp>
 #include <radiosity/refinement/leaf_error.hpp>
 #include <radiosity/refinement/link_error.hpp>
 #include <radiosity/scene/options.hpp>
@@ -84,9 +84,8 @@ HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
   Links links(scene.budget.arrays);  // packed, for the operator
   links.reserve(state.links.size());
   for (const MeasuredLink& l : state.links) { links.push_back(l.link); }
-  Transport transport{scene.hierarchy, links, scene.exposure, scene.threads,
-                      scene.plan.loses_nothing ? lamp_nodes(scene) : std::vector<bool>{}};
-  if (scene.plan.loses_nothing) { (void)transport.close(10.0, 1e-3); }
+  Transport transport{scene.hierarchy, links, scene.exposure, scene.threads, closed_nodes(scene)};
+  if (!scene.closed.empty()) { (void)transport.close(10.0, 1e-3); }
   const ColorSolution light = solve_channels(transport, transport.area(), surface_light(scene), {Solver::conjugate_gradients, 1e-3, 40});
   LeafErrors leaves = estimate_leaf_errors(scene, links, light.radiosity);
   BfErrors errors;

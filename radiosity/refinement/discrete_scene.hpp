@@ -68,6 +68,7 @@ struct DiscreteScene {
   std::vector<InputSurface> inputs;
   std::vector<std::uint32_t> materials;      // of each input surface,
   std::vector<Color> reflectance, emission;  // and what these are
+  std::vector<bool> closed;                  // input surfaces that lose no light; empty where none is known to (closed_parts.hpp)
   std::vector<bool> lamps;                   // where other light goes by stored rays: input surfaces whose light goes by links
 
   Hierarchy hierarchy;

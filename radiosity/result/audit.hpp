@@ -38,6 +38,7 @@ struct StrayRays {
   double escaping = 0.0, to_backs = 0.0;
   double standard_error = 0.0;  // of either, at most
   std::uint32_t rays = 0;
+  std::uint32_t closed_rays = 0, closed_lost = 0;  // from parts that count as closed (closed_parts.hpp), and of these the lost ones
 
   // The number of rays that end so.
   [[nodiscard]] std::uint32_t lost() const { return static_cast<std::uint32_t>(std::lround((escaping + to_backs) * rays)); }

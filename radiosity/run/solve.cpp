@@ -16,8 +16,8 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/rays/ray_links.hpp>
+#include <radiosity/refinement/closed_parts.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/lamp_choice.hpp>
 #include <radiosity/refinement/link_error.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
@@ -35,21 +35,22 @@ namespace detail {
 // The links of stored rays: their row sums are in a closed scene what the links of the lamps leave of 1, else what the rays of each
 // node tell beside those of others. Returns the row sums before that.
 HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run) {
-  const bool closed = run.scene.plan.loses_nothing;
+  const std::vector<bool> closed = closed_nodes(run.scene).nodes;
+  const bool any = !run.scene.closed.empty();
   const RayLinks& made = run.ray_links;
-  if (closed) { run.transport->scale_lamps(); }
+  if (any) { run.transport->scale_lamps(); }
   const std::vector<double> of_lamps = run.transport->row_sums();
   run.solution.ray_links = std::move(run.ray_links.links);
   run.transport->add_sampled(run.solution.ray_links);
   const std::vector<double> computed = run.transport->row_sums();
   std::vector<double> wanted;
-  if (closed) {
-    wanted = run.transport->left_by_lamps();
-  } else {
-    for (std::size_t i = 0; i < computed.size(); ++i) { wanted.push_back(computed[i] - of_lamps[i]); }
-    wanted = made.row_sums(run.scene, wanted, of_lamps);
+  for (std::size_t i = 0; i < computed.size(); ++i) { wanted.push_back(computed[i] - of_lamps[i]); }
+  wanted = made.row_sums(run.scene, wanted, of_lamps);
+  if (any) {
+    const std::vector<double> left = run.transport->left_by_lamps();
+    for (std::size_t i = 0; i < wanted.size(); ++i) { wanted[i] = closed[i] ? left[i] : wanted[i]; }
   }
-  run.solution.audit.ray_correction = run.transport->scale_sampled(wanted, closed ? 16.0 : 4.0);
+  run.solution.audit.ray_correction = run.transport->scale_sampled(wanted, any ? 16.0 : 4.0);
   return computed;
 }
 
@@ -58,11 +59,10 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
   const DiscreteScene& scene = run.scene;
   Solution& solution = run.solution;
   Audit& audit = run.solution.audit;
-  Transport& transport = run.transport.emplace(scene.hierarchy, solution.links, scene.exposure, scene.threads,
-                                               scene.plan.loses_nothing ? lamp_nodes(scene) : std::vector<bool>{});
+  Transport& transport = run.transport.emplace(scene.hierarchy, solution.links, scene.exposure, scene.threads, closed_nodes(scene));
   const std::vector<double>& area = scene.exposure.area;
   audit.computed_row_sum = summarise_rows(scene.hierarchy, area, run.rays.cast ? add_ray_links(run) : transport.row_sums());
-  if (scene.plan.loses_nothing && solution.links.size() + solution.ray_links.size() > 0) {
+  if (!scene.closed.empty() && solution.links.size() + solution.ray_links.size() > 0) {
     double exposed = 0.0;
     for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }
     // The noise of rays is out of the row sums by now.

@@ -28,8 +28,9 @@
 namespace radiosity {
 
 HALFLIGHT_INLINE Transport::Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads,
-                                      std::vector<bool> lamps)
-    : hierarchy_{&hierarchy}, exposure_{&exposure}, threads_{threads}, area_{exposure.area} {
+                                      ClosedNodes closed)
+    : hierarchy_{&hierarchy}, exposure_{&exposure}, threads_{threads}, area_{exposure.area}, closed_{std::move(closed.nodes)} {
+  std::vector<bool>& lamps = closed.lamps;
   std::span<Link> rest{links};
   if (!lamps.empty()) {
     const auto of_lamp = [&](const Link& link) { return lamps[link.p] != lamps[link.q]; };
@@ -178,14 +179,14 @@ HALFLIGHT_INLINE void Transport::scale_lamps() {
   for (std::size_t i = 0; i < of_lamps.size(); ++i) {
     if (!lamps_[i] || !(*hierarchy_)[i].leaf()) { continue; }
     power[lamp(i)] += area_[i] * of_lamps[i];
-    wanted[lamp(i)] += area_[i] * (1.0 - of_others[i]);
+    wanted[lamp(i)] += area_[i] * (closed(i) ? 1.0 - of_others[i] : of_lamps[i]);
   }
   for (std::size_t i = 0; i < of_lamps.size(); ++i) {
     if (!lamps_[i]) { continue; }
     const double is = power[lamp(i)], be = wanted[lamp(i)], scale = is > 0.0 && be > 0.0 ? std::clamp(be / is, 0.5, 2.0) : 1.0;
     parts_[0].scale[i] *= scale;
     const double row = scale * of_lamps[i] + of_others[i];
-    if (lamp_cluster_[i] != no_node && (*hierarchy_)[i].leaf() && row > 0.0) { area_[i] *= row; }
+    if (lamp_cluster_[i] != no_node && (*hierarchy_)[i].leaf() && row > 0.0 && closed(i)) { area_[i] *= row; }
   }
   for (std::size_t i = area_.size(); i-- > 0;) {
     const Node& node = (*hierarchy_)[i];
@@ -226,7 +227,8 @@ HALFLIGHT_INLINE std::vector<double> Transport::left_by_lamps() {
     const std::vector<double> rows = row_sums(part);
     for (std::size_t i = 0; i < left.size(); ++i) { left[i] -= rows[i]; }
   }
-  for (double& l : left) { l = std::max(least, l); }
+  const std::vector<double> own = row_sums(parts_.size() - 1);
+  for (std::size_t i = 0; i < left.size(); ++i) { left[i] = closed(i) ? std::max(least, left[i]) : own[i]; }
   return left;
 }
 
@@ -260,7 +262,8 @@ HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tol
     scale(parts_.size() - 1, left_by_lamps(), 16.0);
   }
   std::vector<double> power(hierarchy_->size(), 0.0);
-  for (std::size_t i = 0; i < power.size(); ++i) { power[i] = (*hierarchy_)[i].leaf() ? area_[i] : 0.0; }
+  const std::vector<double> own = closed_.empty() ? std::vector<double>{} : row_sums();
+  for (std::size_t i = 0; i < power.size(); ++i) { power[i] = !(*hierarchy_)[i].leaf() ? 0.0 : closed(i) ? area_[i] : area_[i] * own[i]; }
   const std::vector<double> scale =
       balance([&](const std::vector<double>& x, std::vector<double>& y) { apply(x, y); }, power, {.tolerance = tolerance});
   for (Part& part : parts_) {

@@ -36,11 +36,16 @@
 
 namespace radiosity {
 
+// The leaves that lose no light, whose form factors sum to 1, and the nodes that count as lamps.
+struct ClosedNodes {
+  std::vector<bool> nodes;  // empty: all
+  std::vector<bool> lamps;  // the links with one end in them are a part of their own; empty: none
+};
+
 class Transport {
  public:
-  // The references must outlive the operator. Arranges the links (link_schedule.hpp). `lamps` are the nodes that count as lamps: the links
-  // with one end in them are a part of their own.
-  Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads = 1, std::vector<bool> lamps = {});
+  // The references must outlive the operator. Arranges the links (link_schedule.hpp). `closed`: what close() is to bring about.
+  Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads = 1, ClosedNodes closed = {});
 
   // Adds links that were sampled, between patches, once. They must outlive the operator, which arranges them.
   void add_sampled(Links& links);
@@ -48,9 +53,9 @@ class Transport {
   // Returns the area-weighted RMS by which their row sums changed, relative to the RMS of these: where an open scene has row sums near 0,
   // D may be far from 1 and change nothing.
   double scale_sampled(const std::vector<double>& rows, double most = 4.0);
-  // The row sums that all parts but the last leave to the last one in a closed scene.
+  // The row sums that all parts but the last leave to the last one at closed nodes; at others those that the last one has.
   [[nodiscard]] std::vector<double> left_by_lamps();
-  // Of a closed scene, before its other links are scaled: makes the row sums of lamps 1 by a scale of theirs, which other surfaces do not
+  // Before the other links are scaled: makes the row sums of closed lamps 1 by a scale of theirs, which other surfaces do not
   // have. A cluster of lamps has one for all its faces, since which of them lights what near it is not known: a face then counts for the
   // area that its links give it (area()). Without lamps nothing is done.
   void scale_lamps();
@@ -92,7 +97,7 @@ class Transport {
   // What each leaf sees of the scene: the sum of its form factors. 1 in a closed scene. Inner nodes hold 0.
   [[nodiscard]] std::vector<double> row_sums();
 
-  // Closes a scene that loses no light: finds D with all row sums 1, within the tolerance (symmetric scaling, van Leersum 1989; see
+  // Closes what loses no light: finds D with the row sums of closed nodes 1, and all others as they are, within the tolerance (symmetric scaling, van Leersum 1989; see
   // balance.hpp), so that what quadrature and sampled visibility got wrong in the rows does not grow by rho / (1 - rho) in the solution.
   // Beside lamps the others are scaled first, to what the lamps leave of 1, and the D of all is near 1.
   // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS of D - 1, the mean over the parts by what they carry,
@@ -112,6 +117,7 @@ class Transport {
   void arrive_at(std::uint32_t i, const EndShape& shape, double power);
 
   void keep_lamps(std::vector<bool> lamps);
+  [[nodiscard]] bool closed(std::size_t i) const { return closed_.empty() || closed_[i]; }
 
   struct Part {
     Part(const Hierarchy& hierarchy, std::span<Link> links);
@@ -133,6 +139,7 @@ class Transport {
   const Exposure* exposure_;
   unsigned threads_;
   std::vector<double> area_;                 // by node, see area()
+  std::vector<bool> closed_;                 // nodes; empty: all
   std::vector<bool> lamps_;                  // nodes; none where lamps have no part of their own, which is the first
   std::vector<std::uint32_t> lamp_cluster_;  // of each node the largest cluster of lamps that holds it, or no_node; likewise
   std::vector<Part> parts_;

@@ -93,7 +93,6 @@ HALFLIGHT_INLINE void look_at_materials(const Scene& scene, Plan& plan) {
   const auto on_room = [&](std::uint32_t o) { return room->object->flat() && lies_on(surfaces[o], {room}); };
   plan.closed =
       room != nullptr ? !holes && std::all_of(sheets.begin(), sheets.end(), on_room) : sheets_at_all && enclosed_by_sheets(surfaces);
-  plan.loses_nothing = plan.closed;
   return rooms_clear;
 }
 

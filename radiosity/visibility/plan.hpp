@@ -31,7 +31,6 @@ struct Plan {
   bool reflects = false;        // something reflects
   unsigned channels = 3;        // 1 when every material is grey
   bool closed = false;          // proven: no light leaves the scene
-  bool loses_nothing = false;   // closed, or of 20 000 rays four at most left it or met a black back (expose.cpp)
   bool traceable = true;        // paths end soon enough to measure the error
   bool lossless = false;        // closed, lit, and nothing absorbs in some channel that is lit: no steady state
   std::uint32_t occluders = 0;  // objects that can stand between two patches
