@@ -84,14 +84,12 @@ inline constexpr std::size_t samples_of_joined = 1024;
 
 }  // namespace detail
 
-HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const std::vector<Surface>& surfaces, const Candidate& candidate,
-                                                          std::size_t samples, bool fine) {
+HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const std::vector<Surface>& surfaces, const Candidate& candidate) {
   Lamp lamp;
   lamp.exitance = candidate.exitance;
   raycast::Box box;
   double true_area = 0.0;
   bool flat = true;
-  std::vector<std::uint32_t> owner;  // of the samples on each facet
   for (const Candidate::OfObject& part : candidate.parts) {
     const Surface& surface = surfaces[part.object];
     const raycast::PlacedObject& object = *surface.object;
@@ -104,7 +102,7 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const std::vector<Surf
       for (const glm::dvec3& p : facet.contour) { box.extend(p); }
       true_area += object.flat() ? facet.area : curved_area(object, sheet, facet.contour);
     }
-    owner.insert(owner.end(), facets.facets.size(), object.flat() ? raycast::no_object : part.object);
+    lamp.object_of.insert(lamp.object_of.end(), facets.facets.size(), part.object);
     append(lamp.facets, facets);
   }
   lamp.surface = surfaces[candidate.parts[0].object].first_surface + candidate.parts[0].sheets[0];
@@ -128,9 +126,21 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const std::vector<Surf
     lamp.corners = {c[0], c[1], c[2], c[c.size() > 3 ? 3 : 2]};
     lamp.bulge = 2.0 * lamp.radius;
   }
-  lamp.samples = lamp_samples(lamp.facets, owner, samples);
-  if (fine) { lamp.fine = FineSamples{lamp.samples, lamp_samples(lamp.facets, owner, detail::fine_samples)}; }
   return lamp;
+}
+
+HALFLIGHT_INLINE void DirectLight::take_samples(Lamp& lamp, std::size_t count, bool fine) const {
+  std::vector<SampleEnd> ends;
+  for (const std::uint32_t o : lamp.object_of) {
+    const raycast::PlacedObject& object = objects_->object(o);
+    if (bodies_[o].lift > 0.0) {
+      ends.push_back({raycast::no_object, bodies_[o].lift + detail::facet_tolerance * bodies_[o].bounds.diameter()});
+    } else {
+      ends.push_back({object.flat() ? raycast::no_object : o, 0.0});
+    }
+  }
+  lamp.samples = lamp_samples(lamp.facets, ends, count);
+  if (fine) { lamp.fine = FineSamples{lamp.samples, lamp_samples(lamp.facets, ends, detail::fine_samples)}; }
 }
 
 HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
@@ -158,14 +168,15 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
     samples = std::clamp<std::size_t>(std::bit_floor(detail::samples_of_joined / lamps), 16, samples);
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
+  std::vector<bool> is_fine;  // by lamp
   std::size_t fine_ones = 0;
   double taken = 0.0;
   for (const Candidate& c : candidates) {
     if (lamps_.size() == limits.most) { break; }
+    Lamp lamp = make_lamp(surfaces, c);
+    if (lamp.facets.empty()) { continue; }
     const bool fine =
         samples == detail::samples_of_lamp && std::sqrt(c.area) > detail::large_lamp * objects.diameter() && fine_ones < detail::most_fine;
-    Lamp lamp = make_lamp(surfaces, c, samples, fine);
-    if (lamp.facets.empty()) { continue; }
     fine_ones += fine ? 1 : 0;
     if (detail::surrounds(lamp.facets, lamp.centre)) {
       taken += c.area;
@@ -175,10 +186,13 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       for (const std::uint32_t sheet : part.sheets) { is_lamp_[surfaces[part.object].first_surface + sheet] = true; }
     }
     lamps_.push_back(std::move(lamp));
+    is_fine.push_back(fine);
   }
   if (lamps_.empty()) { return; }
   take_bodies(surfaces);
-  for (Lamp& lamp : lamps_) {
+  for (std::size_t k = 0; k < lamps_.size(); ++k) {
+    Lamp& lamp = lamps_[k];
+    take_samples(lamp, samples, is_fine[k]);
     lamp.behind.assign(objects.size(), false);
     const Facets::Facet& plane = lamp.facets.facets[0];
     for (std::uint32_t o = 0; o < bodies_.size() && lamp.flat; ++o) {

@@ -54,9 +54,10 @@ class DirectLight {
     std::uint32_t surface = 0, object = 0;  // of the input; of several surfaces the first; no_object for several objects
     Color exitance{0.0};
     Facets facets;
-    bool flat = false;        // all facets lie in one plane
-    double correction = 1.0;  // area of the true surface over that of the facets
-    glm::dvec3 centre{0.0};   // of a sphere around it
+    std::vector<std::uint32_t> object_of;  // of each facet
+    bool flat = false;                     // all facets lie in one plane
+    double correction = 1.0;               // area of the true surface over that of the facets
+    glm::dvec3 centre{0.0};                // of a sphere around it
     double radius = 0.0;
     std::array<glm::dvec3, 4> corners;  // of a rectangle around it, in its plane; of a curved one, around a point of it
     double bulge = 0.0;                 // how far it leaves the rectangle
@@ -101,7 +102,9 @@ class DirectLight {
   // Takes candidates together until they are `most` at most, if that is possible.
   [[nodiscard]] static std::vector<Candidate> join_alike(const std::vector<Candidate>& singles, const raycast::Scene& objects,
                                                          std::uint32_t most);
-  [[nodiscard]] static Lamp make_lamp(const std::vector<Surface>& surfaces, const Candidate& candidate, std::size_t samples, bool fine);
+  // A lamp without samples, and these once it is known in place of which objects meshes stand.
+  [[nodiscard]] static Lamp make_lamp(const std::vector<Surface>& surfaces, const Candidate& candidate);
+  void take_samples(Lamp& lamp, std::size_t count, bool fine) const;
 
   const raycast::Scene* objects_ = nullptr;
   double slack_ = detail::least_slack;  // heights below count as none: twice what faces that are not quite plane are off, if that is more

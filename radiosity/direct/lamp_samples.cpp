@@ -21,10 +21,10 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const std::uint32_t> owner, std::size_t count) {
+HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const SampleEnd> ends, std::size_t count) {
   struct Triangle {
     glm::dvec3 a{0.0}, b{0.0}, c{0.0}, normal{0.0};
-    std::uint32_t owner = 0;
+    SampleEnd end;
   };
   std::vector<Triangle> triangles;
   std::vector<double> until;  // cumulated area
@@ -32,7 +32,7 @@ HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std:
   for (std::size_t f = 0; f < facets.facets.size(); ++f) {
     const Facets::Facet& facet = facets.facets[f];
     for (std::size_t i = 1; i + 1 < facet.contour.size(); ++i) {
-      const Triangle t{facet.contour[0], facet.contour[i], facet.contour[i + 1], facet.normal, owner[f]};
+      const Triangle t{facet.contour[0], facet.contour[i], facet.contour[i + 1], facet.normal, ends[f]};
       total += 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a));
       triangles.push_back(t);
       until.push_back(total);
@@ -49,7 +49,8 @@ HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std:
     const double before = i > 0 ? until[i - 1] : 0.0;
     const double root = std::sqrt(std::clamp((at - before) / (until[i] - before), 0.0, 1.0));
     const Triangle& t = triangles[i];
-    samples.push_back({t.a + root * (1.0 - u[1]) * (t.b - t.a) + root * u[1] * (t.c - t.a), t.normal, t.owner});
+    const glm::dvec3 on_facet = t.a + root * (1.0 - u[1]) * (t.b - t.a) + root * u[1] * (t.c - t.a);
+    samples.push_back({on_facet + t.end.lift * t.normal, t.normal, t.end});
   }
   return samples;
 }

@@ -17,14 +17,21 @@
 
 namespace radiosity {
 
+// Where segments to a facet end. Facets of a curved object cut its corners, so their points may lie beneath what segments meet: either the
+// object owns them, and does not block its own points, or, where meshes stand in for it, they are lifted above these.
+struct SampleEnd {
+  std::uint32_t owner = raycast::no_object;
+  double lift = 0.0;  // along the normal of the facet
+};
+
 struct LampSample {
   glm::dvec3 position{0.0}, normal{0.0};
-  std::uint32_t owner = raycast::no_object;  // of a point of a curved object, which lies beside its surface: that object
+  SampleEnd end;
 };
 
 // The first `count` of Sobol's points (1967), mapped to the triangles of the facets laid side by side: each multiple of sixteen of them is
-// even over the area. `owner`: of each facet.
-[[nodiscard]] std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const std::uint32_t> owner, std::size_t count);
+// even over the area. `ends`: of each facet.
+[[nodiscard]] std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const SampleEnd> ends, std::size_t count);
 
 // Fine samples of equal area, by the coarse one that each is nearest to. Those of a coarse sample fill its cell (Voronoi 1908), the first
 // ones too.

@@ -51,8 +51,8 @@ HALFLIGHT_INLINE LitRegion::Asked16 LitRegion::ask16(Reach& reach, const glm::dv
     if (!(glm::dot(n, d) > 0.0) || !(cosines > 0.0)) { continue; }
     const double r2 = glm::dot(d, d);
     result.weight[k] = cosines / (r2 * r2);
-    const double to_lift = sample.owner == raycast::no_object ? detail::off_surface : 0.0;
-    segments.set(k, {from, sample.position + to_lift * sample.normal - from}, source, sample.owner);
+    const double to_lift = sample.end.owner == raycast::no_object ? detail::off_surface : 0.0;
+    segments.set(k, {from, sample.position + to_lift * sample.normal - from}, source, sample.end.owner);
   }
   rays_ += static_cast<unsigned>(std::popcount(segments.lanes));
   result.seen = segments.lanes;
@@ -119,7 +119,7 @@ HALFLIGHT_INLINE double LitRegion::seen_share_of_facets(Reach& reach, const glm:
       const glm::dvec3 to_a = a.position - middle, to_b = b.position - middle;
       return glm::dot(to_a, to_a) < glm::dot(to_b, to_b);
     });
-    samples.push_back({middle, facet.normal, nearest->owner});
+    samples.push_back({middle + nearest->end.lift * facet.normal, facet.normal, nearest->end});
     area.push_back(glm::length(twice_area));
   }
   double all = 0.0, seen = 0.0;

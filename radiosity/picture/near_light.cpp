@@ -98,8 +98,8 @@ HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumb
     const double lift = direct_->lift(object);
     const bool curved = !(lift > 0.0) && !lookup_->objects().object(object).flat();
     const glm::dvec3 from = at.position + std::max(lift, off_surface) * at.normal;
-    const glm::dvec3 to = sample.position + (sample.owner == raycast::no_object ? off_surface : 0.0) * sample.normal;
-    segments.set(k, {from, to - from}, curved ? object : raycast::no_object, sample.owner);
+    const glm::dvec3 to = sample.position + (sample.end.owner == raycast::no_object ? off_surface : 0.0) * sample.normal;
+    segments.set(k, {from, to - from}, curved ? object : raycast::no_object, sample.end.owner);
   });
   if (segments.lanes == 0) { return; }
   const std::uint32_t lit = segments.lanes & ~direct_->objects().occluded16(segments);
