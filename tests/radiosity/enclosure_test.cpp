@@ -9,6 +9,7 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include <radiosity/visibility/prepare.hpp>
 #include <raycast/object.hpp>
 #include <raycast/objects/sphere.hpp>
+#include <raycast/objects/torus.hpp>
 #include <raycast/transform.hpp>
 
 #include "catch.hpp"
@@ -126,10 +128,10 @@ std::vector<Corners> box_of_polygons(const glm::dvec3& lo, const glm::dvec3& hi)
 }
 
 // All surfaces reflect rho and emit 1 - rho.
-radiosity::Solution furnace(radiosity::Scene scene, double rho) {
+radiosity::Solution furnace(radiosity::Scene scene, double rho, double epsilon = 0.05) {
   scene.materials = {scenes::furnace_material(rho)};
   radiosity::Options options;
-  options.epsilon = 0.05;
+  options.epsilon = epsilon;
   options.min_area = 1e-3;
   options.audit_points = 0;
   return scenes::solved(scene, options);
@@ -246,6 +248,33 @@ TEST_CASE("furnaces of things that cross: rooms that are not proven closed, but 
     radiosity::Scene scene = make.scene_of(polygons, {scenes::box({-half, -half, bottom}, {half, half, make.uniform(0.5, 0.7)})});
     REQUIRE_FALSE(closed(scene));
     check_glow(furnace(std::move(scene), rho));
+  }
+}
+
+// A patch is a chord of its surface. Where this runs through a curved wall, rays from what is exposed of the chord could begin outside the
+// room: one of them was enough for the room to count as open.
+TEST_CASE("curved things that stick out of a curved room with a sheet of two sides let no light out") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  Maker make{seed};
+  const Corners sheet{{-0.2, -0.2, 0.0}, {0.2, -0.2, 0.1}, {0.2, 0.2, 0.1}, {-0.2, 0.2, 0.0}};
+  for (int round = 0; round < 5; ++round) {
+    CAPTURE(round);
+    radiosity::Scene scene = make.scene_of({sheet, Corners{sheet.rbegin(), sheet.rend()}});
+    scene.objects.push_back(scenes::object("room", raycast::Sphere::make({0, 0, 0}, 1.0).object, 0, true));
+    for (int k = 0; k < 2; ++k) {
+      const double turn = make.uniform(0.0, 6.0), off = make.uniform(0.7, 1.0);
+      const glm::dvec3 centre{off * std::cos(turn), off * std::sin(turn), make.uniform(-0.2, 0.2)};
+      const glm::dvec3 axis{make.uniform(-1.0, 1.0), make.uniform(-1.0, 1.0), 1.0};
+      const double size = make.uniform(0.15, 0.35);
+      const auto thing = k % 2 == 0 ? raycast::Torus::make(centre, axis, size, make.uniform(0.2, 0.5) * size).object
+                                    : std::shared_ptr<const raycast::Object>{raycast::Sphere::make(centre, size).object};
+      scene.objects.push_back(scenes::object("thing" + std::to_string(k), thing));
+    }
+    const radiosity::Solution solution = furnace(std::move(scene), 0.9, 0.2);
+    REQUIRE(solution.audit.stray);
+    CHECK(solution.audit.stray->escaping == 0.0);
+    CHECK(solution.audit.stray->to_backs == 0.0);
   }
 }
 
