@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -62,13 +63,14 @@ struct Scene::Asker {
 
 // Where the ray meets the object of entry i first, as its spans have it; t is infinite where it does not, and nothing says that only the
 // spans tell. A solid's first entry is that of its spans if no face is left before it is passed: then these pair with it. Of an open
-// surface all crossings count, so the first of them is known once one lies before `limit`, up to which no face is missing.
+// surface all crossings count, so the first of them is known once one lies before `limit`, up to which no face is missing; where two of its
+// faces coincide the law decides, which prefers a front.
 HALFLIGHT_INLINE std::optional<Crossing> Scene::first_crossing(const Search& search, const Entries& entries, unsigned i,
                                                                float limit) const {
   if (!entries.complete) { return std::nullopt; }
   const std::uint32_t object = entries.entry[i].object;
   const bool solid = compiled_.roles[object] == Role::solid, only = entries.count == 1 && entries.entry[0].sure;
-  Crossing first{infinity, 0};
+  Crossing first{infinity, 0}, second = first;
   bool known = only;
   for (unsigned j = i; j < entries.count; ++j) {
     const Entries::Entry& e = entries.entry[j];
@@ -79,9 +81,17 @@ HALFLIGHT_INLINE std::optional<Crossing> Scene::first_crossing(const Search& sea
     const Crossing at = objects_[object].crossing(search.ray, e.face);
     if (!solid && !e.sure && !meets_face(search.ray, search.source, object, e.face, at)) { continue; }
     known = known || solid || before;
-    if (at.t < first.t || (at.t == first.t && at.sheet < first.sheet)) { first = at; }
+    if (at.t < first.t || (at.t == first.t && at.sheet < first.sheet)) {
+      second = std::exchange(first, at);
+    } else if (at.t < second.t) {
+      second = at;
+    }
   }
   if (!known && first.t < infinity) { return std::nullopt; }
+  if (!solid && second.t < infinity &&
+      ties(search.ray, Hit{first.t, object, first.sheet, true}, Hit{second.t, object, second.sheet, true})) {
+    return std::nullopt;
+  }
   return first;
 }
 

@@ -246,8 +246,9 @@ HALFLIGHT_INLINE void Scene::approach(const Line& line, const End& a, std::uint3
   for (const Span& span : spans) {
     if (!(span.in.t > 0.0)) { continue; }
     if (near_a && depth(i, s, span.in, span.in.t) <= skin_a && (i == a.owner || depth(i, s, span.out, span.out.t) <= skin_a)) { continue; }
-    if (span.in.t <= nearest.limit) { offer(s, Hit{span.in.t, i, span.in.sheet, object.solid() || along(i, s, span.in) < 0.0}, nearest); }
-    return;
+    if (!(span.in.t <= nearest.limit)) { return; }
+    offer(s, Hit{span.in.t, i, span.in.sheet, object.solid() || along(i, s, span.in) < 0.0}, nearest);
+    if (object.solid()) { return; }  // of an open surface another face may lie in the same place and show its front
   }
 }
 
