@@ -227,7 +227,7 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
   std::vector<Component*> rooms;
   std::size_t lamps = 0;
   for (Component& component : components_) {
-    std::vector<Place> places;
+    std::vector<Place> places, corners;
     std::vector<std::uint32_t> bright;
     for (const std::uint32_t f : component.faces) {
       if (!is_black(materials_[mesh_.faces[f].material].emission)) { bright.push_back(f); }
@@ -237,9 +237,15 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
       const std::span<const glm::dvec3> outline = mesh_.outline(mesh_.faces[f]);
       const glm::dvec3 middle = brep::centroid(outline), off = 4.0 * mesh_.tolerance * glm::normalize(brep::vector_area(outline));
       places.push_back({middle + off, middle - off});
+      for (const glm::dvec3& p : outline) { corners.push_back({glm::mix(p, middle, 0.01) + off, glm::mix(p, middle, 0.01) - off}); }
     }
     if (places.empty() || ++lamps > most_lamps) { continue; }
     Component* around = innermost(places, &component);
+    if (around != nullptr && around->volume > 0.0 && !is_furnished(*around)) {
+      // A thing out of which a lamp reaches is furniture where a furnished shell holds the whole lamp.
+      Component* const whole = innermost(corners, &component);
+      if (whole != nullptr && is_furnished(*whole)) { around = whole; }
+    }
     Component* const pierced = pierced_by(places, component);
     if (pierced != nullptr && (around == nullptr || std::abs(pierced->volume) < std::abs(around->volume))) { around = pierced; }
     rooms.push_back(shines_inwards(component, around) ? &component : around);

@@ -120,3 +120,36 @@ TEST_CASE("a run whose light reaches nothing says so") {
     CHECK(said == (under < 0.0));
   }
 }
+
+// Its middle lies in the thing, a part of it outside, and the room holds it whole.
+TEST_CASE("intake: a thing out of which a lamp reaches is no room while it stands in one") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  RandomRooms random(seed);
+  for (int round = 0; round < 40; ++round) {
+    const glm::dvec3 hi{number_in(random, 2.0, 6.0), number_in(random, 2.0, 6.0), number_in(random, 2.0, 4.0)};
+    const glm::dvec3 lo = hi * number_in(random, 0.2, 0.4), top = hi * number_in(random, 0.5, 0.7);
+    const double far = number_in(random, 0.55, 0.7),
+                 near = number_in(random, 0.1, 0.45);  // half the lamp and its width, in those of the thing
+    const glm::dvec3 middle = 0.5 * (lo + top), along = (top - lo) * glm::dvec3(far, 0.0, 0.0);
+    const glm::dvec3 across = (top - lo) * glm::dvec3(0.0, near, 0.0), start = middle - along - 0.5 * across;
+    Soup room;
+    room.names = {"room"};
+    soup::add_box(room, glm::dvec3(0.0), hi, 1, true);
+    room.names.push_back("thing");
+    soup::add_box(room, lo, top);
+    room.names.push_back("lamp");
+    std::vector<glm::dvec3> lamp{start, start + 2.0 * along, start + 2.0 * along + across, start + across};
+    room.polygon(lamp, 1);
+    if (round % 2 == 0) {
+      std::reverse(lamp.begin(), lamp.end());
+      room.polygon(lamp, 1);
+    }
+    const radiosity::Intake taken = room.take_in();
+    soup::check_sound(room, taken);
+    CHECK(count_of(taken, ChangeKind::room) == 0);
+    const soup::Measure measure = soup::measure(taken.objects);
+    CHECK(measure.rooms == 1);
+    CHECK(measure.solids == 1);
+  }
+}
