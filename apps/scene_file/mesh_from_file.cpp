@@ -70,17 +70,22 @@ void Eyes::add_lamps(const radiosity::SceneObject& placed, const std::vector<rad
     const std::uint32_t material = placed.material[placed.material.size() == 1 ? 0 : sheet];
     if (material >= materials.size() || radiosity::is_black(materials[material].emission)) { continue; }
     const raycast::SurfacePoint at = object.project(sheet, box.centre());
-    points_.push_back({at.position + before * box.diameter() * at.normal, of});
+    points_.push_back({at.position + before * box.diameter() * at.normal, of, count_});
   }
+  ++count_;
 }
 
 std::vector<glm::dvec3> Eyes::within(const raycast::Box& box, const raycast::Placement& placement, const ObjectSyntax* mesh) const {
   const raycast::Box inner = box.grown(-1e-9 * box.diameter());  // what lies on its sides is not within
-  std::vector<glm::dvec3> list;
-  for (const Point& point : points_) {
-    if (point.of == mesh) { continue; }
-    const auto here = point_within(placement, point.position);
-    if (here && inner.contains(*here)) { list.push_back(*here); }
+  std::vector<glm::dvec3> list, its;                             // of one camera or lamp
+  for (std::size_t i = 0, first = 0; i < points_.size(); ++i) {
+    const Point& point = points_[i];
+    if (point.lamp != points_[first].lamp) { first = i; }
+    const auto here = point.of == mesh ? std::nullopt : point_within(placement, point.position);
+    if (here && inner.contains(*here)) { its.push_back(*here); }
+    if (i + 1 < points_.size() && points_[i + 1].lamp == point.lamp) { continue; }
+    if (2 * its.size() > i - first) { list.insert(list.end(), its.begin(), its.end()); }
+    its.clear();
   }
   return list;
 }

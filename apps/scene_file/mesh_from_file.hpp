@@ -34,11 +34,12 @@ namespace apps::scene_file {
 // Points of a scene that must be seen: the eyes of cameras, and places before lamps.
 class Eyes {
  public:
-  void add(const radiosity::Camera& camera) { points_.push_back({camera.eye, nullptr}); }
+  void add(const radiosity::Camera& camera) { points_.push_back({camera.eye, nullptr, count_++}); }
   // A point before each sheet of the object that shines. `of`: the statement that it comes from.
   void add_lamps(const radiosity::SceneObject& placed, const std::vector<radiosity::Material>& materials, const ObjectSyntax* of);
 
-  // Those in this box of a mesh, in the coordinates of the mesh. Of its own lamps the file itself tells.
+  // Those in this box of a mesh, in the coordinates of the mesh. Of its own lamps the file itself tells. A lamp counts when half of its
+  // points are there: one that stands on a thing has its foot in it.
   [[nodiscard]] std::vector<glm::dvec3> within(const raycast::Box& box, const raycast::Placement& placement,
                                                const ObjectSyntax* mesh) const;
 
@@ -47,8 +48,10 @@ class Eyes {
   struct Point {
     glm::dvec3 position{0.0};
     const ObjectSyntax* of = nullptr;
+    std::size_t lamp = 0;  // number of its camera or lamp
   };
-  std::vector<Point> points_;
+  std::vector<Point> points_;  // those of a lamp in a row
+  std::size_t count_ = 0;      // of cameras and lamps
 };
 
 }  // namespace apps::scene_file

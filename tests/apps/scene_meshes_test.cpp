@@ -99,3 +99,26 @@ TEST_CASE("a mesh in a group is a room in those uses that hold a camera or a lam
     CHECK(found == expected);
   }
 }
+
+// The foot of such a lamp lies in the top of the box, so the point before it is in the box.
+TEST_CASE("a mesh on which a lamp stands is a solid, one in which it stands is a room") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  for (int round = 0; round < 40; ++round) {
+    const bool within = round % 2 == 0;
+    const double z = within ? 0.0 : 4.0;
+    const glm::dvec3 foot{number(0.1, 0.8), number(0.1, 1.2), z}, size{number(0.1, 1.0), number(0.1, 1.5), number(0.1, 3.0)};
+    std::string lamp = "box shade from " + text_of(foot) + " to " + text_of(foot + size);
+    if (round % 4 > 1) { lamp = "cylinder shade base " + text_of(foot) + " axis 0 0 " + std::to_string(size.z) + " radius 0.05"; }
+    const std::string scene = "material m reflectance 0.5\nmaterial lamp reflectance 0 emission 5\nmesh a file boxes.obj material m\n" +
+                              lamp + " material lamp\n";
+    INFO(scene);
+    const auto read = apps::parse_scene(scene, models::beside({{"boxes.obj", two_boxes()}}));
+    REQUIRE(read.file);
+    // From a place in the box, beside the lamp: does its wall show the front?
+    const auto hit = raycast::Scene(radiosity::placed_objects(read.file->scene)).closest({{1.9, 2.9, 2.0}, {0.0, 0.5, 0.0}});
+    CHECK((hit && hit->front && hit->t <= 1.0) == within);
+  }
+}
