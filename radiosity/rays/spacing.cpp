@@ -17,6 +17,7 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/rays/senders.hpp>
+#include <radiosity/rays/shot_light.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/rays/view_importance.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
@@ -47,6 +48,7 @@ struct Brightness {
   std::vector<double> of;
   // RMS over the exposed leaves of what they reflect of the lamps, and of all else that shines as if that were even.
   double reflected = 0.0;
+  double mean = 0.0;  // of the same
 };
 [[nodiscard]] HALFLIGHT_INLINE Brightness brightness_without_lamps(const DiscreteScene& scene, const Links& of_lamps) {
   const Hierarchy& hierarchy = scene.hierarchy;
@@ -79,7 +81,9 @@ struct Brightness {
     if (scene.lamps[surface]) { continue; }
     brightness.of[i] = brightest(scene.emission[surface] + scene.reflectance[surface] * irradiance[i]);
     const double reflected = brightest(scene.reflectance[surface] * (irradiance[i] + glow));
-    if (counts(i)) { brightness.reflected += scene.exposure.area[i] * reflected * reflected; }
+    if (!counts(i)) { continue; }
+    brightness.reflected += scene.exposure.area[i] * reflected * reflected;
+    brightness.mean += scene.exposure.area[i] * reflected / area;
   }
   brightness.reflected = std::sqrt(brightness.reflected / area);
   return brightness;
@@ -94,12 +98,15 @@ class Spacing {
     Brightness brightness = brightness_without_lamps(scene, of_lamps);
     brightness_ = std::move(brightness.of);
     root_mean_square_ = brightness.reflected;
+    evenness_ = dark() ? 1.0 : std::min(1.0, 4.0 * brightness.mean / root_mean_square_);
+    rest_ = 0.5 * evenness_;
     for (std::uint32_t i = 0; i < scene.hierarchy.size(); ++i) {
       if (!is_input_face(scene.hierarchy, i)) { continue; }
       area_ += scene.exposure.area[i];
       if (!scene.lamps[scene.hierarchy[i].surface]) { open_.push_back(i); }
     }
     least_area_ = min_area * area_;
+    if (evenness_ < 1.0) { shots_ = ShotLight{scene, LeafLocator{scene.hierarchy, scene.patches, scene.inputs.size()}, brightness_}; }
     weight_.assign(scene.hierarchy.size(), 1.0);
   }
 
@@ -118,7 +125,7 @@ class Spacing {
     root_mean_square_ = importance.reflected;
     weight_ = std::move(importance.weight);
     gain_ = 1.0;
-    rest_ = 0.5 * importance.pictured / importance.reflected;
+    rest_ = 0.5 * evenness_ * evenness_ * importance.pictured / importance.reflected;
   }
 
   [[nodiscard]] bool dark() const { return !(root_mean_square_ > 0.0); }
@@ -129,14 +136,16 @@ class Spacing {
     if (open_.empty()) { return false; }
     const StoredRays rays = cast(result);
     if (result.cancelled) { return false; }
+    const std::vector<Arrived> arrived = arrived_by_shots();
     std::vector<std::uint32_t> wanting;
     std::uint64_t nodes = scene_.hierarchy.size();
     for (const std::uint32_t i : open_) {
       const Node& node = scene_.hierarchy[i];
-      const Weights weight = weights(i, rays);
+      const Weights weight = weights(i, rays, arrived[i]);
       const double varies = node.radius * rays.nearness(i, 0.1 * node.radius);
       const double counts = std::max(weight_[i], importance_.weight(i));
-      const bool fine = varies * weight.mean * std::sqrt(counts * node.area / area_) <= tolerance_ && !importance_.uneven(i);
+      const bool fine = (varies * weight.mean + node.radius * weight.near) * std::sqrt(counts * node.area / area_) <= tolerance_ &&
+                        !importance_.uneven(i);
       if (fine || (node.leaf() && !(counts * node.area > least_area_))) {
         result.casters.push_back({i, weight.scatter * std::sqrt(weight_[i])});
         views_.push_back(view(i, rays));
@@ -176,23 +185,49 @@ class Spacing {
     return rays;
   }
 
+  // Sums over the shots that meet a node, of the squared brightness of where they come from, and of the brightness by the length of the
+  // shot, in the unit of one of its own rays.
+  struct Arrived {
+    double square = 0.0, near = 0.0;
+  };
+  [[nodiscard]] std::vector<Arrived> arrived_by_shots() const {
+    const Hierarchy& hierarchy = scene_.hierarchy;
+    std::vector<Arrived> arrived(hierarchy.size());
+    if (evenness_ == 1.0) { return arrived; }
+    std::vector<bool> open(hierarchy.size(), false);
+    for (const std::uint32_t i : open_) { open[i] = true; }
+    for (const ShotLight::Ray& ray : shots_.on(hierarchy, LeafLocator{hierarchy, scene_.patches, scene_.inputs.size()}, open)) {
+      const double own = rays_each / scene_.exposure.area[ray.on];
+      const double part = own / (own + shots_.density(hierarchy, ray.from));
+      const double brightness = brightness_[ray.from] / root_mean_square_;
+      arrived[ray.on].square += part * brightness * brightness;
+      arrived[ray.on].near += part * brightness / ray.length;
+    }
+    return arrived;
+  }
+
   // What a node reflects of what it sees, relative to the scene: the mean over its rays, which says how much the light may vary over the
   // node, and their RMS, which says how much they scatter. What is seen has reflected the light of lamps once; light that was reflected
-  // more often is more even, and stands as a quarter of all where everything is lit alike.
+  // more often is more even, and stands as a quarter of all where everything is lit alike; where little is lit it is about as bright as
+  // that light in the mean.
   struct Weights {
     double mean = 0.0, scatter = 0.0;
+    double near = 0.0;  // what is seen along shots, by their length; the mean is without that
   };
-  [[nodiscard]] Weights weights(std::uint32_t i, const StoredRays& rays) const {
+  [[nodiscard]] Weights weights(std::uint32_t i, const StoredRays& rays, const Arrived& arrived) const {
     double sum = 0.0;
-    double square = 0.0;
-    for (const StoredRay& ray : rays.of(i)) {
-      const double brightness = ray.to != no_node ? brightness_[ray.to] / root_mean_square_ : 0.0;
-      sum += brightness;
-      square += brightness * brightness;
-    }
+    double square = arrived.square;
     const auto count = static_cast<double>(rays.count(i));
+    for (const StoredRay& ray : rays.of(i)) {
+      if (ray.to == no_node) { continue; }
+      const double brightness = brightness_[ray.to] / root_mean_square_;
+      const double density = count / scene_.exposure.area[i];
+      const double part = density / (density + shots_.density(scene_.hierarchy, ray.to));
+      sum += part * brightness;
+      square += part * brightness * brightness;
+    }
     const double most = brightest(scene_.reflectance[scene_.hierarchy[i].surface]);
-    return {most * (gain_ * sum / count + rest_), most * (gain_ * std::sqrt(square / count) + rest_)};
+    return {most * (gain_ * sum / count + rest_), most * (gain_ * std::sqrt(square / count) + rest_), most * gain_ * arrived.near / count};
   }
 
   [[nodiscard]] CasterView view(std::uint32_t i, const StoredRays& rays) const {
@@ -230,6 +265,8 @@ class Spacing {
   double root_mean_square_ = 0.0;   // of what is reflected, over the scene
   std::vector<double> weight_;      // of each node: ViewImportance::weight
   double gain_ = 1.5, rest_ = 0.5;  // weights()
+  double evenness_ = 1.0;           // of the light: 1 unless little of the scene is lit
+  ShotLight shots_;                 // none where that is 1
   double area_ = 0.0, least_area_ = 0.0;
   std::vector<std::uint32_t> open_;
   std::vector<CasterView> views_;  // of the casters

@@ -29,9 +29,11 @@ namespace detail {
 
 // Fineness::reflected for a share of the mean emission that is reflected. By measurement: scenes that are open to the sky keep about what
 // they cost, and light through a window, most of it within the edges of a few bright places, is as exact as theirs. Below a hundredth it
-// falls as the share does, so that what a lamp sends elsewhere changes nothing.
+// falls as the share does, so that what a lamp sends elsewhere changes nothing. It rises as the share does where a lamp lights but a spot of a
+// large scene.
 [[nodiscard]] HALFLIGHT_INLINE double brightness_of_reflected(double share) {
-  constexpr double dim = 0.01;
+  constexpr double dim = 0.01, bright = 16.0;
+  if (share > bright) { return share / bright; }
   return std::min(1.0, std::pow(4.0 * std::max(dim, share), 1.25)) * std::min(1.0, share / dim);
 }
 
@@ -54,10 +56,15 @@ namespace detail {
   return {std::move(paths.points), contrast, area, scene.inputs.size()};
 }
 
+HALFLIGHT_INLINE double lit_part(const Run& run) {
+  const double share = run.solution.audit.reflected_share.value_or(0.0);
+  return run.rays.cast && share > least_share_beside_lamps ? std::pow(least_share_beside_lamps / share, 2.0) : 1.0;
+}
+
 // With the thresholds of now.
 [[nodiscard]] HALFLIGHT_INLINE RefineResult refined_by_forms(Run& run) {
   const Audit& audit = run.solution.audit;
-  Fineness fineness{audit.epsilon, audit.min_area, audit.light_epsilon};
+  Fineness fineness{audit.epsilon, audit.min_area * lit_part(run), audit.light_epsilon};
   if (run.options.oracle) { fineness.oracle = run.options.oracle; }
   if (audit.reflected_share) { fineness.reflected = brightness_of_reflected(*audit.reflected_share); }
   fineness.importance = &run.importance;

@@ -18,6 +18,12 @@ namespace detail {
 
 void refine_by_forms(Run& run);
 
+// To which part of the area Options::min_area refers. A lamp in the ceiling of a hall a kilometre wide lights a spot of some square metres,
+// and all error lies there. All of a light with the mean m and the RMS r fits on (m / r)^2 of the area, and m is at most the mean emission:
+// so this falls with the square of Audit::reflected_share, from that of a room with a lamp close to a wall on. It is 1 where links that are
+// chosen by form factor carry all light, for these ask for the smallest patches everywhere.
+[[nodiscard]] double lit_part(const Run& run);
+
 // From here on nothing stops the run, it says that it was interrupted, and what is left to refine has at least these thresholds.
 inline constexpr double soon_made = 0.04;  // epsilon
 void hurry(Run& run, double epsilon = soon_made);

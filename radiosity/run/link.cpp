@@ -2,6 +2,8 @@
 
 // Stage: form factors and visibility of the links of F-refinement (paper 4.3), and links of stored rays.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <optional>
@@ -34,7 +36,7 @@ namespace detail {
 [[nodiscard]] HALFLIGHT_INLINE std::optional<Failure> link_by_rays(Run& run) {
   DiscreteScene& scene = run.scene;
   const Audit& audit = run.solution.audit;
-  const SpacingResult spacing = space_casters(scene, run.solution.links, run.importance, audit.epsilon, audit.min_area);
+  const SpacingResult spacing = space_casters(scene, run.solution.links, run.importance, audit.epsilon, audit.min_area * lit_part(run));
   run.rays_of_spacing += spacing.rays;
   run.solution.audit.rays_for_view = scene.control.viewpoint.has_value();
   if (spacing.cancelled) { return cancelled(); }
@@ -42,7 +44,9 @@ namespace detail {
     return Failure{Failure::Kind::out_of_memory,
                    {too_much_memory(spacing.too_large, scene.budget.allowed, "a larger epsilon or min_area needs less")}};
   }
-  const std::vector<std::uint32_t> counts = ray_counts(scene, spacing.casters, rays_per_node(audit.epsilon));
+  // Where little is lit few rays meet what shines, so their noise is larger.
+  const double more = std::min(4.0, 1.0 / std::sqrt(lit_part(run)));
+  const std::vector<std::uint32_t> counts = ray_counts(scene, spacing.casters, more * rays_per_node(audit.epsilon));
   const std::uint64_t rays = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   if (rays > ray_limit) {
     return Failure{Failure::Kind::invalid_options,
@@ -100,7 +104,8 @@ HALFLIGHT_INLINE void split_leaves_once_more(Run& run) {
   DiscreteScene& scene = run.scene;
   const Audit& audit = run.solution.audit;
   if (scene.light_meshing || audit.interrupted) { return; }
-  run.leaf_splits = split_leaves_by_light(scene, run.solution.links, {audit.light_epsilon, audit.min_area}, run.evaluated.doubt);
+  run.leaf_splits =
+      split_leaves_by_light(scene, run.solution.links, {audit.light_epsilon, audit.min_area * lit_part(run)}, run.evaluated.doubt);
   if (run.leaf_splits.count > 0 && scene.control.after_generation) { scene.control.after_generation(scene.surfaces); }
 }
 
