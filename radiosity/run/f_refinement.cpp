@@ -29,8 +29,8 @@ namespace detail {
 
 // Fineness::reflected for a share of the mean emission that is reflected. By measurement: scenes that are open to the sky keep about what
 // they cost, and light through a window, most of it within the edges of a few bright places, is as exact as theirs. Below a hundredth it
-// falls as the share does, so that what a lamp sends elsewhere changes nothing. It rises as the share does where a lamp lights but a spot of a
-// large scene.
+// falls as the share does, so that what a lamp sends elsewhere changes nothing. It rises as the share does where a lamp lights but a spot
+// of a large scene.
 [[nodiscard]] HALFLIGHT_INLINE double brightness_of_reflected(double share) {
   constexpr double dim = 0.01, bright = 16.0;
   if (share > bright) { return share / bright; }

@@ -72,8 +72,8 @@ TEST_CASE("lit spots: the error of a wide hall does not grow with its width, nor
   }
 }
 
-// Before the light is known its faces are cut into parts of no less than 4 min_area, 10 : 1 at most here. Longer corridors have longer parts,
-// and so have all leaves of these: 7 % is found at a length of 10 000, 14 % at 40 000.
+// Before the light is known its faces are cut into parts of no less than 4 min_area, 10 : 1 at most here. Longer corridors have longer
+// parts, and so have all leaves of these: 7 % is found at a length of 10 000, 14 % at 40 000.
 TEST_CASE("lit spots: the error of a long corridor, up to 3000 times its width, is about that of a room") {
   const std::uint64_t seed = std::random_device{}();
   CAPTURE(seed);
