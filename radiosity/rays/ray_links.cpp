@@ -13,6 +13,7 @@
 
 #include <raycast/inline.hpp>
 
+#include <radiosity/exchange/doubt.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/patch.hpp>
@@ -188,26 +189,72 @@ HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const Store
   return result;
 }
 
-HALFLIGHT_INLINE std::vector<double> RayLinks::row_sums(const DiscreteScene& scene, const std::vector<double>& computed,
-                                                        const std::vector<double>& of_lamps) const {
+namespace detail {
+
+// Of each node: the variance of the row sum that the links at it and above bring, where each ray is there by chance alone (Poisson).
+[[nodiscard]] HALFLIGHT_INLINE std::vector<double> row_variances(const DiscreteScene& scene, const Links& made,
+                                                                 const std::vector<double>& density) {
   const std::vector<double>& area = scene.exposure.area;
-  const auto counts = [&](std::size_t i) { return scene.hierarchy[i].leaf() && caster[i] != no_node; };
-  const auto left = [&](std::size_t i) { return computed[i] * std::max(0.0, 1.0 - of_lamps[i]); };
-  std::vector<double> mean(computed.size(), 0.0), mean_left(computed.size(), 0.0);  // of the leaves of each node that casts
-  for (std::size_t i = 0; i < computed.size(); ++i) {
-    if (!counts(i)) { continue; }
-    const double part = area[i] / area[caster[i]];
-    mean[caster[i]] += part * computed[i];
-    mean_left[caster[i]] += part * left(i);
+  std::vector<double> variance(scene.hierarchy.size(), 0.0);
+  for (const Link& link : made) {
+    const double square = static_cast<double>(link.exchange) / (density[link.p] + density[link.q]);
+    variance[link.p] += square / (area[link.p] * area[link.p]);
+    variance[link.q] += square / (area[link.q] * area[link.q]);
   }
+  for (std::size_t i = 0; i < variance.size(); ++i) {  // parents before children
+    if (scene.hierarchy[i].parent != no_node) { variance[i] += variance[scene.hierarchy[i].parent]; }
+  }
+  return variance;
+}
+
+// A number that becomes better known by each independent estimate of it.
+struct Estimate {
+  double value = 0.0, variance = 0.0;
+
+  void improve(double other, double variance_of_other) {
+    if (!(variance > 0.0)) { return; }
+    const double trust = variance / (variance + variance_of_other);
+    value += trust * (other - value);
+    variance *= 1.0 - trust;
+  }
+};
+
+}  // namespace detail
+
+HALFLIGHT_INLINE std::vector<double> RayLinks::row_sums(const DiscreteScene& scene, const Links& made, const std::vector<double>& computed,
+                                                        const std::vector<double>& of_lamps, double error_of_lamps) const {
+  constexpr double least = 1e-3;  // under a lamp that touches a surface: no scale makes a row 0
+  const std::vector<double>& area = scene.exposure.area;
+  const auto left = [&](std::size_t i) {
+    return scene.loses_nothing(i) ? std::max(least, 1.0 - of_lamps[i]) : computed[i] * std::max(0.0, 1.0 - of_lamps[i]);
+  };
+  struct Means {
+    double computed = 0.0, of_lamps = 0.0, left = 0.0;
+  };
+  std::vector<Means> means(computed.size());  // over the leaves of each node that casts
+  double all = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < computed.size(); ++i) {
+    if (!scene.hierarchy[i].leaf()) { continue; }
+    all += area[i];
+    square += area[i] * of_lamps[i] * of_lamps[i];
+    if (caster[i] == no_node || !(area[caster[i]] > 0.0)) { continue; }
+    const double part = area[i] / area[caster[i]];
+    Means& mean = means[caster[i]];
+    mean.computed += part * computed[i];
+    mean.of_lamps += part * of_lamps[i];
+    mean.left += part * left(i);
+  }
+  const double relative = square > 0.0 ? error_of_lamps * std::sqrt(all / square) : 0.0;
+  const std::vector<double> variance = detail::row_variances(scene, made, density);
   std::vector<double> rows(computed.size(), 0.0);
   for (std::size_t i = 0; i < computed.size(); ++i) {
-    if (!counts(i) || !(mean_left[caster[i]] > 0.0)) { continue; }
-    // The variance of the share s of n rays is s (1 - s) / n; that of the computed mean, which counts rays in both directions, some s / 2n.
-    // Each counts by the inverse of its variance.
-    const double trust = 1.0 / (3.0 - 2.0 * share[caster[i]]);
-    const double wanted = mean[caster[i]] + trust * (share[caster[i]] - mean[caster[i]]);
-    rows[i] = left(i) * wanted / mean_left[caster[i]];
+    const std::uint32_t c = caster[i];
+    if (!scene.hierarchy[i].leaf() || c == no_node || !(means[c].left > 0.0)) { continue; }
+    detail::Estimate row{means[c].computed, variance[c]};
+    row.improve(share[c], visibility_variance(share[c], density[c] * area[c]));
+    const double off = relative * means[c].of_lamps;
+    if (scene.loses_nothing(i)) { row.improve(1.0 - means[c].of_lamps, off * off); }
+    rows[i] = left(i) * std::max(0.0, row.value) / means[c].left;
   }
   return rows;
 }

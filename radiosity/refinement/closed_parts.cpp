@@ -178,9 +178,7 @@ HALFLIGHT_INLINE ClosedParts find_closed_parts(const DiscreteScene& scene) {
 HALFLIGHT_INLINE ClosedNodes closed_nodes(const DiscreteScene& scene) {
   ClosedNodes closed{std::vector<bool>(scene.hierarchy.size(), false), {}};
   if (scene.closed.empty()) { return closed; }
-  for (std::size_t i = 0; i < closed.nodes.size(); ++i) {
-    closed.nodes[i] = !scene.hierarchy[i].is_cluster() && scene.closed[scene.hierarchy[i].surface];
-  }
+  for (std::size_t i = 0; i < closed.nodes.size(); ++i) { closed.nodes[i] = scene.loses_nothing(i); }
   closed.lamps = lamp_nodes(scene);
   return closed;
 }

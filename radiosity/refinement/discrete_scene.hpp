@@ -48,6 +48,10 @@ struct DiscreteScene {
   [[nodiscard]] SceneView view() const { return {objects, plan, surfaces, hierarchy, patches}; }
   // Is node 0 a cluster of all? Lamps may have clusters without that.
   [[nodiscard]] bool clustered() const { return !hierarchy.empty() && hierarchy[0].is_cluster(); }
+  // Is node i one of a surface that loses no light?
+  [[nodiscard]] bool loses_nothing(std::size_t i) const {
+    return !closed.empty() && !hierarchy[i].is_cluster() && closed[hierarchy[i].surface];
+  }
   // What the clusters show by the exposed areas of now.
   [[nodiscard]] ShownAreas exposed_shown() const;
   // Held by the compiled objects and the BReps.

@@ -32,25 +32,20 @@ namespace radiosity {
 
 namespace detail {
 
-// The links of stored rays: their row sums are in a closed scene what the links of the lamps leave of 1, else what the rays of each
-// node tell beside those of others. Returns the row sums before that.
-HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run) {
-  const std::vector<bool> closed = closed_nodes(run.scene).nodes;
-  const bool any = !run.scene.closed.empty();
+// The links of stored rays, with row sums that are better known than what they sum up to. Returns the row sums before that.
+// `error_of_lamps`: expected RMS error of the row sums of these.
+HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run, double error_of_lamps) {
+  const bool closed = !run.scene.closed.empty();
   const RayLinks& made = run.ray_links;
-  if (any) { run.transport->scale_lamps(); }
+  if (closed) { run.transport->scale_lamps(); }
   const std::vector<double> of_lamps = run.transport->row_sums();
   run.solution.ray_links = std::move(run.ray_links.links);
   run.transport->add_sampled(run.solution.ray_links);
   const std::vector<double> computed = run.transport->row_sums();
-  std::vector<double> wanted;
-  for (std::size_t i = 0; i < computed.size(); ++i) { wanted.push_back(computed[i] - of_lamps[i]); }
-  wanted = made.row_sums(run.scene, wanted, of_lamps);
-  if (any) {
-    const std::vector<double> left = run.transport->left_by_lamps();
-    for (std::size_t i = 0; i < wanted.size(); ++i) { wanted[i] = closed[i] ? left[i] : wanted[i]; }
-  }
-  run.solution.audit.ray_correction = run.transport->scale_sampled(wanted, any ? 16.0 : 4.0);
+  std::vector<double> of_rays;
+  for (std::size_t i = 0; i < computed.size(); ++i) { of_rays.push_back(computed[i] - of_lamps[i]); }
+  const std::vector<double> wanted = made.row_sums(run.scene, run.solution.ray_links, of_rays, of_lamps, error_of_lamps);
+  run.solution.audit.ray_correction = run.transport->scale_sampled(wanted, closed ? 16.0 : 4.0);
   return computed;
 }
 
@@ -61,10 +56,11 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
   Audit& audit = run.solution.audit;
   Transport& transport = run.transport.emplace(scene.hierarchy, solution.links, scene.exposure, scene.threads, closed_nodes(scene));
   const std::vector<double>& area = scene.exposure.area;
-  audit.computed_row_sum = summarise_rows(scene.hierarchy, area, run.rays.cast ? add_ray_links(run) : transport.row_sums());
+  double exposed = 0.0;
+  for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }
+  const double error = run.evaluated.doubt.rms(scene.hierarchy, area, exposed);
+  audit.computed_row_sum = summarise_rows(scene.hierarchy, area, run.rays.cast ? add_ray_links(run, error) : transport.row_sums());
   if (!scene.closed.empty() && solution.links.size() + solution.ray_links.size() > 0) {
-    double exposed = 0.0;
-    for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }
     // The noise of rays is out of the row sums by now.
     audit.closure_limit = explained_closure(run.evaluated.doubt, scene.hierarchy, area, exposed);
     audit.closure = transport.close(audit.closure_limit);
