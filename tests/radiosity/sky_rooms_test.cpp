@@ -90,7 +90,7 @@ double traced_ceiling(const SkyRoom& room, Random& random) {
 
 }  // namespace
 
-TEST_CASE("rays: rooms get the light that comes in from the ground under a large sky") {
+TEST_CASE("rays: rooms get the light that comes in from the ground under a large sky", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   Random random{seed, 1};

@@ -58,7 +58,7 @@ void check_error(const radiosity::Solution& solution) {
 
 }  // namespace
 
-TEST_CASE("lit spots: the error of a wide hall does not grow with its width, nor does the number of leaves") {
+TEST_CASE("lit spots: the error of a wide hall does not grow with its width, nor does the number of leaves", "[accuracy]") {
   const std::uint64_t seed = std::random_device{}();
   CAPTURE(seed);
   radiosity::Random random{seed, 0};
@@ -83,7 +83,7 @@ TEST_CASE("lit spots: the error of a long corridor, up to 3000 times its width, 
   check_error(scenes::solved(LitRoom{length, 1.0, random}.scene, as_for_pictures()));
 }
 
-TEST_CASE("lit spots: for a camera that sees the spot the dark rest of a wide hall is left coarse") {
+TEST_CASE("lit spots: for a camera that sees the spot the dark rest of a wide hall is left coarse", "[accuracy]") {
   const std::uint64_t seed = std::random_device{}();
   CAPTURE(seed);
   radiosity::Random random{seed, 2};
