@@ -208,7 +208,7 @@ namespace detail {
 }
 
 // A number that becomes better known by each independent estimate of it.
-struct Estimate {
+struct RowEstimate {
   double value = 0.0, variance = 0.0;
 
   void improve(double other, double variance_of_other) {
@@ -250,7 +250,7 @@ HALFLIGHT_INLINE std::vector<double> RayLinks::row_sums(const DiscreteScene& sce
   for (std::size_t i = 0; i < computed.size(); ++i) {
     const std::uint32_t c = caster[i];
     if (!scene.hierarchy[i].leaf() || c == no_node || !(means[c].left > 0.0)) { continue; }
-    detail::Estimate row{means[c].computed, variance[c]};
+    detail::RowEstimate row{means[c].computed, variance[c]};
     row.improve(share[c], visibility_variance(share[c], density[c] * area[c]));
     const double off = relative * means[c].of_lamps;
     if (scene.loses_nothing(i)) { row.improve(1.0 - means[c].of_lamps, off * off); }

@@ -36,11 +36,11 @@ struct RayLinks {
 
   // What the row sums of the leaves should be, given those that these links sum up to, and those of the links of lamps. In the mean over a
   // node that casts there are two or three estimates: what the links sum up to, by rays in both directions; the share of its own rays;
-  // and of surfaces that lose no light what lamps leave of 1. Each counts by the inverse of its variance: of ground under the sky the few rays that meet
-  // a house tell little, and what the sky leaves of 1 is mostly the error of the sky's links, but rays out of the house tell much. Within
-  // the node: by what lamps leave of the horizon of each leaf, for a ray that a lamp stops meets nothing else.
-  // `made`: the links, wherever they are now. `error_of_lamps`: expected RMS error of the row sums of the links of
-  // lamps, taken to be the same part of each.
+  // and of surfaces that lose no light what lamps leave of 1. Each counts by the inverse of its variance: of ground under the sky the few
+  // rays that meet a house tell little, and what the sky leaves of 1 is mostly the error of the sky's links, but rays out of the house tell
+  // much. Within the node: by what lamps leave of the horizon of each leaf, for a ray that a lamp stops meets nothing else.
+  // `made`: the links, wherever they are now. `error_of_lamps`: expected RMS error of the row sums of the links of lamps, taken to be the
+  // same part of each.
   [[nodiscard]] std::vector<double> row_sums(const DiscreteScene& scene, const Links& made, const std::vector<double>& computed,
                                              const std::vector<double>& of_lamps, double error_of_lamps) const;
   // What the noise of the rays adds to the squared L2 error of a solution. The mean of what arrives at a node is known, by its own rays;

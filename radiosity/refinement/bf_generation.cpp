@@ -22,7 +22,7 @@
 #include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/bf_goal.hpp>
-#include <radiosity/refinement/closed_parts.hpp>
+#include <radiosity/refinement/closed_nodes.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/refinement/leaf_error.hpp>

@@ -8,8 +8,8 @@
 
 #include <raycast/inline.hpp>
 
+#include <radiosity/audit/closed_parts.hpp>
 #include <radiosity/audit/warnings.hpp>
-#include <radiosity/refinement/closed_parts.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>

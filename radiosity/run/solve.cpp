@@ -16,7 +16,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/rays/ray_links.hpp>
-#include <radiosity/refinement/closed_parts.hpp>
+#include <radiosity/refinement/closed_nodes.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/link_error.hpp>
 #include <radiosity/result/audit.hpp>

@@ -97,8 +97,9 @@ class Transport {
   // What each leaf sees of the scene: the sum of its form factors. 1 in a closed scene. Inner nodes hold 0.
   [[nodiscard]] std::vector<double> row_sums();
 
-  // Closes what loses no light: finds D with the row sums of closed nodes 1, and all others as they are, within the tolerance (symmetric scaling, van Leersum 1989; see
-  // balance.hpp), so that what quadrature and sampled visibility got wrong in the rows does not grow by rho / (1 - rho) in the solution.
+  // Closes what loses no light: finds D with the row sums of closed nodes 1, and all others as they are, within the tolerance (symmetric
+  // scaling, van Leersum 1989; see balance.hpp), so that what quadrature and sampled visibility got wrong in the rows does not grow by
+  // rho / (1 - rho) in the solution.
   // Beside lamps the others are scaled first, to what the lamps leave of 1, and the D of all is near 1.
   // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS of D - 1, the mean over the parts by what they carry,
   // or nothing, and no D, when that is beyond `limit`: then something other than quadrature and sampling is wrong.

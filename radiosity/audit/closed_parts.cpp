@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/refinement/closed_parts.hpp>
+#include <radiosity/audit/closed_parts.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,6 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/lamp_choice.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 
@@ -173,14 +172,6 @@ HALFLIGHT_INLINE ClosedParts find_closed_parts(const DiscreteScene& scene) {
     }
   }
   return found;
-}
-
-HALFLIGHT_INLINE ClosedNodes closed_nodes(const DiscreteScene& scene) {
-  ClosedNodes closed{std::vector<bool>(scene.hierarchy.size(), false), {}};
-  if (scene.closed.empty()) { return closed; }
-  for (std::size_t i = 0; i < closed.nodes.size(); ++i) { closed.nodes[i] = scene.loses_nothing(i); }
-  closed.lamps = lamp_nodes(scene);
-  return closed;
 }
 
 }  // namespace radiosity

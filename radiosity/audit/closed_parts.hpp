@@ -9,7 +9,6 @@
 
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/audit.hpp>
-#include <radiosity/solver/transport.hpp>
 
 namespace radiosity {
 
@@ -22,11 +21,8 @@ struct ClosedParts {
 // it counts as closed where hardly any of its rays meets nothing, or a black back.
 [[nodiscard]] ClosedParts find_closed_parts(const DiscreteScene& scene);
 
-// The nodes of the closed surfaces (DiscreteScene::closed), and of the lamps where there are such surfaces.
-[[nodiscard]] ClosedNodes closed_nodes(const DiscreteScene& scene);
-
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY
-#include <radiosity/refinement/closed_parts.cpp>
+#include <radiosity/audit/closed_parts.cpp>
 #endif
