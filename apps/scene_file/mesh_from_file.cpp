@@ -77,7 +77,8 @@ void Eyes::add_lamps(const radiosity::SceneObject& placed, const std::vector<rad
 
 std::vector<glm::dvec3> Eyes::within(const raycast::Box& box, const raycast::Placement& placement, const ObjectSyntax* mesh) const {
   const raycast::Box inner = box.grown(-1e-9 * box.diameter());  // what lies on its sides is not within
-  std::vector<glm::dvec3> list, its;                             // of one camera or lamp
+  std::vector<glm::dvec3> list;
+  std::vector<glm::dvec3> its;  // of one camera or lamp
   for (std::size_t i = 0, first = 0; i < points_.size(); ++i) {
     const Point& point = points_[i];
     if (point.lamp != points_[first].lamp) { first = i; }

@@ -30,8 +30,9 @@
 
 namespace radiosity {
 
-// The power of the fourth root of 2 below x, which is positive. Numbers of points are such ones: other casters and compilers find some rays
-// elsewhere, at edges, and an audit of one point more draws all of its points anew.
+// The largest power of the fourth root of 2 that is at most x, which is positive. Numbers of points, and the shares of the rays that they
+// may take, are such ones: other casters and compilers find some rays elsewhere, at edges, and an audit of one point more draws all of its
+// points anew.
 [[nodiscard]] inline double steady(double x) { return std::exp2(std::floor(4.0 * std::log2(x)) / 4.0); }
 
 struct AuditGoal {
@@ -45,8 +46,8 @@ struct AuditGoal {
 
   // The same where a ray costs `work` times as much (raycast::Scene::ray_work).
   [[nodiscard]] AuditGoal among_rays_of(double work) const {
-    const double price = steady(work);
-    const auto fewer = [price](std::uint64_t count) { return static_cast<std::uint64_t>(static_cast<double>(count) / price); };
+    const double part = steady(1.0 / work);
+    const auto fewer = [part](std::uint64_t count) { return static_cast<std::uint64_t>(static_cast<double>(count) * part); };
     return {points, fewer(rays), wanted, fewer(rays_to_show), fewer(rays_anyhow), fewer(rays_if_wide), fewer(rays_to_steer)};
   }
 };

@@ -18,7 +18,6 @@
 #include <brep/handles.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/bundle.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/scene.hpp>
@@ -29,11 +28,7 @@
 #include <radiosity/hierarchy/twins.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/scene.hpp>
-#include <radiosity/support/parallel.hpp>
-#include <radiosity/support/random.hpp>
 #include <radiosity/visibility/exposure.hpp>
-#include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
 

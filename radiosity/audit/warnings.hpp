@@ -14,7 +14,6 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/result/audit.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>

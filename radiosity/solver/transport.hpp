@@ -55,9 +55,9 @@ class Transport {
   double scale_sampled(const std::vector<double>& rows, double most = 4.0);
   // The row sums that all parts but the last leave to the last one at closed nodes; at others those that the last one has.
   [[nodiscard]] std::vector<double> left_by_lamps();
-  // Before the other links are scaled: makes the row sums of closed lamps 1 by a scale of theirs, which other surfaces do not
-  // have. A cluster of lamps has one for all its faces, since which of them lights what near it is not known: a face then counts for the
-  // area that its links give it (area()). Without lamps nothing is done.
+  // Before the other links are scaled: makes the row sums of closed lamps 1 by a scale of theirs, which other surfaces do not have. A
+  // cluster of lamps has one for all its faces, since which of them lights what near it is not known: a face then counts for the area that
+  // its links give it (area()). Without lamps nothing is done.
   void scale_lamps();
 
   // Light on its way, of a node: what it sends (mean of B over its area, and of B (x - c)), or what arrives at it (irradiance at the
@@ -99,8 +99,7 @@ class Transport {
 
   // Closes what loses no light: finds D with the row sums of closed nodes 1, and all others as they are, within the tolerance (symmetric
   // scaling, van Leersum 1989; see balance.hpp), so that what quadrature and sampled visibility got wrong in the rows does not grow by
-  // rho / (1 - rho) in the solution.
-  // Beside lamps the others are scaled first, to what the lamps leave of 1, and the D of all is near 1.
+  // rho / (1 - rho) in the solution. Beside lamps the others are scaled first, to what the lamps leave of 1, and the D of all is near 1.
   // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS of D - 1, the mean over the parts by what they carry,
   // or nothing, and no D, when that is beyond `limit`: then something other than quadrature and sampling is wrong.
   std::optional<double> close(double limit, double tolerance = 1e-12);

@@ -192,7 +192,7 @@ TEST_CASE("split links: every pair of leaves is covered once, and all of it is s
 
 // Errors of row sums that cancel in one room need not do so once one of the links is better: a single room of ten comes out further from 1
 // than it was. Over twelve rooms the RMS falls, by a fifth.
-TEST_CASE("split links: row sums of closed rooms are as near to 1 as before, and as near as the links tell", "[accuracy]") {
+TEST_CASE("split links: row sums of closed rooms are as near to 1 as before, and as near as the links tell") {
   LinkSplitSeed random;
   INFO("seed " << random.seed);
   const auto off = [](RunToSplit& of) {  // RMS over the exposed surfaces
