@@ -113,14 +113,18 @@ class PlyReader {
     if (elements_.empty()) { return fail(0, "a property stands before the first element"); }
     const bool is_list = word(1) == "list";
     const std::size_t type_at = is_list ? 3 : 1;
-    const auto count = is_list ? type_of(word(2)) : std::nullopt;
-    if (is_list && (!count || is_float(*count))) { return fail(2, "expected an integer type for the length of a list, " + found(2)); }
+    Type count = Type::uint8;
+    if (is_list) {
+      const auto of_length = type_of(word(2));
+      if (!of_length || is_float(*of_length)) { return fail(2, "expected an integer type for the length of a list, " + found(2)); }
+      count = *of_length;
+    }
     const auto type = type_of(word(type_at));
     if (!type) { return fail(type_at, "expected a type such as float, uchar or int32, " + found(type_at)); }
     if (lines_.words().size() != type_at + 2) { return fail(type_at + 1, "expected one name for the property, " + found(type_at + 1)); }
     const std::string_view name = word(type_at + 1);
     Element& element = elements_.back();
-    Property property{*type, is_list, count.value_or(Type::uint8)};
+    Property property{*type, is_list, count};
     using Role = Property::Role;
     if (element.name == "vertex" && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') {
       if (is_list) { return fail(1, "the coordinate " + std::string(name) + " cannot be a list"); }

@@ -18,8 +18,9 @@ namespace radiosity {
 // Calls meet(i, hit, ray, passed) for what ray i meets next, after it has passed as many surfaces: the point from which the ray goes on, in
 // the same direction, or nothing when it ends there.
 template <class Meet>
-void pass_through(const raycast::Scene& scene, raycast::Segments16 rays, const Meet& meet) {
+void pass_through(const raycast::Scene& scene, const raycast::Segments16& from, const Meet& meet) {
   constexpr int most = 10'000;  // surfaces passed: only backs and buried ones are, so this ends what rounding might not
+  raycast::Segments16 rays = from;
   for (int passed = 0; passed < most && rays.lanes != 0; ++passed) {
     const raycast::Hits16 hits = scene.closest16(rays);
     rays.lanes &= hits.met;

@@ -76,7 +76,7 @@ double error_on_ceiling(const HungSphere& hung, const radiosity::Solution& solut
 
 }  // namespace
 
-TEST_CASE("closing a room leaves the light of a lamp under its ceiling, which hides much of the room from it, as it is") {
+TEST_CASE("closing a room leaves the light of a lamp under its ceiling, which hides much of the room from it, as it is", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0x63656960ull};

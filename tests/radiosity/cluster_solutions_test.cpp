@@ -76,7 +76,7 @@ TEST_CASE("with clusters the result converges to the one without") {
   CHECK(before < 0.01);
 }
 
-TEST_CASE("BF-refinement with clusters: the result becomes that without as the target falls, and the audit agrees") {
+TEST_CASE("BF-refinement with clusters: the result becomes that without as the target falls, and the audit agrees", "[accuracy]") {
   // The estimate is of the L2 error of the leaves, and the mean of a surface errs by less than its leaves do.
   radiosity::Scene few = scenes::many(13, scenes::Things::boxes);
   few.objects.pop_back();
@@ -108,7 +108,7 @@ TEST_CASE("BF-refinement with clusters: the result becomes that without as the t
   CHECK(with.audit.leaf_error->relative_l2 <= 1.2 * without.audit.leaf_error->relative_l2 + 2.0 * noise);
 }
 
-TEST_CASE("BF-refinement: what the segments of a coarse link miss is found again") {
+TEST_CASE("BF-refinement: what the segments of a coarse link miss is found again", "[accuracy]") {
   // Between the floor and the lamp stand nine boxes, and a third of the light passes: parts of which all 16 segments are blocked are many.
   // If they are given up the floor loses 3.5 %.
   const radiosity::Scene scene = scenes::many(61, scenes::Things::boxes);

@@ -80,7 +80,7 @@ radiosity::Scene ball_over_plate(radiosity::Random& random) {
 
 }  // namespace
 
-TEST_CASE("where the estimate is more than 3 times off what path tracing found, the report says so, and only there") {
+TEST_CASE("where the estimate is more than 3 times off what path tracing found, the report says so, and only there", "[accuracy]") {
   // Coarse settings, and light through holes: estimates of all kinds.
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
@@ -157,7 +157,7 @@ TEST_CASE("light through a hole of any size: the estimate is no less than a thir
   CHECK(doubted > 0);
 }
 
-TEST_CASE("an estimate from a sample of the links is the same with every seed, within a third, for a box with random holes") {
+TEST_CASE("an estimate from a sample of the links is the same with every seed, within a third, for a box with random holes", "[accuracy]") {
   // Cylinders cut each other and the sides of the box: thin patches, many of which touch at an edge under a sharp angle.
   const auto seed = std::random_device{}();
   INFO("seed " << seed);

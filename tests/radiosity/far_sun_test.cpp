@@ -94,7 +94,7 @@ TEST_CASE("sun: paths find its light at any distance and size") {
   }
 }
 
-TEST_CASE("sun: the error of its light on a plate is measured and holds the truth") {
+TEST_CASE("sun: the error of its light on a plate is measured and holds the truth", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   Random random{seed, 2};

@@ -144,7 +144,7 @@ TEST_CASE("light oracle: beside a long lamp, too, the light varies over no leaf 
 }
 
 // Luminaires as they are drawn: tubes of long faces that touch what reflects them.
-TEST_CASE("tubes that touch a ceiling light it as they are long, and the room with what they leave") {
+TEST_CASE("tubes that touch a ceiling light it as they are long, and the room with what they leave", "[accuracy]") {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     radiosity::Random random{seed, 0x74756265ull};
     const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
@@ -230,7 +230,7 @@ radiosity::Scene room_with_window(radiosity::Random& random, radiosity::Color em
 
 }  // namespace
 
-TEST_CASE("a lamp behind a window: what the lamp sends elsewhere makes no error larger") {
+TEST_CASE("a lamp behind a window: what the lamp sends elsewhere makes no error larger", "[accuracy]") {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     radiosity::Random random{seed, 0x73756eull};
     radiosity::Scene scene = room_with_window(random, radiosity::Color{100.0});
@@ -251,7 +251,7 @@ TEST_CASE("a lamp behind a window: what the lamp sends elsewhere makes no error 
   }
 }
 
-TEST_CASE("a lamp behind a window is resolved alike, however much light goes elsewhere") {
+TEST_CASE("a lamp behind a window is resolved alike, however much light goes elsewhere", "[accuracy]") {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     double leaves[2] = {};
     double shares[2] = {};
@@ -282,7 +282,7 @@ TEST_CASE("a lamp behind a window is resolved alike, however much light goes els
   }
 }
 
-TEST_CASE("what reflects little takes few leaves, however bright a lamp shines on it") {
+TEST_CASE("what reflects little takes few leaves, however bright a lamp shines on it", "[accuracy]") {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     std::vector<std::size_t> of_screen;
     for (const double rho : {0.5, 0.01, 0.0}) {

@@ -139,9 +139,9 @@ TEST_CASE("the nearer face hides the farther one, and of coplanar ones the later
     CHECK(shown.x + shown.y <= 1.0f);
     green_seen += shown.y == 1.0f ? 1 : 0;
   }
-  radiosity::Mesh lamp;
-  add_rectangle(lamp, 0.1, 0.1, 0.7, 0.8, green, 5);
-  const radiosity::Picture alone = radiosity::draw(lamp, radiosity::make_view(camera, {300, 100}), 1.0, 1).value();
+  radiosity::Mesh lamp_alone;
+  add_rectangle(lamp_alone, 0.1, 0.1, 0.7, 0.8, green, 5);
+  const radiosity::Picture alone = radiosity::draw(lamp_alone, radiosity::make_view(camera, {300, 100}), 1.0, 1).value();
   std::size_t expected = 0;
   for (const glm::vec3& shown : alone.shown) { expected += shown.y == 1.0f ? 1 : 0; }
   CHECK(green_seen == expected);

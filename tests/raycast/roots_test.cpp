@@ -33,10 +33,10 @@ TEST_CASE("a zero beside a cusp takes forty values at most, however near it is, 
       return Sample{sign * value, (rising ? 1.0 : -1.0) * p * std::pow(distance / length, p - 1.0) / length};
     };
     const double found = bracketed_root(f, at, at + length, rising, at + length * random.uniform(0.02, 0.98));
-    const double wanted = mirrored ? at + length - zero : at + zero, u = std::numeric_limits<double>::epsilon();
+    const double wanted = mirrored ? at + length - zero : at + zero, epsilon = std::numeric_limits<double>::epsilon();
     INFO(i << " p " << p << " at " << at << " length " << length << " zero " << zero << " mirrored " << mirrored << " values " << values);
     // Two units of the larger end, the rounding of at + length, of the powers and of `noise` by the slope at the zero.
-    CHECK(std::abs(found - wanted) <= 8.0 * u * std::max(std::abs(at), std::abs(at + length)) + 16.0 * u * zero * (1.0 + 1.0 / p));
+    CHECK(std::abs(found - wanted) <= 8.0 * epsilon * std::max(std::abs(at), std::abs(at + length)) + 16.0 * epsilon * zero * (1.0 + 1.0 / p));
     CHECK(values <= 40);
     most = std::max(most, values);
     sum += values;
