@@ -36,7 +36,8 @@ TEST_CASE("a zero beside a cusp takes forty values at most, however near it is, 
     const double wanted = mirrored ? at + length - zero : at + zero, epsilon = std::numeric_limits<double>::epsilon();
     INFO(i << " p " << p << " at " << at << " length " << length << " zero " << zero << " mirrored " << mirrored << " values " << values);
     // Two units of the larger end, the rounding of at + length, of the powers and of `noise` by the slope at the zero.
-    CHECK(std::abs(found - wanted) <= 8.0 * epsilon * std::max(std::abs(at), std::abs(at + length)) + 16.0 * epsilon * zero * (1.0 + 1.0 / p));
+    CHECK(std::abs(found - wanted) <=
+          8.0 * epsilon * std::max(std::abs(at), std::abs(at + length)) + 16.0 * epsilon * zero * (1.0 + 1.0 / p));
     CHECK(values <= 40);
     most = std::max(most, values);
     sum += values;
