@@ -113,7 +113,7 @@ const chapters = [{
     $('caption').textContent = [
       'Every node gathers over its own links: irradiance = sum of F B of the other ends. Faces show what their own node has gathered; boxes of the tree, what each level has.',
       'What inner nodes gathered is pushed down and added: each leaf now has the irradiance of all links above it.' +
-        (data.closure === null ? '' : ` What leaves send and take is scaled so that form factors sum to 1 where no light is lost, by ${short(100 * data.closure)} % on average.`),
+        (data.closure === null ? '' : ` What leaves send and take is scaled so that form factors sum to 1 where no light is lost; they were off by ${short(100 * data.closure)} %.`),
       'Each leaf radiates B = E + rho times its irradiance, and the area averages are pulled up, so that every node can send.'][k % 3];
     const rows = element('table'), head = element('tr');
     for (const t of ['patch', 'B sent', 'gathered', 'arrived', 'B new']) head.append(element('th', t));

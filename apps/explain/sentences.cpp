@@ -133,8 +133,8 @@ std::string light(const Recording& r) {
     out += "  (change " + number(step.residual) + ")\n";
   }
   if (r.closure) {
-    out += "What leaves send and take is scaled so that form factors sum to 1 where no light is lost, by " + number(100.0 * *r.closure) +
-           " % on average\n";
+    out += "What leaves send and take is scaled so that form factors sum to 1 where no light is lost; they were off by " +
+           number(100.0 * *r.closure) + " %\n";
   }
   return out;
 }

@@ -54,28 +54,25 @@ HALFLIGHT_INLINE double explained_closure(const DenseMatrix& matrix, const LeafE
 HALFLIGHT_INLINE std::optional<double> close_rows(DenseMatrix& matrix, const LeafExchange& exchange, double limit) {
   const std::size_t n = matrix.size;
   std::vector<double> scale(n, 1.0);
+  double rms = 0.0;  // by which the rows are off at first
   for (int round = 0; round < 400; ++round) {
-    double worst = 0.0;
+    double worst = 0.0, square = 0.0, total = 0.0;
     std::vector<double> next(scale);
     for (std::size_t i = 0; i < n; ++i) {
       double sum = 0.0;
       for (std::size_t j = 0; j < n; ++j) { sum += static_cast<double>(matrix.row(i)[j]) * scale[j]; }
       sum *= scale[i] / exchange.area(i);
+      total += exchange.area(i);
       if (!(sum > 0.0)) { continue; }
+      square += exchange.area(i) * (sum - 1.0) * (sum - 1.0);
       worst = std::max(worst, std::abs(sum - 1.0));
       next[i] /= std::sqrt(sum);
     }
+    if (round == 0 && total > 0.0) { rms = std::sqrt(square / total); }
+    if (!(rms <= limit)) { return std::nullopt; }
     scale = std::move(next);
     if (worst < 1e-9) { break; }
   }
-  double square = 0.0;
-  double total = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    square += exchange.area(i) * (scale[i] - 1.0) * (scale[i] - 1.0);
-    total += exchange.area(i);
-  }
-  const double rms = total > 0.0 ? std::sqrt(square / total) : 0.0;
-  if (!(rms <= limit)) { return std::nullopt; }
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) { matrix.entry[i * n + j] *= static_cast<float>(scale[i] * scale[j]); }
   }

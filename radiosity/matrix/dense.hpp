@@ -39,8 +39,8 @@ struct DenseMatrix {
 // The most that may be wrong with the rows of a closed scene.
 [[nodiscard]] double explained_closure(const DenseMatrix& matrix, const LeafExchange& exchange);
 
-// Makes the rows of a closed scene sum to 1, as Transport::close() does. Returns the RMS correction, or nothing, and changes nothing,
-// when it is beyond `limit`.
+// Makes the rows of a closed scene sum to 1, as Transport::close() does. Returns the RMS by which they were off, or nothing, and changes
+// nothing, when that is beyond `limit`.
 [[nodiscard]] std::optional<double> close_rows(DenseMatrix& matrix, const LeafExchange& exchange, double limit);
 
 struct DenseSolution {

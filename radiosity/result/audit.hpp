@@ -81,7 +81,7 @@ struct Audit {
   Range row_sum;                  // of the form factors of a leaf, area-weighted mean; of the system that was solved
   Range computed_row_sum;         // the same before a closed scene was corrected
   double overfull = 0.0;          // share of the exposed area where row_sum is above 1.1, which cannot be: it receives too much light
-  std::optional<double> closure;  // RMS correction that made all row sums of a closed scene 1
+  std::optional<double> closure;  // RMS by which the row sums of a closed scene were off before they were made 1
   double ray_correction = 0.0;    // RMS correction that took the noise of stored rays out of their row sums, relative to those
   double closure_limit = 0.0;     // what quadrature and sampling explain of one (doubt.hpp); beyond, it is refused
   double energy_balance = 0.0;    // |emitted - absorbed - escaped| / emitted

@@ -232,31 +232,27 @@ HALFLIGHT_INLINE std::vector<double> Transport::left_by_lamps() {
   return left;
 }
 
-HALFLIGHT_INLINE double Transport::root_mean_square(const std::vector<std::vector<double>>& rows,
-                                                    const std::vector<std::vector<double>>& scales) const {
-  double square = 0.0;
+HALFLIGHT_INLINE double Transport::amiss(const std::vector<double>& rows) const {
+  std::vector<double> power(rows.size(), 0.0), area(rows.size(), 0.0);  // the faces of a cluster of lamps as one
   double total = 0.0;
-  for (std::size_t i = 0; i < hierarchy_->size(); ++i) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!(*hierarchy_)[i].leaf()) { continue; }
-    double sum = 0.0;
-    double change = 0.0;
-    for (std::size_t part = 0; part < parts_.size(); ++part) {
-      sum += rows[part][i];
-      change += rows[part][i] * (parts_[part].scale[i] / scales[part][i] - 1.0);
-    }
-    if (sum > 0.0) { square += area_[i] * (change / sum) * (change / sum); }
     total += area_[i];
+    if (!closed(i) || !(rows[i] > 0.0)) { continue; }
+    const std::size_t at = lamp_cluster_.empty() || lamp_cluster_[i] == no_node ? i : lamp_cluster_[i];
+    power[at] += area_[i] * rows[i];
+    area[at] += area_[i];
+  }
+  double square = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (area[i] > 0.0) { square += (power[i] - area[i]) * (power[i] - area[i]) / area[i]; }
   }
   return total > 0.0 ? std::sqrt(square / total) : 0.0;
 }
 
 HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tolerance) {
-  std::vector<std::vector<double>> rows, scales;
-  std::vector<double> area = area_;
-  for (std::size_t part = 0; part < parts_.size(); ++part) {
-    rows.push_back(row_sums(part));
-    scales.push_back(parts_[part].scale);
-  }
+  const double rms = amiss(row_sums());
+  if (!(rms <= limit)) { return std::nullopt; }
   if (!lamps_.empty() && sampled_ == 0 && parts_.size() > 1) {
     scale_lamps();
     scale(parts_.size() - 1, left_by_lamps(), 16.0);
@@ -269,11 +265,7 @@ HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tol
   for (Part& part : parts_) {
     for (std::size_t i = 0; i < scale.size(); ++i) { part.scale[i] *= scale[i]; }
   }
-  const double rms = root_mean_square(rows, scales);
-  if (rms <= limit) { return rms; }
-  for (std::size_t part = 0; part < parts_.size(); ++part) { parts_[part].scale = std::move(scales[part]); }
-  area_ = std::move(area);
-  return std::nullopt;
+  return rms;
 }
 
 HALFLIGHT_INLINE void Transport::gather_into_cluster(std::size_t i) {

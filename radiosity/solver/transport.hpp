@@ -100,8 +100,9 @@ class Transport {
   // Closes what loses no light: finds D with the row sums of closed nodes 1, and all others as they are, within the tolerance (symmetric
   // scaling, van Leersum 1989; see balance.hpp), so that what quadrature and sampled visibility got wrong in the rows does not grow by
   // rho / (1 - rho) in the solution. Beside lamps the others are scaled first, to what the lamps leave of 1, and the D of all is near 1.
-  // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS of D - 1, the mean over the parts by what they carry,
-  // or nothing, and no D, when that is beyond `limit`: then something other than quadrature and sampling is wrong.
+  // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS by which the row sums were off, or nothing, and no D,
+  // when that is beyond `limit`: then something other than quadrature and sampling is wrong. D - 1 is no measure of that: it is half of what
+  // a row is off where all rows err alike, and many times as much where two patches see little but each other.
   std::optional<double> close(double limit, double tolerance = 1e-12);
 
  private:
@@ -132,8 +133,8 @@ class Transport {
   [[nodiscard]] std::vector<double> row_sums(std::size_t part);
   // Scales the links of a part to these row sums, as far as scales between 1 / most and most go.
   void scale(std::size_t part, const std::vector<double>& rows, double most);
-  // The area-weighted RMS by which the scales of all parts differ from those given, the mean by what the parts carried.
-  [[nodiscard]] double root_mean_square(const std::vector<std::vector<double>>& rows, const std::vector<std::vector<double>>& scales) const;
+  // The area-weighted RMS by which the row sums of closed leaves differ from 1, those that see nothing left out.
+  [[nodiscard]] double amiss(const std::vector<double>& rows) const;
 
   const Hierarchy* hierarchy_;
   const Exposure* exposure_;

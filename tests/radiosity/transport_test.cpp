@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -165,4 +166,42 @@ TEST_CASE("a correction beyond its limit is refused and changes nothing") {
   const std::vector<double> before = transport.row_sums();
   CHECK_FALSE(transport.close(0.1));
   CHECK(transport.row_sums() == before);
+}
+
+// Patch i and its partner see little but each other. What one row lacks and the other has too much of no scale can move but by factors far
+// from 1: rows that are off by 2 % take scales that are off by more than they are.
+TEST_CASE("closing is judged by what row sums were off, not by the scales that this takes") {
+  const unsigned seed = std::random_device{}();
+  std::mt19937 engine{seed};
+  INFO("seed " << seed);
+  std::uniform_real_distribution<double> uniform{-1.0, 1.0};
+  for (int trial = 0; trial < 20; ++trial) {
+    const std::uint32_t pairs = 4 + engine() % 8;
+    const double others = 0.02 + 0.02 * std::abs(uniform(engine));  // what a patch sees beside its partner
+    Hierarchy hierarchy(2 * pairs);
+    radiosity::Exposure exposure;
+    exposure.area.assign(hierarchy.size(), 1.0);
+    exposure.centroid.assign(hierarchy.size(), glm::dvec3{0.0});
+    std::vector<double> scale(hierarchy.size());  // that makes the rows wrong
+    for (std::uint32_t i = 0; i < scale.size(); ++i) { scale[i] = std::exp((i % 2 == 0 ? 1.0 : -1.0) * (0.2 + 0.1 * uniform(engine))); }
+    Links links;
+    for (std::uint32_t p = 0; p < hierarchy.size(); ++p) {
+      hierarchy[p].surface = p;
+      for (std::uint32_t q = p + 1; q < hierarchy.size(); ++q) {
+        const double share = p / 2 == q / 2 ? 1.0 - others : others / (2.0 * (pairs - 1));
+        links.push_back({p, q, static_cast<float>(share * scale[p] * scale[q])});
+      }
+    }
+    Transport transport{hierarchy, links, exposure};
+    double square = 0.0;
+    for (const double row : transport.row_sums()) { square += (row - 1.0) * (row - 1.0) / static_cast<double>(hierarchy.size()); }
+    const double off = std::sqrt(square);
+    CAPTURE(trial, pairs, others, off);
+    CHECK(off < 0.15);
+    CHECK_FALSE(transport.close(0.999 * off));
+    const std::optional<double> told = transport.close(1.001 * off);
+    REQUIRE(told);
+    CHECK(*told == test::Approx(off));
+    for (const double row : transport.row_sums()) { CHECK(std::abs(row - 1.0) < 1e-9); }
+  }
 }
