@@ -117,6 +117,13 @@ class LinkEvaluator {
   // The references must outlive the evaluator. `shown`: by exposed areas.
   LinkEvaluator(const SceneView& scene, const Exposure& exposure, const ShownAreas& shown, std::uint64_t seed);
 
+  // The same with other random numbers, to measure links once more.
+  [[nodiscard]] LinkEvaluator reseeded(std::uint64_t seed) const {
+    LinkEvaluator other{*this};
+    other.seed_ = seed;
+    return other;
+  }
+
   // Where that has measured the share of a lamp's light that arrives, no segment is cast. It must outlive the evaluator.
   void use(const LightMeshing& light) { light_ = &light; }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/refinement/leaf_error.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -79,16 +82,27 @@ HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const DiscreteScene& scene, con
 HALFLIGHT_INLINE double variation_by_siblings(const Hierarchy& hierarchy, const std::vector<double>& area,
                                               const std::vector<Color>& radiosity) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+  const auto square_between = [&](std::uint32_t a, std::uint32_t b) {
+    return glm::dot(radiosity[a] - radiosity[b], radiosity[a] - radiosity[b]);
+  };
+  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
     const Node& node = hierarchy[i];
     if (node.leaf() || node.is_cluster() || !(area[i] > 0.0)) { continue; }
-    double among = 0.0, leaves = 0.0;
-    for (std::uint32_t k = node.first_child; k < node.first_child + node.child_count; ++k) {
-      const Color off = radiosity[k] - radiosity[i];
-      among += area[k] * glm::dot(off, off);
-      leaves += hierarchy[k].leaf() ? area[k] : 0.0;
+    const std::uint32_t first = node.first_child, end = first + node.child_count;
+    bool even = true;
+    for (std::uint32_t k = first; k < end; ++k) { even = even && hierarchy[k].leaf(); }
+    for (std::uint32_t k = first; k < end; ++k) {
+      if (!hierarchy[k].leaf() || !(area[k] > 0.0)) { continue; }
+      double least = std::numeric_limits<double>::infinity();
+      for (std::uint32_t other = first; other < end; ++other) {
+        if (other != k && area[other] > 0.0) { least = std::min(least, square_between(k, other)); }
+      }
+      if (even) {
+        sum += area[k] * square_between(k, i) / 3.0;
+      } else if (std::isfinite(least)) {
+        sum += area[k] * least / 2.0;
+      }
     }
-    sum += among / 3.0 * leaves / area[i];
   }
   return sum;
 }

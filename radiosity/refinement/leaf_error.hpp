@@ -41,7 +41,9 @@ struct LeafErrors {
 LeafErrors estimate_leaf_errors(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity);
 
 // The variation over leaves where the gradients at leaves are not known, from the differences between the leaves of one parent. Where light
-// changes linearly over a parent of four leaves, squares or triangles, the variance within each is a third of that between them.
+// changes linearly over a parent of four leaves, squares or triangles, the variance within each is a third of that between them. Where
+// some of the children were split once more, light changes more over these than over the leaves beside them: a leaf then varies by half
+// the square of what it differs from the child that is most like it (over all directions of a gradient the mean for squares is 1 / 2.2).
 double variation_by_siblings(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<Color>& radiosity);
 
 }  // namespace detail
