@@ -136,6 +136,22 @@ struct ConnectedParts {
   std::vector<std::uint32_t> rays, lost;
 };
 
+// Is there a closed part that emits light of some channel and absorbs none of it?
+[[nodiscard]] HALFLIGHT_INLINE bool keeps_all_light(const DiscreteScene& scene, ConnectedParts& parts, const std::vector<bool>& closed) {
+  for (int c = 0; c < 3; ++c) {
+    std::vector<bool> emits(closed.size(), false), absorbs(closed.size(), false);  // of each part, at one of its surfaces
+    for (std::size_t s = 0; s < closed.size(); ++s) {
+      const std::uint32_t part = parts.joined.find(static_cast<std::uint32_t>(s));
+      emits[part] = emits[part] || scene.emission[s][c] > 0.0;
+      absorbs[part] = absorbs[part] || !closed[s] || scene.reflectance[s][c] < 1.0;
+    }
+    for (std::size_t part = 0; part < closed.size(); ++part) {
+      if (parts.rays[part] > 0 && emits[part] && !absorbs[part]) { return true; }
+    }
+  }
+  return false;
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE ClosedParts find_closed_parts(const DiscreteScene& scene) {
@@ -164,8 +180,10 @@ HALFLIGHT_INLINE ClosedParts find_closed_parts(const DiscreteScene& scene) {
     for (std::size_t s = 0; s < found.surfaces.size(); ++s) { found.surfaces[s] = !ends.empty() && (whole || parts.closed(s, rays)); }
     if (std::find(found.surfaces.begin(), found.surfaces.end(), true) == found.surfaces.end()) {
       found.surfaces.clear();
+      found.lossless = false;
       break;
     }
+    found.lossless = detail::keeps_all_light(scene, parts, found.surfaces);
     for (const detail::RayEnd& end : ends) {
       found.stray.closed_rays += found.surfaces[end.from] ? 1 : 0;
       found.stray.closed_lost += found.surfaces[end.from] && end.what != detail::RayEnd::What::front ? 1 : 0;

@@ -15,6 +15,7 @@ namespace radiosity {
 struct ClosedParts {
   StrayRays stray;
   std::vector<bool> surfaces;  // by input surface: does it belong to a closed part? Empty where none does
+  bool lossless = false;       // one of the parts emits light of some channel and absorbs none of it
 };
 
 // Casts a cosine-distributed ray from each of thousands of points, spread over the exposed area. Surfaces that rays connect are a part;

@@ -36,6 +36,13 @@ HALFLIGHT_INLINE std::optional<Failure> expose(detail::Run& run) {
   if (!scene.plan.closed && run.needs_links()) {
     ClosedParts found = find_closed_parts(scene);
     audit.stray = found.stray;
+    if (found.lossless) {
+      return Failure{Failure::Kind::invalid_scene,
+                     {"a part of the scene is closed, as far as rays tell (" + std::to_string(found.stray.closed_lost) + " of " +
+                      std::to_string(found.stray.closed_rays) +
+                      " were lost), and nothing in it absorbs light in some channel in which it emits: the light would grow without end; "
+                      "give some surface a reflectance below 1, or the light a larger way out"}};
+    }
     scene.closed = std::move(found.surfaces);
   }
   run.watch.lap("expose");

@@ -96,3 +96,40 @@ TEST_CASE("closing a room leaves the light of a lamp under its ceiling, which hi
     }
   }
 }
+
+// Two walls that stand beyond the others keep the room from being proven closed.
+TEST_CASE("a white room that only rays know to be closed is refused; it has a solution where something absorbs, or light finds a way out") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0x7768ull};
+  const auto in = [&](double low, double high) { return low + (high - low) * random.uniform(); };
+  const auto room = [&](double reflectance_of_thing, bool open) {
+    const double x = in(2.0, 4.0), y = in(2.0, 4.0), z = in(2.0, 3.0), t = 0.1, over = open ? -0.3 : 0.0;
+    radiosity::Scene scene;
+    scene.materials = {{"white", radiosity::Color{1.0}, radiosity::Color{0.0}},
+                       {"lamp", radiosity::Color{1.0}, radiosity::Color{2.0}},
+                       {"thing", radiosity::Color{reflectance_of_thing}, radiosity::Color{0.0}}};
+    const auto wall = [&](const char* name, const glm::dvec3& from, const glm::dvec3& to, std::uint32_t material = 0) {
+      scene.objects.push_back(scenes::object(name, scenes::box(from, to), material));
+    };
+    wall("floor", {-t, -t, -t}, {x + t, y + t, 0});
+    wall("ceiling", {-t, -t, z}, {x + t + over, y + t, z + t});
+    wall("x0", {-t, -t, -0.5 * t}, {0, y + t, z + 0.5 * t});
+    wall("x1", {x, -t, -0.5 * t}, {x + t, y + t, z + 0.5 * t});
+    wall("y0", {-t, -t, -0.5 * t}, {x + t, 0, z + 0.5 * t});
+    wall("y1", {-t, y, -0.5 * t}, {x + t, y + t, z + 0.5 * t});
+    wall("thing", {0.5, 0.5, 0}, {0.8, 0.9, 0.7}, 2);
+    wall("lamp", {0.4 * x, 0.4 * y, 0.7 * z}, {0.6 * x, 0.5 * y, 0.75 * z}, 1);
+    return scene;
+  };
+  radiosity::Options options;
+  options.epsilon = 0.05;
+  options.audit_points = 0;
+  const radiosity::Outcome white = radiosity::solve(room(1.0, false), options);
+  CHECK_FALSE(white.solution);
+  CHECK(white.failure.kind == radiosity::Failure::Kind::invalid_scene);
+  REQUIRE_FALSE(white.failure.sentences.empty());
+  CHECK(white.failure.sentences[0].find("would grow without end") != std::string::npos);
+  CHECK(scenes::solved(room(0.9, false), options).audit.converged);
+  CHECK(scenes::solved(room(1.0, true), options).audit.converged);
+}
