@@ -175,6 +175,7 @@ class Text {
     } else {
       say("refinement", "f, epsilon {settings.epsilon}, min area {settings.min_area}, of lights {settings.light_epsilon}",
           audit_.coarsened ? ": larger than asked for, to end " + std::string(audit_.interrupted ? "soon" : "within the memory") : "");
+      if (audit_.lit_part < 1.0) { say("", "min area of what is lit, {settings.lit_part} of the scene: its lamps light no more"); }
       if (audit_.reflected_share && *audit_.reflected_share < 0.25) {
         row("",
             "of lights finer: the reflected light is " + formatted("%.2g", *audit_.reflected_share) + " as bright as the mean emission");

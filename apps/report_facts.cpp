@@ -114,6 +114,7 @@ void add_settings(Facts& facts, const Report& report) {
   facts.add("tone", std::string(name(report.tone)));
   facts.add("settings.epsilon", audit.epsilon, "%.3g");
   facts.add("settings.min_area", audit.min_area, "%.3g");
+  facts.add("settings.lit_part", audit.lit_part, "%.2g");
   facts.add("settings.light_epsilon", audit.light_epsilon, "%.3g");
   facts.add("settings.reflected_share", audit.reflected_share, "%.2g");
   facts.add("settings.error_target", report.options.error);

@@ -83,8 +83,8 @@ std::vector<Argument> refinement_arguments(RenderOptions& options) {
                      formatted("%g", gathered_epsilon) + ")")
           .without(ends),
       above_zero("--min-area", options.min_area, 1.0,
-                 "smallest patch, relative to the area of the scene (default " + formatted("%g", solver.min_area) +
-                     "; of a picture by gather alone " + formatted("%g", gathered_min_area) + ")")
+                 "smallest patch, relative to the area of the scene, or of about what lamps light of a large one (default " +
+                     formatted("%g", solver.min_area) + "; of a picture by gather alone " + formatted("%g", gathered_min_area) + ")")
           .without(ends),
       above_zero("--light-epsilon", solver.light_epsilon, 1.0,
                  "share of the error that the light of a lamp may cause by varying over one patch (default: a quarter of epsilon)")

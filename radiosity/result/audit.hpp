@@ -116,6 +116,7 @@ struct Audit {
   std::optional<StrayRays> stray;     // of a scene that is not proven closed
   std::vector<SurfaceMean> surfaces;
   double epsilon = 0.0, min_area = 0.0, light_epsilon = 0.0;  // as used, see `coarsened`
+  double lit_part = 1.0;                  // min_area is a share of this share of the scene: of about what lamps light (Options::min_area)
   std::optional<double> reflected_share;  // RMS of the radiosity that is reflected once, relative to the mean emission: reflected_light.hpp
   double target = 0.0;                    // of BF-refinement; 0 when the time was the limit
   unsigned threads = 1, channels = 3;

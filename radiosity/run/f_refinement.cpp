@@ -80,6 +80,7 @@ HALFLIGHT_INLINE void refine_by_forms(Run& run) {
     const bool beside_lamps = *audit.reflected_share > least_share_beside_lamps;
     if (run.rays.few && beside_lamps && !run.clusters.build) { run.rays = RayChoice{true, {}}; }
   }
+  audit.lit_part = lit_part(run);
   run.importance = importance_of_view(run);
   run.refined = refined_by_forms(run);
 }

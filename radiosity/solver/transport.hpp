@@ -101,8 +101,8 @@ class Transport {
   // scaling, van Leersum 1989; see balance.hpp), so that what quadrature and sampled visibility got wrong in the rows does not grow by
   // rho / (1 - rho) in the solution. Beside lamps the others are scaled first, to what the lamps leave of 1, and the D of all is near 1.
   // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS by which the row sums were off, or nothing, and no D,
-  // when that is beyond `limit`: then something other than quadrature and sampling is wrong. D - 1 is no measure of that: it is half of what
-  // a row is off where all rows err alike, and many times as much where two patches see little but each other.
+  // when that is beyond `limit`: then something other than quadrature and sampling is wrong. D - 1 is no measure of that: it is half of
+  // what a row is off where all rows err alike, and many times as much where two patches see little but each other.
   std::optional<double> close(double limit, double tolerance = 1e-12);
 
  private:
