@@ -31,6 +31,7 @@
 #include <radiosity/direct/facets.hpp>
 #include <radiosity/direct/lamp_samples.hpp>
 #include <radiosity/direct/stand_in.hpp>
+#include <radiosity/direct/uncovered.hpp>
 #include <radiosity/hierarchy/curved_area.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
@@ -84,7 +85,8 @@ inline constexpr std::size_t samples_of_joined = 1024;
 
 }  // namespace detail
 
-HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const std::vector<Surface>& surfaces, const Candidate& candidate) {
+HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
+                                                          const Candidate& candidate) {
   Lamp lamp;
   lamp.exitance = candidate.exitance;
   raycast::Box box;
@@ -98,6 +100,7 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const std::vector<Surf
     Facets facets = part.sheets.size() > 1 ? facets_of(surface, part.sheets)
                     : object.exact()       ? facets_of(surface, sheet)
                                            : facets_of(object, detail::facet_tolerance * object.bounds().diameter(), sheet);
+    cut_out_covered(facets, part.object, objects, surfaces);
     for (const Facets::Facet& facet : facets.facets) {
       for (const glm::dvec3& p : facet.contour) { box.extend(p); }
       true_area += object.flat() ? facet.area : curved_area(object, sheet, facet.contour);
@@ -173,7 +176,7 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
   double taken = 0.0;
   for (const Candidate& c : candidates) {
     if (lamps_.size() == limits.most) { break; }
-    Lamp lamp = make_lamp(surfaces, c);
+    Lamp lamp = make_lamp(objects, surfaces, c);
     if (lamp.facets.empty()) { continue; }
     const bool fine =
         samples == detail::samples_of_lamp && std::sqrt(c.area) > detail::large_lamp * objects.diameter() && fine_ones < detail::most_fine;

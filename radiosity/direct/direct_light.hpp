@@ -103,7 +103,7 @@ class DirectLight {
   [[nodiscard]] static std::vector<Candidate> join_alike(const std::vector<Candidate>& singles, const raycast::Scene& objects,
                                                          std::uint32_t most);
   // A lamp without samples, and these once it is known in place of which objects meshes stand.
-  [[nodiscard]] static Lamp make_lamp(const std::vector<Surface>& surfaces, const Candidate& candidate);
+  [[nodiscard]] static Lamp make_lamp(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const Candidate& candidate);
   void take_samples(Lamp& lamp, std::size_t count, bool fine) const;
 
   const raycast::Scene* objects_ = nullptr;
