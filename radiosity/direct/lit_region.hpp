@@ -9,7 +9,7 @@
 //   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point
 //   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighed so
 //                       that only what is hidden is sampled, and they stop at 64 when these agree (fewer where many lamps were joined).
-//                       Where hardly one of them faces the point, right beside the lamp, they go to each facet that does.
+//                       Right beside a lamp, where few of them face the point or most are far, they go to parts of it of equal light.
 //                       Of a large lamp of which little is seen (a sky through a window) up to 512 finer ones find the rim of that.
 //                       Curved objects that are slow to meet, or not convex, are met as meshes within 0.04 % of their diameter.
 // Curved lamps are always asked by segments where something may stand between. Nothing here is random: the result depends on the region and
@@ -96,8 +96,11 @@ class LitRegion {
   };
   [[nodiscard]] Asked16 ask16(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::span<const LampSample> samples);
   [[nodiscard]] double seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
-  // The same by the middles of the facets that face x: right beside a lamp, where hardly a sample faces x, these are all of its light.
-  [[nodiscard]] double seen_share_of_facets(Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
+  // Is x so near to the lamp, beside the distance of its samples, that these do not tell what it sees of it? Then what they carry in the
+  // mean is not what the outline of the lamp says.
+  [[nodiscard]] bool too_near(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n, double mean_weight);
+  // The same by segments to parts of the facets that face x, each with about the same form factor or less.
+  [[nodiscard]] double seen_share_of_parts(Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
   // Asks finer samples where neighbours differ, as many as it takes for the share to be known within some 3 % of itself: puts their sums in
   // place of those of all samples and of the seen ones.
   void refine(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, double& all, double& seen);

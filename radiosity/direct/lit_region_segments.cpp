@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -21,7 +23,7 @@
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/facets.hpp>
 #include <radiosity/direct/lamp_samples.hpp>
-#include <radiosity/visibility/shadow.hpp>
+#include <radiosity/geometry/form_factor.hpp>
 
 // LitRegion: what of a lamp is seen, by segments to its samples.
 
@@ -84,51 +86,116 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
   double seen = 0.0;
   std::size_t carrying = 0;
   for (std::size_t first = 0; first < lamp.samples.size(); first += 16) {
-    const Asked16 asked = ask16(reach, x, n, std::span{lamp.samples}.subspan(first, 16));
+    const Asked16 found = ask16(reach, x, n, std::span{lamp.samples}.subspan(first, 16));
     for (unsigned k = 0; k < 16; ++k) {
-      weight_.push_back(asked.weight[k]);
-      seen_.push_back(static_cast<char>(asked.seen >> k & 1u));
-      all += asked.weight[k];
-      carrying += asked.weight[k] > 0.0 ? 1 : 0;
-      if (seen_.back() != 0) { seen += asked.weight[k]; }
+      weight_.push_back(found.weight[k]);
+      seen_.push_back(static_cast<char>(found.seen >> k & 1u));
+      all += found.weight[k];
+      carrying += found.weight[k] > 0.0 ? 1 : 0;
+      if (seen_.back() != 0) { seen += found.weight[k]; }
     }
-    if (4 * (first + 16) != lamp.samples.size() || carrying < detail::least_carrying) { continue; }
+    const std::size_t asked = first + 16, quarter = lamp.samples.size() / 4;
+    if (asked == std::max<std::size_t>(16, quarter) && too_near(lamp, x, n, all / static_cast<double>(asked))) {
+      return seen_share_of_parts(reach, x, n);
+    }
+    if (asked != quarter || carrying < detail::least_carrying) { continue; }
     if (seen == all || (seen == 0.0 && survey(reach).dark)) { return seen > 0.0 ? 1.0 : 0.0; }
   }
-  if (carrying < detail::least_carrying) { return seen_share_of_facets(reach, x, n); }
+  if (carrying < detail::least_carrying) { return seen_share_of_parts(reach, x, n); }
   if (!lamp.fine.empty() && seen < all) { refine(reach, x, n, all, seen); }
   return all > 0.0 ? seen / all : 0.0;
 }
 
-HALFLIGHT_INLINE double LitRegion::seen_share_of_facets(Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
+namespace detail {
+
+// A convex part of a facet, above the horizon of a point that it faces, and the form factor from there to it.
+struct LampPart {
+  Polygon contour;
+  std::uint32_t facet = 0;
+  double factor = 0.0;
+};
+
+[[nodiscard]] HALFLIGHT_INLINE glm::dvec3 middle_of(const Polygon& contour) {
+  glm::dvec3 sum{0.0};
+  for (const glm::dvec3& p : contour) { sum += p / static_cast<double>(contour.size()); }
+  return sum;
+}
+
+// The part on the side of a plane through its middle to which the normal points.
+[[nodiscard]] HALFLIGHT_INLINE LampPart half_of(const LampPart& whole, const glm::dvec3& normal, const glm::dvec3& x, const glm::dvec3& n) {
+  LampPart half{{}, whole.facet, 0.0};
+  clip_to_horizon(whole.contour, middle_of(whole.contour), normal, half.contour);
+  if (half.contour.size() > 2) { half.factor = point_to_polygon(x, n, half.contour); }
+  return half;
+}
+
+// Cuts parts in two, across their longest edges, until none has more than a 48th of the form factor of all.
+HALFLIGHT_INLINE void cut_evenly(std::vector<LampPart>& parts, const glm::dvec3& x, const glm::dvec3& n) {
+  constexpr std::size_t most_cuts = 256;
+  constexpr double share = 1.0 / 48.0;
+  double all = 0.0;
+  for (const LampPart& part : parts) { all += part.factor; }
+  for (std::size_t k = 0, cuts = 0; k < parts.size();) {
+    if (!(parts[k].factor > share * all) || cuts == most_cuts) {
+      ++k;
+      continue;
+    }
+    const LampPart whole = std::move(parts[k]);
+    glm::dvec3 longest{0.0};
+    for (std::size_t i = 0; i < whole.contour.size(); ++i) {
+      const glm::dvec3 edge = whole.contour[i + 1 < whole.contour.size() ? i + 1 : 0] - whole.contour[i];
+      if (glm::dot(edge, edge) > glm::dot(longest, longest)) { longest = edge; }
+    }
+    parts[k] = half_of(whole, longest, x, n);
+    parts.push_back(half_of(whole, -longest, x, n));
+    ++cuts;
+  }
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE bool LitRegion::too_near(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n, double mean_weight) {
+  const glm::dvec3 d = lamp.centre - x;
+  if (glm::dot(d, d) > 4.0 * lamp.radius * lamp.radius) { return false; }
+  double area = 0.0;
+  for (const Facets::Facet& facet : lamp.facets.facets) { area += facet.area; }
+  const double by_outline = radiosity::form_factor(lamp.facets, x, n, false, light_->slack_, facing_);
+  constexpr double off = 0.25, least = 0.02;  // less light is not worth the parts
+  return by_outline > least && std::abs(area * mean_weight / std::numbers::pi - by_outline) > off * by_outline;
+}
+
+HALFLIGHT_INLINE double LitRegion::seen_share_of_parts(Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
   if (glm::dot(n, lamp.centre - x) <= -lamp.radius) { return 0.0; }
+  std::vector<detail::LampPart> parts;
+  for (std::uint32_t f = 0; f < lamp.facets.facets.size(); ++f) {
+    if (!(lamp.facets.facets[f].height(x) > light_->slack_)) { continue; }
+    detail::LampPart part{{}, f, 0.0};
+    clip_to_horizon(lamp.facets.facets[f].contour, x, n, part.contour);
+    if (part.contour.size() < 3) { continue; }
+    part.factor = point_to_polygon(x, n, part.contour);
+    parts.push_back(std::move(part));
+  }
+  detail::cut_evenly(parts, x, n);
+  std::erase_if(parts, [](const detail::LampPart& part) { return part.contour.size() < 3; });
   std::vector<LampSample> samples;
-  std::vector<double> area;
-  Piece above, below;
-  for (const Facets::Facet& facet : lamp.facets.facets) {
-    if (!(facet.height(x) > light_->slack_)) { continue; }
-    detail::part(facet.contour, {x, n}, above, below);
-    if (above.empty()) { continue; }
-    glm::dvec3 middle{0.0}, twice_area{0.0};
-    for (std::size_t i = 0; i < above.size(); ++i) {
-      middle += above[i] / static_cast<double>(above.size());
-      twice_area += glm::cross(above[i] - above[0], above[i + 1 < above.size() ? i + 1 : 0] - above[0]);
-    }
+  for (const detail::LampPart& part : parts) {
+    const glm::dvec3 middle = detail::middle_of(part.contour);
     const auto nearest = std::min_element(lamp.samples.begin(), lamp.samples.end(), [&](const LampSample& a, const LampSample& b) {
       const glm::dvec3 to_a = a.position - middle, to_b = b.position - middle;
       return glm::dot(to_a, to_a) < glm::dot(to_b, to_b);
     });
-    samples.push_back({middle + nearest->end.lift * facet.normal, facet.normal, nearest->end});
-    area.push_back(glm::length(twice_area));
+    const glm::dvec3& normal = lamp.facets.facets[part.facet].normal;
+    samples.push_back({middle + nearest->end.lift * normal, normal, nearest->end});
   }
   double all = 0.0, seen = 0.0;
   for (std::size_t first = 0; first < samples.size(); first += 16) {
     const std::size_t count = std::min<std::size_t>(16, samples.size() - first);
     const Asked16 asked = ask16(reach, x, n, std::span{samples}.subspan(first, count));
     for (std::size_t k = 0; k < count; ++k) {
-      all += area[first + k] * asked.weight[k];
-      if ((asked.seen >> k & 1u) != 0) { seen += area[first + k] * asked.weight[k]; }
+      if (!(asked.weight[k] > 0.0)) { continue; }
+      all += parts[first + k].factor;
+      if ((asked.seen >> k & 1u) != 0) { seen += parts[first + k].factor; }
     }
   }
   return all > 0.0 ? seen / all : 0.0;
