@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -110,30 +111,50 @@ struct Mean {
   return brightest(product);
 }
 
-// Where a ray from a lamp arrives, which is often where the light is: the radiosity there times what such rays bring in the mean over the
-// scene's area, `power`.
-[[nodiscard]] HALFLIGHT_INLINE double square_by_lamp(const DiscreteScene& scene, const PathTracer& tracer, const FacePoints& lamps,
-                                                     double power, double share, Random random) {
+// Where a ray from a lamp arrives at the front of a surface.
+struct LampRayEnd {
+  raycast::SurfacePoint at;
+  std::uint32_t object = 0, sheet = 0;
+};
+[[nodiscard]] HALFLIGHT_INLINE std::optional<LampRayEnd> end_of_lamp_ray(const DiscreteScene& scene, const FacePoints& lamps, double share,
+                                                                         Random& random) {
   const FacePoints::Point from = lamps.point(scene, share, random);
-  if (from.covered) { return 0.0; }
+  if (from.covered) { return std::nullopt; }
   const Node& lamp = scene.hierarchy[from.node];
   const double u = random.uniform();
   const raycast::Segment ray{from.at.position, cosine_direction(from.at.normal, u, random.uniform()) * scene.objects.diameter()};
   const auto hit = scene.objects.closest(ray, lamp.object, scene.inputs[lamp.surface].sheet);
-  if (!hit || !hit->front) { return 0.0; }
-  const raycast::SurfacePoint at = scene.objects.object(hit->object).project(hit->sheet, ray.at(hit->t));
-  const Color& rho = tracer.material(tracer.surface(hit->object, hit->sheet)).reflectance;
-  return power * brightest(rho * reflected_once(tracer, at, hit->object, hit->sheet, random));
+  if (!hit || !hit->front) { return std::nullopt; }
+  return LampRayEnd{scene.objects.object(hit->object).project(hit->sheet, ray.at(hit->t)), hit->object, hit->sheet};
 }
+
+// Where a ray from a lamp arrives, which is often where the light is: the radiosity there times what such rays bring in the mean over the
+// scene's area, `power`.
+[[nodiscard]] HALFLIGHT_INLINE double square_by_lamp(const DiscreteScene& scene, const PathTracer& tracer, const FacePoints& lamps,
+                                                     double power, double share, Random random) {
+  const std::optional<LampRayEnd> end = end_of_lamp_ray(scene, lamps, share, random);
+  if (!end) { return 0.0; }
+  const Color& rho = tracer.material(tracer.surface(end->object, end->sheet)).reflectance;
+  return power * brightest(rho * reflected_once(tracer, end->at, end->object, end->sheet, random));
+}
+
+// Points of the input faces that are not buried, spread evenly over their area, and over their emission.
+struct FacesAndLamps {
+  std::vector<bool> buried;
+  FacePoints area, lamps;
+  explicit FacesAndLamps(const DiscreteScene& scene)
+      : buried{buried_nodes(scene.surfaces, scene.hierarchy)},
+        area{scene, [&](std::uint32_t i) { return counts(i); }},
+        lamps{scene, [&](std::uint32_t i) { return counts(i) * brightest(scene.emission[scene.hierarchy[i].surface]); }} {}
+  [[nodiscard]] double counts(std::uint32_t i) const { return i < buried.size() && buried[i] ? 0.0 : 1.0; }
+};
 
 }  // namespace detail
 
 HALFLIGHT_INLINE double reflected_light(const DiscreteScene& scene, const PathTracer& tracer) {
   constexpr std::size_t batch = 256, most = 16384;
-  const std::vector<bool> buried = buried_nodes(scene.surfaces, scene.hierarchy);
-  const auto counts = [&](std::uint32_t i) { return i < buried.size() && buried[i] ? 0.0 : 1.0; };
-  const detail::FacePoints area{scene, counts};
-  const detail::FacePoints lamps{scene, [&](std::uint32_t i) { return counts(i) * brightest(scene.emission[scene.hierarchy[i].surface]); }};
+  const detail::FacesAndLamps faces{scene};
+  const detail::FacePoints &area = faces.area, &lamps = faces.lamps;
   if (!(area.total() > 0.0) || !(lamps.total() > 0.0)) { return 1.0; }
   const double emitted = lamps.total() / area.total();
   double result = 1.0;
@@ -160,6 +181,19 @@ HALFLIGHT_INLINE double reflected_light(const DiscreteScene& scene, const PathTr
     if (known || square - doubt > emitted * emitted) { break; }
   }
   return result;
+}
+
+HALFLIGHT_INLINE double mean_reflected_light(const DiscreteScene& scene, const PathTracer& tracer) {
+  constexpr std::uint32_t rays = 1024;
+  const detail::FacesAndLamps faces{scene};
+  if (!(faces.area.total() > 0.0) || !(faces.lamps.total() > 0.0)) { return 1.0; }
+  double sum = 0.0;
+  for (std::uint32_t i = 0; i < rays; ++i) {
+    Random random{scene.seed, i, 0x6d65616e6c616d70ull};
+    const auto end = detail::end_of_lamp_ray(scene, faces.lamps, (i + random.uniform()) / rays, random);
+    if (end) { sum += brightest(tracer.material(tracer.surface(end->object, end->sheet)).reflectance); }
+  }
+  return sum / rays;
 }
 
 }  // namespace radiosity

@@ -19,6 +19,9 @@ namespace radiosity {
 // of them finds light, the share that so many might have missed.
 [[nodiscard]] double reflected_light(const DiscreteScene& scene, const PathTracer& tracer);
 
+// The mean of the same light in place of its RMS, to some 3 %, by 1024 rays from the lamps: what bright spots beside lamps hardly raise.
+[[nodiscard]] double mean_reflected_light(const DiscreteScene& scene, const PathTracer& tracer);
+
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY

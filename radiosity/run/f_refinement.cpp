@@ -50,9 +50,14 @@ namespace detail {
     area += scene.hierarchy[i].area;
     power += scene.hierarchy[i].area * brightest(scene.emission[scene.hierarchy[i].surface]);
   }
-  const double of_scene = *run.solution.audit.reflected_share * power / area;
+  const auto contrast_to = [&](double share) { return std::pow(share * power / area / paths.reflected, 2.0); };
   // Bright spots beside lamps, which the picture may not show, raise the RMS of the scene: a picture that is darker gains nothing by that.
-  const double contrast = std::min(1.0, of_scene * of_scene / (paths.reflected * paths.reflected));
+  // Where it is darker than the mean, as a room is that a sky lights through a door, its light comes in at a few places, which are small
+  // for the scene and must be found. Rooms of a hundredth of the light outside err by 4 % with this limit, by 2 % with 1000 in three times
+  // as long; with 1 by 26 %.
+  constexpr double most_contrast = 30.0;
+  const double contrast = std::max(std::min(1.0, contrast_to(*run.solution.audit.reflected_share)),
+                                   std::min(most_contrast, contrast_to(mean_reflected_light(scene, *run.tracer))));
   return {std::move(paths.points), contrast, area, scene.inputs.size()};
 }
 
