@@ -46,7 +46,7 @@ class ObjReader {
                    "there is no vertex " + std::to_string(f.number) + ", the file has " + std::to_string(count()));
       }
     }
-    if (out_.good() && out_.mesh.builder.face_count() == 0) { out_.error({1, 1}, "the file has no faces: no line begins with f"); }
+    if (out_.good() && out_.mesh.builder.face_count() == 0) { no_faces(); }
     for (const auto& [word, number] : unread_) {
       out_.mesh.notes.push_back(std::to_string(number) + (number == 1 ? " line '" : " lines '") + std::string(word) +
                                 "' passed over: points, lines, curves and free-form surfaces are not read");
@@ -54,6 +54,15 @@ class ObjReader {
   }
 
  private:
+  // What the file has instead is told with it.
+  void no_faces() {
+    std::string others;
+    for (const auto& [word, number] : unread_) {
+      others += (others.empty() ? "" : ", ") + std::to_string(number) + (number == 1 ? " line '" : " lines '") + std::string(word) + "'";
+    }
+    out_.error({1, 1}, count() == 0 && others.empty() ? "the file has no faces: no line begins with f"
+                                                      : no_faces_in(static_cast<std::uint64_t>(count()), others));
+  }
   [[nodiscard]] std::int64_t count() const { return out_.mesh.builder.vertex_count(); }
 
   void statement() {

@@ -78,7 +78,7 @@ class OffReader {
       *count = *number;
       ++word;
     }
-    if (faces_ == 0) { out_.error(lines_.place(word - 1), "the file has no faces"); }
+    if (faces_ == 0) { out_.error(lines_.place(word - 1), no_faces_in(static_cast<std::uint64_t>(vertices_))); }
     return faces_ > 0;
   }
 

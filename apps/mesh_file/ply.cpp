@@ -157,7 +157,7 @@ class PlyReader {
     }
     if (face == nullptr || face->count == 0) {
       const bool strips = std::any_of(elements_.begin(), elements_.end(), [](const Element& e) { return e.name == "tristrips"; });
-      return fail(0, strips ? "triangle strips are not read; save the mesh with single faces" : "the file has no faces");
+      return fail(0, strips ? "triangle strips are not read; save the mesh with single faces" : no_faces_in(vertex->count));
     }
     if (!has(*face, Role::corners)) { return fail(0, "expected the element face to have the property list vertex_indices"); }
     vertices_ = vertex->count;

@@ -133,6 +133,13 @@ std::string expected_vertex(std::uint64_t count) {
   return count == 0 ? std::string("there are no vertices") : "expected a vertex, a number from 0 to " + std::to_string(count - 1);
 }
 
+std::string no_faces_in(std::uint64_t vertices, const std::string& others) {
+  if (vertices == 0 && others.empty()) { return "the file has no faces"; }
+  const std::string points = std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices");
+  return "the file has no faces, but " + points + (others.empty() ? ": points have" : " and " + others + ": points and lines have") +
+         " no surface that light could fall on";
+}
+
 std::optional<std::uint32_t> read_vertex(const Lines& lines, std::size_t word, std::uint64_t count, Output& out) {
   const auto index = to_integer(lines.words()[word]);
   if (index && *index >= 0 && static_cast<std::uint64_t>(*index) < count) { return static_cast<std::uint32_t>(*index); }

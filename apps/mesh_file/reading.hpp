@@ -80,6 +80,9 @@ class Lines {
 [[nodiscard]] std::optional<std::uint32_t> read_vertex(const Lines& lines, std::size_t word, std::uint64_t count, Output& out);
 [[nodiscard]] std::string expected_vertex(std::uint64_t count);  // "expected a vertex, a number from 0 to 7", or that there are none
 
+// "the file has no faces, but 3 vertices and 2 lines 'l': points and lines have no surface". `others`: what there is but vertices.
+[[nodiscard]] std::string no_faces_in(std::uint64_t vertices, const std::string& others = {});
+
 // "1 0.5 2" and the end of the line, so that it reads back exactly.
 void put_position(std::string& out, const glm::dvec3& p);
 

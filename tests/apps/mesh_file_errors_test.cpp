@@ -37,6 +37,15 @@ TEST_CASE("errors say where they lie, what was expected and what was found") {
   CHECK(begins(error(replaced(off, "4 0 2 3 1", "4 0 2 8 1"), as_off), ":11:7: error: expected a vertex, a number from 0 to 7, found '8'"));
   CHECK(begins(error(replaced(off, "4 0 2 3 1", "5 0 2 3 1"), as_off), ":11:10: error: the face has 4 of the 5 corners"));
 
+  // Points and lines alone: what the file has is said, in one sentence.
+  CHECK(error("v 0 0 0\nv 1 0 0\np 1\nl 1 2\nl 2 1\n", as_obj) ==
+        ":1:1: error: the file has no faces, but 2 vertices and 2 lines 'l', 1 line 'p': points and lines have no surface that light could "
+        "fall on");
+  CHECK(begins(error("v 0 0 0\n", as_obj), ":1:1: error: the file has no faces, but 1 vertex: points have no surface"));
+  CHECK(begins(error("OFF\n8 0 0\n", as_off), ":2:3: error: the file has no faces, but 8 vertices: points have no surface"));
+  const std::string points = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  CHECK(error(points, as_ply).find("the file has no faces, but 3 vertices: points have no surface") != std::string::npos);
+
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
       "property list uchar int vertex_indices\nend_header\n";
