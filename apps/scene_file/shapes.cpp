@@ -22,6 +22,7 @@
 #include <raycast/planar.hpp>
 
 #include "apps/scene_file/lexer.hpp"
+#include "apps/scene_file/sheet_sides.hpp"
 #include "apps/scene_file/syntax.hpp"
 
 namespace apps::scene_file {
@@ -179,14 +180,19 @@ bool check_faces(const ObjectSyntax& syntax, Errors& errors) {
 
 Shape make_mesh(const ObjectSyntax& syntax, Errors& errors) {
   if (!check_faces(syntax, errors)) { return nullptr; }
-  std::vector<glm::dvec3> positions;
-  for (const auto& vertex : syntax.vertices) { positions.push_back(vertex.value); }
-  std::vector<std::vector<std::uint32_t>> faces;
+  FaceLists mesh;
+  for (const auto& vertex : syntax.vertices) { mesh.positions.push_back(vertex.value); }
   for (const FaceSyntax& face : syntax.faces) {
     const auto first = syntax.corners.begin() + face.first;
-    faces.emplace_back(first, first + face.count);
+    mesh.faces.emplace_back(first, first + face.count);
   }
-  return take(raycast::Mesh::make(positions, faces, written_rounding(syntax.vertices)), syntax, syntax.name.place, errors);
+  const double rounding = written_rounding(syntax.vertices);
+  auto made = raycast::Mesh::make(mesh.positions, mesh.faces, rounding);
+  if (!made) {
+    const FaceLists parted = with_sides_parted(mesh);
+    if (auto sides = raycast::Mesh::make(parted.positions, parted.faces, rounding)) { made = std::move(sides); }
+  }
+  return take(std::move(made), syntax, syntax.name.place, errors);
 }
 
 }  // namespace
