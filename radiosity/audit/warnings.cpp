@@ -2,6 +2,7 @@
 #include <radiosity/audit/warnings.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -36,18 +37,43 @@ namespace detail {
 
 inline constexpr std::size_t most_warnings = 20;  // of one kind
 
-// Edges at which the surface of an object ends.
-HALFLIGHT_INLINE std::size_t open_edges(const Surface& surface) {
-  const SurfaceBRep& brep = surface.brep;
-  std::size_t count = 0;
-  for (const brep::FaceId f : brep::faces(brep)) {
-    if (brep.data(f).sheet != brep::no_sheet) { continue; }
-    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
-      count += brep.data(brep.face(brep::twin(h))).sheet != brep::no_sheet ? 1 : 0;
+// The edges at which surfaces end, each by its ends in the direction in which its face runs along it.
+struct Borders {
+  using Edge = std::array<double, 6>;
+
+  explicit Borders(const std::vector<Surface>& surfaces) {
+    for (const Surface& surface : surfaces) {
+      if (!surface.object->solid()) {
+        each_edge(surface, [&](const Edge& edge) { edges.push_back(edge); });
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+  }
+
+  template <class Visit>
+  static void each_edge(const Surface& surface, const Visit& visit) {
+    const SurfaceBRep& brep = surface.brep;
+    for (const brep::FaceId f : brep::faces(brep)) {
+      if (brep.data(f).sheet != brep::no_sheet) { continue; }
+      for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
+        if (brep.data(brep.face(brep::twin(h))).sheet == brep::no_sheet) { continue; }
+        const glm::dvec3 &p = brep.data(brep.vertex(h)).position, &q = brep.data(brep.vertex(brep::twin(h))).position;
+        visit(Edge{p.x, p.y, p.z, q.x, q.y, q.z});
+      }
     }
   }
-  return count;
-}
+  // Edges of the surface that no other one runs along in the opposite direction. One that does goes on from there: as a further part of the
+  // same shell, or as the other side of a sheet.
+  [[nodiscard]] std::size_t open(const Surface& surface) const {
+    std::size_t count = 0;
+    each_edge(surface, [&](const Edge& e) {
+      count += std::binary_search(edges.begin(), edges.end(), Edge{e[3], e[4], e[5], e[0], e[1], e[2]}) ? 0 : 1;
+    });
+    return count;
+  }
+
+  std::vector<Edge> edges;
+};
 
 // The first few of `count` names, in a list.
 template <class Name>
@@ -76,10 +102,13 @@ HALFLIGHT_INLINE std::vector<std::string> warnings(const Scene& scene, const Fra
   }
   std::vector<std::uint32_t> open;
   std::size_t edges = 0;
+  const detail::Borders borders(surfaces);
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
     if (surfaces[o].object->solid() || input_faces(surfaces[o]).size() < 2) { continue; }
+    const std::size_t its_edges = borders.open(surfaces[o]);
+    if (its_edges == 0) { continue; }
     open.push_back(o);
-    edges += detail::open_edges(surfaces[o]);
+    edges += its_edges;
   }
   if (open.size() == 1) {
     sentences.push_back("object " + name(open[0]) + " is an open shell with " + std::to_string(edges) +

@@ -3,6 +3,13 @@
 // What stands behind the stiff and extreme scenes, which are solved and measured by `halflight stress` (tests/apps/stress_test.cpp):
 // warnings that name what is doubtful and nothing else, closing that is never done by force, faces that are cut at walls.
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
 #include <radiosity/audit/warnings.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
@@ -101,6 +108,55 @@ TEST_CASE("however many duplicates and open shells there are, one sentence count
   CAPTURE(sentences);
   REQUIRE(sentences.size() == 1);
   CHECK(sentences[0].find("7 objects are open shells, with 28 open edges") == 0);
+}
+
+TEST_CASE("an open shell is warned about when nothing goes on where it ends, not for a back or a part in another object") {
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    // A row of quadrilaterals, bent at random, with its back as an object of its own or in the same mesh.
+    const std::uint32_t pieces = 2 + static_cast<std::uint32_t>(random() % 5);
+    std::vector<glm::dvec3> corners;
+    std::vector<std::vector<std::uint32_t>> front, back, both;
+    for (std::uint32_t i = 0; i <= pieces; ++i) {
+      const double z = 5.0 + static_cast<double>(random() % 100) / 100.0;
+      corners.insert(corners.end(), {{i, 0, z}, {i, 1, z}});
+      if (i == 0) { continue; }
+      front.push_back({2 * i - 2, 2 * i, 2 * i + 1, 2 * i - 1});
+      back.push_back({front.back().rbegin(), front.back().rend()});
+    }
+    both = front;
+    for (std::vector<std::uint32_t> face : back) {
+      for (std::uint32_t& v : face) { v += 2 * pieces + 2; }
+      both.push_back(face);
+    }
+    std::vector<glm::dvec3> twice = corners;
+    twice.insert(twice.end(), corners.begin(), corners.end());
+    const auto mesh = [](const std::string& name, const auto& positions, const auto& faces) {
+      return scenes::object(name, raycast::Mesh::make(positions, faces).object);
+    };
+    Scene scene = scenes::two_plates(0.5);
+    scene.objects.push_back(mesh("front", corners, front));
+    const std::vector<std::string> alone = warnings_of(scene);
+    REQUIRE(alone.size() == 1);
+    CHECK(alone[0].find("'front' is an open shell with " + std::to_string(2 * pieces + 2) + " open edges") != std::string::npos);
+    scene.objects.push_back(mesh("back", corners, back));
+    CHECK(warnings_of(scene).empty());
+    scene.objects.resize(scene.objects.size() - 2);
+    scene.objects.push_back(mesh("both", twice, both));
+    CHECK(warnings_of(scene).empty());
+    // A part of the row in each of two objects: their common edge is no end.
+    scene.objects.pop_back();
+    const auto cut = static_cast<std::ptrdiff_t>(1 + random() % (pieces - 1));
+    using Faces = std::vector<std::vector<std::uint32_t>>;
+    scene.objects.push_back(mesh("left", corners, Faces(front.begin(), front.begin() + cut)));
+    scene.objects.push_back(mesh("right", corners, Faces(front.begin() + cut, front.end())));
+    const std::vector<std::string> parts = warnings_of(scene);
+    const auto of = [](std::ptrdiff_t count) { return count > 1 ? 2 * count + 1 : 0; };  // polygons alone are not warned about
+    const std::ptrdiff_t ends = of(cut) + of(pieces - cut);
+    REQUIRE(parts.size() == (ends > 0 ? 1 : 0));
+    CHECK((ends == 0 || parts[0].find(std::to_string(ends) + " open edges") != std::string::npos));
+  }
 }
 
 TEST_CASE("however many objects are buried one sentence counts them, and each buried lamp has its own") {
