@@ -87,8 +87,9 @@ class Shells {
   [[nodiscard]] Component* pierced_by(std::span<const Place> places, const Component& lamp);
   // Is a shell that shines on the inside, at least in part, a room? One that looks outwards is when it shines in part and is furnished. One
   // that looks inwards is when something is in it, when it is alone, or when the innermost shell around it looks outwards, as walls do
-  // around their room, and is not furnished itself. Else it is a lamp, a bulb for instance, that is inside out.
-  [[nodiscard]] bool shines_inwards(const Component& lamp, const Component* around) const;
+  // around their room, and is not furnished itself. Else it is a lamp, a bulb for instance, that is inside out; so it is when an eye in the
+  // shell around it tells that this is the room.
+  [[nodiscard]] bool shines_inwards(const Component& lamp, const Component* around, bool around_is_room) const;
   // Shells around lamps and eyes. Some may be null.
   [[nodiscard]] std::vector<Component*> find_rooms();
   void turn_shells();
@@ -109,5 +110,6 @@ class Shells {
 }  // namespace radiosity::intake
 
 #ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/intake/shell_rooms.cpp>
 #include <radiosity/intake/shells.cpp>
 #endif

@@ -115,6 +115,36 @@ TEST_CASE("intake: a closed lamp shines into its room, whichever way it looked")
   }
 }
 
+// From outside the outer side of walls around a lit room looks the same.
+TEST_CASE("intake: lamps in a room with an eye in it shine into it, even when all of the model is inside out") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 20; ++round) {
+    const int lamps = 1 + round % 4;
+    std::array<soup::Measure, 2> found;
+    for (const bool inside_out : {false, true}) {
+      Soup soup;
+      soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, 1, !inside_out);
+      for (int i = 0; i < lamps; ++i) {
+        const glm::dvec3 lo = glm::dvec3(0.2 + i, 0.2, 0.1) + 0.5 * glm::dvec3(0.5, unit(random), unit(random));
+        soup::add_box(soup, lo, lo + glm::dvec3(0.4, 0.5, 0.6), 1, inside_out, 1);
+      }
+      radiosity::IntakeOptions inside;
+      inside.eyes = {{0.5 + 3.0 * unit(random), 3.0, 2.0}};
+      const radiosity::Intake intake = soup.take_in(inside);
+      check_sound(soup, intake);
+      found[inside_out ? 1 : 0] = measure(intake.objects);
+      CHECK(intake.objects.size() == static_cast<std::size_t>(lamps) + 1);
+    }
+    CHECK(found[1].rooms == 1);
+    CHECK(found[0].rooms == 1);
+    CHECK(found[1].solids == static_cast<std::size_t>(lamps));
+    CHECK(found[0].solids == static_cast<std::size_t>(lamps));
+  }
+}
+
 // Many programs give every material a little light of its own. It must not turn the outer side of the walls into the room.
 TEST_CASE("intake: walls that shine stay what walls that do not shine are") {
   for (const bool furnished : {false, true}) {

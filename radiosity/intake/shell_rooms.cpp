@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// Which shells are rooms, by the lamps and the eyes in them.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/polygon.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/inline.hpp>
+
+#include <radiosity/intake/shells.hpp>
+
+namespace radiosity::intake {
+
+HALFLIGHT_INLINE bool Shells::shines(const Component& shell) const {
+  return std::any_of(shell.faces.begin(), shell.faces.end(),
+                     [&](std::uint32_t f) { return !is_black(materials_[mesh_.faces[f].material].emission); });
+}
+
+HALFLIGHT_INLINE bool Shells::holds_another(const Component& shell) const {
+  constexpr std::size_t most_asked = 1000;
+  const std::span<const Component> asked = std::span<const Component>(components_).first(std::min(components_.size(), most_asked));
+  return std::any_of(asked.begin(), asked.end(),
+                     [&](const Component& other) { return &other != &shell && holds(shell, other.box.centre()); });
+}
+
+HALFLIGHT_INLINE bool Shells::is_furnished(const Component& shell) const {
+  constexpr std::size_t most_asked = 1000;
+  const raycast::Box box = shell.box.grown(mesh_.tolerance);
+  bool furnished = false;
+  for (const Component& other : std::span<const Component>(components_).first(std::min(components_.size(), most_asked))) {
+    const bool opposite = other.closed && other.volume != 0.0 && (other.volume > 0.0) != (shell.volume > 0.0);
+    if (&other == &shell || !opposite || shines(other) || !box.contains(other.box.lo) || !box.contains(other.box.hi)) { continue; }
+    if (!holds(shell, other.box.centre())) { continue; }
+    if (std::abs(other.volume) > 0.5 * std::abs(shell.volume)) { return false; }
+    furnished = true;
+  }
+  return furnished;
+}
+
+HALFLIGHT_INLINE Component* Shells::pierced_by(std::span<const Place> places, const Component& lamp) {
+  Component* best = nullptr;
+  for (Component& shell : components_) {
+    if ((shell.role != Role::solid && shell.role != Role::room) || &shell == &lamp) { continue; }
+    if (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume)) { continue; }
+    const auto held = static_cast<std::size_t>(std::count_if(
+        places.begin(), places.end(), [&](const Place& place) { return holds(shell, place.front) || holds(shell, place.behind); }));
+    if (held > 0 && held < places.size() && is_furnished(shell)) { best = &shell; }
+  }
+  return best;
+}
+
+HALFLIGHT_INLINE bool Shells::shines_inwards(const Component& lamp, const Component* around, bool around_is_room) const {
+  if (lamp.role != Role::solid) { return false; }
+  if (lamp.volume > 0.0) {
+    double whole = 0.0, bright = 0.0;
+    for (const std::uint32_t f : lamp.faces) {
+      const double area = brep::area(mesh_.outline(mesh_.faces[f]));
+      whole += area;
+      bright += is_black(materials_[mesh_.faces[f].material].emission) ? 0.0 : area;
+    }
+    return 2.0 * bright < whole && is_furnished(lamp);
+  }
+  if (holds_another(lamp)) { return true; }
+  return around != nullptr ? around->volume > 0.0 && !around_is_room && !is_furnished(*around) : components_.size() == 1;
+}
+
+HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
+  constexpr std::size_t most_lamps = 64, most_points = 16;
+  std::vector<Component*> rooms;
+  for (const glm::dvec3& eye : options_.eyes) {
+    const Place place{eye, eye};
+    rooms.push_back(innermost(std::span(&place, 1), nullptr));
+  }
+  const std::vector<Component*> around_eyes = rooms;
+  const auto seen_from_inside = [&](const Component* shell) {
+    return shell != nullptr && std::find(around_eyes.begin(), around_eyes.end(), shell) != around_eyes.end();
+  };
+  std::size_t lamps = 0;
+  for (Component& component : components_) {
+    std::vector<Place> places, corners;
+    std::vector<std::uint32_t> bright;
+    for (const std::uint32_t f : component.faces) {
+      if (!is_black(materials_[mesh_.faces[f].material].emission)) { bright.push_back(f); }
+    }
+    for (std::size_t i = 0; i < std::min(most_points, bright.size()); ++i) {
+      const std::uint32_t f = bright[i * bright.size() / std::min(most_points, bright.size())];
+      const std::span<const glm::dvec3> outline = mesh_.outline(mesh_.faces[f]);
+      const glm::dvec3 middle = brep::centroid(outline), off = 4.0 * mesh_.tolerance * glm::normalize(brep::vector_area(outline));
+      places.push_back({middle + off, middle - off});
+      for (const glm::dvec3& p : outline) { corners.push_back({glm::mix(p, middle, 0.01) + off, glm::mix(p, middle, 0.01) - off}); }
+    }
+    if (places.empty() || ++lamps > most_lamps) { continue; }
+    Component* around = innermost(places, &component);
+    if (around != nullptr && around->volume > 0.0 && !is_furnished(*around)) {
+      // A thing out of which a lamp reaches is furniture where a furnished shell holds the whole lamp.
+      Component* const whole = innermost(corners, &component);
+      if (whole != nullptr && is_furnished(*whole)) { around = whole; }
+    }
+    Component* const pierced = pierced_by(places, component);
+    if (pierced != nullptr && (around == nullptr || std::abs(pierced->volume) < std::abs(around->volume))) { around = pierced; }
+    const bool itself = shines_inwards(component, around, seen_from_inside(around));
+    rooms.push_back(itself ? &component : around);
+  }
+  return rooms;
+}
+
+}  // namespace radiosity::intake
