@@ -71,8 +71,8 @@ class SceneMaker {
       faults.emplace_back("nothing in this file has a surface");
       return false;
     }
-    if (file_.scene.objects.size() > max_objects) {
-      faults.push_back("the scene has more than " + std::to_string(max_objects) + " objects");
+    if (file_.scene.objects.size() > max_model_objects) {
+      faults.push_back("the file has more than " + std::to_string(max_model_objects) + " objects");
       return false;
     }
     add_lights();

@@ -4,6 +4,7 @@
 // From a model of another program to a scene that can be solved: units and the up axis, what the file leaves open (reflectances, lamps, a
 // camera), and the polygons through the intake. Every decision is a sentence in SceneFile::notes.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ namespace apps {
 // Polygons of other programs reflect at most this: white paint of a file often has reflectance 1, which no surface has, and a closed room
 // of it would never get rid of its light.
 inline constexpr double most_reflectance = 0.95;
+
+// Of a file of another program: it may have an object for every thing in a town.
+inline constexpr std::size_t max_model_objects = 1'000'000;
 
 struct Lamp {
   std::string material;

@@ -212,3 +212,17 @@ TEST_CASE("the program takes files of other programs wherever it takes scenes, a
         "halflight: b.txt is a polygon mesh (Wavefront OBJ), not a scene; give it a name that ends with the right "
         "letters (.obj, .ply or .off), and it is read as a scene\n");
 }
+
+TEST_CASE("an object for each of more than a hundred thousand things is no reason to refuse a file") {
+  constexpr int things = 100'001;
+  std::string obj;
+  for (int i = 0; i < things; ++i) {
+    const std::string x = std::to_string(2 * i);
+    obj += "o t" + std::to_string(i) + "\nv " + x + " 0 0\nv " + x + ".5 0 0\nv " + x + " 0 1\nf -3 -2 -1\n";
+  }
+  apps::Model model = models::read("a.obj", obj);
+  std::vector<std::string> faults;
+  const auto file = apps::to_part(std::move(model), false, {}, faults);
+  REQUIRE(file);
+  CHECK(file->scene.objects.size() == things);
+}
