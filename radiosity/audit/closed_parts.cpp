@@ -20,6 +20,7 @@
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
+#include <radiosity/visibility/leaf_locator.hpp>
 
 namespace radiosity {
 
@@ -59,11 +60,11 @@ struct LeafArea {
 
 struct RayEnd {
   enum class What : char { front, back, nowhere };
-  std::uint32_t from = 0, to = 0;  // input surfaces
+  std::uint32_t from = 0, to = 0;  // input faces
   What what = What::front;
 };
 
-[[nodiscard]] HALFLIGHT_INLINE RayEnd cast_from(const DiscreteScene& scene, std::uint32_t leaf, Random& random) {
+[[nodiscard]] HALFLIGHT_INLINE RayEnd cast_from(const DiscreteScene& scene, const LeafLocator& leaves, std::uint32_t leaf, Random& random) {
   const ExposedPoints* const points = scene.exposure.points(leaf);
   glm::dvec3 p{0.0};
   if (points != nullptr) {
@@ -75,23 +76,27 @@ struct RayEnd {
   const Node& node = scene.hierarchy[leaf];
   const std::uint32_t sheet = node.surface - scene.surfaces[node.object].first_surface;
   // A patch is a chord of its surface: where this runs into another object, what is exposed of the chord may be buried of the surface.
+  const std::uint32_t own = input_face(scene.hierarchy, leaf);
   const raycast::SurfacePoint from = scene.objects.object(node.object).project(sheet, p);
-  if (scene.objects.covered(from.position, from.normal, node.object)) { return {node.surface, node.surface, RayEnd::What::front}; }
+  if (scene.objects.covered(from.position, from.normal, node.object)) { return {own, own, RayEnd::What::front}; }
   const double u = random.uniform();
   const glm::dvec3 direction = cosine_direction(from.normal, u, random.uniform()) * scene.objects.diameter();
   const auto hit = scene.objects.closest({from.position, direction}, node.object, sheet);
-  if (!hit) { return {node.surface, 0, RayEnd::What::nowhere}; }
-  return {node.surface, scene.surfaces[hit->object].first_surface + hit->sheet, hit->front ? RayEnd::What::front : RayEnd::What::back};
+  if (!hit) { return {own, own, RayEnd::What::nowhere}; }
+  if (!hit->front) { return {own, own, RayEnd::What::back}; }
+  const raycast::SurfacePoint at = scene.objects.object(hit->object).project(hit->sheet, from.position + hit->t * direction);
+  const std::uint32_t met = leaves(scene.surfaces[hit->object].first_surface + hit->sheet, at);
+  return {own, met == no_node ? own : input_face(scene.hierarchy, met), RayEnd::What::front};
 }
 
 // One ray from each of `rays` points, spread over the area.
-[[nodiscard]] HALFLIGHT_INLINE std::vector<RayEnd> cast(const DiscreteScene& scene, const LeafArea& area, std::uint32_t rays,
-                                                        std::uint64_t key) {
+[[nodiscard]] HALFLIGHT_INLINE std::vector<RayEnd> cast(const DiscreteScene& scene, const LeafLocator& leaves, const LeafArea& area,
+                                                        std::uint32_t rays, std::uint64_t key) {
   std::vector<RayEnd> ends(area.leaves.empty() ? 0 : rays);
   parallel_for(ends.size(), scene.threads, [&](std::size_t k) {
     Random random{scene.seed, k, key};
     const double part = (static_cast<double>(k) + random.uniform()) / rays;
-    ends[k] = cast_from(scene, area.at(part), random);
+    ends[k] = cast_from(scene, leaves, area.at(part), random);
   });
   return ends;
 }
@@ -110,9 +115,11 @@ struct RayEnd {
   return stray;
 }
 
-// The parts that the rays connect, each by one of its surfaces, with the rays from it.
+// The parts that the rays connect, each by one of its input faces, with the rays from it.
 struct ConnectedParts {
-  explicit ConnectedParts(std::size_t surfaces) : joined(surfaces), rays(surfaces, 0), lost(surfaces, 0) {}
+  enum class Closed : char { unknown, no, yes };
+
+  explicit ConnectedParts(std::size_t nodes) : joined(nodes), rays(nodes, 0), lost(nodes, 0) {}
 
   void connect(const std::vector<RayEnd>& ends) {
     for (const RayEnd& end : ends) {
@@ -125,25 +132,55 @@ struct ConnectedParts {
       lost[joined.find(end.from)] += end.what == RayEnd::What::front ? 0 : 1;
     }
   }
-  // May the part of this surface be closed, by so many rays in all?
-  [[nodiscard]] bool closed(std::size_t surface, std::uint32_t of) {
-    const std::uint32_t part = joined.find(static_cast<std::uint32_t>(surface));
-    return std::uint64_t{rays[part]} * closing_ray_count >= std::uint64_t{fewest_closing_rays} * of &&
-           std::uint64_t{lost[part]} * of <= std::uint64_t{rays[part]} * most_lost;
+  // Is the part of this input face closed, by so many rays in all?
+  [[nodiscard]] Closed closed(std::uint32_t face, std::uint32_t of) {
+    const std::uint32_t part = joined.find(face);
+    if (std::uint64_t{rays[part]} * closing_ray_count < std::uint64_t{fewest_closing_rays} * of) {
+      return lost[part] > 0 ? Closed::no : Closed::unknown;
+    }
+    return std::uint64_t{lost[part]} * of <= std::uint64_t{rays[part]} * most_lost ? Closed::yes : Closed::no;
   }
 
   brep::detail::UnionFind joined;
   std::vector<std::uint32_t> rays, lost;
 };
 
+// The nodes of closed parts, those below their input faces included. Empty where there are none.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<bool> closed_nodes_of(const DiscreteScene& scene, ConnectedParts& parts, std::uint32_t rays) {
+  using Closed = ConnectedParts::Closed;
+  const Hierarchy& hierarchy = scene.hierarchy;
+  std::vector<bool> some(scene.inputs.size(), false), open(scene.inputs.size(), false);  // surfaces: of what is known of their faces
+  const auto each_face = [&](const auto& visit) {
+    for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
+      if (is_input_face(hierarchy, i)) { visit(i, hierarchy[i].surface, parts.closed(i, rays)); }
+    }
+  };
+  each_face([&](std::uint32_t, std::uint32_t surface, Closed closed) {
+    some[surface] = some[surface] || closed == Closed::yes;
+    open[surface] = open[surface] || closed == Closed::no;
+  });
+  std::vector<bool> nodes(hierarchy.size(), false);
+  bool any = false;
+  each_face([&](std::uint32_t i, std::uint32_t surface, Closed closed) {
+    nodes[i] = closed == Closed::yes || (closed == Closed::unknown && some[surface] && !open[surface]);
+    any = any || nodes[i];
+  });
+  if (!any) { return {}; }
+  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {  // parents come first
+    if (!hierarchy[i].is_cluster() && !is_input_face(hierarchy, i)) { nodes[i] = nodes[hierarchy[i].parent]; }
+  }
+  return nodes;
+}
+
 // Is there a closed part that emits light of some channel and absorbs none of it?
 [[nodiscard]] HALFLIGHT_INLINE bool keeps_all_light(const DiscreteScene& scene, ConnectedParts& parts, const std::vector<bool>& closed) {
   for (int c = 0; c < 3; ++c) {
-    std::vector<bool> emits(closed.size(), false), absorbs(closed.size(), false);  // of each part, at one of its surfaces
-    for (std::size_t s = 0; s < closed.size(); ++s) {
-      const std::uint32_t part = parts.joined.find(static_cast<std::uint32_t>(s));
-      emits[part] = emits[part] || scene.emission[s][c] > 0.0;
-      absorbs[part] = absorbs[part] || !closed[s] || scene.reflectance[s][c] < 1.0;
+    std::vector<bool> emits(closed.size(), false), absorbs(closed.size(), false);  // of each part, at one of its input faces
+    for (std::uint32_t i = 0; i < scene.hierarchy.size(); ++i) {
+      if (!is_input_face(scene.hierarchy, i)) { continue; }
+      const std::uint32_t part = parts.joined.find(i), surface = scene.hierarchy[i].surface;
+      emits[part] = emits[part] || scene.emission[surface][c] > 0.0;
+      absorbs[part] = absorbs[part] || !closed[i] || scene.reflectance[surface][c] < 1.0;
     }
     for (std::size_t part = 0; part < closed.size(); ++part) {
       if (parts.rays[part] > 0 && emits[part] && !absorbs[part]) { return true; }
@@ -165,28 +202,24 @@ HALFLIGHT_INLINE ClosedParts find_closed_parts(const DiscreteScene& scene) {
   }
   std::erase_if(lamps, [](const detail::LeafArea& lamp) { return lamp.leaves.empty(); });
   ClosedParts found;
+  const LeafLocator leaves(scene.hierarchy, scene.patches, scene.inputs.size());
   for (const std::uint32_t rays : {detail::stray_ray_count, detail::closing_ray_count}) {
-    const std::vector<detail::RayEnd> ends = detail::cast(scene, all, rays, 0x7374726179ull);
-    detail::ConnectedParts parts(scene.inputs.size());
+    const std::vector<detail::RayEnd> ends = detail::cast(scene, leaves, all, rays, 0x7374726179ull);
+    detail::ConnectedParts parts(scene.hierarchy.size());
     parts.connect(ends);
     for (std::size_t k = 0; k < lamps.size() && lamps.size() <= detail::most_lamps; ++k) {
-      parts.connect(detail::cast(scene, lamps[k], detail::rays_of_lamp, 0x6c616d70ull + k));
+      parts.connect(detail::cast(scene, leaves, lamps[k], detail::rays_of_lamp, 0x6c616d70ull + k));
     }
     parts.count(ends);
     found.stray = detail::count_stray(ends);
     // Where the whole scene is closed, so is what no ray has met.
-    const bool whole = found.stray.lost() <= detail::most_lost;
-    found.surfaces.assign(scene.inputs.size(), false);
-    for (std::size_t s = 0; s < found.surfaces.size(); ++s) { found.surfaces[s] = !ends.empty() && (whole || parts.closed(s, rays)); }
-    if (std::find(found.surfaces.begin(), found.surfaces.end(), true) == found.surfaces.end()) {
-      found.surfaces.clear();
-      found.lossless = false;
-      break;
-    }
-    found.lossless = detail::keeps_all_light(scene, parts, found.surfaces);
+    const bool whole = !ends.empty() && found.stray.lost() <= detail::most_lost;
+    found.nodes = whole ? std::vector<bool>(scene.hierarchy.size(), true) : detail::closed_nodes_of(scene, parts, rays);
+    found.lossless = !found.nodes.empty() && detail::keeps_all_light(scene, parts, found.nodes);
+    if (found.nodes.empty()) { break; }
     for (const detail::RayEnd& end : ends) {
-      found.stray.closed_rays += found.surfaces[end.from] ? 1 : 0;
-      found.stray.closed_lost += found.surfaces[end.from] && end.what != detail::RayEnd::What::front ? 1 : 0;
+      found.stray.closed_rays += found.nodes[end.from] ? 1 : 0;
+      found.stray.closed_lost += found.nodes[end.from] && end.what != detail::RayEnd::What::front ? 1 : 0;
     }
   }
   return found;

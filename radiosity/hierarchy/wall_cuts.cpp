@@ -139,6 +139,15 @@ HALFLIGHT_INLINE void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vecto
       brep, face, place, [](const SurfaceBRep&, brep::FaceId) { return false; }, 1024);
 }
 
+// Pairs of faces of one object and its partner that are looked at.
+inline constexpr std::size_t most_face_pairs = 10'000'000;
+
+// May faces of this object cross each other? Those of a solid do not. Large surfaces are not asked: they are one sheet, as a rule.
+[[nodiscard]] HALFLIGHT_INLINE bool may_cross_itself(const Surface& surface) {
+  const std::size_t faces = surface.object->sheet_count();
+  return !surface.object->solid() && faces > 1 && faces * faces <= most_face_pairs;
+}
+
 // Objects with flat faces whose bounds meet.
 struct WallPairs {
   std::vector<std::uint32_t> order;                  // what can be cut and can cut
@@ -164,6 +173,7 @@ HALFLIGHT_INLINE WallPairs wall_pairs(const std::vector<Surface>& surfaces, doub
   std::size_t i = 0;
   for (; i < boxes.size() && pairs < most_pairs; ++i) {
     std::vector<std::uint32_t>& partners = result.partners[result.order[i]];
+    if (may_cross_itself(surfaces[result.order[i]])) { partners.push_back(result.order[i]); }
     stack.assign(1, 0);
     while (!stack.empty()) {
       const raycast::Bvh::Node& node = tree.nodes()[stack.back()];
@@ -201,9 +211,9 @@ HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double
       if (!partners[o].empty() && brep.data(f).sheet != brep::no_sheet) { faces.push_back(f); }
     }
     std::size_t face_pairs = 0;
-    for (const std::uint32_t w : partners[o]) { face_pairs += faces.size() * walls[w].size(); }
-    left_whole += face_pairs > 10'000'000 ? 1 : 0;
-    if (faces.size() != walls[o].size() || face_pairs > 10'000'000) { continue; }
+    for (const std::uint32_t w : partners[o]) { face_pairs += w == o ? 0 : faces.size() * walls[w].size(); }
+    left_whole += face_pairs > detail::most_face_pairs ? 1 : 0;
+    if (faces.size() != walls[o].size() || face_pairs > detail::most_face_pairs) { continue; }
     for (std::size_t k = 0; k < faces.size(); ++k) {
       std::vector<detail::WallLine> lines;
       for (const std::uint32_t w : partners[o]) {

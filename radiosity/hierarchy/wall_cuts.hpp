@@ -3,8 +3,9 @@
 
 // Faces are cut where walls stand on them. A patch carries one radiosity, so a patch that reaches under a wall from one room into the next
 // takes light on one side and gives it on the other: light leaks through the wall, the more the larger the patch. Where the flat faces of
-// other objects meet a face along about half of a line across it, the face is cut along that line before refinement begins (paper 2.2:
-// a split object finds the place, split_plane.hpp). No patch then spans the wall, and what lies under it is a patch of its own, buried.
+// other objects, or of the same open surface, meet a face along about half of a line across it, the face is cut along that line before
+// refinement begins (paper 2.2: a split object finds the place, split_plane.hpp). No patch then spans the wall, and what lies under it is a
+// patch of its own, buried.
 //
 // Walls that are shorter than that do not divide a face; refinement finds the shadow at their feet. Invariant: the boundary stays valid,
 // each part lies on the sheet of its face.

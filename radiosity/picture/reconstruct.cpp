@@ -83,6 +83,15 @@ HALFLIGHT_INLINE void set_normals(const raycast::PlacedObject& object, SurfaceBR
   return weight;
 }
 
+// Of a face that was cut at a wall: does the wall stand between these two leaves, near their common corner v? Asked just above them.
+[[nodiscard]] HALFLIGHT_INLINE bool wall_between(const LeafLight& light, std::uint32_t a, std::uint32_t b, const glm::dvec3& v) {
+  constexpr double along = 0.01, above = 1e-3;
+  const Node &from = light.hierarchy[a], &to = light.hierarchy[b];
+  const glm::dvec3 lift = v + above * std::min(from.radius, to.radius) * from.normal;
+  const glm::dvec3 p = lift + along * (from.centre - v), q = lift + along * (to.centre - v);
+  return light.objects->occluded({p, q - p});
+}
+
 // Colours the half-edges of a face whose leaf is `own`.
 HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32_t own, const LeafLight& light, Reconstruction kind) {
   const bool constant = kind == Reconstruction::constant || kind == Reconstruction::none;
@@ -91,7 +100,9 @@ HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32
     for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) { brep.data(e).radiosity = light.radiosity[own]; }
     return;
   }
-  Color face_sum{0.0};  // over the corners that have a colour
+  const std::uint32_t root = input_face(light.hierarchy, own), part = brep.data(f).part;
+  const bool walls = light.objects != nullptr && light.exposure.area[own] > 0.0;  // what is buried shows the light around it
+  Color face_sum{0.0};                                                            // over the corners that have a colour
   int coloured = 0;
   std::vector<brep::HalfedgeId> bare;
   for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) {
@@ -102,6 +113,8 @@ HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32
       if (node == no_node || !(light.exposure.area[node] > 0.0) || material(node) != material(own)) { continue; }
       double weight = corner_angle(brep, l);
       if (kind != Reconstruction::simple) { weight *= alike(brep.data(e).normal, brep.data(l).normal); }
+      const bool cut = walls && brep.data(brep.face(l)).part == part && input_face(light.hierarchy, node) != root;
+      if (cut && wall_between(light, own, node, brep.data(brep.vertex(e)).position)) { continue; }
       sum += weight * light.radiosity[node];
       weights += weight;
     }

@@ -15,7 +15,9 @@
 //   constant  that of face(e) alone: the solution as it is
 //
 // The angle makes the average independent of how a T-vertex was connected. Faces of another material, and faces that
-// are buried under another object, do not count; a corner with buried faces alone takes the mean of its face's others.
+// are buried under another object, do not count, nor do those beyond a wall that a face was cut at (wall_cuts.hpp), as far as it stands
+// there: a wall without thickness buries nothing, and light may differ by any factor across it. A corner with buried faces alone takes the
+// mean of its face's others.
 // Constant, a buried face takes the mean of its weighted corners: a sliver of it may show at the foot of what buries it.
 
 #include <cstddef>
@@ -24,6 +26,8 @@
 #include <vector>
 
 #include <brep/handles.hpp>
+
+#include <raycast/scene.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
@@ -43,6 +47,7 @@ struct LeafLight {
   const Exposure& exposure;
   const std::vector<Color>& radiosity;          // of each node, W/m2
   const std::vector<std::uint32_t>& materials;  // of each input surface
+  const raycast::Scene* objects = nullptr;      // with them, no colour runs across the foot of a wall
 };
 
 // Fills the half-edge normals and colours of all surfaces and reads the mesh from them: one face a leaf, positions in the frame. Buried

@@ -46,7 +46,6 @@ HALFLIGHT_INLINE void DiscreteScene::take(Prepared prepared) {
     emission.push_back(material.emission);
     lamps.push_back(!is_black(material.emission));
   }
-  if (plan.closed) { closed.assign(inputs.size(), true); }
 }
 
 HALFLIGHT_INLINE void DiscreteScene::expose() {

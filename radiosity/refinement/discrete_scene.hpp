@@ -48,9 +48,13 @@ struct DiscreteScene {
   [[nodiscard]] SceneView view() const { return {objects, plan, surfaces, hierarchy, patches}; }
   // Is node 0 a cluster of all? Lamps may have clusters without that.
   [[nodiscard]] bool clustered() const { return !hierarchy.empty() && hierarchy[0].is_cluster(); }
-  // Is node i one of a surface that loses no light?
+  // Are there nodes that lose no light?
+  [[nodiscard]] bool any_closed() const { return plan.closed || !closed.empty(); }
+  // Is node i one of those? It is when its parent is, for nodes that are newer than `closed`.
   [[nodiscard]] bool loses_nothing(std::size_t i) const {
-    return !closed.empty() && !hierarchy[i].is_cluster() && closed[hierarchy[i].surface];
+    if (hierarchy[i].is_cluster() || !any_closed()) { return false; }
+    while (!plan.closed && i >= closed.size()) { i = hierarchy[i].parent; }
+    return plan.closed || closed[i];
   }
   // What the clusters show by the exposed areas of now.
   [[nodiscard]] ShownAreas exposed_shown() const;
@@ -72,7 +76,7 @@ struct DiscreteScene {
   std::vector<InputSurface> inputs;
   std::vector<std::uint32_t> materials;      // of each input surface,
   std::vector<Color> reflectance, emission;  // and what these are
-  std::vector<bool> closed;                  // input surfaces that lose no light; empty where none is known to (closed_parts.hpp)
+  std::vector<bool> closed;                  // where the plan does not say that all is: nodes that lose no light (closed_parts.hpp)
   std::vector<bool> lamps;                   // where other light goes by stored rays: input surfaces whose light goes by links
 
   Hierarchy hierarchy;

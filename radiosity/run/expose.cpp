@@ -43,7 +43,7 @@ HALFLIGHT_INLINE std::optional<Failure> expose(detail::Run& run) {
                       " were lost), and nothing in it absorbs light in some channel in which it emits: the light would grow without end; "
                       "give some surface a reflectance below 1, or the light a larger way out"}};
     }
-    scene.closed = std::move(found.surfaces);
+    scene.closed = std::move(found.nodes);
   }
   run.watch.lap("expose");
   return std::nullopt;

@@ -104,7 +104,7 @@ HALFLIGHT_INLINE std::optional<Failure> refine_mesh(detail::Run& run) {
     if (scene.light_meshing) {
       meshing = [&](const LeafFace& leaf) { return scene.light_meshing->split_part(leaf); };
     }
-    const LeafLight leaves{scene.hierarchy, scene.exposure, run.solution.radiosity, scene.materials};
+    const LeafLight leaves{scene.hierarchy, scene.exposure, run.solution.radiosity, scene.materials, &scene.objects};
     MeshRefiner refiner{light, std::move(run.leaf_faces), leaves, meshing, scene.threads, scene.control};
     const double outlines = detail::outline_error(refiner, meter);
     const ErrorEstimate before = detail::with_outlines(*colours, outlines);

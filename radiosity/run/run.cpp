@@ -43,7 +43,7 @@ HALFLIGHT_INLINE std::optional<Failure> Run::prepare_scene() {
 }
 
 HALFLIGHT_INLINE Mesh Run::picture(const std::vector<Color>& radiosity, Reconstruction kind) {
-  return reconstruct(scene.surfaces, {scene.hierarchy, scene.exposure, radiosity, scene.materials}, kind);
+  return reconstruct(scene.surfaces, {scene.hierarchy, scene.exposure, radiosity, scene.materials, &scene.objects}, kind);
 }
 
 HALFLIGHT_INLINE Outcome Run::finish() {

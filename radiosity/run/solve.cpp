@@ -35,7 +35,7 @@ namespace detail {
 // The links of stored rays, with row sums that are better known than what they sum up to. Returns the row sums before that.
 // `error_of_lamps`: expected RMS error of the row sums of these.
 HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run, double error_of_lamps) {
-  const bool closed = !run.scene.closed.empty();
+  const bool closed = run.scene.any_closed();
   const RayLinks& made = run.ray_links;
   if (closed) { run.transport->scale_lamps(); }
   const std::vector<double> of_lamps = run.transport->row_sums();
@@ -60,7 +60,7 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
   for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }
   const double error = run.evaluated.doubt.rms(scene.hierarchy, area, exposed);
   audit.computed_row_sum = summarise_rows(scene.hierarchy, area, run.rays.cast ? add_ray_links(run, error) : transport.row_sums());
-  if (!scene.closed.empty() && solution.links.size() + solution.ray_links.size() > 0) {
+  if (scene.any_closed() && solution.links.size() + solution.ray_links.size() > 0) {
     // The noise of rays is out of the row sums by now.
     audit.closure_limit = explained_closure(run.evaluated.doubt, scene.hierarchy, area, exposed);
     audit.closure = transport.close(audit.closure_limit);

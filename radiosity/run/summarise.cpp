@@ -62,7 +62,7 @@ HALFLIGHT_INLINE std::optional<Failure> summarise(detail::Run& run) {
     audit.left_out.push_back({"stored rays for the light between surfaces that do not shine", run.rays.reason, ""});
   }
   if (run.needs_links() && !run.clusters.build) { audit.left_out.push_back({"clusters above the input faces", run.clusters.reason, ""}); }
-  if (!scene.closed.empty() && audit.links > 0 && !audit.closure) {
+  if (scene.any_closed() && audit.links > 0 && !audit.closure) {
     audit.left_out.push_back({"closing the scene", "its row sums need a larger correction than quadrature and sampling explain", ""});
   }
   return std::nullopt;
