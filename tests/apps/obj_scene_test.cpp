@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // OBJ with MTL, PLY and OFF as scenes; what the command line may say about files of other programs.
 
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -214,9 +216,9 @@ TEST_CASE("the program takes files of other programs wherever it takes scenes, a
 }
 
 TEST_CASE("an object for each of more than a hundred thousand things is no reason to refuse a file") {
-  constexpr int things = 100'001;
+  constexpr std::size_t things = 100'001;
   std::string obj;
-  for (int i = 0; i < things; ++i) {
+  for (std::size_t i = 0; i < things; ++i) {
     const std::string x = std::to_string(2 * i);
     obj += "o t" + std::to_string(i) + "\nv " + x + " 0 0\nv " + x + ".5 0 0\nv " + x + " 0 1\nf -3 -2 -1\n";
   }
