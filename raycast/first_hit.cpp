@@ -146,6 +146,17 @@ HALFLIGHT_INLINE void Scene::approach_bounded(Search& search) const {
   decide(search, entries, limit);
 }
 
+HALFLIGHT_INLINE void Scene::approach_rooms(Search& search) const {
+  if (compiled_.rooms.empty() || !has_line(search.ray)) { return; }
+  const Hit& hit = search.nearest.hit;
+  const glm::dvec3 at = hit.object != no_object ? search.ray.at(hit.t) : glm::dvec3{0.0};
+  const double beyond_ties = compiled_.margin / compiled_.scale;
+  for (std::size_t r = 0; r < compiled_.rooms.size(); ++r) {
+    if (hit.object != no_object && in_room(r, at, beyond_ties)) { continue; }
+    approach(Line(search.ray), search.source, compiled_.rooms[r], search.nearest);
+  }
+}
+
 // The lanes that are left: those of which the other caster cannot tell, and those whose end may lie on two surfaces, of which one is met
 // (the law of covered(), and a front stands before a back).
 HALFLIGHT_INLINE std::uint32_t Scene::met_by_other(const Segments16& rays, Hits16& hits) const {
@@ -172,7 +183,6 @@ HALFLIGHT_INLINE Hits16 Scene::closest16(const Segments16& rays) const {
     Search& s = searches[i];
     s = {rays.at(i), end_at(rays.source[i]), rays.source_sheet[i]};
     if (!has_line(s.ray)) { continue; }
-    for (const std::uint32_t room : compiled_.rooms) { approach(Line(s.ray), s.source, room, s.nearest); }
     const glm::dvec3 o = compiled_.local(s.ray.origin), d = s.ray.direction * compiled_.scale;
     if (!(Box{o, o}.magnitude() < farthest_cut)) {
       approach_bounded(s);
@@ -201,6 +211,7 @@ HALFLIGHT_INLINE Hits16 Scene::closest16(const Segments16& rays) const {
   }
   for (std::uint32_t rest = lanes; rest; rest &= rest - 1) {
     const auto i = static_cast<unsigned>(std::countr_zero(rest));
+    approach_rooms(searches[i]);
     result.hit[i] = searches[i].nearest.hit;
     result.met |= static_cast<std::uint32_t>(result.hit[i].object != no_object) << i;
   }

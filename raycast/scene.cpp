@@ -219,8 +219,8 @@ HALFLIGHT_INLINE std::optional<Hit> Scene::closest(const Segment& ray, std::uint
     return hits.met != 0 ? std::optional(hits.hit[0]) : std::nullopt;
   }
   Search search{ray, end_at(source_owner), source_sheet};
-  for (const std::uint32_t i : compiled_.rooms) { approach(Line(ray), search.source, i, search.nearest); }
   approach_bounded(search);
+  approach_rooms(search);
   if (search.nearest.hit.object == no_object) { return std::nullopt; }
   return search.nearest.hit;
 }

@@ -178,6 +178,8 @@ class Scene {
     }
     return first < end;
   }
+  // What the ray meets of rooms, after all else: a point within a convex room, farther from its walls than ties reach, is met before these.
+  void approach_rooms(Search& search) const;
   [[nodiscard]] std::uint32_t blocked_by_rooms(const Segments16& segments, const Rays16& rays, std::uint32_t near,
                                                std::uint32_t lanes) const;
 
