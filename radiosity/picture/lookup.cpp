@@ -55,8 +55,12 @@ HALFLIGHT_INLINE Lookup::Lookup(const Scene& scene, const Mesh& mesh, const Fram
   }
   for (std::uint32_t i = 0; i < inputs.size(); ++i) {
     std::vector<raycast::Box> boxes;
+    const raycast::PlacedObject& object = objects_.object(inputs[i].object);
     for (const Triangle& triangle : sheets_[i].triangles) {
-      boxes.push_back(region(triangle, objects_.object(inputs[i].object), inputs[i].sheet));
+      boxes.push_back(region(triangle, object, inputs[i].sheet));
+      if (!object.flat()) { continue; }
+      const auto& [a, b, c] = chord(triangle).position;
+      sheets_[i].plane.push_back({a, b - a, c - a});
     }
     sheets_[i].tree = raycast::Bvh(boxes, 8.0);  // Newton's method takes as long as several boxes
   }
@@ -127,9 +131,8 @@ HALFLIGHT_INLINE std::optional<Lookup::Found> Lookup::find(std::uint32_t object,
   ChordPoint foot;
   raycast::around(on.tree, point, [&](std::uint32_t i) {
     if (plane) {
-      const Triangle& t = on.triangles[i];
-      const glm::dvec3& a = corners_[t.corner[0]].position;
-      const glm::dvec3 ab = corners_[t.corner[1]].position - a, ac = corners_[t.corner[2]].position - a, d = point - a;
+      const auto& [a, ab, ac] = on.plane[i];
+      const glm::dvec3 d = point - a;
       const glm::dvec3 normal = glm::cross(ab, ac);
       const double squared = glm::dot(normal, normal);
       const double b = glm::dot(glm::cross(d, ac), normal), c = glm::dot(glm::cross(ab, d), normal);

@@ -92,9 +92,14 @@ class Lookup {
     std::uint32_t corner[3];
     float coarse_within = 0.0f;  // as in Found
   };
+  // Of a plane sheet: what tells whether a point lies in a triangle, without a look at its corners.
+  struct PlaneTriangle {
+    glm::dvec3 corner{0.0}, first{0.0}, second{0.0};  // the edges from that corner
+  };
   struct Sheet {
     std::vector<Triangle> triangles;
-    raycast::Bvh tree;  // over the triangles
+    std::vector<PlaneTriangle> plane;  // of each triangle
+    raycast::Bvh tree;                 // over the triangles
   };
 
   // Where a ray has met something: nothing at a back, and where another object covers the place.
