@@ -79,6 +79,20 @@ inline constexpr std::size_t samples_of_joined = 1024;
   return in_front > 0.5 * total;
 }
 
+// Does no corner of a closed body lie more than `tolerance` (a length) in front of one of its facets? Not asked of bodies of many facets.
+[[nodiscard]] HALFLIGHT_INLINE bool convex_within(const Facets& facets, double tolerance) {
+  constexpr std::size_t most = 1000;
+  if (facets.facets.size() > most) { return false; }
+  std::vector<glm::dvec3> corners;
+  for (const Facets::Facet& f : facets.facets) { corners.insert(corners.end(), f.contour.begin(), f.contour.end()); }
+  const auto before = [](const glm::dvec3& a, const glm::dvec3& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; };
+  std::sort(corners.begin(), corners.end(), before);
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return std::all_of(facets.facets.begin(), facets.facets.end(), [&](const Facets::Facet& f) {
+    return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& p) { return f.height(p) <= tolerance; });
+  });
+}
+
 [[nodiscard]] HALFLIGHT_INLINE double area_of(const Facets& facets) {
   return std::accumulate(facets.facets.begin(), facets.facets.end(), 0.0, [](double sum, const Facets::Facet& f) { return sum + f.area; });
 }
@@ -270,6 +284,10 @@ HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfa
     body.bounds = object.bounds();
     if (body.exact) {
       if (radiating_faces(surfaces[o]) <= most_of_one) { body.facets = facets_of(surfaces[o]); }
+      // The corners of round things are mostly rounded: then these are not quite convex, and so many faces would cost far more.
+      if (body.closed && !body.convex && !object.inside() && !body.facets.empty()) {
+        body.convex = detail::convex_within(body.facets, detail::stand_in_tolerance * object.bounds().diameter());
+      }
     } else if (body.convex) {
       body.facets = facets_of(object, detail::facet_tolerance * object.bounds().diameter());
     }

@@ -82,7 +82,7 @@ class DirectLight {
   // How an object is taken out of a lamp.
   struct Body {
     Facets facets;
-    bool convex = false;  // by its outline
+    bool convex = false;  // by its outline; an exact one may be off that by as much as meshes that stand in are off their objects
     bool closed = false;  // by those faces alone that show their front
     bool exact = false;   // its facets are it
     raycast::Box bounds;

@@ -118,7 +118,8 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
     if (body.facets.empty()) { return false; }
     if (body.convex && body.closed && !lamp.behind[o]) {
       if (shaft.empty() || !shaft[0].misses(body.bounds)) {
-        Reach::Outline outline{&body.facets, 0, {}};
+        Reach::Outline outline;
+        outline.facets = &body.facets;
         const auto& facets = body.facets.facets;
         for (std::uint32_t f = 1; f < facets.size(); ++f) {
           if (facets[f].height(centre_) > facets[outline.nearest].height(centre_)) { outline.nearest = f; }
@@ -138,6 +139,8 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
         };
         std::sort(outline.corners.begin(), outline.corners.end(), before);
         outline.corners.erase(std::unique(outline.corners.begin(), outline.corners.end()), outline.corners.end());
+        for (const glm::dvec3& p : outline.corners) { outline.centre += p / static_cast<double>(outline.corners.size()); }
+        for (const glm::dvec3& p : outline.corners) { outline.radius = std::max(outline.radius, glm::length(p - outline.centre)); }
         reach.outlines.push_back(std::move(outline));
       }
       continue;
@@ -214,6 +217,7 @@ HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, 
     }
     for (const Reach::Outline& outline : reach.outlines) {
       if (target.hidden()) { break; }
+      if (target.misses(outline.centre, outline.radius)) { continue; }
       make_cone(outline, x);
       if (!cone_.empty()) { target.hide(cone_); }
     }

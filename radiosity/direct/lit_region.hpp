@@ -76,6 +76,8 @@ class LitRegion {
       const Facets* facets = nullptr;
       std::uint32_t nearest = 0;        // the facet that the region's centre is highest above
       std::vector<glm::dvec3> corners;  // that may belong to the outline seen from the region
+      glm::dvec3 centre{0.0};           // of a sphere around them
+      double radius = 0.0;
     };
     std::vector<Outline> outlines;
     std::optional<Facets> outline;  // of a lamp of many facets: edges that may be on its outline seen from the region

@@ -136,6 +136,15 @@ HALFLIGHT_INLINE void ShadowedTarget::hide(const Blocker& blocker) {
   hide(planes_);
 }
 
+HALFLIGHT_INLINE bool ShadowedTarget::misses(const glm::dvec3& centre, double radius) const {
+  constexpr double rounding = 1.0 + 1e-9;  // of heights and radii
+  const auto outside = [&](const HalfSpace& side) {
+    const double height = side.height(centre);
+    return height < 0.0 && height * height > rounding * radius * radius * glm::dot(side.normal, side.normal);
+  };
+  return outside(horizon_) || std::any_of(sides_.begin(), sides_.end(), outside);
+}
+
 HALFLIGHT_INLINE double ShadowedTarget::form_factor() const {
   double sum = 0.0;
   for (const Piece& piece : pieces_) { sum += point_to_polygon(horizon_.point, horizon_.normal, piece); }

@@ -91,6 +91,8 @@ class ShadowedTarget {
   // For each blocker: takes away what a polygon hides, or what lies within all of these planes through x.
   void hide(const Blocker& blocker);
   void hide(std::span<const HalfSpace> cone) { detail::cut_away(pieces_, cone); }
+  // Nothing within this sphere hides any of it.
+  [[nodiscard]] bool misses(const glm::dvec3& centre, double radius) const;
   [[nodiscard]] bool hidden() const { return pieces_.empty(); }
   // At last: the form factor of what is left.
   [[nodiscard]] double form_factor() const;

@@ -32,41 +32,15 @@
 #include <radiosity/visibility/prepare.hpp>
 
 #include "catch.hpp"
+#include "lit_world.hpp"
 #include "scenes.hpp"
 
 using radiosity::Color;
 using radiosity::Scene;
+using scenes::floor_under_lamp;
+using scenes::World;
 
 namespace {
-
-struct World {
-  explicit World(Scene input) : scene{std::move(input)} {
-    auto result = radiosity::prepare(scene);
-    REQUIRE(result.prepared);
-    prepared = std::make_unique<radiosity::Prepared>(std::move(*result.prepared));
-    std::vector<Color> emission;
-    for (const radiosity::InputSurface& s : radiosity::surfaces(scene)) { emission.push_back(scene.materials[s.material].emission); }
-    light = radiosity::DirectLight{prepared->objects, prepared->surfaces, emission, {64, 1.0}};
-  }
-  [[nodiscard]] glm::dvec3 in_frame(const glm::dvec3& x) const { return (x - prepared->frame.centre) * prepared->frame.scale; }
-  // A region of object 0, which lies in the plane z = 0: a square of half the side r about x.
-  [[nodiscard]] radiosity::LitRegion region(const glm::dvec3& x, double r) const {
-    const std::array<glm::dvec3, 4> contour{in_frame(x + glm::dvec3{-r, -r, 0}), in_frame(x + glm::dvec3{r, -r, 0}),
-                                            in_frame(x + glm::dvec3{r, r, 0}), in_frame(x + glm::dvec3{-r, r, 0})};
-    return {light, {contour, 0, 0.0}, {0, 0, 1}};
-  }
-
-  Scene scene;
-  std::unique_ptr<radiosity::Prepared> prepared;
-  radiosity::DirectLight light;
-};
-
-// A floor, object 0, under a square lamp of half the side r, object 1, and materials 0 for things and 1 for lamps.
-Scene floor_under_lamp(double r) {
-  Scene scene{{{"white", Color{0.5}, Color{0.0}}, {"lamp", Color{0.0}, Color{1.0}}}, {}};
-  scene.objects = {scenes::square("floor", {0, 0, 0}, 1.0, true), scenes::square("lamp", {0, 0, 1.5}, r, false, 1)};
-  return scene;
-}
 
 struct Estimate {
   double mean = 0.0, error = 0.0;
