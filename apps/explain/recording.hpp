@@ -140,9 +140,8 @@ struct Recording {
   std::vector<std::string> bf_names;
   std::vector<radiosity::Polygon> bf_contours;
   std::vector<BfGeneration> bf;
-  std::optional<double>
-      closure;              // RMS by which the form factors of a patch did not sum to 1 until they were made to; nothing in an open scene
-  Comparison as_is, at_99;  // the solvers on this scene, and with all that reflects at .99
+  std::optional<double> closure;  // RMS by which form factors of a patch did not sum to 1 before that was mended; nothing in an open scene
+  Comparison as_is, at_99;        // the solvers on this scene, and with all that reflects at .99
 };
 
 struct RecordResult {

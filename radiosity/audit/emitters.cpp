@@ -150,6 +150,7 @@ HALFLIGHT_INLINE void Emitters::add_flat(std::uint32_t surface, const Polygon& p
     shape.area = 0.5 * length;
     shape.centre = (a + b + c) / 3.0;
     for (const glm::dvec3& p : shape.corner) { shape.radius = std::max(shape.radius, glm::length(p - shape.centre)); }
+    for (std::size_t k = 0; k < 3; ++k) { shape.inwards[k] = glm::cross(shape.normal, shape.corner[(k + 1) % 3] - shape.corner[k]); }
     shape.power = exitance * shape.area;
     shape.surface = surface;
     shapes_.push_back(shape);
@@ -254,7 +255,7 @@ HALFLIGHT_INLINE double Emitters::importance(const Node& node, const glm::dvec3&
   const glm::dvec3 d = node.centre - x;
   if (!(glm::dot(n, d) + node.radius > 0.0)) { return 0.0; }
   if (node.normal != glm::dvec3{0.0} && !(glm::dot(node.normal, x) > node.offset)) { return 0.0; }
-  return node.power / std::max({glm::dot(d, d), node.radius * node.radius, std::numeric_limits<double>::min()});
+  return node.power / std::max(std::max(glm::dot(d, d), node.radius * node.radius), std::numeric_limits<double>::min());
 }
 
 // The probability of the first child. Between surfaces neither gets less than a tenth, for the brighter one may be hidden. NaN when
@@ -275,8 +276,7 @@ HALFLIGHT_INLINE double Emitters::density_of(const Shape& shape, const glm::dvec
     if (!meets) {
       const glm::dvec3 p = x + distance * w;
       for (std::size_t i = 0; i < 3; ++i) {
-        const glm::dvec3& a = shape.corner[i];
-        if (glm::dot(glm::cross(shape.corner[(i + 1) % 3] - a, p - a), shape.normal) < 0.0) { return 0.0; }
+        if (glm::dot(shape.inwards[i], p - shape.corner[i]) < 0.0) { return 0.0; }
       }
     }
     return distance * distance / (cosine * shape.area);
@@ -291,7 +291,15 @@ HALFLIGHT_INLINE double Emitters::density_of(const Shape& shape, const glm::dvec
   return 1.0 / solid_angle;
 }
 
-HALFLIGHT_INLINE double Emitters::density(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w, std::uint32_t sampled) const {
+HALFLIGHT_INLINE bool Emitters::meets(const Node& node, const glm::dvec3& x, const glm::dvec3& w) {
+  const glm::dvec3 d = node.centre - x;
+  const glm::dvec3 off = glm::cross(w, d);
+  const double reach = 1.000001 * node.radius;  // rounding must not lose the leaf that was sampled
+  return glm::dot(off, off) <= reach * reach && (glm::dot(w, d) > 0.0 || glm::dot(d, d) <= reach * reach);
+}
+
+HALFLIGHT_INLINE double Emitters::density(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w, std::uint32_t sampled,
+                                          std::size_t* opened) const {
   if (nodes_.empty()) { return 0.0; }
   struct Entry {
     std::uint32_t node;
@@ -299,24 +307,35 @@ HALFLIGHT_INLINE double Emitters::density(const glm::dvec3& x, const glm::dvec3&
   };
   std::array<Entry, 128> stack;  // the tree halves surfaces, then their shapes: 2 x 32 levels at most, two entries each
   std::size_t top = 0;
-  stack[top++] = {0, 1.0};
   double sum = 0.0;
+  const auto take = [&](std::uint32_t index, double probability) {
+    if (!(probability > 0.0)) { return; }
+    if (nodes_[index].leaf) {
+      sum += probability * density_of(shapes_[nodes_[index].first], x, w, index == sampled);
+    } else {
+      stack[top++] = {index, probability};
+    }
+  };
+  if (meets(nodes_[0], x, w)) { take(0, 1.0); }
   while (top > 0) {
     const auto [index, probability] = stack[--top];
     const Node& node = nodes_[index];
-    if (node.leaf) {
-      sum += probability * density_of(shapes_[node.first], x, w, index == sampled);
-      continue;
-    }
-    const glm::dvec3 d = node.centre - x;
-    const glm::dvec3 off = glm::cross(w, d);
-    const double reach = 1.000001 * node.radius;  // rounding must not lose the leaf that was sampled
-    if (glm::dot(off, off) > reach * reach || (!(glm::dot(w, d) > 0.0) && glm::dot(d, d) > reach * reach)) { continue; }
+    if (opened != nullptr) { ++*opened; }
+    const bool first = meets(nodes_[node.first], x, w), second = meets(nodes_[node.first + 1], x, w);
+    if (!first && !second) { continue; }
     const double share = first_share(node, x, n);
-    if (share > 0.0) { stack[top++] = {node.first, probability * share}; }
-    if (share < 1.0) { stack[top++] = {node.first + 1, probability * (1.0 - share)}; }
+    if (first) { take(node.first, probability * share); }
+    if (second) { take(node.first + 1, probability * (1.0 - share)); }
   }
   return sum;
+}
+
+HALFLIGHT_INLINE double Emitters::work(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w) const {
+  constexpr double node = 0.015;        // fitted to furnaces of some twenty walls, each of another brightness
+  constexpr std::size_t of_a_lamp = 2;  // is part of what a ray among few polygons costs
+  std::size_t opened = 0;
+  static_cast<void>(density(x, n, w, none, &opened));
+  return opened > of_a_lamp ? node * static_cast<double>(opened - of_a_lamp) : 0.0;
 }
 
 }  // namespace radiosity

@@ -67,7 +67,7 @@ class PathTracer {
     Color all{0.0};     // B
     Color direct{0.0};  // the part of it that is emitted, or was reflected once
   };
-  // Counts rays and what they cost (raycast::Scene::ray_work), which takes about as long again as the rays themselves.
+  // Counts rays and what they cost (raycast::Scene::ray_work, Emitters::work), which takes about as long again as the rays themselves.
   struct RayCost {
     std::uint64_t rays = 0;
     double work = 0.0;
@@ -99,6 +99,7 @@ class PathTracer {
       if (const std::optional<Emitters::Sample> lamp = emitters_.sample(x, n, random)) {
         const std::optional<raycast::Hit> hit = first_front(x, lamp->direction, object, sheet, rays);
         if (hit) { arrives(throughput * emission(*hit) * balance(lamp->density, glm::dot(n, lamp->direction))); }
+        count_emitters(x, n, lamp->direction, rays);
       }
       if (!first) {
         const double carried = std::max({throughput.x, throughput.y, throughput.z});
@@ -111,6 +112,7 @@ class PathTracer {
       if (!hit) { return result; }
       if (!is_black(emission(*hit))) {
         arrives(throughput * emission(*hit) * balance(emitters_.density(x, n, onwards), glm::dot(n, onwards)));
+        count_emitters(x, n, onwards, rays);
       }
       const raycast::SurfacePoint point =
           objects_->object(hit->object).project(hit->sheet, raycast::Segment{x, onwards * objects_->diameter()}.at(hit->t));
@@ -139,6 +141,12 @@ class PathTracer {
       ++rays;
     }
     return hit && hit->front ? hit : std::nullopt;
+  }
+
+  // The cost of asking how likely it is that a lamp is sampled in this direction.
+  template <class Rays>
+  void count_emitters(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& direction, Rays& rays) const {
+    if constexpr (std::is_same_v<Rays, RayCost>) { rays.work += emitters_.work(x, n, direction); }
   }
 
   // What light of one counts in a direction: cosine / pi over the densities of both ways to find it.
