@@ -98,7 +98,7 @@ TEST_CASE("closing a room leaves the light of a lamp under its ceiling, which hi
 }
 
 // Two walls that stand beyond the others keep the room from being proven closed.
-TEST_CASE("a white room that only rays know to be closed is refused; it has a solution where something absorbs, or light finds a way out") {
+TEST_CASE("a white room that only rays know to be closed is refused, but solved where something absorbs, or light gets out") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0x7768ull};
