@@ -87,12 +87,12 @@ TEST_CASE("furnace: a room of oversize walls that cross at its corners loses no 
         outline.push_back(p);
         worst = std::max(worst, std::abs(mesh.corners[c].radiosity.x - 1.0));
       }
-      const glm::dvec3 up = brep::vector_area(outline);
+      const glm::dvec3 area_vector = brep::vector_area(outline);
       const glm::dvec3 centre = brep::centroid(outline);
       const bool of_box = glm::all(glm::greaterThan(centre, touch)) && glm::all(glm::lessThan(centre, hi - touch));
-      if (!within || !(of_box || glm::dot(up, middle - centre) > 0.0)) { continue; }  // outside, or the outer side of a wall
-      area += glm::length(up);
-      square += worst * worst * glm::length(up);
+      if (!within || !(of_box || glm::dot(area_vector, middle - centre) > 0.0)) { continue; }  // outside, or the outer side of a wall
+      area += glm::length(area_vector);
+      square += worst * worst * glm::length(area_vector);
     }
     REQUIRE(area > 0.0);
     CHECK(std::sqrt(square / area) < 0.005);  // what links alone have wrong at this epsilon, without losing light: 5 to 10 %

@@ -4,6 +4,7 @@
 #include "primitives.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 using namespace raycast;
 using namespace test;
@@ -17,7 +18,8 @@ std::vector<PlacedObject> furnished(Random& random, const Placement& turned) {
   for (int i = 0; i < 12; ++i) {
     const double size = random.uniform(0.05, 0.3);
     dvec3 at = 1.3 * random.in_cube();
-    const int side = random.below(3), axis = random.below(3);
+    const std::uint32_t side = random.below(3);
+    const auto axis = static_cast<int>(random.below(3));
     if (side < 2) { at[axis] = side == 0 ? -1.0 + size : 1.0 - size; }  // flush with the wall
     const Placement placement{turned.linear, turned.linear * at + turned.translation, false};
     if (random.below(3) == 0) {
