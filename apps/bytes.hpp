@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Numbers as bytes of a file, and bytes as text of a page.
+// Numbers as bytes of a file, bytes as text of a page, and a checksum of both.
 
 #include <array>
 #include <bit>
@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -50,6 +51,46 @@ void put(std::string& out, const glm::vec<n, Number>& vector) {
     }
   }
   return text;
+}
+
+// FNV-1a of 64 bits (Fowler, Noll and Vo 1991): finds files that were damaged by accident, not by intent.
+class Checksum {
+ public:
+  void add(std::string_view bytes) {
+    for (const char c : bytes) { state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ull; }
+  }
+  void add(std::uint64_t number) {
+    for (int shift = 0; shift < 64; shift += 8) { state_ = (state_ ^ (number >> shift & 0xff)) * 0x100000001b3ull; }
+  }
+  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+
+  // Sixteen hexadecimal digits.
+  [[nodiscard]] std::string text() const {
+    constexpr std::string_view hex = "0123456789abcdef";
+    std::string digits;
+    for (int shift = 60; shift >= 0; shift -= 4) { digits += hex[state_ >> shift & 15]; }
+    return digits;
+  }
+
+ private:
+  std::uint64_t state_ = 0xcbf29ce484222325ull;
+};
+
+// The header of a PLY file (Turk 1994), binary and little-endian; what follows it are bytes of numbers.
+struct PlyElement {
+  std::string_view name;
+  std::size_t count;
+  std::vector<std::string_view> properties;  // each as "float x"
+};
+
+[[nodiscard]] inline std::string ply_header(const std::vector<std::string>& comments, const std::vector<PlyElement>& elements) {
+  std::string text = "ply\nformat binary_little_endian 1.0\n";
+  for (const std::string& comment : comments) { text += "comment " + comment + "\n"; }
+  for (const PlyElement& element : elements) {
+    text.append("element ").append(element.name).append(" ").append(std::to_string(element.count)).append("\n");
+    for (const std::string_view property : element.properties) { text.append("property ").append(property).append("\n"); }
+  }
+  return text + "end_header\n";
 }
 
 }  // namespace apps

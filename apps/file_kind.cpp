@@ -12,7 +12,7 @@
 #include "apps/bytes.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/scene_file/grammar.hpp"
-#include "apps/utf8.hpp"
+#include "apps/text.hpp"
 #include "apps/words.hpp"
 
 namespace apps {

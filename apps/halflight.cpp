@@ -5,7 +5,7 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/interrupt.hpp"
+#include "apps/process.hpp"
 
 int main(int argc, char** argv) {
   apps::guard_process();

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/utf8.hpp"
+#include "apps/text.hpp"
 #include "embedded/page.hpp"
 
 namespace apps {

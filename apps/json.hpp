@@ -22,7 +22,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "apps/utf8.hpp"
+#include "apps/text.hpp"
 
 namespace apps {
 

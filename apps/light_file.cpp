@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "apps/light_file.hpp"
 
-#include <bit>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <type_traits>
 #include <utility>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <brep/builder_input.hpp>
@@ -17,13 +18,72 @@
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 
+#include "apps/archive.hpp"
 #include "apps/bytes.hpp"
-#include "apps/checksum.hpp"
 
 namespace apps {
+
+// --- what the scene was read from
+
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are read as they lie in memory");
+struct SourceFields {
+  template <class Archive, class T>
+  void operator()(Archive& a, T& x) const {
+    using Type = std::remove_const_t<T>;
+    if constexpr (std::is_same_v<Type, SceneSource>) {
+      a(x.path, x.text, x.beside, x.options);
+    } else if constexpr (std::is_same_v<Type, FileBeside>) {
+      a(x.name, x.bytes);
+    } else if constexpr (std::is_same_v<Type, Lamp>) {
+      a(x.material, x.exitance);
+    } else if constexpr (std::is_same_v<Type, radiosity::Camera>) {
+      a(x.eye, x.forward, x.up);
+    } else {
+      static_assert(std::is_same_v<Type, ModelOptions>);
+      a(x.reflectance, x.metres, x.two_sided, x.merge, x.up, x.lamps, x.camera);
+    }
+  }
+};
+
+bool usable(const ModelOptions& options) {
+  const auto finite = [](const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+  const auto& camera = options.camera;
+  return options.reflectance >= 0.0 && options.reflectance <= most_reflectance && options.metres > 0.0 && std::isfinite(options.metres) &&
+         (!options.up || *options.up <= UpAxis::z) &&
+         std::all_of(options.lamps.begin(), options.lamps.end(),
+                     [](const Lamp& lamp) { return lamp.exitance >= 0.0 && std::isfinite(lamp.exitance); }) &&
+         (!camera || (finite(camera->eye) && finite(camera->forward) && finite(camera->up) &&
+                      glm::length(glm::cross(camera->forward, camera->up)) > 0.0));
+}
+
+}  // namespace
+
+std::string to_bytes(const SceneSource& source) {
+  ArchiveWriter<SourceFields> out;
+  out(source);
+  return std::move(out.bytes);
+}
+
+std::optional<SceneSource> read_scene_source(std::string_view bytes) {
+  ArchiveReader<SourceFields> in(bytes);
+  SceneSource source;
+  in(source);
+  return in.sound() && in.left() == 0 && usable(source.options) ? std::optional(std::move(source)) : std::nullopt;
+}
+
+SideFile files_of(const SceneSource& source) {
+  return [&source](const std::string& name, std::string& fault) -> std::optional<std::string> {
+    const auto found = std::find_if(source.beside.begin(), source.beside.end(), [&](const FileBeside& file) { return file.name == name; });
+    if (found != source.beside.end()) { return found->bytes; }
+    fault = "is not in the .light file";
+    return std::nullopt;
+  };
+}
+
+// --- the light
+
+namespace {
 
 constexpr std::string_view light_opening = "halflight light 2\n";
 constexpr std::size_t digits = 16;  // of a checksum
@@ -58,28 +118,16 @@ std::string key_of(const radiosity::Scene& scene, const radiosity::Frame& frame)
   return sum.text();
 }
 
-class LightReader {
- public:
-  explicit LightReader(std::string_view bytes) : rest_{bytes} {}
-  [[nodiscard]] std::size_t left() const { return rest_.size(); }
-  [[nodiscard]] std::string_view text(std::size_t count) {
-    const std::string_view result = rest_.substr(0, count);
-    rest_.remove_prefix(result.size());
-    return result;
+struct MeshFields {
+  template <class Archive, class T>
+  void operator()(Archive& a, T& x) const {
+    if constexpr (std::is_same_v<std::remove_const_t<T>, radiosity::MeshCorner>) {
+      a(x.vertex, x.radiosity, x.normal);
+    } else {
+      static_assert(std::is_same_v<std::remove_const_t<T>, radiosity::MeshFace>);
+      a(x.first_corner, x.corner_count, x.surface, x.radiosity);
+    }
   }
-  // The caller has asked how much is left.
-  template <class Number>
-  void get(Number& number) {
-    std::memcpy(&number, rest_.data(), sizeof(Number));
-    rest_.remove_prefix(sizeof(Number));
-  }
-  template <class Vector>
-  void get_vector(Vector& v) {
-    for (int c = 0; c < 3; ++c) { get(v[c]); }
-  }
-
- private:
-  std::string_view rest_;
 };
 
 constexpr std::size_t bytes_of_head = 3 * 8, bytes_of_position = 3 * 8, bytes_of_corner = 4 + 3 * 8 + 3 * 4, bytes_of_face = 3 * 4 + 3 * 8;
@@ -129,24 +177,13 @@ std::optional<LightParts> parts_of(std::string_view bytes, std::string& reason) 
 
 std::string to_light_file(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Scene& scene,
                           const SceneSource& source) {
-  std::string bytes = std::string(light_opening) + key_of(scene, frame) + "\n";
-  const std::string own = to_bytes(source);
-  put(bytes, std::uint64_t{own.size()});
-  bytes += own;
-  for (const std::size_t count : {mesh.positions.size(), mesh.corners.size(), mesh.faces.size()}) { put(bytes, std::uint64_t{count}); }
-  for (const glm::dvec3& p : mesh.positions) { put(bytes, p); }
-  for (const radiosity::MeshCorner& corner : mesh.corners) {
-    put(bytes, corner.vertex);
-    put(bytes, corner.radiosity);
-    put(bytes, corner.normal);
-  }
-  for (const radiosity::MeshFace& face : mesh.faces) {
-    put(bytes, face.first_corner);
-    put(bytes, face.corner_count);
-    put(bytes, face.surface);
-    put(bytes, face.radiosity);
-  }
-  return bytes + checksum_of_bytes(bytes);
+  ArchiveWriter<MeshFields> out;
+  out.bytes = std::string(light_opening) + key_of(scene, frame) + "\n";
+  out(to_bytes(source), std::uint64_t{mesh.positions.size()}, std::uint64_t{mesh.corners.size()}, std::uint64_t{mesh.faces.size()});
+  for (const glm::dvec3& p : mesh.positions) { out(p); }
+  for (const radiosity::MeshCorner& corner : mesh.corners) { out(corner); }
+  for (const radiosity::MeshFace& face : mesh.faces) { out(face); }
+  return out.bytes + checksum_of_bytes(out.bytes);
 }
 
 std::optional<SceneSource> source_in_light_file(std::string_view bytes, std::string& reason) {
@@ -163,32 +200,23 @@ LightResult read_light_file(std::string_view bytes, const radiosity::Scene& scen
   if (!parts) { return result; }
   const auto frame = radiosity::make_frame(scene);
   if (!frame || key_of(scene, *frame) != parts->key) { return {std::nullopt, "it holds the light of another scene"}; }
-  LightReader in{parts->mesh};
+  ArchiveReader<MeshFields> in{parts->mesh};
   Light light;
   light.frame = *frame;
   std::uint64_t positions = 0, corners = 0, faces = 0;
-  in.get(positions);
-  in.get(corners);
-  in.get(faces);
+  in(positions, corners, faces);
   const std::uint64_t most = in.left();  // no count is larger, so that the sum below does not overflow
   if (positions > most || corners > most || faces > most ||
       positions * bytes_of_position + corners * bytes_of_corner + faces * bytes_of_face != in.left()) {
     return {std::nullopt, damaged};
   }
   light.mesh.positions.assign(positions, glm::dvec3{0.0});
-  for (glm::dvec3& p : light.mesh.positions) { in.get_vector(p); }
   light.mesh.corners.resize(corners);
-  for (radiosity::MeshCorner& corner : light.mesh.corners) {
-    in.get(corner.vertex);
-    in.get_vector(corner.radiosity);
-    in.get_vector(corner.normal);
-  }
   light.mesh.faces.resize(faces);
+  for (glm::dvec3& p : light.mesh.positions) { in(p); }
+  for (radiosity::MeshCorner& corner : light.mesh.corners) { in(corner); }
   for (radiosity::MeshFace& face : light.mesh.faces) {
-    in.get(face.first_corner);
-    in.get(face.corner_count);
-    in.get(face.surface);
-    in.get_vector(face.radiosity);
+    in(face);
     face.node = radiosity::no_node;
   }
   if (!consistent(light.mesh, radiosity::surfaces(scene).size())) { return {std::nullopt, damaged}; }

@@ -5,7 +5,7 @@
 // was read from, and the mesh with its colours, in full precision, so that these pictures are the same to the bit.
 //
 //   "halflight light 2\n", key of the scene and "\n", then little-endian, without gaps:
-//   uint64: number of bytes of the scene's source; these bytes (scene_source.hpp)
+//   uint64: number of bytes of the scene's source; these bytes
 //   uint64: number of positions, of corners, of faces
 //   a position: 3 double;   a corner: uint32 position, 3 double radiosity, 3 float normal
 //   a face: uint32 first corner, number of corners, input surface; 3 double radiosity
@@ -16,14 +16,33 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/scene.hpp>
 
-#include "apps/scene_source.hpp"
+#include "apps/intake/to_scene.hpp"
+#include "apps/scene_file.hpp"
 
 namespace apps {
+
+// All that a scene was read from: its file, the files beside it, and what the command line said. A .light file holds it, so that pictures
+// are drawn from that file alone.
+struct SceneSource {
+  std::string path;  // its ending tells the format
+  std::string text;
+  std::vector<FileBeside> beside;
+  ModelOptions options;
+};
+
+// By archive.hpp, in the order of the members.
+[[nodiscard]] std::string to_bytes(const SceneSource& source);
+// Nothing when the bytes are not those of a source.
+[[nodiscard]] std::optional<SceneSource> read_scene_source(std::string_view bytes);
+
+// Finds the files beside the scene in the source, which must outlive the result.
+[[nodiscard]] SideFile files_of(const SceneSource& source);
 
 struct Light {
   radiosity::Mesh mesh;  // faces do not name nodes of a hierarchy

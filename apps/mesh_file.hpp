@@ -45,7 +45,7 @@ namespace mesh_file {
 class Output;  // what a reader fills (mesh_file/reading.hpp)
 }
 
-// A format: one file in mesh_file/ defines it, one line of mesh_file/mesh_file.cpp lists it.
+// A format: one file in mesh_file/ defines it; it is named below, and in the list of mesh_file/mesh_file.cpp.
 struct MeshFormat {
   std::string_view ending;   // of the name, in small letters: ".obj"
   std::string_view file;     // "an OBJ file"
@@ -57,6 +57,9 @@ struct MeshFormat {
   std::string (*write)(const brep::Builder& builder, std::span<const MeshGroup> groups);
 };
 
+namespace mesh_file {
+extern const MeshFormat obj_format, ply_format, off_format;  // a file of this folder each
+}
 [[nodiscard]] std::span<const MeshFormat* const> mesh_formats();
 
 // ".obj, .ply or .off"

@@ -10,7 +10,7 @@
 #include <radiosity/scene/options.hpp>
 #include <radiosity/support/left_out.hpp>
 
-#include "apps/version.hpp"
+#include "apps/process.hpp"
 
 namespace apps {
 namespace {

@@ -184,9 +184,8 @@ std::optional<Mesh> load(const std::string& path, ExitCode& code) {
   const auto bytes = format ? load_text(path, code) : read_text(path, ignored);
   if (!format) {
     const auto sentence = bytes ? wrong_kind(path, *bytes, FileKind::mesh, mesh_formats().front()) : std::nullopt;
-    complain(sentence && guess_kind(*bytes).kind != FileKind::unknown ? *sentence
-                                                                      : path + ": expected a name that ends with " + mesh_endings());
-    code = ExitCode::usage;
+    const bool known = sentence && guess_kind(*bytes).kind != FileKind::unknown;
+    code = complain(known ? *sentence : path + ": expected a name that ends with " + mesh_endings(), ExitCode::usage);
     return std::nullopt;
   }
   if (!bytes) { return std::nullopt; }
@@ -211,8 +210,10 @@ ExitCode run(const CheckOptions& options) {
   std::vector<brep::Defect> remaining = brep::close<brep::BRep<>>(mesh->builder).defects;
   text += "\n" + verdict(remaining.size(), before);
   bool nothing_left = false;
-  if (options.repair && !remaining.empty()) {
-    brep::RepairResult repaired = brep::repair(mesh->builder);
+  brep::RepairResult repaired;
+  const bool mended = options.repair && !remaining.empty();
+  if (mended) {
+    repaired = brep::repair(mesh->builder);
     text += "\n--- repaired: " + (repaired.repairs.empty() ? "nothing" : counted(repaired.repairs.size(), "step")) + "\n" +
             repairs(repaired.repairs, *mesh, options);
     remaining = std::move(repaired.remaining);
@@ -220,14 +221,13 @@ ExitCode run(const CheckOptions& options) {
     nothing_left = after.components.empty();
     for (brep::Component& c : after.components) { c.first = brep::FaceId{repaired.old_face[c.first.index]}; }  // as everywhere else
     text += "\n--- the mesh now\n" + summary(after, options.all) + "\n" + verdict(remaining.size(), after);
-    if (!options.output.empty() && !save(options.output, write_mesh(repaired.builder, *mesh_format(options.output)))) {
-      return ExitCode::failure;
-    }
-  } else if (!options.output.empty() && !save(options.output, write_mesh(mesh->builder, *mesh_format(options.output)))) {
-    return ExitCode::failure;
   }
   text += faults(remaining, *mesh, options);
-  if (!options.output.empty()) { text += "\nwritten: " + options.output + "\n"; }
+  if (!options.output.empty()) {
+    const brep::Builder& result = mended ? repaired.builder : mesh->builder;
+    if (!save(options.output, write_mesh(result, *mesh_format(options.output)))) { return ExitCode::failure; }
+    text += "\nwritten: " + options.output + "\n";
+  }
   if (!print(text, {options.output})) { return ExitCode::failure; }
   return remaining.empty() && !nothing_left ? ExitCode::ok : ExitCode::invalid_input;
 }

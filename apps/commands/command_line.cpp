@@ -12,8 +12,8 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/commands/common.hpp"
+#include "apps/process.hpp"
 #include "apps/text.hpp"
-#include "apps/version.hpp"
 
 namespace apps {
 namespace {
@@ -171,17 +171,11 @@ ExitCode run_program(const std::vector<Command>& commands, int argc, char** argv
   app.require_subcommand(1);
   for (const Command& command : commands) { describe(app, command); }
   const std::span<const char* const> arguments(argv + 1, argv + argc);
-  if (const auto fault = empty_argument(arguments)) {
-    complain(*fault);
-    return ExitCode::usage;
-  }
+  if (const auto fault = empty_argument(arguments)) { return complain(*fault, ExitCode::usage); }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) {
-      complain(explain(app, error, arguments));
-      return ExitCode::usage;
-    }
+    if (error.get_exit_code() != 0) { return complain(explain(app, error, arguments), ExitCode::usage); }
     std::ostringstream help;
     app.exit(error, help);
     return print(help.str()) ? ExitCode::ok : ExitCode::failure;

@@ -10,12 +10,15 @@
 
 #include "apps/files.hpp"
 #include "apps/mesh_file.hpp"
-#include "apps/output_paths.hpp"
 #include "apps/text.hpp"
 
 namespace apps {
 
 void complain(const std::string& sentence) { std::fprintf(stderr, "halflight: %s\n", sentence.c_str()); }
+ExitCode complain(const std::string& sentence, ExitCode code) {
+  complain(sentence);
+  return code;
+}
 
 void complain_of(const std::string& name, const std::vector<std::string>& sentences) {
   const std::size_t shown = std::min(max_errors, sentences.size());
@@ -28,10 +31,7 @@ std::string shown(const std::string& input) { return input.empty() ? "''" : inpu
 std::optional<std::string> load_text(const std::string& path, ExitCode& code) {
   std::string fault;
   auto text = read_text(path, fault);
-  if (!text) {
-    complain(shown(path) + " " + fault);
-    code = ExitCode::failure;
-  }
+  if (!text) { code = complain(shown(path) + " " + fault, ExitCode::failure); }
   return text;
 }
 
@@ -77,9 +77,9 @@ std::optional<SceneFile> load_model(const std::string& path, const std::string& 
 std::optional<SceneFile> load_own(const std::string& path, const std::string& text, const SideFile& side_file, const ModelOptions& options,
                                   ExitCode& code) {
   if (!options.lamps.empty()) {
-    complain("--lamp is about files of other programs; in a .scene the material says it: material " + options.lamps[0].material +
-             " reflectance 0.5 emission " + shortest(options.lamps[0].exitance));
-    code = ExitCode::usage;
+    code = complain("--lamp is about files of other programs; in a .scene the material says it: material " + options.lamps[0].material +
+                        " reflectance 0.5 emission " + shortest(options.lamps[0].exitance),
+                    ExitCode::usage);
     return std::nullopt;
   }
   SceneResult result = parse_scene(text, side_file, options.camera);
@@ -126,15 +126,12 @@ std::optional<SceneFile> load_scene(const SceneSource& source, ExitCode& code) {
 
 ExitCode check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
   const auto fault = check_output_paths(outputs, inputs);
-  if (!fault) { return ExitCode::ok; }
-  complain(fault->sentence);
-  return fault->usage ? ExitCode::usage : ExitCode::failure;
+  return fault ? complain(fault->sentence, fault->usage ? ExitCode::usage : ExitCode::failure) : ExitCode::ok;
 }
 
 ExitCode check_mesh_output(const std::string& output, std::vector<std::string> others, const std::string& input) {
   if (!output.empty() && !mesh_format(output)) {
-    complain("--output " + output + ": expected a name that ends with " + mesh_endings());
-    return ExitCode::usage;
+    return complain("--output " + output + ": expected a name that ends with " + mesh_endings(), ExitCode::usage);
   }
   others.insert(others.begin(), output);
   return check_outputs(others, {input});

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/exit_code.hpp"
 #include "apps/file_kind.hpp"
 #include "apps/intake/to_scene.hpp"
+#include "apps/light_file.hpp"
+#include "apps/process.hpp"
 #include "apps/scene_file.hpp"
-#include "apps/scene_source.hpp"
 
 namespace apps {
 
@@ -36,7 +36,7 @@ inline constexpr std::size_t longest_list = 200;  // lines; of the others the nu
 [[nodiscard]] std::optional<SceneFile> load_scene(const SceneSource& source, ExitCode& code);
 
 // Refuses, before any work, outputs that cannot be written, that are an input, or that are the same file as another output
-// (output_paths.hpp). Empty names are passed over.
+// (files.hpp). Empty names are passed over.
 [[nodiscard]] ExitCode check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
 // The same for a mesh; its name must have the ending of a format. Empty: none is asked for.
@@ -49,8 +49,9 @@ inline constexpr std::size_t longest_list = 200;  // lines; of the others the nu
 // and returns false. A closed pipe is no failure: its reader, such as `head`, has all that it wants.
 [[nodiscard]] bool print(const std::string& text, const std::vector<std::string>& outputs = {});
 
-// One line on stderr: "halflight: sentence".
+// One line on stderr: "halflight: sentence". With a code: gives it back, so that a command can end with it.
 void complain(const std::string& sentence);
+ExitCode complain(const std::string& sentence, ExitCode code);
 
 // What is wrong with a scene, one line each: "name: error: sentence"; the first max_errors of them.
 void complain_of(const std::string& name, const std::vector<std::string>& sentences);

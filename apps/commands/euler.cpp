@@ -13,9 +13,7 @@
 #include "apps/commands/common.hpp"
 #include "apps/euler/interactive.hpp"
 #include "apps/euler/outputs.hpp"
-#include "apps/euler/solid_view.hpp"
 #include "apps/euler/story.hpp"
-#include "apps/euler/wording.hpp"
 
 namespace apps {
 namespace {
@@ -61,9 +59,9 @@ ExitCode run(const EulerOptions& options) {
   report(story.errors, options.script, *text);
   if (!options.outputs.empty()) {
     if (story.edges > most_edges) {
-      complain(options.script + " is too long to draw: its " + std::to_string(story.frames.size()) + " pictures would show " +
-               std::to_string(story.edges) + " edges together, at most " + std::to_string(most_edges) + " are drawn");
-      return ExitCode::failure;
+      return complain(options.script + " is too long to draw: its " + std::to_string(story.frames.size()) + " pictures would show " +
+                          std::to_string(story.edges) + " edges together, at most " + std::to_string(most_edges) + " are drawn",
+                      ExitCode::failure);
     }
     story = euler::tell(*parsed.script, name);
     story.coordinates = coordinates;

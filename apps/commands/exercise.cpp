@@ -35,9 +35,9 @@ ExitCode run(const ExerciseOptions& options) {
     return code;
   }
   if (chosen.fault == nullptr) {
-    complain(name + " is a program: `sh examples/exercises/check.sh " + std::to_string(options.number) + " " + options.file +
-             "` compiles it and tests it");
-    return ExitCode::usage;
+    return complain(name + " is a program: `sh examples/exercises/check.sh " + std::to_string(options.number) + " " + options.file +
+                        "` compiles it and tests it",
+                    ExitCode::usage);
   }
   ExitCode code = ExitCode::ok;
   const auto text = load_text(options.file, code);

@@ -6,7 +6,6 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
 #include "apps/explain/recording.hpp"
-#include "apps/explain/sentences.hpp"
 
 namespace apps {
 namespace {
@@ -24,13 +23,10 @@ ExitCode run(const ExplainOptions& options) {
   if (!file) { return code; }
   const std::string name = std::filesystem::path(options.scene).stem().string();
   const explain::RecordResult result = explain::record(file->scene, name, options.wanted);
+  if (!result.recording && !result.invalid) { return complain(options.scene + ": " + result.sentences.front(), ExitCode::failure); }
   if (!result.recording) {
-    if (result.invalid) {
-      complain_of(options.scene, result.sentences);
-    } else {
-      complain(options.scene + ": " + result.sentences.front());
-    }
-    return result.invalid ? ExitCode::invalid_input : ExitCode::failure;
+    complain_of(options.scene, result.sentences);
+    return ExitCode::invalid_input;
   }
   if (!options.output.empty() && !save(options.output, explain::page(*result.recording))) { return ExitCode::failure; }
   std::string out = options.text ? explain::story(*result.recording) : "";

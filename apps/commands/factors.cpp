@@ -18,7 +18,6 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/commands/model_arguments.hpp"
 #include "apps/json.hpp"
 #include "apps/text.hpp"
 

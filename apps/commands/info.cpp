@@ -21,7 +21,6 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/commands/model_arguments.hpp"
 #include "apps/text.hpp"
 
 namespace apps {

@@ -24,11 +24,10 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/commands/model_arguments.hpp"
 #include "apps/json.hpp"
 #include "apps/mesh_file.hpp"
+#include "apps/process.hpp"
 #include "apps/text.hpp"
-#include "apps/version.hpp"
 
 namespace apps {
 namespace {

@@ -17,13 +17,11 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/commands/model_arguments.hpp"
 #include "apps/commands/render_outputs.hpp"
 #include "apps/intake/model.hpp"
-#include "apps/interrupt.hpp"
 #include "apps/light_file.hpp"
 #include "apps/memory.hpp"
-#include "apps/progress.hpp"
+#include "apps/process.hpp"
 #include "apps/text.hpp"
 
 namespace apps {
@@ -51,8 +49,7 @@ std::vector<std::string> all_outputs(const RenderOptions& options) {
 ExitCode check(const RenderOptions& options) {
   for (const std::string& path : options.outputs) {
     if (!render_format(path)) {
-      complain("--output " + path + ": expected a name that ends with " + render_endings());
-      return ExitCode::usage;
+      return complain("--output " + path + ": expected a name that ends with " + render_endings(), ExitCode::usage);
     }
   }
   const auto any = [&](bool ply) {
@@ -62,16 +59,13 @@ ExitCode check(const RenderOptions& options) {
     });
   };
   if (options.onto_input && !any(true)) {
-    complain("--onto-input is about outputs that end with .ply, .glb or .obj; there is none");
-    return ExitCode::usage;
+    return complain("--onto-input is about outputs that end with .ply, .glb or .obj; there is none", ExitCode::usage);
   }
   if (!options.lightmap.empty() && !any(false)) {
-    complain("--lightmap is about outputs that end with .glb or .obj; there is none");
-    return ExitCode::usage;
+    return complain("--lightmap is about outputs that end with .glb or .obj; there is none", ExitCode::usage);
   }
   if (!options.lightmap.empty() && !is_picture(options.lightmap)) {
-    complain("--lightmap " + options.lightmap + ": expected a name that ends with .hdr, .pfm or .png");
-    return ExitCode::usage;
+    return complain("--lightmap " + options.lightmap + ": expected a name that ends with .hdr, .pfm or .png", ExitCode::usage);
   }
   const auto shows_mesh = [&](const std::string& path) {
     const RenderFormat format = *render_format(path);
@@ -79,30 +73,24 @@ ExitCode check(const RenderOptions& options) {
     return format == RenderFormat::html || (!options.onto_input && (format == RenderFormat::ply || options.lightmap.empty()));
   };
   if (options.solver.mesh_error && std::none_of(options.outputs.begin(), options.outputs.end(), shows_mesh)) {
-    complain("--mesh-error is about meshes, pages and pictures by --method mesh; there is none");
-    return ExitCode::usage;
+    return complain("--mesh-error is about meshes, pages and pictures by --method mesh; there is none", ExitCode::usage);
   }
   if (options.error_of && !options.solver.error && !options.solver.mesh_error) {
-    complain("--error-of says what --error or --mesh-error is about; give one of them");
-    return ExitCode::usage;
+    return complain("--error-of says what --error or --mesh-error is about; give one of them", ExitCode::usage);
   }
   if (!options.light.empty() && (options.outputs.empty() || !std::all_of(options.outputs.begin(), options.outputs.end(), is_picture))) {
-    complain("--light draws pictures: expected outputs that end with .png, .hdr or .pfm, and nothing else");
-    return ExitCode::usage;
+    return complain("--light draws pictures: expected outputs that end with .png, .hdr or .pfm, and nothing else", ExitCode::usage);
   }
   return check_outputs(all_outputs(options), {options.scene, options.light});
 }
 
 ExitCode report_failure(const radiosity::Failure& failure, const std::string& scene) {
-  if (failure.kind == radiosity::Failure::Kind::cancelled) {
-    complain("interrupted; nothing was written");
-    return ExitCode::failure;
+  using Kind = radiosity::Failure::Kind;
+  if (failure.kind == Kind::cancelled) { return complain("interrupted; nothing was written", ExitCode::failure); }
+  if (failure.kind == Kind::out_of_memory) {
+    return complain(failure.sentences.empty() ? "out of memory" : failure.sentences.front(), ExitCode::failure);
   }
-  if (failure.kind == radiosity::Failure::Kind::out_of_memory) {
-    complain(failure.sentences.empty() ? "out of memory" : failure.sentences.front());
-    return ExitCode::failure;
-  }
-  if (failure.kind == radiosity::Failure::Kind::invalid_options) {
+  if (failure.kind == Kind::invalid_options) {
     for (const std::string& sentence : failure.sentences) { complain(sentence); }
     return ExitCode::usage;
   }
@@ -146,8 +134,7 @@ std::optional<SceneFile> scene_of_light(const RenderOptions& options, const std:
   std::string reason;
   const auto source = source_in_light_file(bytes, reason);
   if (source) { return load_scene(*source, code); }
-  complain(shown(options.light) + ": " + reason);
-  code = ExitCode::invalid_input;
+  code = complain(shown(options.light) + ": " + reason, ExitCode::invalid_input);
   return std::nullopt;
 }
 
@@ -161,10 +148,7 @@ ExitCode draw_light(const RenderOptions& options, const radiosity::Control& cont
   if (!chosen) { return ExitCode::usage; }
   const radiosity::Camera& camera = options.model.camera ? *options.model.camera : *chosen;
   const LightResult read = read_light_file(*bytes, file->scene);
-  if (!read.light) {
-    complain(shown(options.light) + ": " + read.reason);
-    return ExitCode::invalid_input;
-  }
+  if (!read.light) { return complain(shown(options.light) + ": " + read.reason, ExitCode::invalid_input); }
   Artist artist(options, *file, camera);
   const radiosity::Tone tone = artist.tone(read.light->mesh);
   const auto picture = artist.draw(read.light->mesh, read.light->frame, tone, control);
@@ -196,23 +180,17 @@ ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, con
   if (const ExitCode code = write_all(*outputs); code != ExitCode::ok) { return code; }
   if (!print(to_text(report), all_outputs(options))) { return ExitCode::failure; }
   if (!solution.audit.shortage.empty()) {
-    complain(solution.audit.shortage + "; the outputs show the best solution so far");
-    return ExitCode::not_converged;
+    return complain(solution.audit.shortage + "; the outputs show the best solution so far", ExitCode::not_converged);
   }
-  if (report.audit.interrupted) {
-    complain("interrupted: the outputs show the best solution so far");
-    return ExitCode::not_converged;
-  }
+  if (report.audit.interrupted) { return complain("interrupted: the outputs show the best solution so far", ExitCode::not_converged); }
   if (solution.audit.converged) { return ExitCode::ok; }
-  complain("not converged: the outputs show what was reached");
-  return ExitCode::not_converged;
+  return complain("not converged: the outputs show what was reached", ExitCode::not_converged);
 }
 
 ExitCode run(const RenderOptions& options) {
   const std::atomic<bool>& cancel = watch_interrupts();
   if (options.solver.error && options.solver.audit_points == 0) {
-    complain("--error needs the audit as its witness; leave --audit 0 out");
-    return ExitCode::usage;
+    return complain("--error needs the audit as its witness; leave --audit 0 out", ExitCode::usage);
   }
   if (const ExitCode code = check(options); code != ExitCode::ok) { return code; }
   Progress progress(options.quiet);
@@ -228,8 +206,8 @@ ExitCode run(const RenderOptions& options) {
   if (std::any_of(options.outputs.begin(), options.outputs.end(), is_light)) { file->text = std::move(*text); }
   text.reset();
   if (options.onto_input && !file->given) {
-    complain("--onto-input: " + options.scene + " gives no polygons; only files of other programs (" + model_endings() + ") do");
-    return ExitCode::usage;
+    return complain("--onto-input: " + options.scene + " gives no polygons; only files of other programs (" + model_endings() + ") do",
+                    ExitCode::usage);
   }
   const auto camera = choose_camera(*file, options.camera);
   if (!camera) { return ExitCode::usage; }

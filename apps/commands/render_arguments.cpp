@@ -10,7 +10,7 @@
 
 #include <radiosity/scene/options.hpp>
 
-#include "apps/commands/model_arguments.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/memory.hpp"
 #include "apps/text.hpp"
 

@@ -15,18 +15,15 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/common.hpp"
-#include "apps/commands/model_arguments.hpp"
 #include "apps/files.hpp"
-#include "apps/interrupt.hpp"
 #include "apps/memory.hpp"
-#include "apps/progress.hpp"
+#include "apps/process.hpp"
 #include "apps/scene_file.hpp"
 #include "apps/study/folder.hpp"
 #include "apps/study/measure.hpp"
 #include "apps/study/parts.hpp"
 #include "apps/study/reference.hpp"
 #include "apps/text.hpp"
-#include "apps/version.hpp"
 
 namespace apps {
 namespace {
@@ -90,12 +87,14 @@ std::vector<std::string> known_files(const StudyOptions& options) {
   return names;
 }
 
-// One scene; false when there is nothing to show of it. `code` says why.
-bool study_scene(const std::string& path, const StudyOptions& options, const std::vector<study::MethodPlan>& methods,
-                 const radiosity::Control& control, Progress& progress, study::SceneStudy& result, ExitCode& code) {
+// One scene; nothing when there is nothing to show of it. `code` says why.
+std::optional<study::SceneStudy> study_scene(const std::string& path, const StudyOptions& options,
+                                             const std::vector<study::MethodPlan>& methods, const radiosity::Control& control,
+                                             Progress& progress, ExitCode& code) {
   const auto text = load_text(path, code);
   const auto file = text ? load_scene(path, *text, known_files(options), code, options.model) : std::nullopt;
-  if (!file) { return false; }
+  if (!file) { return std::nullopt; }
+  study::SceneStudy result;
   result.scene = fs::path(path).stem().string();
   result.title = title_of(*text);
   result.camera = file->cameras.empty() ? radiosity::automatic_camera(file->scene) : file->cameras.front();
@@ -114,9 +113,8 @@ bool study_scene(const std::string& path, const StudyOptions& options, const std
   std::string fault;
   const auto truth = study::make_reference(file->scene, known, caches, reference, control, fault);
   if (!truth) {
-    complain(path + ": " + fault);
-    code = control.cancelled() ? ExitCode::failure : ExitCode::invalid_input;
-    return false;
+    code = complain(path + ": " + fault, control.cancelled() ? ExitCode::failure : ExitCode::invalid_input);
+    return std::nullopt;
   }
   const study::Reference about = study::describe(*truth);
   progress.say(result.scene + ": reference " + about.kind + (about.cached ? " (kept from before), " : ", ") + std::to_string(about.points) +
@@ -136,7 +134,7 @@ bool study_scene(const std::string& path, const StudyOptions& options, const std
     progress.say(line);
   };
   study::measure(file->scene, *truth, methods, measuring, control, result);
-  return !result.methods.empty();
+  return result.methods.empty() ? std::nullopt : std::optional(std::move(result));
 }
 
 // The page and all tables. `inputs` are not overwritten.
@@ -144,10 +142,7 @@ ExitCode write(const study::Study& study, const std::string& folder, const std::
   std::vector<std::string> files = study::page_files(study);
   for (std::string& name : files) { name = (fs::path(folder) / name).string(); }
   if (const ExitCode fault = check_outputs(files, inputs); fault != ExitCode::ok) { return fault; }
-  if (const auto fault = study::write_pages(study, folder)) {
-    complain(*fault);
-    return ExitCode::failure;
-  }
+  if (const auto fault = study::write_pages(study, folder)) { return complain(*fault, ExitCode::failure); }
   std::string text;
   for (const std::string& file : files) { text += "written: " + file + "\n"; }
   return print(text) ? ExitCode::ok : ExitCode::failure;
@@ -161,10 +156,7 @@ ExitCode merge(const StudyOptions& options) {
     for (const auto& entry : fs::directory_iterator(folder, failed)) {
       if (entry.path().extension() == ".study") { paths.push_back(entry.path().string()); }
     }
-    if (failed) {
-      complain(folder + ": " + failed.message());
-      return ExitCode::failure;
-    }
+    if (failed) { return complain(folder + ": " + failed.message(), ExitCode::failure); }
   }
   std::sort(paths.begin(), paths.end());
   std::vector<study::Part> parts;
@@ -173,17 +165,11 @@ ExitCode merge(const StudyOptions& options) {
     const auto bytes = load_text(path, code);
     if (!bytes) { return code; }
     auto part = study::read_part(*bytes);
-    if (!part) {
-      complain(path + " is damaged, or no part of a study");
-      return ExitCode::invalid_input;
-    }
+    if (!part) { return complain(path + " is damaged, or no part of a study", ExitCode::invalid_input); }
     parts.push_back(std::move(*part));
   }
   const study::Merged merged = study::merge(std::move(parts));
-  if (!merged.study) {
-    complain(merged.fault);
-    return ExitCode::invalid_input;
-  }
+  if (!merged.study) { return complain(merged.fault, ExitCode::invalid_input); }
   return write(*merged.study, options.folder, {});
 }
 
@@ -200,16 +186,12 @@ ExitCode check_names(const std::vector<std::string>& scenes) {
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (fs::path(scenes[i]).stem() == fs::path(scenes[k]).stem()) {
-        complain(scenes[i] + " and " + scenes[k] + " would write the same files; study them into two folders");
-        return ExitCode::usage;
+        return complain(scenes[i] + " and " + scenes[k] + " would write the same files; study them into two folders", ExitCode::usage);
       }
     }
   }
   return ExitCode::ok;
 }
-
-// Can what every study writes be written?
-ExitCode check_files(const StudyOptions& options) { return check_outputs(known_files(options), options.scenes); }
 
 // Measures what is this part's of each scene, until it is interrupted, or one has read a file that the study would write.
 study::Part measure(const StudyOptions& options, const radiosity::Control& control, Progress& progress, ExitCode& code) {
@@ -226,9 +208,9 @@ study::Part measure(const StudyOptions& options, const radiosity::Control& contr
       plans.push_back(methods[m]);
       which.push_back(m);
     }
-    study::SceneStudy scene;
-    if (plans.empty() || !study_scene(options.scenes[i], options, plans, control, progress, scene, code)) { continue; }
-    part.study.scenes.push_back(std::move(scene));
+    auto scene = plans.empty() ? std::nullopt : study_scene(options.scenes[i], options, plans, control, progress, code);
+    if (!scene) { continue; }
+    part.study.scenes.push_back(std::move(*scene));
     part.scenes.push_back(i);
     part.methods.push_back(std::move(which));
   }
@@ -243,13 +225,10 @@ ExitCode run(const StudyOptions& given) {
     options.dense = 300;
   }
   const NewFolder folder(options.folder);
-  if (!fs::is_directory(options.folder)) {
-    complain("cannot make the folder " + options.folder);
-    return ExitCode::failure;
-  }
+  if (!fs::is_directory(options.folder)) { return complain("cannot make the folder " + options.folder, ExitCode::failure); }
   if (!options.merge.empty()) { return merge(options); }
   if (const ExitCode fault = check_names(options.scenes); fault != ExitCode::ok) { return fault; }
-  if (const ExitCode fault = check_files(options); fault != ExitCode::ok) { return fault; }
+  if (const ExitCode fault = check_outputs(known_files(options), options.scenes); fault != ExitCode::ok) { return fault; }
   Progress progress(options.quiet);
   radiosity::Control control;
   control.cancel = &watch_interrupts();

@@ -7,7 +7,6 @@
 #include <brep/validate_explain.hpp>
 
 #include "apps/euler/outputs.hpp"
-#include "apps/euler/solid_view.hpp"
 #include "apps/html_document.hpp"
 #include "apps/json.hpp"
 #include "embedded/euler.hpp"

@@ -21,9 +21,7 @@
 
 #include "apps/euler/outputs.hpp"
 #include "apps/euler/story.hpp"
-#include "apps/euler/wording.hpp"
 #include "apps/files.hpp"
-#include "apps/output_paths.hpp"
 #include "apps/text.hpp"
 
 namespace apps::euler {

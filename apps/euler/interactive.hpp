@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/exit_code.hpp"
+#include "apps/process.hpp"
 
 namespace apps::euler {
 

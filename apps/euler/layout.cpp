@@ -14,7 +14,6 @@
 
 #include <brep/handles.hpp>
 
-#include "apps/euler/names.hpp"
 
 namespace apps::euler {
 namespace {

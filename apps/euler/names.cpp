@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/euler/names.hpp"
+#include "apps/euler/layout.hpp"
 
 #include <algorithm>
 #include <cmath>

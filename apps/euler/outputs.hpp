@@ -34,6 +34,19 @@ namespace apps::euler {
 // The last frame alone, as a file.
 [[nodiscard]] std::string picture(const Story& story, const Layout& layout);
 
+// --- the solid of a step in space (solid_view.cpp), where its script says where vertices lie: comment lines
+//
+//     #@ v0 0 0 0  v1 1 0 0
+//
+// which are no captions. A script is topology alone; coordinates are for the eye.
+
+// Reads the coordinates and empties their lines, so that the places of statements stay. What is no coordinate is left as a comment.
+[[nodiscard]] Coordinates take_coordinates(std::string& text);
+
+// An SVG group around the origin, in a square of this width; empty when the step has no vertex with coordinates. Faces of which a corner
+// has none are left out, as are edges.
+[[nodiscard]] std::string solid_view(const Frame& frame, const Coordinates& coordinates, double width);
+
 // The stepper: one page that shows a script step by step; no network, no library, works from a file. It holds all drawings and all records
 // as data; its own script shows one step, marks the fields that the step changed, and moves what both pictures have. `#step=12` in the
 // address opens that step.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "apps/euler/solid_view.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -28,7 +29,7 @@ struct Check {  // an `expect` behind a step
 struct Frame {
   std::string statement;  // empty for the start
   std::string caption;
-  std::string told;  // what the step did, in words (wording.hpp); of drawn stories
+  std::string told;  // what the step did, in words; of drawn stories
   std::uint32_t line = 0;
   brep::Outcome outcome;
   Records records;               // as they are, damaged ones too
@@ -40,12 +41,14 @@ struct Frame {
   std::vector<Check> checks;
 };
 
+using Coordinates = std::map<std::uint32_t, glm::dvec3>;  // by vertex
+
 struct Story {
   std::string title, introduction;
-  std::vector<Frame> frames;                        // the first is the start
-  std::vector<brep::ScriptError> errors;            // statements that were not done as written
-  std::map<std::uint32_t, glm::dvec3> coordinates;  // of vertices, where the script has some (solid_view.hpp)
-  std::size_t edges = 0;                            // of all frames together: what drawing it costs
+  std::vector<Frame> frames;              // the first is the start
+  std::vector<brep::ScriptError> errors;  // statements that were not done as written
+  Coordinates coordinates;                // where the script has some (outputs.hpp)
+  std::size_t edges = 0;                  // of all frames together: what drawing it costs
 };
 
 // One statement after another, also after one that failed. A story that is not drawn keeps the records of its last two frames only:
@@ -74,5 +77,24 @@ class Teller {
 [[nodiscard]] std::string counts(const Frame& frame);
 // "8 - 12 + 6 = 2 = 2(1 - 0)"
 [[nodiscard]] std::string equation(const Frame& frame);
+
+// --- words
+
+// What a step did, for steps about which their script says nothing: the operator with its textbook name, what it adds to the counts, and
+// what is new or gone.
+[[nodiscard]] std::string told(const brep::Statement& statement, const brep::Outcome& outcome, const Records& before, const Records& after);
+
+// The walk around a face (its half-edges, each with the vertex where it starts) or around a vertex (the half-edges that leave it, each
+// with its face), in a line; a sentence when there is none.
+[[nodiscard]] std::string walk(const Records& records, brep::Element of);
+
+// What a statement of a script may begin with: operators by our names and by those of textbooks, and the other statements.
+[[nodiscard]] std::vector<std::string> statement_words();
+
+// "; did you mean 'split_face'?" of a line whose first word, after a name and =, is not known but near to one that is; else nothing.
+[[nodiscard]] std::string meant(std::string_view line, const std::vector<std::string>& known);
+
+// The same of a line of a script, counted from 1.
+[[nodiscard]] std::string meant_in(std::string_view script, std::uint32_t line);
 
 }  // namespace apps::euler

@@ -11,7 +11,7 @@
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
 
-#include "apps/euler/names.hpp"
+#include "apps/euler/layout.hpp"
 #include "apps/html_document.hpp"
 #include "apps/text.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-
 #include <algorithm>
+#include <array>
 #include <set>
 #include <vector>
 
@@ -11,8 +11,8 @@
 #include <brep/validate.hpp>
 
 #include "apps/euler/story.hpp"
-#include "apps/euler/wording.hpp"
 #include "apps/exercise/exercises.hpp"
+#include "embedded/examples.hpp"
 
 namespace apps::exercise {
 namespace {
@@ -83,113 +83,125 @@ Fault no_undo(const Played& played) {
   return std::nullopt;
 }
 
-template <class... Checks>
-Fault first_of(const Checks&... checks) {
-  Fault fault;
-  static_cast<void>(((fault = checks()) || ...));
-  return fault;
+constexpr std::array<Exercise, 12> exercises{{
+    {"01_tetrahedron.euler", "a tetrahedron from nothing", tetrahedron},
+    {"02_torus.euler", "the torus of least edges", torus},
+    {"03_holes.euler", "a pothole, then a hole through the cube", holes},
+    {"04_dual.euler", "the dual of a prism", dual_of_prism},
+    {"05_inverse.euler", "undo by inverse operators", inverse},
+    {"06_break.euler", "break records and mend them", break_and_mend},
+    {"07_split_edge.hpp", "split_edge written with split_vertex", nullptr},
+    {"08_oracle.hpp", "an oracle of your own", nullptr},
+    {"09_split_object.hpp", "a split object of your own", nullptr},
+    {"10_form_factors.txt", "form factors of two plates by hand", form_factors},
+    {"11_push_pull.txt", "push and pull by hand on three patches", push_pull},
+    {"12_t_vertex.txt", "why a T-vertex shows", t_vertex},
+}};
+
+struct Rules {
+  std::size_t kept = 0;  // the script begins with the steps of this exercise; 0: of none
+  bool undo = true;      // is allowed
+  bool one_shell = true;
+};
+
+// The first thing that is wrong: with the script, by the rules, or what `rest` finds.
+template <class Rest>
+Fault judge(const std::string& text, const Rules& rules, const Rest& rest) {
+  Played played;
+  Fault fault = play(text, played);
+  if (!fault && rules.kept > 0) { fault = kept(played, rules.kept); }
+  if (!fault && !rules.undo) { fault = no_undo(played); }
+  if (!fault && rules.one_shell) { fault = one_shell(played); }
+  return fault ? fault : rest(played);
 }
 
 }  // namespace
 
+std::span<const Exercise> all() { return exercises; }
+
+std::string beginning(const Exercise& exercise) { return embedded::example(std::string("exercises/") + exercise.file); }
+
 Fault tetrahedron(const std::string& text) {
-  Played played;
-  return first_of([&] { return play(text, played); }, [&] { return one_shell(played); },
-                  [&]() -> Fault {
-                    for (const brep::FaceId f : brep::faces(played.solid)) {
-                      const std::size_t edges = brep::degree(played.solid, f);
-                      if (edges != 3) { return to_string(f) + " is no triangle: it has " + std::to_string(edges) + " edges"; }
-                    }
-                    for (const brep::VertexId v : brep::vertices(played.solid)) {
-                      const std::size_t edges = brep::degree(played.solid, v);
-                      if (edges != 3) { return std::to_string(edges) + " edges meet in " + to_string(v); }
-                    }
-                    const bool sphere = played.moments.back().handles == 0 && played.solid.vertex_count() == 4;
-                    return sphere ? Fault() : Fault("triangles alone, but not those of a tetrahedron");
-                  });
+  return judge(text, {}, [](const Played& played) -> Fault {
+    for (const brep::FaceId f : brep::faces(played.solid)) {
+      const std::size_t edges = brep::degree(played.solid, f);
+      if (edges != 3) { return to_string(f) + " is no triangle: it has " + std::to_string(edges) + " edges"; }
+    }
+    for (const brep::VertexId v : brep::vertices(played.solid)) {
+      const std::size_t edges = brep::degree(played.solid, v);
+      if (edges != 3) { return std::to_string(edges) + " edges meet in " + to_string(v); }
+    }
+    const bool sphere = played.moments.back().handles == 0 && played.solid.vertex_count() == 4;
+    return sphere ? Fault() : Fault("triangles alone, but not those of a tetrahedron");
+  });
 }
 
 Fault torus(const std::string& text) {
-  Played played;
-  return first_of([&] { return play(text, played); }, [&] { return one_shell(played); },
-                  [&]() -> Fault {
-                    const Moment& end = played.moments.back();
-                    if (end.handles != 1) { return "it has " + std::to_string(end.handles) + " handles; a torus has one"; }
-                    if (end.v > 1 || end.f > 1) { return std::to_string(end.e) + " edges: a torus can do with fewer"; }
-                    return std::nullopt;
-                  });
+  return judge(text, {}, [](const Played& played) -> Fault {
+    const Moment& end = played.moments.back();
+    if (end.handles != 1) { return "it has " + std::to_string(end.handles) + " handles; a torus has one"; }
+    if (end.v > 1 || end.f > 1) { return std::to_string(end.e) + " edges: a torus can do with fewer"; }
+    return std::nullopt;
+  });
 }
 
 Fault holes(const std::string& text) {
-  Played played;
-  return first_of([&] { return play(text, played); }, [&] { return kept(played, 3); }, [&] { return one_shell(played); },
-                  [&]() -> Fault {
-                    const auto pothole = [](const Moment& m) {  // floor; five faces of the cube and three walls; lid, tie and rim
-                      return m.shells == 1 && m.handles == 0 && m.degrees == std::multiset<std::size_t>{3, 4, 4, 4, 4, 4, 4, 4, 4, 9};
-                    };
-                    if (std::none_of(played.moments.begin(), played.moments.end(), pothole)) {
-                      return "no step shows the pothole: a rim of three edges tied to a corner of the lid, three walls and a floor";
-                    }
-                    const long handles = played.moments.back().handles;
-                    if (handles != 1) {
-                      return "at the end there are " + std::to_string(handles) + " handles: nothing leads through the cube once";
-                    }
-                    std::size_t large = 0;
-                    for (const brep::FaceId f : brep::faces(played.solid)) { large += brep::degree(played.solid, f) > 4 ? 1 : 0; }
-                    if (large > 1) { return std::to_string(large) + " faces have more than four edges"; }
-                    for (const brep::VertexId v : brep::vertices(played.solid)) {
-                      if (brep::degree(played.solid, v) < 3) { return "fewer than three edges meet in " + to_string(v); }
-                    }
-                    return std::nullopt;
-                  });
+  return judge(text, {.kept = 3}, [](const Played& played) -> Fault {
+    const auto pothole = [](const Moment& m) {  // floor; five faces of the cube and three walls; lid, tie and rim
+      return m.shells == 1 && m.handles == 0 && m.degrees == std::multiset<std::size_t>{3, 4, 4, 4, 4, 4, 4, 4, 4, 9};
+    };
+    if (std::none_of(played.moments.begin(), played.moments.end(), pothole)) {
+      return "no step shows the pothole: a rim of three edges tied to a corner of the lid, three walls and a floor";
+    }
+    const long handles = played.moments.back().handles;
+    if (handles != 1) { return "at the end there are " + std::to_string(handles) + " handles: nothing leads through the cube once"; }
+    std::size_t large = 0;
+    for (const brep::FaceId f : brep::faces(played.solid)) { large += brep::degree(played.solid, f) > 4 ? 1 : 0; }
+    if (large > 1) { return std::to_string(large) + " faces have more than four edges"; }
+    for (const brep::VertexId v : brep::vertices(played.solid)) {
+      if (brep::degree(played.solid, v) < 3) { return "fewer than three edges meet in " + to_string(v); }
+    }
+    return std::nullopt;
+  });
 }
 
 Fault dual_of_prism(const std::string& text) {
   constexpr const char* prism =
       "h0 = make_segment\nh2 = split_vertex h1 h1\nh4 = split_face h3 h0\nh6 = split_vertex h1 h1\nh8 = split_vertex h3 h3\n"
       "h10 = split_vertex h5 h5\nh12 = split_face h7 h11\nh14 = split_face h11 h9\nh16 = split_face h9 h12\n";
-  Played played;
-  return first_of(
-      [&] { return play(text, played); }, [&] { return one_shell(played); },
-      [&]() -> Fault {
-        Played of;
-        static_cast<void>(play(prism, of));
-        if (brep::find_isomorphism(of.solid, played.solid)) { return "this is the prism itself"; }
-        const auto dual = brep::dual(of.solid);
-        const auto same = [&](brep::Orientation way) { return brep::find_isomorphism(dual.brep, played.solid, way).has_value(); };
-        if (same(brep::Orientation::kept) || same(brep::Orientation::reversed)) { return std::nullopt; }
-        return "this is not the dual of the prism: count the faces of the prism, and the edges that meet in each of its vertices";
-      });
+  return judge(text, {}, [](const Played& played) -> Fault {
+    Played of;
+    static_cast<void>(play(prism, of));
+    if (brep::find_isomorphism(of.solid, played.solid)) { return "this is the prism itself"; }
+    const auto dual = brep::dual(of.solid);
+    const auto same = [&](brep::Orientation way) { return brep::find_isomorphism(dual.brep, played.solid, way).has_value(); };
+    if (same(brep::Orientation::kept) || same(brep::Orientation::reversed)) { return std::nullopt; }
+    return "this is not the dual of the prism: count the faces of the prism, and the edges that meet in each of its vertices";
+  });
 }
 
 Fault inverse(const std::string& text) {
-  Played played;
-  return first_of([&] { return play(text, played); }, [&] { return kept(played, 5); }, [&] { return no_undo(played); },
-                  [&] { return one_shell(played); },
-                  [&]() -> Fault {
-                    const brep::Script start = *brep::parse_script(beginning(all()[4])).script;
-                    Solid triangle;
-                    brep::ScriptRunner<Solid> runner(triangle);
-                    for (std::size_t i = 0; i < 3; ++i) { static_cast<void>(runner.run(start.statements[i])); }
-                    const std::string difference = brep::difference(played.solid, triangle);
-                    if (difference.empty()) { return std::nullopt; }
-                    return "this is not the triangle: " + difference.substr(0, difference.find('\n'));
-                  });
+  return judge(text, {.kept = 5, .undo = false}, [](const Played& played) -> Fault {
+    const brep::Script start = *brep::parse_script(beginning(all()[4])).script;
+    Solid triangle;
+    brep::ScriptRunner<Solid> runner(triangle);
+    for (std::size_t i = 0; i < 3; ++i) { static_cast<void>(runner.run(start.statements[i])); }
+    const std::string difference = brep::difference(played.solid, triangle);
+    if (difference.empty()) { return std::nullopt; }
+    return "this is not the triangle: " + difference.substr(0, difference.find('\n'));
+  });
 }
 
 Fault break_and_mend(const std::string& text) {
-  Played played;
-  return first_of([&] { return play(text, played); }, [&] { return kept(played, 6); }, [&] { return no_undo(played); },
-                  [&]() -> Fault {
-                    std::size_t most = 0;
-                    for (const Moment& moment : played.moments) { most = std::max(most, moment.broken.size()); }
-                    if (most < 3) { return "at most " + std::to_string(most) + " different rules were broken at one moment"; }
-                    if (!played.moments.back().broken.empty()) {
-                      return "at the end R" + std::to_string(*played.moments.back().broken.begin()) + " is still broken";
-                    }
-                    const bool asked = played.script.statements.back().command == brep::Command::expect;
-                    return asked ? Fault() : Fault("the script does not ask the validator at the end (`expect valid`)");
-                  });
+  return judge(text, {.kept = 6, .undo = false, .one_shell = false}, [](const Played& played) -> Fault {
+    std::size_t most = 0;
+    for (const Moment& moment : played.moments) { most = std::max(most, moment.broken.size()); }
+    if (most < 3) { return "at most " + std::to_string(most) + " different rules were broken at one moment"; }
+    const std::set<int>& broken = played.moments.back().broken;
+    if (!broken.empty()) { return "at the end R" + std::to_string(*broken.begin()) + " is still broken"; }
+    const bool asked = played.script.statements.back().command == brep::Command::expect;
+    return asked ? Fault() : Fault("the script does not ask the validator at the end (`expect valid`)");
+  });
 }
 
 }  // namespace apps::exercise

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/explain/sentences.hpp"
+#include "apps/explain/recording.hpp"
 
 #include <vector>
 

@@ -18,7 +18,6 @@
 #include <radiosity/run/stages.hpp>
 #include <radiosity/scene/options.hpp>
 
-#include "apps/explain/sentences.hpp"
 
 namespace apps::explain {
 namespace {

@@ -138,10 +138,6 @@ ExportMesh split_at_seams(const ExportMesh& mesh, std::vector<glm::vec2>& of_ver
   return out;
 }
 
-namespace exported {
-extern const ExportFormat glb, obj;  // a file of this folder each
-}  // namespace exported
-
 const ExportFormat* export_format(std::string_view path) {
   for (const ExportFormat* const format : {&exported::glb, &exported::obj}) {
     if (has_ending(path, format->ending)) { return format; }

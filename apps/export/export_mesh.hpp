@@ -16,10 +16,12 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <radiosity/camera/mesh_picture.hpp>
 #include <radiosity/camera/tone.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "apps/scene_file.hpp"
 
@@ -43,7 +45,7 @@ struct ExportMesh {
   bool z_up = true;
   bool as_given = false;  // the positions are those of the user's file, and stay so
   std::vector<radiosity::Camera> cameras;
-  // Light as a texture (lightmap.hpp): of each corner its place there, from the first row and column on; empty when there is none.
+  // Light as a texture (below): of each corner its place there, from the first row and column on; empty when there is none.
   std::vector<glm::vec2> coordinates;
   std::string texture, texture_name;  // a PNG; the name of the file in which the same light is
 
@@ -72,6 +74,9 @@ struct ExportFormat {
   std::string (*write)(const ExportMesh& mesh, const radiosity::Tone& tone);
 };
 
+namespace exported {
+extern const ExportFormat glb, obj;  // a file of this folder each
+}
 // By the ending of the name; null when none has it.
 [[nodiscard]] const ExportFormat* export_format(std::string_view path);
 
@@ -84,5 +89,54 @@ struct ExportFormat {
 // A mesh of the solution with the same faces and corners: corners that only covered leaves have lie a little behind their places, lamps in
 // the plane of a ceiling a little before theirs. The distance is 1e-4 of the scene's diameter.
 [[nodiscard]] radiosity::Mesh in_depth_order(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh);
+
+// --- PLY (ply.cpp)
+
+// The solution as a binary little-endian PLY file (Turk 1994) that mesh viewers show as it is.
+//
+//   vertex  float x y z, float nx ny nz: of the true surface, uchar red green blue: half-edge colours under the exposure, sRGB.
+//           A vertex is doubled only where the faces around it differ in normal, as at a crease, or in these bytes.
+//   face    list uchar int vertex_indices (3 or 4, counter-clockwise from the bright side),
+//           float radiosity_r radiosity_g radiosity_b: of the leaf, W/m2, linear and without exposure,
+//           int surface: number of the input surface; comment lines give the names: "comment surface 0 floor".
+[[nodiscard]] std::string to_ply(const radiosity::Mesh& mesh, const std::vector<radiosity::InputSurface>& surfaces,
+                                 const radiosity::Tone& tone);
+
+// The user's own polygons and vertices (export/export_mesh.hpp), in their order, so that colours can be taken over by number:
+//
+//   vertex  x y z: float where that is exact, else double; float nx ny nz, uchar red green blue as above,
+//           float radiosity_r radiosity_g radiosity_b: the mean of the faces around, W/m2.
+//   face    list vertex_indices.
+[[nodiscard]] std::string to_ply(const ExportMesh& mesh, const radiosity::Tone& tone);
+
+// --- lightmaps (lightmap.cpp)
+//
+// The light of an exported mesh as a texture: one atlas with a rectangle for each input face or for each polygon of the user
+// (radiosity/bake/lightmap.hpp), and texture coordinates at the corners of the mesh.
+
+struct LightTexture {
+  radiosity::Picture picture;
+  double texel = 0.0;  // metres
+};
+
+// `mesh` is solution_mesh(). A rectangle holds an input face; what is curved is projected onto the plane of the mean normal of its leaves,
+// so a face must not turn by a right angle from there. `texel`: the wanted size, in metres; without, such that there are about a million.
+// Nothing when no face has an area.
+[[nodiscard]] std::optional<LightTexture> solution_texture(const radiosity::Solution& solution, const radiosity::Tone& tone,
+                                                           std::optional<double> texel, ExportMesh& mesh);
+
+// `mesh` is given_mesh(). A rectangle holds a polygon of the file, as seen from its front or else from its back. Polygons without light
+// have none.
+[[nodiscard]] std::optional<LightTexture> given_texture(const SceneFile& file, const radiosity::Solution& solution,
+                                                        const radiosity::Tone& tone, std::optional<double> texel, ExportMesh& mesh);
+
+// --- pages (viewer.cpp)
+//
+// A page that shows a solution in any browser with WebGL 2, from a file and offline: nothing is loaded from elsewhere. The light as it was
+// computed, to be exposed and looked at from everywhere; the leaves and the levels of the hierarchy above them, as borders and as colours.
+//
+// `camera`: the one that the page begins with. `title` and `sentence` are plain text.
+[[nodiscard]] std::string viewer_page(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Camera& camera,
+                                      double exposure, const std::string& title, const std::string& sentence);
 
 }  // namespace apps

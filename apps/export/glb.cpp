@@ -18,7 +18,7 @@
 #include "apps/bytes.hpp"
 #include "apps/export/export_mesh.hpp"
 #include "apps/json.hpp"
-#include "apps/version.hpp"
+#include "apps/process.hpp"
 
 namespace apps::exported {
 namespace {
@@ -235,7 +235,6 @@ std::string write_glb(const ExportMesh& mesh, const radiosity::Tone& tone) {
 
 }  // namespace
 
-extern const ExportFormat glb;
 constinit const ExportFormat glb{".glb", write_glb};
 
 }  // namespace apps::exported

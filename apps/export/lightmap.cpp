@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/export/lightmap.hpp"
+#include "apps/export/export_mesh.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // OBJ with colours behind the positions of its vertices, as MeshLab, Blender and others read and write them: sRGB in [0, 1], exposed. With
 // a lightmap each corner has its place in it, by the format's custom from the lower left.
-#include <array>
-#include <charconv>
-
 #include <radiosity/camera/tone.hpp>
 
 #include "apps/export/export_mesh.hpp"
@@ -11,13 +8,6 @@
 
 namespace apps::exported {
 namespace {
-
-void append(std::string& text, double value) {
-  std::array<char, 40> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  text += ' ';
-  text.append(digits.data(), end);
-}
 
 std::string one_line(std::string name) {
   for (char& c : name) { c = c == '\n' || c == '\r' ? ' ' : c; }
@@ -34,7 +24,7 @@ std::string write_obj(const ExportMesh& mesh, const radiosity::Tone& tone) {
   for (const ExportVertex& vertex : mesh.vertices) {
     text += 'v';
     const glm::dvec3 place = turned(vertex.position);
-    for (int k = 0; k < 3; ++k) { append(text, place[k]); }
+    for (int k = 0; k < 3; ++k) { text += ' ' + shortest(place[k]); }
     const radiosity::Color color = tone(vertex.radiosity);
     for (int k = 0; k < 3; ++k) { text += formatted(" %.4f", radiosity::srgb_encode(color[k])); }
     text += '\n';
@@ -61,7 +51,6 @@ std::string write_obj(const ExportMesh& mesh, const radiosity::Tone& tone) {
 
 }  // namespace
 
-extern const ExportFormat obj;
 constinit const ExportFormat obj{".obj", write_obj};
 
 }  // namespace apps::exported

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "apps/export/viewer.hpp"
 
 #include <algorithm>
 #include <cmath>

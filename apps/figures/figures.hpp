@@ -6,10 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <radiosity/run/run.hpp>
-
-#include "apps/study/drawing.hpp"
-
 namespace apps::figures {
 
 struct Figure {
@@ -23,18 +19,5 @@ struct Figure {
 [[nodiscard]] std::vector<Figure> make();
 
 [[nodiscard]] std::string page(const std::vector<Figure>& figures);
-
-// Solves up to the reconstruction; false when there is no solution.
-[[nodiscard]] bool solve(radiosity::detail::Run& run);
-
-// --- one each; the others are drawn by the stepper
-[[nodiscard]] study::Drawing hierarchy_over_faces(const std::string& scene);  // figure 3
-[[nodiscard]] study::Drawing level_tags(const std::string& scene);            // figure 4
-[[nodiscard]] study::Drawing weights_at_a_rim(const std::string& scene);      // figure 5
-// Figures 6 to 8: one solution, reconstructed simply and with weights; the bytes of two PNGs of this size.
-struct Pictures {
-  std::string simple, weighted;
-};
-[[nodiscard]] Pictures both_reconstructions(const std::string& scene, unsigned width, unsigned height, double epsilon);
 
 }  // namespace apps::figures

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, materials, cameras, lights. Skins, morphs and
-// compressed meshes are passed over with a word; what a file marks as required and is none of these is refused by its geometry alone.
+// compressed meshes are passed over with a note. An extension that a file requires and that is not known does not refuse the file: what
+// geometry can be read is read.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -324,7 +325,6 @@ bool begins_glb(std::string_view bytes) { return bytes.starts_with("glTF"); }
 
 }  // namespace
 
-extern const ModelFormat gltf, glb;
 constinit const ModelFormat gltf{".gltf", "glTF", UpAxis::y, begins_gltf, read_gltf};
 constinit const ModelFormat glb{".glb", "binary glTF", UpAxis::y, begins_glb, read_glb};
 

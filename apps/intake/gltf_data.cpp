@@ -2,12 +2,16 @@
 #include "apps/intake/gltf_data.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+#include <numbers>
+#include <utility>
 
 #include "apps/bytes.hpp"
+#include "apps/intake/texture.hpp"
+#include "apps/mesh_file/reading.hpp"
 
 namespace apps::intake {
 namespace {
@@ -80,14 +84,11 @@ std::optional<std::string> file_of_uri(std::string_view uri) {
 
 std::optional<std::string_view> GltfData::buffer(std::size_t index, std::string& fault) {
   const JsonValue& buffers = root_["buffers"];
-  if (index >= buffers.items().size()) {
-    fault = "there is no buffer " + std::to_string(index);
-    return std::nullopt;
-  }
+  const std::string who = "buffer " + std::to_string(index);
   const JsonValue& uri = buffers[index]["uri"];
   if (!uri) {
-    if (index == 0 && binary_) { return binary_; }
-    fault = "buffer " + std::to_string(index) + " has no 'uri', and there is no binary chunk";
+    if (index == 0 && binary_ && !buffers.items().empty()) { return binary_; }
+    fault = index < buffers.items().size() ? who + " has no 'uri', and there is no binary chunk" : "there is no " + who;
     return std::nullopt;
   }
   loaded_.resize(buffers.items().size());
@@ -95,13 +96,13 @@ std::optional<std::string_view> GltfData::buffer(std::size_t index, std::string&
     const std::string_view text = uri.string();
     if (text.starts_with("data:")) {
       loaded_[index] = data_of(text);
-      fault = "the data of buffer " + std::to_string(index) + " are not base64";
+      fault = "the data of " + who + " are not base64";
     } else if (const auto name = file_of_uri(text)) {
       std::string reason;
       loaded_[index] = side_file_(*name, reason);
       fault = "the file '" + *name + "' " + reason;
     } else {
-      fault = "buffer " + std::to_string(index) + " is not in this file nor beside it";
+      fault = who + " is not in this file nor beside it";
     }
   }
   if (!loaded_[index]) { return std::nullopt; }
@@ -203,6 +204,60 @@ std::optional<std::vector<double>> GltfData::numbers(const JsonValue& accessor_i
   }
   if (accessor["sparse"] && !substitute(accessor["sparse"], all, result, fault)) { return std::nullopt; }
   return result;
+}
+
+std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& data, Notes& notes) {
+  std::vector<ModelMaterial> materials;
+  PictureMeans<std::size_t> pictures;
+  // The mean colour of the picture of a texture; nothing when it cannot be read, which is noted.
+  const auto mean_of = [&](const JsonValue& texture, const std::string& factor, const std::string& material) {
+    const auto image = root["textures"][texture["index"].index().value_or(~std::size_t{0})]["source"].index();
+    std::optional<radiosity::Color> mean;
+    if (image) {
+      mean = pictures.of(*image, [&] {
+        const auto bytes = data.picture(*image);
+        return bytes ? mean_color(*bytes) : std::nullopt;
+      });
+    }
+    notes.add(mean ? "pictures on surfaces count with their mean colour"
+                   : "textures are not read: the " + factor + " factor stands for the picture",
+              "in " + mesh_file::shown(material));
+    return mean;
+  };
+  for (const JsonValue& given : root["materials"].items()) {
+    ModelMaterial material;
+    material.name = given["name"].string();
+    if (material.name.empty()) { material.name = "material" + std::to_string(materials.size()); }
+    const JsonValue &extensions = given["extensions"], &glossy = extensions["KHR_materials_pbrSpecularGlossiness"];
+    const JsonValue& base = glossy ? glossy : given["pbrMetallicRoughness"];
+    const auto color = array_of<3>(base[glossy ? "diffuseFactor" : "baseColorFactor"]).value_or(std::array{1.0, 1.0, 1.0});
+    const JsonValue& picture = base[glossy ? "diffuseTexture" : "baseColorTexture"];
+    const auto mean = picture ? mean_of(picture, "base colour", material.name) : std::nullopt;
+    // A factor of 1 1 1 under a picture that is not known says nothing about the picture.
+    if (!picture || mean || color != std::array{1.0, 1.0, 1.0}) {
+      if (base || given["emissiveFactor"]) {
+        material.reflectance = mean.value_or(radiosity::Color(1.0)) * radiosity::Color(color[0], color[1], color[2]);
+      }
+    }
+    const auto emissive = array_of<3>(given["emissiveFactor"]).value_or(std::array{0.0, 0.0, 0.0});
+    const double strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"].number(1.0);
+    for (int i = 0; i < 3; ++i) {
+      material.emission[i] = std::max(0.0, std::numbers::pi * strength * emissive[static_cast<std::size_t>(i)]);
+      if (!std::isfinite(material.emission[i])) { material.emission[i] = 0.0; }
+    }
+    if (given["emissiveTexture"] && !radiosity::is_black(material.emission)) {
+      material.emission *= mean_of(given["emissiveTexture"], "emissive", material.name).value_or(radiosity::Color(1.0));
+    }
+    if (extensions["KHR_materials_unlit"]) {
+      notes.add("unlit materials are taken as paint of their colour", "in " + mesh_file::shown(material.name));
+    }
+    if (extensions["KHR_materials_transmission"] || given["alphaMode"].string() == "BLEND") {
+      notes.add("materials that let light through are taken as opaque", "in " + mesh_file::shown(material.name));
+    }
+    material.two_sided = given["doubleSided"].boolean();
+    materials.push_back(std::move(material));
+  }
+  return materials;
 }
 
 }  // namespace apps::intake

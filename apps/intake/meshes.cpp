@@ -130,18 +130,9 @@ bool begins_format(std::string_view bytes) {
 }
 
 }  // namespace
-}  // namespace apps::intake
 
-namespace apps {
-namespace mesh_file {
-extern const MeshFormat obj_format, ply_format, off_format;
-}
-namespace intake {
-
-extern const ModelFormat obj, ply, off;
 constinit const ModelFormat obj{".obj", "OBJ", UpAxis::y, begins_format<&mesh_file::obj_format>, read_format<&mesh_file::obj_format>};
 constinit const ModelFormat ply{".ply", "PLY", UpAxis::z, begins_format<&mesh_file::ply_format>, read_format<&mesh_file::ply_format>};
 constinit const ModelFormat off{".off", "OFF", UpAxis::z, begins_format<&mesh_file::off_format>, read_format<&mesh_file::off_format>};
 
-}  // namespace intake
-}  // namespace apps
+}  // namespace apps::intake

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/intake/mgf_looks.hpp"
+#include "apps/intake/mgf.hpp"
 
 #include <vector>
 

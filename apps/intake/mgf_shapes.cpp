@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/intake/mgf_shapes.hpp"
+#include "apps/intake/mgf.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -113,7 +113,7 @@ struct ModelResult : ErrorReport {
 
 enum class UpAxis : unsigned char { x, y, z };
 
-// A format: one file of this folder defines it, one line of formats.cpp lists it.
+// A format: one file of this folder defines it; it is named below, and in the list of formats.cpp.
 struct ModelFormat {
   std::string_view ending;                 // of the name, in small letters: ".gltf"
   std::string_view name;                   // "glTF"
@@ -122,6 +122,9 @@ struct ModelFormat {
   ModelResult (*read)(std::string_view bytes, const SideFile& side_file);
 };
 
+namespace intake {
+extern const ModelFormat obj, ply, off, gltf, glb, wrl, mgf_format;
+}
 [[nodiscard]] std::span<const ModelFormat* const> model_formats();
 
 // ".obj, .gltf, ... or .mgf"

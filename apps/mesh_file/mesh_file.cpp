@@ -11,12 +11,6 @@
 #include "apps/words.hpp"
 
 namespace apps {
-namespace mesh_file {
-
-extern const MeshFormat obj_format, ply_format, off_format;
-
-}  // namespace mesh_file
-
 std::span<const MeshFormat* const> mesh_formats() {
   static constexpr std::array formats{&mesh_file::obj_format, &mesh_file::ply_format, &mesh_file::off_format};
   return formats;

@@ -54,6 +54,7 @@ class ObjReader {
   }
 
  private:
+  void fail(std::size_t word, std::string sentence) { out_.error(lines_.place(word), std::move(sentence)); }
   // What the file has instead is told with it.
   void no_faces() {
     std::string others;
@@ -82,16 +83,13 @@ class ObjReader {
     } else if (contains(unread, word)) {
       ++unread_[word];
     } else if (!contains(silent, word)) {
-      out_.error(lines_.place(0), "expected a statement such as v, f or vn, found " + shown(word));
+      fail(0, "expected a statement such as v, f or vn, found " + shown(word));
     }
   }
 
   void vertex() {
     for (std::size_t i = 4; i < lines_.words().size(); ++i) {  // a weight, or a colour
-      if (!to_number(lines_.words()[i])) {
-        out_.error(lines_.place(i), "expected a number, found " + shown(lines_.words()[i]));
-        return;
-      }
+      if (!to_number(lines_.words()[i])) { return fail(i, "expected a number, " + found(lines_, i)); }
     }
     const auto position = read_position(lines_, 1, out_);
     out_.mesh.builder.vertex(position.value_or(glm::dvec3(0.0)));
@@ -100,27 +98,18 @@ class ObjReader {
 
   void face() {
     corners_.clear();
-    if (lines_.words().size() == 1) {
-      out_.error(lines_.place(1), "expected the corners of a face, found the end of the line");
-      return;
-    }
+    if (lines_.words().size() == 1) { return fail(1, "expected the corners of a face, found the end of the line"); }
     for (std::size_t i = 1; i < lines_.words().size(); ++i) {
       const auto number = corner(lines_.words()[i]);
-      if (!number) {
-        out_.error(lines_.place(i), "expected a corner such as 3, 3/1, 3//2 or 3/1/2, found " + shown(lines_.words()[i]));
-        return;
-      }
+      if (!number) { return fail(i, "expected a corner such as 3, 3/1, 3//2 or 3/1/2, " + found(lines_, i)); }
+      if (*number == 0) { return fail(i, "vertices are counted from 1, found 0"); }
       const std::int64_t index = *number > 0 ? *number : count() + 1 + *number;
-      if (*number == 0 || index < 1) {
-        out_.error(lines_.place(i), *number == 0
-                                        ? "vertices are counted from 1, found 0"
-                                        : "the corner " + std::to_string(*number) + " counts back from the last vertex, but only " +
-                                              std::to_string(count()) + " stand before this line");
-        return;
+      if (index < 1) {
+        return fail(i, "the corner " + std::to_string(*number) + " counts back from the last vertex, but only " + std::to_string(count()) +
+                           " stand before this line");
       }
       if (index >= std::int64_t{std::numeric_limits<std::uint32_t>::max()}) {
-        out_.error(lines_.place(i), "there is no vertex " + std::to_string(index));
-        return;
+        return fail(i, "there is no vertex " + std::to_string(index));
       }
       if (index > count()) { forward_.push_back({lines_.words()[i], static_cast<std::uint32_t>(index)}); }
       corners_.push_back(static_cast<std::uint32_t>(index - 1));
@@ -208,7 +197,6 @@ bool begins_obj(std::span<const std::string_view, 3> words, bool) {
 
 }  // namespace
 
-extern const MeshFormat obj_format;
 constinit const MeshFormat obj_format{".obj", "an OBJ file", "a polygon mesh (Wavefront OBJ)", true, begins_obj, read_obj, write_obj};
 
 }  // namespace apps::mesh_file

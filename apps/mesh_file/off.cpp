@@ -21,7 +21,7 @@ class OffReader {
     }
     for (std::int64_t i = 0; i < faces_ && !out_.full(); ++i) {
       if (!next("face", i, faces_)) { return; }
-      face();
+      static_cast<void>(face());  // reading goes on behind a bad one
     }
     if (lines_.next()) {
       out_.mesh.notes.push_back("what follows the last face from line " + std::to_string(lines_.line()) +
@@ -31,18 +31,17 @@ class OffReader {
 
  private:
   bool next(const char* what, std::int64_t number, std::int64_t count) {
-    if (lines_.next()) { return true; }
-    out_.error(lines_.place(0), std::string("the file ends before ") + what + " " + std::to_string(number + 1) + " of " +
-                                    std::to_string(count) + " that the header promises");
+    return lines_.next() || fail(0, std::string("the file ends before ") + what + " " + std::to_string(number + 1) + " of " +
+                                        std::to_string(count) + " that the header promises");
+  }
+  bool fail(std::size_t word, std::string sentence) {
+    out_.error(lines_.place(word), std::move(sentence));
     return false;
   }
 
   // The keyword says what stands on the lines of the vertices besides positions; those in [] may be missing: [ST][C][N]OFF.
   bool header() {
-    if (!lines_.next()) {
-      out_.error(lines_.place(0), "the file is empty; expected OFF");
-      return false;
-    }
+    if (!lines_.next()) { return fail(0, "the file is empty; expected OFF"); }
     std::size_t word = 0;
     std::string_view keyword = lines_.words()[0];
     if (!to_number(keyword)) {
@@ -51,57 +50,47 @@ class OffReader {
       }
       if (keyword != "OFF") {
         const bool other = keyword == "4OFF" || keyword == "nOFF" || keyword == "4nOFF";
-        out_.error(lines_.place(0), other ? "positions in more than three dimensions are not read: " + shown(lines_.words()[0])
-                                          : "expected OFF, COFF, NOFF or the like, found " + shown(lines_.words()[0]));
-        return false;
+        return fail(0, (other ? "positions in more than three dimensions are not read: " : "expected OFF, COFF, NOFF or the like, found ") +
+                           shown(lines_.words()[0]));
       }
       word = 1;
       if (word < lines_.words().size() && lines_.words()[word] == "BINARY") {
-        out_.error(lines_.place(word), "binary OFF is not read; convert the file to text, or to PLY");
-        return false;
+        return fail(word, "binary OFF is not read; convert the file to text, or to PLY");
       }
     }
     if (word == lines_.words().size()) {
-      if (!lines_.next()) {
-        out_.error(lines_.place(0), "expected the numbers of vertices, faces and edges, found the end of the file");
-        return false;
-      }
+      if (!lines_.next()) { return fail(0, "expected the numbers of vertices, faces and edges, found the end of the file"); }
       word = 0;
     }
     for (std::int64_t* const count : {&vertices_, &faces_}) {
       const auto number = word < lines_.words().size() ? to_integer(lines_.words()[word]) : std::nullopt;
       if (!number || *number < 0) {
-        out_.error(lines_.place(word),
-                   std::string("expected the number of ") + (count == &vertices_ ? "vertices" : "faces") + ", " + found(lines_, word));
-        return false;
+        const std::string what = count == &vertices_ ? "vertices" : "faces";
+        return fail(word, "expected the number of " + what + ", " + found(lines_, word));
       }
       *count = *number;
       ++word;
     }
-    if (faces_ == 0) { out_.error(lines_.place(word - 1), no_faces_in(static_cast<std::uint64_t>(vertices_))); }
-    return faces_ > 0;
+    return faces_ > 0 || fail(word - 1, no_faces_in(static_cast<std::uint64_t>(vertices_)));
   }
 
-  void face() {
+  bool face() {
     const auto& words = lines_.words();
     const auto size = to_integer(words[0]);
-    if (!size || *size < 0) {
-      out_.error(lines_.place(0), "expected the number of corners of a face, found " + shown(words[0]));
-      return;
-    }
+    if (!size || *size < 0) { return fail(0, "expected the number of corners of a face, found " + shown(words[0])); }
     if (*size > static_cast<std::int64_t>(words.size()) - 1) {
-      out_.error(lines_.place(words.size()), "the face has " + std::to_string(words.size() - 1) + " of the " + std::to_string(*size) +
-                                                 " corners that its line promises");
-      return;
+      return fail(words.size(), "the face has " + std::to_string(words.size() - 1) + " of the " + std::to_string(*size) +
+                                    " corners that its line promises");
     }
     corners_.clear();
     for (std::size_t i = 1; i <= static_cast<std::size_t>(*size); ++i) {
       const auto index = read_vertex(lines_, i, static_cast<std::uint64_t>(vertices_), out_);
-      if (!index) { return; }
+      if (!index) { return false; }
       corners_.push_back(*index);
     }
     out_.mesh.builder.face(corners_, 0);
     out_.mesh.face_line.push_back(lines_.line());
+    return true;
   }
 
   Lines lines_;
@@ -130,7 +119,6 @@ bool begins_off(std::span<const std::string_view, 3> words, bool first) {
 
 }  // namespace
 
-extern const MeshFormat off_format;
 constinit const MeshFormat off_format{".off", "an OFF file", "a polygon mesh (OFF)", true, begins_off, read_off, write_off};
 
 }  // namespace apps::mesh_file

@@ -8,7 +8,7 @@
 
 #include <brep/builder_input.hpp>
 
-#include "apps/mesh_file/ply_bytes.hpp"
+#include "apps/bytes.hpp"
 #include "apps/mesh_file/reading.hpp"
 
 namespace apps::mesh_file {
@@ -309,7 +309,6 @@ bool begins_ply(std::span<const std::string_view, 3> words, bool first) { return
 
 }  // namespace
 
-extern const MeshFormat ply_format;
 constinit const MeshFormat ply_format{".ply", "a PLY file", "a polygon mesh (PLY)", false, begins_ply, read_ply, write_ply};
 
 }  // namespace apps::mesh_file

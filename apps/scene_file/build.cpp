@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "apps/scene_file/build.hpp"
-
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -10,15 +8,13 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
 #include <raycast/transform.hpp>
 
 #include <radiosity/scene/bounds.hpp>
 
-#include "apps/scene_file/builder.hpp"
+#include "apps/scene_file/build.hpp"
 #include "apps/scene_file/groups.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"

@@ -1,10 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// From statements to a scene: names are resolved, shapes made, groups placed.
+// From the statements of a scene to its objects: every object is made once, then placed as often as its group is used.
 
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/object.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/scene/scene.hpp>
+
+#include "apps/input_errors.hpp"
+#include "apps/scene_file.hpp"
+#include "apps/scene_file/groups.hpp"
 #include "apps/scene_file/syntax.hpp"
 
 namespace apps::scene_file {
@@ -21,5 +38,94 @@ struct CsgShape {
   std::vector<Shape> leaves;
 };
 [[nodiscard]] CsgShape make_csg(const ObjectSyntax& syntax, Errors& errors);
+
+// --- meshes from files of other programs (build_meshes.cpp)
+//
+// What encloses a camera or a lamp of the scene is seen from inside, as within a file of its own: so a mesh is made anew where one of them
+// lies within its bounds. A mesh of a group is made twice at most, for its uses with and without something within.
+
+// The objects of the file, in its own coordinates, as to_part() has them. Nothing after an error.
+[[nodiscard]] std::optional<SceneFile> mesh_from_file(const ObjectSyntax& object, const SideFile& side_file,
+                                                      const std::vector<glm::dvec3>& eyes, Errors& errors);
+
+// Around all parts of a mesh.
+[[nodiscard]] raycast::Box bounds_of(const std::vector<radiosity::SceneObject>& parts);
+
+// The point in the coordinates of what is placed; nothing when the placement has no inverse.
+[[nodiscard]] std::optional<glm::dvec3> point_within(const raycast::Placement& placement, const glm::dvec3& point);
+
+// Points of a scene that must be seen: the eyes of cameras, and places before lamps.
+class Eyes {
+ public:
+  void add(const radiosity::Camera& camera) { points_.push_back({camera.eye, nullptr, count_++}); }
+  // A point before each sheet of the object that shines. `of`: the statement that it comes from.
+  void add_lamps(const radiosity::SceneObject& placed, const std::vector<radiosity::Material>& materials, const ObjectSyntax* of);
+
+  // Those in this box of a mesh, in the coordinates of the mesh. Of its own lamps the file itself tells. A lamp counts when half of its
+  // points are there: one that stands on a thing has its foot in it.
+  [[nodiscard]] std::vector<glm::dvec3> within(const raycast::Box& box, const raycast::Placement& placement,
+                                               const ObjectSyntax* mesh) const;
+
+ private:
+  static constexpr std::size_t most = 1000;
+  struct Point {
+    glm::dvec3 position{0.0};
+    const ObjectSyntax* of = nullptr;
+    std::size_t lamp = 0;  // number of its camera or lamp
+  };
+  std::vector<Point> points_;  // those of a lamp in a row
+  std::size_t count_ = 0;      // of cameras and lamps
+};
+
+// --- the builder
+
+// An object with its shape and materials, made once however often its group is used.
+struct Made {
+  std::shared_ptr<const raycast::Object> shape;
+  std::vector<std::uint32_t> material;
+  // Of a mesh from a file, in place of one shape: its parts, and how they are where a camera or a lamp lies among them (empty: no other).
+  std::vector<radiosity::SceneObject> parts = {}, around_eyes = {};
+  std::vector<std::string> notes = {};
+  std::uint32_t first_material = 0;  // of the file, in the scene
+};
+
+using SheetNames = std::unordered_map<std::string_view, std::uint32_t>;
+
+class Builder {
+ public:
+  Builder(const SceneSyntax& syntax, const SideFile& side_file, Errors& errors)
+      : syntax_(syntax), side_file_(side_file), errors_(errors), groups_(syntax, errors) {}
+  SceneFile build();
+
+ private:
+  void materials();
+  void cameras();
+  void unique_names(const std::vector<Item>& items);
+  void make(const std::vector<Item>& items);
+  std::optional<std::uint32_t> material_index(const Name& name);
+  std::vector<std::uint32_t> sheet_materials(const ObjectSyntax& object, const raycast::Object& shape, const Name* around = nullptr);
+  Made make(const ObjectSyntax& object);
+  Made make_from_file(const ObjectSyntax& object);
+  void take_parts(SceneFile part, const ObjectSyntax& object, std::uint32_t first, std::vector<radiosity::SceneObject>& parts);
+  [[nodiscard]] std::vector<glm::dvec3> eyes_of(const ObjectSyntax& object) const;
+  void see_from_inside();
+  void operand_materials(const ObjectSyntax& object, const Name* around, const CsgShape& csg, std::size_t& leaf,
+                         std::vector<std::uint32_t>& out);
+  std::uint32_t sheet_index(const Name& sheet, const raycast::Object& shape, const SheetNames& names);
+  void place();
+  void place(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at);
+  void place(radiosity::SceneObject placed, const ObjectSyntax& object, Place at);
+  [[nodiscard]] bool stands_alone(const ObjectSyntax& object) const;
+
+  const SceneSyntax& syntax_;
+  const SideFile& side_file_;
+  Errors& errors_;
+  const Groups groups_;
+  SceneFile file_;
+  std::unordered_map<std::string_view, std::uint32_t> material_index_;
+  std::vector<std::string_view> material_names_;
+  std::unordered_map<const ObjectSyntax*, Made> made_;
+  Eyes eyes_;
+};
 
 }  // namespace apps::scene_file

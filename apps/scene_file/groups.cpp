@@ -47,13 +47,15 @@ bool Groups::expand(ObjectSyntax& syntax, Errors& errors) const {
 }
 
 bool Groups::expand(ObjectSyntax& syntax, std::size_t depth, Expansion& expansion, Errors& errors) const {
-  if (depth == max_use_depth) {
-    errors.add(syntax.name.place, "unions, intersections and differences are nested deeper than " + std::to_string(max_use_depth));
+  const auto refuse = [&errors](Place place, std::string sentence) {
+    errors.add(place, std::move(sentence));
     return false;
+  };
+  if (depth == max_use_depth) {
+    return refuse(syntax.name.place, "unions, intersections and differences are nested deeper than " + std::to_string(max_use_depth));
   }
   if (!expansion.open.empty() && ++expansion.operands > max_used_operands) {
-    errors.add(syntax.name.place, "the solid grows beyond " + std::to_string(max_used_operands) + " operands from groups here");
-    return false;
+    return refuse(syntax.name.place, "the solid grows beyond " + std::to_string(max_used_operands) + " operands from groups here");
   }
   if (syntax.group) {
     const GroupSyntax* const group = find(*syntax.group);
@@ -62,8 +64,7 @@ bool Groups::expand(ObjectSyntax& syntax, std::size_t depth, Expansion& expansio
       return false;
     }
     if (std::find(expansion.open.begin(), expansion.open.end(), group) != expansion.open.end()) {
-      errors.add(syntax.group->place, "cyclic use: " + in_quotes(syntax.group->text) + " takes part in itself");
-      return false;
+      return refuse(syntax.group->place, "cyclic use: " + in_quotes(syntax.group->text) + " takes part in itself");
     }
     expansion.open.push_back(group);
     for (const Item& item : group->items) {
@@ -71,13 +72,7 @@ bool Groups::expand(ObjectSyntax& syntax, std::size_t depth, Expansion& expansio
         if (!object->sound) { return false; }
         syntax.operands.push_back(*object);
       } else {
-        const UseSyntax& use = std::get<UseSyntax>(item);
-        ObjectSyntax inner;
-        inner.kind = kind_of("union");
-        inner.name = use.name;
-        inner.placement = use.placement;
-        inner.group = use.group;
-        syntax.operands.push_back(std::move(inner));
+        syntax.operands.push_back(as_operand(std::get<UseSyntax>(item)));
       }
     }
   }

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "apps/utf8.hpp"
+#include "apps/text.hpp"
 
 namespace apps::scene_file {
 namespace {

@@ -107,10 +107,7 @@ void Parser::clauses(std::string_view statement, Words known, Clause&& clause) {
 
 void Parser::material(SceneSyntax& out) {
   MaterialSyntax syntax;
-  if (!name("material", syntax.name)) {
-    skip_statement();
-    return expect_end_of_line();
-  }
+  if (!name("material", syntax.name)) { return skip_to_next(); }
   clauses("material", material_words, [&](const Token& keyword) { material_clause(keyword, syntax); });
   out.materials.push_back(std::move(syntax));
 }
@@ -119,10 +116,7 @@ void Parser::camera(SceneSyntax& out) {
   const std::size_t before = errors_.count();
   CameraSyntax syntax;
   Name camera_name;
-  if (!name("camera", camera_name)) {
-    skip_statement();
-    return expect_end_of_line();
-  }
+  if (!name("camera", camera_name)) { return skip_to_next(); }
   syntax.camera.name = camera_name.text;
   syntax.place = camera_name.place;
   syntax.camera.forward = syntax.camera.up = glm::dvec3(0.0);
@@ -147,15 +141,14 @@ std::optional<ObjectSyntax> Parser::object(const ObjectKind& kind, std::size_t d
   ObjectSyntax syntax;
   syntax.kind = &kind;
   if (!name(kind.word, syntax.name)) {
-    skip_statement();
-    expect_end_of_line();
+    skip_to_next();
     return std::nullopt;
   }
   clauses(kind.word, clause_words(kind), [&](const Token& keyword) {
     if (const ObjectKind* const operand_kind = kind_of(keyword.text)) {
       operand(*operand_kind, syntax, depth + 1);
     } else if (keyword.text == "use") {
-      operand_use(syntax);
+      if (const auto read = use()) { syntax.operands.push_back(as_operand(*read)); }
     } else {
       object_clause(keyword, syntax);
     }
@@ -168,22 +161,9 @@ std::optional<ObjectSyntax> Parser::object(const ObjectKind& kind, std::size_t d
 void Parser::operand(const ObjectKind& kind, ObjectSyntax& out, std::size_t depth) {
   if (depth >= max_use_depth) {
     error(token_.place, "unions, intersections and differences are nested deeper than " + std::to_string(max_use_depth));
-    skip_statement();
-    return expect_end_of_line();
+    return skip_to_next();
   }
   if (auto read = object(kind, depth)) { out.operands.push_back(std::move(*read)); }
-}
-
-void Parser::operand_use(ObjectSyntax& out) {
-  auto read = use();
-  if (!read) { return; }
-  ObjectSyntax syntax;
-  syntax.kind = kind_of("union");
-  syntax.name = std::move(read->name);
-  syntax.placement = read->placement;
-  syntax.sound = read->sound;
-  syntax.group = std::move(read->group);
-  out.operands.push_back(std::move(syntax));
 }
 
 // What each kind of object cannot be without. Operands may get their material from around.
@@ -220,8 +200,7 @@ std::optional<UseSyntax> Parser::use() {
   }
   if (named) { next(); }
   if (!named || !name("use", syntax.name)) {
-    skip_statement();
-    expect_end_of_line();
+    skip_to_next();
     return std::nullopt;
   }
   clauses("use", use_words, [&](const Token& keyword) { placement_clause(keyword, syntax.placement); });
@@ -231,15 +210,11 @@ std::optional<UseSyntax> Parser::use() {
 
 void Parser::group(SceneSyntax& out) {
   GroupSyntax syntax;
-  if (!name("group", syntax.name)) {
-    skip_statement();
-    return expect_end_of_line();
-  }
+  if (!name("group", syntax.name)) { return skip_to_next(); }
   const Place opened = token_.place;
   if (!at(Token::Kind::open)) {
     error(opened, "expected '{' after 'define " + syntax.name.text.substr(0, 40) + "', found " + describe(token_));
-    skip_statement();
-    return expect_end_of_line();
+    return skip_to_next();
   }
   next();
   const auto keep = [&] { out.groups.push_back(std::move(syntax)); };

@@ -41,7 +41,6 @@ class Parser {
   void camera_clause(const Token& keyword, CameraSyntax& out);
   void object_clause(const Token& keyword, ObjectSyntax& out);
   void operand(const ObjectKind& kind, ObjectSyntax& out, std::size_t depth);
-  void operand_use(ObjectSyntax& out);
   void require_clauses(const ObjectSyntax& object, bool operand);
   void sheet_clause(ObjectSyntax& out);
   void file_clause(ObjectSyntax& out);
@@ -65,6 +64,7 @@ class Parser {
   void skip_rest();       // up to a brace or the end of the line
   void skip_statement();  // the rest of the line with the block that it opens
   void skip_block();      // from '{' to behind its '}'
+  void skip_to_next();    // the rest of the statement, and the end of the line
   void expect_end_of_line();
   void unclosed(Place opened);
   void error(Place place, std::string sentence) { errors_.add(place, std::move(sentence)); }

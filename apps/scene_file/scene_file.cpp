@@ -48,21 +48,16 @@ std::optional<radiosity::Camera> parse_camera(std::string_view clauses, std::str
 }
 
 std::optional<std::string> read_text(const std::string& path, std::string& fault) {
-  if (path.empty()) {
-    fault = "names no file";
+  const auto refuse = [&fault](std::string sentence) {
+    fault = std::move(sentence);
     return std::nullopt;
-  }
+  };
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    fault = "is a folder; expected a file";
-    return std::nullopt;
-  }
+  if (path.empty()) { return refuse("names no file"); }
+  if (std::filesystem::is_directory(path, ignored)) { return refuse("is a folder; expected a file"); }
   const auto close = [](std::FILE* stream) { return stream == stdin ? 0 : std::fclose(stream); };
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"), close);
-  if (file == nullptr) {
-    fault = std::string("cannot be opened: ") + std::strerror(errno);
-    return std::nullopt;
-  }
+  if (file == nullptr) { return refuse(std::string("cannot be opened: ") + std::strerror(errno)); }
   std::string text;
   std::size_t size = 0;
   constexpr std::size_t step = 1 << 16;
@@ -71,15 +66,11 @@ std::optional<std::string> read_text(const std::string& path, std::string& fault
     const std::size_t got = std::fread(text.data() + size, 1, text.size() - size, file.get());
     size += got;
     if (size > max_file_bytes) {
-      fault = "is larger than " + std::to_string(max_file_bytes >> 20) + " MiB, more than halflight reads";
-      return std::nullopt;
+      return refuse("is larger than " + std::to_string(max_file_bytes >> 20) + " MiB, more than halflight reads");
     }
     if (got == 0 || std::feof(file.get()) != 0) { break; }
   }
-  if (std::ferror(file.get()) != 0) {
-    fault = std::string("cannot be read: ") + std::strerror(errno);
-    return std::nullopt;
-  }
+  if (std::ferror(file.get()) != 0) { return refuse(std::string("cannot be read: ") + std::strerror(errno)); }
   text.resize(size);
   return text;
 }

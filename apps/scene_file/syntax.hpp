@@ -102,6 +102,17 @@ struct UseSyntax {
   bool sound = true;
 };
 
+// A use among operands: the union of what is in the group.
+[[nodiscard]] inline ObjectSyntax as_operand(const UseSyntax& use) {
+  ObjectSyntax result;
+  result.kind = kind_of("union");
+  result.name = use.name;
+  result.sound = use.sound;
+  result.placement = use.placement;
+  result.group = use.group;
+  return result;
+}
+
 using Item = std::variant<ObjectSyntax, UseSyntax>;
 
 struct GroupSyntax {

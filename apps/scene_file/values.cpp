@@ -63,6 +63,11 @@ void Parser::skip_statement() {
   if (at(Token::Kind::open)) { skip_block(); }
 }
 
+void Parser::skip_to_next() {
+  skip_statement();
+  expect_end_of_line();
+}
+
 void Parser::skip_block() {
   const Place opened = token_.place;
   std::size_t depth = 0;

@@ -5,7 +5,7 @@
 #include <raycast/objects/superquadric.hpp>
 #include <raycast/objects/torus.hpp>
 
-#include "apps/stress/measures.hpp"
+#include "apps/stress/case.hpp"
 
 namespace apps::stress {
 namespace {

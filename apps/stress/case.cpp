@@ -4,11 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <radiosity/result/outcome.hpp>
-#include <radiosity/scene/material.hpp>
-#include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
-
 namespace apps::stress {
 
 radiosity::Solution Findings::solve(const radiosity::Scene& scene, const radiosity::Options& options, const radiosity::Control& control) {

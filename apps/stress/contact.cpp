@@ -3,7 +3,7 @@
 #include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/sphere.hpp>
 
-#include "apps/stress/measures.hpp"
+#include "apps/stress/case.hpp"
 
 namespace apps::stress {
 namespace {

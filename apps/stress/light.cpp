@@ -5,7 +5,7 @@
 #include <raycast/objects/csg.hpp>
 #include <raycast/objects/csg_tree.hpp>
 
-#include "apps/stress/measures.hpp"
+#include "apps/stress/case.hpp"
 
 namespace apps::stress {
 namespace {

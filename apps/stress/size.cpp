@@ -10,7 +10,7 @@
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 
-#include "apps/stress/measures.hpp"
+#include "apps/stress/case.hpp"
 
 namespace apps::stress {
 namespace {

@@ -2,12 +2,15 @@
 #pragma once
 
 // A drawing as data: shapes, labels and pictures in the order in which they cover each other. What draws (plot.hpp, error_picture.hpp)
-// fills one; to_svg() (svg.hpp) writes it.
+// fills one; to_svg() writes it as SVG 1.1: text stays text, coordinates to 1/100 pixel; pictures are named as in SVG 2, by href without
+// xlink.
 //
-// Units are CSS pixels; x to the right, y down. Three colours have a meaning, so that a page may exchange them in the dark.
+// Units are CSS pixels; x to the right, y down. Colours are attributes and not a style sheet, so that every program reads them. Three of
+// them have a meaning: a page exchanges them in the dark by their values, as in  svg [fill="#222222"] { fill: white }.
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -24,15 +27,15 @@ inline constexpr Srgb faint = 0xdddddd;  // grid lines
 
 // A polygon or a polyline.
 struct Shape {
-  std::vector<glm::dvec2> points;
+  std::vector<glm::dvec2> points = {};
   bool closed = false;
   bool filled = false;
   Srgb fill = paper;
   double stroke_width = 0.0;  // 0: no outline
   Srgb stroke = ink;
-  std::vector<double> dashes;  // lengths on, off, on, ...; empty: solid
+  std::vector<double> dashes = {};  // lengths on, off, on, ...; empty: solid
   double opacity = 1.0;
-  std::string title;  // shown by a browser when one points at the shape
+  std::string title = {};  // shown by a browser when one points at the shape
 };
 
 enum class Anchor { start, middle, end };
@@ -67,20 +70,18 @@ struct Drawing {
 };
 
 [[nodiscard]] inline Shape line(const glm::dvec2& from, const glm::dvec2& to, double width, Srgb color = ink) {
-  Shape shape;
-  shape.points = {from, to};
-  shape.stroke_width = width;
-  shape.stroke = color;
-  return shape;
+  return {.points = {from, to}, .stroke_width = width, .stroke = color};
 }
 
 [[nodiscard]] inline Shape rectangle(const glm::dvec2& low, const glm::dvec2& high, Srgb fill) {
-  Shape shape;
-  shape.points = {low, {high.x, low.y}, high, {low.x, high.y}};
-  shape.closed = true;
-  shape.filled = true;
-  shape.fill = fill;
-  return shape;
+  return {.points = {low, {high.x, low.y}, high, {low.x, high.y}}, .closed = true, .filled = true, .fill = fill};
 }
+
+// How wide a line of UTF-8 text is at most when it is drawn, bold apart, which is up to an eighth wider.
+[[nodiscard]] double text_width(std::string_view text, double size);
+
+// The <svg> element, to stand in a page, and a file of its own; `description` is what a screen reader says.
+[[nodiscard]] std::string to_svg(const Drawing& drawing, const std::string& description);
+[[nodiscard]] std::string to_svg_file(const Drawing& drawing, const std::string& description);
 
 }  // namespace study

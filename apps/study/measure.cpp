@@ -62,6 +62,7 @@ class RunLimit {
 struct Measured {
   Run run;
   std::vector<double> cells;  // signed errors of the picture
+  std::vector<radiosity::LeftOut> left_out;
 };
 
 Measured errors_of_run(const radiosity::Scene& scene, const TrueRadiosity& truth, const radiosity::Solution& solution, std::string setting,
@@ -127,7 +128,7 @@ class PictureJudge {
 
 // A run with a result, or with the reason why there is none.
 Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, const PictureJudge& judge, const Setting& setting,
-                  const MeasureOptions& options, const radiosity::Control& control, std::vector<radiosity::LeftOut>& left_out) {
+                  const MeasureOptions& options, const radiosity::Control& control) {
   constexpr double brief = 0.3;  // seconds; what takes less is run three times, and the shortest time counts
   radiosity::Outcome outcome;
   std::uint64_t peak_bytes = 0;
@@ -161,8 +162,8 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
       solution.comparison->dense = std::move(dense.solution->comparison->dense);
     }
   }
-  left_out = solution.audit.left_out;
   Measured measured = errors_of_run(scene, truth, solution, setting.text, peak_bytes);
+  measured.left_out = solution.audit.left_out;
   if (solution.audit.interrupted) {
     measured.run.cut_off = "stopped after " + seconds_text(options.cpu_seconds_per_run) + " s of CPU time";
   }
@@ -218,14 +219,13 @@ void measure(const radiosity::Scene& scene, const TrueRadiosity& truth, const st
     if (control.cancelled()) { return; }
     Method method{plan.name, plan.summary, {}};
     std::vector<Measured> runs;
-    std::vector<radiosity::LeftOut> left_out;
     for (const Setting& setting : plan.settings) {
       Measured measured;
       if (!runs.empty() && !(runs.back().run.refused.empty() && runs.back().run.cut_off.empty())) {
         measured.run.setting = setting.text;
         measured.run.refused = "not tried: a coarser setting was not done in its limits";
       } else {
-        measured = run_once(scene, truth, judge, setting, options, control, left_out);
+        measured = run_once(scene, truth, judge, setting, options, control);
         if (control.cancelled()) { break; }
         if (options.finished) { options.finished(method, measured.run); }
       }
@@ -234,7 +234,8 @@ void measure(const radiosity::Scene& scene, const TrueRadiosity& truth, const st
     }
     if (method.runs.empty()) { return; }
     if (auto picture = picture_of(truth, method, runs)) { study.pictures.push_back(std::move(*picture)); }
-    if (study.methods.empty() && !left_out.empty()) { study.left_out = std::move(left_out); }
+    const auto last = std::find_if(runs.rbegin(), runs.rend(), [](const Measured& m) { return m.run.refused.empty(); });
+    if (study.methods.empty() && last != runs.rend() && !last->left_out.empty()) { study.left_out = std::move(last->left_out); }
     study.methods.push_back(std::move(method));
   }
 }

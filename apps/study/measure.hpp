@@ -1,17 +1,47 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Runs every method at every setting on one scene and measures each result against the same reference, by the same clock: CPU
-// seconds of all threads, without audits (unless the method needs them) and without what only the study wants to know.
+// The methods that a study compares, each with its settings from coarse to fine. Every method is run at every setting on one scene, and
+// each result is measured against the same reference, by the same clock: CPU seconds of all threads, without audits (unless the method
+// needs them) and without what only the study wants to know.
 
+#include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
-#include "apps/study/methods.hpp"
+#include <radiosity/radiosity.hpp>
+
 #include "apps/study/reference.hpp"
 #include "apps/study/results.hpp"
 
 namespace study {
+
+struct Setting {
+  std::string text;  // "epsilon 0.01"
+  // Timed; the solution brings a comparison, as a rule without a dense solution.
+  std::function<radiosity::Outcome(const radiosity::Scene&, const radiosity::Control&)> run;
+  // A solution with the same leaves as `found`, which this setting has given, whose comparison has a dense solution.
+  std::function<radiosity::Outcome(const radiosity::Scene&, const radiosity::Solution& found, const radiosity::Control&)> dense;
+  // The same run with nothing left out; empty where the method leaves nothing out.
+  std::function<radiosity::Outcome(const radiosity::Scene&, const radiosity::Control&)> without_shortcuts;
+};
+
+struct MethodPlan {
+  std::string name;
+  std::string summary;
+  std::vector<Setting> settings;  // each costs more than the one before
+};
+
+struct MethodOptions {
+  unsigned threads = 0;
+  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> memory;  // bytes that a run may take
+};
+
+// (methods.cpp) A new method is one more entry there.
+[[nodiscard]] std::vector<MethodPlan> methods(const MethodOptions& options);
 
 struct MeasureOptions {
   double cpu_seconds_per_run = 12.0;  // a run that takes longer is stopped, and finer settings of its method are not tried

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "apps/study/methods.hpp"
-
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -12,6 +10,7 @@
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
 
+#include "apps/study/measure.hpp"
 #include "apps/text.hpp"
 
 namespace study {

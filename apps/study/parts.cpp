@@ -2,157 +2,59 @@
 #include "apps/study/parts.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <type_traits>
 #include <utility>
 
-#include "apps/checksum.hpp"
+#include "apps/archive.hpp"
+#include "apps/bytes.hpp"
 #include "apps/text.hpp"
 
 namespace study {
 namespace {
 
-constexpr std::string_view magic = "halflight study part 1\n";
+constexpr std::string_view magic = "halflight study part 2\n";
 
-// One list of fields a type; the same list writes and reads. Numbers have the digits that bring back the same double.
-class Writer {
- public:
-  template <class... Values>
-  void operator()(const Values&... values) {
-    (put(values), ...);
+struct PartFields {
+  template <class Archive, class T>
+  void operator()(Archive& a, T& x) const {
+    using Type = std::remove_const_t<T>;
+    if constexpr (std::is_same_v<Type, Norms>) {
+      a(x.l1, x.l2, x.worst);
+    } else if constexpr (std::is_same_v<Type, Errors>) {
+      a(x.cells, x.points);
+    } else if constexpr (std::is_same_v<Type, ErrorParts>) {
+      a(x.discretisation, x.links, x.solver, x.reconstruction);
+    } else if constexpr (std::is_same_v<Type, radiosity::ErrorEstimate>) {
+      a(x.relative_l2, x.standard_error, x.low, x.high);
+    } else if constexpr (std::is_same_v<Type, Run>) {
+      a(x.setting, x.cpu_seconds, x.seconds_saved, x.peak_bytes, x.bytes, x.links, x.leaves, x.rays, x.leaves_error, x.simple_error,
+        x.weighted_error, x.picture_error, x.parts, x.refused, x.cut_off);
+    } else if constexpr (std::is_same_v<Type, Method>) {
+      a(x.name, x.summary, x.runs);
+    } else if constexpr (std::is_same_v<Type, ErrorCell>) {
+      a(x.corners, x.error);
+    } else if constexpr (std::is_same_v<Type, ErrorPicture>) {
+      a(x.method, x.setting, x.cells);
+    } else if constexpr (std::is_same_v<Type, Reference>) {
+      a(x.kind, x.noise, x.point_noise, x.cells, x.points, x.paths, x.cached);
+    } else if constexpr (std::is_same_v<Type, radiosity::PictureSize>) {
+      a(x.width, x.height);
+    } else if constexpr (std::is_same_v<Type, radiosity::Camera>) {
+      a(x.name, x.eye, x.forward, x.up, x.field_of_view, x.size);
+    } else if constexpr (std::is_same_v<Type, radiosity::LeftOut>) {
+      a(x.what, x.why, x.saved);
+    } else if constexpr (std::is_same_v<Type, SceneStudy>) {
+      a(x.scene, x.title, x.camera, x.reference, x.methods, x.pictures, x.left_out);
+    } else if constexpr (std::is_same_v<Type, Study>) {
+      a(x.scenes, x.machine, x.compiler, x.version, x.seed);
+    } else if constexpr (std::is_same_v<Type, PartNumber>) {
+      a(x.index, x.count);
+    } else {
+      static_assert(std::is_same_v<Type, Part>);
+      a(x.number, x.asked, x.scene_count, x.method_count, x.methods, x.scenes, x.study);
+    }
   }
-  std::string text;
-
- private:
-  template <class T>
-  void put(const T& value);
 };
-
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : rest_{bytes} {}
-  template <class... Values>
-  void operator()(Values&... values) {
-    (take(values), ...);
-  }
-  [[nodiscard]] bool sound() const { return good_ && rest_.empty(); }
-
- private:
-  template <class T>
-  void take(T& value);
-  template <class T>
-  void number(T& value) {
-    const std::size_t end = rest_.find(' ');
-    const auto [stop, code] = std::from_chars(rest_.data(), rest_.data() + std::min(end, rest_.size()), value);
-    good_ = good_ && end != rest_.npos && code == std::errc() && stop == rest_.data() + end;
-    rest_.remove_prefix(good_ ? end + 1 : rest_.size());
-  }
-  std::size_t size() {
-    std::size_t count = 0;
-    number(count);
-    if (count > rest_.size()) { good_ = false; }  // every item takes a byte at least
-    return good_ ? count : 0;
-  }
-
-  std::string_view rest_;
-  bool good_ = true;
-};
-
-template <class T>
-concept is_vector = requires(T x) {
-  x.push_back(*x.begin());
-}
-&&!std::is_same_v<T, std::string>;
-
-// --- the fields
-template <class A, class T>
-void fields(A& a, T& x) {
-  using Type = std::remove_const_t<T>;
-  if constexpr (std::is_same_v<Type, Norms>) {
-    a(x.l1, x.l2, x.worst);
-  } else if constexpr (std::is_same_v<Type, Errors>) {
-    a(x.cells, x.points);
-  } else if constexpr (std::is_same_v<Type, ErrorParts>) {
-    a(x.discretisation, x.links, x.solver, x.reconstruction);
-  } else if constexpr (std::is_same_v<Type, radiosity::ErrorEstimate>) {
-    a(x.relative_l2, x.standard_error, x.low, x.high);
-  } else if constexpr (std::is_same_v<Type, Run>) {
-    a(x.setting, x.cpu_seconds, x.seconds_saved, x.peak_bytes, x.bytes, x.links, x.leaves, x.rays, x.leaves_error, x.simple_error,
-      x.weighted_error, x.picture_error, x.parts, x.refused, x.cut_off);
-  } else if constexpr (std::is_same_v<Type, Method>) {
-    a(x.name, x.summary, x.runs);
-  } else if constexpr (std::is_same_v<Type, glm::dvec3>) {
-    a(x.x, x.y, x.z);
-  } else if constexpr (std::is_same_v<Type, ErrorCell>) {
-    a(x.corners, x.error);
-  } else if constexpr (std::is_same_v<Type, ErrorPicture>) {
-    a(x.method, x.setting, x.cells);
-  } else if constexpr (std::is_same_v<Type, Reference>) {
-    a(x.kind, x.noise, x.point_noise, x.cells, x.points, x.paths, x.cached);
-  } else if constexpr (std::is_same_v<Type, radiosity::PictureSize>) {
-    a(x.width, x.height);
-  } else if constexpr (std::is_same_v<Type, radiosity::Camera>) {
-    a(x.name, x.eye, x.forward, x.up, x.field_of_view, x.size);
-  } else if constexpr (std::is_same_v<Type, radiosity::LeftOut>) {
-    a(x.what, x.why, x.saved);
-  } else if constexpr (std::is_same_v<Type, SceneStudy>) {
-    a(x.scene, x.title, x.camera, x.reference, x.methods, x.pictures, x.left_out);
-  } else if constexpr (std::is_same_v<Type, Study>) {
-    a(x.scenes, x.machine, x.compiler, x.version, x.seed);
-  } else if constexpr (std::is_same_v<Type, PartNumber>) {
-    a(x.index, x.count);
-  } else {
-    static_assert(std::is_same_v<Type, Part>);
-    a(x.number, x.asked, x.scene_count, x.method_count, x.methods, x.scenes, x.study);
-  }
-}
-
-template <class T>
-void Writer::put(const T& value) {
-  if constexpr (std::is_same_v<T, bool>) {
-    put(static_cast<unsigned>(value));
-  } else if constexpr (std::is_arithmetic_v<T>) {
-    char digits[40];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-    text.append(digits, end) += ' ';
-  } else if constexpr (std::is_same_v<T, std::string>) {
-    put(value.size());
-    text += value;
-  } else if constexpr (is_vector<T>) {
-    put(value.size());
-    for (const auto& item : value) { put(item); }
-  } else if constexpr (requires { value.has_value(); }) {
-    put(value.has_value());
-    if (value) { put(*value); }
-  } else {
-    fields(*this, value);
-  }
-}
-
-template <class T>
-void Reader::take(T& value) {
-  if constexpr (std::is_same_v<T, bool>) {
-    unsigned bit = 0;
-    number(bit);
-    value = bit != 0;
-  } else if constexpr (std::is_arithmetic_v<T>) {
-    number(value);
-  } else if constexpr (std::is_same_v<T, std::string>) {
-    const std::size_t length = size();
-    value = rest_.substr(0, length);
-    rest_.remove_prefix(length);
-  } else if constexpr (is_vector<T>) {
-    const std::size_t count = size();
-    value.clear();
-    for (std::size_t i = 0; i < count && good_; ++i) { take(value.emplace_back()); }
-  } else if constexpr (requires { value.has_value(); }) {
-    bool there = false;
-    take(there);
-    if (there) { take(value.emplace()); }
-  } else {
-    fields(*this, value);
-  }
-}
 
 }  // namespace
 
@@ -169,11 +71,11 @@ std::string part_file(const PartNumber& number) {
 }
 
 std::string to_bytes(const Part& part) {
-  Writer writer;
-  writer(part);
+  apps::ArchiveWriter<PartFields> out;
+  out(part);
   apps::Checksum sum;
-  sum.add(std::string_view(writer.text));
-  return std::string(magic) + sum.text() + "\n" + writer.text;
+  sum.add(std::string_view(out.bytes));
+  return std::string(magic) + sum.text() + "\n" + out.bytes;
 }
 
 std::optional<Part> read_part(std::string_view bytes) {
@@ -182,11 +84,11 @@ std::optional<Part> read_part(std::string_view bytes) {
   apps::Checksum checksum;
   checksum.add(body);
   if (checksum.text() != sum) { return std::nullopt; }
-  Reader reader(body);
+  apps::ArchiveReader<PartFields> in(body);
   Part part;
-  reader(part);
+  in(part);
   const bool fits = part.methods.size() == part.study.scenes.size() && part.scenes.size() == part.study.scenes.size();
-  return reader.sound() && fits ? std::optional(std::move(part)) : std::nullopt;
+  return in.sound() && in.left() == 0 && fits ? std::optional(std::move(part)) : std::nullopt;
 }
 
 Merged merge(std::vector<Part> parts) {

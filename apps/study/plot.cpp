@@ -9,7 +9,6 @@
 
 #include "apps/study/log_axis.hpp"
 #include "apps/study/numbers.hpp"
-#include "apps/study/svg.hpp"
 
 namespace study {
 namespace {
@@ -52,38 +51,26 @@ void draw_axis_names(Drawing& drawing, const PlotText& text, const glm::dvec2& c
 }
 
 Shape mark(const CurveStyle& style, const glm::dvec2& at, bool hollow, const std::string& title) {
-  Shape shape;
-  shape.points = mark_outline(style.mark, at, mark_radius);
-  shape.closed = true;
-  shape.filled = true;
-  shape.fill = hollow ? paper : style.color;
-  shape.stroke = hollow ? style.color : paper;
-  shape.stroke_width = hollow ? 1.6 : 0.8;
-  shape.title = title;
-  return shape;
+  return {.points = mark_outline(style.mark, at, mark_radius),
+          .closed = true,
+          .filled = true,
+          .fill = hollow ? paper : style.color,
+          .stroke_width = hollow ? 1.6 : 0.8,
+          .stroke = hollow ? style.color : paper,
+          .title = title};
 }
 
 Shape curve_line(const CurveStyle& style, std::vector<glm::dvec2> points) {
-  Shape shape;
-  shape.points = std::move(points);
-  shape.stroke = style.color;
-  shape.stroke_width = 1.8;
-  if (style.dashed) { shape.dashes = {6.0, 4.0}; }
-  return shape;
+  const std::vector<double> dashes = style.dashed ? std::vector{6.0, 4.0} : std::vector<double>{};
+  return {.points = std::move(points), .stroke_width = 1.8, .stroke = style.color, .dashes = dashes};
 }
 
 Shape noise_line(const glm::dvec2& from, const glm::dvec2& to) {
-  Shape dotted = line(from, to, 1.4);
-  dotted.dashes = {1.5, 3.5};
-  return dotted;
+  return {.points = {from, to}, .stroke_width = 1.4, .dashes = {1.5, 3.5}};
 }
 
 Shape front_line(std::vector<glm::dvec2> points) {
-  Shape shape;
-  shape.points = std::move(points);
-  shape.stroke_width = 7.0;
-  shape.opacity = 0.16;
-  return shape;
+  return {.points = std::move(points), .stroke_width = 7.0, .opacity = 0.16};
 }
 
 // Every point is reached at its cost and stays reachable at any higher one.
@@ -244,6 +231,80 @@ Drawing panels(const PlotText& text, const std::vector<Panel>& panels, double no
   }
   drawing.height = bottom + 30.0;
   return drawing;
+}
+
+namespace {
+
+// By the order in which the study names its methods first.
+std::size_t style_index(const Study& study, const std::string& method) {
+  std::vector<std::string> names;
+  for (const SceneStudy& scene : study.scenes) {
+    for (const Method& m : scene.methods) {
+      if (std::find(names.begin(), names.end(), m.name) == names.end()) { names.push_back(m.name); }
+    }
+  }
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), method) - names.begin());
+}
+
+std::string title(const Method& method, const Run& run, const KnownError& error) {
+  return method.name + ", " + run.setting + ": error " + to_text(error) + ", " + figure(run.cpu_seconds) + " s, " + memory_text(run) +
+         ", " + count_text(run.links) + " links";
+}
+
+std::vector<Curve> method_curves(const Study& study, const SceneStudy& scene, Cost cost) {
+  std::vector<Curve> curves;
+  for (const Method& method : scene.methods) {
+    Curve curve{method.name, curve_style(style_index(study, method.name)), {}, {}};
+    for (const Run& run : method.runs) {
+      curve.points.push_back(point_of(run, scene.reference, cost));
+      curve.titles.push_back(title(method, run, main_error(run, scene.reference)));
+    }
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+std::vector<Panel> reconstruction_panels(const SceneStudy& scene) {
+  static constexpr CurveStyle styles[] = {
+      {0x000000, Mark::circle, false}, {0xe69f00, Mark::square, false}, {0x0072b2, Mark::triangle, false}};
+  std::vector<Panel> result;
+  for (const Method& method : scene.methods) {
+    Panel panel{method.name, {}};
+    for (const Stage stage : stages) {
+      Curve curve{name(stage), styles[static_cast<std::size_t>(stage)], {}, {}};
+      for (const Run& run : method.runs) {
+        const KnownError error = credited(run) ? known_error(errors(run, stage).points.l2, scene.reference.point_noise) : KnownError{};
+        curve.points.push_back({cost_of(run, Cost::cpu_time), error.value, error.limited});
+        curve.titles.push_back(title(method, run, error));
+      }
+      panel.curves.push_back(std::move(curve));
+    }
+    result.push_back(std::move(panel));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Figure> figures(const Study& study, const SceneStudy& scene) {
+  const std::string what = "relative L2 error of the cell means";
+  const double noise = scene.reference.noise;
+  std::vector<Figure> result;
+  result.push_back(
+      {"cpu", "Error of the cell means, before reconstruction, against CPU time.",
+       plot({scene.scene + ": error against CPU time", "CPU time (s)", what}, method_curves(study, scene, Cost::cpu_time), noise)});
+  result.push_back(
+      {"memory", "The same runs against the peak memory of the process during the run, above what it held before.",
+       plot({scene.scene + ": error against memory", "peak memory (bytes)", what}, method_curves(study, scene, Cost::memory), noise)});
+  result.push_back(
+      {"links", "The same runs against the number of links; of a dense matrix, its entries.",
+       plot({scene.scene + ": error against links", "links or matrix entries", what}, method_curves(study, scene, Cost::links), noise)});
+  result.push_back(
+      {"reconstruction",
+       "Error at points against CPU time, before reconstruction and after it: simple (paper, figs. 6–8) and weighted (paper, fig. 5).",
+       panels({scene.scene + ": what reconstruction changes", "CPU time (s)", "relative L2 error at points"}, reconstruction_panels(scene),
+              scene.reference.point_noise)});
+  return result;
 }
 
 }  // namespace study

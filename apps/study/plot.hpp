@@ -5,17 +5,73 @@
 //
 // Points that are limited by the reference's noise are hollow and stand on the line of that noise: the error is at most that. The Pareto
 // front of all methods lies as a grey staircase behind the curves: no run is left of it or below. The legend gives each method's
-// fitted slope (cost_points.hpp).
+// fitted slope (verdicts.hpp).
 
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
-#include "apps/study/cost_points.hpp"
-#include "apps/study/curve_style.hpp"
 #include "apps/study/drawing.hpp"
 #include "apps/study/results.hpp"
+#include "apps/study/verdicts.hpp"
 
 namespace study {
+
+// How curves are told apart: by colour (Okabe and Ito 2008, made for colour-blind readers; their yellow is too pale for lines on paper
+// and left out), and by the shape of the marks where a page is printed grey. After seven curves the lines are dashed.
+enum class Mark { circle, square, triangle, diamond, triangle_down, pentagon, cross, star, saltire };
+
+struct CurveStyle {
+  Srgb color = ink;
+  Mark mark = Mark::circle;
+  bool dashed = false;
+};
+
+inline constexpr std::array<Srgb, 7> curve_colors = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x000000};
+inline constexpr std::size_t mark_count = 9;
+
+// Any two of the first 63 styles differ in colour or mark, the first seven in both.
+[[nodiscard]] inline CurveStyle curve_style(std::size_t index) {
+  return {curve_colors[index % curve_colors.size()], static_cast<Mark>(index % mark_count),
+          index % (2 * curve_colors.size()) >= curve_colors.size()};
+}
+
+// The outline of a mark. All marks have about the area of a circle of this radius.
+[[nodiscard]] inline std::vector<glm::dvec2> mark_outline(Mark mark, const glm::dvec2& at, double radius) {
+  constexpr double pi = std::numbers::pi;
+  std::vector<glm::dvec2> points;
+  const auto add = [&](double angle, double r) { points.push_back(at + radius * r * glm::dvec2(std::sin(angle), -std::cos(angle))); };
+  if (mark == Mark::cross || mark == Mark::saltire) {  // a plus of arms as wide as they are long, upright or turned
+    constexpr double arm = 1.32, half = 0.44;
+    const double corner = std::hypot(arm, half), skew = std::atan2(half, arm);
+    for (int i = 0; i < 4; ++i) {
+      const double a = (mark == Mark::saltire ? pi / 4.0 : 0.0) + 0.5 * pi * i;
+      add(a - skew, corner);
+      add(a + skew, corner);
+      add(a + pi / 4.0, half * std::numbers::sqrt2);
+    }
+    return points;
+  }
+  struct Ring {  // corners, every other one at the inner radius
+    int corners = 0;
+    double turn = 0.0, outer = 1.0, inner = 1.0;
+  };
+  constexpr std::array<Ring, mark_count> rings{{{20, 0.0, 1.0, 1.0},
+                                                {4, pi / 4.0, 1.25, 1.25},
+                                                {3, 0.0, 1.45, 1.45},
+                                                {4, 0.0, 1.35, 1.35},
+                                                {3, pi, 1.45, 1.45},
+                                                {5, 0.0, 1.18, 1.18},
+                                                {},
+                                                {10, 0.0, 1.65, 0.66},
+                                                {}}};
+  const Ring& ring = rings[static_cast<std::size_t>(mark)];
+  for (int i = 0; i < ring.corners; ++i) { add(ring.turn + 2.0 * pi * i / ring.corners, i % 2 == 0 ? ring.outer : ring.inner); }
+  return points;
+}
 
 struct Curve {
   std::string name;

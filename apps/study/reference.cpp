@@ -19,7 +19,7 @@
 #include <radiosity/visibility/prepare.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
-#include "apps/checksum.hpp"
+#include "apps/bytes.hpp"
 
 namespace study {
 namespace {
@@ -76,21 +76,19 @@ void add_cell(TrueRadiosity& truth, const radiosity::Prepared& prepared, const r
 
 std::optional<TrueRadiosity> points_of(const radiosity::Scene& scene, radiosity::Prepared& prepared, const ReferenceOptions& options,
                                        std::string& fault) {
+  const auto refuse = [&fault](const char* sentence) {
+    fault = sentence;
+    return std::nullopt;
+  };
   TrueRadiosity truth;
   truth.left_out = prepared.plan.left_out;
-  if (!prepared.plan.lit || !prepared.plan.reflects) {
-    fault = prepared.plan.lit ? "nothing reflects: every method finds B = E" : "nothing emits light: every method finds B = 0";
-    return std::nullopt;
-  }
-  if (prepared.plan.lossless) {
-    fault = "the scene is closed and absorbs nothing: it has no solution";
-    return std::nullopt;
-  }
+  if (!prepared.plan.lit) { return refuse("nothing emits light: every method finds B = 0"); }
+  if (!prepared.plan.reflects) { return refuse("nothing reflects: every method finds B = E"); }
+  if (prepared.plan.lossless) { return refuse("the scene is closed and absorbs nothing: it has no solution"); }
   const std::optional<Color> furnace = furnace_radiosity(scene, prepared.plan);
   truth.analytic = furnace.has_value();
   if (!truth.analytic && !prepared.plan.traceable) {
-    fault = "closed and nearly lossless: paths would need thousands of bounces, and no exact answer is known";
-    return std::nullopt;
+    return refuse("closed and nearly lossless: paths would need thousands of bounces, and no exact answer is known");
   }
   radiosity::Hierarchy hierarchy = radiosity::make_roots(prepared.surfaces);
   radiosity::split_evenly(prepared.surfaces, hierarchy, radiosity::root_area(hierarchy) / options.cells);
@@ -104,10 +102,7 @@ std::optional<TrueRadiosity> points_of(const radiosity::Scene& scene, radiosity:
   if (furnace) {
     for (ReferencePoint& p : truth.points) { p.radiosity = *furnace; }
   }
-  if (truth.points.empty()) {
-    fault = "no surface that does not emit can be seen";
-    return std::nullopt;
-  }
+  if (truth.points.empty()) { return refuse("no surface that does not emit can be seen"); }
   return truth;
 }
 

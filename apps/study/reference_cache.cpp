@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/checksum.hpp"
+#include "apps/bytes.hpp"
 #include "apps/files.hpp"
 #include "apps/scene_file.hpp"
 #include "apps/study/reference.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// VRML 1.0 as a scene: a visitor that makes objects of the shapes. Cube, Sphere, Cylinder and Cone stay what they are, analytic solids with
+// VRML 1.0 as a scene: a walk that makes objects of the shapes. Cube, Sphere, Cylinder and Cone stay what they are, analytic solids with
 // their placement; face sets become polygons. The diffuse colour is the reflectance, the emissive colour a radiance L: the exitance is pi
 // L.
 #include <algorithm>
@@ -20,6 +20,7 @@
 #include <raycast/objects/sphere.hpp>
 #include <raycast/transform.hpp>
 
+#include "apps/graph_walk.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/mesh_file/reading.hpp"
 #include "apps/vrml/looks.hpp"
@@ -32,13 +33,39 @@ constexpr std::size_t most_corners = 50'000'000;  // of all uses of all face set
 constexpr std::size_t most_inlines = 1000;
 constexpr int sides_of_part = 32;  // of a part of a cylinder or a cone that is no solid
 
-class ModelMaker final : public Visitor {
+class ModelMaker {
  public:
   ModelMaker(const SideFile& side_file, Errors& errors, Notes& notes) : side_file_(side_file), errors_(errors), notes_(notes) {}
 
   Model model;
 
-  void shape(const Node& node, const State& state) override {
+  // --- what nodes mean to the walk (apps/graph_walk.hpp)
+  bool enter(const std::shared_ptr<const Node>& at, State& state) {
+    const Node& node = *at;
+    if (change(state, node)) { return true; }
+    if (is_camera(node)) {
+      camera(node, state);
+    } else if (node.type.ends_with("Light")) {
+      light(node, state);
+    } else if (node.children.empty() && node.type != "WWWInline") {
+      shape(node, state);
+    }
+    return true;
+  }
+  std::vector<std::shared_ptr<const Node>> children(const std::shared_ptr<const Node>& node) {
+    if (node->type != "WWWInline") { return walked_children(*node); }
+    auto file = inlined(*node);
+    return file == nullptr ? node->children : std::vector{std::move(file)};
+  }
+  static void leave(const std::shared_ptr<const Node>& node, const State& before, State& state) { restore(state, before, *node); }
+
+ private:
+  using Made = raycast::Made<raycast::Object>;
+
+  static std::string at(const Node& node) { return "at line " + std::to_string(node.place.line); }
+  static glm::dvec3 point(const State& state, const glm::dvec3& p) { return glm::dvec3(state.transform * glm::dvec4(p, 1.0)); }
+
+  void shape(const Node& node, const State& state) {
     if (errors_.full()) { return; }
     constexpr std::array<std::string_view, 3> surfaceless{"IndexedLineSet", "PointSet", "AsciiText"};
     if (node.type == "Cube") {
@@ -56,7 +83,7 @@ class ModelMaker final : public Visitor {
     }
   }
 
-  void camera(const Node& node, const State& state) override {
+  void camera(const Node& node, const State& state) {
     const glm::dvec4 orientation = node.rotation("orientation");
     const glm::dvec3 axis(orientation);
     const glm::dmat3 turn =
@@ -76,7 +103,7 @@ class ModelMaker final : public Visitor {
     model.cameras.push_back(std::move(camera));
   }
 
-  void light(const Node& node, const State& state) override {
+  void light(const Node& node, const State& state) {
     if (node.word("on", "TRUE") == "FALSE") { return; }
     if (node.type == "DirectionalLight") { return notes_.add("directional lights are left out: a lamp has a place", at(node)); }
     if (node.type == "SpotLight") { notes_.add("spot lights shine in all directions", at(node)); }
@@ -85,7 +112,8 @@ class ModelMaker final : public Visitor {
     model.lights.push_back({point(state, node.vector("location", {0.0, 0.0, 1.0})), glm::max(intensity * color, glm::dvec3(0.0))});
   }
 
-  std::shared_ptr<const Node> inlined(const Node& node) override {
+  // The file that stands in the place of the node; null when there is none.
+  std::shared_ptr<const Node> inlined(const Node& node) {
     const std::string name(node.word("name", ""));
     const auto [known, is_new] = inlines_.emplace(name, nullptr);
     if (!is_new) { return known->second; }
@@ -115,12 +143,6 @@ class ModelMaker final : public Visitor {
     inlines_[name] = root;  // one that names itself is found to be too deep
     return root;
   }
-
- private:
-  using Made = raycast::Made<raycast::Object>;
-
-  static std::string at(const Node& node) { return "at line " + std::to_string(node.place.line); }
-  static glm::dvec3 point(const State& state, const glm::dvec3& p) { return glm::dvec3(state.transform * glm::dvec4(p, 1.0)); }
 
   // An analytic solid; `parts`: of each of its sheets, which part of the node it is.
   template <class MadeObject>
@@ -270,7 +292,8 @@ ModelResult read_vrml(std::string_view bytes, const SideFile& side_file) {
   Notes notes;
   const auto root = parse(bytes, errors, notes);
   ModelMaker maker(side_file, errors, notes);
-  if (root != nullptr && !traverse(root, maker)) {
+  State state;
+  if (root != nullptr && !GraphWalk<ModelMaker, State>(maker, graph_limits).visit(root, state)) {
     errors.add(root->place, "uses of uses make more than " + std::to_string(graph_limits.most_visits) +
                                 " nodes of this file, or a way through it is longer than " + std::to_string(graph_limits.deepest));
   }
@@ -285,7 +308,6 @@ bool begins_vrml(std::string_view bytes) { return bytes.starts_with("#VRML"); }
 
 namespace apps::intake {
 
-extern const ModelFormat wrl;
 constinit const ModelFormat wrl{".wrl", "VRML 1.0", UpAxis::y, vrml::begins_vrml, vrml::read_vrml};
 
 }  // namespace apps::intake

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/vrml/node_types.hpp"
+#include "apps/vrml/scene_graph.hpp"
 
 #include <algorithm>
 #include <iterator>

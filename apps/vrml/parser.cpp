@@ -3,7 +3,6 @@
 #include <charconv>
 
 #include "apps/mesh_file/reading.hpp"
-#include "apps/vrml/node_types.hpp"
 #include "apps/vrml/scene_graph.hpp"
 #include "apps/words.hpp"
 

@@ -5,14 +5,13 @@
 // stand in many places (USE). It is walked once from its root. Nodes that are no shapes change a state, which shapes then find: transform,
 // materials, coordinates, hints. A Separator keeps what its children change to itself, a Group does not.
 //
-//     text -> parse() -> Node ... -> traverse(root, visitor): the visitor is told of every shape, camera and light, with its state
-//
-// Whatever is to be done with a scene is a visitor: model.cpp makes polygons and objects of it.
+//     text -> parse() -> Node ... -> GraphWalk, with a state: model.cpp makes polygons and objects of every shape, camera and light
 
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +53,37 @@ struct Node {
 
 inline constexpr GraphLimits graph_limits;
 
+// --- the nodes of VRML 1.0 with their fields: what stands behind the name of a field can only be read when its type is known.
+
+// How a value is written: so many numbers; in brackets any number of them (`many`); words and strings.
+struct FieldType {
+  enum class Kind : unsigned char { numbers, indices, image, strings, words };
+  Kind kind = Kind::numbers;
+  unsigned char count = 1;
+  bool many = false;
+};
+
+struct FieldEntry {
+  std::string_view name;
+  FieldType type;
+};
+
+struct NodeType {
+  std::string_view name;
+  std::vector<FieldEntry> fields;
+  bool group = false;  // may have children
+};
+
+// Null when there is no such node.
+[[nodiscard]] const NodeType* node_type(std::string_view name);
+[[nodiscard]] const FieldType* field_type(const NodeType& node, std::string_view field);
+// "SFFloat", "MFVec3f"; null when there is no such type.
+[[nodiscard]] const FieldType* named_type(std::string_view name);
+// The names of all nodes.
+[[nodiscard]] std::span<const NodeType> node_types();
+
+// --- reading and walking
+
 // The nodes of the text under one root, or errors.
 [[nodiscard]] std::shared_ptr<const Node> parse(std::string_view text, Errors& errors, Notes& notes);
 
@@ -73,20 +103,14 @@ struct State {
   bool ordered = false, clockwise = false, solid = false, creased = false;  // ShapeHints; creased: with an angle above 0
 };
 
-class Visitor {
- public:
-  Visitor() = default;
-  Visitor(const Visitor&) = delete;
-  Visitor& operator=(const Visitor&) = delete;
-  virtual ~Visitor() = default;
-  virtual void shape(const Node& node, const State& state) = 0;
-  virtual void camera(const Node& node, const State& state) = 0;
-  virtual void light(const Node& node, const State& state) = 0;
-  // A file that is to stand in the place of the node; null when there is none.
-  [[nodiscard]] virtual std::shared_ptr<const Node> inlined(const Node& node) = 0;
-};
+// --- what nodes mean to the walk (traverse.cpp)
 
-// False: given up at a limit.
-[[nodiscard]] bool traverse(const std::shared_ptr<const Node>& root, Visitor& visitor);
+// Does the node change what follows it? The state is changed.
+bool change(State& state, const Node& node);
+// The children that are walked: of a Switch the chosen one, of a LOD the finest.
+[[nodiscard]] std::vector<std::shared_ptr<const Node>> walked_children(const Node& node);
+// When a node is left: takes back what its children have changed, if it keeps that to itself.
+void restore(State& state, const State& before, const Node& node);
+[[nodiscard]] inline bool is_camera(const Node& node) { return node.type.ends_with("Camera"); }
 
 }  // namespace apps::vrml

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "apps/graph_walk.hpp"
 #include "apps/vrml/scene_graph.hpp"
 
 namespace apps::vrml {
@@ -49,76 +47,50 @@ Binding binding_of(std::string_view word) {
   return found == words.end() ? Binding::overall : static_cast<Binding>(found - words.begin());
 }
 
-bool is_camera(const Node& node) { return node.type.ends_with("Camera"); }
-
-// What the nodes mean to the walk (apps/graph_walk.hpp).
-class Meaning {
- public:
-  explicit Meaning(Visitor& visitor) : visitor_(visitor) {}
-
-  bool enter(const std::shared_ptr<const Node>& at, State& state) {
-    const Node& node = *at;
-    if (const auto transform = transform_of(node)) {
-      state.transform = state.transform * *transform;
-    } else if (node.type == "Material") {
-      state.material = &node;
-    } else if (node.type == "Texture2") {
-      state.texture = &node;
-    } else if (node.type == "Coordinate3") {
-      state.coordinates = &node;
-    } else if (node.type == "MaterialBinding") {
-      state.binding = binding_of(node.word("value", "OVERALL"));
-    } else if (node.type == "ShapeHints") {
-      const std::string_view order = node.word("vertexOrdering", "UNKNOWN_ORDERING");
-      state.ordered = order != "UNKNOWN_ORDERING";
-      state.clockwise = order == "CLOCKWISE";
-      state.solid = node.word("shapeType", "UNKNOWN_SHAPE_TYPE") == "SOLID";
-      state.creased = node.number("creaseAngle", 0.0) > 0.0;
-    } else if (is_camera(node)) {
-      visitor_.camera(node, state);
-    } else if (node.type.ends_with("Light")) {
-      visitor_.light(node, state);
-    } else if (node.children.empty() && node.type != "WWWInline") {
-      visitor_.shape(node, state);
-    }
-    return true;
-  }
-
-  std::vector<std::shared_ptr<const Node>> children(const std::shared_ptr<const Node>& at) {
-    const Node& node = *at;
-    std::vector<std::shared_ptr<const Node>> all = node.children;
-    if (node.type == "WWWInline") {
-      auto inlined = visitor_.inlined(node);
-      if (inlined != nullptr) { all = {std::move(inlined)}; }
-    } else if (node.type == "Switch") {
-      const double which = node.number("whichChild", -1.0);
-      // Views to choose from: a viewer offers all of them.
-      const bool views = std::all_of(all.begin(), all.end(), [](const auto& child) { return is_camera(*child); });
-      if (which == -3.0 || views) { return all; }
-      const bool exists = which >= 0.0 && which < static_cast<double>(all.size());
-      if (!exists) { return {}; }
-      all = {all[static_cast<std::size_t>(which)]};
-    } else if (node.type == "LOD" && !all.empty()) {
-      all.resize(1);  // the finest
-    }
-    return all;
-  }
-
-  void leave(const std::shared_ptr<const Node>& node, const State& before, State& state) {
-    if (node->type == "Separator" || node->type == "WWWAnchor" || node->type == "WWWInline") { state = before; }
-    if (node->type == "TransformSeparator") { state.transform = before.transform; }
-  }
-
- private:
-  Visitor& visitor_;
-};
-
 }  // namespace
 
-bool traverse(const std::shared_ptr<const Node>& root, Visitor& visitor) {
-  State state;
-  Meaning meaning(visitor);
-  return GraphWalk<Meaning, State>(meaning, graph_limits).visit(root, state);
+bool change(State& state, const Node& node) {
+  if (const auto transform = transform_of(node)) {
+    state.transform = state.transform * *transform;
+  } else if (node.type == "Material") {
+    state.material = &node;
+  } else if (node.type == "Texture2") {
+    state.texture = &node;
+  } else if (node.type == "Coordinate3") {
+    state.coordinates = &node;
+  } else if (node.type == "MaterialBinding") {
+    state.binding = binding_of(node.word("value", "OVERALL"));
+  } else if (node.type == "ShapeHints") {
+    const std::string_view order = node.word("vertexOrdering", "UNKNOWN_ORDERING");
+    state.ordered = order != "UNKNOWN_ORDERING";
+    state.clockwise = order == "CLOCKWISE";
+    state.solid = node.word("shapeType", "UNKNOWN_SHAPE_TYPE") == "SOLID";
+    state.creased = node.number("creaseAngle", 0.0) > 0.0;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+std::vector<std::shared_ptr<const Node>> walked_children(const Node& node) {
+  std::vector<std::shared_ptr<const Node>> all = node.children;
+  if (node.type == "Switch") {
+    const double which = node.number("whichChild", -1.0);
+    // Views to choose from: a viewer offers all of them.
+    const bool views = std::all_of(all.begin(), all.end(), [](const auto& child) { return is_camera(*child); });
+    if (which == -3.0 || views) { return all; }
+    const bool exists = which >= 0.0 && which < static_cast<double>(all.size());
+    if (!exists) { return {}; }
+    all = {all[static_cast<std::size_t>(which)]};
+  } else if (node.type == "LOD" && !all.empty()) {
+    all.resize(1);
+  }
+  return all;
+}
+
+void restore(State& state, const State& before, const Node& node) {
+  if (node.type == "Separator" || node.type == "WWWAnchor" || node.type == "WWWInline") { state = before; }
+  if (node.type == "TransformSeparator") { state.transform = before.transform; }
 }
 
 }  // namespace apps::vrml

@@ -25,7 +25,6 @@
 
 #include "apps/export/export_mesh.hpp"
 #include "apps/models.hpp"
-#include "apps/ply.hpp"
 #include "apps/scene_file.hpp"
 
 namespace {

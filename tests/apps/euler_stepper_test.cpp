@@ -14,11 +14,9 @@
 #include <brep/euler_script_parse.hpp>
 
 #include "apps/euler/interactive.hpp"
-#include "apps/euler/names.hpp"
+#include "apps/euler/layout.hpp"
 #include "apps/euler/outputs.hpp"
-#include "apps/euler/solid_view.hpp"
 #include "apps/euler/story.hpp"
-#include "apps/euler/wording.hpp"
 #include "browser.hpp"
 #include "program.hpp"
 

@@ -14,7 +14,6 @@
 #include <radiosity/radiosity.hpp>
 
 #include "apps/explain/recording.hpp"
-#include "apps/explain/sentences.hpp"
 #include "browser.hpp"
 #include "example_scenes.hpp"
 #include "program.hpp"

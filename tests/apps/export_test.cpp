@@ -23,7 +23,6 @@
 #include <radiosity/result/mesh.hpp>
 
 #include "apps/export/export_mesh.hpp"
-#include "apps/export/viewer.hpp"
 #include "apps/models.hpp"
 #include "apps/program.hpp"
 #include "apps/scene_file.hpp"

@@ -10,7 +10,6 @@
 #include <csignal>
 
 #include "apps/files.hpp"
-#include "apps/output_paths.hpp"
 #include "program.hpp"
 
 namespace {

@@ -15,11 +15,10 @@
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/options.hpp>
 
-#include "apps/checksum.hpp"
+#include "apps/bytes.hpp"
 #include "apps/light_file.hpp"
 #include "apps/program.hpp"
 #include "apps/scene_file.hpp"
-#include "apps/scene_source.hpp"
 
 namespace {
 

@@ -16,7 +16,6 @@
 #include <radiosity/scene/options.hpp>
 
 #include "apps/export/export_mesh.hpp"
-#include "apps/export/lightmap.hpp"
 #include "apps/models.hpp"
 #include "apps/program.hpp"
 #include "apps/scene_file.hpp"

@@ -11,7 +11,7 @@
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 
-#include "apps/ply.hpp"
+#include "apps/export/export_mesh.hpp"
 #include "small_mesh.hpp"
 
 namespace {

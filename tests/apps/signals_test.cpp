@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "apps/files.hpp"
-#include "apps/interrupt.hpp"
+#include "apps/process.hpp"
 #include "program.hpp"
 
 using program::Place;

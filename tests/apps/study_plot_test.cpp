@@ -9,11 +9,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "apps/study/cost_points.hpp"
 #include "apps/study/log_axis.hpp"
 #include "apps/study/numbers.hpp"
 #include "apps/study/plot.hpp"
-#include "apps/study/svg.hpp"
+#include "apps/study/verdicts.hpp"
 #include "markup.hpp"
 
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/checksum.hpp"
+#include "apps/bytes.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/intake/to_scene.hpp"
 #include "apps/light_file.hpp"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "apps/interrupt.hpp"
+#include "apps/process.hpp"
 
 #include <csignal>
 
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "apps/exit_code.hpp"
 #include "apps/files.hpp"
 
 namespace apps {

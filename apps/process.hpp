@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Narration on stderr: on a terminal one line with a bar that is drawn over itself, at most 20 times a second;
-// elsewhere one line per stage. Silent when quiet. Results never go this way: they belong to stdout.
+// The program as a process: how it ends, what may end it early, and what it tells on stderr while it works.
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -13,6 +13,41 @@
 
 namespace apps {
 
+// As in CMakeLists.txt; HALFLIGHT_VERSION is set there.
+#ifdef HALFLIGHT_VERSION
+inline constexpr const char* version = HALFLIGHT_VERSION;
+#else
+inline constexpr const char* version = "unknown";
+#endif
+
+// How the program ends; documented in `halflight --help`.
+enum class ExitCode : int {
+  ok = 0,
+  failure = 1,        // cannot read or write a file, out of memory, interrupted with nothing to show
+  usage = 2,          // the command line is wrong
+  invalid_input = 3,  // the scene file or the mesh is wrong; the output says where
+  not_converged = 4,  // the error target or the residual was not reached, or interrupted; what was found is written all the same
+};
+
+// --- signals
+//
+// Whatever ends the program - Ctrl-C, kill, a closed terminal, a limit of time - a file that is being written is removed first.
+//
+// A command that can stop early calls watch_interrupts(): the first signal then sets a flag that the solver and the picture look at, and
+// the command ends with nothing half-written; a second one ends the program at once. Without, the first one does.
+//
+// A write beyond the limit of file size, or to a closed pipe, raises no signal: the write fails with an error.
+
+// Installs the handlers. Called once, before anything else.
+void guard_process();
+
+// From now on the first signal sets the flag.
+const std::atomic<bool>& watch_interrupts();
+
+// --- narration on stderr
+//
+// On a terminal one line with a bar that is drawn over itself, at most 20 times a second; elsewhere one line per stage. Silent when quiet.
+// Results never go this way: they belong to stdout.
 class Progress {
  public:
   explicit Progress(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) != 0) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/ply.hpp"
+#include "apps/export/export_mesh.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <map>
 #include <string_view>
 
-#include "apps/mesh_file/ply_bytes.hpp"
+#include "apps/bytes.hpp"
 
 namespace apps {
 namespace {

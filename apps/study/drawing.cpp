@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/study/svg.hpp"
+#include "apps/study/drawing.hpp"
 
 #include <array>
 #include <cstdio>
