@@ -44,24 +44,27 @@ glm::dmat3 rotation(const glm::dvec3& axis, double degrees) {
 
 }  // namespace
 
-// One number for all three channels, or three.
-void Parser::color_clause(const Token& keyword, radiosity::Color& out, double most, std::string_view law) {
+// One number that stands for all three, or three; `read` reads each. False after an error about how many there are.
+template <class Read>
+bool Parser::one_or_three(const Token& keyword, const char* names, glm::dvec3& out, const Read& read) {
   int count = 0;
-  while (at(Token::Kind::number) && count < 3) {
-    const Token found = token_;
+  for (; at(Token::Kind::number) && count < 3; ++count) { out[count] = read(token_); }
+  if (count == 1) { out = glm::dvec3(out[0]); }
+  const std::string takes = std::string("one number or three (") + names + ")";
+  if (count != 0 && count != 2) { return no_more_numbers(keyword.text, takes); }
+  error(token_.place, "'" + std::string(keyword.text) + "' takes " + takes + "; expected number " + std::to_string(count + 1) + ", found " +
+                          describe(token_));
+  return false;
+}
+
+void Parser::color_clause(const Token& keyword, radiosity::Color& out, double most, std::string_view law) {
+  one_or_three(keyword, "red green blue", out, [&](const Token found) {
     double value = 0.0;
     if (number(keyword.text, value, std::numeric_limits<double>::max()) && (value < 0.0 || value > most)) {
       error(found.place, std::string(keyword.text) + " " + in_quotes(found.text) + " " + std::string(law));
     }
-    out[count++] = value;
-  }
-  if (count == 1) { out = radiosity::Color(out[0]); }
-  if (count == 0 || count == 2) {
-    error(token_.place, "'" + std::string(keyword.text) + "' takes one number or three (red green blue); expected number " +
-                            std::to_string(count + 1) + ", found " + describe(token_));
-  } else {
-    no_more_numbers(keyword.text, "one number or three (red green blue)");
-  }
+    return value;
+  });
 }
 
 void Parser::material_clause(const Token& keyword, MaterialSyntax& out) {
@@ -120,26 +123,14 @@ void Parser::rotate_clause(const Token& keyword, raycast::Placement& out) {
 
 void Parser::scale_clause(const Token& keyword, raycast::Placement& out) {
   glm::dvec3 by(1.0);
-  int count = 0;
-  while (at(Token::Kind::number) && count < 3) {
-    const Token found = token_;
-    if (!number(keyword.text, by[count])) {
-      by[count] = 1.0;
-    } else if (std::abs(by[count]) < 1.0 / max_number) {
-      error(found.place, "'scale' by " + in_quotes(found.text) + " leaves nothing of the object");
-      by[count] = 1.0;
-    }
-    ++count;
-  }
-  if (count == 1) { by = glm::dvec3(by[0]); }
-  if (count == 0 || count == 2) {
-    return error(token_.place,
-                 "'scale' takes one number or three (x y z); expected number " + std::to_string(count + 1) + ", found " + describe(token_));
-  }
-  no_more_numbers(keyword.text, "one number or three (x y z)");
-  glm::dmat3 matrix(1.0);
-  for (int i = 0; i < 3; ++i) { matrix[i][i] = by[i]; }
-  append(out, matrix);
+  one_or_three(keyword, "x y z", by, [&](const Token found) {
+    double factor = 1.0;
+    if (!number(keyword.text, factor)) { return 1.0; }
+    if (std::abs(factor) >= 1.0 / max_number) { return factor; }
+    error(found.place, "'scale' by " + in_quotes(found.text) + " leaves nothing of the object");
+    return 1.0;
+  });
+  append(out, glm::dmat3(by.x, 0, 0, 0, by.y, 0, 0, 0, by.z));
 }
 
 void Parser::sheet_clause(ObjectSyntax& out) {

@@ -49,6 +49,8 @@ class Parser {
   bool placement_clause(const Token& keyword, raycast::Placement& out);
   void rotate_clause(const Token& keyword, raycast::Placement& out);
   void scale_clause(const Token& keyword, raycast::Placement& out);
+  template <class Read>
+  bool one_or_three(const Token& keyword, const char* names, glm::dvec3& out, const Read& read);
   void color_clause(const Token& keyword, radiosity::Color& out, double most, std::string_view law);
 
   // Values (values.cpp). Each returns false after reporting an error.
