@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/vrml/looks.hpp"
+#include "apps/vrml/scene_graph.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -23,7 +23,6 @@
 #include "apps/graph_walk.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/mesh_file/reading.hpp"
-#include "apps/vrml/looks.hpp"
 #include "apps/vrml/scene_graph.hpp"
 
 namespace apps::vrml {

@@ -7,6 +7,8 @@
 //
 //     text -> parse() -> Node ... -> GraphWalk, with a state: model.cpp makes polygons and objects of every shape, camera and light
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -14,6 +16,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -24,6 +27,7 @@
 #include "apps/graph_walk.hpp"
 #include "apps/input_errors.hpp"
 #include "apps/intake/model.hpp"
+#include "apps/intake/texture.hpp"
 
 namespace apps::vrml {
 
@@ -87,10 +91,6 @@ struct NodeType {
 // The nodes of the text under one root, or errors.
 [[nodiscard]] std::shared_ptr<const Node> parse(std::string_view text, Errors& errors, Notes& notes);
 
-// The mean colour that a Texture2 node gives to what follows it; nothing when it has no picture, or one that cannot be read, which is
-// noted.
-[[nodiscard]] std::optional<radiosity::Color> mean_of_texture(const Node& texture, const SideFile& side_file, Notes& notes);
-
 // Which of the materials a part, a face or a corner has.
 enum class Binding : unsigned char { overall, per_part, per_part_indexed, per_face, per_face_indexed, per_vertex, per_vertex_indexed };
 
@@ -112,5 +112,41 @@ bool change(State& state, const Node& node);
 // When a node is left: takes back what its children have changed, if it keeps that to itself.
 void restore(State& state, const State& before, const Node& node);
 [[nodiscard]] inline bool is_camera(const Node& node) { return node.type.ends_with("Camera"); }
+
+// --- looks (looks.cpp)
+
+// The mean colour that a Texture2 node gives to what follows it; nothing when it has no picture, or one that cannot be read, which is
+// noted.
+[[nodiscard]] std::optional<radiosity::Color> mean_of_texture(const Node& texture, const SideFile& side_file, Notes& notes);
+
+// Which material a part, a face or a corner has by the binding of its state, and what of it the model needs: the diffuse colour is the
+// reflectance, the emissive colour a radiance L, so that the exitance is pi L.
+class Looks {
+ public:
+  // Among the materials of a state; those beyond the last begin again with the first.
+  using Numbers = std::vector<std::size_t>;
+
+  // A face of a face set: its number, how many corners the faces before it have, where its first one stands among all indices.
+  struct FaceCorners {
+    std::size_t face = 0, before = 0, first = 0, count = 0;
+  };
+
+  Looks(Model& model, const SideFile& side_file, Notes& notes) : model_(model), side_file_(side_file), notes_(notes) {}
+
+  // The number in the model of the material with these numbers; of several the mean of their colours.
+  std::uint32_t material(const State& state, Numbers numbers, bool two_sided = false);
+
+  // Those of a face. Corners of different materials blend into each other; a face has one colour here.
+  [[nodiscard]] Numbers numbers(const Node& face_set, const State& state, const FaceCorners& of);
+
+ private:
+  [[nodiscard]] ModelMaterial made(const State& state, const Numbers& numbers, std::size_t all);
+
+  Model& model_;
+  const SideFile& side_file_;
+  Notes& notes_;
+  intake::PictureMeans<const Node*> pictures_;
+  std::map<std::tuple<const Node*, const Node*, Numbers, bool>, std::uint32_t> known_;
+};
 
 }  // namespace apps::vrml
