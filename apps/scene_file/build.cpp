@@ -15,7 +15,6 @@
 #include <radiosity/scene/bounds.hpp>
 
 #include "apps/scene_file/build.hpp"
-#include "apps/scene_file/groups.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"
 

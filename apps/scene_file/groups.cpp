@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/scene_file/groups.hpp"
+#include "apps/scene_file/build.hpp"
 
 #include <algorithm>
 #include <optional>

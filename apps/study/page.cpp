@@ -10,7 +10,6 @@
 #include "apps/picture_file.hpp"
 #include "apps/study/error_picture.hpp"
 #include "apps/study/plot.hpp"
-#include "apps/study/tables.hpp"
 #include "apps/study/verdicts.hpp"
 #include "embedded/study.hpp"
 

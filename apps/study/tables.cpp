@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/study/tables.hpp"
+#include "apps/study/folder.hpp"
 
 #include <algorithm>
 #include <set>

@@ -12,7 +12,6 @@
 #include "apps/bytes.hpp"
 #include "apps/study/error_picture.hpp"
 #include "apps/study/folder.hpp"
-#include "apps/study/tables.hpp"
 #include "apps/study/verdicts.hpp"
 #include "browser.hpp"
 #include "json.hpp"

@@ -8,7 +8,6 @@
 
 #include "apps/study/folder.hpp"
 #include "apps/study/parts.hpp"
-#include "apps/study/tables.hpp"
 #include "apps/study/verdicts.hpp"
 #include "browser.hpp"
 #include "json.hpp"
