@@ -84,8 +84,8 @@ class PictureAudit {
   // lamp.
   [[nodiscard]] std::optional<Color> emitted(const ShownPicture& picture, std::uint32_t x, std::uint32_t y, std::uint64_t& rays) const;
 
-  // Of the brightest pixels those that do not count are found first, or they would be drawn again and again for nothing. `most`: rays, at
-  // most, about; which pixels are found decides nothing but where pixels are drawn.
+  // With what probability each pixel is drawn. Bright pixels that do not count, such as lamps, are looked for first, by about `most` rays,
+  // and are never drawn, because that would be wasted. Which of them are found changes where pixels are drawn, not what the estimate means.
   [[nodiscard]] PixelDraw draw_of(const ShownPicture& picture, std::uint64_t most, std::uint64_t& rays, const Control& control) const;
 
   [[nodiscard]] Sample measure_pixel(const ShownPicture& picture, std::uint64_t seed, std::uint64_t key, const PixelDraw& draw,

@@ -33,7 +33,7 @@ inline constexpr std::size_t most_surfaces = 2000;
 
 namespace detail {
 
-// The rows that are surfaces of the result: a sheet of which nothing is left is none; one that is buried has area 0.
+// The rows of the result: one a sheet. A sheet that was cut away whole has no row; one that is buried has a row and area 0.
 HALFLIGHT_INLINE std::vector<std::uint32_t> kept_rows(const FactorRun& run) {
   std::vector<bool> exists(run.area.size(), false);
   for (std::uint32_t o = 0; o < run.prepared.surfaces.size(); ++o) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The normal of a curved surface at a corner of a patch. On an edge or at a tip of the surface, where sides meet, there is none: each patch
-// takes that of its own side, so that no colour is averaged, and no normal interpolated, over the edge.
+// The normal of a curved surface at a corner of a patch. On an edge or at a tip, where several sides meet, the surface has no normal: there
+// each patch takes the normal of its own side, so that neither colours nor normals are interpolated across the edge.
 
 #include <cstdint>
 

@@ -94,8 +94,8 @@ HALFLIGHT_INLINE std::vector<std::array<std::uint32_t, 2>> twins(const std::vect
   for (std::size_t first = 0; first < places.size();) {
     std::size_t last = first + 1;
     while (last < places.size() && places[last].bounds == places[first].bounds) { ++last; }
-    // From the last to the first: each is a copy of a later one that is no copy itself, or is none. So however many differ a little each
-    // from the next, what is seen in the place of a copy is the same as it. Looked at are the 64 that follow.
+    // From the last to the first. An object is a copy if it equals a later one that is no copy itself, so that in a chain of objects, each
+    // a little different from the next, no two become copies that differ much. Each is compared with the next 64 that are no copies.
     std::vector<std::uint32_t> kept;
     for (std::size_t i = last; i-- > first;) {
       const std::uint32_t a = places[i].object;

@@ -195,8 +195,8 @@ struct Evaluation {
 // Makes the links of these pairs, in their order, except for those that carry nothing. With `doubts`, what is kept of each link.
 [[nodiscard]] EvaluateResult make_links(const Evaluation& by, const NodePairs& pairs, Links& links, LinkDoubts* doubts = nullptr);
 
-// Measures the links from `first` on and removes those that carry nothing, unless they may carry something all the same
-// (LinkVariation::sampling).
+// Measures the links from `first` on and removes those that carry no light. A link whose samples are all blocked stays if it may still
+// carry some (LinkVariation::sampling).
 [[nodiscard]] EvaluateResult measure_links(const Evaluation& by, MeasuredLinks& links, std::size_t first);
 
 }  // namespace radiosity

@@ -39,7 +39,7 @@ struct PointSums {
     places += point.weight * point.at.position;
     squares += point.weight * glm::dot(point.at.position, point.at.position);
   }
-  // Of a disk with the spread of the points: of those that fill a square it has twice its area.
+  // The area of a disk over which points would spread as widely as these: for points that fill a square evenly, twice its area.
   [[nodiscard]] double area() const {
     const glm::dvec3 mean = places / weight;
     return 4.0 * std::numbers::pi * std::max(0.0, squares / weight - glm::dot(mean, mean));

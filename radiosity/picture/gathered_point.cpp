@@ -22,17 +22,17 @@ namespace detail {
 inline constexpr double inner_sphere = 0.7;         // part of a sphere's radius
 inline constexpr double same_way = 0.9;             // cosine of two normals between which light is carried over
 inline constexpr double out_of_plane = 0.2;         // of a sphere's radius: what is farther off its tangent plane is another surface
-inline constexpr double explained_by_noise = 1.25;  // squares of what a plane leaves over, in those that the noise would leave
+inline constexpr double explained_by_noise = 1.25;  // most that the misfit may be (PlaneFit)
 // How far a plane that explains its points may leave their range, in the width of this; and at most, as a factor.
 inline constexpr double beyond_range = 0.5, most_beyond = 2.0;
-inline constexpr double little_left = 0.05;  // what a plane leaves over, to the mean light: so little is explained, too
+inline constexpr double little_left = 0.05;  // a residual of this part of the mean light is accepted, whatever the noise
 
 // A plane through the light of the points in a sphere.
 struct PlaneFit {
   Color light{0.0}, by_u{0.0}, by_v{0.0};  // at the middle, and its changes by one radius
   Color mean{0.0}, least{0.0}, most{0.0};  // of its points
-  double misfit = 0.0;                     // squares that it leaves over, in those that the noise of the points would leave
-  double rest = 0.0;                       // their mean, in the square of the mean light
+  double misfit = 0.0;                     // squared residuals of the fit, over those that the noise of the points explains
+  double rest = 0.0;                       // mean squared residual, over the square of the mean light
 };
 
 [[nodiscard]] HALFLIGHT_INLINE PlaneFit fit_plane(const GatheredPoint& point, double sphere, std::span<const GatheredPoint* const> near) {

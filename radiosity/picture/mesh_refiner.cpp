@@ -140,7 +140,7 @@ HALFLIGHT_INLINE MeshRefiner::Cell MeshRefiner::light_of(const Face& face, const
   };
   const SurfaceBRep& brep = surfaces_[face.surface].brep;
   const auto corners = brep::corners(brep, face.face);
-  Color mean{0.0};  // of the corners that are not buried, for those that are
+  Color mean{0.0};  // of the corners that are not buried; buried corners get it
   for (const auto& [number, place] : places.corners) {
     cell.corners.emplace_back(brep.vertex(corners[number]), light_at(place));
     mean += cell.corners.back().second / static_cast<double>(places.corners.size());

@@ -28,7 +28,7 @@ namespace radiosity {
 
 namespace detail {
 
-// Mean emission of the lamps in each cluster, in the order of the nodes; 0 where a node is none.
+// Mean emission of the lamps in each cluster, in the order of the nodes; 0 for nodes that are no clusters.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<Color> emission_of_clusters(const DiscreteScene& scene) {
   const Hierarchy& hierarchy = scene.hierarchy;
   std::vector<Color> emission(hierarchy.size(), Color{0.0});

@@ -143,7 +143,8 @@ class ViewedCasters {
     return shares;
   }
 
-  // The part of the picture that the light from a unit of area of each caster has, by what those that the camera sees see of it.
+  // How much of the picture the light of a unit of area of each caster makes by one reflection: the rays of the casters that the camera
+  // sees tell which casters light them.
   [[nodiscard]] std::vector<double> sent_shares(const std::vector<double>& seen) const {
     std::vector<double> sent(views_.size(), 0.0);
     for (std::size_t c = 0; c < views_.size(); ++c) {

@@ -34,7 +34,7 @@ namespace radiosity {
 
 namespace detail {
 
-// Which roots send light: those that emit, and those that reflect and are reached, over pairs that may be linked, from one that sends.
+// Which roots send light: those that emit, and, step by step, those that reflect and may be linked to one that sends.
 HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, const NodePairs& pairs,
                                                  const std::vector<Decision>& decisions) {
   const Hierarchy& roots = scene.hierarchy;
@@ -58,8 +58,8 @@ HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, con
 // How far the light of a lamp may vary, relative to the mean emission.
 [[nodiscard]] HALFLIGHT_INLINE double light_epsilon_of_emission(const Fineness& to) { return to.reflected * to.light_epsilon; }
 
-// By how much the light is to be resolved finer than epsilon says by itself. Where it is dim, hardly more: light through a pinhole varies
-// everywhere by more than it is.
+// The factor, at most 1, by which light is resolved finer than epsilon alone demands. Dim reflected light makes it at most twice as fine:
+// light through a pinhole varies everywhere by more than its own value, and would be refined without end.
 [[nodiscard]] HALFLIGHT_INLINE double finer_for_light(const Fineness& to) {
   const double dim = std::max(0.5, to.reflected);
   return std::min(1.0, dim * to.light_epsilon / (0.25 * to.epsilon));

@@ -53,7 +53,8 @@ class Transport {
   // Returns the area-weighted RMS by which their row sums changed, relative to the RMS of these: where an open scene has row sums near 0,
   // D may be far from 1 and change nothing.
   double scale_sampled(const std::vector<double>& rows, double most = 4.0);
-  // The row sums that all parts but the last leave to the last one at closed nodes; at others those that the last one has.
+  // What the row sums of the last part must be: at closed nodes, where rows sum to 1, what the other parts leave of 1; at others what they
+  // are.
   [[nodiscard]] std::vector<double> left_by_lamps();
   // Before the other links are scaled: makes the row sums of closed lamps 1 by a scale of theirs, which other surfaces do not have. A
   // cluster of lamps has one for all its faces, since which of them lights what near it is not known: a face then counts for the area that
