@@ -2,6 +2,7 @@
 #include <radiosity/intake/facing.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,7 +15,11 @@
 #include <brep/polygon.hpp>
 
 #include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
 #include <raycast/inline.hpp>
+#include <raycast/line_query.hpp>
+#include <raycast/planar.hpp>
+#include <raycast/ray.hpp>
 
 #include <radiosity/intake/backs.hpp>
 #include <radiosity/intake/clean.hpp>
@@ -52,7 +57,7 @@ struct PieceBorders {
     divides.assign(pieces, 0.0);
     find_twins(mesh);
     for (std::uint32_t p = 0; p < pieces; ++p) { twins[p] = twins[p] || backs[p] > 0.9 * area[p]; }
-    measure(mesh);
+    measure_across_faces(mesh, measure(mesh));
   }
 
   // Do closed pieces lie in the bounds of this one? Then it is rather the walls of a room than a part of a solid.
@@ -80,17 +85,18 @@ struct PieceBorders {
     }
   }
 
-  // An edge is met where a face of another piece lies on it, and not only one at the same place.
-  void measure(const Working& mesh) {
-    struct Side {
-      std::uint32_t low, high, piece, place;
-    };
-    std::vector<Side> sides;
+  struct Side {
+    std::uint32_t low, high, piece, place, face;
+  };
+
+  // An edge is met where a face of another piece lies on it, and not only one at the same place. Gives the edges of borders that are not.
+  std::vector<Side> measure(const Working& mesh) {
+    std::vector<Side> sides, open;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
       const std::vector<std::uint32_t>& corners = mesh.faces[f].corners;
       for (std::size_t i = 0; i < corners.size(); ++i) {
         const auto [low, high] = std::minmax(corners[i], corners[i + 1 < corners.size() ? i + 1 : 0]);
-        sides.push_back({low, high, piece[f], place_[f]});
+        sides.push_back({low, high, piece[f], place_[f], f});
       }
     }
     const auto key = [](const Side& s) { return std::tie(s.low, s.high, s.piece, s.place); };
@@ -105,10 +111,47 @@ struct PieceBorders {
         const auto elsewhere = [&](const Side& s) { return s.piece != edge[i].piece && s.place != edge[i].place; };
         length[edge[i].piece] += size;
         const auto other = std::find_if(edge.begin(), edge.end(), elsewhere);
-        if (other == edge.end()) { continue; }
+        if (other == edge.end()) {
+          open.push_back(edge[i]);
+          continue;
+        }
         met[edge[i].piece] += size;
         const bool third = std::any_of(other, edge.end(), [&](const Side& s) { return elsewhere(s) && s.place != other->place; });
         divides[edge[i].piece] += third ? size : 0.0;
+      }
+    }
+    return open;
+  }
+
+  // An edge is met, too, where it crosses a face: a leg without ends stands on the floor, of which no edge is near. That face goes on to
+  // either side. What lies flat on a face does not cross it.
+  void measure_across_faces(Working& mesh, const std::vector<Side>& open) {
+    if (open.empty()) { return; }
+    std::vector<raycast::Box> boxes;
+    std::vector<raycast::Plane> plane;
+    for (const Face& face : mesh.faces) {
+      const std::span<const glm::dvec3> outline = mesh.outline(face);
+      plane.push_back(raycast::plane_of(outline));
+      boxes.emplace_back();
+      for (const glm::dvec3& p : outline) { boxes.back().extend(p); }
+      boxes.back() = boxes.back().grown(2.0 * mesh.tolerance);
+    }
+    const raycast::Bvh bvh(boxes);
+    constexpr int places = 4;
+    constexpr double tol_flat = 0.98;  // cosine between faces, of which one lies on the other
+    for (const Side& side : open) {
+      const glm::dvec3 &a = mesh.positions[side.low], &b = mesh.positions[side.high];
+      for (int k = 0; k < places; ++k) {
+        const glm::dvec3 at = a + (k + 0.5) / places * (b - a), across = 4.0 * mesh.tolerance * plane[side.face].normal;
+        const bool crosses = raycast::any_along(bvh, raycast::SlabTest({at - across, 2.0 * across}), 0.0, 1.0, [&](std::uint32_t f) {
+          const glm::dvec3& normal = plane[f].normal;
+          if (piece[f] == side.piece || std::abs(glm::dot(at - plane[f].point, normal)) > 2.0 * mesh.tolerance) { return false; }
+          if (std::abs(glm::dot(normal, plane[side.face].normal)) > tol_flat) { return false; }
+          return raycast::RayFrame({at - mesh.tolerance * normal, 2.0 * mesh.tolerance * normal}).winding(mesh.outline(mesh.faces[f])) != 0;
+        });
+        const double size = crosses ? glm::length(b - a) / places : 0.0;
+        met[side.piece] += size;
+        divides[side.piece] += size;
       }
     }
   }

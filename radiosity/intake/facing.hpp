@@ -13,12 +13,13 @@
 
 namespace radiosity::intake {
 
-// Faces are oriented (orient). Asks pieces that have a border, at least half of which lies on edges of other faces. Turns those on whose
-// backs at least ten times as much light falls as on their fronts. In the dark the longer way to the next surface decides, from twice as
-// long on. Walls around closed things are not turned to what is outside of them. Pieces of which this tells the outside are mixed no
-// longer, and what was given for their backs is left out. A sheet of which each side was given may look both ways: here only what is as
-// dark as the inside of a solid, a hundred times darker, is not seen. A piece at least half of whose border has another face on either
-// side, so that it divides what is around it, gets a back where light falls on both of its sides.
+// Faces are oriented (orient). Asks pieces that have a border, at least half of which lies on other faces: on their edges, or across them,
+// as the ends of a table's leg do that is a tube without ends. Turns those on whose backs at least ten times as much light falls as on
+// their fronts. In the dark the longer way to the next surface decides, from twice as long on. Walls around closed things are not turned
+// to what is outside of them. Pieces of which this tells the outside are mixed no longer, and what was given for their backs is left out.
+// A sheet of which each side was given may look both ways: here only what is as dark as the inside of a solid, a hundred times darker, is
+// not seen. A piece at least half of whose border has another face on either side, so that it divides what is around it, gets a back where
+// light falls on both of its sides.
 void turn_to_light(Working& mesh, std::span<const Material> materials, const IntakeOptions& options);
 
 }  // namespace radiosity::intake

@@ -96,6 +96,15 @@ HALFLIGHT_INLINE std::uint32_t SideLight::nearest_point(std::uint32_t side, cons
   return best;
 }
 
+HALFLIGHT_INLINE bool SideLight::cut_off(const glm::dvec3& place, const Point& point, double way) const {
+  constexpr double near = 0.25;  // of the way of the ray
+  const glm::dvec3 across = point.position - place;
+  const double distance = glm::length(across);
+  if (!(distance > near * way)) { return false; }
+  const glm::dvec3 normal = (point.side % 2 == 0 ? 1.0 : -1.0) * plane_[point.side / 2].normal;
+  return first_met(place + 4.0 * mesh_.tolerance * normal, across / distance, point.side / 2).way < distance;
+}
+
 // Half of the points are shared out by area, half evenly over the faces.
 HALFLIGHT_INLINE void SideLight::place_points() {
   constexpr double all_points = 32'000.0, most = 128.0;
@@ -136,8 +145,10 @@ HALFLIGHT_INLINE void SideLight::shoot() {
       const glm::dvec3 direction = cosine_direction(normal, u, random.uniform());
       const Met met = first_met(from, direction, face);
       const glm::dvec3 place = from + met.way * direction;
-      met_.push_back(
-          {met.side == none ? none : nearest_point(met.side, place), met.beside == none ? none : nearest_point(met.beside, place)});
+      RayEnd end{met.side == none ? none : nearest_point(met.side, place), met.beside == none ? none : nearest_point(met.beside, place)};
+      const bool alone = end.point != none && end.beside == none;
+      end.as_lit = alone && cut_off(place, points_[end.point], met.way) ? static_cast<std::uint32_t>(k) : end.point;
+      met_.push_back(end);
       view.way += met.way * point.area / (area[piece] * rays_);
     }
   }
@@ -177,7 +188,7 @@ HALFLIGHT_INLINE double SideLight::light_along(const RayEnd& end) const {
   constexpr double reflectance = 0.7;
   if (end.point == none) { return outside_; }
   const Point& point = points_[end.point];
-  if (end.beside == none) { return sent_[point.side] + reflectance * point.before; }
+  if (end.beside == none) { return sent_[point.side] + reflectance * points_[end.as_lit].before; }
   const Point& beside = points_[end.beside];
   return std::max(sent_[point.side], sent_[beside.side]) + reflectance * std::min(point.before, beside.before);
 }

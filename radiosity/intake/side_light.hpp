@@ -57,6 +57,7 @@ class SideLight {
   };
   struct RayEnd {
     std::uint32_t point = none, beside = none;  // as in Met
+    std::uint32_t as_lit = none;                // what it meets reflects as much light as there is at this point
   };
 
   // What a ray of this unit direction meets; it comes from the face `source`, or from none.
@@ -64,6 +65,9 @@ class SideLight {
   [[nodiscard]] glm::dvec3 point_of(std::uint32_t face, double u, double v) const;
   // The point nearest to this place on a side of a face.
   [[nodiscard]] std::uint32_t nearest_point(std::uint32_t side, const glm::dvec3& place) const;
+  // Does something stand between this place on a side of a face, which a ray of this length met, and the point nearest to it, so that the
+  // light there tells nothing? As between the floor in a leg without a bottom and the floor around it.
+  [[nodiscard]] bool cut_off(const glm::dvec3& place, const Point& point, double way) const;
   void place_points();
   void shoot();
   void set_lamps(std::span<const Material> materials);

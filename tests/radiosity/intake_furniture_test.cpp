@@ -145,3 +145,57 @@ TEST_CASE("intake: a sheet that was given for both sides, and stands on the edge
   const furniture::Sides sides = furniture::sides_of(intake.objects, {{{3, 1, 1}, {1, 0, 0}}, {{3, 1, 1}, {-1, 0, 0}}}, 1e-6);
   CHECK(sides.missing == 0);
 }
+
+// A table on legs without ends, a pillar from floor to ceiling, a bracket from it to the wall: tubes whose ends lie within other faces, far
+// from any edge. What is in them is dark.
+TEST_CASE("intake: tubes that end on faces show their fronts, whichever way they were wound") {
+  const unsigned seed = std::random_device{}();
+  for (int round = 0; round < 12; ++round) {
+    INFO("seed " << seed << ", round " << round);
+    std::mt19937 random(seed + static_cast<unsigned>(round));
+    const auto number = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
+    soup::Soup soup;
+    soup.names = {"room"};
+    soup::add_box(soup, glm::dvec3(0.0), {4, 4, 3}, 1, true);
+    soup.names.emplace_back("lamp");
+    soup.polygon({{1, 1, 2.9}, {1, 1.5, 2.9}, {2, 1.5, 2.9}, {2, 1, 2.9}}, 1);
+    std::vector<furniture::SeenPoint> seen;
+    const bool each = round % 3 == 2;
+    const auto tube = [&](const glm::dvec3& lo, const glm::dvec3& hi, glm::length_t axis) {
+      if (round % 2 == 0) { soup.names.push_back("tube" + std::to_string(soup.names.size())); }
+      soup::Soup box;
+      soup::add_box(box, lo, hi);
+      const bool turn = round % 3 == 1 || (round % 3 == 0 && random() % 2 == 0);
+      for (std::size_t f = 0; f < box.count(); ++f) {
+        std::vector<glm::dvec3> outline = box.outline(f);
+        const bool end = std::all_of(outline.begin(), outline.end(), [&](const glm::dvec3& p) { return p[axis] == outline[0][axis]; });
+        if (end) { continue; }
+        if (each ? random() % 2 == 0 : turn) { std::reverse(outline.begin(), outline.end()); }
+        soup.polygon(outline);
+      }
+      for (glm::length_t k = 0; k < 3; ++k) {
+        for (const double side : {-1.0, 1.0}) {
+          if (k == axis) { continue; }
+          furniture::SeenPoint point{0.5 * (lo + hi) + glm::dvec3(0.01, -0.03, 0.02) * (hi - lo), glm::dvec3(0.0)};
+          point.position[k] = side > 0.0 ? hi[k] : lo[k];
+          point.normal[k] = side;
+          seen.push_back(point);
+        }
+      }
+    };
+    const double top = number(0.5, 1.0), x = number(0.5, 1.5), y = number(0.5, 1.5), thick = number(0.04, 0.12);
+    soup.names.emplace_back("top");
+    soup::add_box(soup, {x, y, top}, {x + 1.2, y + 0.8, top + 0.05});
+    for (const double u : {0.05, 1.0}) {
+      for (const double v : {0.05, 0.6}) { tube({x + u, y + v, 0}, {x + u + thick, y + v + thick, top}, 2); }
+    }
+    const double pillar = number(2.9, 3.2);
+    tube({pillar, 3, 0}, {pillar + 0.3, 3.3, 3}, 2);
+    tube({pillar + 0.3, 3.1, 1.5}, {4, 3.2, 1.6}, 0);
+    const radiosity::Intake intake = soup.take_in();
+    soup::check_sound(soup, intake);
+    const furniture::Sides sides = furniture::sides_of(intake.objects, seen, 1e-5);
+    CHECK(sides.missing == 0);
+    CHECK(sides.backs == 0);
+  }
+}
