@@ -25,11 +25,14 @@ HALFLIGHT_INLINE bool Shells::shines(const Component& shell) const {
                      [&](std::uint32_t f) { return !is_black(materials_[mesh_.faces[f].material].emission); });
 }
 
-HALFLIGHT_INLINE bool Shells::holds_another(const Component& shell) const {
+HALFLIGHT_INLINE bool Shells::holds_another(const Component& shell, const Component* around) const {
   constexpr std::size_t most_asked = 1000;
+  const raycast::Box box = shell.box.grown(mesh_.tolerance);
   const std::span<const Component> asked = std::span<const Component>(components_).first(std::min(components_.size(), most_asked));
-  return std::any_of(asked.begin(), asked.end(),
-                     [&](const Component& other) { return &other != &shell && holds(shell, other.box.centre()); });
+  return std::any_of(asked.begin(), asked.end(), [&](const Component& other) {
+    const bool whole = box.contains(other.box.lo) && box.contains(other.box.hi);
+    return &other != &shell && (whole || around == nullptr) && holds(shell, other.box.centre());
+  });
 }
 
 HALFLIGHT_INLINE bool Shells::is_furnished(const Component& shell) const {
@@ -69,8 +72,10 @@ HALFLIGHT_INLINE bool Shells::shines_inwards(const Component& lamp, const Compon
     }
     return 2.0 * bright < whole && is_furnished(lamp);
   }
-  if (holds_another(lamp)) { return true; }
-  return around != nullptr ? around->volume > 0.0 && !around_is_room && !is_furnished(*around) : components_.size() == 1;
+  if (holds_another(lamp, around)) { return true; }
+  if (around == nullptr) { return components_.size() == 1; }
+  const bool walls = nests_.empty() ? !is_furnished(*around) : nests_[static_cast<std::size_t>(around - components_.data())].filled >= 0.5;
+  return around->volume > 0.0 && !around_is_room && walls;
 }
 
 HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {

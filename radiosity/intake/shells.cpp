@@ -104,7 +104,8 @@ HALFLIGHT_INLINE Component* Shells::innermost(std::span<const Place> places, con
         (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume))) {
       continue;
     }
-    const auto held = [&](const Place& place) { return holds(shell, place.front) || (shell.volume < 0.0 && holds(shell, place.behind)); };
+    const bool either = shell.volume < 0.0 || (but != nullptr && but->closed);
+    const auto held = [&](const Place& place) { return holds(shell, place.front) || (either && holds(shell, place.behind)); };
     if (std::all_of(places.begin(), places.end(), held)) { best = &shell; }
   }
   return best;
@@ -138,21 +139,22 @@ HALFLIGHT_INLINE std::uint32_t Shells::around(const Component& shell) const {
   return best;
 }
 
-HALFLIGHT_INLINE void Shells::find_nested_rooms(bool room_known) {
+HALFLIGHT_INLINE void Shells::find_nests() {
   constexpr std::size_t most_asked = 1000;
   if (components_.size() > most_asked) { return; }
-  struct Nest {
-    std::vector<std::uint32_t> inner;
-    double filled = 0.0;
-  };
-  std::vector<Nest> nests(components_.size());
+  nests_.resize(components_.size());
   for (std::uint32_t c = 0; c < components_.size(); ++c) {
     if (components_[c].role != Role::solid && components_[c].role != Role::room) { continue; }
     const std::uint32_t outer = around(components_[c]);
     if (outer == none) { continue; }
-    nests[outer].inner.push_back(c);
-    nests[outer].filled += std::abs(components_[c].volume / components_[outer].volume);
+    nests_[outer].inner.push_back(c);
+    nests_[outer].filled += std::abs(components_[c].volume / components_[outer].volume);
   }
+}
+
+HALFLIGHT_INLINE void Shells::find_nested_rooms(bool room_known) {
+  const std::vector<Nest>& nests = nests_;
+  if (nests.empty()) { return; }
   for (std::uint32_t c = 0; c < components_.size(); ++c) {
     Component& outer = components_[c];
     const auto opposite = [&](std::uint32_t i) { return (components_[i].volume > 0.0) != (outer.volume > 0.0); };
@@ -233,6 +235,7 @@ HALFLIGHT_INLINE void Shells::show_one_side(std::uint32_t component, bool back) 
 HALFLIGHT_INLINE void Shells::find_roles() {
   const std::vector<Twins> twins = find_twins();
   for (const Twins& t : twins) { t.outer->role = Role::surface; }
+  find_nests();
   bool room_known = false;
   for (Component* const room : find_rooms()) {
     if (room == nullptr) { continue; }

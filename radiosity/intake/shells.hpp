@@ -69,26 +69,34 @@ class Shells {
   [[nodiscard]] bool holds(const Component& shell, const glm::dvec3& point) const;
   // The innermost shell that holds all these points. What lies on a shell is in it when its front is; or, of a shell that looks inwards,
   // when its back is.
+  // A closed lamp that lies on a shell is in it when one of the two is.
   [[nodiscard]] Component* innermost(std::span<const Place> places, const Component* but);
   // The shell that looks inwards at all the others, which do not look inwards themselves, as in a model that is inside out. Null: none.
   [[nodiscard]] Component* shell_around_others();
   // The smallest shell that holds this one, or none.
   [[nodiscard]] std::uint32_t around(const Component& shell) const;
+  // What lies in what, and how much of it that fills. Nothing where there are too many shells.
+  struct Nest {
+    std::vector<std::uint32_t> inner;  // the shells in it, but not those in these
+    double filled = 0.0;               // share of the volume
+  };
+  void find_nests();
   // Rooms that no lamp and no eye tells of. What fills at least half of a shell is no furniture: that shell is walls, and what looks the
   // other way in it, or has things in it, is a room. Where less is filled, a shell that looks outwards at things which all look inwards is
   // a room of a model that is inside out; this only where no other room is known.
   void find_nested_rooms(bool room_known);
   [[nodiscard]] bool shines(const Component& shell) const;
-  [[nodiscard]] bool holds_another(const Component& shell) const;
+  // Another shell as a whole; where no shell is around both, its middle is enough.
+  [[nodiscard]] bool holds_another(const Component& shell, const Component* around) const;
   // Does the shell hold things that look the other way, as those of a room do, and that leave half of it free, so that it is not the outer
   // side of walls?
   [[nodiscard]] bool is_furnished(const Component& shell) const;
   // The innermost furnished shell through whose walls a lamp reaches, such as a bulb that is sunk into the ceiling.
   [[nodiscard]] Component* pierced_by(std::span<const Place> places, const Component& lamp);
   // Is a shell that shines on the inside, at least in part, a room? One that looks outwards is when it shines in part and is furnished. One
-  // that looks inwards is when something is in it, when it is alone, or when the innermost shell around it looks outwards, as walls do
-  // around their room, and is not furnished itself. Else it is a lamp, a bulb for instance, that is inside out; so it is when an eye in the
-  // shell around it tells that this is the room.
+  // that looks inwards is when something is in it, when it is alone, or when the innermost shell around it looks outwards and is filled by
+  // half, as walls are by their rooms. Else it is a lamp, a bulb for instance, or a thing that shines, and is inside out; so it is when an
+  // eye in the shell around it tells that this is the room.
   [[nodiscard]] bool shines_inwards(const Component& lamp, const Component* around, bool around_is_room) const;
   // Shells around lamps and eyes. Some may be null.
   [[nodiscard]] std::vector<Component*> find_rooms();
@@ -102,6 +110,7 @@ class Shells {
   std::span<const Material> materials_;
   const IntakeOptions& options_;
   std::vector<Component> components_;
+  std::vector<Nest> nests_;   // of a component
   std::vector<bool> turned_;  // of a component
   std::vector<Room> rooms_;
   raycast::Box bounds_;
