@@ -106,7 +106,7 @@ class ObjectMaker {
     add(faces, component.role, false);
   }
 
-  // That of the group; with a number where it has several objects.
+  // That of the group; with a number where it has several objects. A solid of several groups has their names, three at most.
   void name_objects() {
     std::vector<std::size_t> count(std::max<std::size_t>(input_.names.size(), 1)), number(count.size());
     for (const std::uint32_t g : group_of_) {
@@ -114,11 +114,22 @@ class ObjectMaker {
       number.resize(count.size());
       ++count[g];
     }
+    const auto name_of = [&](std::uint32_t g) { return g < input_.names.size() ? input_.names[g] : std::string("mesh"); };
     for (std::size_t i = 0; i < objects_.size(); ++i) {
       const std::uint32_t g = group_of_[i];
-      const std::string name = g < input_.names.size() ? input_.names[g] : std::string("mesh");
-      objects_[i].name = count[g] == 1 ? name : name + "." + std::to_string(++number[g]);
+      objects_[i].name = count[g] == 1 ? name_of(g) : name_of(g) + "." + std::to_string(++number[g]);
+      for (const std::uint32_t other : others_[i]) { objects_[i].name += "+" + name_of(other); }
     }
+  }
+
+  // The next two groups of these faces beside the one whose objects are made.
+  [[nodiscard]] std::vector<std::uint32_t> other_groups(const std::vector<std::uint32_t>& faces) const {
+    std::vector<std::uint32_t> groups;
+    for (const std::uint32_t f : faces) {
+      const std::uint32_t g = mesh_.faces[f].group;
+      if (g != group_ && groups.size() < 2 && std::find(groups.begin(), groups.end(), g) == groups.end()) { groups.push_back(g); }
+    }
+    return groups;
   }
 
   [[nodiscard]] bool is_turned(std::uint32_t face) const { return shells_.turned(topology_.component[face]); }
@@ -178,6 +189,7 @@ class ObjectMaker {
       if (std::all_of(material.begin(), material.end(), [&](auto m) { return m == material[0]; })) { material.resize(1); }
       objects_.push_back({{}, std::move(made.object), placement, std::move(material)});
       group_of_.push_back(group_);
+      others_.push_back(other_groups(faces));
       return;
     }
     for (std::size_t i = 0; i < corners.size(); ++i) {  // no surface after all: polygons
@@ -191,6 +203,7 @@ class ObjectMaker {
       came_from(faces[i], 0, back);
       objects_.push_back({{}, std::move(made.object), {}, {material[i]}});
       group_of_.push_back(group_);
+      others_.emplace_back();
     }
   }
 
@@ -207,8 +220,9 @@ class ObjectMaker {
   std::vector<std::uint32_t> local_;    // of a vertex, in the object that is made
   std::vector<std::uint32_t> face_of_;  // of a side
   std::vector<SceneObject> objects_;
-  std::vector<std::uint32_t> group_of_;  // of an object
-  std::uint32_t group_ = 0;              // whose objects are made
+  std::vector<std::uint32_t> group_of_;             // of an object
+  std::vector<std::vector<std::uint32_t>> others_;  // of an object: further groups that it has faces of
+  std::uint32_t group_ = 0;                         // whose objects are made
   std::vector<SheetOrigin> sheets_;
 };
 

@@ -208,6 +208,7 @@ HALFLIGHT_INLINE void Shells::part_groups() {
     const bool any = std::any_of(component.cavities.begin(), component.cavities.end(), [&](auto c) { return components_[c].several; });
     if (component.role == Role::surface || component.role == Role::nothing || !(component.several || any)) { continue; }
     if (component.role == Role::cavity) { continue; }  // with the solid around it
+    if (component.role == Role::solid && component.cavities.empty()) { continue; }
     part(component);
     for (const std::uint32_t cavity : component.cavities) { part(components_[cavity]); }
     component.cavities.clear();

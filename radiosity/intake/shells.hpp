@@ -103,7 +103,8 @@ class Shells {
   void turn_shells();
   // Walls with a thickness: the room is a cavity of the solid around it.
   void hollow_solids();
-  // An object belongs to one group, so shells of several groups become surfaces, and so do the shells whose walls or cavities they are.
+  // Walls, floor and ceiling of several groups stay objects of these groups: rooms become surfaces, and so do the shells whose walls or
+  // cavities they are. A thing of several groups, such as a cabinet in parts by material, is one solid: what it stands on is buried there.
   void part_groups();
 
   Working& mesh_;
