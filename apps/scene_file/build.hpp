@@ -118,20 +118,30 @@ class Eyes {
   // A point before each sheet of the object that shines. `of`: the statement that it comes from.
   void add_lamps(const radiosity::SceneObject& placed, const std::vector<radiosity::Material>& materials, const ObjectSyntax* of);
 
+  // Something that may be a room around others, with its bounds in the scene.
+  void add_room(const raycast::Box& bounds, const ObjectSyntax* of) { rooms_.push_back({bounds, of}); }
+
   // Those in this box of a mesh, in the coordinates of the mesh. Of its own lamps the file itself tells. A lamp counts when half of its
-  // points are there: one that stands on a thing has its foot in it.
+  // points are there: one that stands on a thing has its foot in it. One that reaches out of the mesh pierces a thing, as a bracket does a
+  // column, where something at least twice as large holds both; else the mesh is a room, and the lamp is let into its wall.
   [[nodiscard]] std::vector<glm::dvec3> within(const raycast::Box& box, const raycast::Placement& placement,
                                                const ObjectSyntax* mesh) const;
 
  private:
   static constexpr std::size_t most = 1000;
+  struct Room {
+    raycast::Box bounds;
+    const ObjectSyntax* of = nullptr;
+  };
+  [[nodiscard]] bool larger_room(const raycast::Box& mesh, std::size_t first, std::size_t end, const ObjectSyntax* of) const;
   struct Point {
     glm::dvec3 position{0.0};
     const ObjectSyntax* of = nullptr;
     std::size_t lamp = 0;  // number of its camera or lamp
   };
   std::vector<Point> points_;  // those of a lamp in a row
-  std::size_t count_ = 0;      // of cameras and lamps
+  std::vector<Room> rooms_;
+  std::size_t count_ = 0;  // of cameras and lamps
 };
 
 // --- the builder

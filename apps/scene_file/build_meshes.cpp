@@ -82,8 +82,24 @@ void Eyes::add_lamps(const radiosity::SceneObject& placed, const std::vector<rad
   ++count_;
 }
 
+// Does something hold the mesh, which has these bounds in the scene and fills at most half of it, and all these points?
+bool Eyes::larger_room(const raycast::Box& mesh, std::size_t first, std::size_t end, const ObjectSyntax* of) const {
+  const auto volume = [](const raycast::Box& box) { return box.size().x * box.size().y * box.size().z; };
+  return std::any_of(rooms_.begin(), rooms_.end(), [&](const Room& room) {
+    const raycast::Box box = room.bounds.grown(1e-9 * room.bounds.diameter());
+    bool holds = room.of != of && volume(box) >= 2.0 * volume(mesh) && box.contains(mesh.lo) && box.contains(mesh.hi);
+    for (std::size_t i = first; i < end; ++i) { holds = holds && room.of != points_[i].of && box.contains(points_[i].position); }
+    return holds;
+  });
+}
+
 std::vector<glm::dvec3> Eyes::within(const raycast::Box& box, const raycast::Placement& placement, const ObjectSyntax* mesh) const {
   const raycast::Box inner = box.grown(-1e-9 * box.diameter());  // what lies on its sides is not within
+  raycast::Box placed;
+  for (int k = 0; k < 8; ++k) {
+    const glm::dvec3 corner{(k & 1 ? box.hi : box.lo).x, (k & 2 ? box.hi : box.lo).y, (k & 4 ? box.hi : box.lo).z};
+    placed.extend(placement.linear * corner + placement.translation);
+  }
   std::vector<glm::dvec3> list;
   std::vector<glm::dvec3> its;  // of one camera or lamp
   for (std::size_t i = 0, first = 0; i < points_.size(); ++i) {
@@ -92,7 +108,9 @@ std::vector<glm::dvec3> Eyes::within(const raycast::Box& box, const raycast::Pla
     const auto here = point.of == mesh ? std::nullopt : point_within(placement, point.position);
     if (here && inner.contains(*here)) { its.push_back(*here); }
     if (i + 1 < points_.size() && points_[i + 1].lamp == point.lamp) { continue; }
-    if (2 * its.size() > i - first) { list.insert(list.end(), its.begin(), its.end()); }
+    const std::size_t count = i + 1 - first;
+    const bool pierces = !its.empty() && its.size() < count && larger_room(placed, first, i + 1, mesh);
+    if (2 * its.size() >= count && !pierces) { list.insert(list.end(), its.begin(), its.end()); }
     its.clear();
   }
   return list;
@@ -171,6 +189,14 @@ void Builder::see_from_inside() {
       eyes_.add_lamps({{}, part.shape, raycast::compose(placement, part.placement), part.material}, file_.scene.materials, &object);
     }
     if (made.shape != nullptr) { eyes_.add_lamps({{}, made.shape, placement, made.material}, file_.scene.materials, &object); }
+    raycast::Box box;
+    for (const radiosity::SceneObject& part : made.parts) {
+      const raycast::Box its = radiosity::placed_bounds(*part.shape, raycast::compose(placement, part.placement));
+      box.extend(its.lo);
+      box.extend(its.hi);
+    }
+    if (object.inside && made.shape != nullptr) { box = radiosity::placed_bounds(*made.shape, placement); }
+    if (object.inside || !made.parts.empty()) { eyes_.add_room(box, &object); }
   });
   std::unordered_map<const ObjectSyntax*, std::vector<glm::dvec3>> eyes;
   std::vector<const ObjectSyntax*> order;

@@ -122,3 +122,26 @@ TEST_CASE("a mesh on which a lamp stands is a solid, one in which it stands is a
     CHECK((hit && hit->front && hit->t <= 1.0) == within);
   }
 }
+
+// The middle of such a lamp lies in the box, and most of its faces have their middles there.
+TEST_CASE("a mesh that a lamp pierces is a solid where a room holds both, and a room where nothing does") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  for (int round = 0; round < 24; ++round) {
+    const bool room = round % 2 == 0, shape = round % 4 == 0;
+    const glm::dvec3 lo{number(-0.5, -0.1), number(0.2, 1.0), number(0.2, 2.0)}, hi{number(2.1, 2.5), number(1.5, 2.5), number(2.5, 3.5)};
+    std::string scene = "material m reflectance 0.5\nmaterial lamp reflectance 0 emission 5\nmesh a file boxes.obj material m\n";
+    scene += "box bracket from " + text_of(lo) + " to " + text_of(hi) + " material lamp\n";
+    if (room) {
+      scene +=
+          shape ? "box room from -2 -2 -1 to 9 9 9 inside material m\n" : "mesh room file boxes.obj scale 6 move -2 -2 -1 material m\n";
+    }
+    INFO(scene);
+    const auto read = apps::parse_scene(scene, models::beside({{"boxes.obj", two_boxes()}}));
+    REQUIRE(read.file);
+    const auto hit = raycast::Scene(radiosity::placed_objects(read.file->scene)).closest({{1.0, 2.9, 0.1}, {0.0, 0.5, 0.0}});
+    CHECK((hit && hit->front && hit->t <= 1.0) == !room);
+  }
+}
