@@ -50,8 +50,10 @@ struct ComponentType {
 std::optional<ComponentType> component_type(const JsonValue& value) {
   static constexpr std::array<ComponentType, 7> types{
       {{1, true, false}, {1, false, false}, {2, true, false}, {2, false, false}, {}, {4, false, false}, {4, true, true}}};  // from 5120 on
-  const auto i = static_cast<std::size_t>(std::max(value.number() - 5120.0, 0.0));
-  return value.number() >= 5120.0 && i < types.size() && types[i].size > 0 ? std::optional(types[i]) : std::nullopt;
+  constexpr std::size_t first = 5120;
+  const std::size_t given = value.index().value_or(0);
+  return given >= first && given - first < types.size() && types[given - first].size > 0 ? std::optional(types[given - first])
+                                                                                         : std::nullopt;
 }
 
 double number_at(std::string_view bytes, std::size_t at, const ComponentType& type, bool normalized) {
