@@ -12,6 +12,7 @@
 #include <radiosity/intake/intake.hpp>
 
 #include "catch.hpp"
+#include "radiosity/foreign_rooms.hpp"
 #include "radiosity/lattice_furniture.hpp"
 
 using furniture::Damage;
@@ -197,5 +198,36 @@ TEST_CASE("intake: tubes that end on faces show their fronts, whichever way they
     const furniture::Sides sides = furniture::sides_of(intake.objects, seen, 1e-5);
     CHECK(sides.missing == 0);
     CHECK(sides.backs == 0);
+  }
+}
+
+// As programs write them that make an object of each material.
+TEST_CASE("intake: a thing of several groups is the solid that it is in one, and buries what it stands on") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  rooms::RandomRooms random(seed);
+  for (int round = 0; round < 8; ++round) {
+    soup::Soup parted = rooms::furnished_room(random, round % 4 > 1, 0.1), whole;
+    whole = parted;
+    const glm::dvec3 lo{rooms::number_in(random, 0.9, 1.1), rooms::number_in(random, 1.1, 1.2), 0.0};
+    soup::Soup cabinet;
+    soup::add_box(cabinet, lo, lo + glm::dvec3(0.4, 0.5, rooms::number_in(random, 0.3, 1.5)));
+    const std::uint32_t doors = static_cast<std::uint32_t>(whole.names.size());
+    for (soup::Soup* const s : {&parted, &whole}) {
+      s->names.insert(s->names.end(), {"cabinet"});
+      if (s == &parted) { s->names.emplace_back("doors"); }
+      for (std::size_t f = 0; f < cabinet.count(); ++f) {
+        std::vector<glm::dvec3> outline = cabinet.outline(f);
+        if (round % 2 == 1) { std::reverse(outline.begin(), outline.end()); }
+        s->polygon(outline);
+        s->group.back() = s == &parted && f % 5 == 0 ? doors + 1 : doors;
+      }
+    }
+    const radiosity::Intake one = whole.take_in(), several = parted.take_in();
+    soup::check_sound(parted, several);
+    CHECK(soup::measure(several.objects).solids == soup::measure(one.objects).solids);
+    CHECK(soup::measure(several.objects).volume == Approx(soup::measure(one.objects).volume).epsilon(1e-12));
+    CHECK(std::any_of(several.objects.begin(), several.objects.end(), [](const auto& o) { return o.name == "doors+cabinet"; }));
+    CHECK(several.parts.first == one.parts.first);
   }
 }
