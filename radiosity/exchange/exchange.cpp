@@ -105,6 +105,8 @@ HALFLIGHT_INLINE int above_horizon(const Patch& p, const Patch& q, double share)
 
 namespace detail {
 
+inline constexpr double near_extent = 0.6491;  // over distance: from here on the near rule is needed
+
 // From the light at the Gauss points of a patch (the weight included). Without light: none.
 [[nodiscard]] HALFLIGHT_INLINE Variation variation(const Patch& patch, std::span<const double> light) {
   Variation result;
@@ -201,6 +203,25 @@ HALFLIGHT_INLINE Variations variations(const Patch& p, const Patch& q) {
   return result;
 }
 
+HALFLIGHT_INLINE Variation variation_by_contour(const Patch& p, const Patch& q) {
+  std::vector<double> light;
+  light.reserve(p.rule3.size());
+  Polygon seen;
+  for (const QuadraturePoint& x : p.rule3) {
+    const glm::dvec3 normal = normal_over(p, x.position);
+    light.push_back(0.0);
+    if (!(glm::dot(q.normal, x.position - q.centre) > 0.0)) { continue; }
+    seen.clear();
+    clip_to_horizon(q.contour, x.position, normal, seen);
+    if (seen.size() >= 3) { light.back() = x.weight * std::max(0.0, point_to_polygon(x.position, normal, seen)); }
+  }
+  return detail::variation(p, light);
+}
+
+HALFLIGHT_INLINE bool too_near_for_kernel(const Patch& p, const Patch& q) {
+  return p.radius + q.radius >= detail::near_extent * glm::length(q.centre - p.centre);
+}
+
 namespace detail {
 
 HALFLIGHT_INLINE Patch above(const Patch& patch, const Patch& other) {
@@ -232,7 +253,7 @@ HALFLIGHT_INLINE Patch above(const Patch& patch, const Patch& other) {
   if (known != nullptr && !p.bent && !q.bent && extent < 0.3493 * distance) { return known->light; }  // of three points a side
   if (extent < 0.0997 * distance) { return kernel_exchange(p, p.rule2, q, q.rule2); }
   if (extent < 0.3493 * distance) { return kernel_exchange(p, p.rule3, q, q.rule3); }
-  if (extent < 0.6491 * distance) { return kernel_exchange(p, p.rule4, q, q.rule4); }
+  if (extent < near_extent * distance) { return kernel_exchange(p, p.rule4, q, q.rule4); }
   // Against a patch a thousand times its size a patch is hardly more than a point, and the difference of both contours cancels.
   if (p.radius < 0.997e-3 * q.radius) { return point_exchange(p, q); }
   if (q.radius < 0.997e-3 * p.radius) { return point_exchange(q, p); }

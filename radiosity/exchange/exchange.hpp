@@ -59,6 +59,13 @@ struct Variations {
 // curved patches as they do over the surface (bend.hpp).
 [[nodiscard]] Variations variations(const Patch& p, const Patch& q);
 
+// How the unoccluded light of q changes across p, by Lambert's contour of q at the Gauss points of p: exact at these points however near q
+// lies. The kernel of variations() is several times as large beside a common edge, and so are its slope and its rest. Normals turn over a
+// curved p; q counts as its chord.
+[[nodiscard]] Variation variation_by_contour(const Patch& p, const Patch& q);
+// Do patches lie so near each other, for their size, that variations() is not to be relied on?
+[[nodiscard]] bool too_near_for_kernel(const Patch& p, const Patch& q);
+
 namespace detail {
 
 // The part of a patch above the plane of another one.

@@ -79,11 +79,36 @@ HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const DiscreteScene& scene, con
   return errors;
 }
 
+// The leaf of `node` whose centre is nearest to x, one level after the other.
+[[nodiscard]] HALFLIGHT_INLINE std::uint32_t leaf_beside(const Hierarchy& hierarchy, const std::vector<double>& area, std::uint32_t node,
+                                                         const glm::dvec3& x) {
+  while (!hierarchy[node].leaf()) {
+    const std::uint32_t first = hierarchy[node].first_child, end = first + hierarchy[node].child_count;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t k = first; k < end; ++k) {
+      const double away = glm::length(hierarchy[k].centre - x);
+      if (!(area[k] > 0.0) || !(away < least)) { continue; }
+      least = away;
+      node = k;
+    }
+    if (!std::isfinite(least)) { break; }
+  }
+  return node;
+}
+
 HALFLIGHT_INLINE double variation_by_siblings(const Hierarchy& hierarchy, const std::vector<double>& area,
                                               const std::vector<Color>& radiosity) {
   double sum = 0.0;
   const auto square_between = [&](std::uint32_t a, std::uint32_t b) {
     return glm::dot(radiosity[a] - radiosity[b], radiosity[a] - radiosity[b]);
+  };
+  // From a leaf to a child that was split, by the slope up to the next of that child's leaves.
+  const auto square_to = [&](std::uint32_t leaf, std::uint32_t child) {
+    const glm::dvec3& x = hierarchy[leaf].centre;
+    const std::uint32_t next = leaf_beside(hierarchy, area, child, x);
+    const double away = glm::length(hierarchy[next].centre - x);
+    const double longer = away > 0.0 ? glm::length(hierarchy[child].centre - x) / away : 1.0;
+    return longer * longer * square_between(leaf, next);
   };
   for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
     const Node& node = hierarchy[i];
@@ -95,7 +120,7 @@ HALFLIGHT_INLINE double variation_by_siblings(const Hierarchy& hierarchy, const 
       if (!hierarchy[k].leaf() || !(area[k] > 0.0)) { continue; }
       double least = std::numeric_limits<double>::infinity();
       for (std::uint32_t other = first; other < end; ++other) {
-        if (other != k && area[other] > 0.0) { least = std::min(least, square_between(k, other)); }
+        if (other != k && area[other] > 0.0) { least = std::min(least, square_to(k, other)); }
       }
       if (even) {
         sum += area[k] * square_between(k, i) / 3.0;

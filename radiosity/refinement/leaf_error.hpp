@@ -44,6 +44,8 @@ LeafErrors estimate_leaf_errors(const DiscreteScene& scene, const Links& links, 
 // changes linearly over a parent of four leaves, squares or triangles, the variance within each is a third of that between them. Where
 // some of the children were split once more, light changes more over these than over the leaves beside them: a leaf then varies by half
 // the square of what it differs from the child that is most like it (over all directions of a gradient the mean for squares is 1 / 2.2).
+// For a child that was split, the slope up to the nearest of its leaves tells that difference, because a bright child may begin where a
+// leaf in shadow ends.
 double variation_by_siblings(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<Color>& radiosity);
 
 }  // namespace detail

@@ -18,6 +18,7 @@
 #include <raycast/shaft.hpp>
 
 #include <radiosity/exchange/doubt.hpp>
+#include <radiosity/exchange/exchange.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/evaluate.hpp>
@@ -71,14 +72,16 @@ struct LinkTables {
   }
 };
 
-// Those that hold a light at an end, and those that do not; nothing is measured yet.
-[[nodiscard]] HALFLIGHT_INLINE std::array<LinkSample, 2> lights_and_others(const DiscreteScene& scene, const LinkTables& links) {
+// Links that hold a light at an end; others of the first table; others of the second one, which rays made. Nothing is measured yet.
+[[nodiscard]] HALFLIGHT_INLINE std::array<LinkSample, 3> lights_and_others(const DiscreteScene& scene, const LinkTables& links) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const auto emits = [&](std::uint32_t i) {
     return hierarchy[i].is_cluster() ? !scene.clustered() : !is_black(scene.emission[hierarchy[i].surface]);
   };
-  std::array<LinkSample, 2> samples;
-  for (std::uint32_t i = 0; i < links.size(); ++i) { samples[emits(links[i].p) || emits(links[i].q) ? 0 : 1].from.push_back(i); }
+  std::array<LinkSample, 3> samples;
+  for (std::uint32_t i = 0; i < links.size(); ++i) {
+    samples[emits(links[i].p) || emits(links[i].q) ? 0 : i < links.tables[0].size() ? 1 : 2].from.push_back(i);
+  }
   return samples;
 }
 
@@ -101,6 +104,17 @@ HALFLIGHT_INLINE std::vector<double> drawn_by(const LinkErrorTerms& errors, cons
     sums[i] = sum += (squared + (all.most > 0.0 ? carried[i].most / all.most : even) + even) / 3.0;
   }
   return sums;
+}
+
+// What the kernel of a link leaves over an end, where the other end lies beside it. Leaves have no slope; below an inner node that of the
+// link counts, be it right or not.
+HALFLIGHT_INLINE void by_contour(const DiscreteScene& scene, std::uint32_t i, std::uint32_t other, const glm::dvec3& slope,
+                                 LinkVariation::End& end) {
+  const Patch& patch = scene.patches[i];
+  const Variation light = variation_by_contour(patch, scene.patches[other]);
+  const double off = scene.hierarchy[i].leaf() ? 0.0 : mean_square(patch, light.slope - slope);
+  end.linear = static_cast<float>(light.linear);
+  end.rest = static_cast<float>(std::sqrt(light.rest * light.rest + off));
 }
 
 // Measures `most` of the links at most: all, or those in whose part of 0 to 1 one of as many equal steps ends (systematic sampling; Madow
@@ -127,7 +141,12 @@ HALFLIGHT_INLINE void measure_sample(const DiscreteScene& scene, const LinkError
   parallel_for(chosen.size(), scene.threads, [&](std::size_t i) {
     Link& link = sample.links[i].link = links[chosen[i]];
     const float closed = link.exchange;
-    (void)scene.evaluator(link, {}, &sample.links[i].variation);
+    LinkVariation& variation = sample.links[i].variation;
+    (void)scene.evaluator(link, {}, &variation);
+    if (scene.evaluator.between_patches(link) && too_near_for_kernel(scene.patches[link.p], scene.patches[link.q])) {
+      by_contour(scene, link.p, link.q, link.shape_p.gradient(), variation.p);
+      by_contour(scene, link.q, link.p, link.shape_q.gradient(), variation.q);
+    }
     link.exchange = closed;
   });
 }
@@ -214,7 +233,7 @@ HALFLIGHT_INLINE void add_unseen(const DiscreteScene& scene, const PairSample& u
     pairs.back().p = pair.x;
     pairs.back().q = pair.y;
   }
-  auto [of_lights, others] = lights_and_others(scene, {{pairs, {}}});
+  auto [of_lights, others, no_rays] = lights_and_others(scene, {{pairs, {}}});
   const LinkErrorTerms terms{alike, scene, radiosity};
   measure_sample(scene, terms, {{pairs, {}}}, 1024, of_lights);
   measure_sample(scene, terms, {{pairs, {}}}, 1024, others);
@@ -228,17 +247,21 @@ HALFLIGHT_INLINE void add_unseen(const DiscreteScene& scene, const PairSample& u
 HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, const std::array<std::span<const Link>, 2>& tables,
                                                   const std::vector<Color>& radiosity, const EvaluateResult& evaluated) {
   const LinkTables links{tables};
-  auto [of_lights, others] = lights_and_others(scene, links);
+  auto [of_lights, others, of_rays] = lights_and_others(scene, links);
   const AlikeErrors independent;
   const LinkErrorTerms terms{independent, scene, radiosity};
   measure_sample(scene, terms, links, 1024, of_lights);
   measure_sample(scene, terms, links, 3072, others);
-  const LeafErrors leaves = sampled_leaf_errors(scene, {&of_lights, &others}, links.size(), radiosity);
+  measure_sample(scene, terms, links, 3072, of_rays);
+  const LeafErrors leaves = sampled_leaf_errors(scene, {&of_lights, &others, &of_rays}, links.size(), radiosity);
   ErrorEstimation result;
   result.of_leaves = leaves.sum;
   const AlikeErrors alike{std::sqrt(evaluated.doubt.alike(scene.hierarchy, scene.exposure.area)), leaves.alike()};
-  for (const LinkSample* sample : {&of_lights, &others}) {
-    const ErrorEstimation errors = estimate_link_errors(alike, scene, sample->links, radiosity);
+  // Row sums tell of evaluated links alone. Rays make thousands of links at a node, which lie at different places before it.
+  const AlikeErrors of_ray_links{1.0, leaves.alike()};
+  for (const LinkSample* sample : {&of_lights, &others, &of_rays}) {
+    const AlikeErrors& together = sample == &of_rays ? of_ray_links : alike;
+    const ErrorEstimation errors = estimate_link_errors(together, scene, sample->links, radiosity);
     result.of_links += sum_over(*sample, errors);
     result.norm = errors.norm;
   }

@@ -61,7 +61,8 @@ ErrorEstimation estimate_link_errors(const AlikeErrors& alike, const DiscreteSce
                                      const std::vector<Color>& radiosity);
 
 // For links that were not made by BF-refinement, in two tables, and for pairs that were left out because no segment came through: from at
-// most 1024 of either that hold a light, and 3072 and 1024 others, drawn by what they carry; they are measured now.
+// most 1024 of either that hold a light, 3072 others of each table, and 1024 other pairs, drawn by what they carry; they are measured now,
+// those between patches that lie beside each other by Lambert's contour. The second table was made by rays.
 ErrorEstimation sampled_estimate(const DiscreteScene& scene, const std::array<std::span<const Link>, 2>& links,
                                  const std::vector<Color>& radiosity, const EvaluateResult& evaluated);
 
