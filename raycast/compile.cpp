@@ -83,7 +83,7 @@ HALFLIGHT_INLINE void Compiler::face(std::uint32_t number, std::span<const glm::
   const std::uint32_t sheet = object_->sheet_of(number);
   world_.clear();
   for (const glm::dvec3& p : corners) { world_.push_back(map(p)); }
-  if (mirrored_) { std::reverse(world_.begin(), world_.end()); }
+  if (turned_) { std::reverse(world_.begin(), world_.end()); }
   if (corners.size() == 3) {
     // Slivers are left to double precision: their normal is not known.
     const glm::dvec3 area = glm::cross(world_[1] - world_[0], world_[2] - world_[0]);
@@ -117,7 +117,7 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
   object_ = &object;
   index_ = index;
   const glm::dmat3& m = object.placement().linear;
-  mirrored_ = glm::determinant(m) < 0.0;
+  turned_ = (glm::determinant(m) < 0.0) != object.inside();
   const glm::dmat3 square = glm::transpose(m) * m;
   const double s = (square[0][0] + square[1][1] + square[2][2]) / 3;
   similar_ = true;
@@ -147,7 +147,9 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
   } else {
     object.object().compile(*this);
   }
-  if (object.inside()) {
+  if (object.inside() && items_.size() > before) {
+    out_.face_rooms.push_back({index, air_cells(before)});
+  } else if (object.inside()) {
     out_.rooms.push_back(index);
     out_.room_bodies.push_back(room_body_);
   } else if (items_.size() == before) {
@@ -161,7 +163,8 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
 HALFLIGHT_INLINE AirCells Compiler::air_cells(std::size_t first_item) const {
   // A room of a dozen walls is to have cells of air in its middle, and a lattice between its bars; a million faces a megabyte at most.
   const std::size_t wanted = std::clamp<std::size_t>(32 * (items_.size() - first_item), 1024, std::size_t{1} << 18);
-  AirCells cells(out_.bounds.back().lo, out_.bounds.back().hi, wanted);
+  const FloatBox body = rounded(scaled(object_->bounds()));
+  AirCells cells(body.lo, body.hi, wanted);
   for (std::size_t i = first_item; i < items_.size(); ++i) {
     cells.meet({items_[i].box.lo, items_[i].box.hi, faces_[items_[i].data].row[0]}, out_.margin);
   }

@@ -45,7 +45,10 @@ class Compiler {
   // A convex solid behind all these planes; at most 32 of them.
   void body(std::span<const Plane> planes);
   // Is it worth listing so many faces? Beyond four million in a scene no copies are made of them.
-  [[nodiscard]] bool takes_faces(std::size_t count) const { return !object_->inside() && face_count_ + count <= 4'000'000; }
+  [[nodiscard]] bool takes_faces(std::size_t count) const { return face_count_ + count <= 4'000'000; }
+  // The air is within the object. Its faces may be listed if the first of them that a ray from the air meets is where the air ends: if the
+  // surface does not meet itself.
+  [[nodiscard]] bool room() const { return object_->inside(); }
   // One face of a surface, in the order of its corners; all faces must be listed. Faces of one sheet lie in one plane.
   void face(std::uint32_t number, std::span<const glm::dvec3> corners);
 
@@ -74,7 +77,7 @@ class Compiler {
   [[nodiscard]] Box scaled(const Box& b) const { return {out_.local(b.lo), out_.local(b.hi)}; }
   [[nodiscard]] FloatBox rounded(const Box& b) const;
   void add(const Box& box, Kind kind, std::uint32_t data) { items_.push_back({rounded(box), kind, index_, data}); }
-  // The faces listed from this item on bound a solid: which cells over it are air?
+  // The faces listed from this item on bound a solid: which cells over its body are air?
   [[nodiscard]] AirCells air_cells(std::size_t first_item) const;
   void add_object_box(Kind kind, std::uint32_t data) { items_.push_back({out_.bounds.back(), kind, index_, data}); }
 
@@ -127,7 +130,7 @@ class Compiler {
   const PlacedObject* object_ = nullptr;
   std::uint32_t index_ = 0, room_body_ = no_shape;
   double stretch_ = 1.0, skin_ = 0.0;  // skin_: in the compiled scene
-  bool mirrored_ = false, similar_ = true;
+  bool turned_ = false, similar_ = true;  // turned_: the corners of a face run clockwise seen from the air
 };
 
 }  // namespace raycast

@@ -38,6 +38,7 @@ HALFLIGHT_INLINE std::size_t Compiled::bytes() const {
          spheres.capacity() * sizeof(SphereBlock) + bodies.capacity() * sizeof(Body) + planes.capacity() * 16 +
          cylinders.capacity() * sizeof(CylinderShape) + forms.capacity() * sizeof(Form) +
          std::accumulate(guards.begin(), guards.end(), guards.capacity() * sizeof(Guard), cells) +
+         std::accumulate(face_rooms.begin(), face_rooms.end(), face_rooms.capacity() * sizeof(Guard), cells) +
          (others.capacity() + leaves.capacity() + rooms.capacity() + room_bodies.capacity()) * sizeof(std::uint32_t) +
          (first_sheet.capacity() + 4 * sheets.capacity()) * sizeof(std::uint32_t) + roles.capacity() + bounds.capacity() * sizeof(FloatBox);
 }

@@ -118,7 +118,8 @@ struct Compiled {
   std::vector<std::uint32_t> leaves;  // of a scene of few shapes, where occlusion is a loop over them: all leaves, with shapes of their own
   std::vector<Role> roles;            // by object
   std::vector<FloatBox> bounds;       // by object, grown by the margin; everything for a room
-  std::vector<std::uint32_t> rooms;   // objects turned inside out
+  std::vector<Guard> face_rooms;      // objects turned inside out that are kept as faces
+  std::vector<std::uint32_t> rooms;   // the others that are turned inside out
   std::vector<std::uint32_t> room_bodies;    // by room: its convex body, or no_shape
   std::vector<std::array<float, 4>> sheets;  // planes of the sheets of flat solids: heights in the air
   std::vector<std::uint32_t> first_sheet;    // by object, of these; no_shape where it is none
@@ -128,6 +129,9 @@ struct Compiled {
   [[nodiscard]] static bool is_leaf(std::uint32_t child) { return raycast::is_leaf(child); }
   [[nodiscard]] glm::dvec3 local(const glm::dvec3& p) const { return (p - centre) * scale; }
   [[nodiscard]] std::uint32_t object_of(std::uint32_t shape) const;
+  [[nodiscard]] bool is_face_room(std::uint32_t object) const {
+    return std::any_of(face_rooms.begin(), face_rooms.end(), [&](const Guard& room) { return room.object == object; });
+  }
   [[nodiscard]] std::size_t bytes() const;
   // Of a ray through the whole tree, without an end: how many nodes it opens and what it does in their leaves, where eight faces or spheres
   // side by side count as one node. Each is met as often as its bounds are smaller than the whole (MacDonald and Booth 1990).

@@ -119,7 +119,8 @@ HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, floa
   if (entries.complete) { return; }
   const Line line(ray);
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-    if (compiled_.roles[i] != Role::polygon && !objects_[i].inside() && !left_out_[i]) { approach(line, search.source, i, nearest); }
+    const bool room = objects_[i].inside() && !compiled_.is_face_room(i);  // is asked last
+    if (compiled_.roles[i] != Role::polygon && !room && !left_out_[i]) { approach(line, search.source, i, nearest); }
   }
 }
 
@@ -137,6 +138,7 @@ HALFLIGHT_INLINE void Scene::approach_bounded(Search& search) const {
       approach(line, search.source, i, search.nearest);
       return false;
     });
+    for (const Guard& room : compiled_.face_rooms) { approach(line, search.source, room.object, search.nearest); }
     return;
   }
   Asker asker{*this, &search};

@@ -119,7 +119,7 @@ HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const P
     list.count_ = count;
     drop_guards(list, c);
   }
-  list.rooms_clear_ = (parent && parent->rooms_clear_) || rooms_clear(a, b);
+  list.rooms_clear_ = (parent && parent->rooms_clear_) || rooms_clear(a, b, list, c);
   return list;
 }
 
@@ -154,8 +154,17 @@ HALFLIGHT_INLINE bool Scene::within(std::uint32_t object, std::span<const glm::d
   return true;
 }
 
-// A convex polyhedral room blocks nothing between patches that lie in it or on it.
-HALFLIGHT_INLINE bool Scene::rooms_clear(const PatchShape& a, const PatchShape& b) const {
+// A room kept as faces blocks nothing between patches if none of its faces may, and a point in the air, or an owner, tells that they are in
+// it. A convex polyhedral room blocks nothing between patches that lie in it or on it.
+HALFLIGHT_INLINE bool Scene::rooms_clear(const PatchShape& a, const PatchShape& b, const OccluderList& list,
+                                         const Corners16& corners) const {
+  for (const Guard& room : compiled_.face_rooms) {
+    const auto of_room = [&](std::uint32_t shape) { return compiled_.object_of(shape) == room.object; };
+    const std::span<const std::uint32_t> shapes = list.shapes();
+    if (!list.known() || std::any_of(shapes.begin(), shapes.end(), of_room)) { return false; }
+    const bool owns = a.owner == room.object || b.owner == room.object;
+    if (!owns && HALFLIGHT_DISPATCH(isa_, not_in_air(room.air, corners.rays, 0xffffu)) == 0xffffu) { return false; }
+  }
   for (std::size_t r = 0; r < compiled_.rooms.size(); ++r) {
     const std::uint32_t room = compiled_.rooms[r];
     if (!objects_[room].convex()) { return false; }

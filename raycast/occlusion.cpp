@@ -94,11 +94,25 @@ struct Scene::ExactOne {
   }
 };
 
-// Which of `near` lie in a convex room with both ends, or are the room's own at both.
+// Of lanes that no face of a room blocks, those that may lie in the solid around it. As for every solid kept as faces: an end on it tells, and
+// so does one point in the air.
+HALFLIGHT_INLINE std::uint32_t Scene::may_be_around(const Guard& room, const Rays16& rays, std::uint32_t lanes) const {
+  for (std::uint32_t rest = lanes; rest; rest &= rest - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(rest));
+    if (rays.source[i] == room.object || rays.target[i] == room.object) { lanes &= ~(1u << i); }
+  }
+  return HALFLIGHT_DISPATCH(isa_, not_in_air(room.air, rays, lanes));
+}
+
+// Which of `lanes` rooms block, `near` being those whose place in `rays` is that of the segment itself.
 HALFLIGHT_INLINE std::uint32_t Scene::blocked_by_rooms(const Segments16& segments, const Rays16& rays, std::uint32_t near,
                                                        std::uint32_t lanes) const {
   const Exact exact{*this, segments};
   std::uint32_t blocked = 0;
+  for (const Guard& room : compiled_.face_rooms) {
+    const std::uint32_t open = lanes & ~blocked, ask = (open & ~near) | may_be_around(room, rays, open & near);
+    if (ask) { blocked |= exact(room.object, Pending::whole, ask); }
+  }
   for (std::size_t r = 0; r < compiled_.rooms.size(); ++r) {
     const std::uint32_t room = compiled_.rooms[r], body = compiled_.room_bodies[r];
     std::uint32_t ask = lanes & ~blocked, from = 0, to = 0;
@@ -154,7 +168,7 @@ HALFLIGHT_INLINE std::uint32_t Scene::occluded16(const Segments16& segments, con
     HALFLIGHT_DISPATCH(isa_, finish(rays));
   }
   if (bounded) { blocked |= HALFLIGHT_DISPATCH(isa_, blocked(compiled_, rays, bounded, list, count, hint, exact)); }
-  if (!rooms_clear && !compiled_.rooms.empty() && (lines & ~blocked)) {
+  if (!rooms_clear && (lines & ~blocked)) {
     blocked |= blocked_by_rooms(segments, rays, near, lines & ~blocked);
   }
   return blocked;
@@ -174,6 +188,9 @@ HALFLIGHT_INLINE bool Scene::occluded(const Segment& segment, std::uint32_t sour
   }
   const ExactOne exact{*this, segment, end_at(source_owner), end_at(target_owner)};
   if (HALFLIGHT_DISPATCH(isa_, blocked_one(compiled_, rays, exact))) { return true; }
+  for (const Guard& room : compiled_.face_rooms) {
+    if (may_be_around(room, rays, 1u) != 0 && exact(room.object, Pending::whole, 1u) != 0) { return true; }
+  }
   for (std::size_t r = 0; r < compiled_.rooms.size(); ++r) {
     const std::uint32_t room = compiled_.rooms[r];
     const bool clear = objects_[room].convex() && (source_owner == room || in_room(r, segment.origin)) &&

@@ -108,7 +108,7 @@ HALFLIGHT_INLINE double Scene::ray_work() const {
     const PlacedObject& object = objects_[i];
     if (left_out_[i]) { continue; }
     // Faces that the search decides by itself cost next to nothing. It cannot tell faces that coincide, as of duplicates, from each other.
-    if (object.flat() && !object.inside() && at_place[key(object)] == 1) { continue; }
+    if (object.flat() && (!object.inside() || compiled_.is_face_room(i)) && at_place[key(object)] == 1) { continue; }
     work += object.object().work() * (whole > 0.0 && !object.inside() ? std::min(1.0, surface(object.bounds()) / whole) : 1.0);
   }
   return work;
@@ -320,7 +320,9 @@ HALFLIGHT_INLINE bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, s
     return false;
   };
   const double near = end.base + slack_ + end.touch;  // at least every skin
+  const auto room_covers = [&](const Guard& room) { return covers(room.object); };
   if (std::any_of(compiled_.rooms.begin(), compiled_.rooms.end(), covers)) { return true; }
+  if (std::any_of(compiled_.face_rooms.begin(), compiled_.face_rooms.end(), room_covers)) { return true; }
   if (objects_along(compiled_, out_of_p, -near, near, covers)) { return true; }
   // What is buried itself covers nothing: of a row of surfaces that coincide each with the next, the first buries the last.
   std::sort(later.begin(), later.end(), [](const Coincident& a, const Coincident& b) { return a.object > b.object; });

@@ -169,7 +169,7 @@ class Scene {
   [[nodiscard]] OccluderList list_of(const OccluderList* parent, const PatchShape& a, const PatchShape& b) const;
   void drop_guards(OccluderList& list, const Corners16& corners) const;
   [[nodiscard]] bool within(std::uint32_t object, std::span<const glm::dvec3> points) const;
-  [[nodiscard]] bool rooms_clear(const PatchShape& a, const PatchShape& b) const;
+  [[nodiscard]] bool rooms_clear(const PatchShape& a, const PatchShape& b, const OccluderList& list, const Corners16& corners) const;
   // Is the point in the convex polyhedral room number r, or on its wall as well as rounding can tell? False for other rooms.
   [[nodiscard]] bool in_room(std::size_t r, const glm::dvec3& p, double bulge = 0.0) const {
     const std::uint32_t first = first_wall_[r], end = first_wall_[r + 1];
@@ -180,6 +180,7 @@ class Scene {
   }
   // What the ray meets of rooms, after all else: a point within a convex room, farther from its walls than ties reach, is met before these.
   void approach_rooms(Search& search) const;
+  [[nodiscard]] std::uint32_t may_be_around(const Guard& room, const Rays16& rays, std::uint32_t lanes) const;
   [[nodiscard]] std::uint32_t blocked_by_rooms(const Segments16& segments, const Rays16& rays, std::uint32_t near,
                                                std::uint32_t lanes) const;
 

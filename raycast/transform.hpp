@@ -88,7 +88,11 @@ class PlacedObject {
 
   [[nodiscard]] std::uint32_t sheet_of(std::uint32_t face) const { return object_->sheet_of(face); }
   [[nodiscard]] Crossing crossing(const Segment& line, std::uint32_t face) const { return object_->crossing(to_object(line), face); }
-  [[nodiscard]] int winding(const Segment& line, std::uint32_t face) const { return object_->winding(to_object(line), face); }
+  // -1: the line enters the solid, that around a room too.
+  [[nodiscard]] int winding(const Segment& line, std::uint32_t face) const {
+    const int w = object_->winding(to_object(line), face);
+    return placement_.inside ? -w : w;
+  }
 
   // The corners of a single planar polygon in the world, counter-clockwise seen from the air; empty for everything else.
   [[nodiscard]] std::vector<glm::dvec3> outline() const;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <brep/brep.hpp>
 #include <brep/builder.hpp>
@@ -23,10 +25,12 @@
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
 #include <raycast/compile.hpp>
+#include <raycast/faces_apart.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/line_query.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>
+#include <raycast/point_query.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
 #include <raycast/tolerances.hpp>
@@ -56,7 +60,7 @@ HALFLIGHT_INLINE void Mesh::compile(Compiler& compiler) const {
   if (convex_ && slack_ == 0.0) {
     if (const std::vector<Plane> distinct = distinct_planes(); distinct.size() <= 32) { return compiler.body(distinct); }
   }
-  if (!compiler.takes_faces(planes_.size())) { return; }
+  if (!compiler.takes_faces(planes_.size()) || (compiler.room() && !embedded())) { return; }
   std::vector<glm::dvec3> polygon;
   for (std::uint32_t f = 0; f < planes_.size(); ++f) {
     polygon.clear();
@@ -84,22 +88,26 @@ HALFLIGHT_INLINE void Mesh::approximate(double, brep::Builder& out) const {
   for (const std::vector<std::uint32_t>& border : borders_) { face(border, brep::no_sheet); }
 }
 
-HALFLIGHT_INLINE void Mesh::spans_between(const Segment& line, double t0, double t1, Spans& out) const {
+template <class Visit>
+void Mesh::crossings(const Segment& line, double t0, double t1, Visit&& visit) const {
   // Seen from the middle of the mesh, rounding is relative to its size and not to the distance of the ray's origin.
   double shift = 0.0;
   const Segment near = nearer(line, shift);
   const RayFrame frame(near);
-  InlineVector<Crossing, 16> in, leave;
-  const auto visit = [&](std::uint32_t f) {
-    const int w = winding(frame, f);
-    if (w != 0) { (w < 0 ? in : leave).push(Crossing{shift + crossing_near(near, f), f}); }
+  const auto cross = [&](std::uint32_t f) {
+    if (const int w = winding(frame, f); w != 0) { visit(Crossing{shift + crossing_near(near, f), f}, w); }
     return false;
   };
   if (bvh_.empty()) {
-    for (std::uint32_t f = 0; f < planes_.size(); ++f) { visit(f); }
+    for (std::uint32_t f = 0; f < planes_.size(); ++f) { cross(f); }
   } else {
-    static_cast<void>(any_along(bvh_, SlabTest(near), t0 - shift, t1 - shift, visit));
+    static_cast<void>(any_along(bvh_, SlabTest(near), t0 - shift, t1 - shift, cross));
   }
+}
+
+HALFLIGHT_INLINE void Mesh::spans_between(const Segment& line, double t0, double t1, Spans& out) const {
+  InlineVector<Crossing, 16> in, leave;
+  crossings(line, t0, t1, [&](const Crossing& at, int w) { (w < 0 ? in : leave).push(at); });
   const auto earlier = [](const Crossing& a, const Crossing& b) { return a.t < b.t || (a.t == b.t && a.sheet < b.sheet); };
   if (!solid()) {
     for (const Crossing& c : leave) { in.push(c); }
@@ -269,6 +277,71 @@ HALFLIGHT_INLINE void Mesh::prepare() {
     }
   }
   few_planes_ = convex_ && slack_ == 0.0 && planes_.size() <= 32 && distinct_planes().size() == planes_.size();
+}
+
+HALFLIGHT_INLINE bool Mesh::embedded() const {
+  if (convex_) { return true; }
+  if (!solid() || !faces_apart()) { return false; }
+  // The volume is positive, so a surface in one piece has its inside within. Pieces may be nested, and each may be inside out.
+  const std::vector<std::uint32_t> piece = connected();
+  if (std::all_of(piece.begin(), piece.end(), [](std::uint32_t first) { return first == 0; })) { return true; }
+  std::vector<bool> known(piece.size());
+  for (std::uint32_t f = 0; f < planes_.size(); ++f) {
+    const std::uint32_t of = piece[corners(f).front()];
+    known[of] = known[of] || alternates_at(f);
+  }
+  return std::all_of(piece.begin(), piece.end(), [&](std::uint32_t first) { return known[first]; });
+}
+
+HALFLIGHT_INLINE bool Mesh::faces_apart() const {
+  const double rounding = eps_projection * (box_.magnitude() + box_.diameter());
+  const auto face = [&](std::uint32_t f) { return MeshFace{corners(f), planes_[f].normal}; };
+  for (std::uint32_t f = 0; f < planes_.size(); ++f) {
+    Box box;
+    for (const std::uint32_t v : corners(f)) { box.extend(positions_[v]); }
+    const auto meets = [&](std::uint32_t g) { return g > f && !apart_but_for_shared(face(f), face(g), positions_, rounding); };
+    const auto overlaps = [&](const Box& other) {
+      return glm::all(glm::lessThanEqual(box.lo, other.hi)) && glm::all(glm::lessThanEqual(other.lo, box.hi));
+    };
+    bool met = any_within(bvh_, overlaps, meets);
+    for (std::uint32_t g = f + 1; bvh_.empty() && g < planes_.size() && !met; ++g) { met = meets(g); }
+    if (met) { return false; }
+  }
+  return true;
+}
+
+HALFLIGHT_INLINE std::vector<std::uint32_t> Mesh::connected() const {
+  std::vector<std::uint32_t> parent(positions_.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) { v = parent[v] = parent[parent[v]]; }
+    return v;
+  };
+  for (std::uint32_t f = 0; f < planes_.size(); ++f) {
+    for (const std::uint32_t v : corners(f)) {
+      const auto [less, greater] = std::minmax({root(v), root(corners(f).front())});
+      parent[greater] = less;
+    }
+  }
+  for (std::uint32_t v = 0; v < parent.size(); ++v) { parent[v] = root(v); }
+  return parent;
+}
+
+HALFLIGHT_INLINE bool Mesh::alternates_at(std::uint32_t face) const {
+  glm::dvec3 middle{0.0};
+  for (const std::uint32_t v : corners(face)) { middle += positions_[v] / static_cast<double>(corners(face).size()); }
+  std::vector<std::pair<Crossing, int>> met;
+  bool through = false;
+  crossings({middle, planes_[face].normal}, -infinity, infinity, [&](const Crossing& at, int w) {
+    met.push_back({at, w});
+    through = through || at.sheet == face;
+  });
+  std::sort(met.begin(), met.end(), [](const auto& a, const auto& b) { return a.first.t < b.first.t; });
+  for (std::size_t i = 0; i < met.size(); ++i) {  // t is a length
+    if (i > 0 && !(met[i].first.t - met[i - 1].first.t > tol_between * box_.diameter())) { return false; }
+    if (met[i].second != (i % 2 == 0 ? -1 : 1)) { return false; }
+  }
+  return through;
 }
 
 }  // namespace raycast

@@ -7,7 +7,8 @@
 // Crossings come from the watertight line test of planar.hpp. Entries and exits are told apart by the sign of the winding number, not
 // by a dot product, and there are equally many of both on every line through a closed mesh. The k-th entry belongs to the k-th exit:
 // in an embedded surface they alternate, and where rounding swaps an exit and the next entry (a line over an edge), two overlapping
-// spans merge and a span of negative length is dropped, so no gap opens. That a closed mesh does not intersect itself is not checked.
+// spans merge and a span of negative length is dropped, so no gap opens. That a closed mesh does not intersect itself is not checked, but for rooms,
+// whose faces are kept as such only then.
 // A convex mesh of up to 32 planes is cut plane by plane instead.
 
 #include <cstddef>
@@ -132,6 +133,17 @@ class Mesh final : public Object {
   }
 
   void prepare();
+
+  // Is it certain that the surface of this solid does not meet itself, and that on every line entries and exits alternate?
+  [[nodiscard]] bool embedded() const;
+  [[nodiscard]] bool faces_apart() const;
+  // The corners that can be reached from each along edges: the least of them.
+  [[nodiscard]] std::vector<std::uint32_t> connected() const;
+  // Do entries and exits alternate on a line through the middle of the face, which is one of them?
+  [[nodiscard]] bool alternates_at(std::uint32_t face) const;
+  // Calls visit(crossing, winding) for the faces that the line crosses within [t0, t1].
+  template <class Visit>
+  void crossings(const Segment& line, double t0, double t1, Visit&& visit) const;
 
   std::vector<glm::dvec3> positions_;
   std::vector<std::uint32_t> corners_, first_corner_{0};

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include <raycast/faces_apart.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+#include <raycast/tolerances.hpp>
+
+namespace raycast {
+
+namespace detail {
+
+// The faces without what they share, and that: nothing, a corner, or a row of corners along a line.
+struct SharedCorners {
+  std::vector<glm::dvec3> of_a, of_b;  // the other corners
+  std::optional<glm::dvec3> point, edge;
+};
+
+HALFLIGHT_INLINE std::optional<SharedCorners> shared_corners(const MeshFace& a, const MeshFace& b, const std::vector<glm::dvec3>& positions,
+                                                             double rounding) {
+  SharedCorners result;
+  std::vector<glm::dvec3> shared;
+  const auto has = [](const MeshFace& face, std::uint32_t v) {
+    return std::find(face.corners.begin(), face.corners.end(), v) != face.corners.end();
+  };
+  // Rows of shared corners in succession; two of them are two edges, or corners, that are shared.
+  const auto rows = [&](const MeshFace& face, const MeshFace& other, std::vector<glm::dvec3>& rest) {
+    std::size_t begins = 0;
+    bool before = has(other, face.corners.back());
+    for (const std::uint32_t v : face.corners) {
+      const bool now = has(other, v);
+      begins += now && !before;
+      before = now;
+      if (!now) { rest.push_back(positions[v]); }
+    }
+    return begins;
+  };
+  if (rows(a, b, result.of_a) > 1 || rows(b, a, result.of_b) > 1) { return std::nullopt; }
+  if (result.of_a.empty() || result.of_b.empty()) { return std::nullopt; }  // the same corners
+  for (const std::uint32_t v : a.corners) {
+    if (has(b, v)) { shared.push_back(positions[v]); }
+  }
+  if (shared.empty()) { return result; }
+  result.point = shared.front();
+  if (shared.size() == 1) { return result; }
+  const auto distance = [&](const glm::dvec3& p) { return glm::length(p - *result.point); };
+  const auto farther = [&](const glm::dvec3& p, const glm::dvec3& q) { return distance(p) < distance(q); };
+  const glm::dvec3 farthest = *std::max_element(shared.begin(), shared.end(), farther);
+  if (!(distance(farthest) > 0.0)) { return std::nullopt; }
+  result.edge = (farthest - *result.point) / distance(farthest);
+  for (const glm::dvec3& p : shared) {  // a row around a corner is no edge
+    if (glm::length(glm::cross(p - *result.point, *result.edge)) > rounding) { return std::nullopt; }
+  }
+  return result;
+}
+
+// Does a plane of this normal, through what they share, have the faces on its two sides?
+HALFLIGHT_INLINE bool divides(const SharedCorners& faces, glm::dvec3 normal, double rounding) {
+  if (faces.edge) { normal -= glm::dot(normal, *faces.edge) * *faces.edge; }
+  const double length = glm::length(normal);
+  if (!(length > tol_between)) { return false; }
+  normal /= length;
+  const glm::dvec3 origin = faces.point.value_or(faces.of_a.front());
+  const auto range = [&](const std::vector<glm::dvec3>& corners, double& low, double& high) {
+    low = infinity, high = -infinity;
+    for (const glm::dvec3& p : corners) {
+      const double height = glm::dot(normal, p - origin);
+      low = std::min(low, height), high = std::max(high, height);
+    }
+  };
+  double low_a = 0.0, high_a = 0.0, low_b = 0.0, high_b = 0.0;
+  range(faces.of_a, low_a, high_a);
+  range(faces.of_b, low_b, high_b);
+  if (!faces.point) { return low_a - high_b > 2 * rounding || low_b - high_a > 2 * rounding; }
+  // One lies above, well off the plane; the other below, but for what its corners are off their own plane.
+  const auto above = [&](double low, double other_high) { return low > 0.0 && std::max(other_high, 0.0) + rounding <= tol_between * low; };
+  return above(low_a, high_b) || above(low_b, high_a) || above(-high_a, -low_b) || above(-high_b, -low_a);
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE bool apart_but_for_shared(const MeshFace& a, const MeshFace& b, const std::vector<glm::dvec3>& positions,
+                                           double rounding) {
+  const std::optional<detail::SharedCorners> shared = detail::shared_corners(a, b, positions, rounding);
+  if (!shared) { return false; }
+  const auto divides = [&](const glm::dvec3& normal) { return detail::divides(*shared, normal, rounding); };
+  if (divides(a.normal) || divides(b.normal)) { return true; }
+  const auto along = [&](const MeshFace& face, std::size_t i) {  // its edge after corner i, of length 1
+    const glm::dvec3 edge = positions[face.corners[(i + 1) % face.corners.size()]] - positions[face.corners[i]];
+    return edge / std::max(glm::length(edge), smallest_length);
+  };
+  for (const MeshFace* face : {&a, &b}) {
+    for (std::size_t i = 0; i < face->corners.size(); ++i) {
+      if (divides(glm::cross(face->normal, along(*face, i)))) { return true; }
+    }
+  }
+  if (shared->edge) {  // the plane through it that lies in the middle between both
+    return divides(glm::normalize(shared->of_a.front() - *shared->point) - glm::normalize(shared->of_b.front() - *shared->point));
+  }
+  for (std::size_t i = 0; i < a.corners.size(); ++i) {
+    for (std::size_t j = 0; j < b.corners.size(); ++j) {
+      if (divides(glm::cross(along(a, i), along(b, j)))) { return true; }
+    }
+  }
+  return false;
+}
+
+}  // namespace raycast
