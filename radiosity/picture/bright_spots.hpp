@@ -49,7 +49,8 @@ class BrightSpots {
     // The same of points near this one, whichever way they face.
     From(const BrightSpots& spots, const glm::dvec3& position) : From{spots, position, nullptr} {}
     // The root mean square of what even rays find of the spots, in this light, the irradiance at the point (sum of channels, W/m2). Where
-    // many of them meet spots it is that of the border alone, for rays lie evenly. Up to 1 the spots are no reason to aim at them.
+    // many of them meet spots it is that of the border alone, for rays lie evenly. Over the root of their number it is the error that the
+    // spots leave.
     [[nodiscard]] double contrast(double light) const;
     // Does a single even ray spread more by the spots than this light? So it is with paths, which meet each spot by chance alone.
     [[nodiscard]] bool spread_more_than(double light) const { return square_ > light * light; }

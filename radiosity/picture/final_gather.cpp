@@ -236,7 +236,9 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
                 place.surface - lookup_.surface(place.object, 0),
                 {spots_, place.point}};
   const double solved_light = irradiance_solved(place);
-  if (const double contrast = sender.spots.contrast(solved_light); contrast > 1.0) {
+  // From where the spots alone would leave the fewest even rays more than the wanted error. Rays that miss the spots agree with each
+  // other, so to wait for their spread to tell would favour points that come out too dark.
+  if (const double contrast = sender.spots.contrast(solved_light); contrast > error * std::sqrt(static_cast<double>(least))) {
     sender.aimed = static_cast<std::uint32_t>(std::clamp(0.5 * contrast, 1.0, detail::most_aimed));
   }
   Sum sum;
