@@ -26,8 +26,6 @@
 namespace radiosity {
 namespace detail {
 
-inline constexpr double least_pixels = 2.0, most_pixels = 20.0;  // radius of the sphere of a point of indirect light, by measurement
-
 inline constexpr float change_at_edge = 0.3f;  // of light, from one pixel to the next, or within one: an edge of a shadow, not only a slope
 
 inline constexpr std::uint32_t no_surface = 0xffffffff, several_surfaces = 0xfffffffe;  // in place of the number of a surface
@@ -97,6 +95,7 @@ class GatherPainter {
   [[nodiscard]] std::vector<Color> direct_light_at(const Fragment& fragment, std::span<const glm::dvec2> places) const;
   void smooth_shadows(std::size_t block);
   void show(std::size_t block, const Tone& tone, Picture& picture) const;
+  [[nodiscard]] FinalGather::Indirect indirect(const Fragment& fragment, const GatherRays& rays) const;
   [[nodiscard]] IndirectPoint gather_at(const Fragment& fragment) const;
 
   const FinalGather& light_;
@@ -170,32 +169,22 @@ HALFLIGHT_INLINE void GatherPainter::look_closer(std::size_t block) {
   if (changed) { blocks_[block] = std::move(result); }
 }
 
+HALFLIGHT_INLINE FinalGather::Indirect GatherPainter::indirect(const Fragment& fragment, const GatherRays& rays) const {
+  const std::uint64_t pixel = std::size_t{fragment.y} * view_.size.width + fragment.x;
+  const std::uint64_t key = scramble(pixel ^ std::uint64_t{rays.least - gather_rays.least} << 32) ^ fragment.place.surface;
+  return light_.indirect(fragment.place, rays.least, rays.most, rays.error, key, rays.most_paths);
+}
+
 HALFLIGHT_INLINE IndirectPoint GatherPainter::gather_at(const Fragment& fragment) const {
-  const std::uint64_t key = scramble(std::size_t{fragment.y} * view_.size.width + fragment.x) ^ fragment.place.surface;
-  const auto found = light_.indirect(fragment.place, gather_rays.least, gather_rays.most, gather_rays.error, key);
-  IndirectPoint point;
-  point.position = fragment.place.point.position;
-  point.normal = fragment.place.point.normal;
-  point.object = fragment.place.object;
-  point.x = fragment.x;
-  point.y = fragment.y;
-  const double size = pixel_size_(point.position);
-  const double facing = std::abs(glm::dot(point.normal, glm::normalize(point.position - eye_.position)));
-  const double footprint = size / std::max(facing, 0.2);  // of a pixel; where it is slanted, at most five times as long
-  const double allowed = found.nearness > 0.0 ? gathered_part_of_distance / found.nearness : raycast::infinity;
-  point.radius = std::clamp(allowed, least_pixels * footprint, most_pixels * footprint);
-  point.widest = most_fit * point.radius;
-  point.pixels = point.radius / size;
-  point.widest_pixels = point.widest / size;
-  point.gathered = found.irradiance;
-  point.variance = found.variance;
-  return point;
+  const auto found = indirect(fragment, gather_rays);
+  return indirect_point(found, {fragment.x, fragment.y}, fragment.place, eye_.position, pixel_size_(fragment.place.point.position));
 }
 
 HALFLIGHT_INLINE bool GatherPainter::gather() {
   std::vector<std::vector<std::uint32_t>> wanted(blocks_.size());  // fragments, by block
   std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
   std::vector<IndirectPoint> found;
+  std::vector<Fragment> fragments;  // of the points
   double done = 0.3;
   for (std::uint32_t stride = 16; stride > 0; stride /= 2, done += 0.07) {
     const auto ask = [&](std::size_t b) {
@@ -231,7 +220,10 @@ HALFLIGHT_INLINE bool GatherPainter::gather() {
       control_.report("picture", done + 0.06 * static_cast<double>(first + count) / static_cast<double>(all.size()));
     }
     for (const IndirectPoint& point : found) { points_.add(point); }
+    for (const auto& [block, i] : all) { fragments.push_back(blocks_[block][i]); }
   }
+  const auto again = [&](std::size_t i) { return indirect(fragments[i], gather_rays_again); };
+  if (!points_.gather_again(threads_, control_, again)) { return false; }
   parallel_for(points_.size(), threads_, [&](std::size_t i) { points_.fit(i); });
   return true;
 }

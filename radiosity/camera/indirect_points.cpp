@@ -5,10 +5,38 @@
 #include <cmath>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <raycast/inline.hpp>
+#include <raycast/tolerances.hpp>
 
 namespace radiosity {
+
+namespace detail {
+
+inline constexpr double least_pixels = 2.0, most_pixels = 20.0;  // radius of the sphere of a point of indirect light, by measurement
+
+}  // namespace detail
+
+HALFLIGHT_INLINE IndirectPoint indirect_point(const FinalGather::Indirect& found, const std::array<std::uint32_t, 2>& pixel,
+                                              const FinalGather::Place& place, const glm::dvec3& eye, double pixel_size) {
+  IndirectPoint point;
+  point.position = place.point.position;
+  point.normal = place.point.normal;
+  point.object = place.object;
+  point.x = pixel[0];
+  point.y = pixel[1];
+  const double facing = std::abs(glm::dot(point.normal, glm::normalize(point.position - eye)));
+  const double footprint = pixel_size / std::max(facing, 0.2);  // of a pixel; where it is slanted, at most five times as long
+  const double allowed = found.nearness > 0.0 ? gathered_part_of_distance / found.nearness : raycast::infinity;
+  point.radius = std::clamp(allowed, detail::least_pixels * footprint, detail::most_pixels * footprint);
+  point.widest = most_fit * point.radius;
+  point.pixels = point.radius / pixel_size;
+  point.widest_pixels = point.widest / pixel_size;
+  point.gathered = found.irradiance;
+  point.variance = found.variance;
+  return point;
+}
 
 HALFLIGHT_INLINE IndirectPoints::IndirectPoints(std::uint32_t width, std::uint32_t height)
     : columns_{(width + tile - 1) / tile},
@@ -44,15 +72,18 @@ HALFLIGHT_INLINE bool IndirectPoints::covered(std::uint32_t x, std::uint32_t y, 
   return false;
 }
 
-HALFLIGHT_INLINE void IndirectPoints::fit(std::size_t i) {
-  IndirectPoint& point = points_[i];
-  std::vector<const GatheredPoint*> around;
+HALFLIGHT_INLINE std::vector<const GatheredPoint*> IndirectPoints::around(const IndirectPoint& point) const {
+  std::vector<const GatheredPoint*> result;
   each_tile(point, point.widest_pixels, [&](std::size_t t) {
     for (const std::uint32_t k : in_tiles_[t]) {
-      if (point.weight(points_[k].position, points_[k].normal, points_[k].object, point.widest) > 0.0) { around.push_back(&points_[k]); }
+      if (point.weight(points_[k].position, points_[k].normal, points_[k].object, point.widest) > 0.0) { result.push_back(&points_[k]); }
     }
   });
-  radiosity::fit(point, around);
+  return result;
+}
+
+HALFLIGHT_INLINE void IndirectPoints::fit(std::size_t i) {
+  radiosity::fit(points_[i], around(points_[i]));
 }
 
 HALFLIGHT_INLINE std::optional<Color> IndirectPoints::at(std::uint32_t x, std::uint32_t y, const glm::dvec3& position,

@@ -135,8 +135,9 @@ namespace detail {
 // Rays to bright spots come by sixteen, after every 64 even ones, at most four times: the more, the more the spots stand out.
 inline constexpr double most_aimed = 4.0;
 
-// Light from near by is followed where it is at least this share of all; its paths are taken to differ by this part of their mean.
-inline constexpr double least_near = 0.05, spread_of_paths = 1.0, most_paths = 256.0;
+// Light from near by is followed where it is at least this share of all. If there are at most this many paths, they are taken to differ by
+// their mean; if there are more, by so much more.
+inline constexpr double least_near = 0.05, plain_paths = 256.0;
 
 }  // namespace detail
 
@@ -200,13 +201,13 @@ HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sob
   }
 }
 
-HALFLIGHT_INLINE double FinalGather::mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, double error,
-                                               std::uint64_t key) const {
+HALFLIGHT_INLINE double FinalGather::mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, double most_paths,
+                                               double error, std::uint64_t key) const {
   Color near{0.0};
   for (const NearLight::Seen& seen : sum.near) { near += seen.light; }
   const double share = (near.x + near.y + near.z) / all;
   if (!(share > detail::least_near)) { return 0.0; }
-  const double wanted = std::min(detail::most_paths, std::pow(detail::spread_of_paths * share / error, 2.0));
+  const double wanted = std::min(most_paths, most_paths / detail::plain_paths * std::pow(share / error, 2.0));
   constexpr std::uint32_t step = NearLight::paths_at_once;
   const BrightSpots::From spots{spots_, place.point.position};
   const bool aimed = !spots_.empty() && spots.spread_more_than(all / rays);
@@ -227,7 +228,7 @@ HALFLIGHT_INLINE double FinalGather::irradiance_solved(const Place& place) const
 }
 
 HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error,
-                                                             std::uint64_t key) const {
+                                                             std::uint64_t key, std::uint32_t most_paths) const {
   const Sobol4 sequence{1, key}, aiming{2, key};
   const double lift = direct_.lift(place.object);
   Sender sender{place,
@@ -258,7 +259,9 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
   }
   const double all = rays;
   double of_near = 0.0;
-  if (!sum.near.empty()) { of_near = mend_near(sum, place, std::max(4.0 * mean_of_parts(), all * solved_light), rays, error, key); }
+  if (!sum.near.empty()) {
+    of_near = mend_near(sum, place, std::max(4.0 * mean_of_parts(), all * solved_light), rays, most_paths, error, key);
+  }
   return {sum.light / all, (16.0 * variance_of_mean() + of_near) / (all * all), sum.nearness / all};
 }
 

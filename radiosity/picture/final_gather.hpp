@@ -81,8 +81,9 @@ class FinalGather {
   };
   // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a multiple of 64, or as many more, up to `most`,
   // as it takes for the standard error to fall to this share of the light; what the mesh is too coarse for adds one of about this share of
-  // all light there (near_light.hpp). `key` names the point: it fixes the rays.
-  [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error, std::uint64_t key) const;
+  // all light there by at most so many paths (near_light.hpp). `key` names the point: it fixes the rays.
+  [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error, std::uint64_t key,
+                                  std::uint32_t most_paths = 256) const;
 
  private:
   [[nodiscard]] Met met(const raycast::Hit& hit, const raycast::Segment& ray) const { return radiosity::met(objects(), direct_, hit, ray); }
@@ -120,7 +121,8 @@ class FinalGather {
   // Replaces the light of what is near by a better estimate where it matters; `all`: light that is known to arrive, sum of channels over
   // `rays` rays.
   // Returns the variance that this adds.
-  [[nodiscard]] double mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, double error, std::uint64_t key) const;
+  [[nodiscard]] double mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, double most_paths, double error,
+                                 std::uint64_t key) const;
   // What the solution says of a place: the sum of the channels that it reflects.
   [[nodiscard]] double irradiance_solved(const Place& place) const;
 

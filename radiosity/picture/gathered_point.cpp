@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -26,6 +28,10 @@ inline constexpr double explained_by_noise = 1.25;  // most that the misfit may 
 // How far a plane that explains its points may leave their range, in the width of this; and at most, as a factor.
 inline constexpr double beyond_range = 0.5, most_beyond = 2.0;
 inline constexpr double little_left = 0.05;  // a residual of this part of the mean light is accepted, whatever the noise
+// A point is doubtful if it lies off the plane of so many others by this part of their light, and by so many standard errors of itself and
+// of them.
+inline constexpr double seen_off = gather_rays.error, errors_off = 2.5;
+inline constexpr std::size_t least_others = 6;
 
 // A plane through the light of the points in a sphere.
 struct PlaneFit {
@@ -105,6 +111,33 @@ HALFLIGHT_INLINE Color GatheredPoint::at(const glm::dvec3& place) const {
     if (std::abs(beyond_mean[k]) > std::abs(allowed)) { part = std::min(part, allowed / beyond_mean[k]); }
   }
   return mean + part * beyond_mean;
+}
+
+HALFLIGHT_INLINE bool is_doubtful(const GatheredPoint& gathered, std::span<const GatheredPoint* const> near) {
+  GatheredPoint point = gathered;
+  const auto [s, t] = orthonormal(point.normal);
+  point.s = s;
+  point.t = t;
+  const double own = point.gathered.x + point.gathered.y + point.gathered.z;
+  std::vector<const GatheredPoint*> others;
+  for (const GatheredPoint* other : near) {
+    if (other != &gathered && point.weight(other->position, other->normal, other->object, point.widest) > 0.0) { others.push_back(other); }
+  }
+  if (others.size() < detail::least_others) { return false; }
+  const detail::PlaneFit plane = detail::fit_plane(point, point.widest, others);
+  // What the plane leaves over of the others, by its median: a stain among them must not hide this one.
+  std::vector<double> left;
+  for (const GatheredPoint* other : others) {
+    const glm::dvec3 d = (other->position - point.position) / point.widest;
+    const Color rest = other->gathered - plane.light - glm::dot(d, point.s) * plane.by_u - glm::dot(d, point.t) * plane.by_v;
+    left.push_back(std::abs(rest.x + rest.y + rest.z));
+  }
+  const auto middle = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2);
+  std::nth_element(left.begin(), middle, left.end());
+  constexpr double of_median = 1.4826;  // a standard deviation, where residues are normal
+  const double off = own - (plane.light.x + plane.light.y + plane.light.z), mean = plane.mean.x + plane.mean.y + plane.mean.z;
+  const double noise = point.variance + std::pow(of_median * *middle, 2.0);
+  return std::abs(off) > detail::seen_off * mean && off * off > detail::errors_off * detail::errors_off * noise;
 }
 
 HALFLIGHT_INLINE void fit(GatheredPoint& point, std::span<const GatheredPoint* const> near) {

@@ -21,13 +21,16 @@
 
 namespace radiosity {
 
-// What a point takes, by measurement: rays, and the share of its light at which they are enough; the radius of its sphere by the harmonic
-// mean distance of what it sees, and that of its fit by that of its sphere.
+// What a point takes, by measurement: rays, the share of its light at which they are enough, and paths; the radius of its sphere by the
+// harmonic mean distance of what it sees, and that of its fit by that of its sphere.
 struct GatherRays {
   std::uint32_t least = 256, most = 1024;
   double error = 0.03;
+  std::uint32_t most_paths = 256;
 };
 inline constexpr GatherRays gather_rays;
+// Of a point that is gathered once more because it was doubtful. What is near leaves most noise, so it takes most of the work.
+inline constexpr GatherRays gather_rays_again{512, 2048, 0.02, 1024};
 inline constexpr double gathered_part_of_distance = 0.2, most_fit = 3.0;
 
 struct GatheredPoint {
@@ -54,6 +57,13 @@ struct GatheredPoint {
   // What the fit says at a place of the sphere, within its bounds.
   [[nodiscard]] Color at(const glm::dvec3& place) const;
 };
+
+// Is what was gathered at `point` likely to be noise? It is where the points around it lie on a plane and it lies off that by more than
+// their rest and its noise explain. `near` as for fit().
+//
+// Rays that all miss what is bright agree with each other and stop early, so that a point may be too dark and not know it: a stain in a
+// picture. If it is gathered once more, by other rays, what was found first must not count: it was chosen for what it found.
+[[nodiscard]] bool is_doubtful(const GatheredPoint& point, std::span<const GatheredPoint* const> near);
 
 // Fits `point` to the points of its sphere; `near` are those that may be in the widest one, itself among them, in a fixed order. Of the
 // others only what was gathered is read, so points can be fitted at the same time.
