@@ -25,6 +25,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include <brep/brep.hpp>
 #include <brep/builder_input.hpp>
 #include <brep/diagnosis.hpp>

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include <brep/builder_input.hpp>
 #include <brep/edge_uses.hpp>
 

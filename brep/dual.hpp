@@ -14,6 +14,7 @@
 // shell first, then the other edges, which split faces and, as bridges, close the handles. The dual of the dual has every
 // half-edge with the roles of its ends exchanged, so twin leads back: it is the same map.
 
+#include <cstddef>
 #include <utility>
 #include <vector>
 

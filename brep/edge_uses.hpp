@@ -9,6 +9,7 @@
 // that are wrong by themselves (unusable()) use no edge. Time: one sort of the corners.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <tuple>

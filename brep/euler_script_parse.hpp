@@ -8,8 +8,14 @@
 // line, so one pass tells all. No recursion: nested functions are a list, so depth costs no stack.
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <brep/euler_script.hpp>
 #include <brep/euler_script_words.hpp>

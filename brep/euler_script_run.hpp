@@ -8,7 +8,12 @@
 // ones, and functions such as next(x) are not evaluated for them. While a raw edit stands the records may be anything, so no
 // operator runs and nothing walks over them but the validator.
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>

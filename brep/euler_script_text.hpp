@@ -5,6 +5,7 @@
 //
 // The text of a whole log, parsed and run over an empty BRep, gives the same BRep, record for record.
 
+#include <cstddef>
 #include <span>
 #include <string>
 

@@ -4,6 +4,8 @@
 // The words of script text: characters, handles, and how messages name them. See euler_script_parse.hpp.
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

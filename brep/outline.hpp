@@ -18,6 +18,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <brep/polygon.hpp>
 #include <brep/small_list.hpp>

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <span>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 

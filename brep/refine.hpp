@@ -17,9 +17,12 @@
 // The geometry is right for convex faces: their children are convex and cover them exactly. Everything is done by Euler
 // operators, so the BRep is valid whenever `place` is called.
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include <brep/circulators.hpp>
 #include <brep/euler.hpp>

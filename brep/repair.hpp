@@ -14,6 +14,7 @@
 // `remaining`, and nothing next to a face that cannot be used is filled in.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>

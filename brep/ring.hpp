@@ -17,11 +17,13 @@
 //
 // The inner face is the polygon of every second corner, shrunk towards the centroid. So of a convex face all parts are convex and cover it.
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <brep/refine.hpp>
 

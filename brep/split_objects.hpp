@@ -16,6 +16,7 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>

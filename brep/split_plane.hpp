@@ -18,6 +18,7 @@
 #include <limits>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <brep/geometry.hpp>

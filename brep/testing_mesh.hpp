@@ -22,6 +22,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include <brep/brep.hpp>
 #include <brep/builder.hpp>
 #include <brep/builder_input.hpp>

@@ -40,6 +40,7 @@
 #include <raycast/walk.hpp>
 
 #include <bit>
+#include <cstdint>
 
 namespace raycast {
 

@@ -7,6 +7,7 @@
 // can be. Coplanar, touching and identical operands are ordinary: solids that touch in an edge or a vertex stay separate there, solids
 // that touch in a face become one. Where both operands have a face in one plane, looking the same way, the attribute is that of a.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>

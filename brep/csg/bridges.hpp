@@ -8,6 +8,7 @@
 // depends on this, topology does not; rounded coordinates are good enough, and a bridge that comes close to a vertex is avoided.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>

@@ -7,6 +7,7 @@
 // order of its ends along an axis. Dropping the coordinate where the normal of the face is largest leaves two of 107 bits each, in an
 // order in which counter-clockwise from outside is counter-clockwise; a cross product of two directions has 215 bits.
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 

@@ -5,6 +5,7 @@
 //
 // What a boolean operation does before it selects. A mesher of shadow volumes or of contact surfaces needs just this (paper 5).
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>

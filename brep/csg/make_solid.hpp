@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include <brep/circulators.hpp>
 #include <brep/csg/assemble.hpp>
 #include <brep/csg/check_leaf.hpp>

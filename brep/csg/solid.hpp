@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include <brep/csg/boundary.hpp>
 #include <brep/csg/grid.hpp>
 

@@ -7,6 +7,7 @@
 // cycle of a face becomes a face at first; then the cycles of one face are joined by bridge edges with the Euler operator, hole by hole.
 // Face i of the solid is FaceId{i}.
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>

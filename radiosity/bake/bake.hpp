@@ -19,6 +19,7 @@
 // The input is repaired and merged as intake.hpp tells, and nothing of it is kept. What was changed comes back as sentences. Nothing is
 // printed or thrown; the result does not depend on the number of threads.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

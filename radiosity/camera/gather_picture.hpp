@@ -8,6 +8,8 @@
 // its neighbours meet several surfaces. What they meet of one surface becomes one fragment of the pixel, which is lit once. Exposure and
 // clamping are those of the mesh picture (mesh_picture.hpp). The result does not depend on the number of threads.
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include <radiosity/audit/picture_error.hpp>

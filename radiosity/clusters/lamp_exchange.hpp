@@ -8,6 +8,7 @@
 //
 // As a cluster and a patch that are linked lie well apart (lamp_oracle.hpp), the sum is within some 1 % of the integral.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

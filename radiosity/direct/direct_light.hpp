@@ -9,6 +9,7 @@
 // same area, its outline off by at most 0.2 % of its diameter.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>

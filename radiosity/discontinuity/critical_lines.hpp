@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <radiosity/direct/facets.hpp>

@@ -4,6 +4,8 @@
 // Vertices that lie within a tolerance of each other become one: the first of them. A later vertex joins the first kept one within the
 // tolerance, so no vertex moves farther than that, and chains of near vertices do not collapse.
 
+#include <cstddef>
+
 #include <radiosity/intake/polygons.hpp>
 #include <radiosity/intake/working.hpp>
 

@@ -6,6 +6,7 @@
 // about a leaf by itself, it splits it.
 
 #include <algorithm>
+#include <cstdint>
 
 #include <radiosity/oracle/oracle.hpp>
 

@@ -9,6 +9,7 @@
 // these (bright_spots.hpp).
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -6,11 +6,14 @@
 //
 // It grows with the places that are asked for; what it says then depends on these and their order alone, not on the number of threads.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/picture/gathered_point.hpp>

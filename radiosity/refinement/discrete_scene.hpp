@@ -4,6 +4,7 @@
 // A scene as a run cuts it up: the prepared scene, the hierarchy over its surfaces, and for each node of the hierarchy its patch and what
 // of it is exposed. Refinement lets it grow; everything after refinement reads it.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>

@@ -3,6 +3,7 @@
 
 // All that a run holds while its stages (stages.hpp) go over it, one after the other.
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 

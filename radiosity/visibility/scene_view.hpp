@@ -3,6 +3,8 @@
 
 // The parts of a run's scene that form factors, visibility and exposure read.
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <raycast/scene.hpp>
