@@ -136,7 +136,7 @@ TEST_CASE("a cluster of lamps exchanges with a patch what its faces do, one by o
   }
 }
 
-TEST_CASE("a lamp of many faces lights a random room as the sphere does, for what a lamp of few costs", "[lamps]") {
+TEST_CASE("a lamp of many faces lights a random room as the sphere does, for what a lamp of few costs", "[lamps][accuracy]") {
   for (const std::uint64_t seed : {5u, 6u, 7u}) {
     CAPTURE(seed);
     radiosity::Options by_links = by_rays(0.01);

@@ -52,8 +52,8 @@ struct EveryTriangle {
       if ((packet.lanes >> i & 1U) == 0) { continue; }
       ++segments;
       const radiosity::CasterRay ray = packet.at(i);
-      const bool any = std::any_of(triangles.begin(), triangles.end(), [&](const auto& p) { return meets(p, ray).has_value(); });
-      result |= static_cast<std::uint32_t>(any && !blind) << i;
+      const auto met = [&](const auto& p) { return meets(p, ray).has_value(); };
+      result |= static_cast<std::uint32_t>(!blind && std::any_of(triangles.begin(), triangles.end(), met)) << i;
     }
     return result;
   }

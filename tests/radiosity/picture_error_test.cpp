@@ -44,7 +44,7 @@ PictureError measured_picture(const radiosity::Scene& scene, const ShownPicture&
 
 }  // namespace
 
-TEST_CASE("picture audit: a picture of a furnace that is right is found right, one that is off by 5 % as much off everywhere") {
+TEST_CASE("picture audit: a picture of a furnace that is right is found right, one that is off by 5 % as much off everywhere", "[accuracy]") {
   const radiosity::Scene scene = scenes::furnace_with_things(0.5);  // B = 1, half of it reflected
   const glm::dvec3 eye{0.5, 0.02, 0.5};
   int found_right = 0;

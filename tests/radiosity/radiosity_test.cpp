@@ -194,7 +194,7 @@ TEST_CASE("another seed gives another estimate of the same radiosity") {
   CHECK(one.audit.surfaces[0].radiosity.x == test::Approx(other.audit.surfaces[0].radiosity.x).epsilon(0.02));
 }
 
-TEST_CASE("a room that emits on one wall: the solution converges to the finite-element value") {
+TEST_CASE("a room that emits on one wall: the solution converges to the finite-element value", "[accuracy]") {
   // Unit cube, rho .5, floor emits 1: mean of each side wall .181105558, of the ceiling between them (reference data, 1e-6).
   Scene scene;
   scene.materials = {{"wall", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.5}, radiosity::Color{1.0}}};

@@ -151,7 +151,7 @@ TEST_CASE("reference: one patch a wall: the radiosities of the file within 1e-6"
   }
 }
 
-TEST_CASE("reference: cubes by finite elements: wall means within 1e-3") {
+TEST_CASE("reference: cubes by finite elements: wall means within 1e-3", "[accuracy]") {
   const json::Value data = read("radiosity.json");
   for (const json::Value& c : data["finite_element"].array()) {
     const radiosity::Scene scene = box_room(c);
