@@ -47,18 +47,13 @@ struct Reconstructed {
   std::vector<radiosity::Color> radiosity;
 };
 
-// Leaves of a few levels with the radiosity that `light` gives at their centres, reconstructed.
-template <class Light>
-Reconstructed reconstructed(const radiosity::Scene& scene, Reconstruction kind, const Light& light) {
+// The leaves that divide(surfaces, hierarchy) makes, with the radiosity that `light` gives of each, reconstructed.
+template <class Divide, class Light>
+Reconstructed reconstructed(const radiosity::Scene& scene, Reconstruction kind, const Divide& divide, const Light& light) {
   Reconstructed r{std::move(*radiosity::prepare(scene).prepared), {}, {}};
   std::vector<radiosity::Surface>& surfaces = r.prepared.surfaces;
   r.hierarchy = radiosity::make_roots(surfaces);
-  for (int level = 0; level < 2; ++level) {
-    const auto count = static_cast<std::uint32_t>(r.hierarchy.size());
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (r.hierarchy[i].leaf()) { REQUIRE(radiosity::subdivide(surfaces, r.hierarchy, i)); }
-    }
-  }
+  divide(surfaces, r.hierarchy);
   radiosity::Patches patches{surfaces, r.hierarchy};
   patches.extend(1);
   radiosity::Exposure exposure;
@@ -68,6 +63,20 @@ Reconstructed reconstructed(const radiosity::Scene& scene, Reconstruction kind, 
   radiosity::eliminate_t_vertices(surfaces);
   (void)radiosity::reconstruct(surfaces, {r.hierarchy, exposure, r.radiosity, materials}, kind);
   return r;
+}
+
+// Of leaves of a few levels.
+template <class Light>
+Reconstructed reconstructed(const radiosity::Scene& scene, Reconstruction kind, const Light& light) {
+  const auto twice = [](std::vector<radiosity::Surface>& surfaces, radiosity::Hierarchy& hierarchy) {
+    for (int level = 0; level < 2; ++level) {
+      const auto count = static_cast<std::uint32_t>(hierarchy.size());
+      for (std::uint32_t i = 0; i < count; ++i) {
+        if (hierarchy[i].leaf()) { REQUIRE(radiosity::subdivide(surfaces, hierarchy, i)); }
+      }
+    }
+  };
+  return reconstructed(scene, kind, twice, light);
 }
 
 // Calls visit(brep, half-edge) for every corner of a radiating face of the first object.
@@ -236,6 +245,54 @@ TEST_CASE("corners of the mesh on the edges of blades have normals of their own 
         CHECK(glm::dot(glm::dvec3{mesh.corners[face.first_corner + c].normal}, flat) > 0.5);
       }
     }
+  }
+}
+
+// 1000 to 90 000 times the area of the leaves that have it, when a neighbour's light counted in a corner however small the neighbour was.
+TEST_CASE("reconstruction: the light of a few small leaves is not spread over leaves a thousand times as wide beside them") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 1};
+  for (int turn = 0; turn < 20; ++turn) {
+    double least = 0.0;
+    // At random first, then along a border of the leaves of one level.
+    const auto towards_a_border = [&](std::vector<radiosity::Surface>& surfaces, radiosity::Hierarchy& hierarchy) {
+      const int at_random = static_cast<int>(4.0 * random.uniform());
+      glm::dvec3 border{0.0};
+      std::uint32_t leaf = 0;
+      for (int level = 0; level < 12; ++level) {
+        if (level <= at_random) { border = hierarchy[leaf].centre; }
+        REQUIRE(radiosity::subdivide(surfaces, hierarchy, leaf));
+        const radiosity::Node& node = hierarchy[leaf];
+        leaf = node.first_child + static_cast<std::uint32_t>(random.uniform() * node.child_count);
+        for (std::uint32_t c = node.first_child; level > at_random && c < node.first_child + node.child_count; ++c) {
+          if (glm::length(hierarchy[c].centre - border) < glm::length(hierarchy[leaf].centre - border)) { leaf = c; }
+        }
+      }
+      least = hierarchy[leaf].area;
+    };
+    const auto light = [&](const radiosity::Node& node) { return node.area < 1.5 * least ? 1.0 : 0.0; };
+    radiosity::Scene scene = lone(nullptr);
+    scene.objects = {scenes::plate("floor", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 0)};
+    const auto kind = turn % 2 == 0 ? Reconstruction::simple : Reconstruction::weighted;
+    const Reconstructed r = reconstructed(scene, kind, towards_a_border, light);
+    const radiosity::SurfaceBRep& brep = r.prepared.surfaces[0].brep;
+    double spread = 0.0;  // the light of all triangles
+    for (const brep::FaceId f : brep::faces(brep)) {
+      if (brep.data(f).node == radiosity::no_node) { continue; }
+      std::vector<brep::HalfedgeId> loop;
+      for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) { loop.push_back(h); }
+      const auto at = [&](std::size_t k) { return brep.data(brep.vertex(loop[k])).position; };
+      for (std::size_t k = 2; k < loop.size(); ++k) {
+        double mean = 0.0;
+        for (const std::size_t corner : {std::size_t{0}, k - 1, k}) { mean += brep.data(loop[corner]).radiosity.x / 3.0; }
+        spread += 0.5 * glm::length(glm::cross(at(k - 1) - at(0), at(k) - at(0))) * mean;
+      }
+    }
+    const double in_areas = spread / (4.0 * least);  // of the four leaves that shine
+    CAPTURE(turn, in_areas);
+    CHECK(in_areas > 0.5);
+    CHECK(in_areas < 40.0);
   }
 }
 
