@@ -175,8 +175,8 @@ namespace {
 
 std::atomic<const char*> unfinished{nullptr};
 
-// A new file beside `target`; it is removed unless it was renamed. Its name is random, so that no other file has it, and a signal may remove
-// it at any time.
+// A new file beside `target`; it is removed unless it was renamed. Its name is random, so that no other file has it, and a signal may
+// remove it at any time.
 class Temporary {
  public:
   explicit Temporary(const std::filesystem::path& target) {

@@ -129,7 +129,7 @@ class Compiler {
   // Of the object being added:
   const PlacedObject* object_ = nullptr;
   std::uint32_t index_ = 0, room_body_ = no_shape;
-  double stretch_ = 1.0, skin_ = 0.0;  // skin_: in the compiled scene
+  double stretch_ = 1.0, skin_ = 0.0;     // skin_: in the compiled scene
   bool turned_ = false, similar_ = true;  // turned_: the corners of a face run clockwise seen from the air
 };
 

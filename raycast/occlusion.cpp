@@ -94,8 +94,8 @@ struct Scene::ExactOne {
   }
 };
 
-// Of lanes that no face of a room blocks, those that may lie in the solid around it. As for every solid kept as faces: an end on it tells, and
-// so does one point in the air.
+// Of lanes that no face of a room blocks, those that may lie in the solid around it. As for every solid kept as faces, an end on it tells,
+// and so does one point in the air.
 HALFLIGHT_INLINE std::uint32_t Scene::may_be_around(const Guard& room, const Rays16& rays, std::uint32_t lanes) const {
   for (std::uint32_t rest = lanes; rest; rest &= rest - 1) {
     const auto i = static_cast<unsigned>(std::countr_zero(rest));
@@ -168,9 +168,7 @@ HALFLIGHT_INLINE std::uint32_t Scene::occluded16(const Segments16& segments, con
     HALFLIGHT_DISPATCH(isa_, finish(rays));
   }
   if (bounded) { blocked |= HALFLIGHT_DISPATCH(isa_, blocked(compiled_, rays, bounded, list, count, hint, exact)); }
-  if (!rooms_clear && (lines & ~blocked)) {
-    blocked |= blocked_by_rooms(segments, rays, near, lines & ~blocked);
-  }
+  if (!rooms_clear && (lines & ~blocked)) { blocked |= blocked_by_rooms(segments, rays, near, lines & ~blocked); }
   return blocked;
 }
 

@@ -78,7 +78,8 @@ inline constexpr double tol_same_normal = 2e-15, tol_same_plane = 1e-9;
 // Radii of a torus and of a superquadric, to the largest: what is thinner is lost in its own quartic, or in its own power.
 inline constexpr double thinnest_torus = 1e-4, thinnest_superquadric = 1e-6;
 
-// How far faces of an embedded mesh may reach into each other at the corners that they share, to their size: as far as tol_planar lets them.
+// How far faces of an embedded mesh may reach into each other at the corners that they share, to their size: as far as tol_planar lets
+// them.
 inline constexpr double tol_between = 1e-6;
 
 // --- Scenes. ---

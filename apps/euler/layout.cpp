@@ -14,7 +14,6 @@
 
 #include <brep/handles.hpp>
 
-
 namespace apps::euler {
 namespace {
 

@@ -18,7 +18,6 @@
 #include <radiosity/run/stages.hpp>
 #include <radiosity/scene/options.hpp>
 
-
 namespace apps::explain {
 namespace {
 

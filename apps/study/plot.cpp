@@ -65,13 +65,9 @@ Shape curve_line(const CurveStyle& style, std::vector<glm::dvec2> points) {
   return {.points = std::move(points), .stroke_width = 1.8, .stroke = style.color, .dashes = dashes};
 }
 
-Shape noise_line(const glm::dvec2& from, const glm::dvec2& to) {
-  return {.points = {from, to}, .stroke_width = 1.4, .dashes = {1.5, 3.5}};
-}
+Shape noise_line(const glm::dvec2& from, const glm::dvec2& to) { return {.points = {from, to}, .stroke_width = 1.4, .dashes = {1.5, 3.5}}; }
 
-Shape front_line(std::vector<glm::dvec2> points) {
-  return {.points = std::move(points), .stroke_width = 7.0, .opacity = 0.16};
-}
+Shape front_line(std::vector<glm::dvec2> points) { return {.points = std::move(points), .stroke_width = 7.0, .opacity = 0.16}; }
 
 // Every point is reached at its cost and stays reachable at any higher one.
 void draw_front(Drawing& drawing, const PlotFrame& frame, const std::vector<Curve>& curves) {

@@ -82,9 +82,7 @@ HALFLIGHT_INLINE std::vector<const GatheredPoint*> IndirectPoints::around(const 
   return result;
 }
 
-HALFLIGHT_INLINE void IndirectPoints::fit(std::size_t i) {
-  radiosity::fit(points_[i], around(points_[i]));
-}
+HALFLIGHT_INLINE void IndirectPoints::fit(std::size_t i) { radiosity::fit(points_[i], around(points_[i])); }
 
 HALFLIGHT_INLINE std::optional<Color> IndirectPoints::at(std::uint32_t x, std::uint32_t y, const glm::dvec3& position,
                                                          const glm::dvec3& normal, std::uint32_t object) const {

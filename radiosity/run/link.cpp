@@ -64,8 +64,8 @@ namespace detail {
   return std::nullopt;
 }
 
-// Whether links may be split once they are evaluated: where light goes by stored rays those of lamps alone are there, which the light oracle
-// has split; leaves that were cut along the edges of shadows stay as they are. Says so in run.refined when memory does not suffice.
+// Whether links may be split once they are evaluated: where light goes by stored rays those of lamps alone are there, which the light
+// oracle has split; leaves that were cut along the edges of shadows stay as they are. Says so in run.refined when memory does not suffice.
 [[nodiscard]] HALFLIGHT_INLINE bool may_split_links(Run& run, std::uint64_t links) {
   const DiscreteScene& scene = run.scene;
   if (run.rays.cast || scene.light_meshing || run.stopped()) { return false; }

@@ -7,8 +7,8 @@
 // Crossings come from the watertight line test of planar.hpp. Entries and exits are told apart by the sign of the winding number, not
 // by a dot product, and there are equally many of both on every line through a closed mesh. The k-th entry belongs to the k-th exit:
 // in an embedded surface they alternate, and where rounding swaps an exit and the next entry (a line over an edge), two overlapping
-// spans merge and a span of negative length is dropped, so no gap opens. That a closed mesh does not intersect itself is not checked, but for rooms,
-// whose faces are kept as such only then.
+// spans merge and a span of negative length is dropped, so no gap opens. That a closed mesh does not intersect itself is checked for rooms
+// alone, whose faces are given to the fast lanes only then.
 // A convex mesh of up to 32 planes is cut plane by plane instead.
 
 #include <cstddef>
