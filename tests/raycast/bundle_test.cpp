@@ -49,22 +49,11 @@ TEST_CASE("bundle = single = the law for every object, on every instruction set,
         }
         segments.set(lane, s, p.owner, q.owner, p.sheet, q.sheet);
       }
-      std::uint32_t expected = 0;
-      for (unsigned lane = 0; lane < 16; ++lane) {
-        if (segments.lanes >> lane & 1u) {
-          expected |= static_cast<std::uint32_t>(by_law(scenes[0], segments.at(lane), segments.source[lane], segments.target[lane]))
-                      << lane;
-        }
-      }
+      const std::uint32_t expected = by_law(scenes[0], segments);
       for (std::size_t k = 0; k < scenes.size(); ++k) {
         INFO("turn " << turn << " bundle " << i << " set " << k);
-        REQUIRE(scenes[k].occluded16(segments) == expected);
+        require_blocked(scenes[k], segments, expected);
         REQUIRE(scenes[k].occluded16(segments, hint) == expected);
-        for (unsigned lane = 0; lane < 16; ++lane) {
-          if (segments.lanes >> lane & 1u) {
-            REQUIRE(scenes[k].occluded(segments.at(lane), segments.source[lane], segments.target[lane]) == ((expected >> lane & 1u) != 0));
-          }
-        }
       }
       blocked += static_cast<std::size_t>(std::popcount(expected));
       all += static_cast<std::size_t>(std::popcount(segments.lanes));
@@ -127,10 +116,7 @@ TEST_CASE("blocks on a grid, with faces in one plane: the law, whether the sheet
         segments.set(lane, s, p.owner, q.owner, sheet(p, s), sheet(q, {s.at(1.0), -s.direction}));
         unknown.set(lane, s, p.owner, q.owner);
       }
-      std::uint32_t expected = 0;
-      for (unsigned lane = 0; lane < 16; ++lane) {
-        expected |= static_cast<std::uint32_t>(by_law(scenes[0], segments.at(lane), segments.source[lane], segments.target[lane])) << lane;
-      }
+      const std::uint32_t expected = by_law(scenes[0], segments);
       for (const Scene& scene : scenes) {
         INFO("turn " << turn << " bundle " << i);
         REQUIRE(scene.occluded16(segments) == expected);

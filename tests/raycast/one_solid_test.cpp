@@ -110,16 +110,10 @@ TEST_CASE("few large solids and surfaces, with faces that are not quite planar: 
         const Place p = end(), q = end();
         segments.set(lane, between(p.at, q.at), p.owner, q.owner, p.sheet, q.sheet);
       }
-      std::uint32_t expected = 0;
-      for (unsigned lane = 0; lane < 16; ++lane) {
-        expected |= static_cast<std::uint32_t>(by_law(scenes[0], segments.at(lane), segments.source[lane], segments.target[lane])) << lane;
-      }
+      const std::uint32_t expected = by_law(scenes[0], segments);
       for (const Scene& scene : scenes) {
         INFO("turn " << turn << " bundle " << i);
-        REQUIRE(scene.occluded16(segments) == expected);
-        for (unsigned lane = 0; lane < 16; ++lane) {
-          REQUIRE(scene.occluded(segments.at(lane), segments.source[lane], segments.target[lane]) == ((expected >> lane & 1u) != 0));
-        }
+        require_blocked(scene, segments, expected);
       }
       blocked += static_cast<std::size_t>(std::popcount(expected));
       all += 16;

@@ -31,6 +31,22 @@ inline bool by_law(const Scene& scene, const Segment& s, std::uint32_t source, s
   }
   return false;
 }
+// Of the lanes that are set, those that are blocked.
+inline std::uint32_t by_law(const Scene& scene, const Segments16& segments) {
+  std::uint32_t blocked = 0;
+  for (unsigned lane = 0; lane < 16; ++lane) {
+    if ((segments.lanes >> lane & 1u) == 0) { continue; }
+    blocked |= static_cast<std::uint32_t>(by_law(scene, segments.at(lane), segments.source[lane], segments.target[lane])) << lane;
+  }
+  return blocked;
+}
+inline void require_blocked(const Scene& scene, const Segments16& segments, std::uint32_t expected) {  // by sixteen and one by one
+  REQUIRE(scene.occluded16(segments) == expected);
+  for (unsigned lane = 0; lane < 16; ++lane) {
+    if ((segments.lanes >> lane & 1u) == 0) { continue; }
+    REQUIRE(scene.occluded(segments.at(lane), segments.source[lane], segments.target[lane]) == ((expected >> lane & 1u) != 0));
+  }
+}
 
 // A place on some object's surface (the vertex or the middle of a face of its mesh), or a free point.
 struct Place {
