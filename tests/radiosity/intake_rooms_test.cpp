@@ -190,17 +190,21 @@ TEST_CASE("intake: a curtain of bent quadrilaterals, each side cut along another
   for (int round = 0; round < 20; ++round) {
     std::vector<glm::dvec3> at;
     for (int i = 0; i < 16; ++i) { at.emplace_back(i % 4, 0.1 * number_in(random, -1.0, 1.0), i / 4); }
-    Soup front, both;
+    Soup front, back, both;
     for (std::size_t i = 0; i < 9; ++i) {
       const std::size_t a = i / 3 * 4 + i % 3, b = a + 1, c = a + 5, d = a + 4;
       for (const auto& [p, q, r] : {std::array{a, b, c}, std::array{a, c, d}}) {
         front.polygon({at[p], at[q], at[r]});
         both.polygon({at[p], at[q], at[r]});
       }
-      for (const auto& [p, q, r] : {std::array{d, c, b}, std::array{d, b, a}}) { both.polygon({at[p], at[q], at[r]}); }
+      for (const auto& [p, q, r] : {std::array{d, c, b}, std::array{d, b, a}}) {
+        back.polygon({at[p], at[q], at[r]});
+        both.polygon({at[p], at[q], at[r]});
+      }
     }
-    const radiosity::Intake one = front.take_in(), taken = both.take_in();
-    CHECK(taken.faces == 2 * one.faces);
+    const radiosity::Intake taken = both.take_in();
+    // Neighbours that happen to be coplanar are one face, on the side that is kept.
+    CHECK((taken.faces == 2 * front.take_in().faces || taken.faces == 2 * back.take_in().faces));
     CHECK(soup::measure(taken.objects).solids == 0);
   }
 }
