@@ -2,17 +2,25 @@
 #include <raycast/faces_apart.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 
+#include <brep/ears.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/bvh.hpp>
 #include <raycast/inline.hpp>
+#include <raycast/point_query.hpp>
 #include <raycast/tolerances.hpp>
 
 namespace raycast {
@@ -86,11 +94,9 @@ HALFLIGHT_INLINE bool divides(const SharedCorners& faces, glm::dvec3 normal, dou
   return above(low_a, high_b) || above(low_b, high_a) || above(-high_a, -low_b) || above(-high_b, -low_a);
 }
 
-}  // namespace detail
-
-HALFLIGHT_INLINE bool apart_but_for_shared(const MeshFace& a, const MeshFace& b, const std::vector<glm::dvec3>& positions,
-                                           double rounding) {
-  const std::optional<detail::SharedCorners> shared = detail::shared_corners(a, b, positions, rounding);
+// Is a plane found between the convex hulls of two faces?
+HALFLIGHT_INLINE bool hulls_apart(const MeshFace& a, const MeshFace& b, const std::vector<glm::dvec3>& positions, double rounding) {
+  const std::optional<SharedCorners> shared = shared_corners(a, b, positions, rounding);
   if (!shared) { return false; }
   const auto divides = [&](const glm::dvec3& normal) { return detail::divides(*shared, normal, rounding); };
   if (divides(a.normal) || divides(b.normal)) { return true; }
@@ -112,6 +118,82 @@ HALFLIGHT_INLINE bool apart_but_for_shared(const MeshFace& a, const MeshFace& b,
     }
   }
   return false;
+}
+
+class FacePairs {
+ public:
+  FacePairs(const std::vector<MeshFace>& faces, const std::vector<glm::dvec3>& positions, double rounding)
+      : faces_(faces), positions_(positions), rounding_(rounding) {}
+
+  [[nodiscard]] Box bounds(std::span<const std::uint32_t> corners) const {
+    Box box;
+    for (const std::uint32_t v : corners) { box.extend(positions_[v]); }
+    return box;
+  }
+  [[nodiscard]] static bool overlap(const Box& a, const Box& b) {
+    return glm::all(glm::lessThanEqual(a.lo, b.hi)) && glm::all(glm::lessThanEqual(b.lo, a.hi));
+  }
+  [[nodiscard]] bool apart(std::uint32_t f, std::uint32_t g) {
+    if (hulls_apart(faces_[f], faces_[g], positions_, rounding_)) { return true; }
+    if (faces_[f].corners.size() == 3 && faces_[g].corners.size() == 3) { return false; }
+    const Triangles &of_f = triangles(f), &of_g = triangles(g);
+    if (of_f.empty() || of_g.empty()) { return false; }
+    const Box around_g = bounds(faces_[g].corners).grown(4 * rounding_);
+    for (const Triangle& a : of_f) {
+      const Box around_a = bounds(a).grown(4 * rounding_);
+      if (!overlap(around_a, around_g)) { continue; }
+      for (const Triangle& b : of_g) {
+        if (overlap(around_a, bounds(b)) && !hulls_apart({a, faces_[f].normal}, {b, faces_[g].normal}, positions_, rounding_)) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+ private:
+  using Triangle = std::array<std::uint32_t, 3>;
+  using Triangles = std::vector<Triangle>;
+
+  // Those that a face is cut into; none when they do not certainly cover it.
+  const Triangles& triangles(std::uint32_t f) {
+    const auto [entry, added] = cut_.try_emplace(f);
+    if (!added) { return entry->second; }
+    const std::span<const std::uint32_t> corners = faces_[f].corners;
+    std::vector<glm::dvec3> polygon;
+    for (const std::uint32_t v : corners) { polygon.push_back(positions_[v]); }
+    for (const auto& [i, j, k] : brep::ears(polygon)) {
+      const glm::dvec3 turn = glm::cross(polygon[j] - polygon[i], polygon[k] - polygon[i]);
+      if (!(glm::dot(turn, faces_[f].normal) > 0.0)) {
+        entry->second.clear();
+        break;
+      }
+      entry->second.push_back({corners[i], corners[j], corners[k]});
+    }
+    return entry->second;
+  }
+
+  const std::vector<MeshFace>& faces_;
+  const std::vector<glm::dvec3>& positions_;
+  double rounding_;
+  std::map<std::uint32_t, Triangles> cut_;
+};
+
+}  // namespace detail
+
+HALFLIGHT_INLINE bool faces_apart(const std::vector<MeshFace>& faces, const std::vector<glm::dvec3>& positions, const Bvh& bvh,
+                                  double rounding) {
+  detail::FacePairs pairs(faces, positions, rounding);
+  const auto count = static_cast<std::uint32_t>(faces.size());
+  for (std::uint32_t f = 0; f < count; ++f) {
+    const Box box = pairs.bounds(faces[f].corners);
+    const auto meets = [&](std::uint32_t g) { return g > f && !pairs.apart(f, g); };
+    bool met = any_within(
+        bvh, [&](const Box& other) { return detail::FacePairs::overlap(box, other); }, meets);
+    for (std::uint32_t g = f + 1; bvh.empty() && g < count && !met; ++g) { met = meets(g); }
+    if (met) { return false; }
+  }
+  return true;
 }
 
 }  // namespace raycast

@@ -281,7 +281,10 @@ HALFLIGHT_INLINE void Mesh::prepare() {
 
 HALFLIGHT_INLINE bool Mesh::embedded() const {
   if (convex_) { return true; }
-  if (!solid() || !faces_apart()) { return false; }
+  if (!solid()) { return false; }
+  std::vector<MeshFace> faces;
+  for (std::uint32_t f = 0; f < planes_.size(); ++f) { faces.push_back({corners(f), planes_[f].normal}); }
+  if (!faces_apart(faces, positions_, bvh_, eps_projection * (box_.magnitude() + box_.diameter()))) { return false; }
   // The volume is positive, so a surface in one piece has its inside within. Pieces may be nested, and each may be inside out.
   const std::vector<std::uint32_t> piece = connected();
   if (std::all_of(piece.begin(), piece.end(), [](std::uint32_t first) { return first == 0; })) { return true; }
@@ -291,23 +294,6 @@ HALFLIGHT_INLINE bool Mesh::embedded() const {
     known[of] = known[of] || alternates_at(f);
   }
   return std::all_of(piece.begin(), piece.end(), [&](std::uint32_t first) { return known[first]; });
-}
-
-HALFLIGHT_INLINE bool Mesh::faces_apart() const {
-  const double rounding = eps_projection * (box_.magnitude() + box_.diameter());
-  const auto face = [&](std::uint32_t f) { return MeshFace{corners(f), planes_[f].normal}; };
-  for (std::uint32_t f = 0; f < planes_.size(); ++f) {
-    Box box;
-    for (const std::uint32_t v : corners(f)) { box.extend(positions_[v]); }
-    const auto meets = [&](std::uint32_t g) { return g > f && !apart_but_for_shared(face(f), face(g), positions_, rounding); };
-    const auto overlaps = [&](const Box& other) {
-      return glm::all(glm::lessThanEqual(box.lo, other.hi)) && glm::all(glm::lessThanEqual(other.lo, box.hi));
-    };
-    bool met = any_within(bvh_, overlaps, meets);
-    for (std::uint32_t g = f + 1; bvh_.empty() && g < planes_.size() && !met; ++g) { met = meets(g); }
-    if (met) { return false; }
-  }
-  return true;
 }
 
 HALFLIGHT_INLINE std::vector<std::uint32_t> Mesh::connected() const {

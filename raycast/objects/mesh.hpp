@@ -136,7 +136,6 @@ class Mesh final : public Object {
 
   // Is it certain that the surface of this solid does not meet itself, and that on every line entries and exits alternate?
   [[nodiscard]] bool embedded() const;
-  [[nodiscard]] bool faces_apart() const;
   // The corners that can be reached from each along edges: the least of them.
   [[nodiscard]] std::vector<std::uint32_t> connected() const;
   // Do entries and exits alternate on a line through the middle of the face, which is one of them?

@@ -53,6 +53,24 @@ void add_prism(Random& random, Corners& positions, Faces& faces, double size, do
   }
 }
 
+// A face of n corners around the axis z in two, each with notches into which the other one reaches: their hulls overlap.
+void split_by_comb(Corners& positions, Faces& faces, std::size_t f) {
+  const std::vector<std::uint32_t> face = faces[f];
+  const std::size_t half = face.size() / 2;
+  const dvec3 along = glm::normalize(positions[face[0]] * dvec3{1, 1, 0}), across{-along.y, along.x, 0};
+  std::vector<std::uint32_t> comb;  // from corner 0 to the one opposite
+  for (const auto& [s, w] : {std::pair{0.17, 0.08}, {0.13, -0.08}, {0.09, 0.08}, {0.05, -0.08}}) {
+    comb.push_back(static_cast<std::uint32_t>(positions.size()));
+    positions.push_back(s * along + w * across + dvec3{0, 0, positions[face[0]].z});
+  }
+  const auto middle = face.begin() + static_cast<std::ptrdiff_t>(half);
+  faces[f].assign(face.begin(), middle + 1);
+  faces[f].insert(faces[f].end(), comb.rbegin(), comb.rend());
+  faces.emplace_back(middle, face.end());
+  faces.back().push_back(face[0]);
+  faces.back().insert(faces.back().end(), comb.begin(), comb.end());
+}
+
 // A ball whose corners are moved out and in.
 void add_cave(Random& random, Corners& positions, Faces& faces) {
   brep::Builder ball;
@@ -73,13 +91,18 @@ void add_box(const dvec3& lo, const dvec3& hi, Corners& positions, Faces& faces)
   }
 }
 
-enum class Shape { prism, pillar, cave, two_rooms, crossing };
+enum class Shape { prism, combs, pillar, cave, two_rooms, crossing };
 Made<Mesh> any_room(Random& random, Shape shape) {
   Corners positions;
   Faces faces;
   switch (shape) {
     case Shape::prism:
       add_prism(random, positions, faces, 1.0, random.uniform(0.1, 1.0), false);
+      break;
+    case Shape::combs:
+      add_prism(random, positions, faces, 1.0, random.uniform(0.1, 1.0), false);
+      split_by_comb(positions, faces, 0);
+      split_by_comb(positions, faces, 1);
       break;
     case Shape::pillar:  // in the room; its faces look into the air around it
       add_prism(random, positions, faces, 1.0, 0.5, false);
@@ -138,7 +161,7 @@ Furnished furnished(Random& random, Shape shape) {
   result.world.objects.push_back(room);
   return result;
 }
-Shape any_shape(Random& random) { return static_cast<Shape>(random.below(5)); }
+Shape any_shape(Random& random) { return static_cast<Shape>(random.below(6)); }
 
 // On a surface, near one and owned by nothing, or anywhere; in a room that is not convex it is not known on which sheet a corner lies.
 Place end(Random& random, const Furnished& f) {
