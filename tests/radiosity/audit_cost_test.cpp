@@ -198,7 +198,8 @@ TEST_CASE("a target out of reach ends within the stated work, and after the same
   }
 }
 
-TEST_CASE("the audits of random scenes cost what is stated: as much time as the solution, or 5000 rays a point where that is more") {
+TEST_CASE("the audits of random scenes cost what is stated: as much time as the solution, or 5000 rays a point where that is more",
+          "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};

@@ -88,7 +88,7 @@ TEST_CASE("path tracing is unbiased: furnaces glow at 1, an emitting wall lights
   check(traced(wall, 0, 0, 100000, 5), 0.18110555822851843);
 }
 
-TEST_CASE("path tracing agrees with the solution of a room with a box and a lamp") {
+TEST_CASE("path tracing agrees with the solution of a room with a box and a lamp", "[accuracy]") {
   const Scene scene = scenes::room_with_box();
   const Options options = [] {
     Options o;

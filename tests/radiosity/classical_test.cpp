@@ -121,7 +121,7 @@ TEST_CASE("the parts of a separate polygon stay in its plane, those of a shared 
   CHECK(area(separate) < 0.995 * sphere);
 }
 
-TEST_CASE("a dense solution on the leaves of a run differs from it by its links alone") {
+TEST_CASE("a dense solution on the leaves of a run differs from it by its links alone", "[accuracy]") {
   const Scene scene = scenes::room_with_box();
   double before = 1.0;
   for (const double epsilon : {0.2, 0.02}) {

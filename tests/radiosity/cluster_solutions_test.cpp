@@ -60,7 +60,7 @@ TEST_CASE("furnace with many things: B = 1 on every leaf, whatever stands in the
   }
 }
 
-TEST_CASE("with clusters the result converges to the one without") {
+TEST_CASE("with clusters the result converges to the one without", "[accuracy]") {
   const radiosity::Scene scene = scenes::many(61, scenes::Things::boxes);
   double before = 1.0;
   for (const double epsilon : {0.4, 0.1, 0.025}) {

@@ -58,7 +58,7 @@ Soup room_of_sheets(rooms::RandomRooms& random, const glm::dvec3& hi, double ove
 
 }  // namespace
 
-TEST_CASE("furnace: a room of oversize walls that cross at its corners loses no light within") {
+TEST_CASE("furnace: a room of oversize walls that cross at its corners loses no light within", "[accuracy]") {
   const unsigned seed = std::random_device{}();
   INFO("seed " << seed);
   rooms::RandomRooms random(seed);

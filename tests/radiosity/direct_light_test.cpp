@@ -289,7 +289,7 @@ TEST_CASE("direct light: the strongest lamps are taken, within the limits, flat 
 }
 
 // What segments say of a large lamp of which little is seen: a sky, through small holes in a plate that has too many faces to be cut out.
-TEST_CASE("direct light: a sky through a few holes is what many segments say", "[direct]") {
+TEST_CASE("direct light: a sky through a few holes is what many segments say", "[direct][accuracy]") {
   const std::uint64_t seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0, 0};

@@ -148,7 +148,7 @@ TEST_CASE("discontinuity meshing by BF-refinement: valid, edges are imprinted") 
   CHECK(solution.audit.imprinted->edges > 0);
 }
 
-TEST_CASE("discontinuity meshing of a half-shadow: about half the error with no more leaves") {
+TEST_CASE("discontinuity meshing of a half-shadow: about half the error with no more leaves", "[accuracy]") {
   struct Pair {
     double regular, cut;  // epsilon
   };

@@ -231,7 +231,8 @@ TEST_CASE("a lamp that lies on the walls leaves a room of polygons closed, one t
   }
 }
 
-TEST_CASE("furnaces of things that cross: rooms that are not proven closed, but lose no ray, glow evenly at any reflectance") {
+TEST_CASE("furnaces of things that cross: rooms that are not proven closed, but lose no ray, glow evenly at any reflectance",
+          "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   Maker make{seed};

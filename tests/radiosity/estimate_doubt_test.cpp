@@ -142,7 +142,8 @@ TEST_CASE("where the estimate is more than 3 times off what path tracing found, 
   CHECK(contradicted > 0);
 }
 
-TEST_CASE("light through a hole of any size: the estimate is no less than a third of the error, or says that it is no bound") {
+TEST_CASE("light through a hole of any size: the estimate is no less than a third of the error, or says that it is no bound",
+          "[accuracy]") {
   INFO("seed 83");
   radiosity::Random random{83, 0};
   int doubted = 0;
@@ -221,7 +222,7 @@ TEST_CASE("an estimate from a sample of the links is the same with every seed, w
 
 // Most pairs that no segment joined see nothing of each other. When each of them alone was thought to let a share of 1 / 18 pass, the mean
 // of these ratios was 5.8 to 7.
-TEST_CASE("what no segment found is estimated from all such pairs together: light through small holes is no alarm") {
+TEST_CASE("what no segment found is estimated from all such pairs together: light through small holes is no alarm", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 5};

@@ -158,7 +158,7 @@ TEST_CASE("on a sphere under a far lamp the estimate is the error of the leaves,
   }
 }
 
-TEST_CASE("the estimate is within a factor of 3 of the error of the leaves: a lamp over random convex objects") {
+TEST_CASE("the estimate is within a factor of 3 of the error of the leaves: a lamp over random convex objects", "[accuracy]") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     radiosity::Random random{seed, 0x657374};
     const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };

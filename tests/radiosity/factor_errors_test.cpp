@@ -179,7 +179,7 @@ TEST_CASE("errors of factors: a ball that rises above the plane of a disk by les
   }
 }
 
-TEST_CASE("errors of factors: disks and spheres on one axis, from touching nearly to far apart") {
+TEST_CASE("errors of factors: disks and spheres on one axis, from touching nearly to far apart", "[accuracy]") {
   const unsigned seed = 5;
   CAPTURE(seed);
   Random random{std::mt19937_64{seed}};

@@ -200,7 +200,7 @@ TEST_CASE("reference: the rooms of View3D, form factors and script F, row sums o
   CHECK(scripts == 1);
 }
 
-TEST_CASE("reference: form factors of curved surfaces") {
+TEST_CASE("reference: form factors of curved surfaces", "[accuracy]") {
   const json::Value data = read("form_factors.json");
   int cases = 0;
   for (const json::Value& c : data["curved"].array()) {

@@ -66,7 +66,7 @@ TEST_CASE("lists of rays are those of any number of threads, and of another seed
   CHECK(solved(solve_uniform(scene, options)).radiosity != one.radiosity);
 }
 
-TEST_CASE("lists of rays converge to the solution of the full matrix") {
+TEST_CASE("lists of rays converge to the solution of the full matrix", "[accuracy]") {
   const Scene scene = scenes::room_with_box();
   UniformOptions matrix;
   matrix.max_area = 0.004;

@@ -99,7 +99,7 @@ Soup model_of(const TwoRooms& rooms, bool twice, bool first_way, bool apart) {
 
 }  // namespace
 
-TEST_CASE("intake: a wall that two rooms share lights both, as one wall of each would") {
+TEST_CASE("intake: a wall that two rooms share lights both, as one wall of each would", "[accuracy]") {
   const unsigned seed = std::random_device{}();
   INFO("seed " << seed);
   RandomRooms random(seed);
@@ -116,7 +116,7 @@ TEST_CASE("intake: a wall that two rooms share lights both, as one wall of each 
   }
 }
 
-TEST_CASE("intake: of a lamp that shines on both sides close under a ceiling the lower side counts") {
+TEST_CASE("intake: of a lamp that shines on both sides close under a ceiling the lower side counts", "[accuracy]") {
   const unsigned seed = std::random_device{}();
   INFO("seed " << seed);
   RandomRooms random(seed);

@@ -26,7 +26,7 @@ using soup::count_of;
 using soup::Soup;
 
 // Which way up such a lamp was given, where rounding has put it, and whether it comes before or after its room in the file: all the same.
-TEST_CASE("intake: a lamp that lies flush in a ceiling shines into the room") {
+TEST_CASE("intake: a lamp that lies flush in a ceiling shines into the room", "[accuracy]") {
   const unsigned seed = std::random_device{}();
   INFO("seed " << seed);
   RandomRooms random(seed);

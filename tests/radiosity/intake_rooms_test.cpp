@@ -95,7 +95,7 @@ TEST_CASE("intake: what touches a room or leaves it open joins no shell") {
   CHECK(count_of(without.take_in(), ChangeKind::turned) == 0);
 }
 
-TEST_CASE("intake: polygons given again for their back change no light") {
+TEST_CASE("intake: polygons given again for their back change no light", "[accuracy]") {
   const unsigned seed = std::random_device{}();
   INFO("seed " << seed);
   RandomRooms random(seed);

@@ -180,7 +180,7 @@ TEST_CASE("tubes that touch a ceiling light it as they are long, and the room wi
 }
 
 // What shines brightest is a ceiling that lamps hide from most of the room.
-TEST_CASE("a lamp close under a ceiling, hung or touching it, gives a closed room no more light than it sends") {
+TEST_CASE("a lamp close under a ceiling, hung or touching it, gives a closed room no more light than it sends", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};

@@ -55,7 +55,7 @@ bool same(const radiosity::Mesh& a, const radiosity::Mesh& b) {
 
 }  // namespace
 
-TEST_CASE("a refined mesh has the error that was asked for, and less takes more faces", "[mesh]") {
+TEST_CASE("a refined mesh has the error that was asked for, and less takes more faces", "[mesh][accuracy]") {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     CAPTURE(seed);
     const radiosity::Scene scene = box_on_floor(seed);
@@ -92,7 +92,7 @@ TEST_CASE("a refined mesh has the same bits for any number of threads, and leave
   CHECK(one.radiosity == without.radiosity);
 }
 
-TEST_CASE("the mesh of a furnace is not refined", "[mesh]") {
+TEST_CASE("the mesh of a furnace is not refined", "[mesh][accuracy]") {
   const radiosity::Solution solution = scenes::solved(scenes::furnace_with_things(0.5), coarse(0.01));
   REQUIRE(solution.audit.mesh);
   CHECK(solution.audit.mesh->met);

@@ -136,7 +136,7 @@ double error_by_rays(const radiosity::FinalGather& light, const std::vector<radi
 
 }  // namespace
 
-TEST_CASE("what is wrong at outlines is what rays through the picture find", "[mesh]") {
+TEST_CASE("what is wrong at outlines is what rays through the picture find", "[mesh][accuracy]") {
   const std::uint64_t seed = 0x6f75746c;
   double all_found = 0.0, all_true = 0.0;
   for (int kind = 0; kind < 4; ++kind) {

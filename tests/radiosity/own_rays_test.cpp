@@ -140,7 +140,7 @@ TEST_CASE("own rays: a caster of the same triangles gives the same light and the
   }
 }
 
-TEST_CASE("own rays: what the caster says is the visibility") {
+TEST_CASE("own rays: what the caster says is the visibility", "[accuracy]") {
   const soup::Soup soup = furnished(3);
   for (const auto indirect : {radiosity::Indirect::links, radiosity::Indirect::rays}) {
     radiosity::BakeOptions options = coarse_bake(indirect);

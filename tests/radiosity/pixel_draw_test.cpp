@@ -120,7 +120,7 @@ TEST_CASE("pixel draw: the mean of weight times value is the mean over the pictu
   }
 }
 
-TEST_CASE("pixel draw: where a few pixels hold most of the energy and error, 95 % intervals hold the truth") {
+TEST_CASE("pixel draw: where a few pixels hold most of the energy and error, 95 % intervals hold the truth", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   Random random{seed, 2};

@@ -141,7 +141,7 @@ TEST_CASE("rays do not depend on the number of threads") {
   CHECK(one.radiosity == three.radiosity);
 }
 
-TEST_CASE("rooms by stored rays: closed rows, no energy lost, and the radiosities of links") {
+TEST_CASE("rooms by stored rays: closed rows, no energy lost, and the radiosities of links", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
@@ -246,7 +246,7 @@ TEST_CASE("rays of small things are as good beside something far away") {
 }
 
 // Two stacks of plates at gaps that are a hundredth to half of their width.
-TEST_CASE("narrow gaps: rows of form factors near 1 before they are closed, and the light of a closed room") {
+TEST_CASE("narrow gaps: rows of form factors near 1 before they are closed, and the light of a closed room", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};

@@ -72,7 +72,7 @@ RoundsAsked rounds_to(double wanted, radiosity::Options options, const Scene& sc
 
 }  // namespace
 
-TEST_CASE("error target: the rounds are the same for any target as far as they go, and what ended them is told") {
+TEST_CASE("error target: the rounds are the same for any target as far as they go, and what ended them is told", "[slow]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
