@@ -199,8 +199,9 @@ HALFLIGHT_INLINE void LitRegion::make_cone(const Reach::Outline& outline, const 
   half(projected_.begin(), projected_.end());
   half(projected_.rbegin(), projected_.rend());
   for (std::size_t i = 0; i < hull_.size(); ++i) {
-    const glm::dvec3 across = glm::cross(*hull_[i].corner - x, *hull_[i + 1 < hull_.size() ? i + 1 : 0].corner - x);
-    if (glm::dot(across, across) > 0.0) { cone_.push_back({x, across}); }
+    const glm::dvec3 a = *hull_[i].corner - x, b = *hull_[i + 1 < hull_.size() ? i + 1 : 0].corner - x, across = glm::cross(a, b);
+    constexpr double rounding = 1e-13;  // two that are seen in one place, as of an edge seen from its end: no plane
+    if (glm::dot(across, across) > rounding * rounding * glm::dot(a, a) * glm::dot(b, b)) { cone_.push_back({x, across}); }
   }
 }
 

@@ -100,6 +100,19 @@ HALFLIGHT_INLINE void cut_away(std::vector<Piece>& pieces, std::span<const HalfS
   pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(kept), pieces.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
+// Appends the planes through x and the edges of a convex polygon, with normals turned to where `within` holds for them. Where a polygon was
+// cut at a corner that lies on the cut but for rounding, two corners are left that are one: the edge between them has no direction, and
+// its neighbours meet there.
+template <class Within>
+void planes_through(const glm::dvec3& x, const Piece& polygon, const Within& within, std::vector<HalfSpace>& planes) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 a = polygon[i] - x, b = polygon[i + 1 < polygon.size() ? i + 1 : 0] - x, across = glm::cross(a, b);
+    constexpr double rounding = 1e-13;
+    const bool same = glm::dot(b - a, b - a) <= rounding * rounding * (glm::dot(x, x) + glm::dot(a, a));
+    if (!same && glm::dot(across, across) > 0.0) { planes.push_back({x, within(across) ? across : -across}); }
+  }
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE void ShadowedTarget::look(const glm::dvec3& x, const glm::dvec3& n) {
@@ -110,11 +123,8 @@ HALFLIGHT_INLINE void ShadowedTarget::look(const glm::dvec3& x, const glm::dvec3
   if (first_.empty()) { return; }
   first_.bound();
   pieces_.push_back(first_);
-  for (std::size_t i = 0; i < first_.size(); ++i) {
-    const glm::dvec3 across = glm::cross(first_[i] - x, first_[i + 1 < first_.size() ? i + 1 : 0] - x);
-    const HalfSpace side{x, glm::dot(across, first_.centre() - x) < 0.0 ? -across : across};
-    if (glm::dot(across, across) > 0.0) { sides_.push_back(side); }
-  }
+  const auto within = [&](const glm::dvec3& normal) { return glm::dot(normal, first_.centre() - x) >= 0.0; };
+  detail::planes_through(x, first_, within, sides_);
 }
 
 HALFLIGHT_INLINE void ShadowedTarget::hide(const Blocker& blocker) {
@@ -129,10 +139,8 @@ HALFLIGHT_INLINE void ShadowedTarget::hide(const Blocker& blocker) {
   detail::part(shade_, before, first_, second_);
   if (first_.empty() || flat(first_, horizon_) || flat(first_, before)) { return; }
   planes_.clear();
-  for (std::size_t i = 0; i < first_.size(); ++i) {
-    const glm::dvec3 across = glm::cross(first_[i] - x, first_[i + 1 < first_.size() ? i + 1 : 0] - x);
-    if (glm::dot(across, across) > 0.0) { planes_.push_back({x, height > 0.0 ? -across : across}); }
-  }
+  const auto within = [&](const glm::dvec3&) { return height <= 0.0; };
+  detail::planes_through(x, first_, within, planes_);
   hide(planes_);
 }
 
