@@ -104,7 +104,6 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& 
   Lamp lamp;
   lamp.exitance = candidate.exitance;
   raycast::Box box;
-  double true_area = 0.0;
   bool flat = true;
   for (const Candidate::OfObject& part : candidate.parts) {
     const Surface& surface = surfaces[part.object];
@@ -117,7 +116,7 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& 
     cut_out_covered(facets, part.object, objects, surfaces);
     for (const Facets::Facet& facet : facets.facets) {
       for (const glm::dvec3& p : facet.contour) { box.extend(p); }
-      true_area += object.flat() ? facet.area : curved_area(object, sheet, facet.contour);
+      lamp.area += object.flat() ? facet.area : curved_area(object, sheet, facet.contour);
     }
     lamp.object_of.insert(lamp.object_of.end(), facets.facets.size(), part.object);
     append(lamp.facets, facets);
@@ -131,7 +130,7 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& 
       flat && std::all_of(lamp.facets.facets.begin(), lamp.facets.facets.end(), [&](const Facets::Facet& f) {
         return glm::dot(f.normal, first.normal) > 1.0 - 1e-12 && (!several || std::abs(first.height(f.contour[0])) < detail::least_slack);
       });
-  lamp.correction = true_area / detail::area_of(lamp.facets);
+  lamp.correction = lamp.area / detail::area_of(lamp.facets);
   lamp.centre = box.centre();
   for (const Facets::Facet& facet : lamp.facets.facets) {
     for (const glm::dvec3& p : facet.contour) { lamp.radius = std::max(lamp.radius, glm::length(p - lamp.centre)); }
@@ -162,7 +161,7 @@ HALFLIGHT_INLINE void DirectLight::take_samples(Lamp& lamp, std::size_t count, b
 
 HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
                                           const std::vector<Color>& emission, const LampLimits& limits)
-    : objects_{&objects}, is_lamp_(emission.size(), false), bodies_(objects.size()) {
+    : objects_{&objects}, lamp_of_(emission.size(), 0xffffffff), bodies_(objects.size()) {
   for (std::uint32_t o = 0; o < objects.size(); ++o) { slack_ = std::max(slack_, 2.0 * objects.object(o).slack()); }
   std::vector<Candidate> candidates;
   double total = 0.0;
@@ -200,7 +199,9 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       if (taken > limits.most_surrounding * total) { continue; }
     }
     for (const Candidate::OfObject& part : c.parts) {
-      for (const std::uint32_t sheet : part.sheets) { is_lamp_[surfaces[part.object].first_surface + sheet] = true; }
+      for (const std::uint32_t sheet : part.sheets) {
+        lamp_of_[surfaces[part.object].first_surface + sheet] = static_cast<std::uint32_t>(lamps_.size());
+      }
     }
     lamps_.push_back(std::move(lamp));
     is_fine.push_back(fine);

@@ -57,7 +57,8 @@ class DirectLight {
     Facets facets;
     std::vector<std::uint32_t> object_of;  // of each facet
     bool flat = false;                     // all facets lie in one plane
-    double correction = 1.0;               // area of the true surface over that of the facets
+    double area = 0.0;                     // of the true surface
+    double correction = 1.0;               // that over the area of the facets
     glm::dvec3 centre{0.0};                // of a sphere around it
     double radius = 0.0;
     std::array<glm::dvec3, 4> corners;  // of a rectangle around it, in its plane; of a curved one, around a point of it
@@ -69,7 +70,11 @@ class DirectLight {
   };
   [[nodiscard]] const std::vector<Lamp>& lamps() const { return lamps_; }
   // Is this input surface among the lamps? What else emits is left to whoever asks.
-  [[nodiscard]] bool is_lamp(std::uint32_t surface) const { return surface < is_lamp_.size() && is_lamp_[surface]; }
+  [[nodiscard]] bool is_lamp(std::uint32_t surface) const { return lamp_of(surface) != nullptr; }
+  // The lamp that an input surface belongs to; null: none.
+  [[nodiscard]] const Lamp* lamp_of(std::uint32_t surface) const {
+    return surface < lamp_of_.size() && lamp_of_[surface] < lamps_.size() ? &lamps_[lamp_of_[surface]] : nullptr;
+  }
 
   // What segments meet: the scene, in which open meshes stand in for curved objects that are slow to meet; two for each, the second ones
   // behind all objects. The object that such a mesh belongs to, and how far points on it are lifted to be above its meshes; 0: none stand
@@ -113,8 +118,8 @@ class DirectLight {
   std::shared_ptr<const raycast::Scene> with_stand_ins_;
   std::vector<std::uint32_t> whole_;  // of those the objects that they are halves of
   std::vector<Lamp> lamps_;
-  std::vector<bool> is_lamp_;  // by input surface
-  std::vector<Body> bodies_;   // by object; without facets: asked by segments
+  std::vector<std::uint32_t> lamp_of_;  // by input surface; beyond the lamps: none
+  std::vector<Body> bodies_;            // by object; without facets: asked by segments
   std::vector<std::uint32_t> rooms_;
 };
 

@@ -47,31 +47,55 @@ struct NearLight::Paths {
 
 namespace detail {
 
-// A lamp, chosen by the light that it would send to a place from its middle, and the probability of that.
+// The light that a lamp would send to a place from its middle: by this one is chosen.
+[[nodiscard]] HALFLIGHT_INLINE double strength(const DirectLight::Lamp& lamp, const raycast::SurfacePoint& at) {
+  const glm::dvec3 d = lamp.centre - at.position;
+  if (!(glm::dot(d, at.normal) > -lamp.radius)) { return 0.0; }
+  const double size = lamp.radius * lamp.radius;
+  return (lamp.exitance.x + lamp.exitance.y + lamp.exitance.z) * size / std::max(glm::dot(d, d), size);
+}
+
+[[nodiscard]] HALFLIGHT_INLINE double strength_of_all(const DirectLight& direct, const raycast::SurfacePoint& at) {
+  double all = 0.0;
+  for (const DirectLight::Lamp& lamp : direct.lamps()) { all += strength(lamp, at); }
+  return all;
+}
+
 struct ChosenLamp {
   const DirectLight::Lamp* lamp = nullptr;
   double probability = 0.0;
 };
 
 [[nodiscard]] HALFLIGHT_INLINE ChosenLamp choose_lamp(const DirectLight& direct, const raycast::SurfacePoint& at, double number) {
-  const auto strength = [&](const DirectLight::Lamp& lamp) {
-    const glm::dvec3 d = lamp.centre - at.position;
-    if (!(glm::dot(d, at.normal) > -lamp.radius)) { return 0.0; }
-    const double size = lamp.radius * lamp.radius;
-    return (lamp.exitance.x + lamp.exitance.y + lamp.exitance.z) * size / std::max(glm::dot(d, d), size);
-  };
-  double all = 0.0;
-  for (const DirectLight::Lamp& lamp : direct.lamps()) { all += strength(lamp); }
+  const double all = strength_of_all(direct, at);
   ChosenLamp chosen;
   double left = number * all;
   for (const DirectLight::Lamp& lamp : direct.lamps()) {
-    const double own = strength(lamp);
+    const double own = strength(lamp, at);
     if (!(own > 0.0)) { continue; }
     chosen = {&lamp, own / all};
     left -= own;
     if (left < 0.0) { break; }
   }
   return chosen;
+}
+
+// The probability that an even ray from a place ends here on the lamp, in that of this point being chosen, all points of the lamp alike.
+[[nodiscard]] HALFLIGHT_INLINE double ray_to_chosen(const ChosenLamp& chosen, const raycast::SurfacePoint& place, const glm::dvec3& end,
+                                                    const glm::dvec3& normal) {
+  const glm::dvec3 d = end - place.position;
+  const double here = glm::dot(d, place.normal), there = -glm::dot(d, normal), square = glm::dot(d, d);
+  if (!(here > 0.0) || !(there > 0.0)) { return 0.0; }
+  return chosen.lamp->area * here * there / (std::numbers::pi * square * square) / chosen.probability;
+}
+
+// What counts of the light of a lamp that an even ray from a place has met; the rest is that of chosen points (balance heuristic).
+[[nodiscard]] HALFLIGHT_INLINE double share_of_ray(const DirectLight& direct, const DirectLight::Lamp& lamp,
+                                                   const raycast::SurfacePoint& place, const raycast::SurfacePoint& end) {
+  const double own = strength(lamp, place);
+  if (!(own > 0.0)) { return 1.0; }
+  const double ratio = ray_to_chosen({&lamp, own / strength_of_all(direct, place)}, place, end.position, end.normal);
+  return ratio / (1.0 + ratio);
 }
 
 }  // namespace detail
@@ -84,17 +108,14 @@ HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumb
   const double row = numbers[0].uniform();
   paths.each([&](unsigned k) {
     const auto& [at, object, sheet] = paths.end[k];
-    const auto [lamp, probability] = detail::choose_lamp(*direct_, at, numbers[k].uniform());
-    if (lamp == nullptr) { return; }
-    const std::size_t first = paths_at_once * static_cast<std::size_t>(row * static_cast<double>(lamp->samples.size() / paths_at_once));
-    const LampSample& sample = lamp->samples[(first + k) % lamp->samples.size()];
-    const glm::dvec3 d = sample.position - at.position;
-    const double here = glm::dot(d, at.normal), there = -glm::dot(d, sample.normal), square = glm::dot(d, d);
-    if (!(here > 0.0) || !(there > 0.0)) { return; }
-    double area = 0.0;
-    for (const Facets::Facet& facet : lamp->facets.facets) { area += lamp->correction * facet.area; }
-    // No form factor is more than 1; that of a point very near to a sample would be.
-    arriving[k] = lamp->exitance * (std::min(1.0, area * here * there / (std::numbers::pi * square * square)) / probability);
+    const detail::ChosenLamp chosen = detail::choose_lamp(*direct_, at, numbers[k].uniform());
+    if (chosen.lamp == nullptr) { return; }
+    const std::vector<LampSample>& samples = chosen.lamp->samples;
+    const std::size_t first = paths_at_once * static_cast<std::size_t>(row * static_cast<double>(samples.size() / paths_at_once));
+    const LampSample& sample = samples[(first + k) % samples.size()];
+    const double ratio = detail::ray_to_chosen(chosen, at, sample.position, sample.normal);
+    if (!(ratio > 0.0)) { return; }
+    arriving[k] = chosen.lamp->exitance * (ratio / (1.0 + ratio));
     const double lift = direct_->lift(object);
     const bool curved = !(lift > 0.0) && !lookup_->objects().object(object).flat();
     const glm::dvec3 from = at.position + std::max(lift, off_surface) * at.normal;
@@ -162,7 +183,11 @@ HALFLIGHT_INLINE void NearLight::go_on(Paths& paths, std::span<PathNumbers> numb
     const Met next = met(lookup_->objects(), *direct_, hit, rays.at(k));
     const std::uint32_t surface = lookup_->surface(next.object, next.sheet);
     const Material& material = (*materials_)[surface];
-    const Color lamp = direct_->is_lamp(surface) ? material.emission : Color{0.0};
+    const DirectLight::Lamp* of_lamp = direct_->lamp_of(surface);
+    const Color lamp = of_lamp != nullptr ? material.emission : Color{0.0};
+    if (of_lamp != nullptr) {
+      paths.light[k] += paths.carried[k] * lamp * detail::share_of_ray(*direct_, *of_lamp, paths.end[k].point, next.point);
+    }
     const std::optional<Lookup::Found> found = lookup_->find(next.object, next.sheet, next.point);
     if (found && !last && hit.t * reach < found->coarse_within) {
       paths.light[k] += paths.carried[k] * (material.emission - lamp);

@@ -9,6 +9,9 @@
 // A path that ends by chance on a small bright spot is noise: a row of bright and dark crumbs along a corner. Where spots are that bright,
 // each end of a path sends a ray to one of them, too (bright_spots.hpp), by the balance heuristic.
 //
+// A path that ends on a lamp by chance counts beside a point of the lamp that was chosen, by the same heuristic: a large lamp near by, such
+// as a sky outside a window, is seen where chosen points are few.
+//
 // Half of the places are chosen by the light that the mesh says they have, half anyhow; what the paths say is unbiased.
 
 #include <cstdint>
@@ -47,7 +50,7 @@ class NearLight {
  private:
   // Paths from places that are seen, to find how much light these send out, but for that of lamps.
   struct Paths;
-  // Adds what lamps send to the ends of the paths.
+  // Adds what chosen points of lamps send to the ends of the paths; what rays meet of them is the rest.
   void light_by_lamps(Paths& paths, std::span<PathNumbers> numbers) const;
   // Casts a ray from the end of each: it ends with the light of what is met, or goes on from there when that is near.
   void go_on(Paths& paths, std::span<PathNumbers> numbers, const BrightSpots::From* spots, bool last) const;
