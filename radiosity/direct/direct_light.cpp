@@ -146,17 +146,16 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& 
 }
 
 HALFLIGHT_INLINE void DirectLight::take_samples(Lamp& lamp, std::size_t count, bool fine) const {
-  std::vector<SampleEnd> ends;
   for (const std::uint32_t o : lamp.object_of) {
     const raycast::PlacedObject& object = objects_->object(o);
     if (bodies_[o].lift > 0.0) {
-      ends.push_back({raycast::no_object, bodies_[o].lift + detail::facet_tolerance * bodies_[o].bounds.diameter()});
+      lamp.ends.push_back({raycast::no_object, bodies_[o].lift + detail::facet_tolerance * bodies_[o].bounds.diameter()});
     } else {
-      ends.push_back({object.flat() ? raycast::no_object : o, 0.0});
+      lamp.ends.push_back({object.flat() ? raycast::no_object : o, 0.0});
     }
   }
-  lamp.samples = lamp_samples(lamp.facets, ends, count);
-  if (fine) { lamp.fine = FineSamples{lamp.samples, lamp_samples(lamp.facets, ends, detail::fine_samples)}; }
+  lamp.samples = lamp_samples(lamp.facets, lamp.ends, count);
+  if (fine) { lamp.fine = FineSamples{lamp.samples, lamp_samples(lamp.facets, lamp.ends, detail::fine_samples)}; }
 }
 
 HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces,

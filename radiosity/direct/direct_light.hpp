@@ -63,6 +63,7 @@ class DirectLight {
     double radius = 0.0;
     std::array<glm::dvec3, 4> corners;  // of a rectangle around it, in its plane; of a curved one, around a point of it
     double bulge = 0.0;                 // how far it leaves the rectangle
+    std::vector<SampleEnd> ends;        // of each facet
     std::vector<LampSample> samples;    // even over its area, the first ones too
     FineSamples fine;                   // about these; of large lamps, others have none
     std::vector<bool> behind;           // by object: some of it lies behind the plane of the flat lamp

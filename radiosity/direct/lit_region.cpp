@@ -91,7 +91,6 @@ HALFLIGHT_INLINE Facets LitRegion::possible_outline(const Facets& facets) const 
   return result;
 }
 
-// What may stand between as faces and outlines; false when something is neither.
 HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchShape& shape) const {
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
   const raycast::Scene& objects = *light_->objects_;
@@ -112,10 +111,14 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
   if (shape.bulge == 0.0) { shaft.emplace_back(shape.contour, lamp.corners, slack + lift_); }
   const auto misses = [&](std::span<const glm::dvec3> corners) { return !shaft.empty() && shaft[0].misses(corners); };
   constexpr std::size_t most_faces = 128, most_of_stand_ins = 64;  // past these segments cost less
+  bool all = true;
   for (const std::uint32_t o : candidates) {
     const DirectLight::Body& body = light_->bodies_[o];
     if (body.convex && o == owner_) { continue; }
-    if (body.facets.empty()) { return false; }
+    if (body.facets.empty()) {
+      all = false;
+      continue;
+    }
     if (body.convex && body.closed && !lamp.behind[o]) {
       if (shaft.empty() || !shaft[0].misses(body.bounds)) {
         Reach::Outline outline;
@@ -145,15 +148,22 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
       }
       continue;
     }
-    if (!body.exact && (body.convex ? body.closed : !(body.lift > 0.0))) { return false; }
+    if (!body.exact && (body.convex ? body.closed : !(body.lift > 0.0))) {
+      all = false;
+      continue;
+    }
+    const std::size_t before = reach.faces.size();
     for (const Facets::Facet& facet : body.facets.facets) {
       if (body.closed && facet.height(centre_) <= slack - radius_) { continue; }  // its back, behind its fronts
       if (misses(facet.contour)) { continue; }
       reach.faces.push_back({facet.contour, facet.normal});
     }
-    if (reach.faces.size() > (body.exact ? most_faces : most_of_stand_ins)) { return false; }
+    if (reach.faces.size() > (body.exact ? most_faces : most_of_stand_ins)) {
+      reach.faces.resize(before);
+      all = false;
+    }
   }
-  return true;
+  return all;
 }
 
 HALFLIGHT_INLINE double LitRegion::unhidden(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
@@ -205,10 +215,11 @@ HALFLIGHT_INLINE void LitRegion::make_cone(const Reach::Outline& outline, const 
   }
 }
 
-HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
+HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::vector<detail::LampPart>* left) {
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
   double sum = 0.0;
-  for (const Facets::Facet& facet : lamp.facets.facets) {
+  for (std::uint32_t f = 0; f < lamp.facets.facets.size(); ++f) {
+    const Facets::Facet& facet = lamp.facets.facets[f];
     if (!(facet.height(x) > light_->slack_)) { continue; }
     ShadowedTarget target{facet.contour, facet.normal, {}, light_->slack_};
     target.look(x, n);
@@ -223,6 +234,11 @@ HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, 
       if (!cone_.empty()) { target.hide(cone_); }
     }
     sum += target.form_factor();
+    if (left == nullptr) { continue; }
+    for (const Piece& piece : target.pieces()) {
+      detail::LampPart& part = left->emplace_back(detail::LampPart{{}, f, point_to_polygon(x, n, piece)});
+      for (const glm::dvec3& p : piece) { part.contour.push_back(p); }
+    }
   }
   return sum;
 }
@@ -230,10 +246,16 @@ HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, 
 HALFLIGHT_INLINE double LitRegion::visible(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
   Reach& reach = reaches_[k];
   if (reach.between == Between::nothing) { return 1.0; }
-  if (reach.between == Between::anything) { return seen_share(reach, x, n); }
+  const bool all_known = reach.between == Between::bodies;
+  if (!all_known && reach.faces.empty() && reach.outlines.empty()) { return seen_share(reach, x, n); }
   const glm::dvec3 above = x + lift_ * n;  // the faces of a mesh that stands in for its own object
   const double all = unhidden(k, above, n);
-  return all > 0.0 ? std::min(1.0, cut(reach, above, n) / all) : 0.0;
+  if (!(all > 0.0)) { return 0.0; }
+  std::vector<detail::LampPart> left;
+  const double open = std::min(1.0, cut(reach, above, n, all_known ? nullptr : &left) / all);
+  if (all_known || left.empty()) { return open; }
+  constexpr double little = 0.25;  // of a lamp: few of the segments that are even over it would tell
+  return open < little ? open * seen_share_of(reach, x, n, left, 48.0) : seen_share(reach, x, n);
 }
 
 }  // namespace radiosity

@@ -11,7 +11,8 @@
 //   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighed so
 //                       that only what is hidden is sampled, and they stop at 64 when these agree (fewer where many lamps were joined).
 //                       Right beside a lamp, where few of them face the point or most are far, they go to parts of it of equal light.
-//                       Of a large lamp of which little is seen (a sky through a window) up to 512 finer ones find the rim of that.
+//                       Where faces and bodies hide most of a flat lamp, their shadow is cut out first, and segments go to what is left;
+//                       of other large lamps of which little is seen up to 512 finer ones find the rim of that.
 //                       Curved objects that are slow to meet, or not convex, are met as meshes within 0.04 % of their diameter.
 // Curved lamps are always asked by segments where something may stand between. Nothing here is random: the result depends on the region and
 // the point alone.
@@ -34,6 +35,17 @@
 #include <radiosity/visibility/shadow.hpp>
 
 namespace radiosity {
+
+namespace detail {
+
+// A convex part of a facet, above the horizon of a point that it faces, and the form factor from there to it.
+struct LampPart {
+  Polygon contour;
+  std::uint32_t facet = 0;
+  double factor = 0.0;
+};
+
+}  // namespace detail
 
 class LitRegion {
  public:
@@ -72,7 +84,7 @@ class LitRegion {
     std::uint32_t lamp = 0;
     Between between = Between::nothing;
     raycast::OccluderList list;
-    std::vector<Blocker> faces;
+    std::vector<Blocker> faces;  // these and outlines are all that may stand between, if it is bodies
     struct Outline {
       const Facets* facets = nullptr;
       std::uint32_t nearest = 0;        // the facet that the region's centre is highest above
@@ -88,10 +100,12 @@ class LitRegion {
 
   // The edges that are not known to lie between two facets that all of the region sees, or none of it, with their facets.
   [[nodiscard]] Facets possible_outline(const Facets& facets) const;
+  // Takes what may stand between as faces and outlines; false when some of it is neither.
   [[nodiscard]] bool take_bodies(Reach& reach, const raycast::PatchShape& shape) const;
   // The cone from x over a convex body; empty when x lies on the body's surface.
   void make_cone(const Reach::Outline& outline, const glm::dvec3& x);
-  [[nodiscard]] double cut(const Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
+  // The form factor of what faces and outlines leave of the lamp, and its convex parts.
+  [[nodiscard]] double cut(const Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::vector<detail::LampPart>* left);
   // Segments from x to up to sixteen samples of a lamp: what each carries if it is free, and which are.
   struct Asked16 {
     std::array<double, 16> weight{};
@@ -102,8 +116,11 @@ class LitRegion {
   // Is x so near to the lamp, beside the distance of its samples, that these do not tell what it sees of it? Then what they carry in the
   // mean is not what the outline of the lamp says.
   [[nodiscard]] bool too_near(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n, double mean_weight);
-  // The same by segments to parts of the facets that face x, each with about the same form factor or less.
+  // The same by segments to parts of the facets that face x.
   [[nodiscard]] double seen_share_of_parts(Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
+  // The share of these parts that is seen, by segments to at least `least` parts of them, each with about the same form factor or less.
+  [[nodiscard]] double seen_share_of(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::vector<detail::LampPart>& parts,
+                                     double least);
   // Asks finer samples where neighbours differ, as many as it takes for the share to be known within some 3 % of itself: puts their sums in
   // place of those of all samples and of the seen ones.
   void refine(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, double& all, double& seen);

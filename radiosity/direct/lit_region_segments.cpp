@@ -108,13 +108,6 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
 
 namespace detail {
 
-// A convex part of a facet, above the horizon of a point that it faces, and the form factor from there to it.
-struct LampPart {
-  Polygon contour;
-  std::uint32_t facet = 0;
-  double factor = 0.0;
-};
-
 [[nodiscard]] HALFLIGHT_INLINE glm::dvec3 middle_of(const Polygon& contour) {
   glm::dvec3 sum{0.0};
   for (const glm::dvec3& p : contour) { sum += p / static_cast<double>(contour.size()); }
@@ -129,10 +122,9 @@ struct LampPart {
   return half;
 }
 
-// Cuts parts in two, across their longest edges, until none has more than a 48th of the form factor of all.
-HALFLIGHT_INLINE void cut_evenly(std::vector<LampPart>& parts, const glm::dvec3& x, const glm::dvec3& n) {
+// Cuts parts in two, across their longest edges, until none has more than this share of the form factor of all.
+HALFLIGHT_INLINE void cut_evenly(std::vector<LampPart>& parts, const glm::dvec3& x, const glm::dvec3& n, double share) {
   constexpr std::size_t most_cuts = 256;
-  constexpr double share = 1.0 / 48.0;
   double all = 0.0;
   for (const LampPart& part : parts) { all += part.factor; }
   for (std::size_t k = 0, cuts = 0; k < parts.size();) {
@@ -176,17 +168,20 @@ HALFLIGHT_INLINE double LitRegion::seen_share_of_parts(Reach& reach, const glm::
     part.factor = point_to_polygon(x, n, part.contour);
     parts.push_back(std::move(part));
   }
-  detail::cut_evenly(parts, x, n);
+  return seen_share_of(reach, x, n, parts, 48.0);
+}
+
+HALFLIGHT_INLINE double LitRegion::seen_share_of(Reach& reach, const glm::dvec3& x, const glm::dvec3& n,
+                                                 std::vector<detail::LampPart>& parts, double least) {
+  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  detail::cut_evenly(parts, x, n, 1.0 / least);
   std::erase_if(parts, [](const detail::LampPart& part) { return part.contour.size() < 3; });
   std::vector<LampSample> samples;
   for (const detail::LampPart& part : parts) {
     const glm::dvec3 middle = detail::middle_of(part.contour);
-    const auto nearest = std::min_element(lamp.samples.begin(), lamp.samples.end(), [&](const LampSample& a, const LampSample& b) {
-      const glm::dvec3 to_a = a.position - middle, to_b = b.position - middle;
-      return glm::dot(to_a, to_a) < glm::dot(to_b, to_b);
-    });
     const glm::dvec3& normal = lamp.facets.facets[part.facet].normal;
-    samples.push_back({middle + nearest->end.lift * normal, normal, nearest->end});
+    const SampleEnd& end = lamp.ends[part.facet];
+    samples.push_back({middle + end.lift * normal, normal, end});
   }
   double all = 0.0, seen = 0.0;
   for (std::size_t first = 0; first < samples.size(); first += 16) {

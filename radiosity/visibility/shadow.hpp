@@ -94,6 +94,7 @@ class ShadowedTarget {
   // Nothing within this sphere hides any of it.
   [[nodiscard]] bool misses(const glm::dvec3& centre, double radius) const;
   [[nodiscard]] bool hidden() const { return pieces_.empty(); }
+  [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
   // At last: the form factor of what is left.
   [[nodiscard]] double form_factor() const;
 

@@ -317,3 +317,31 @@ TEST_CASE("direct light: a sky through a few holes is what many segments say", "
   INFO("off by " << std::sqrt(squares / all_squares));
   CHECK(squares < 0.12 * 0.12 * all_squares);  // found: 0.026 to 0.077 of 24 seeds; without finer samples 0.18 to 0.27
 }
+
+// A sky behind a blind, and before it a thing that is not cut out: its shadow is that of segments to the gaps, not to all of the sky.
+TEST_CASE("direct light: a sky through a blind, beside a thing of any shape, is what many segments say", "[direct][accuracy]") {
+  const std::uint64_t seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0, 0};
+  double squares = 0.0, all_squares = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    Scene scene = floor_under_lamp(3.0);
+    const double pitch = 0.2 + 0.3 * random.uniform(), gap = pitch * (0.05 + 0.1 * random.uniform());
+    for (double y = -4.0; y < 4.0; y += pitch) {
+      scene.objects.push_back(scenes::object("slat", raycast::BoxObject::make({-4, y, 0.9}, {4, y + pitch - gap, 0.95}).object));
+    }
+    const glm::dvec3 axis{random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
+    scene.objects.push_back(scenes::object("ring", raycast::Torus::make({0, 0, 0.5}, axis, 0.25, 0.08).object));
+    const World world{scene};
+    for (int k = 0; k < 10; ++k) {
+      const glm::dvec3 x{1.6 * random.uniform() - 0.8, 1.6 * random.uniform() - 0.8, 0};
+      const Estimate truth = by_segments(world, x, 3.0, 4096, seed + static_cast<std::uint64_t>(k));
+      auto region = world.region(x, 0.02);
+      const double found = region.irradiance(world.in_frame(x), {0, 0, 1}).x;
+      squares += (found - truth.mean) * (found - truth.mean);
+      all_squares += truth.mean * truth.mean;
+    }
+  }
+  INFO("off by " << std::sqrt(squares / all_squares));
+  CHECK(squares < 0.05 * 0.05 * all_squares);
+}
