@@ -6,8 +6,8 @@
 //
 // The answer is that for each pair of faces whose bounds overlap a plane has been found between them: through what they share, with all
 // other corners of one face on one side of it and those of the other on the other side or on it (the theorem of separating planes, tried
-// with the planes of the faces, those that stand on their edges, and those along an edge of each). At first their convex hulls stand for the
-// faces; where no plane is found, because one of them has notches, their triangles do.
+// with the planes of the faces, those that stand on their edges, and those along an edge of each). At first their convex hulls stand for
+// the faces; where no plane is found, because one of them has notches, their triangles do.
 
 #include <cstdint>
 #include <span>

@@ -19,7 +19,7 @@ namespace {
 
 using Contour = std::vector<glm::dvec3>;
 
-// A room from 0 to size with a window in the wall x = size.x, in faces that share corners; its walls, then the four faces around the window.
+// A room from 0 to size with a window in the wall x = size.x, in faces that share corners: its walls, then the four around the window.
 std::vector<Contour> room_with_window(const glm::dvec3& size, const glm::dvec3& lo, const glm::dvec3& hi) {
   const auto [x, y, z] = std::array{size.x, size.y, size.z};
   const Contour outer{{x, 0, 0}, {x, 0, z}, {x, y, z}, {x, y, 0}},
