@@ -255,7 +255,7 @@ HALFLIGHT_INLINE double LitRegion::visible(std::size_t k, const glm::dvec3& x, c
   const double open = std::min(1.0, cut(reach, above, n, all_known ? nullptr : &left) / all);
   if (all_known || left.empty()) { return open; }
   constexpr double little = 0.25;  // of a lamp: few of the segments that are even over it would tell
-  return open < little ? open * seen_share_of(reach, x, n, left, 48.0) : seen_share(reach, x, n);
+  return open < little ? open * seen_share_of(reach, x, n, left) : seen_share(reach, x, n);
 }
 
 }  // namespace radiosity

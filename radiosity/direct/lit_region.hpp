@@ -118,9 +118,8 @@ class LitRegion {
   [[nodiscard]] bool too_near(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n, double mean_weight);
   // The same by segments to parts of the facets that face x.
   [[nodiscard]] double seen_share_of_parts(Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
-  // The share of these parts that is seen, by segments to at least `least` parts of them, each with about the same form factor or less.
-  [[nodiscard]] double seen_share_of(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::vector<detail::LampPart>& parts,
-                                     double least);
+  // The share of these parts that is seen, by segments to parts of them, each with about the same form factor or less.
+  [[nodiscard]] double seen_share_of(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::vector<detail::LampPart>& parts);
   // Asks finer samples where neighbours differ, as many as it takes for the share to be known within some 3 % of itself: puts their sums in
   // place of those of all samples and of the seen ones.
   void refine(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, double& all, double& seen);

@@ -122,9 +122,10 @@ namespace detail {
   return half;
 }
 
-// Cuts parts in two, across their longest edges, until none has more than this share of the form factor of all.
-HALFLIGHT_INLINE void cut_evenly(std::vector<LampPart>& parts, const glm::dvec3& x, const glm::dvec3& n, double share) {
+// Cuts parts in two, across their longest edges, until none has more than a 48th of the form factor of all.
+HALFLIGHT_INLINE void cut_evenly(std::vector<LampPart>& parts, const glm::dvec3& x, const glm::dvec3& n) {
   constexpr std::size_t most_cuts = 256;
+  constexpr double share = 1.0 / 48.0;
   double all = 0.0;
   for (const LampPart& part : parts) { all += part.factor; }
   for (std::size_t k = 0, cuts = 0; k < parts.size();) {
@@ -168,13 +169,13 @@ HALFLIGHT_INLINE double LitRegion::seen_share_of_parts(Reach& reach, const glm::
     part.factor = point_to_polygon(x, n, part.contour);
     parts.push_back(std::move(part));
   }
-  return seen_share_of(reach, x, n, parts, 48.0);
+  return seen_share_of(reach, x, n, parts);
 }
 
 HALFLIGHT_INLINE double LitRegion::seen_share_of(Reach& reach, const glm::dvec3& x, const glm::dvec3& n,
-                                                 std::vector<detail::LampPart>& parts, double least) {
+                                                 std::vector<detail::LampPart>& parts) {
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
-  detail::cut_evenly(parts, x, n, 1.0 / least);
+  detail::cut_evenly(parts, x, n);
   std::erase_if(parts, [](const detail::LampPart& part) { return part.contour.size() < 3; });
   std::vector<LampSample> samples;
   for (const detail::LampPart& part : parts) {
