@@ -28,7 +28,8 @@ HALFLIGHT_INLINE IndirectPoint indirect_point(const FinalGather::Indirect& found
   point.y = pixel[1];
   const double facing = std::abs(glm::dot(point.normal, glm::normalize(point.position - eye)));
   const double footprint = pixel_size / std::max(facing, 0.2);  // of a pixel; where it is slanted, at most five times as long
-  const double allowed = found.nearness > 0.0 ? gathered_part_of_distance / found.nearness : raycast::infinity;
+  const double nearness = std::max(found.nearness, found.nearness_of_light);
+  const double allowed = nearness > 0.0 ? gathered_part_of_distance / nearness : raycast::infinity;
   point.radius = std::clamp(allowed, detail::least_pixels * footprint, detail::most_pixels * footprint);
   point.widest = most_fit * point.radius;
   point.pixels = point.radius / pixel_size;

@@ -166,13 +166,14 @@ HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol
   for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
     const auto k = static_cast<unsigned>(std::countr_zero(rest));
     const raycast::Hit& hit = hits.hit[k];
-    sum.nearness += 1.0 / std::max(hit.t * reach, 1e-6);
+    const double distance = std::max(hit.t * reach, 1e-6);
+    sum.nearness += 1.0 / distance;
     if (!hit.front) { continue; }
     const Met at = met(hit, segments.at(k));
     const Arriving found = arriving(sender, at);
     const bool near = hit.t * reach < found.coarse_within;
     if (near) { sum.near.push_back({at, found.light}); }
-    sum.add(first / 16 % 4, near ? found.light : found.light / (1.0 + found.aimed));
+    sum.add(first / 16 % 4, near ? found.light : found.light / (1.0 + found.aimed), distance);
   }
 }
 
@@ -197,7 +198,7 @@ HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sob
     if (found.sheet != targets[k].sheet || glm::dot(off, off) > 1e-6 * glm::dot(d, d)) { continue; }
     const Arriving light = arriving(sender, found);
     if (!(light.aimed > 0.0) || hits.hit[k].t * reach < light.coarse_within) { continue; }
-    sum.add(k / 4, light.light / (1.0 + light.aimed));
+    sum.add(k / 4, light.light / (1.0 + light.aimed), std::max(hit.t * reach, 1e-6));
   }
 }
 
@@ -262,7 +263,8 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
   if (!sum.near.empty()) {
     of_near = mend_near(sum, place, std::max(4.0 * mean_of_parts(), all * solved_light), rays, most_paths, error, key);
   }
-  return {sum.light / all, (16.0 * variance_of_mean() + of_near) / (all * all), sum.nearness / all};
+  const double lit = 4.0 * mean_of_parts();
+  return {sum.light / all, (16.0 * variance_of_mean() + of_near) / (all * all), sum.nearness / all, lit > 0.0 ? sum.of_light / lit : 0.0};
 }
 
 }  // namespace radiosity

@@ -76,9 +76,10 @@ class FinalGather {
   [[nodiscard]] LitRegion lit_region(std::span<const Place> places) const;
 
   struct Indirect {
-    Color irradiance{0.0};  // W/m2
-    double variance = 0.0;  // of the sum of its channels, by the spread of its rays
-    double nearness = 0.0;  // 1 / harmonic mean distance of what is seen, in the frame
+    Color irradiance{0.0};           // W/m2
+    double variance = 0.0;           // of the sum of its channels, by the spread of its rays
+    double nearness = 0.0;           // 1 / harmonic mean distance of what is seen, in the frame
+    double nearness_of_light = 0.0;  // the same with each distance weighted by the light from there
   };
   // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a multiple of 64, or as many more, up to `most`,
   // as it takes for the standard error to fall to this share of the light; what the mesh is too coarse for adds one of about this share of
@@ -100,12 +101,13 @@ class FinalGather {
   // What rays found, in the unit of an even one.
   struct Sum {
     Color light{0.0};
-    std::array<double, 4> part{};  // of the rays, by fours of sixteen: their spread is the standard error
-    double nearness = 0.0;
-    std::vector<NearLight::Seen> near;  // what even rays found that is not so sure (near_light.hpp)
-    void add(std::size_t p, const Color& more) {
+    std::array<double, 4> part{};           // of the rays, by fours of sixteen: their spread is the standard error
+    double nearness = 0.0, of_light = 0.0;  // summed; the second by light
+    std::vector<NearLight::Seen> near;      // what even rays found that is not so sure (near_light.hpp)
+    void add(std::size_t p, const Color& more, double distance) {
       light += more;
       part[p] += more.x + more.y + more.z;
+      of_light += (more.x + more.y + more.z) / distance;
     }
   };
   // The light that comes along a ray, and how many aimed rays are to be expected in its direction for an even one.

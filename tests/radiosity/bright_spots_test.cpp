@@ -207,6 +207,25 @@ TEST_CASE("a faint bright spot: no gathered point is too dark because its rays a
   CHECK(std::sqrt(squares) < 0.3 * radiosity::gather_rays.error);
 }
 
+// Light of a spot near by changes within its distance, however far the rest of what is seen: points of gathered light must lie that dense.
+TEST_CASE("where most light comes from near by, the nearness of light tells it", "[picture]") {
+  const auto seed = static_cast<std::uint64_t>(GENERATE(take(8, random(1, 1'000'000))));
+  SpotRoom room{seed, false};
+  radiosity::Random random{seed, 3};
+  const glm::dvec3 x{0.0, 0.0, 0.0};
+  room.half = 0.01;
+  room.middle = {0.1 * random.uniform() - 0.05, 0.1 * random.uniform() - 0.05, 0.03 + 0.05 * random.uniform()};
+  room.radiosity = 4.0 / room.form_factor(x, room.middle, room.half);  // four times the light of the ceiling
+  room.scene.objects[2] = scenes::square("spot", room.middle, room.half, false);
+  CAPTURE(seed, room.middle.x, room.middle.y, room.middle.z);
+  const radiosity::Solution solution = room.solution();
+  const radiosity::FinalGather light{room.scene, solution.mesh, solution.frame};
+  const radiosity::FinalGather::Place place{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 0};
+  const auto& rays = radiosity::gather_rays;
+  const double distance = solution.frame.scale * glm::length(room.middle - x);
+  CHECK(light.indirect(place, rays.least, rays.most, rays.error, random.bits()).nearness_of_light > 0.5 / distance);
+}
+
 // Over independent families of rays the mean is off by at most five of its standard errors, and .3 %: the mesh of a sphere stands for its
 // points by chords, so the density of what is aimed at is known to the square of their angle.
 TEST_CASE("light of bright spots has no bias, flat or round", "[picture]") {
