@@ -120,6 +120,7 @@ HALFLIGHT_INLINE bool hulls_apart(const MeshFace& a, const MeshFace& b, const st
   return false;
 }
 
+// Pairs of faces of a mesh, with the triangles of those for which their hulls do not stand.
 class FacePairs {
  public:
   FacePairs(const std::vector<MeshFace>& faces, const std::vector<glm::dvec3>& positions, double rounding)

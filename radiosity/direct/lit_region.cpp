@@ -16,6 +16,7 @@
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
+#include <raycast/tolerances.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/facets.hpp>
@@ -210,8 +211,9 @@ HALFLIGHT_INLINE void LitRegion::make_cone(const Reach::Outline& outline, const 
   half(projected_.rbegin(), projected_.rend());
   for (std::size_t i = 0; i < hull_.size(); ++i) {
     const glm::dvec3 a = *hull_[i].corner - x, b = *hull_[i + 1 < hull_.size() ? i + 1 : 0].corner - x, across = glm::cross(a, b);
-    constexpr double rounding = 1e-13;  // two that are seen in one place, as of an edge seen from its end: no plane
-    if (glm::dot(across, across) > rounding * rounding * glm::dot(a, a) * glm::dot(b, b)) { cone_.push_back({x, across}); }
+    // Of two that are seen in one place, as those of an edge seen from its end, there is no plane.
+    constexpr double least = raycast::tol_edge * raycast::tol_edge;
+    if (glm::dot(across, across) > least * glm::dot(a, a) * glm::dot(b, b)) { cone_.push_back({x, across}); }
   }
 }
 

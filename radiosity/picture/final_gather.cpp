@@ -139,6 +139,8 @@ inline constexpr double most_aimed = 4.0;
 // their mean; if there are more, by so much more.
 inline constexpr double least_near = 0.05, plain_paths = 256.0;
 
+inline constexpr double least_distance = 1e-6;  // of what is seen, in a scene of size 1 to 2: nearer counts as this
+
 }  // namespace detail
 
 HALFLIGHT_INLINE FinalGather::Arriving FinalGather::arriving(const Sender& sender, const Met& found) const {
@@ -166,7 +168,7 @@ HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol
   for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
     const auto k = static_cast<unsigned>(std::countr_zero(rest));
     const raycast::Hit& hit = hits.hit[k];
-    const double distance = std::max(hit.t * reach, 1e-6);
+    const double distance = std::max(hit.t * reach, detail::least_distance);
     sum.nearness += 1.0 / distance;
     if (!hit.front) { continue; }
     const Met at = met(hit, segments.at(k));
@@ -198,7 +200,7 @@ HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sob
     if (found.sheet != targets[k].sheet || glm::dot(off, off) > 1e-6 * glm::dot(d, d)) { continue; }
     const Arriving light = arriving(sender, found);
     if (!(light.aimed > 0.0) || hits.hit[k].t * reach < light.coarse_within) { continue; }
-    sum.add(k / 4, light.light / (1.0 + light.aimed), std::max(hit.t * reach, 1e-6));
+    sum.add(k / 4, light.light / (1.0 + light.aimed), std::max(hit.t * reach, detail::least_distance));
   }
 }
 

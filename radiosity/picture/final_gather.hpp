@@ -102,7 +102,7 @@ class FinalGather {
   struct Sum {
     Color light{0.0};
     std::array<double, 4> part{};           // of the rays, by fours of sixteen: their spread is the standard error
-    double nearness = 0.0, of_light = 0.0;  // summed; the second by light
+    double nearness = 0.0, of_light = 0.0;  // sums of 1 / distance: of the rays, and by the light that they bring
     std::vector<NearLight::Seen> near;      // what even rays found that is not so sure (near_light.hpp)
     void add(std::size_t p, const Color& more, double distance) {
       light += more;

@@ -183,10 +183,10 @@ HALFLIGHT_INLINE void NearLight::go_on(Paths& paths, std::span<PathNumbers> numb
     const Met next = met(lookup_->objects(), *direct_, hit, rays.at(k));
     const std::uint32_t surface = lookup_->surface(next.object, next.sheet);
     const Material& material = (*materials_)[surface];
-    const DirectLight::Lamp* of_lamp = direct_->lamp_of(surface);
-    const Color lamp = of_lamp != nullptr ? material.emission : Color{0.0};
-    if (of_lamp != nullptr) {
-      paths.light[k] += paths.carried[k] * lamp * detail::share_of_ray(*direct_, *of_lamp, paths.end[k].point, next.point);
+    const DirectLight::Lamp* met_lamp = direct_->lamp_of(surface);
+    const Color lamp = met_lamp != nullptr ? material.emission : Color{0.0};
+    if (met_lamp != nullptr) {
+      paths.light[k] += paths.carried[k] * lamp * detail::share_of_ray(*direct_, *met_lamp, paths.end[k].point, next.point);
     }
     const std::optional<Lookup::Found> found = lookup_->find(next.object, next.sheet, next.point);
     if (found && !last && hit.t * reach < found->coarse_within) {

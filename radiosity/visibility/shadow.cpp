@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include <raycast/inline.hpp>
+#include <raycast/tolerances.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
 
@@ -107,8 +108,7 @@ template <class Within>
 void planes_through(const glm::dvec3& x, const Piece& polygon, const Within& within, std::vector<HalfSpace>& planes) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec3 a = polygon[i] - x, b = polygon[i + 1 < polygon.size() ? i + 1 : 0] - x, across = glm::cross(a, b);
-    constexpr double rounding = 1e-13;
-    const bool same = glm::dot(b - a, b - a) <= rounding * rounding * (glm::dot(x, x) + glm::dot(a, a));
+    const bool same = glm::dot(b - a, b - a) <= raycast::tol_edge * raycast::tol_edge * (glm::dot(x, x) + glm::dot(a, a));
     if (!same && glm::dot(across, across) > 0.0) { planes.push_back({x, within(across) ? across : -across}); }
   }
 }

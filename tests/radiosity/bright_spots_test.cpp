@@ -266,11 +266,7 @@ TEST_CASE("paths of near light find bright spots without bias, and with less noi
     materials.push_back(room.scene.materials[input.material]);
     emission.push_back(materials.back().emission);
   }
-  std::vector<radiosity::Surface> boundaries;
-  for (std::uint32_t o = 0; o < lookup.objects().size(); ++o) {
-    boundaries.push_back(*radiosity::make_surface(lookup.objects().object(o), lookup.surface(o, 0)).surface);
-  }
-  const radiosity::DirectLight direct{lookup.objects(), boundaries, emission};
+  const radiosity::DirectLight direct{lookup.objects(), scenes::boundaries(lookup.objects()), emission};
   const radiosity::BrightSpots spots{lookup, direct, emission};
   REQUIRE_FALSE(spots.empty());
   const radiosity::NearLight near{lookup, direct, materials};

@@ -11,7 +11,6 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/geometry/form_factor.hpp>
-#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/near_light.hpp>
 #include <radiosity/radiosity.hpp>
@@ -23,7 +22,8 @@
 #include "scenes.hpp"
 #include "solved.hpp"
 
-// A floor under a black lamp, from a spot to a sky: what the floor sends back is half of what comes to it.
+// A floor under a black lamp, from a spot to a sky: what the floor sends back is half of what comes to it, within five standard errors, and
+// 1 % for the 256 points that stand for the lamp.
 TEST_CASE("near places are lit by a lamp of any size at any distance as its form factor says", "[picture]") {
   const auto seed = static_cast<std::uint64_t>(GENERATE(take(12, random(1, 1'000'000))));
   radiosity::Random random{seed, 0};
@@ -38,11 +38,8 @@ TEST_CASE("near places are lit by a lamp of any size at any distance as its form
   options.audit_points = 0;
   const radiosity::Solution solution = scenes::solved(scene, options);
   const radiosity::Lookup lookup{scene, solution.mesh, solution.frame};
-  std::vector<radiosity::Surface> boundaries;
-  for (std::uint32_t o = 0; o < 2; ++o) {
-    boundaries.push_back(*radiosity::make_surface(lookup.objects().object(o), lookup.surface(o, 0)).surface);
-  }
-  const radiosity::DirectLight direct{lookup.objects(), boundaries, {radiosity::Color{0.0}, radiosity::Color{1.0}}};
+  const radiosity::DirectLight direct{
+      lookup.objects(), scenes::boundaries(lookup.objects()), {radiosity::Color{0.0}, radiosity::Color{1.0}}};
   REQUIRE(direct.is_lamp(1));
   const radiosity::NearLight near{lookup, direct, scene.materials};
   const radiosity::NearLight::Seen seen{{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 0}, radiosity::Color{1.0}};

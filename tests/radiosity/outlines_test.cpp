@@ -148,11 +148,7 @@ TEST_CASE("what is wrong at outlines is what rays through the picture find", "[m
       options.audit_points = 0;
       const radiosity::Solution solution = scenes::solved(scene, options);
       const radiosity::FinalGather light{scene, solution.mesh, solution.frame};
-      std::vector<radiosity::Surface> surfaces;
-      for (std::uint32_t o = 0, first = 0; o < light.objects().size(); ++o) {
-        surfaces.push_back(std::move(*radiosity::make_surface(light.objects().object(o), first).surface));
-        first += light.objects().object(o).sheet_count();
-      }
+      const std::vector<radiosity::Surface> surfaces = scenes::boundaries(light.objects());
       radiosity::Random random{seed + k, static_cast<std::uint64_t>(kind), 1};
       const double angle = 6.283 * random.uniform();
       const Pinhole camera{{3.0 * std::cos(angle), 3.0 * std::sin(angle), 0.5 + 2.0 * random.uniform()}, {0.0, 0.0, 0.5}};
