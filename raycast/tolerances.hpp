@@ -84,8 +84,8 @@ inline constexpr double tol_between = 1e-6;
 
 // --- Scenes. ---
 
-// Length of an edge, to the coordinates of its ends: a shorter one, whose ends are off by u each, has a direction that is off by more than a
-// thousandth, and so has the plane through it and a point. And the same of the angle at which it is seen.
+// Length of an edge, to the coordinates of its ends: a shorter one, whose ends are off by u each, has a direction that is off by more than
+// a thousandth, and so has the plane through it and a point. And the same of the angle at which it is seen.
 inline constexpr double tol_edge = 2e3 * unit_roundoff;
 
 // How closely a lamp must fit the ceiling to count as lying on it, to the smaller one's diameter.
