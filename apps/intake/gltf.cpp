@@ -307,8 +307,10 @@ ModelResult read_glb(std::string_view bytes, const SideFile& side_file) {
   if (word_at(16) != json) { return refuse(16, "expected the text (JSON) as the first chunk"); }
   if (length > bytes.size() - 20) { return refuse(12, "the file ends within its text; it has " + std::to_string(bytes.size()) + " bytes"); }
   std::optional<std::string_view> binary;
-  const std::size_t next = 20 + (length + 3) / 4 * 4;
-  if (next + 8 <= bytes.size() && word_at(next + 4) == bin) {
+  const auto is_binary = [&](std::size_t at) { return at + 8 <= bytes.size() && word_at(at + 4) == bin; };
+  const std::size_t behind = 20 + length;  // chunks begin at multiples of 4; some writers leave the length as it is and do not
+  const std::size_t next = is_binary(behind) ? behind : (behind + 3) / 4 * 4;
+  if (is_binary(next)) {
     if (word_at(next) > bytes.size() - next - 8) {
       return refuse(next, "the file ends within its binary chunk; it has " + std::to_string(bytes.size()) + " bytes");
     }

@@ -47,20 +47,22 @@ class ObjReader {
       }
     }
     if (out_.good() && out_.mesh.builder.face_count() == 0) { no_faces(); }
-    for (const auto& [word, number] : unread_) {
-      out_.mesh.notes.push_back(std::to_string(number) + (number == 1 ? " line '" : " lines '") + std::string(word) +
-                                "' passed over: points, lines, curves and free-form surfaces are not read");
-    }
+    const auto passed_over = [&](const std::map<std::string_view, std::size_t>& lines, std::string_view why) {
+      for (const auto& [word, number] : lines) { out_.mesh.notes.push_back(lines_of(word, number) + " passed over: " + std::string(why)); }
+    };
+    passed_over(unread_, "points, lines, curves and free-form surfaces are not read");
+    passed_over(foreign_, "no statement of OBJ");
   }
 
  private:
   void fail(std::size_t word, std::string sentence) { out_.error(lines_.place(word), std::move(sentence)); }
+  static std::string lines_of(std::string_view word, std::size_t number) {
+    return std::to_string(number) + (number == 1 ? " line '" : " lines '") + std::string(word) + "'";
+  }
   // What the file has instead is told with it.
   void no_faces() {
     std::string others;
-    for (const auto& [word, number] : unread_) {
-      others += (others.empty() ? "" : ", ") + std::to_string(number) + (number == 1 ? " line '" : " lines '") + std::string(word) + "'";
-    }
+    for (const auto& [word, number] : unread_) { others += (others.empty() ? "" : ", ") + lines_of(word, number); }
     out_.error({1, 1}, count() == 0 && others.empty() ? "the file has no faces: no line begins with f"
                                                       : no_faces_in(static_cast<std::uint64_t>(count()), others));
   }
@@ -83,8 +85,15 @@ class ObjReader {
     } else if (contains(unread, word)) {
       ++unread_[word];
     } else if (!contains(silent, word)) {
-      fail(0, "expected a statement such as v, f or vn, found " + shown(word));
+      foreign(word);
     }
+  }
+
+  // Programs add statements of their own, such as the creases of subdivision surfaces (t) or the weights of a skeleton (vw).
+  void foreign(std::string_view word) {
+    const bool is_name = std::all_of(word.begin(), word.end(), [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; });
+    if (!is_name) { return fail(0, "expected a statement such as v, f or vn, found " + shown(word)); }
+    ++foreign_[word];
   }
 
   void vertex() {
@@ -167,7 +176,7 @@ class ObjReader {
   Numbers group_numbers_, material_numbers_;
   std::vector<std::uint32_t> corners_;
   std::vector<ForwardReference> forward_;
-  std::map<std::string_view, std::size_t> unread_;
+  std::map<std::string_view, std::size_t> unread_, foreign_;
 };
 
 void read_obj(std::string_view bytes, Output& out) { ObjReader(bytes, out).run(); }

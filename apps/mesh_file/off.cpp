@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OFF (Geomview): an optional keyword, the counts of vertices, faces and edges, one line per vertex, one line per face.
+// OFF (Geomview): an optional keyword, the counts of vertices, faces and edges, one line per vertex, one line per face; the corners of a
+// face may go on in the next lines.
 // Normals, colours and texture coordinates after a position and colours after a face are passed over.
 #include "apps/mesh_file/reading.hpp"
 
@@ -78,9 +79,15 @@ class OffReader {
     const auto& words = lines_.words();
     const auto size = to_integer(words[0]);
     if (!size || *size < 0) { return fail(0, "expected the number of corners of a face, found " + shown(words[0])); }
-    if (*size > static_cast<std::int64_t>(words.size()) - 1) {
-      return fail(words.size(), "the face has " + std::to_string(words.size() - 1) + " of the " + std::to_string(*size) +
-                                    " corners that its line promises");
+    const auto missing = [&] { return *size - static_cast<std::int64_t>(words.size() - 1); };
+    if (missing() > 0) {
+      const Lines line = lines_;
+      while (missing() > 0 && lines_.join()) {}
+      if (missing() != 0) {  // what follows is not the rest of this line
+        lines_ = line;
+        return fail(words.size(), "the face has " + std::to_string(words.size() - 1) + " of the " + std::to_string(*size) +
+                                      " corners that its line promises");
+      }
     }
     corners_.clear();
     for (std::size_t i = 1; i <= static_cast<std::size_t>(*size); ++i) {

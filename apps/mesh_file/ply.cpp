@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // PLY (Turk 1994): a header that declares elements and their properties, then the values, as text or binary in either byte order.
-// Of the element vertex x, y and z are read, of the element face the list vertex_indices (or vertex_index); the rest is stepped over.
+// Of the element vertex x, y and z are read, of the elements face and tristrips the list vertex_indices (or vertex_index); the rest is
+// stepped over. A list of triangle strips has -1 between them.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include <brep/builder_input.hpp>
 
@@ -129,7 +132,7 @@ class PlyReader {
     if (element.name == "vertex" && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') {
       if (is_list) { return fail(1, "the coordinate " + std::string(name) + " cannot be a list"); }
       property.role = std::array{Role::x, Role::y, Role::z}[static_cast<std::size_t>(name[0] - 'x')];
-    } else if (element.name == "face" && (name == "vertex_indices" || name == "vertex_index")) {
+    } else if ((element.name == "face" || element.name == "tristrips") && (name == "vertex_indices" || name == "vertex_index")) {
       if (!is_list || is_float(*type)) { return fail(1, "the corners of faces must be a list of integers"); }
       property.role = Role::corners;
     }
@@ -141,9 +144,12 @@ class PlyReader {
   }
 
   bool check_header() {
-    const Element *vertex = nullptr, *face = nullptr;
+    const Element *vertex = nullptr, *face = nullptr, *strips = nullptr;
     for (const Element& element : elements_) {
-      const Element** const known = element.name == "vertex" ? &vertex : element.name == "face" ? &face : nullptr;
+      const Element** const known = element.name == "vertex"      ? &vertex
+                                    : element.name == "face"      ? &face
+                                    : element.name == "tristrips" ? &strips
+                                                                  : nullptr;
       if (known == nullptr) { continue; }
       if (*known != nullptr) { return fail(0, "the element " + element.name + " is declared twice"); }
       *known = &element;
@@ -155,11 +161,13 @@ class PlyReader {
     if (vertex == nullptr || !has(*vertex, Role::x) || !has(*vertex, Role::y) || !has(*vertex, Role::z)) {
       return fail(0, "expected an element vertex with the properties x, y and z");
     }
-    if (face == nullptr || face->count == 0) {
-      const bool strips = std::any_of(elements_.begin(), elements_.end(), [](const Element& e) { return e.name == "tristrips"; });
-      return fail(0, strips ? "triangle strips are not read; save the mesh with single faces" : no_faces_in(vertex->count));
+    const auto is_there = [](const Element* element) { return element != nullptr && element->count > 0; };
+    if (!is_there(face) && !is_there(strips)) { return fail(0, no_faces_in(vertex->count)); }
+    for (const Element* const element : {face, strips}) {
+      if (is_there(element) && !has(*element, Role::corners)) {
+        return fail(0, "expected the element " + element->name + " to have the property list vertex_indices");
+      }
     }
-    if (!has(*face, Role::corners)) { return fail(0, "expected the element face to have the property list vertex_indices"); }
     vertices_ = vertex->count;
     return true;
   }
@@ -173,11 +181,29 @@ class PlyReader {
       out_.mesh.builder.vertex(position_);
       if (text_) { out_.mesh.vertex_line.push_back(place.line); }
     } else if (element.name == "face") {
-      out_.mesh.builder.face(corners_, 0);
-      if (text_) { out_.mesh.face_line.push_back(place.line); }
+      face(corners_, place);
+    } else if (element.name == "tristrips") {
+      for (std::size_t first = 0; first < corners_.size();) {
+        const auto end = std::find(corners_.begin() + static_cast<std::ptrdiff_t>(first), corners_.end(), between_strips);
+        strip(std::span(corners_).subspan(first, static_cast<std::size_t>(end - corners_.begin()) - first), place);
+        first = static_cast<std::size_t>(end - corners_.begin()) + 1;
+      }
     }
     corners_.clear();
   }
+  void face(std::span<const std::uint32_t> corners, Place place) {
+    out_.mesh.builder.face(corners, 0);
+    if (text_) { out_.mesh.face_line.push_back(place.line); }
+  }
+  // Every second triangle runs the other way round. A corner that stands twice turns the strip and makes triangles that are none.
+  void strip(std::span<const std::uint32_t> corners, Place place) {
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      const std::uint32_t a = corners[i - 2], b = corners[i - 1], c = corners[i];
+      if (a == b || b == c || c == a) { continue; }
+      face(i % 2 == 0 ? std::array{a, b, c} : std::array{b, a, c}, place);
+    }
+  }
+  static bool ends_strip(const Element& element, double index) { return index == -1 && element.name == "tristrips"; }
   void set_coordinate(Property::Role role, double value) {
     if (role >= Property::Role::x && role <= Property::Role::z) {
       position_[static_cast<int>(role) - static_cast<int>(Property::Role::x)] = value;
@@ -200,7 +226,9 @@ class PlyReader {
       }
       for (; values > 0; --values, ++at) {
         if (at >= lines_.words().size()) { return fail(at, "the line of " + which(element, i) + " has too few values"); }
-        if (property.role == Property::Role::corners) {
+        if (property.role == Property::Role::corners && ends_strip(element, to_number(word(at)).value_or(0))) {
+          corners_.push_back(between_strips);
+        } else if (property.role == Property::Role::corners) {
           const auto index = read_vertex(lines_, at, vertices_, out_);
           if (!index) { return false; }
           corners_.push_back(*index);
@@ -241,6 +269,10 @@ class PlyReader {
       } else {
         for (; values > 0; --values) {
           const double index = value(property.type);
+          if (ends_strip(element, index)) {
+            corners_.push_back(between_strips);
+            continue;
+          }
           if (index < 0 || index >= static_cast<double>(vertices_)) {
             out_.error(place, which(element, i) + " has the corner " + std::to_string(static_cast<std::int64_t>(index)) + "; " +
                                   expected_vertex(vertices_));
@@ -282,6 +314,7 @@ class PlyReader {
   std::uint64_t vertices_ = 0;
   std::size_t at_ = 0;  // in a binary file
   glm::dvec3 position_{0.0};
+  static constexpr std::uint32_t between_strips = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> corners_;
 };
 

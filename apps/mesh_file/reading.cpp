@@ -35,19 +35,29 @@ bool Lines::next() {
   while (words_.empty() && at_ < text_.size()) {
     starts_.clear();
     first_line_ = line_ + 1;
-    for (bool more = true; more && at_ < text_.size();) {
-      const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
-      std::string_view line = text_.substr(at_, end - at_);
-      starts_.push_back({++line_, line.data()});
-      at_ = end + (text_.substr(end, 2) == "\r\n" ? 2 : end < text_.size() ? 1 : 0);
-      const std::size_t comment = comments_ ? line.find('#') : std::string_view::npos;
-      more = continued_ && comment == std::string_view::npos && !line.empty() && line.back() == '\\';
-      line = line.substr(0, comment);
-      if (more) { line.remove_suffix(1); }
-      cut(line);
-    }
+    read_line();
   }
   return !words_.empty();
+}
+
+bool Lines::join() {
+  const std::size_t before = words_.size();
+  while (words_.size() == before && at_ < text_.size()) { read_line(); }
+  return words_.size() > before;
+}
+
+void Lines::read_line() {
+  for (bool more = true; more && at_ < text_.size();) {
+    const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
+    std::string_view line = text_.substr(at_, end - at_);
+    starts_.push_back({++line_, line.data()});
+    at_ = end + (text_.substr(end, 2) == "\r\n" ? 2 : end < text_.size() ? 1 : 0);
+    const std::size_t comment = comments_ ? line.find('#') : std::string_view::npos;
+    more = continued_ && comment == std::string_view::npos && !line.empty() && line.back() == '\\';
+    line = line.substr(0, comment);
+    if (more) { line.remove_suffix(1); }
+    cut(line);
+  }
 }
 
 void Lines::cut(std::string_view line) {

@@ -40,6 +40,8 @@ class Lines {
 
   // Goes to the next line that has words; false at the end.
   bool next();
+  // Adds the words of the next line that has some to those of the present one; false at the end.
+  bool join();
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
   [[nodiscard]] std::string rest() const;  // the words behind the first, with one blank between them: a name may have blanks
   [[nodiscard]] std::uint32_t line() const { return first_line_; }
@@ -49,6 +51,7 @@ class Lines {
 
  private:
   void cut(std::string_view line);
+  void read_line();  // with the lines that continue it
 
   struct Start {
     std::uint32_t line;

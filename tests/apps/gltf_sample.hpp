@@ -63,9 +63,10 @@ struct Sample {
            "}";
   }
   [[nodiscard]] std::string embedded() const { return text("data:application/octet-stream;base64," + base64(binary)); }
-  [[nodiscard]] std::string glb() const {
+  // `multiple` other than 4: chunks begin where glTF does not allow it, as some programs write them.
+  [[nodiscard]] std::string glb(std::size_t multiple = 4) const {
     std::string json = text(""), bytes = binary;
-    json.resize((json.size() + 3) / 4 * 4, ' ');
+    json.resize((json.size() + multiple - 1) / multiple * multiple, ' ');
     bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
     std::string out = "glTF";
     for (const std::size_t n : {std::size_t{2}, 28 + json.size() + bytes.size(), json.size()}) { put(out, static_cast<std::uint32_t>(n)); }

@@ -33,7 +33,8 @@ TEST_CASE("glTF: text with its data, a file beside it, and the binary form say t
     REQUIRE(one.polygons() == 2);
     CHECK(one.groups == std::vector<std::string>{"square"});
     CHECK(models::corner(one, 1, 1) == glm::dvec3(1, 1, 0));
-    for (const apps::Model* other : {&two, &three}) {
+    const apps::Model four = read("a.glb", sample.glb(5)), five = read("a.glb", sample.glb(7));
+    for (const apps::Model* other : {&two, &three, &four, &five}) {
       CHECK(other->positions == one.positions);
       CHECK(other->corners == one.corners);
     }

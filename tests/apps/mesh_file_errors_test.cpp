@@ -24,6 +24,8 @@ TEST_CASE("errors say where they lie, what was expected and what was found") {
   CHECK(begins(error(replaced(cube_obj, "v 1 1 1", "v 1 1e999 1"), as_obj), ":9:5: error: expected a coordinate"));
   CHECK(begins(error(replaced(cube_obj, "v 1 1 1", "v 1 1"), as_obj), ":9:6: error: expected a coordinate, found the end of the line"));
   CHECK(begins(error("\x7f\x45LF\x01\n", as_obj), ":1:1: error: expected a statement such as v, f or vn, found '?ELF?'"));
+  CHECK(begins(error(cube_obj + "vw 0 0 1.0\nv# 1 2 3\n", as_obj), ":17:1: error: expected a statement such as v, f or vn, found 'v#'"));
+  CHECK(begins(error("room size 5 4 3\n", as_obj), ":1:1: error: the file has no faces"));
   CHECK(begins(error(std::string("v 0 0 0\nv \0", 11), as_obj), ":2:3: error: expected text, found a zero byte"));
   CHECK(begins(error("# \xc3\xa4\xc3\xb6\nv \xc3\xa4 x 0\n", as_obj), ":2:3: error:"));
 
@@ -58,7 +60,9 @@ TEST_CASE("errors say where they lie, what was expected and what was found") {
   CHECK(begins(error(replaced(head, "uchar int", "float int") + body, as_ply), ":8:15: error: expected an integer type"));
   CHECK(begins(error(replaced(head, "uchar int", "uchar float") + body, as_ply), ":8:10: error: the corners of faces must be"));
   CHECK(begins(error(replaced(head, "face 1", "face -1") + body, as_ply), ":7:14: error: expected 'element NAME COUNT'"));
-  CHECK(begins(error(replaced(head, "face 1", "tristrips 1") + body, as_ply), ":9:1: error: triangle strips are not read"));
+  CHECK(begins(error(replaced(head, "face 1", "tristrips 1") + replaced(body, "3 0 1 2", "3 0 1 -2"), as_ply),
+               ":13:7: error: expected a vertex, a number from 0 to 2, found '-2'"));
+  CHECK(begins(error(replaced(head, "face 1", "tristrips 0") + body, as_ply), ":9:1: error: the file has no faces"));
   CHECK(begins(error(head + replaced(body, "3 0 1 2", "3 0 1 3"), as_ply),
                ":13:7: error: expected a vertex, a number from 0 to 2, found '3'"));
   CHECK(begins(error(head + replaced(body, "3 0 1 2", "3 0 1"), as_ply), ":13:6: error: the line of face 1 of 1 has too few values"));

@@ -62,6 +62,58 @@ TEST_CASE("OBJ: every form of a corner, numbers from the end, continued lines, s
   CHECK(lines.mesh->face_line.back() == 15);
 }
 
+TEST_CASE("OBJ: statements of other programs are passed over, and told once each") {
+  const apps::MeshResult result = apps::read_mesh("t crease 2/1/0 0 1 2.0\n" + cube_obj + "vw 0 0 1.0\nvw 1 0 0.5 1 0.5\n", as_obj);
+  REQUIRE(result.mesh.has_value());
+  check_same(result.mesh->builder, cube());
+  REQUIRE(result.mesh->notes.size() == 2);
+  CHECK(begins(result.mesh->notes[0], "1 line 't' passed over"));
+  CHECK(begins(result.mesh->notes[1], "2 lines 'vw' passed over"));
+}
+
+// Stanford's and Georgia Tech's scanned models are strips. A strip of n corners, cut anywhere by -1 and with the two corners before
+// the cut said again, is the same triangles, all of them seen from the same side.
+TEST_CASE("PLY: triangle strips are the triangles that they stand for, wherever they are cut, in text and binary") {
+  std::mt19937 random(29);
+  INFO("seed 29");
+  for (int run = 0; run < 50; ++run) {
+    const std::uint32_t n = 3 + random() % 12;
+    brep::Builder zigzag;  // of two rows in the plane z = 0; every triangle looks down
+    for (std::uint32_t v = 0; v < n; ++v) { zigzag.vertex({v / 2, v % 2, 0}); }
+    std::vector<std::int32_t> strip{0, 1};
+    for (std::uint32_t v = 2; v < n; ++v) {
+      zigzag.face(v % 2 == 0 ? std::vector{v - 2, v - 1, v} : std::vector{v - 1, v - 2, v}, 0);
+      const auto last = static_cast<std::int32_t>(v);
+      if (random() % 3 == 0 && v % 2 == 0) { strip.insert(strip.end(), {-1, last - 2, last - 1}); }
+      strip.push_back(last);
+    }
+    for (const bool binary : {false, true}) {
+      Bytes bytes(true);
+      bytes.text = std::string("ply\nformat ") + (binary ? "binary_big_endian" : "ascii") + " 1.0\nelement vertex " + std::to_string(n) +
+                   "\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n"
+                   "property list int int vertex_indices\nend_header\n";
+      const auto put = [&](auto value) { binary ? bytes.put(value) : void(bytes.text += std::to_string(value) + " "); };
+      const auto end_line = [&] { bytes.text += binary ? "" : "\n"; };
+      for (std::uint32_t v = 0; v < n; ++v) {
+        for (int i = 0; i < 3; ++i) { put(static_cast<float>(zigzag.position(v)[i])); }
+        end_line();
+      }
+      put(static_cast<std::int32_t>(strip.size()));
+      for (const std::int32_t corner : strip) { put(corner); }
+      end_line();
+      const brep::Builder back = read(bytes.text, as_ply);
+      REQUIRE(back.face_count() == zigzag.face_count());
+      for (std::uint32_t f = 0; f < back.face_count(); ++f) {
+        std::vector<std::uint32_t> is(back.corners(f).begin(), back.corners(f).end());
+        std::vector<std::uint32_t> wanted(zigzag.corners(f).begin(), zigzag.corners(f).end());
+        std::rotate(is.begin(), std::min_element(is.begin(), is.end()), is.end());
+        std::rotate(wanted.begin(), std::min_element(wanted.begin(), wanted.end()), wanted.end());
+        CHECK(is == wanted);
+      }
+    }
+  }
+}
+
 TEST_CASE("PLY: odd types, unknown elements and properties, both byte orders") {
   for (const bool big : {false, true}) {
     check_same(read(odd_ply<std::uint8_t, std::int32_t, float>(big, "uchar", "int", "float"), as_ply), cube());
@@ -83,6 +135,7 @@ TEST_CASE("OFF: keywords, counts on the keyword's line, no keyword, colours and 
   }
   check_same(read(replaced(text, "1 1 1\n", "1 1 1 0 0 1 255 255 255 0\n"), as_off), cube());
   check_same(read(replaced(text, "4 0 2 3 1\n", "4 0 2 3 1  0.5 0.5 0.5\n"), as_off), cube());
+  check_same(read(replaced(text, "4 0 2 3 1\n", "4 0 \n2 # more\n\n3 1\n"), as_off), cube());
 }
 
 // Minutes when the column of each corner is counted from the start of its line.
