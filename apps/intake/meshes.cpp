@@ -102,6 +102,7 @@ ModelResult read(std::string_view bytes, const MeshFormat& format, const SideFil
   if (!result.mesh) { return {std::move(result), std::nullopt}; }
   Mesh& mesh = *result.mesh;
   Model model;
+  model.tells_sides = false;
   Notes notes;
   const brep::Builder& builder = mesh.builder;
   for (std::uint32_t v = 0; v < builder.vertex_count(); ++v) { model.positions.push_back(builder.position(v)); }

@@ -62,6 +62,7 @@ struct Model {
   std::vector<radiosity::Camera> cameras;
   std::vector<ModelLight> lights;
   std::vector<std::string> notes;  // sentences about what was passed over or taken otherwise
+  bool tells_sides = true;         // its format says which surfaces are seen from both sides; the others are seen from the front
 
   [[nodiscard]] std::size_t polygons() const { return first_corner.size() - 1; }
   void polygon(std::span<const std::uint32_t> its_corners, std::uint32_t its_material, std::uint32_t its_group,

@@ -42,6 +42,7 @@ class SceneMaker {
     given_positions_ = model_.positions;
     given_z_up_ = options_.up.value_or(up) == UpAxis::z;
     place(to_metres(options_.up.value_or(up), options_.metres));
+    sides_unknown_ = !model_.tells_sides;
     if (!part(faults)) { return std::nullopt; }
     if (!shines() && !add_studio(faults)) { return std::nullopt; }
     look_for_light();
@@ -149,6 +150,9 @@ class SceneMaker {
     radiosity::IntakeOptions options;
     options.two_sided = options_.two_sided;
     options.merge = options_.merge;
+    const std::vector<radiosity::Material>& materials = file_.scene.materials;
+    const bool any_lamp = std::any_of(materials.begin(), materials.end(), [](const auto& m) { return !radiosity::is_black(m.emission); });
+    options.sides_unknown = sides_unknown_ && !any_lamp;
     options.eyes = eyes_;
     for (const radiosity::Camera& camera : file_.cameras) { options.eyes.push_back(camera.eye); }
     for (const ModelLight& light : model_.lights) { options.eyes.push_back(light.position); }
@@ -313,6 +317,7 @@ class SceneMaker {
   std::vector<std::uint8_t> two_sided_;
   std::vector<glm::dvec3> given_positions_;  // before they were placed
   bool given_z_up_ = false;
+  bool sides_unknown_ = false;  // of what stands alone in a studio, and which nothing else shows
   std::vector<radiosity::Room> rooms_;
   std::vector<glm::dvec3> eyes_;  // of cameras that are not the model's
 };

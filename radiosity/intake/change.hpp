@@ -33,6 +33,7 @@ enum class ChangeKind : unsigned char {
   lamp_halved,  // lamps of which both sides shine, one of them close before a surface: the other one alone
   dividing,     // polygons with light on both sides, as walls between rooms: made to reflect on both
   both_sides,   // surfaces of mixed orientation: made to reflect on both sides
+  open,         // open surfaces of which nobody says which side is seen: made to reflect on both sides
   merged        // polygons that became part of a larger one; size: none
 };
 

@@ -25,6 +25,7 @@
 
 #include <radiosity/intake/backs.hpp>
 #include <radiosity/intake/lamps.hpp>
+#include <radiosity/intake/open_surfaces.hpp>
 #include <radiosity/intake/shells.hpp>
 
 namespace radiosity::intake {
@@ -41,6 +42,7 @@ class ObjectMaker {
       for (std::uint32_t s = topology.first[f]; s < topology.first[f + 1]; ++s) { face_of_[s] = f; }
     }
     shells_.find_roles();
+    if (options.sides_unknown) { show_both_sides(mesh, topology, shells_); }
     const std::vector<bool> two_sided = faces_with_backs();
     turn_lamps(mesh, topology, materials, flush, two_sided, shells_);
   }
@@ -86,7 +88,7 @@ class ObjectMaker {
           if (mesh_.faces[f].back != none) { leave_out_backs(mesh_, mesh_.faces[f]); }
           continue;
         }
-        if (has_back(mesh_.faces[f])) { (component.flush ? group.flush_back : group.back).push_back(f); }
+        if (component.both_sides || has_back(mesh_.faces[f])) { (component.flush ? group.flush_back : group.back).push_back(f); }
         if (mesh_.faces[f].mixed) { mesh_.changed(ChangeKind::both_sides, mesh_.faces[f].polygon, 0.0, mixed ? 0 : 1); }
         mixed = mixed || mesh_.faces[f].mixed;
       }

@@ -35,6 +35,35 @@ HALFLIGHT_INLINE bool Shells::holds_another(const Component& shell, const Compon
   });
 }
 
+HALFLIGHT_INLINE bool Shells::has_walls(const Component& shell) const {
+  constexpr std::size_t most_planes = 6;
+  constexpr double tol_parallel = 1e-6;
+  struct Wall {
+    glm::dvec3 point{0.0}, vector_area{0.0};
+    double area = 0.0;
+  };
+  std::vector<Wall> faces, walls;
+  double whole = 0.0, held = 0.0;
+  for (const std::uint32_t f : shell.faces) {
+    const std::span<const glm::dvec3> outline = mesh_.outline(mesh_.faces[f]);
+    const glm::dvec3 across = brep::vector_area(outline);
+    faces.push_back({outline[0], across, glm::length(across)});
+    whole += faces.back().area;
+  }
+  std::sort(faces.begin(), faces.end(), [](const Wall& a, const Wall& b) { return a.area > b.area; });
+  for (const Wall& face : faces) {
+    const auto in_plane_of = [&](const Wall& wall) {
+      return glm::dot(face.vector_area, wall.vector_area) >= (1.0 - tol_parallel) * face.area * wall.area &&
+             std::abs(glm::dot(face.point - wall.point, wall.vector_area)) <= mesh_.tolerance * wall.area;
+    };
+    const bool known = std::any_of(walls.begin(), walls.end(), in_plane_of);
+    if (!known && walls.size() == most_planes) { continue; }
+    if (!known) { walls.push_back(face); }
+    held += face.area;
+  }
+  return held >= 0.4 * whole;
+}
+
 HALFLIGHT_INLINE bool Shells::is_furnished(const Component& shell) const {
   constexpr std::size_t most_asked = 1000;
   const raycast::Box box = shell.box.grown(mesh_.tolerance);

@@ -117,8 +117,9 @@ HALFLIGHT_INLINE Component* Shells::shell_around_others() {
     const raycast::Box box = shell.box.grown(mesh_.tolerance);
     if (shell.role != Role::solid || shell.volume > 0.0 || !box.contains(bounds_.lo) || !box.contains(bounds_.hi)) { continue; }
     const std::span<const Component> asked = std::span<const Component>(components_).first(std::min(components_.size(), most_asked));
+    const bool walls = has_walls(shell);
     const bool others = std::any_of(asked.begin(), asked.end(), [&](const Component& other) {
-      return &other != &shell && other.volume >= 0.0 && holds(shell, other.box.centre());
+      return &other != &shell && (walls ? other.volume >= 0.0 : other.volume > 0.0) && holds(shell, other.box.centre());
     });
     const bool inside_out = std::any_of(asked.begin(), asked.end(), [&](const Component& o) { return &o != &shell && o.volume < 0.0; });
     if (others && !inside_out) { return &shell; }

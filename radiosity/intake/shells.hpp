@@ -31,6 +31,7 @@ struct Component {
   Role role = Role::surface;
   bool several = false;                 // of several groups
   bool one_sided = false;               // of a surface: its backs are not seen, for it encloses something, or lies on something
+  bool both_sides = false;              // of a surface: both are seen (open_surfaces.hpp)
   bool flush = false;                   // a lamp that lies on something (lamps.hpp)
   std::vector<std::uint32_t> cavities;  // of a solid: the rooms in it, as components
 };
@@ -48,6 +49,7 @@ class Shells {
   void turn(std::uint32_t component);
   // Of a surface its front alone is seen, or its back alone, which then is its front.
   void show_one_side(std::uint32_t component, bool back);
+  void show_both_sides(std::uint32_t component) { components_[component].both_sides = true; }
 
   [[nodiscard]] std::span<const Room> rooms() const { return rooms_; }
   [[nodiscard]] bool turned(std::uint32_t component) const { return !turned_.empty() && turned_[component]; }
@@ -71,7 +73,10 @@ class Shells {
   // when its back is.
   // A closed lamp that lies on a shell is in it when one of the two is.
   [[nodiscard]] Component* innermost(std::span<const Place> places, const Component* but);
-  // The shell that looks inwards at all the others, which do not look inwards themselves, as in a model that is inside out. Null: none.
+  // Do six planes hold two fifths of its faces, as walls, floor and ceiling do?
+  [[nodiscard]] bool has_walls(const Component& shell) const;
+  // The shell that looks inwards at all the others, which do not look inwards themselves, as in a model that is inside out. Open surfaces
+  // alone, such as eyes and teeth in the head of a statue that is inside out, make no room of what has no walls. Null: none.
   [[nodiscard]] Component* shell_around_others();
   // The smallest shell that holds this one, or none.
   [[nodiscard]] std::uint32_t around(const Component& shell) const;

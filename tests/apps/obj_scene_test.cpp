@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/radiosity.hpp>
+#include <radiosity/scene/bounds.hpp>
 
 #include "models.hpp"
 #include "program.hpp"
@@ -119,6 +121,31 @@ TEST_CASE("a model without a lamp stands in a studio, what is closed around it c
   CHECK(glm::length(glm::dvec2(lamp.centre())) < 1e-9);
   CHECK((lamp.hi.z > 0.5 && lamp.hi.z < 1.0));
   CHECK(lit.scene.objects[1].shape->project(0, lamp.centre()).normal.z == test::Approx(-1.0));
+}
+
+// A file of OBJ, OFF or PLY does not say which sides are seen; glTF does.
+TEST_CASE("a model without a lamp is seen in its studio, whichever way its surfaces are wound and lie") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto number = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  for (int run = 0; run < 50; ++run) {
+    std::string triangle;
+    glm::dvec3 middle(0.0);
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 p(number(), number(), number());
+      triangle += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+      middle += glm::dvec3(p.x, -p.z, p.y) / 3.0;  // y is up in the file
+    }
+    for (const char* face : {"f 1 2 3\n", "f 1 3 2\n"}) {
+      CAPTURE(triangle, face);
+      const apps::SceneFile file = scene("a.obj", triangle + face);
+      REQUIRE(file.cameras.size() == 1);
+      const auto hit = raycast::Scene(radiosity::placed_objects(file.scene)).closest({file.cameras[0].eye, middle - file.cameras[0].eye});
+      REQUIRE(hit.has_value());
+      CHECK(file.scene.objects[hit->object].name.starts_with("mesh"));
+    }
+  }
 }
 
 TEST_CASE("a mesh of a scene may be a file of another program, groups use it in many places") {

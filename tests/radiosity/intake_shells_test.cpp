@@ -116,6 +116,39 @@ TEST_CASE("intake: a closed lamp shines into its room, whichever way it looked")
 }
 
 // From outside the outer side of walls around a lit room looks the same.
+// A statue whose eyes and teeth are open surfaces within it, and a room with a carpet and a picture; neither has a lamp.
+TEST_CASE("intake: an inverted body that holds open surfaces is a solid, walls that hold them are a room") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  for (int run = 0; run < 20; ++run) {
+    const bool room = run % 2 == 0;
+    const double tube = number(0.2, 0.6);
+    Soup outside, model;
+    if (room) {
+      soup::add_box(outside, {-2, -2, -1}, {2, 2, 1}, 1 + run % 4);
+    } else {
+      soup::add_torus(outside, 9, 7, 1.0, tube);
+    }
+    for (std::size_t f = 0; f < outside.count(); ++f) {
+      std::vector<glm::dvec3> p = outside.outline(f);
+      std::reverse(p.begin(), p.end());
+      model.polygon(p);
+    }
+    for (int i = 0; i < 3; ++i) {
+      const double a = number(0.0, 6.3), size = 0.2 * tube;
+      const glm::dvec3 at(std::cos(a), std::sin(a), 0.0);
+      const auto off = [&] { return size * glm::dvec3(number(-1, 1), number(-1, 1), number(-1, 1)); };
+      model.polygon({at + off(), at + off(), at + off()});
+    }
+    const soup::Measure m = measure(model.take_in().objects);
+    CHECK(m.rooms == (room ? 1U : 0U));
+    CHECK(m.solids == (room ? 0U : 1U));
+    CHECK(m.surfaces >= 1);
+  }
+}
+
 TEST_CASE("intake: lamps in a room with an eye in it shine into it, even when all of the model is inside out") {
   const unsigned seed = std::random_device{}();
   INFO("seed " << seed);

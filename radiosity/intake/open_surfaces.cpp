@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/intake/open_surfaces.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/polygon.hpp>
+
+#include <raycast/inline.hpp>
+
+namespace radiosity::intake {
+namespace detail {
+
+// All open surfaces together.
+struct OpenSurfaces {
+  std::vector<double> area, opening;   // of a component; 0 of one that is closed or has its side. The opening: of flat lids on its borders
+  std::vector<std::uint32_t> first;    // of a component: its first polygon of the input
+  double whole = 0.0, all_open = 0.0;  // sums of these
+  double volume = 0.0;                 // with cones over the borders, from their middle on; negative when most look inwards
+
+  OpenSurfaces(Working& mesh, const Topology& topology, std::span<const Component> components)
+      : area(components.size()), opening(components.size()), first(components.size(), none), ends_(topology.vertices) {
+    glm::dvec3 normals{0.0}, middle{0.0};
+    double length = 0.0;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      const std::uint32_t c = topology.component[f];
+      if (components[c].role != Role::surface || components[c].one_sided) { continue; }
+      const std::span<const glm::dvec3> p = mesh.outline(mesh.faces[f]);
+      const glm::dvec3 normal = brep::vector_area(p);
+      area[c] += glm::length(normal);
+      first[c] = std::min(first[c], mesh.faces[f].polygon);
+      normals += normal;
+      volume += glm::dot(p[0], normal) / 3.0;
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        const std::uint32_t s = topology.first[f] + static_cast<std::uint32_t>(i);
+        if (topology.mate[s] != none) { continue; }
+        const glm::dvec3 &a = p[i], &b = p[(i + 1) % p.size()];
+        ends_[topology.vertex[s]] = {a, topology.vertex[topology.next(s, f)], c};
+        middle += 0.5 * glm::length(b - a) * (a + b);
+        length += glm::length(b - a);
+      }
+    }
+    find_openings();
+    for (std::size_t c = 0; c < components.size(); ++c) {
+      whole += area[c];
+      all_open += opening[c];
+    }
+    if (length > 0.0) { volume -= glm::dot(middle / length, normals) / 3.0; }
+  }
+
+  // The walls of a room that is open somewhere: a cube without one side has a volume of -0.09 and openings of 0.2.
+  [[nodiscard]] bool are_walls() const {
+    constexpr double least_volume = 0.02, most_open = 0.6;
+    return volume < -least_volume * std::pow(whole, 1.5) && all_open < most_open * whole;
+  }
+
+ private:
+  // Of a vertex on a border, from which one border edge goes on.
+  struct End {
+    glm::dvec3 position{0.0};
+    std::uint32_t next = none, component = none;
+  };
+
+  void find_openings() {
+    for (std::uint32_t start = 0; start < ends_.size(); ++start) {
+      glm::dvec3 twice{0.0};
+      const std::uint32_t c = ends_[start].component;
+      const glm::dvec3 origin = ends_[start].position;
+      for (std::uint32_t v = start; ends_[v].next != none;) {
+        const std::uint32_t next = std::exchange(ends_[v].next, none);
+        twice += glm::cross(ends_[v].position - origin, ends_[next].position - origin);
+        v = next;
+      }
+      if (c != none) { opening[c] += 0.5 * glm::length(twice); }
+    }
+  }
+
+  std::vector<End> ends_;
+};
+
+}  // namespace detail
+
+HALFLIGHT_INLINE void show_both_sides(Working& mesh, const Topology& topology, Shells& shells) {
+  constexpr double tol_opening = 0.02;
+  const detail::OpenSurfaces open(mesh, topology, shells.components());
+  const auto is_open = [&](std::uint32_t c) { return open.opening[c] > tol_opening * open.area[c]; };
+  if (open.are_walls()) {
+    if (shells.components().size() > 1 || is_open(0)) { return; }
+    shells.turn(0);
+    mesh.changed(ChangeKind::inside_out, open.first[0]);
+  }
+  for (std::uint32_t c = 0; c < open.area.size(); ++c) {
+    if (!is_open(c)) { continue; }
+    shells.show_both_sides(c);
+    mesh.changed(ChangeKind::open, open.first[c]);
+  }
+}
+
+}  // namespace radiosity::intake

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// The intake: open surfaces of which nothing tells the side that is seen.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <radiosity/intake/intake.hpp>
+
+#include "catch.hpp"
+#include "radiosity/polygon_soup.hpp"
+
+using radiosity::ChangeKind;
+using soup::count_of;
+using soup::measure;
+using soup::Soup;
+
+namespace {
+
+// The points of a grid of n by m quadrilaterals, which `at` gives for parameters from 0 to 1.
+template <class At>
+void add_grid(Soup& out, int n, int m, const At& at) {
+  const auto point = [&](int i, int j) { return at(static_cast<double>(i) / n, static_cast<double>(j) / m); };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < m; ++j) {
+      out.polygon({point(i, j), point(i + 1, j), point(i + 1, j + 1)});
+      out.polygon({point(i, j), point(i + 1, j + 1), point(i, j + 1)});
+    }
+  }
+}
+
+Soup turned(const Soup& soup) {
+  Soup out;
+  for (std::size_t f = 0; f < soup.count(); ++f) {
+    std::vector<glm::dvec3> p = soup.outline(f);
+    std::reverse(p.begin(), p.end());
+    out.polygon(p);
+  }
+  return out;
+}
+
+// A body of revolution around z without its ends, from the angle `low` on, where pi / 2 is the upper end.
+Soup part_of_ball(double low, double high, int n) {
+  Soup soup;
+  add_grid(soup, n, n / 2, [&](double u, double v) {
+    const double a = 2.0 * std::numbers::pi * u, b = low + (high - low) * v;
+    return glm::dvec3(std::cos(b) * std::cos(a), std::cos(b) * std::sin(a), std::sin(b));
+  });
+  return soup;
+}
+
+constexpr double pi = std::numbers::pi;
+const radiosity::IntakeOptions unknown{.sides_unknown = true};
+
+}  // namespace
+
+TEST_CASE("intake: where nothing tells the side, open surfaces reflect on both, whichever way they were wound") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  for (int run = 0; run < 20; ++run) {
+    Soup terrain;
+    const double height = number(0.0, 0.3), waves = number(1.0, 3.0), phase = number(0.0, 3.0);
+    add_grid(terrain, 12, 9,
+             [&](double u, double v) { return glm::dvec3(u, v, height * std::sin(2.0 * waves * u + phase) * std::sin(3.0 * v)); });
+    for (const Soup& soup : {terrain, part_of_ball(number(-0.5, -0.3), number(0.3, 0.5), 16), part_of_ball(number(0.4, 1.0), 1.5, 16)}) {
+      for (const Soup& wound : {soup, turned(soup)}) {
+        const radiosity::Intake taken = wound.take_in(unknown);
+        CHECK(measure(taken.objects).area == Approx(2.0 * wound.area()).epsilon(1e-6));
+        CHECK(count_of(taken, ChangeKind::open) == 1);
+        CHECK(measure(wound.take_in().objects).area == Approx(wound.area()).epsilon(1e-6));
+      }
+    }
+  }
+}
+
+TEST_CASE("intake: where nothing tells the side, the walls of an open room and bodies with small holes keep theirs") {
+  Soup box;
+  soup::add_box(box, {0, 0, 0}, {4, 5, 3}, 1, true);
+  for (int missing = 0; missing < 6; ++missing) {
+    Soup room;  // one wall is missing, or the ceiling or the floor is
+    for (std::size_t f = 0; f < box.count(); ++f) {
+      if (static_cast<int>(f) / 2 != missing) { room.polygon(box.outline(f)); }
+    }
+    CHECK(measure(room.take_in(unknown).objects).area == Approx(room.area()));
+    CHECK(measure(turned(room).take_in(unknown).objects).area == Approx(2.0 * room.area()));  // a chest
+  }
+  const Soup vase = part_of_ball(-0.5 * pi + 0.1, 0.5 * pi - 0.1, 24);
+  for (const bool inwards : {false, true}) {
+    const radiosity::Intake taken = (inwards ? turned(vase) : vase).take_in(unknown);
+    CHECK(measure(taken.objects).area == Approx(vase.area()));
+    CHECK(count_of(taken, ChangeKind::inside_out) == (inwards ? 1 : 0));
+  }
+}
