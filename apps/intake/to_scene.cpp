@@ -289,7 +289,9 @@ class SceneMaker {
     if (file_.cameras.empty()) { file_.cameras.push_back(radiosity::automatic_camera(file_.scene)); }
     const raycast::Box bounds = radiosity::scene_bounds(file_.scene);
     const double size = bounds.diameter();
-    const glm::dvec3 middle{bounds.centre().x, bounds.centre().y, bounds.lo.z};
+    constexpr double flat = 0.01;  // what is lower than that part of its size floats above the floor, or nothing would tell it from that
+    const double gap = bounds.hi.z - bounds.lo.z < flat * size ? 0.1 * size : 0.0;
+    const glm::dvec3 middle{bounds.centre().x, bounds.centre().y, bounds.lo.z - gap};
     const glm::dvec3 reach{1.5 * size, 1.5 * size, 0.0}, top{0.0, 0.0, 2.0 * size};
     std::vector<glm::dvec3> lamp;  // looks down
     for (const glm::dvec3 corner : {glm::dvec3(-1, -1, 0), glm::dvec3(-1, 1, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, -1, 0)}) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,12 +23,13 @@ namespace detail {
 // All open surfaces together.
 struct OpenSurfaces {
   std::vector<double> area, opening;   // of a component; 0 of one that is closed or has its side. The opening: of flat lids on its borders
+  std::vector<double> border, met;     // of a component: lengths of its borders, and of the part where others have theirs
   std::vector<std::uint32_t> first;    // of a component: its first polygon of the input
   double whole = 0.0, all_open = 0.0;  // sums of these
   double volume = 0.0;                 // with cones over the borders, from their middle on; negative when most look inwards
 
   OpenSurfaces(Working& mesh, const Topology& topology, std::span<const Component> components)
-      : area(components.size()), opening(components.size()), first(components.size(), none), ends_(topology.vertices) {
+      : area(components.size()), opening(area), border(area), met(area), first(components.size(), none), ends_(topology.vertices) {
     glm::dvec3 normals{0.0}, middle{0.0};
     double length = 0.0;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
@@ -43,12 +45,17 @@ struct OpenSurfaces {
         const std::uint32_t s = topology.first[f] + static_cast<std::uint32_t>(i);
         if (topology.mate[s] != none) { continue; }
         const glm::dvec3 &a = p[i], &b = p[(i + 1) % p.size()];
+        const double its = glm::length(b - a);
+        const std::vector<std::uint32_t>& corners = mesh.faces[f].corners;
+        const auto [low, high] = std::minmax(corners[i], corners[(i + 1) % p.size()]);
         ends_[topology.vertex[s]] = {a, topology.vertex[topology.next(s, f)], c};
-        middle += 0.5 * glm::length(b - a) * (a + b);
-        length += glm::length(b - a);
+        edges_.push_back({low, high, c, its});
+        middle += 0.5 * its * (a + b);
+        length += its;
       }
     }
     find_openings();
+    measure_borders();
     for (std::size_t c = 0; c < components.size(); ++c) {
       whole += area[c];
       all_open += opening[c];
@@ -83,7 +90,22 @@ struct OpenSurfaces {
     }
   }
 
+  struct Edge {
+    std::uint32_t low, high, component;
+    double length;
+  };
+
+  void measure_borders() {
+    std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const auto same = [&](std::size_t k) { return edges_[k].low == edges_[i].low && edges_[k].high == edges_[i].high; };
+      border[edges_[i].component] += edges_[i].length;
+      if ((i > 0 && same(i - 1)) || (i + 1 < edges_.size() && same(i + 1))) { met[edges_[i].component] += edges_[i].length; }
+    }
+  }
+
   std::vector<End> ends_;
+  std::vector<Edge> edges_;
 };
 
 }  // namespace detail
@@ -91,7 +113,7 @@ struct OpenSurfaces {
 HALFLIGHT_INLINE void show_both_sides(Working& mesh, const Topology& topology, Shells& shells) {
   constexpr double tol_opening = 0.02;
   const detail::OpenSurfaces open(mesh, topology, shells.components());
-  const auto is_open = [&](std::uint32_t c) { return open.opening[c] > tol_opening * open.area[c]; };
+  const auto is_open = [&](std::uint32_t c) { return open.opening[c] > tol_opening * open.area[c] && 2.0 * open.met[c] < open.border[c]; };
   if (open.are_walls()) {
     if (shells.components().size() > 1 || is_open(0)) { return; }
     shells.turn(0);

@@ -89,6 +89,19 @@ TEST_CASE("intake: where nothing tells the side, the walls of an open room and b
     CHECK(measure(turned(room).take_in(unknown).objects).area == Approx(2.0 * room.area()));  // a chest
   }
   const Soup vase = part_of_ball(-0.5 * pi + 0.1, 0.5 * pi - 0.1, 24);
+  Soup cells;  // the walls between small boxes, each given once
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < 48; ++i) {
+      glm::dvec3 at(0.0), u(0.0), v(0.0);
+      at[axis] = i / 16;
+      at[(axis + 1) % 3] = i / 4 % 4;
+      at[(axis + 2) % 3] = i % 4;
+      u[(axis + 1) % 3] = 1.0;
+      v[(axis + 2) % 3] = 1.0;
+      cells.polygon({at, at + u, at + u + v, at + v});
+    }
+  }
+  CHECK(count_of(cells.take_in(unknown), ChangeKind::open) == 0);
   for (const bool inwards : {false, true}) {
     const radiosity::Intake taken = (inwards ? turned(vase) : vase).take_in(unknown);
     CHECK(measure(taken.objects).area == Approx(vase.area()));
