@@ -135,25 +135,60 @@ HALFLIGHT_INLINE double contour_term(const glm::dvec3& x, const glm::dvec3& n, c
   return sine > 0.0 ? glm::dot(n, cross) / sine * std::atan2(sine, glm::dot(to_a, to_b)) : 0.0;
 }
 
+namespace detail {
+
+// The contour of what lies above the horizon of x, of facets that face x: where it runs along the horizon, and elsewhere.
+struct ContourAboveHorizon {
+  const glm::dvec3 &x, &n;
+  double offset = glm::dot(n, x);
+
+  [[nodiscard]] double height(const glm::dvec3& p) const { return glm::dot(n, p) - offset; }
+  [[nodiscard]] glm::dvec3 at_horizon(const glm::dvec3& a, const glm::dvec3& b) const {
+    const double ha = height(a), hb = height(b);
+    return a + (b - a) * (ha / (ha - hb));
+  }
+  // From where the contour of a facet goes below the horizon to where it comes up again.
+  [[nodiscard]] double along(std::span<const glm::dvec3> contour) const {
+    glm::dvec3 down{0.0}, up{0.0};
+    bool crosses = false;
+    const glm::dvec3* before = &contour.back();
+    bool was_above = height(*before) >= 0.0;
+    for (const glm::dvec3& p : contour) {
+      const bool is_above = height(p) >= 0.0;
+      if (was_above != is_above) { (is_above ? up : down) = at_horizon(*before, p); }
+      crosses = crosses || was_above != is_above;
+      before = &p;
+      was_above = is_above;
+    }
+    return crosses ? contour_term(x, n, down, up) : 0.0;
+  }
+  // The part of an edge that lies above.
+  [[nodiscard]] double above(const glm::dvec3& a, const glm::dvec3& b) const {
+    const bool a_above = height(a) >= 0.0, b_above = height(b) >= 0.0;
+    if (a_above && b_above) { return contour_term(x, n, a, b); }
+    if (!a_above && !b_above) { return 0.0; }
+    return a_above ? contour_term(x, n, a, at_horizon(a, b)) : contour_term(x, n, at_horizon(a, b), b);
+  }
+};
+
+}  // namespace detail
+
 HALFLIGHT_INLINE double form_factor(const Facets& facets, const glm::dvec3& x, const glm::dvec3& n, bool above_horizon, double slack,
                                     std::vector<char>& facing) {
+  const detail::ContourAboveHorizon contour{x, n};
   double sum = 0.0;
-  if (!above_horizon) {
-    Polygon above;
-    for (const Facets::Facet& facet : facets.facets) {
-      if (!(facet.height(x) > slack)) { continue; }
-      above.clear();
-      clip_to_horizon(facet.contour, x, n, above);
-      if (above.size() >= 3) { sum += point_to_polygon(x, n, above); }
-    }
-    return sum;
-  }
   facing.resize(facets.facets.size());
-  for (std::size_t i = 0; i < facets.facets.size(); ++i) { facing[i] = facets.facets[i].height(x) > slack; }
+  for (std::size_t i = 0; i < facets.facets.size(); ++i) {
+    facing[i] = facets.facets[i].height(x) > slack;
+    if (facing[i] != 0 && !above_horizon) { sum += contour.along(facets.facets[i].contour); }
+  }
+  const auto term = [&](const glm::dvec3& a, const glm::dvec3& b) {
+    return above_horizon ? contour_term(x, n, a, b) : contour.above(a, b);
+  };
   for (const Facets::Edge& edge : facets.edges) {
     const bool left = facing[edge.left] != 0;
     const bool right = edge.right != Facets::none && facing[edge.right] != 0;
-    if (left != right) { sum += left ? contour_term(x, n, edge.a, edge.b) : contour_term(x, n, edge.b, edge.a); }
+    if (left != right) { sum += left ? term(edge.a, edge.b) : term(edge.b, edge.a); }
   }
   return std::max(0.0, sum / (2.0 * std::numbers::pi));
 }

@@ -4,7 +4,8 @@
 // An object, or one sheet of it, as convex planar facets with the edges between them: what its outline from a point is made of.
 //
 // An edge belongs to the outline seen from x when one of its facets faces x and the other does not. So the form factor from x to all facets
-// that face it is the contour integral over the outline alone (Lambert 1760): edges between two facets that face x cancel. And what a
+// that face it is the contour integral over the outline alone (Lambert 1760): edges between two facets that face x cancel. Where the body
+// reaches below the horizon of x, the outline goes along the horizon, from facet to facet. And what a
 // convex body hides from x is the cone over its outline, however many facets it has.
 //
 // (Facets of a curved body need not be convex together, where corners of a quadrilateral are not in one plane; their corners are on it.)

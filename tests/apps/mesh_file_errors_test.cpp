@@ -24,7 +24,7 @@ TEST_CASE("errors say where they lie, what was expected and what was found") {
   CHECK(begins(error(replaced(cube_obj, "v 1 1 1", "v 1 1e999 1"), as_obj), ":9:5: error: expected a coordinate"));
   CHECK(begins(error(replaced(cube_obj, "v 1 1 1", "v 1 1"), as_obj), ":9:6: error: expected a coordinate, found the end of the line"));
   CHECK(begins(error("\x7f\x45LF\x01\n", as_obj), ":1:1: error: expected a statement such as v, f or vn, found '?ELF?'"));
-  CHECK(begins(error(cube_obj + "vw 0 0 1.0\nv# 1 2 3\n", as_obj), ":17:1: error: expected a statement such as v, f or vn, found 'v#'"));
+  CHECK(begins(error(cube_obj + "vw 0 0 1.0\nv2 1 2 3\n", as_obj), ":17:1: error: expected a statement such as v, f or vn, found 'v2'"));
   CHECK(begins(error("room size 5 4 3\n", as_obj), ":1:1: error: the file has no faces"));
   CHECK(begins(error(std::string("v 0 0 0\nv \0", 11), as_obj), ":2:3: error: expected text, found a zero byte"));
   CHECK(begins(error("# \xc3\xa4\xc3\xb6\nv \xc3\xa4 x 0\n", as_obj), ":2:3: error:"));
@@ -93,7 +93,7 @@ TEST_CASE("a binary file that ends too early, or whose counts lie, is an error a
 
 TEST_CASE("errors are given up after a number of them") {
   std::string text;
-  for (int i = 0; i < 1000; ++i) { text += "q\n"; }
+  for (int i = 0; i < 1000; ++i) { text += "1\n"; }
   const auto result = apps::read_mesh(text, as_obj);
   CHECK((result.more_errors && result.errors.size() == apps::max_errors));
 }

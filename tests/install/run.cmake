@@ -66,7 +66,14 @@ if(C_PROGRAM)
 endif()
 
 set(by_folder ${COMPILER} -std=c++20 -DHALFLIGHT_HEADER_ONLY -I${FOLDER}/prefix/include/halflight)
-run(${by_folder} -fsyntax-only ${PROGRAM})  # all sources are there
+foreach(room brep raycast radiosity)  # all headers and sources are there
+  file(GLOB_RECURSE files RELATIVE ${HALFLIGHT} ${HALFLIGHT}/${room}/*.hpp ${HALFLIGHT}/${room}/*.cpp)
+  foreach(file ${files})
+    if(NOT EXISTS ${FOLDER}/prefix/include/halflight/${file})
+      message(FATAL_ERROR "${file} is not installed")
+    endif()
+  endforeach()
+endforeach()
 run(${by_folder} -pthread ${SMALL_PROGRAM} -o ${FOLDER}/by_folder)
 check("-I alone" ${FOLDER}/by_folder ${SMALL_PROGRAM})
 

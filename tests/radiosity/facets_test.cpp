@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The form factor of bodies of many facets, by their outline.
+#include <memory>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include <raycast/objects/sphere.hpp>
+#include <raycast/objects/torus.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/direct/facets.hpp>
+#include <radiosity/geometry/form_factor.hpp>
+
+#include "catch.hpp"
+
+TEST_CASE("the form factor of a body by its outline is the sum over its facets, above the horizon and across it") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto number = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  const auto vector = [&] { return glm::dvec3(number(), number(), number()); };
+  std::vector<char> facing;
+  std::size_t across = 0;
+  for (int run = 0; run < 400; ++run) {
+    std::shared_ptr<const raycast::Object> shape = raycast::Sphere::make(glm::dvec3(0.0), 1.0).object;
+    if (run % 2 == 1) { shape = raycast::Torus::make(glm::dvec3(0.0), glm::normalize(vector()), 0.8, 0.2 + 0.1 * number()).object; }
+    const radiosity::Facets body = radiosity::facets_of(raycast::PlacedObject{shape}, 0.01);
+    const glm::dvec3 x = (1.2 + number() * number() + (run % 3)) * glm::normalize(vector()), n = glm::normalize(vector());
+    double sum = 0.0;
+    bool above = true;
+    for (const radiosity::Facets::Facet& facet : body.facets) {
+      for (const glm::dvec3& p : facet.contour) { above = above && glm::dot(n, p - x) >= 0.0; }
+      if (!(facet.height(x) > 1e-9)) { continue; }
+      radiosity::Polygon part;
+      radiosity::clip_to_horizon(facet.contour, x, n, part);
+      if (part.size() >= 3) { sum += radiosity::point_to_polygon(x, n, part); }
+    }
+    CAPTURE(run);
+    CHECK(radiosity::form_factor(body, x, n, false, 1e-9, facing) == test::Approx(sum).margin(1e-12));
+    if (above) { CHECK(radiosity::form_factor(body, x, n, true, 1e-9, facing) == test::Approx(sum).margin(1e-12)); }
+    across += !above && sum > 0.0 ? 1 : 0;
+  }
+  CHECK(across > 50);
+}
