@@ -1,6 +1,7 @@
 #!/bin/sh
 # Each room used alone: which headers of the project a program of it takes in, and how large its object file is.
-# Usage: rooms_alone.sh [COMPILER [FLAGS]]. Fails when a room takes in a header of a later one.
+# Usage: rooms_alone.sh [COMPILER [FLAGS]]. Fails when a room takes in a header of a later one. FLAGS 'headers': counts these alone, and
+# compiles nothing.
 set -eu
 cd "$(dirname "$0")/.."
 compiler=${1:-c++}
@@ -11,8 +12,11 @@ printf '%-10s %-28s %8s %8s %10s %10s  %s\n' room program brep/ raycast/ radiosi
 measure() { # ROOM PROGRAM FORBIDDEN
     source=examples/$2.cpp
     "$compiler" -std=c++20 -DHALFLIGHT_HEADER_ONLY -I. -MM "$source" | tr ' ' '\n' >"$folder/headers"
-    "$compiler" -std=c++20 -DHALFLIGHT_HEADER_ONLY -I. $flags -c "$source" -o "$folder/object"
-    code=$(size "$folder/object" | awk 'NR == 2 { print $1 }')
+    code=-
+    if [ "$flags" != headers ]; then
+        "$compiler" -std=c++20 -DHALFLIGHT_HEADER_ONLY -I. $flags -c "$source" -o "$folder/object"
+        code=$(size "$folder/object" | awk 'NR == 2 { print $1 }')
+    fi
     of() { grep -c "^$1/" "$folder/headers" || true; }
     printf '%-10s %-28s %8s %8s %10s %10s\n' "$1" "$source" "$(of brep)" "$(of raycast)" "$(of radiosity)" "$code"
     if [ -n "$3" ] && grep -E "^($3)/" "$folder/headers"; then
