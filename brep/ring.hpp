@@ -15,7 +15,10 @@
 //       \         /            \  /   \  /       on its edges stay what they are.
 //         *-----*                *-----*
 //
-// The inner face is the polygon of every second corner, shrunk towards the centroid. So of a convex face all parts are convex and cover it.
+// The inner face is the polygon of every second corner, shrunk towards the centroid. A corner between two of these is one of it, too, when
+// the line between these two passes the centroid within half the distance of that corner, or on its other side: as the tip of a triangle
+// with many straight corners on the side opposite. So the centroid lies within that polygon, and of a convex face all parts are convex and
+// cover it.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +28,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/polygon.hpp>
 #include <brep/refine.hpp>
 
 namespace brep {
@@ -35,12 +39,38 @@ inline constexpr std::size_t most_regular_corners = 8;
 // Cuts f into the cells of the ring, in the order of its corners, and the inner face, which keeps the FaceId and comes last. The cells
 // start with a copy of its data. place(brep, v) as in refine.
 // Refused (nothing changes): f is dead or has fewer than six corners; no handle is left.
-// Counts, m = ceil(n / 2): v + m, e + 2 m, f + m. Time: O(edges of f).
+// Counts, of m corners of the inner face, at least ceil(n / 2): v + m, e + 2 m, f + m. Time: O(edges of f).
+namespace detail {
+
+// The corners of a convex polygon that the inner face has, by their numbers; the first two are not neighbours.
+inline std::vector<std::size_t> corners_of_inner_face(const Polygon& outline, const glm::dvec3& centre) {
+  const std::size_t n = outline.size();
+  const glm::dvec3 up = normal(outline);
+  const auto is_needed = [&](std::size_t i) {
+    const glm::dvec3 &a = outline[(i + n - 1) % n], &b = outline[(i + 1) % n];
+    const glm::dvec3 inwards = glm::cross(up, b - a);
+    return 2.0 * glm::dot(inwards, centre - a) < -glm::dot(inwards, outline[i] - a);
+  };
+  std::size_t start = 0;
+  while (start < n && is_needed((start + 1) % n)) { ++start; }
+  start %= n;  // where each corner is needed the face has too few
+  std::vector<std::size_t> result{start};
+  for (std::size_t k = 2; k < n; k += 2) {
+    const std::size_t between = (start + k - 1) % n;
+    if (k > 2 && is_needed(between)) { result.push_back(between); }
+    result.push_back((start + k) % n);
+  }
+  if (const std::size_t last = (start + n - 1) % n; n % 2 == 0 && is_needed(last)) { result.push_back(last); }
+  return result;
+}
+
+}  // namespace detail
+
 template <class B, class Place>
 Result<std::vector<FaceId>> cut_ring(B& brep, FaceId f, Place&& place) {
   if (!brep.alive(f)) { return Refusal{Code::dead, {f}}; }
   const Corners corner = corners(brep, f);
-  const std::size_t n = corner.size(), m = (n + 1) / 2;
+  const std::size_t n = corner.size();
   if (n < 6) { return Refusal{Code::few_corners, {f}}; }
   if (detail::Raw::halfedges(brep).size() > 0x7ffffff0u - 8 * static_cast<std::uint32_t>(n)) { return Refusal{Code::full, {}}; }
   const unsigned level = brep.data(f).level;
@@ -48,14 +78,16 @@ Result<std::vector<FaceId>> cut_ring(B& brep, FaceId f, Place&& place) {
   std::vector<glm::dvec3> outline;
   for (std::size_t k = 0; k < n; ++k) { outline.push_back(brep.data(brep.vertex(corner[k])).position); }
   const glm::dvec3 centre = centroid(Polygon(outline));
+  const std::vector<std::size_t> kept = detail::corners_of_inner_face(Polygon(outline), centre);
+  const std::size_t m = kept.size();
   double width = 0.0, radius = 0.0;
   for (std::size_t k = 0; k < m; ++k) {
-    width += glm::distance(outline[2 * k], outline[2 * k + 2 < n ? 2 * k + 2 : 0]);
-    radius += glm::distance(outline[2 * k], centre);
+    width += glm::distance(outline[kept[k]], outline[kept[k + 1 < m ? k + 1 : 0]]);
+    radius += glm::distance(outline[kept[k]], centre);
   }
   // Depth radius (1 - x), mean width width (1 + x) / 2, both the same; narrow faces keep an inner face.
   const double a = 0.5 * width / radius, x = a < 0.8 ? (1.0 - a) / (1.0 + a) : 1.0 / 9.0;
-  const auto inner = [&](std::size_t k) { return centre + x * (outline[2 * k] - centre); };
+  const auto inner = [&](std::size_t k) { return centre + x * (outline[kept[k]] - centre); };
 
   std::vector<FaceId> cells;
   cells.reserve(m + 1);
@@ -64,15 +96,15 @@ Result<std::vector<FaceId>> cut_ring(B& brep, FaceId f, Place&& place) {
     detail::put(brep, brep.vertex(from), inner(k), level, place);
     return from;
   };
-  HalfedgeId h = detail::cut_child(brep, corner[0], corner[2], cells);  // corner 0 -> corner 2
+  HalfedgeId h = detail::cut_child(brep, corner[kept[0]], corner[kept[1]], cells);
   const HalfedgeId first = insert(h, 0);
-  HalfedgeId spoke = insert(first, 1);  // inner corner k -> corner 2 k
+  HalfedgeId spoke = insert(first, 1);  // inner corner k -> its corner
   for (std::size_t k = 1; k + 1 < m; ++k) {
-    h = detail::cut_child(brep, spoke, corner[2 * k + 2], cells);
+    h = detail::cut_child(brep, spoke, corner[kept[k + 1]], cells);
     spoke = insert(h, k + 1);
   }
   detail::cut_child(brep, spoke, first, cells);
-  for (std::size_t k = 0; k < m; ++k) { brep.set_anchor(cells[k], corner[2 * k]); }
+  for (std::size_t k = 0; k < m; ++k) { brep.set_anchor(cells[k], corner[kept[k]]); }
   brep.set_anchor(f, first);
   cells.push_back(f);
   return cells;

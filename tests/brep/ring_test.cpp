@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
+#include <vector>
 
 #include <brep/proportion.hpp>
 
@@ -55,6 +57,52 @@ TEST_CASE("cut_ring: counts, corners, level and data of the cells and of the inn
       sum += area(m, part);
     }
     CHECK(sum == test::Approx(whole).epsilon(1e-12));
+  }
+}
+
+// As outlines are in which coplanar polygons of a file were joined.
+TEST_CASE("cut_ring: of a convex face with straight corners all parts are convex and cover it, however few corners are true ones") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  for (int run = 0; run < 300; ++run) {
+    std::vector<double> angles;
+    const std::size_t tips = 3 + random() % 8;
+    for (std::size_t i = 0; i < tips; ++i) {
+      angles.push_back((static_cast<double>(i) + number(0.0, 0.8)) * 2.0 * std::numbers::pi / static_cast<double>(tips));
+    }
+    const double flat = number(0.05, 1.0);
+    std::vector<glm::dvec3> outline;
+    for (std::size_t i = 0; i < tips; ++i) {
+      const auto tip = [&](std::size_t k) { return glm::dvec3(std::cos(angles[k % tips]), flat * std::sin(angles[k % tips]), 1.0); };
+      const std::size_t straight = random() % 3 == 0 ? random() % 30 : 0;
+      for (std::size_t k = 0; k <= straight; ++k) {
+        outline.push_back(tip(i) + static_cast<double>(k) / static_cast<double>(straight + 1) * (tip(i + 1) - tip(i)));
+      }
+    }
+    if (outline.size() < 6) { continue; }
+    Mesh m = shapes::build(shapes::prism_builder(static_cast<std::uint32_t>(outline.size())));
+    const auto before = corners(m, prism_top);
+    for (std::size_t k = 0; k < outline.size(); ++k) { m.data(m.vertex(before[k])).position = outline[k]; }
+    CAPTURE(run, tips, outline.size());
+    const double whole = area(m, prism_top);
+    std::vector<FaceId> parts{prism_top};
+    while (corners(m, prism_top).size() > most_regular_corners) {
+      const std::size_t had = corners(m, prism_top).size();
+      const auto cells = cut_ring(m, prism_top, [](Mesh&, VertexId) {});
+      REQUIRE(cells);
+      parts.insert(parts.end(), cells->begin(), cells->end() - 1);
+      REQUIRE(corners(m, prism_top).size() < had);
+    }
+    double sum = 0.0;
+    for (const FaceId f : parts) {
+      CHECK(is_convex(m, f));
+      CHECK(glm::dot(normal(positions(m, f)), glm::dvec3(0, 0, 1)) > 0.0);
+      sum += area(m, f);
+    }
+    CHECK(sum == test::Approx(whole).epsilon(1e-9));
+    CHECK(faults(m) == "");
   }
 }
 
