@@ -144,7 +144,7 @@ class Text {
     out_ += "checks\n";
     say("row sums", "{row_sum.min} to {row_sum.max}, mean {row_sum.mean}");
     if (audit_.overfull > 0.0) {
-      say("  above 1.1", "on {overfull} of the area, which cannot be: it receives too much, as where gaps are narrower than patches");
+      say("  above 1.1", "on {overfull} of the area, as on slivers and in gaps narrower than patches; more than 1 cannot be: made 1 there");
     }
     if (audit_.closure || audit_.stored_rays > 0) {
       say("  as computed", "{computed_row_sum.min} to {computed_row_sum.max}, mean {computed_row_sum.mean}");

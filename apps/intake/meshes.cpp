@@ -46,14 +46,21 @@ std::string picture_of(const Lines& lines) {
 // library says about them.
 void read_obj_materials(const std::string& library, const SideFile& side_file, std::vector<ModelMaterial>& materials, Notes& notes) {
   std::string fault;
-  const auto text = side_file(library, fault);
-  if (!text) { return notes.add("the materials in " + mesh_file::shown(library) + " are not known: it " + fault); }
+  auto text = side_file(library, fault);
+  if (!text) {
+    const std::size_t folder = library.find_last_of("/\\");
+    std::string ignored;
+    if (folder != std::string::npos) { text = side_file(library.substr(folder + 1), ignored); }
+    if (!text) { return notes.add("the materials in " + mesh_file::shown(library) + " are not known: it " + fault); }
+    notes.add("the materials in " + mesh_file::shown(library) + " are taken from the file of that name beside this one");
+  }
   std::unordered_map<std::string, std::size_t> index;
   for (std::size_t i = 0; i < materials.size(); ++i) { index.emplace(materials[i].name, i); }
   ModelMaterial unused;
   ModelMaterial* material = &unused;
   PictureMeans<std::string> pictures;
   std::unordered_map<ModelMaterial*, std::array<std::optional<radiosity::Color>, 2>> means;  // of Kd and Ke, whichever comes first
+  std::vector<ModelMaterial*> unseen;                                                        // with a picture for Kd that is not read
   Lines lines(*text, true, true);
   while (lines.next()) {
     const std::string_view word = lines.words()[0];
@@ -80,6 +87,7 @@ void read_obj_materials(const std::string& library, const SideFile& side_file, s
         return bytes ? mean_color(*bytes) : std::nullopt;
       });
       if (mean) { means[material][word == "map_Kd" ? 0 : 1] = mean; }
+      if (!mean && word == "map_Kd") { unseen.push_back(material); }
       notes.add(mean ? "pictures on surfaces count with their mean colour"
                      : "textures are not read: " + std::string(word == "map_Kd" ? "Kd" : "Ke") + " stands for the picture",
                 place);
@@ -89,6 +97,9 @@ void read_obj_materials(const std::string& library, const SideFile& side_file, s
     }
   }
   // A colour of 0 beside a picture is what programs write that know no factor.
+  for (ModelMaterial* const of : unseen) {
+    if (of->reflectance && radiosity::is_black(*of->reflectance)) { of->reflectance.reset(); }
+  }
   for (const auto& [of, mean] : means) {
     if (mean[0]) {
       of->reflectance = radiosity::is_black(of->reflectance.value_or(radiosity::Color(0.0))) ? *mean[0] : *of->reflectance * *mean[0];

@@ -75,12 +75,11 @@ HALFLIGHT_INLINE Audit::Range summarise_rows(const Hierarchy& hierarchy, const s
 }
 
 HALFLIGHT_INLINE double overfull_share(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<double>& rows) {
-  constexpr double most = 1.1;
   double total = 0.0, overfull = 0.0;
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
     if (!hierarchy[i].leaf()) { continue; }
     total += area[i];
-    overfull += rows[i] > most ? area[i] : 0.0;
+    overfull += rows[i] > most_row_sum ? area[i] : 0.0;
   }
   return total > 0.0 ? overfull / total : 0.0;
 }

@@ -27,7 +27,8 @@ void balance_energy(Audit& audit, const DiscreteScene& scene, Transport& transpo
 
 Audit::Range summarise_rows(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<double>& rows);
 
-// The share of the exposed area of leaves whose row sum is above 1.1.
+// The share of the exposed area of leaves whose row sum is above this.
+inline constexpr double most_row_sum = 1.1;
 double overfull_share(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<double>& rows);
 
 // A square and an equilateral triangle have proportion 1 here: that of each kind is taken relative to its best.

@@ -19,8 +19,8 @@
 //                the surface is cut
 //     merge      coplanar neighbours of one material become one face (fewer input faces)       merge.hpp
 //     lamps      what lies flush in a wall shines away from it                                 lamps.hpp
-//     objects    closed shells become solids or rooms, all else surfaces with one or two       objects.hpp
-//                sides
+//     objects    closed shells become solids or rooms, all else surfaces with one or two       objects.hpp, shells.hpp,
+//                sides                                                                         open_surfaces.hpp
 //
 // Time: n log n for n polygons of bounded size. Nothing is kept of the input.
 

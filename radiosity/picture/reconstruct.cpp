@@ -83,11 +83,11 @@ HALFLIGHT_INLINE void set_normals(const raycast::PlacedObject& object, SurfaceBR
   return weight;
 }
 
-// The weight of the light of a leaf in a corner of one that is much larger (reconstruct.hpp). Radii.
+// The weight of the light of a leaf in a corner of one that is much larger (reconstruct.hpp). Areas, of the other one what is exposed: a
+// sliver is small, however long, and so is what shows beside a thing that stands on it.
 [[nodiscard]] inline double beside(double own, double other) {
-  constexpr double much_larger = 8.0;
-  const double part = much_larger * other / own;
-  return part < 1.0 ? part * part : 1.0;
+  constexpr double much_larger = 64.0;
+  return std::min(1.0, much_larger * other / own);
 }
 
 // Of a face that was cut at a wall: does the wall stand between these two leaves, near their common corner v? Asked just above them.
@@ -118,7 +118,7 @@ HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32
     for (const brep::HalfedgeId l : brep::halfedges_from(brep, brep.vertex(e))) {
       const std::uint32_t node = brep.data(brep.face(l)).node;
       if (node == no_node || !(light.exposure.area[node] > 0.0) || material(node) != material(own)) { continue; }
-      double weight = corner_angle(brep, l) * beside(light.hierarchy[own].radius, light.hierarchy[node].radius);
+      double weight = corner_angle(brep, l) * beside(light.hierarchy[own].area, light.exposure.area[node]);
       if (kind != Reconstruction::simple) { weight *= alike(brep.data(e).normal, brep.data(l).normal); }
       const bool cut = walls && brep.data(brep.face(l)).part == part && input_face(light.hierarchy, node) != root;
       if (cut && wall_between(light, own, node, brep.data(brep.vertex(e)).position)) { continue; }

@@ -14,8 +14,8 @@
 //             with its 64th power below 0.9 %, and a terrain 10.8 and 6 %.
 //   constant  that of face(e) alone: the solution as it is
 //
-// Over a leaf that is more than 8 times as wide as a neighbour, the neighbour's light falls off long before the leaf ends: there w_l falls
-// with the square of the neighbour's width, else a bright spot beside it would be spread over all of the leaf.
+// Over a leaf with more than 64 times the area of a neighbour, the neighbour's light falls off long before the leaf ends: there w_l falls
+// with the neighbour's exposed area, else a bright spot beside it, or what a sliver without width says, would be spread over all of it.
 // The angle makes the average independent of how a T-vertex was connected. Faces of another material, and faces that
 // are buried under another object, do not count, nor do those beyond a wall that a face was cut at (wall_cuts.hpp), as far as it stands
 // there: a wall without thickness buries nothing, and light may differ by any factor across it. A corner with buried faces alone takes the

@@ -80,7 +80,7 @@ struct Audit {
   Range proportion;               // of the leaves: inscribed over circumscribed circle, relative to that of a regular polygon
   Range row_sum;                  // of the form factors of a leaf, area-weighted mean; of the system that was solved
   Range computed_row_sum;         // the same before a closed scene was corrected
-  double overfull = 0.0;          // share of the exposed area where row_sum is above 1.1, which cannot be: it receives too much light
+  double overfull = 0.0;          // share of the exposed area where row sums were above 1.1, which cannot be: there they were made 1
   std::optional<double> closure;  // RMS by which the row sums of a closed scene were off before they were made 1
   double ray_correction = 0.0;    // RMS correction that took the noise of stored rays out of their row sums, relative to those
   double closure_limit = 0.0;     // what quadrature and sampling explain of one (doubt.hpp); beyond, it is refused

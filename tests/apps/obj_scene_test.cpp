@@ -99,6 +99,19 @@ TEST_CASE("units, the up axis, reflectance and lamps come from the command line"
   for (const char* wrong : {"", "0", "-1", "inch", "1e13", "m "}) { CHECK_FALSE(apps::parse_unit(wrong)); }
 }
 
+TEST_CASE("MTL: a library is looked for beside the file, too, and what only a lost picture shows is not black") {
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\nusemtl soot\nf 2 3 1\n";
+  const models::Files files{{"house.mtl", "newmtl wood\nKd 0 0 0\nmap_Kd C:\\pictures\\wood.png\nnewmtl soot\nKd 0 0 0\n"}};
+  for (const char* library : {"house.mtl", "models/house.mtl", "C:\\Users\\me\\house.mtl", "../a b/house.mtl"}) {
+    const apps::Model model = read("a.obj", std::string("mtllib ") + library + "\n" + text, files);
+    REQUIRE(model.materials.size() == 2);
+    CHECK_FALSE(model.materials[0].reflectance.has_value());
+    REQUIRE(model.materials[1].reflectance.has_value());
+    CHECK(*model.materials[1].reflectance == radiosity::Color(0.0));
+    CHECK(noted(model.notes, "beside this one") == (std::string(library) != "house.mtl"));
+  }
+}
+
 TEST_CASE("a model without a lamp stands in a studio, what is closed around it cannot be lit from there") {
   const apps::SceneFile file = scene("a.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
   REQUIRE(file.scene.objects.size() == 3);
