@@ -43,7 +43,7 @@ inline constexpr std::size_t most_regular_corners = 8;
 namespace detail {
 
 // The corners of a convex polygon that the inner face has, by their numbers; the first two are not neighbours.
-inline std::vector<std::size_t> corners_of_inner_face(const Polygon& outline, const glm::dvec3& centre) {
+inline std::vector<std::size_t> corners_of_inner_face(Polygon outline, const glm::dvec3& centre) {
   const std::size_t n = outline.size();
   const glm::dvec3 up = normal(outline);
   const auto is_needed = [&](std::size_t i) {

@@ -34,6 +34,14 @@ std::optional<radiosity::Color> color(const Lines& lines) {
   return c;
 }
 
+// Many files name folders of the computer on which they were written: what is not there may lie beside the file.
+std::optional<std::string> file_of_name(const std::string& name, const SideFile& side_file, std::string& fault) {
+  auto bytes = side_file(name, fault);
+  const std::size_t folder = name.find_last_of("/\\");
+  std::string ignored;
+  return bytes || folder == std::string::npos ? bytes : side_file(name.substr(folder + 1), ignored);
+}
+
 // The name of the picture behind map_Kd: options, each with numbers or words, then the name.
 std::string picture_of(const Lines& lines) {
   std::string name(lines.words()[1].starts_with('-') ? lines.words().back() : lines.rest());
@@ -46,14 +54,8 @@ std::string picture_of(const Lines& lines) {
 // library says about them.
 void read_obj_materials(const std::string& library, const SideFile& side_file, std::vector<ModelMaterial>& materials, Notes& notes) {
   std::string fault;
-  auto text = side_file(library, fault);
-  if (!text) {
-    const std::size_t folder = library.find_last_of("/\\");
-    std::string ignored;
-    if (folder != std::string::npos) { text = side_file(library.substr(folder + 1), ignored); }
-    if (!text) { return notes.add("the materials in " + mesh_file::shown(library) + " are not known: it " + fault); }
-    notes.add("the materials in " + mesh_file::shown(library) + " are taken from the file of that name beside this one");
-  }
+  const auto text = file_of_name(library, side_file, fault);
+  if (!text) { return notes.add("the materials in " + mesh_file::shown(library) + " are not known: it " + fault); }
   std::unordered_map<std::string, std::size_t> index;
   for (std::size_t i = 0; i < materials.size(); ++i) { index.emplace(materials[i].name, i); }
   ModelMaterial unused;
@@ -83,7 +85,7 @@ void read_obj_materials(const std::string& library, const SideFile& side_file, s
     } else if (word == "map_Kd" || word == "map_Ke") {
       const std::string name = picture_of(lines);
       const auto mean = pictures.of(name, [&] {
-        const auto bytes = side_file(name, fault);
+        const auto bytes = file_of_name(name, side_file, fault);
         return bytes ? mean_color(*bytes) : std::nullopt;
       });
       if (mean) { means[material][word == "map_Kd" ? 0 : 1] = mean; }

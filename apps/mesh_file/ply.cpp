@@ -203,7 +203,6 @@ class PlyReader {
       face(i % 2 == 0 ? std::array{a, b, c} : std::array{b, a, c}, place);
     }
   }
-  static bool ends_strip(const Element& element, double index) { return index == -1 && element.name == "tristrips"; }
   void set_coordinate(Property::Role role, double value) {
     if (role >= Property::Role::x && role <= Property::Role::z) {
       position_[static_cast<int>(role) - static_cast<int>(Property::Role::x)] = value;
@@ -226,7 +225,7 @@ class PlyReader {
       }
       for (; values > 0; --values, ++at) {
         if (at >= lines_.words().size()) { return fail(at, "the line of " + which(element, i) + " has too few values"); }
-        if (property.role == Property::Role::corners && ends_strip(element, to_number(word(at)).value_or(0))) {
+        if (property.role == Property::Role::corners && word(at) == "-1" && element.name == "tristrips") {
           corners_.push_back(between_strips);
         } else if (property.role == Property::Role::corners) {
           const auto index = read_vertex(lines_, at, vertices_, out_);
@@ -269,7 +268,7 @@ class PlyReader {
       } else {
         for (; values > 0; --values) {
           const double index = value(property.type);
-          if (ends_strip(element, index)) {
+          if (index == -1.0 && element.name == "tristrips") {
             corners_.push_back(between_strips);
             continue;
           }

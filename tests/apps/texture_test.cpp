@@ -74,7 +74,7 @@ TEST_CASE("textures: of OBJ and glTF they count times their factors, wherever th
   const Painted wood = painted(7, 8, 8), glow = painted(8, 3, 4);
   const models::Files files{{"a.mtl",
                              "newmtl wood\nmap_Kd -s 1 2 1 my/wood.png\nKd 0.5 0.5 0.25\nnewmtl plain\nKd 0 0 0\nmap_Kd my\\wood.png\n"
-                             "newmtl lamp\nKe 2\nmap_Ke glow 1.png\nnewmtl lost\nKd 0.3\nmap_Kd lost.png\n"},
+                             "newmtl lamp\nKe 2\nmap_Ke C:\\work\\glow 1.png\nnewmtl lost\nKd 0.3\nmap_Kd lost.png\n"},
                             {"my/wood.png", wood.file},
                             {"glow 1.png", glow.file}};
   const apps::Model obj = models::read("a.obj",
