@@ -77,7 +77,7 @@ TEST_CASE("PLY: triangle strips are the triangles that they stand for, wherever 
   std::mt19937 random(29);
   INFO("seed 29");
   for (int run = 0; run < 50; ++run) {
-    const std::uint32_t n = 3 + random() % 12;
+    const std::uint32_t n = 3 + static_cast<std::uint32_t>(random() % 12);
     brep::Builder zigzag;  // of two rows in the plane z = 0; every triangle looks down
     for (std::uint32_t v = 0; v < n; ++v) { zigzag.vertex({v / 2, v % 2, 0}); }
     std::vector<std::int32_t> strip{0, 1};

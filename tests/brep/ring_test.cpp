@@ -98,7 +98,7 @@ TEST_CASE("cut_ring: of a convex face with straight corners all parts are convex
     double sum = 0.0;
     for (const FaceId f : parts) {
       CHECK(is_convex(m, f));
-      CHECK(glm::dot(normal(positions(m, f)), glm::dvec3(0, 0, 1)) > 0.0);
+      CHECK(glm::dot(normal(Polygon(positions(m, f))), glm::dvec3(0, 0, 1)) > 0.0);
       sum += area(m, f);
     }
     CHECK(sum == test::Approx(whole).epsilon(1e-9));
