@@ -36,10 +36,6 @@ namespace brep {
 // Regular refinement does well up to so many corners: the wedges of an octagon have 3/4 of the proportion of a square.
 inline constexpr std::size_t most_regular_corners = 8;
 
-// Cuts f into the cells of the ring, in the order of its corners, and the inner face, which keeps the FaceId and comes last. The cells
-// start with a copy of its data. place(brep, v) as in refine.
-// Refused (nothing changes): f is dead or has fewer than six corners; no handle is left.
-// Counts, of m corners of the inner face, at least ceil(n / 2): v + m, e + 2 m, f + m. Time: O(edges of f).
 namespace detail {
 
 // The corners of a convex polygon that the inner face has, by their numbers; the first two are not neighbours.
@@ -51,9 +47,8 @@ inline std::vector<std::size_t> corners_of_inner_face(Polygon outline, const glm
     const glm::dvec3 inwards = glm::cross(up, b - a);
     return 2.0 * glm::dot(inwards, centre - a) < -glm::dot(inwards, outline[i] - a);
   };
-  std::size_t start = 0;
-  while (start < n && is_needed((start + 1) % n)) { ++start; }
-  start %= n;  // where each corner is needed the face has too few
+  std::size_t start = 0;  // before a corner that is not needed: some corner never is, none at all in a regular hexagon
+  while (start + 1 < n && is_needed(start + 1)) { ++start; }
   std::vector<std::size_t> result{start};
   for (std::size_t k = 2; k < n; k += 2) {
     const std::size_t between = (start + k - 1) % n;
@@ -66,6 +61,10 @@ inline std::vector<std::size_t> corners_of_inner_face(Polygon outline, const glm
 
 }  // namespace detail
 
+// Cuts f into the cells of the ring, in the order of its corners, and the inner face, which keeps the FaceId and comes last. The cells
+// start with a copy of its data. place(brep, v) as in refine.
+// Refused (nothing changes): f is dead or has fewer than six corners; no handle is left.
+// Counts, of m corners of the inner face, at least ceil(n / 2): v + m, e + 2 m, f + m. Time: O(edges of f).
 template <class B, class Place>
 Result<std::vector<FaceId>> cut_ring(B& brep, FaceId f, Place&& place) {
   if (!brep.alive(f)) { return Refusal{Code::dead, {f}}; }

@@ -319,7 +319,7 @@ class SceneMaker {
   std::vector<std::uint8_t> two_sided_;
   std::vector<glm::dvec3> given_positions_;  // before they were placed
   bool given_z_up_ = false;
-  bool sides_unknown_ = false;  // of what stands alone in a studio, and which nothing else shows
+  bool sides_unknown_ = false;  // the format does not say which side of an open surface is seen
   std::vector<radiosity::Room> rooms_;
   std::vector<glm::dvec3> eyes_;  // of cameras that are not the model's
 };

@@ -47,11 +47,14 @@ class ObjReader {
       }
     }
     if (out_.good() && out_.mesh.builder.face_count() == 0) { no_faces(); }
-    const auto passed_over = [&](const std::map<std::string_view, std::size_t>& lines, std::string_view why) {
-      for (const auto& [word, number] : lines) { out_.mesh.notes.push_back(lines_of(word, number) + " passed over: " + std::string(why)); }
-    };
-    passed_over(unread_, "points, lines, curves and free-form surfaces are not read");
-    passed_over(foreign_, "no statement of OBJ");
+    for (const auto& [word, number] : unread_) {
+      out_.mesh.notes.push_back(lines_of(word, number) + " passed over: points, lines, curves and free-form surfaces are not read");
+    }
+    if (foreign_ > 0) {
+      out_.mesh.notes.push_back(
+          (foreign_ == 1 ? "1 line that is no statement" : std::to_string(foreign_) + " lines that are no statements") +
+          " of OBJ passed over, the first " + first_foreign_);
+    }
   }
 
  private:
@@ -93,7 +96,7 @@ class ObjReader {
   void foreign(std::string_view word) {
     const bool is_name = std::all_of(word.begin(), word.end(), [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; });
     if (!is_name) { return fail(0, "expected a statement such as v, f or vn, found " + shown(word)); }
-    ++foreign_[word];
+    if (foreign_++ == 0) { first_foreign_ = shown(word) + " at line " + std::to_string(lines_.line()); }
   }
 
   void vertex() {
@@ -176,7 +179,9 @@ class ObjReader {
   Numbers group_numbers_, material_numbers_;
   std::vector<std::uint32_t> corners_;
   std::vector<ForwardReference> forward_;
-  std::map<std::string_view, std::size_t> unread_, foreign_;
+  std::map<std::string_view, std::size_t> unread_;
+  std::size_t foreign_ = 0;
+  std::string first_foreign_;
 };
 
 void read_obj(std::string_view bytes, Output& out) { ObjReader(bytes, out).run(); }

@@ -53,8 +53,8 @@ inline constexpr std::array<Wording, static_cast<std::size_t>(ChangeKind::merged
      "# polygons have light on both sides, as walls between rooms: they reflect on both"},
     {"1 surface has polygons of both orientations: it reflects on both sides",
      "# surfaces have polygons of both orientations: they reflect on both sides"},
-    {"of 1 open surface nothing says which side is seen: it reflects on both",
-     "of # open surfaces nothing says which side is seen: they reflect on both"},
+    {"1 open surface may be seen from either side, for nothing says which: it reflects on both",
+     "# open surfaces may be seen from either side, for nothing says which: they reflect on both"},
     {"1 polygon became part of a coplanar neighbour", "# polygons became parts of coplanar neighbours"},
 }};
 

@@ -73,7 +73,7 @@ class Shells {
   // when its back is.
   // A closed lamp that lies on a shell is in it when one of the two is.
   [[nodiscard]] Component* innermost(std::span<const Place> places, const Component* but);
-  // Do six planes hold two fifths of its faces, as walls, floor and ceiling do?
+  // Do six planes hold two fifths of its area, as walls, floor and ceiling do?
   [[nodiscard]] bool has_walls(const Component& shell) const;
   // The shell that looks inwards at all the others, which do not look inwards themselves, as in a model that is inside out. Open surfaces
   // alone, such as eyes and teeth in the head of a statue that is inside out, make no room of what has no walls. Null: none.

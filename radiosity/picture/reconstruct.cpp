@@ -160,9 +160,30 @@ template <class Exposed>
   return std::any_of(spans.begin(), spans.end(), [&](const raycast::Span& span) { return std::abs(span.out.t) <= touch; });
 }
 
+// Does a corner of the border of a sheet lie within a convex polygon, beside its edges by more than `touch`?
+[[nodiscard]] HALFLIGHT_INLINE bool border_within(const SurfaceBRep& brep, std::uint32_t sheet, Polygon polygon, double touch) {
+  const glm::dvec3 up = brep::normal(polygon);
+  const auto is_within = [&](const glm::dvec3& p) {
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const glm::dvec3 &a = polygon[k], &b = polygon[k + 1 < polygon.size() ? k + 1 : 0];
+      const glm::dvec3 inwards = glm::cross(up, b - a);
+      if (glm::dot(inwards, p - a) <= touch * glm::length(inwards)) { return false; }
+    }
+    return true;
+  };
+  for (const brep::FaceId f : brep::faces(brep)) {
+    if (brep.data(f).sheet != sheet) { continue; }
+    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
+      if (brep.data(brep.face(brep::twin(h))).sheet != sheet && is_within(brep.data(brep.vertex(h)).position)) { return true; }
+    }
+  }
+  return false;
+}
+
 // Does a face of a flat object lie on another flat object, all of it: on one that faces the same way, or on a solid that stands on it?
 // There is then nothing of it to be seen: not even slivers, as of a face that a curved object stands on, or at the rim of a disk, whose
-// mesh lies within it. Its corners, a little drawn in, and places between them are asked for. `from`: the first object that counts among
+// mesh lies within it. Its corners, a little drawn in, and places between them must lie on the other one, no corner of whose border may lie
+// within the face. `from`: the first object that counts among
 // those that face the same way.
 [[nodiscard]] HALFLIGHT_INLINE bool lies_under(const Surface& own, brep::FaceId f, const std::vector<Surface>& surfaces,
                                                std::size_t from = 0) {
@@ -201,7 +222,7 @@ template <class Exposed>
         if (!((alike && cosine > 0.999) || (opposite && cosine < -0.999))) { return false; }
         return glm::length(foot.position - p) <= touch && ends_at(*other.object, foot, touch);
       });
-      if (on) { return true; }
+      if (on && !border_within(other.brep, s, corners, touch)) { return true; }
     }
     return false;
   });

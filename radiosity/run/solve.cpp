@@ -65,9 +65,12 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
     audit.closure_limit = explained_closure(run.evaluated.doubt, scene.hierarchy, area, exposed);
     audit.closure = transport.close(audit.closure_limit);
   }
-  audit.overfull = overfull_share(scene.hierarchy, area, transport.row_sums());
-  if (audit.overfull > 0.0) { transport.limit_row_sums(most_row_sum); }
   solution.row_sum = transport.row_sums();
+  audit.overfull = overfull_share(scene.hierarchy, area, solution.row_sum);
+  if (audit.overfull > 0.0) {
+    transport.limit_row_sums(solution.row_sum, most_row_sum);
+    solution.row_sum = transport.row_sums();
+  }
   audit.row_sum = summarise_rows(scene.hierarchy, area, solution.row_sum);
 }
 

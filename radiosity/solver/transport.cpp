@@ -165,8 +165,7 @@ HALFLIGHT_INLINE std::vector<double> Transport::row_sums(std::size_t part) {
   return y;
 }
 
-HALFLIGHT_INLINE void Transport::limit_row_sums(double most) {
-  const std::vector<double> rows = row_sums();
+HALFLIGHT_INLINE void Transport::limit_row_sums(const std::vector<double>& rows, double most) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!(rows[i] > most)) { continue; }
     for (Part& part : parts_) { part.scale[i] /= rows[i]; }

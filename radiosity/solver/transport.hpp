@@ -98,8 +98,8 @@ class Transport {
   // What each leaf sees of the scene: the sum of its form factors. 1 in a closed scene. Inner nodes hold 0.
   [[nodiscard]] std::vector<double> row_sums();
   // Leaves that receive more than `most` times what there is, which nothing can, as slivers may and leaves in gaps narrower than they are:
-  // scales their links in both directions, so that their rows sum to 1.
-  void limit_row_sums(double most);
+  // scales their links in both directions, so that their rows sum to 1, or less where they light each other. `rows`: row_sums().
+  void limit_row_sums(const std::vector<double>& rows, double most);
 
   // Closes what loses no light: finds D with the row sums of closed nodes 1, and all others as they are, within the tolerance (symmetric
   // scaling, van Leersum 1989; see balance.hpp), so that what quadrature and sampled visibility got wrong in the rows does not grow by

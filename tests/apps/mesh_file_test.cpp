@@ -62,13 +62,18 @@ TEST_CASE("OBJ: every form of a corner, numbers from the end, continued lines, s
   CHECK(lines.mesh->face_line.back() == 15);
 }
 
-TEST_CASE("OBJ: statements of other programs are passed over, and told once each") {
+TEST_CASE("OBJ: statements of other programs are passed over, and told in one sentence, however many words they have") {
   const apps::MeshResult result = apps::read_mesh("t crease 2/1/0 0 1 2.0\n" + cube_obj + "vw 0 0 1.0\nvw 1 0 0.5 1 0.5\n", as_obj);
   REQUIRE(result.mesh.has_value());
   check_same(result.mesh->builder, cube());
-  REQUIRE(result.mesh->notes.size() == 2);
-  CHECK(begins(result.mesh->notes[0], "1 line 't' passed over"));
-  CHECK(begins(result.mesh->notes[1], "2 lines 'vw' passed over"));
+  CHECK(result.mesh->notes == std::vector<std::string>{"3 lines that are no statements of OBJ passed over, the first 't' at line 1"});
+  std::string many = cube_obj;
+  for (int i = 0; i < 1000; ++i) { many += std::string(1000, 'a') + std::string(i, 'b') + " 1\n"; }
+  const apps::MeshResult long_words = apps::read_mesh(many, as_obj);
+  REQUIRE(long_words.mesh.has_value());
+  REQUIRE(long_words.mesh->notes.size() == 1);
+  CHECK(begins(long_words.mesh->notes[0], "1000 lines that are no statements of OBJ passed over"));
+  CHECK(long_words.mesh->notes[0].size() < 200);
 }
 
 // Stanford's and Georgia Tech's scanned models are strips. A strip of n corners, cut anywhere by -1 and with the two corners before

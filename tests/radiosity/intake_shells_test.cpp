@@ -115,7 +115,6 @@ TEST_CASE("intake: a closed lamp shines into its room, whichever way it looked")
   }
 }
 
-// From outside the outer side of walls around a lit room looks the same.
 // A statue whose eyes and teeth are open surfaces within it, and a room with a carpet and a picture; neither has a lamp.
 TEST_CASE("intake: an inverted body that holds open surfaces is a solid, walls that hold them are a room") {
   const unsigned seed = std::random_device{}();
@@ -149,6 +148,7 @@ TEST_CASE("intake: an inverted body that holds open surfaces is a solid, walls t
   }
 }
 
+// From outside the outer side of walls around a lit room looks the same.
 TEST_CASE("intake: lamps in a room with an eye in it shine into it, even when all of the model is inside out") {
   const unsigned seed = std::random_device{}();
   INFO("seed " << seed);

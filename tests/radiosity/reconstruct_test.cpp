@@ -296,6 +296,22 @@ TEST_CASE("reconstruction: the light of a few small leaves is not spread over le
   }
 }
 
+TEST_CASE("reconstruction: the light of a sliver, as long as the leaf beside it, is not spread over that") {
+  for (const double width : {1e-2, 1e-3, 1e-5}) {
+    radiosity::Scene scene = lone(nullptr);
+    const std::vector<glm::dvec3> positions{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1 + width, 0, 0}, {1 + width, 1, 0}};
+    scene.objects = {scenes::object("floor", raycast::Mesh::make(positions, {{0, 1, 2, 3}, {1, 4, 5, 2}}).object, 0)};
+    const auto light = [&](const radiosity::Node& node) { return node.area < 0.5 ? 1.0 : 0.0; };
+    const Reconstructed r = reconstructed(
+        scene, Reconstruction::weighted, [](auto&, auto&) {}, light);
+    const radiosity::SurfaceBRep& brep = r.prepared.surfaces[0].brep;
+    for (const brep::FaceId f : brep::faces(brep)) {
+      if (brep.data(f).node == radiosity::no_node || r.hierarchy[brep.data(f).node].area < 0.5) { continue; }
+      for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) { CHECK(brep.data(h).radiosity.x <= 64.0 * width); }
+    }
+  }
+}
+
 TEST_CASE("weighted reconstruction: over random facets it errs less than the constant radiosity of the leaves") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);

@@ -2,7 +2,9 @@
 
 // Laws of the transport operator: symmetry, slopes, levels, the order of the trees, and what closing a scene does.
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <random>
@@ -26,18 +28,19 @@ using radiosity::Node;
 using radiosity::Solver;
 using radiosity::Transport;
 
-TEST_CASE("transport is symmetric: x . M y = y . M x") {
-  LinearProblem problem{6, 0.9, 3};
-  Transport transport{problem.hierarchy, problem.links, problem.exposure};
+namespace {
+
+// x . M y = y . M x
+void check_symmetric(Transport& transport, std::size_t roots, std::size_t nodes) {
   std::mt19937 engine{17};
   INFO("seed 17");
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 20; ++trial) {
-    std::vector<double> x(problem.hierarchy.size(), 0.0);
+    std::vector<double> x(nodes, 0.0);
     std::vector<double> y(x);
     std::vector<double> mx;
     std::vector<double> my;
-    for (std::size_t i = 6; i < x.size(); ++i) {
+    for (std::size_t i = roots; i < x.size(); ++i) {
       x[i] = normal(engine);
       y[i] = normal(engine);
     }
@@ -46,13 +49,50 @@ TEST_CASE("transport is symmetric: x . M y = y . M x") {
     double left = 0.0;
     double right = 0.0;
     double size = 0.0;
-    for (std::size_t i = 6; i < x.size(); ++i) {
+    for (std::size_t i = roots; i < x.size(); ++i) {
       left += x[i] * my[i];
       right += y[i] * mx[i];
       size += std::abs(x[i] * my[i]);
     }
     CHECK(std::abs(left - right) <= 1e-14 * size);
   }
+}
+
+}  // namespace
+
+TEST_CASE("transport is symmetric: x . M y = y . M x") {
+  LinearProblem problem{6, 0.9, 3};
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  check_symmetric(transport, 6, problem.hierarchy.size());
+}
+
+TEST_CASE("a leaf that receives more than there is gets a row sum of 1, its neighbours receive less from it, reciprocity stays") {
+  LinearProblem problem{6, 0.4, 3};
+  constexpr std::uint32_t sliver = 9, other = 28;
+  std::vector<double>& area = problem.exposure.area;
+  area[0] += 0.01 - area[sliver];
+  area[sliver] = 0.01;
+  problem.links.push_back({sliver, other, 0.02f});
+  const auto ends_there = [](const radiosity::Link& link) { return link.p == sliver || link.q == sliver; };
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  const std::vector<double> before = transport.row_sums();
+  REQUIRE(before[sliver] > 2.0);
+  transport.limit_row_sums(before, 1.1);
+  const std::vector<double> after = transport.row_sums();
+  for (std::uint32_t i = 6; i < before.size(); ++i) {
+    CAPTURE(i, before[i], after[i]);
+    const bool is_linked = std::any_of(problem.links.begin(), problem.links.end(),
+                                       [&](const radiosity::Link& link) { return ends_there(link) && (link.p == i || link.q == i); });
+    if (i == sliver) {
+      CHECK(after[i] == test::Approx(1.0).epsilon(1e-12));
+    } else if (is_linked) {
+      CHECK(after[i] < before[i]);
+    } else {
+      CHECK(before[i] <= 1.1);
+      CHECK(after[i] <= before[i]);
+    }
+  }
+  check_symmetric(transport, 6, problem.hierarchy.size());
 }
 
 TEST_CASE("a link with gradients carries what links between its leaves carry whose kernel is linear") {
