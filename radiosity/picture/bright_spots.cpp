@@ -43,7 +43,7 @@ inline constexpr std::uint32_t no_spot = 0xffffffff;
 inline constexpr double least_contrast = 4.0;
 inline constexpr int most_rounds = 8;
 // Of those that a point sends out evenly, about.
-inline constexpr double even_rays = 256.0;
+inline constexpr double even_rays = 512.0;
 // Each takes some operations a point; a point sends hundreds of rays.
 inline constexpr std::size_t most_groups = 128;
 // Photons: so many are to land on what is no spot, but no more are sent out than these.
@@ -93,7 +93,7 @@ HALFLIGHT_INLINE BrightSpots::BrightSpots(const Lookup& lookup, const DirectLigh
         spot.normal /= length;
         area += spot.area;
         power += spot.power;
-        if (!(direct.lift(o) > 0.0)) { spots_.push_back(spot); }
+        spots_.push_back(spot);
       }
     }
   }

@@ -31,8 +31,7 @@ class BrightSpots {
  public:
   // None.
   BrightSpots() = default;
-  // Of what a solution shows, but for `apart`: by input surface, light that is found in other ways. Objects for which meshes stand in where
-  // rays are cast (direct_light.hpp) have no spots: what is met is not quite what was aimed at. `lookup` must outlive this.
+  // Of what a solution shows, but for `apart`: by input surface, light that is found in other ways. `lookup` must outlive this.
   BrightSpots(const Lookup& lookup, const DirectLight& direct, std::span<const Color> apart);
 
   [[nodiscard]] bool empty() const { return groups_.empty(); }

@@ -197,7 +197,10 @@ HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sob
     if (!hit.front || direct_.whole(hit.object) != targets[k].object) { continue; }
     const Met found = met(hit, segments.at(k));
     const glm::dvec3 off = found.point.position - targets[k].point.position, d = targets[k].point.position - sender.from;
-    if (found.sheet != targets[k].sheet || glm::dot(off, off) > 1e-6 * glm::dot(d, d)) { continue; }
+    // Of an object for which meshes stand in these are met, beside what was aimed at.
+    const double lift = direct_.lift(targets[k].object), beside = std::abs(glm::dot(off, targets[k].point.normal));
+    const bool same = lift > 0.0 ? beside <= 4.0 * lift : glm::dot(off, off) <= 1e-6 * glm::dot(d, d);
+    if (found.sheet != targets[k].sheet || !same) { continue; }
     const Arriving light = arriving(sender, found);
     if (!(light.aimed > 0.0) || hits.hit[k].t * reach < light.coarse_within) { continue; }
     sum.add(k / 4, light.light / (1.0 + light.aimed), std::max(hit.t * reach, detail::least_distance));
@@ -254,7 +257,11 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
     for (const double p : sum.part) { squares += (p - mean) * (p - mean) / 12.0; }
     return squares;
   };
-  const auto exact_enough = [&] { return variance_of_mean() <= error * error * mean_of_parts() * mean_of_parts(); };
+  // Where spots count, rays that met too few of them are not believed because they agree: the solution must not know of more light.
+  const auto exact_enough = [&] {
+    const bool all_found = sender.aimed == 0 || 4.0 * mean_of_parts() >= (1.0 - error) * rays * solved_light;
+    return all_found && variance_of_mean() <= error * error * mean_of_parts() * mean_of_parts();
+  };
   for (; rays < least || (rays < most && (rays % 64 != 0 || !exact_enough())); rays += 16) {
     cast_evenly(sender, sequence, rays, sum);
     if (rays % 64 != 48) { continue; }

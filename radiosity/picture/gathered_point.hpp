@@ -24,13 +24,13 @@ namespace radiosity {
 // What a point takes, by measurement: rays, the share of its light at which they are enough, and paths; the radius of its sphere by the
 // harmonic mean distance of what it sees, and that of its fit by that of its sphere.
 struct GatherRays {
-  std::uint32_t least = 256, most = 1024;
+  std::uint32_t least = 512, most = 2048;  // fewer would agree too often by chance
   double error = 0.03;
   std::uint32_t most_paths = 256;
 };
 inline constexpr GatherRays gather_rays;
 // Of a point that is gathered once more because it was doubtful. What is near leaves most noise, so it takes most of the work.
-inline constexpr GatherRays gather_rays_again{512, 2048, 0.02, 1024};
+inline constexpr GatherRays gather_rays_again{1024, 4096, 0.02, 1024};
 inline constexpr double gathered_part_of_distance = 0.2, most_fit = 3.0;
 
 struct GatheredPoint {
