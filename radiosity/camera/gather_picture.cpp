@@ -20,13 +20,13 @@
 
 #include <radiosity/camera/fragments.hpp>
 #include <radiosity/camera/indirect_points.hpp>
+#include <radiosity/camera/shadow_edges.hpp>
+#include <radiosity/direct/lit_region.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 
 namespace radiosity {
 namespace detail {
-
-inline constexpr float change_at_edge = 0.3f;  // of light, from one pixel to the next, or within one: an edge of a shadow, not only a slope
 
 inline constexpr std::uint32_t no_surface = 0xffffffff, several_surfaces = 0xfffffffe;  // in place of the number of a surface
 
@@ -92,7 +92,7 @@ class GatherPainter {
   void look_closer(std::size_t block);
   void light_block(std::size_t block);
   [[nodiscard]] bool on_edge(std::uint32_t x, std::uint32_t y) const;
-  [[nodiscard]] std::vector<Color> direct_light_at(const Fragment& fragment, std::span<const glm::dvec2> places) const;
+  [[nodiscard]] std::vector<FinalGather::Place> places_of(const Fragment& fragment, std::span<const glm::dvec2> at) const;
   void smooth_shadows(std::size_t block);
   void show(std::size_t block, const Tone& tone, Picture& picture) const;
   [[nodiscard]] FinalGather::Indirect indirect(const Fragment& fragment, const GatherRays& rays) const;
@@ -257,45 +257,46 @@ HALFLIGHT_INLINE void GatherPainter::light_block(std::size_t block) {
 HALFLIGHT_INLINE bool GatherPainter::on_edge(std::uint32_t x, std::uint32_t y) const {
   const auto at = [&](std::uint32_t u, std::uint32_t v) { return std::size_t{v} * view_.size.width + u; };
   const auto differs = [&](std::size_t a, std::size_t b) {
-    return surfaces_[a] == surfaces_[b] && std::abs(lit_[a] - lit_[b]) > change_at_edge * std::max(lit_[a], lit_[b]);
+    return surfaces_[a] == surfaces_[b] && std::abs(lit_[a] - lit_[b]) > static_cast<float>(change_at_edge) * std::max(lit_[a], lit_[b]);
   };
   const std::size_t own = at(x, y);
   return (x > 0 && differs(own, at(x - 1, y))) || (x + 1 < view_.size.width && differs(own, at(x + 1, y))) ||
          (y > 0 && differs(own, at(x, y - 1))) || (y + 1 < view_.size.height && differs(own, at(x, y + 1)));
 }
 
-// Direct light at these points of the pixel of a fragment; the first is that at the fragment's own point.
-HALFLIGHT_INLINE std::vector<Color> GatherPainter::direct_light_at(const Fragment& fragment, std::span<const glm::dvec2> places) const {
-  std::vector<Fragment> points{fragment};
-  std::vector<std::uint32_t> own{0};
-  for (const glm::dvec2& at : places) {
-    const auto place = light_.beside(fragment.place, eye_, view_.direction(fragment.x + at.x, fragment.y + at.y));
-    if (!place) { continue; }
-    own.push_back(static_cast<std::uint32_t>(points.size()));
-    points.push_back(fragment);
-    points.back().place = *place;
+// What of the surface of a fragment is seen at these points of its pixel.
+HALFLIGHT_INLINE std::vector<FinalGather::Place> GatherPainter::places_of(const Fragment& fragment, std::span<const glm::dvec2> at) const {
+  std::vector<FinalGather::Place> places;
+  for (const glm::dvec2& p : at) {
+    const auto place = light_.beside(fragment.place, eye_, view_.direction(fragment.x + p.x, fragment.y + p.y));
+    if (place) { places.push_back(*place); }
   }
-  std::vector<Color> light(points.size(), Color{0.0});
-  if (points.size() > 1) { add_direct_light(light_, own, points, light); }
-  return light;
+  return places;
 }
 
-// Where an edge of a shadow runs through a pixel, direct light is the mean over four points of it, or over sixteen if those differ.
 HALFLIGHT_INLINE void GatherPainter::smooth_shadows(std::size_t block) {
   const std::vector<Fragment>& fragments = blocks_[block];
-  const auto sum = [](const Color& c) { return c.x + c.y + c.z; };
+  std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < fragments.size(); ++i) {
     const Fragment& f = fragments[i];
     if (f.share != 1.0f || f.place.surface != surfaces_[std::size_t{f.y} * view_.size.width + f.x] || !on_edge(f.x, f.y)) { continue; }
-    if (is_black(light_.material(f.place.surface).reflectance)) { continue; }
-    std::vector<Color> light = direct_light_at(f, four_);
-    const auto [least, most] =
-        std::minmax_element(light.begin(), light.end(), [&](const Color& a, const Color& b) { return sum(a) < sum(b); });
-    if (sum(*most) - sum(*least) > change_at_edge * sum(*most)) { light = direct_light_at(f, sixteen_); }
-    if (light.size() == 1) { continue; }
-    Color mean{0.0};
-    for (std::size_t k = 1; k < light.size(); ++k) { mean += light[k] / static_cast<double>(light.size() - 1); }
-    irradiance_[block][i] = glm::max(irradiance_[block][i] + mean - light[0], Color{0.0});
+    if (!is_black(light_.material(f.place.surface).reflectance)) { order.push_back(i); }
+  }
+  const auto surface = [&](std::uint32_t i) { return fragments[i].place.surface; };
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return surface(a) < surface(b); });
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    std::vector<FinalGather::Place> all;
+    for (; end < order.size() && surface(order[end]) == surface(order[begin]); ++end) {
+      all.push_back(fragments[order[end]].place);
+      const std::vector<FinalGather::Place> more = places_of(fragments[order[end]], sixteen_);
+      all.insert(all.end(), more.begin(), more.end());
+    }
+    LitRegion region = light_.lit_region(all);
+    for (const std::uint32_t i : std::span(order).subspan(begin, end - begin)) {
+      const Fragment& f = fragments[i];
+      Color& irradiance = irradiance_[block][i];
+      irradiance = glm::max(irradiance + over_pixel(region, f.place, places_of(f, four_), places_of(f, sixteen_)), Color{0.0});
+    }
   }
 }
 

@@ -30,6 +30,7 @@
 
 #include <radiosity/direct/facets.hpp>
 #include <radiosity/direct/lamp_samples.hpp>
+#include <radiosity/direct/light_vector.hpp>
 #include <radiosity/direct/stand_in.hpp>
 #include <radiosity/direct/uncovered.hpp>
 #include <radiosity/hierarchy/curved_area.hpp>
@@ -120,6 +121,7 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& 
     }
     lamp.object_of.insert(lamp.object_of.end(), facets.facets.size(), part.object);
     append(lamp.facets, facets);
+    lamp.facets.parts.back().roundness = roundness(lamp.facets, lamp.facets.parts.back());
   }
   lamp.surface = surfaces[candidate.parts[0].object].first_surface + candidate.parts[0].sheets[0];
   lamp.object = candidate.parts.size() == 1 ? candidate.parts[0].object : raycast::no_object;

@@ -19,6 +19,7 @@
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
 
+#include <raycast/box.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/transform.hpp>
 
@@ -95,12 +96,26 @@ HALFLIGHT_INLINE Facets facets_of(const Surface& surface, std::span<const std::u
 
 HALFLIGHT_INLINE void append(Facets& facets, const Facets& more) {
   const auto first = static_cast<std::uint32_t>(facets.facets.size());
+  const auto size = [](const auto& all) { return static_cast<std::uint32_t>(all.size()); };
+  Facets::Part part{first, 0, size(facets.edges), 0};
   facets.facets.insert(facets.facets.end(), more.facets.begin(), more.facets.end());
   for (Facets::Edge edge : more.edges) {
     edge.left += first;
     if (edge.right != Facets::none) { edge.right += first; }
     facets.edges.push_back(edge);
   }
+  part.facets_end = size(facets.facets);
+  part.edges_end = size(facets.edges);
+  raycast::Box box;
+  for (const Facets::Facet& facet : more.facets) {
+    for (const glm::dvec3& p : facet.contour) { box.extend(p); }
+  }
+  part.centre = box.centre();
+  part.half = 0.5 * (box.hi - box.lo);
+  for (const Facets::Facet& facet : more.facets) {
+    for (const glm::dvec3& p : facet.contour) { part.radius = std::max(part.radius, glm::length(p - part.centre)); }
+  }
+  facets.parts.push_back(part);
 }
 
 HALFLIGHT_INLINE Facets facets_of(const raycast::PlacedObject& object, double tolerance, std::uint32_t sheet) {
@@ -127,12 +142,12 @@ HALFLIGHT_INLINE Facets facets_of(const raycast::PlacedObject& object, double to
   return collector.take();
 }
 
-HALFLIGHT_INLINE double contour_term(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& a, const glm::dvec3& b) {
+HALFLIGHT_INLINE glm::dvec3 contour_vector(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b) {
   const glm::dvec3 to_a = a - x;
   const glm::dvec3 to_b = b - x;
   const glm::dvec3 cross = glm::cross(to_b, to_a);
   const double sine = glm::length(cross);
-  return sine > 0.0 ? glm::dot(n, cross) / sine * std::atan2(sine, glm::dot(to_a, to_b)) : 0.0;
+  return sine > 0.0 ? cross * (std::atan2(sine, glm::dot(to_a, to_b)) / sine) : glm::dvec3{0.0};
 }
 
 namespace detail {
@@ -143,6 +158,7 @@ struct ContourAboveHorizon {
   double offset = glm::dot(n, x);
 
   [[nodiscard]] double height(const glm::dvec3& p) const { return glm::dot(n, p) - offset; }
+  [[nodiscard]] double term(const glm::dvec3& a, const glm::dvec3& b) const { return glm::dot(n, contour_vector(x, a, b)); }
   [[nodiscard]] glm::dvec3 at_horizon(const glm::dvec3& a, const glm::dvec3& b) const {
     const double ha = height(a), hb = height(b);
     return a + (b - a) * (ha / (ha - hb));
@@ -160,37 +176,46 @@ struct ContourAboveHorizon {
       before = &p;
       was_above = is_above;
     }
-    return crosses ? contour_term(x, n, down, up) : 0.0;
+    return crosses ? term(down, up) : 0.0;
   }
   // The part of an edge that lies above.
   [[nodiscard]] double above(const glm::dvec3& a, const glm::dvec3& b) const {
     const bool a_above = height(a) >= 0.0, b_above = height(b) >= 0.0;
-    if (a_above && b_above) { return contour_term(x, n, a, b); }
+    if (a_above && b_above) { return term(a, b); }
     if (!a_above && !b_above) { return 0.0; }
-    return a_above ? contour_term(x, n, a, at_horizon(a, b)) : contour_term(x, n, at_horizon(a, b), b);
+    return a_above ? term(a, at_horizon(a, b)) : term(at_horizon(a, b), b);
   }
 };
 
+// Tells of the facets from `first` on which of them face x.
+HALFLIGHT_INLINE void find_facing(const Facets& facets, std::uint32_t first, std::uint32_t end, const glm::dvec3& x, double slack,
+                                  std::vector<char>& facing) {
+  facing.resize(facets.facets.size());
+  for (std::uint32_t f = first; f < end; ++f) { facing[f] = facets.facets[f].height(x) > slack; }
+}
+
+[[nodiscard]] inline std::span<const Facets::Edge> edges_of(const Facets& facets, const Facets::Part& part) {
+  return std::span{facets.edges}.subspan(part.edges_begin, part.edges_end - part.edges_begin);
+}
+
 }  // namespace detail
 
-HALFLIGHT_INLINE double form_factor(const Facets& facets, const glm::dvec3& x, const glm::dvec3& n, bool above_horizon, double slack,
+HALFLIGHT_INLINE double form_factor(const Facets& facets, const Facets::Part& part, const glm::dvec3& x, const glm::dvec3& n, double slack,
                                     std::vector<char>& facing) {
   const detail::ContourAboveHorizon contour{x, n};
+  detail::find_facing(facets, part.facets_begin, part.facets_end, x, slack, facing);
   double sum = 0.0;
-  facing.resize(facets.facets.size());
-  for (std::size_t i = 0; i < facets.facets.size(); ++i) {
-    facing[i] = facets.facets[i].height(x) > slack;
-    if (facing[i] != 0 && !above_horizon) { sum += contour.along(facets.facets[i].contour); }
+  for (std::uint32_t f = part.facets_begin; f < part.facets_end; ++f) {
+    if (facing[f] != 0) { sum += contour.along(facets.facets[f].contour); }
   }
-  const auto term = [&](const glm::dvec3& a, const glm::dvec3& b) {
-    return above_horizon ? contour_term(x, n, a, b) : contour.above(a, b);
-  };
-  for (const Facets::Edge& edge : facets.edges) {
-    const bool left = facing[edge.left] != 0;
-    const bool right = edge.right != Facets::none && facing[edge.right] != 0;
-    if (left != right) { sum += left ? term(edge.a, edge.b) : term(edge.b, edge.a); }
-  }
+  for_outline(detail::edges_of(facets, part), facing, [&](const glm::dvec3& a, const glm::dvec3& b) { sum += contour.above(a, b); });
   return std::max(0.0, sum / (2.0 * std::numbers::pi));
+}
+
+HALFLIGHT_INLINE double form_factor(const Facets& facets, const glm::dvec3& x, const glm::dvec3& n, double slack,
+                                    std::vector<char>& facing) {
+  const auto size = [](const auto& all) { return static_cast<std::uint32_t>(all.size()); };
+  return form_factor(facets, Facets::Part{0, size(facets.facets), 0, size(facets.edges)}, x, n, slack, facing);
 }
 
 }  // namespace radiosity

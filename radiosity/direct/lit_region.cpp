@@ -2,8 +2,10 @@
 #include <radiosity/direct/lit_region.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,17 +23,12 @@
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/facets.hpp>
 #include <radiosity/direct/lamp_samples.hpp>
+#include <radiosity/direct/light_vector.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/polygon_shaft.hpp>
 #include <radiosity/visibility/shadow.hpp>
 
 namespace radiosity {
-
-namespace detail {
-
-inline constexpr std::size_t many_facets = 64;  // of a lamp: a region looks once which of them may be on its outline
-
-}  // namespace detail
 
 HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal)
     : light_{&light}, owner_{shape.owner}, normal_{normal} {
@@ -62,34 +59,8 @@ HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::P
         reach.between = reach.faces.empty() && reach.outlines.empty() ? Between::nothing : Between::bodies;
       }
     }
-    if (lamp.facets.facets.size() > detail::many_facets) { reach.outline = possible_outline(lamp.facets); }
     reaches_.push_back(std::move(reach));
   }
-}
-
-HALFLIGHT_INLINE Facets LitRegion::possible_outline(const Facets& facets) const {
-  Facets result;
-  std::vector<std::uint32_t> number(facets.facets.size(), Facets::none);
-  std::vector<signed char> side(facets.facets.size());  // 1: faces all of the region, -1: none of it, 0: some
-  const auto take = [&](std::uint32_t f) {
-    if (number[f] == Facets::none) {
-      number[f] = static_cast<std::uint32_t>(result.facets.size());
-      result.facets.push_back(facets.facets[f]);
-    }
-    return number[f];
-  };
-  for (std::uint32_t f = 0; f < facets.facets.size(); ++f) {
-    const double height = facets.facets[f].height(centre_);
-    side[f] = height > radius_ ? 1 : height < -radius_ ? -1 : 0;
-  }
-  for (const Facets::Edge& edge : facets.edges) {
-    const int left = side[edge.left];
-    const int right = edge.right == Facets::none ? -1 : side[edge.right];
-    if (left == right && left != 0) { continue; }
-    const std::uint32_t number_of_left = take(edge.left);
-    result.edges.push_back({edge.a, edge.b, number_of_left, edge.right == Facets::none ? Facets::none : take(edge.right)});
-  }
-  return result;
 }
 
 HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchShape& shape) const {
@@ -169,11 +140,41 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
 
 HALFLIGHT_INLINE double LitRegion::unhidden(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
   const DirectLight::Lamp& lamp = this->lamp(k);
-  const double height = glm::dot(n, lamp.centre - x);
-  if (height <= -lamp.radius) { return 0.0; }
-  const bool above_horizon = height >= lamp.radius;
-  const Facets& facets = above_horizon && reaches_[k].outline ? *reaches_[k].outline : lamp.facets;
-  return lamp.correction * radiosity::form_factor(facets, x, n, above_horizon, light_->slack_, facing_);
+  const double height_of_lamp = glm::dot(n, lamp.centre - x);
+  if (height_of_lamp <= -lamp.radius) { return 0.0; }
+  const std::vector<Facets::Part>& parts = lamp.facets.parts;
+  Reach& reach = reaches_[k];
+  double sum = 0.0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const double height = glm::dot(n, parts[p].centre - x), extent = parts[p].extent(n);
+    if (height <= -extent) { continue; }
+    sum += height >= extent ? part_above(reach, p, x, n) : radiosity::form_factor(lamp.facets, parts[p], x, n, light_->slack_, facing_);
+  }
+  return lamp.correction * sum;
+}
+
+HALFLIGHT_INLINE const LitRegion::PartLight& LitRegion::known(std::optional<PartLight>& light, const Facets& facets,
+                                                              const Facets::Part& part) {
+  if (!light) {
+    light = PartLight{{facets, part, centre_, radius_}, {}};
+    light->vector = LinearLightVector::fit(part, light->outline, centre_, radius_, normal_, light_->slack_, facing_);
+  }
+  return *light;
+}
+
+HALFLIGHT_INLINE double LitRegion::part_above(Reach& reach, std::size_t p, const glm::dvec3& x, const glm::dvec3& n) {
+  const Facets& facets = light_->lamps_[reach.lamp].facets;
+  const Facets::Part& part = facets.parts[p];
+  if (part.roundness > 0.0) {
+    const glm::dvec3 d = part.centre - x;
+    const double r2 = glm::dot(d, d);
+    return part.roundness * glm::dot(n, d) / (r2 * std::sqrt(r2));
+  }
+  constexpr std::uint32_t few_edges = 16;  // the light of so few is found from all of them
+  if (part.edges_end - part.edges_begin <= few_edges) { return radiosity::form_factor(facets, part, x, n, light_->slack_, facing_); }
+  reach.parts.resize(facets.parts.size());
+  const PartLight& light = known(reach.parts[p], facets, part);
+  return std::max(0.0, glm::dot(n, light.vector ? light.vector->at(x) : light.outline.light_vector(x, light_->slack_, facing_)));
 }
 
 // The convex hull of the corners as they are seen from x (Andrew 1979): so it does not matter how a curved body was cut into facets.
@@ -249,7 +250,9 @@ HALFLIGHT_INLINE double LitRegion::visible(std::size_t k, const glm::dvec3& x, c
   Reach& reach = reaches_[k];
   if (reach.between == Between::nothing) { return 1.0; }
   const bool all_known = reach.between == Between::bodies;
-  if (!all_known && reach.faces.empty() && reach.outlines.empty()) { return seen_share(reach, x, n); }
+  const std::size_t shadows = reach.faces.size() + reach.outlines.size();
+  constexpr std::size_t many_shadows = 16;  // take longer to cut out than segments take to tell whether that is needed
+  if (!all_known && (shadows == 0 || (shadows > many_shadows && mostly_open(reach, x, n)))) { return seen_share(reach, x, n); }
   const glm::dvec3 above = x + lift_ * n;  // the faces of a mesh that stands in for its own object
   const double all = unhidden(k, above, n);
   if (!(all > 0.0)) { return 0.0; }

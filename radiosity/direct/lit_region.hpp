@@ -31,6 +31,7 @@
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/facets.hpp>
 #include <radiosity/direct/lamp_samples.hpp>
+#include <radiosity/direct/light_vector.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/visibility/shadow.hpp>
 
@@ -80,6 +81,11 @@ class LitRegion {
     bool dark;                         // nothing
     std::vector<std::uint32_t> mixed;  // cells of samples that are partly seen, ascending
   };
+  // A part of a lamp that has many facets, as it is seen from the region.
+  struct PartLight {
+    PossibleOutline outline;
+    std::optional<LinearLightVector> vector;
+  };
   struct Reach {
     std::uint32_t lamp = 0;
     Between between = Between::nothing;
@@ -93,13 +99,14 @@ class LitRegion {
       double radius = 0.0;
     };
     std::vector<Outline> outlines;
-    std::optional<Facets> outline;  // of a lamp of many facets: edges that may be on its outline seen from the region
+    std::vector<std::optional<PartLight>> parts;  // of the lamp, when they were asked for
     std::uint32_t hint = 0xffffffff;
     std::optional<Survey> survey;  // known when it was asked for
   };
 
-  // The edges that are not known to lie between two facets that all of the region sees, or none of it, with their facets.
-  [[nodiscard]] Facets possible_outline(const Facets& facets) const;
+  [[nodiscard]] const PartLight& known(std::optional<PartLight>& light, const Facets& facets, const Facets::Part& part);
+  // The form factor of part p of the lamp, all of which lies above the horizon of x.
+  [[nodiscard]] double part_above(Reach& reach, std::size_t p, const glm::dvec3& x, const glm::dvec3& n);
   // Takes what may stand between as faces and outlines; false when some of it is neither.
   [[nodiscard]] bool take_bodies(Reach& reach, const raycast::PatchShape& shape) const;
   // The cone from x over a convex body; empty when x lies on the body's surface.
@@ -113,6 +120,8 @@ class LitRegion {
   };
   [[nodiscard]] Asked16 ask16(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::span<const LampSample> samples);
   [[nodiscard]] double seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
+  // Do sixteen of the segments say that most of the lamp is seen?
+  [[nodiscard]] bool mostly_open(Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
   // Is x so near to the lamp, beside the distance of its samples, that these do not tell what it sees of it? Then what they carry in the
   // mean is not what the outline of the lamp says.
   [[nodiscard]] bool too_near(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n, double mean_weight);

@@ -78,6 +78,17 @@ HALFLIGHT_INLINE const LitRegion::Survey& LitRegion::survey(Reach& reach) {
   return result;
 }
 
+HALFLIGHT_INLINE bool LitRegion::mostly_open(Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
+  const std::span<const LampSample> samples = light_->lamps_[reach.lamp].samples;
+  const Asked16 found = ask16(reach, x, n, samples.first(std::min<std::size_t>(16, samples.size())));
+  double all = 0.0, seen = 0.0;
+  for (unsigned k = 0; k < 16; ++k) {
+    all += found.weight[k];
+    seen += (found.seen >> k & 1u) != 0 ? found.weight[k] : 0.0;
+  }
+  return seen > 0.5 * all;
+}
+
 HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
   weight_.clear();
@@ -148,11 +159,13 @@ HALFLIGHT_INLINE void cut_evenly(std::vector<LampPart>& parts, const glm::dvec3&
 }  // namespace detail
 
 HALFLIGHT_INLINE bool LitRegion::too_near(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n, double mean_weight) {
-  const glm::dvec3 d = lamp.centre - x;
-  if (glm::dot(d, d) > 4.0 * lamp.radius * lamp.radius) { return false; }
-  double area = 0.0;
-  for (const Facets::Facet& facet : lamp.facets.facets) { area += facet.area; }
-  const double by_outline = radiosity::form_factor(lamp.facets, x, n, false, light_->slack_, facing_);
+  const bool near = std::any_of(lamp.facets.parts.begin(), lamp.facets.parts.end(), [&](const Facets::Part& part) {
+    const glm::dvec3 d = part.centre - x;
+    return glm::dot(d, d) <= 4.0 * part.radius * part.radius;
+  });
+  if (!near) { return false; }
+  const double area = lamp.area / lamp.correction;  // of the facets
+  const double by_outline = radiosity::form_factor(lamp.facets, x, n, light_->slack_, facing_);
   constexpr double off = 0.25, least = 0.02;  // less light is not worth the parts
   return by_outline > least && std::abs(area * mean_weight / std::numbers::pi - by_outline) > off * by_outline;
 }

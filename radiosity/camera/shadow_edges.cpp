@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/camera/shadow_edges.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <raycast/inline.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE Color over_pixel(LitRegion& region, const FinalGather::Place& own, std::span<const FinalGather::Place> few,
+                                  std::span<const FinalGather::Place> many) {
+  if (few.empty() || many.empty()) { return Color{0.0}; }
+  const auto light = [&](std::size_t lamp, const FinalGather::Place& place) {
+    return region.lamp(lamp).exitance * region.form_factor(lamp, place.point.position, place.point.normal);
+  };
+  const auto sum = [](const Color& c) { return c.x + c.y + c.z; };
+  const auto difference = [](std::span<const double> values) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return *most - *least;
+  };
+  struct OfLamp {
+    Color own{0.0}, mean{0.0};
+    double difference = 0.0;
+  };
+  std::vector<OfLamp> lamps(region.size());
+  std::vector<double> of_lamp(few.size() + 1), of_all(few.size() + 1, 0.0);  // at few and own, sum of channels
+  for (std::size_t k = 0; k < lamps.size(); ++k) {
+    lamps[k].own = light(k, own);
+    of_lamp.back() = sum(lamps[k].own);
+    for (std::size_t i = 0; i < few.size(); ++i) {
+      const Color l = light(k, few[i]);
+      of_lamp[i] = sum(l);
+      lamps[k].mean += l / static_cast<double>(few.size());
+    }
+    lamps[k].difference = difference(of_lamp);
+    for (std::size_t i = 0; i < of_all.size(); ++i) { of_all[i] += of_lamp[i]; }
+  }
+  const double most = *std::max_element(of_all.begin(), of_all.end());
+  const bool differ = difference(of_all) > change_at_edge * most;
+  constexpr double little = 0.02;  // of the light of all
+  Color change{0.0};
+  for (std::size_t k = 0; k < lamps.size(); ++k) {
+    if (differ && lamps[k].difference > little * most) {
+      lamps[k].mean = Color{0.0};
+      for (const FinalGather::Place& place : many) { lamps[k].mean += light(k, place) / static_cast<double>(many.size()); }
+    }
+    change += lamps[k].mean - lamps[k].own;
+  }
+  return change;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/direct/light_vector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+
+#include <radiosity/direct/facets.hpp>
+#include <radiosity/support/random.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE PossibleOutline::PossibleOutline(const Facets& facets, const Facets::Part& part, const glm::dvec3& centre, double radius) {
+  enum class Faced : unsigned char { by_all, by_none, by_some };
+  std::vector<Faced> faced;
+  std::vector<std::uint32_t> number(part.facets_end - part.facets_begin, Facets::none);
+  for (std::uint32_t f = part.facets_begin; f < part.facets_end; ++f) {
+    const double height = facets.facets[f].height(centre);
+    faced.push_back(height > radius ? Faced::by_all : height < -radius ? Faced::by_none : Faced::by_some);
+  }
+  const auto take = [&](std::uint32_t f) {
+    std::uint32_t& own = number[f - part.facets_begin];
+    if (own == Facets::none) {
+      own = static_cast<std::uint32_t>(planes_.size());
+      planes_.push_back({facets.facets[f].normal, facets.facets[f].offset});
+    }
+    return own;
+  };
+  for (std::uint32_t e = part.edges_begin; e < part.edges_end; ++e) {
+    const Facets::Edge& edge = facets.edges[e];
+    const bool border = edge.right == Facets::none;
+    const Faced left = faced[edge.left - part.facets_begin];
+    const Faced right = border ? Faced::by_none : faced[edge.right - part.facets_begin];
+    if (left == right && left != Faced::by_some) { continue; }
+    const std::uint32_t number_of_left = take(edge.left);
+    edges_.push_back({edge.a, edge.b, number_of_left, border ? Facets::none : take(edge.right)});
+  }
+}
+
+HALFLIGHT_INLINE glm::dvec3 PossibleOutline::light_vector(const glm::dvec3& x, double slack, std::vector<char>& facing) const {
+  facing.clear();
+  for (const Plane& plane : planes_) { facing.push_back(glm::dot(plane.normal, x) - plane.offset > slack ? 1 : 0); }
+  glm::dvec3 sum{0.0};
+  for_outline(edges_, facing, [&](const glm::dvec3& a, const glm::dvec3& b) { sum += contour_vector(x, a, b); });
+  return sum / (2.0 * std::numbers::pi);
+}
+
+HALFLIGHT_INLINE std::optional<LinearLightVector> LinearLightVector::fit(const Facets::Part& part, const PossibleOutline& outline,
+                                                                         const glm::dvec3& centre, double radius, const glm::dvec3& normal,
+                                                                         double slack, std::vector<char>& facing) {
+  constexpr double near = 4.0;  // radii of the region: nothing is linear there
+  if (!(glm::length(part.centre - centre) > near * radius)) { return std::nullopt; }
+  const auto scaled = [&](const glm::dvec3& x) {
+    const double r = glm::length(part.centre - x);
+    return outline.light_vector(x, slack, facing) * (r * r * r);
+  };
+  LinearLightVector result;
+  result.body_ = part.centre;
+  result.centre_ = centre;
+  result.value_ = scaled(centre);
+  if (!(radius > 0.0)) { return result; }
+  const bool planar = normal != glm::dvec3{0.0};
+  const glm::dvec3 n = planar ? normal : glm::dvec3{0.0, 0.0, 1.0};
+  const auto [s, t] = orthonormal(n);
+  result.axes_ = {s, t, n};
+  constexpr double tolerance = 5e-4;
+  const double largest_bend = tolerance * glm::length(result.value_);
+  for (std::size_t k = 0; k < (planar ? 2 : 3); ++k) {
+    const glm::dvec3 before = scaled(centre - radius * result.axes_[k]), after = scaled(centre + radius * result.axes_[k]);
+    if (!(glm::length(0.5 * (before + after) - result.value_) <= largest_bend)) { return std::nullopt; }
+    result.slopes_[k] = (after - before) / (2.0 * radius);
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE glm::dvec3 LinearLightVector::at(const glm::dvec3& x) const {
+  glm::dvec3 scaled = value_;
+  for (std::size_t k = 0; k < axes_.size(); ++k) { scaled += glm::dot(axes_[k], x - centre_) * slopes_[k]; }
+  const glm::dvec3 d = body_ - x;
+  const double r2 = glm::dot(d, d);
+  return scaled / (r2 * std::sqrt(r2));
+}
+
+HALFLIGHT_INLINE double roundness(const Facets& facets, const Facets::Part& part) {
+  constexpr double tolerance = 0.002;
+  constexpr int directions = 24;  // spread evenly: a spiral of Fibonacci
+  const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  std::vector<char> facing;
+  double r2 = 0.0;
+  for (int k = 0; k < directions; ++k) {
+    const double z = 1.0 - (2.0 * k + 1.0) / directions, across = std::sqrt(1.0 - z * z);
+    const glm::dvec3 out{across * std::cos(turn * k), across * std::sin(turn * k), z};
+    for (const double radii : {100.0, 1.1}) {
+      const double distance = radii * part.radius;
+      const glm::dvec3 x = part.centre + distance * out;
+      const glm::dvec3 light = PossibleOutline{facets, part, x, 0.0}.light_vector(x, 0.0, facing) * (distance * distance);
+      if (r2 == 0.0) { r2 = glm::length(light); }
+      if (!(glm::length(light + r2 * out) <= tolerance * r2)) { return 0.0; }
+    }
+  }
+  return r2;
+}
+
+}  // namespace radiosity
