@@ -33,6 +33,7 @@ HALFLIGHT_INLINE PossibleOutline::PossibleOutline(const Facets& facets, const Fa
     if (own == Facets::none) {
       own = static_cast<std::uint32_t>(planes_.size());
       planes_.push_back({facets.facets[f].normal, facets.facets[f].offset});
+      if (faced[f - part.facets_begin] == Faced::by_some) { largest_turning_ = std::max(largest_turning_, facets.facets[f].area); }
     }
     return own;
   };
@@ -79,6 +80,17 @@ HALFLIGHT_INLINE std::optional<LinearLightVector> LinearLightVector::fit(const F
     const glm::dvec3 before = scaled(centre - radius * result.axes_[k]), after = scaled(centre + radius * result.axes_[k]);
     if (!(glm::length(0.5 * (before + after) - result.value_) <= largest_bend)) { return std::nullopt; }
     result.slopes_[k] = (after - before) / (2.0 * radius);
+  }
+  // Where a large facet comes into sight the light has a crease: the axes may miss this much of the light behind it, the corners less.
+  const double crease = radius * outline.largest_turning() / std::numbers::pi;
+  constexpr double missed_by_axes = 0.6, missed_by_corners = 0.1;
+  if (missed_by_axes * crease <= largest_bend) { return result; }
+  if (missed_by_corners * crease > largest_bend) { return std::nullopt; }
+  for (int corner = 0; corner < (planar ? 4 : 8); ++corner) {
+    const auto sign = [&](int k) { return (corner >> k & 1) != 0 ? 1.0 : -1.0; };
+    const glm::dvec3 x = centre + radius * glm::normalize(sign(0) * s + sign(1) * t + (planar ? 0.0 : sign(2)) * n);
+    const glm::dvec3 exact = outline.light_vector(x, slack, facing);
+    if (!(glm::length(result.at(x) - exact) <= tolerance * glm::length(exact))) { return std::nullopt; }
   }
   return result;
 }

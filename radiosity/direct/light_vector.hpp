@@ -10,7 +10,6 @@
 //   V(x) = r^2 (c - x) / |c - x|^3.
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -26,7 +25,8 @@ class PossibleOutline {
  public:
   // The region: a sphere.
   PossibleOutline(const Facets& facets, const Facets::Part& part, const glm::dvec3& centre, double radius);
-  [[nodiscard]] std::size_t size() const { return edges_.size(); }
+  // The area of the largest facet that some points of the region face and others do not.
+  [[nodiscard]] double largest_turning() const { return largest_turning_; }
   // V(x) of those facets that x, a point of the region, faces: it is higher above them than `slack`. `facing` is memory that is used again.
   [[nodiscard]] glm::dvec3 light_vector(const glm::dvec3& x, double slack, std::vector<char>& facing) const;
 
@@ -37,6 +37,7 @@ class PossibleOutline {
   };
   std::vector<Plane> planes_;
   std::vector<Facets::Edge> edges_;  // left and right: planes
+  double largest_turning_ = 0.0;
 };
 
 // V(x) |c - x|^3 of a sphere is linear in x, and the further a body is beside its size, the more it is like that. So over a region that is
@@ -44,7 +45,7 @@ class PossibleOutline {
 class LinearLightVector {
  public:
   // Of the part over a region, a sphere; where `normal` is not 0, over its disk with that normal alone. Nullopt where this would be wrong
-  // by more than some 0.05 %. `outline` is that of the region.
+  // by more than some 0.2 %. `outline` is that of the region.
   [[nodiscard]] static std::optional<LinearLightVector> fit(const Facets::Part& part, const PossibleOutline& outline,
                                                             const glm::dvec3& centre, double radius, const glm::dvec3& normal, double slack,
                                                             std::vector<char>& facing);

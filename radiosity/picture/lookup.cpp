@@ -13,6 +13,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bundle.hpp>
@@ -50,9 +51,7 @@ HALFLIGHT_INLINE Lookup::Lookup(const Scene& scene, const Mesh& mesh, const Fram
       sheets_[face.surface].triangles.push_back({{face.first_corner, face.first_corner + k, face.first_corner + k + 1}});
     }
   }
-  for (Sheet& sheet : sheets_) {
-    for (Triangle& triangle : sheet.triangles) { triangle.coarse_within = static_cast<float>(coarse_within(triangle)); }
-  }
+  find_coarse();
   for (std::uint32_t i = 0; i < inputs.size(); ++i) {
     std::vector<raycast::Box> boxes;
     const raycast::PlacedObject& object = objects_.object(inputs[i].object);
@@ -93,19 +92,60 @@ namespace detail {
 
 // Of the light at a triangle's corners, in the brightest: where they differ by less, the light is taken to be even.
 inline constexpr double told_apart = 0.05;
+// A surface that rises above a plane by so much of its width darkens so much of that around it, unknown to a triangle so many times wider.
+inline constexpr double least_rise = 0.05, darkened = 0.25, far_wider = 4.0;
+
+// How far a box reaches to the front of the plane through p.
+[[nodiscard]] HALFLIGHT_INLINE double rise(const raycast::Box& box, const glm::dvec3& p, const glm::dvec3& normal) {
+  const glm::dvec3 half = 0.5 * box.size();
+  return glm::dot(box.centre() - p, normal) + glm::dot(half, glm::abs(normal));
+}
 
 }  // namespace detail
 
-HALFLIGHT_INLINE double Lookup::coarse_within(const Triangle& triangle) const {
-  double least = raycast::infinity, most = 0.0, longest = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Corner &a = corners_[triangle.corner[i]], &b = corners_[triangle.corner[(i + 1) % 3]];
-    const double light = a.radiosity.x + a.radiosity.y + a.radiosity.z;
-    least = std::min(least, light);
-    most = std::max(most, light);
-    longest = std::max(longest, glm::length(b.position - a.position));
+HALFLIGHT_INLINE void Lookup::find_coarse() {
+  std::vector<std::uint32_t> others;  // sheets, with how wide each is, where it is, and how far it may darken others
+  std::vector<double> widths;
+  std::vector<raycast::Box> bounds, reached;
+  for (std::uint32_t i = 0; i < sheets_.size(); ++i) {
+    raycast::Box box;
+    for (const Triangle& triangle : sheets_[i].triangles) {
+      for (const std::uint32_t corner : triangle.corner) { box.extend(corners_[corner].position); }
+    }
+    if (box.empty()) { continue; }
+    others.push_back(i);
+    widths.push_back(box.diameter());
+    bounds.push_back(box);
+    reached.push_back(box.grown(detail::darkened * box.diameter()));
   }
-  return most - least > detail::told_apart * most ? longest : 0.0;
+  const raycast::Bvh tree{reached};
+  for (std::uint32_t own = 0; own < sheets_.size(); ++own) {
+    for (Triangle& triangle : sheets_[own].triangles) {
+      double least = raycast::infinity, most = 0.0, longest = 0.0;
+      raycast::Box box;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Corner &a = corners_[triangle.corner[i]], &b = corners_[triangle.corner[(i + 1) % 3]];
+        const double light = a.radiosity.x + a.radiosity.y + a.radiosity.z;
+        least = std::min(least, light);
+        most = std::max(most, light);
+        longest = std::max(longest, glm::length(b.position - a.position));
+        box.extend(a.position);
+      }
+      double within = most - least > detail::told_apart * most ? longest : 0.0;
+      const auto& [a, b, c] = chord(triangle).position;
+      const glm::dvec3 n = glm::normalize(glm::cross(b - a, c - a));
+      const auto meets = [&](const raycast::Box& other) {
+        return glm::all(glm::lessThanEqual(box.lo, other.hi)) && glm::all(glm::lessThanEqual(other.lo, box.hi));
+      };
+      const auto look = [&](std::uint32_t k) {
+        const bool darkens = others[k] != own && meets(reached[k]) && detail::rise(bounds[k], a, n) > detail::least_rise * widths[k];
+        if (darkens && detail::far_wider * widths[k] < longest) { within = std::max(within, 2.0 * widths[k]); }
+        return false;  // to look at all
+      };
+      if (within == 0.0) { raycast::any_within(tree, meets, look); }
+      triangle.coarse_within = static_cast<float>(within);
+    }
+  }
 }
 
 HALFLIGHT_INLINE Color Lookup::blend(const Triangle& triangle, const glm::dvec3& weight) const {

@@ -55,7 +55,7 @@ class Lookup {
     Color radiosity{0.0};
     std::uint32_t triangle = 0;  // of the input surface
     bool within = false;         // it stands for the place; else it is the nearest
-    double coarse_within = 0.0;  // seen from nearer than this, the triangle is too wide for its light: 0 where its light is even
+    double coarse_within = 0.0;  // seen from nearer than this, the triangle is too wide for its light; 0: from nowhere
   };
   [[nodiscard]] std::optional<Found> find(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const;
 
@@ -109,7 +109,9 @@ class Lookup {
   }
   [[nodiscard]] ChordTriangle chord(const Triangle& triangle) const;
   [[nodiscard]] raycast::Box region(const Triangle& triangle, const raycast::PlacedObject& object, std::uint32_t sheet) const;
-  [[nodiscard]] double coarse_within(const Triangle& triangle) const;
+  // Finds for all triangles from how near they are too wide: from as near as they are wide, where their corners differ; from twice the
+  // width of a far smaller surface that rises from them: it darkens a part of them, of which their corners do not know.
+  void find_coarse();
   [[nodiscard]] Color blend(const Triangle& triangle, const glm::dvec3& weight) const;
 
   Frame frame_;
