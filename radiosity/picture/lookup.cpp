@@ -132,13 +132,14 @@ HALFLIGHT_INLINE void Lookup::find_coarse() {
         box.extend(a.position);
       }
       double within = most - least > detail::told_apart * most ? longest : 0.0;
-      const auto& [a, b, c] = chord(triangle).position;
-      const glm::dvec3 n = glm::normalize(glm::cross(b - a, c - a));
+      const std::array<glm::dvec3, 3> corner = chord(triangle).position;
+      const glm::dvec3 n = glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
       const auto meets = [&](const raycast::Box& other) {
         return glm::all(glm::lessThanEqual(box.lo, other.hi)) && glm::all(glm::lessThanEqual(other.lo, box.hi));
       };
       const auto look = [&](std::uint32_t k) {
-        const bool darkens = others[k] != own && meets(reached[k]) && detail::rise(bounds[k], a, n) > detail::least_rise * widths[k];
+        const bool darkens =
+            others[k] != own && meets(reached[k]) && detail::rise(bounds[k], corner[0], n) > detail::least_rise * widths[k];
         if (darkens && detail::far_wider * widths[k] < longest) { within = std::max(within, 2.0 * widths[k]); }
         return false;  // to look at all
       };
