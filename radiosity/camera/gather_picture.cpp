@@ -274,6 +274,7 @@ HALFLIGHT_INLINE std::vector<FinalGather::Place> GatherPainter::places_of(const 
   return places;
 }
 
+// Where an edge of a shadow runs through a pixel, direct light is the mean over it; blocks share what may stand between.
 HALFLIGHT_INLINE void GatherPainter::smooth_shadows(std::size_t block) {
   const std::vector<Fragment>& fragments = blocks_[block];
   std::vector<std::uint32_t> order;
@@ -286,16 +287,17 @@ HALFLIGHT_INLINE void GatherPainter::smooth_shadows(std::size_t block) {
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return surface(a) < surface(b); });
   for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
     std::vector<FinalGather::Place> all;
+    std::vector<std::vector<FinalGather::Place>> many;  // of each pixel
     for (; end < order.size() && surface(order[end]) == surface(order[begin]); ++end) {
       all.push_back(fragments[order[end]].place);
-      const std::vector<FinalGather::Place> more = places_of(fragments[order[end]], sixteen_);
-      all.insert(all.end(), more.begin(), more.end());
+      many.push_back(places_of(fragments[order[end]], sixteen_));
+      all.insert(all.end(), many.back().begin(), many.back().end());
     }
     LitRegion region = light_.lit_region(all);
-    for (const std::uint32_t i : std::span(order).subspan(begin, end - begin)) {
-      const Fragment& f = fragments[i];
-      Color& irradiance = irradiance_[block][i];
-      irradiance = glm::max(irradiance + over_pixel(region, f.place, places_of(f, four_), places_of(f, sixteen_)), Color{0.0});
+    for (std::size_t k = begin; k < end; ++k) {
+      const Fragment& f = fragments[order[k]];
+      Color& irradiance = irradiance_[block][order[k]];
+      irradiance = glm::max(irradiance + over_pixel(region, f.place, places_of(f, four_), many[k - begin]), Color{0.0});
     }
   }
 }

@@ -201,6 +201,14 @@ HALFLIGHT_INLINE BrightSpots::Target BrightSpots::point_of(const Spot& spot, dou
   return {lookup_->objects().object(spot.object).project(spot.sheet, chord), spot.object, spot.sheet};
 }
 
+HALFLIGHT_INLINE bool BrightSpots::reached(const DirectLight& direct, const Target& target, const glm::dvec3& from, const Met& met) {
+  if (met.object != target.object || met.sheet != target.sheet) { return false; }
+  const glm::dvec3 off = met.point.position - target.point.position, d = target.point.position - from;
+  const double lift = direct.lift(target.object);
+  if (lift > 0.0) { return std::abs(glm::dot(off, target.point.normal)) <= 4.0 * lift; }
+  return glm::dot(off, off) <= 1e-6 * glm::dot(d, d);
+}
+
 HALFLIGHT_INLINE void BrightSpots::send16(const DirectLight& direct, std::uint32_t first, const std::vector<double>& until,
                                           Photons& photons) const {
   const Sobol4 sequence{7};

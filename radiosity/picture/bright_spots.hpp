@@ -22,6 +22,7 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/picture/lookup.hpp>
+#include <radiosity/picture/met.hpp>
 #include <radiosity/picture/spot_photons.hpp>
 #include <radiosity/scene/material.hpp>
 
@@ -40,6 +41,10 @@ class BrightSpots {
     raycast::SurfacePoint point;
     std::uint32_t object = 0, sheet = 0;
   };
+
+  // Has a ray from here that was aimed at a target met it? Where meshes stand in for its object (direct_light.hpp) these are met, a little
+  // beside it.
+  [[nodiscard]] static bool reached(const DirectLight& direct, const Target& target, const glm::dvec3& from, const Met& met);
 
   // What a point of a surface sees of them.
   class From {

@@ -196,12 +196,8 @@ HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sob
     const raycast::Hit& hit = hits.hit[k];
     if (!hit.front || direct_.whole(hit.object) != targets[k].object) { continue; }
     const Met found = met(hit, segments.at(k));
-    const glm::dvec3 off = found.point.position - targets[k].point.position, d = targets[k].point.position - sender.from;
-    // Of an object for which meshes stand in these are met, beside what was aimed at.
-    const double lift = direct_.lift(targets[k].object), beside = std::abs(glm::dot(off, targets[k].point.normal));
-    const bool same = lift > 0.0 ? beside <= 4.0 * lift : glm::dot(off, off) <= 1e-6 * glm::dot(d, d);
-    if (found.sheet != targets[k].sheet || !same) { continue; }
-    const Arriving light = arriving(sender, found);
+    if (!BrightSpots::reached(direct_, targets[k], sender.from, found)) { continue; }
+    const Arriving light = arriving(sender, {targets[k].point, targets[k].object, targets[k].sheet});
     if (!(light.aimed > 0.0) || hits.hit[k].t * reach < light.coarse_within) { continue; }
     sum.add(k / 4, light.light / (1.0 + light.aimed), std::max(hit.t * reach, detail::least_distance));
   }
@@ -243,9 +239,9 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
                 place.surface - lookup_.surface(place.object, 0),
                 {spots_, place.point}};
   const double solved_light = irradiance_solved(place);
-  // From where the spots alone would leave the fewest even rays more than the wanted error. Rays that miss the spots agree with each
-  // other, so to wait for their spread to tell would favour points that come out too dark.
-  if (const double contrast = sender.spots.contrast(solved_light); contrast > error * std::sqrt(static_cast<double>(least))) {
+  // From where the spots alone would leave the fewest even rays more than half of the wanted error. Rays that miss the spots agree with
+  // each other, so to wait for their spread to tell would favour points that come out too dark.
+  if (const double contrast = sender.spots.contrast(solved_light); contrast > 0.5 * error * std::sqrt(static_cast<double>(least))) {
     sender.aimed = static_cast<std::uint32_t>(std::clamp(0.5 * contrast, 1.0, detail::most_aimed));
   }
   Sum sum;

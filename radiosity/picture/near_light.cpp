@@ -149,12 +149,11 @@ HALFLIGHT_INLINE void NearLight::light_by_spots(Paths& paths, std::span<PathNumb
     const auto k = static_cast<unsigned>(std::countr_zero(rest));
     const raycast::Hit& hit = hits.hit[k];
     if (!hit.front || direct_->whole(hit.object) != targets[k].object) { continue; }
-    const Met next = met(lookup_->objects(), *direct_, hit, rays.at(k));
     const raycast::SurfacePoint& at = paths.end[k].point;
-    const glm::dvec3 off = next.point.position - targets[k].point.position, d = targets[k].point.position - at.position;
-    if (next.sheet != targets[k].sheet || glm::dot(off, off) > 1e-6 * glm::dot(d, d)) { continue; }
+    if (!BrightSpots::reached(*direct_, targets[k], at.position, met(lookup_->objects(), *direct_, hit, rays.at(k)))) { continue; }
+    const BrightSpots::Target& next = targets[k];
     const std::optional<Lookup::Found> found = lookup_->find(next.object, next.sheet, next.point);
-    if (!found || (!last && glm::length(d) < found->coarse_within)) { continue; }
+    if (!found || (!last && glm::length(next.point.position - at.position) < found->coarse_within)) { continue; }
     const std::uint32_t surface = lookup_->surface(next.object, next.sheet);
     const double aimed = spots.aimed(surface, *found, at, next.point);
     const Color lamp = direct_->is_lamp(surface) ? (*materials_)[surface].emission : Color{0.0};
