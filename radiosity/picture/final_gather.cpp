@@ -158,11 +158,11 @@ HALFLIGHT_INLINE FinalGather::Arriving FinalGather::arriving(const Sender& sende
 
 HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const {
   const double reach = objects().diameter();
+  const glm::dvec3 normal = sender.place.point.normal;
   raycast::Segments16 segments;
   for (unsigned k = 0; k < 16; ++k) {
-    const std::array<double, 4> u = sequence(first + k);
-    segments.set(k, {sender.from, reach * cosine_direction(sender.place.point.normal, u[0], u[1])}, sender.owner, raycast::no_object,
-                 sender.sheet);
+    const auto [u, v] = sequence.first_two(first + k);
+    segments.set(k, {sender.from, reach * cosine_direction(normal, u, v)}, sender.owner, raycast::no_object, sender.sheet);
   }
   const raycast::Hits16 hits = direct_.objects().closest16(segments);
   for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {

@@ -54,14 +54,14 @@ HALFLIGHT_INLINE Lookup::Lookup(const Scene& scene, const Mesh& mesh, const Fram
   find_coarse();
   for (std::uint32_t i = 0; i < inputs.size(); ++i) {
     std::vector<raycast::Box> boxes;
+    std::vector<PlaneGrid::Corners> corners;
     const raycast::PlacedObject& object = objects_.object(inputs[i].object);
     for (const Triangle& triangle : sheets_[i].triangles) {
       boxes.push_back(region(triangle, object, inputs[i].sheet));
-      if (!object.flat()) { continue; }
-      const auto& [a, b, c] = chord(triangle).position;
-      sheets_[i].plane.push_back({a, b - a, c - a});
+      if (object.flat()) { corners.push_back(chord(triangle).position); }
     }
     sheets_[i].tree = raycast::Bvh(boxes, 8.0);  // Newton's method takes as long as several boxes
+    sheets_[i].plane = PlaneGrid(corners);
   }
 }
 
@@ -159,6 +159,10 @@ HALFLIGHT_INLINE std::optional<Lookup::Found> Lookup::find(std::uint32_t object,
                                                            const raycast::SurfacePoint& place) const {
   const Sheet& on = sheets_[first_sheet_[object] + sheet];
   const glm::dvec3& point = place.position;
+  if (const auto held = on.plane.find(point)) {
+    const Triangle& triangle = on.triangles[held->triangle];
+    return Found{blend(triangle, held->weight), held->triangle, true, triangle.coarse_within};
+  }
   // Of several triangles, takes one that faces the same way, and of these the nearest: the far side of a thin solid, and what lies beyond a
   // crease, belongs to the same sheet. On a common wall of two prisms both triangles give the same colour.
   const auto faces = [&](const ChordTriangle& flat) {
@@ -166,19 +170,10 @@ HALFLIGHT_INLINE std::optional<Lookup::Found> Lookup::find(std::uint32_t object,
     return glm::dot(glm::cross(b - a, c - a), place.normal) > 0.0;
   };
   constexpr double slip = 1e-9;
-  const bool plane = objects_.object(object).flat();  // then most triangles are found not to hold the point without their normals
   const Triangle* best = nullptr;
   bool best_faces = false;
   ChordPoint foot;
   raycast::around(on.tree, point, [&](std::uint32_t i) {
-    if (plane) {
-      const auto& [a, ab, ac] = on.plane[i];
-      const glm::dvec3 d = point - a;
-      const glm::dvec3 normal = glm::cross(ab, ac);
-      const double squared = glm::dot(normal, normal);
-      const double b = glm::dot(glm::cross(d, ac), normal), c = glm::dot(glm::cross(ab, d), normal);
-      if (std::min({b, c, squared - b - c}) < -slip * squared) { return; }
-    }
     const ChordTriangle flat = chord(on.triangles[i]);
     const std::optional<ChordPoint> candidate = chord_point(flat, point);
     if (!candidate || candidate->depth() < -slip) { return; }

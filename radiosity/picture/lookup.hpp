@@ -6,7 +6,7 @@
 // from its corners as the mesh itself is shaded (paper 4.5). So silhouettes, rims and the curves where objects meet are exact, while
 // the colours are those of the reconstruction: exact at its vertices, continuous over every sheet, and on plane sheets the same.
 //
-// Each input surface has a tree over its triangles. A box holds the part of the true surface that its triangle stands for: it is
+// On a plane sheet, a grid knows which triangle holds a point (plane_grid.hpp); elsewhere a tree over the triangles. A box of it holds the part of the true surface that its triangle stands for: it is
 // grown by twice the distance between the two, measured at the middle of the triangle and of its edges, where a paraboloid through
 // the corners is farthest away. A point in no prism (beyond the chord of a cap's rim) takes the nearest point of the mesh.
 
@@ -27,6 +27,7 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/geometry/chord.hpp>
+#include <radiosity/picture/plane_grid.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>
@@ -92,14 +93,10 @@ class Lookup {
     std::uint32_t corner[3];
     float coarse_within = 0.0f;  // as in Found
   };
-  // Of a plane sheet: what tells whether a point lies in a triangle, without a look at its corners.
-  struct PlaneTriangle {
-    glm::dvec3 corner{0.0}, first{0.0}, second{0.0};  // the edges from that corner
-  };
   struct Sheet {
     std::vector<Triangle> triangles;
-    std::vector<PlaneTriangle> plane;  // of each triangle
-    raycast::Bvh tree;                 // over the triangles
+    PlaneGrid plane;    // over the triangles of a plane sheet
+    raycast::Bvh tree;  // over the triangles
   };
 
   // Where a ray has met something: nothing at a back, and where another object covers the place.

@@ -35,29 +35,30 @@ namespace detail {
   return reverse_bits(x);
 }
 
-// Direction numbers: dimension 0 is the radical inverse; the others belong to the polynomials x + 1, x^2 + x + 1 and x^3 + x + 1.
-[[nodiscard]] constexpr std::array<std::array<std::uint32_t, 32>, 4> sobol_directions() {
+// Direction numbers of each bit of the index: dimension 0 is the radical inverse; the others belong to the polynomials x + 1, x^2 + x + 1 and
+// x^3 + x + 1.
+[[nodiscard]] constexpr std::array<std::array<std::uint32_t, 4>, 32> sobol_directions() {
   constexpr std::uint32_t degree[4] = {0, 1, 2, 3};
   constexpr std::uint32_t inner[4] = {0, 0, 1, 1};  // coefficients between the first and the last
   constexpr std::uint32_t first[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 3, 0}, {1, 3, 1}};
-  std::array<std::array<std::uint32_t, 32>, 4> v{};
-  for (std::uint32_t k = 0; k < 32; ++k) { v[0][k] = 0x80000000u >> k; }
+  std::array<std::array<std::uint32_t, 4>, 32> v{};
+  for (std::uint32_t k = 0; k < 32; ++k) { v[k][0] = 0x80000000u >> k; }
   for (std::size_t d = 1; d < 4; ++d) {
     const std::uint32_t s = degree[d];
     for (std::uint32_t k = 0; k < 32; ++k) {
       if (k < s) {
-        v[d][k] = first[d][k] << (31 - k);
+        v[k][d] = first[d][k] << (31 - k);
         continue;
       }
-      v[d][k] = v[d][k - s] ^ (v[d][k - s] >> s);
+      v[k][d] = v[k - s][d] ^ (v[k - s][d] >> s);
       for (std::uint32_t j = 1; j < s; ++j) {
-        if ((inner[d] >> (s - 1 - j)) & 1u) { v[d][k] ^= v[d][k - j]; }
+        if ((inner[d] >> (s - 1 - j)) & 1u) { v[k][d] ^= v[k - j][d]; }
       }
     }
   }
   return v;
 }
-inline constexpr std::array<std::array<std::uint32_t, 32>, 4> sobol_direction = sobol_directions();
+inline constexpr std::array<std::array<std::uint32_t, 4>, 32> sobol_direction = sobol_directions();
 
 }  // namespace detail
 
@@ -70,20 +71,23 @@ class Sobol4 {
   }
 
   // Point `index`, each coordinate in (0, 1).
-  [[nodiscard]] constexpr std::array<double, 4> operator()(std::uint32_t index) const {
-    std::array<double, 4> point{};
-    for (std::size_t d = 0; d < 4; ++d) {
-      std::uint32_t x = 0;
-      std::uint32_t bits = index;
-      for (std::size_t k = 0; bits != 0; ++k, bits >>= 1) {
-        if (bits & 1u) { x ^= detail::sobol_direction[d][k]; }
-      }
-      point[d] = (detail::owen_scramble(x, keys_[d]) + 0.5) * 0x1p-32;
+  [[nodiscard]] constexpr std::array<double, 4> operator()(std::uint32_t index) const { return coordinates<4>(index); }
+  // Its first two coordinates.
+  [[nodiscard]] constexpr std::array<double, 2> first_two(std::uint32_t index) const { return coordinates<2>(index); }
+
+ private:
+  template <std::size_t N>
+  [[nodiscard]] constexpr std::array<double, N> coordinates(std::uint32_t index) const {
+    std::array<std::uint32_t, N> x{};
+    for (std::size_t k = 0; index != 0; ++k, index >>= 1) {
+      const std::uint32_t mask = 0u - (index & 1u);
+      for (std::size_t d = 0; d < N; ++d) { x[d] ^= detail::sobol_direction[k][d] & mask; }
     }
+    std::array<double, N> point{};
+    for (std::size_t d = 0; d < N; ++d) { point[d] = (detail::owen_scramble(x[d], keys_[d]) + 0.5) * 0x1p-32; }
     return point;
   }
 
- private:
   std::array<std::uint32_t, 4> keys_{};
 };
 

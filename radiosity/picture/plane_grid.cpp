@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/picture/plane_grid.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+inline constexpr std::uint32_t is_grid = 0xffffffff;  // in place of the count of a cell's triangles
+inline constexpr std::size_t few_triangles = 4;       // are not divided
+inline constexpr double most_cells = 4096.0;          // of one grid
+inline constexpr int most_grids = 8;                  // within each other: where many triangles share a corner, no grid parts them
+inline constexpr std::size_t most_shares = 4;         // of a triangle in cells, on average: more, as of long slivers, take wider cells
+inline constexpr double weight_slip = 1e-9;           // a point is in a triangle up to a weight of minus this
+inline constexpr double cell_slip = 1e-5;             // of its width: a triangle that near belongs to a cell
+inline constexpr double least_width = 1e-7;  // of what is divided, of the coordinates: their rounding is far below the slip of cells
+
+}  // namespace detail
+
+HALFLIGHT_INLINE PlaneGrid::PlaneGrid(std::span<const Corners> triangles) {
+  glm::dvec3 normal{0.0};  // of whichever is largest, as it is not lost in rounding
+  for (const Corners& t : triangles) {
+    const glm::dvec3 own = glm::cross(t[1] - t[0], t[2] - t[0]);
+    if (glm::dot(own, own) > glm::dot(normal, normal)) { normal = own; }
+  }
+  const glm::dvec3 along = glm::abs(normal);
+  const int longest = along.x >= along.y && along.x >= along.z ? 0 : along.y >= along.z ? 1 : 2;
+  axes_ = {(longest + 1) % 3, (longest + 2) % 3};
+  weights_.resize(triangles.size());
+  std::vector<Box> bounds(triangles.size());
+  std::vector<std::uint32_t> all;
+  Box whole;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const glm::dvec2 a = flattened(triangles[i][0]), b = flattened(triangles[i][1]), c = flattened(triangles[i][2]);
+    const glm::dvec2 ab = b - a, ac = c - a;
+    const double area = ab.x * ac.y - ab.y * ac.x;  // twice, signed
+    const glm::dvec3 second{ac.y / area, -ac.x / area, (a.y * ac.x - a.x * ac.y) / area};
+    const glm::dvec3 third{-ab.y / area, ab.x / area, (a.x * ab.y - a.y * ab.x) / area};
+    if (!std::isfinite(second.x + second.y + second.z + third.x + third.y + third.z)) { continue; }
+    weights_[i] = {second, third};
+    bounds[i] = {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
+    whole = all.empty() ? bounds[i] : Box{glm::min(whole.lo, bounds[i].lo), glm::max(whole.hi, bounds[i].hi)};
+    all.push_back(i);
+  }
+  if (all.empty()) { return; }
+  const glm::dvec2 most = glm::max(glm::abs(whole.lo), glm::abs(whole.hi));
+  least_width_ = detail::least_width * std::max(most.x, most.y);
+  root_ = divide(whole, all, bounds, 0);
+}
+
+// Of a triangle whose bounds meet a cell: it is apart from the cell where one of its weights is negative in the whole of it.
+HALFLIGHT_INLINE bool PlaneGrid::meets(std::uint32_t triangle, const Box& cell) const {
+  const Weights& w = weights_[triangle];
+  const glm::dvec2 half = 0.5 * (cell.hi - cell.lo);
+  const glm::dvec3 middle = w.at(0.5 * (cell.lo + cell.hi));
+  const auto most = [&](double at, double gu, double gv) { return at + std::abs(gu) * half.x + std::abs(gv) * half.y; };
+  return std::min({most(middle.x, w.second.x + w.third.x, w.second.y + w.third.y), most(middle.y, w.second.x, w.second.y),
+                   most(middle.z, w.third.x, w.third.y)}) >= -detail::weight_slip;
+}
+
+HALFLIGHT_INLINE PlaneGrid::Grid PlaneGrid::grid_over(const Box& box, double cells) {
+  const glm::dvec2 extent = box.hi - box.lo;
+  const double columns = std::clamp(std::round(std::sqrt(cells * extent.x / extent.y)), 1.0, std::floor(cells));
+  const glm::dvec2 size{columns, std::max(1.0, std::round(cells / columns))};
+  return {box.lo, size / extent, {static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)}, 0};
+}
+
+HALFLIGHT_INLINE PlaneGrid::Box PlaneGrid::box_of(const Grid& grid, std::uint32_t x, std::uint32_t y) {
+  const glm::dvec2 cell{x, y};
+  return {grid.lo + (cell - detail::cell_slip) / grid.cells_per_length, grid.lo + (cell + 1.0 + detail::cell_slip) / grid.cells_per_length};
+}
+
+HALFLIGHT_INLINE std::vector<std::vector<std::uint32_t>> PlaneGrid::sort_into(const Grid& grid, const std::vector<std::uint32_t>& triangles,
+                                                                              const std::vector<Box>& bounds) const {
+  std::vector<std::vector<std::uint32_t>> in_cell(std::size_t{grid.size[0]} * grid.size[1]);
+  for (const std::uint32_t t : triangles) {
+    const auto from = grid.cell_of(bounds[t].lo - detail::cell_slip / grid.cells_per_length);
+    const auto to = grid.cell_of(bounds[t].hi + detail::cell_slip / grid.cells_per_length);
+    for (std::uint32_t y = from[1]; y <= to[1]; ++y) {
+      for (std::uint32_t x = from[0]; x <= to[0]; ++x) {
+        if (meets(t, box_of(grid, x, y))) { in_cell[std::size_t{y} * grid.size[0] + x].push_back(t); }
+      }
+    }
+  }
+  return in_cell;
+}
+
+HALFLIGHT_INLINE PlaneGrid::Cell PlaneGrid::divide(const Box& box, const std::vector<std::uint32_t>& triangles,
+                                                   const std::vector<Box>& bounds, int depth) {
+  const auto extent = box.hi - box.lo;
+  const bool divisible =
+      triangles.size() > detail::few_triangles && depth < detail::most_grids && std::min(extent.x, extent.y) > least_width_;
+  double cells = divisible ? std::min(static_cast<double>(triangles.size()), detail::most_cells) : 1.0;
+  for (; cells >= 2.0; cells /= 4.0) {
+    Grid grid = grid_over(box, cells);
+    const std::vector<std::vector<std::uint32_t>> in_cell = sort_into(grid, triangles, bounds);
+    std::size_t shares = 0;
+    for (const std::vector<std::uint32_t>& cell : in_cell) { shares += cell.size(); }
+    if (shares > (depth == 0 ? detail::most_shares : detail::most_shares / 2) * triangles.size() + in_cell.size()) { continue; }
+    grid.first_cell = static_cast<std::uint32_t>(cells_.size());
+    cells_.resize(cells_.size() + in_cell.size());
+    const auto number = static_cast<std::uint32_t>(grids_.size());
+    grids_.push_back(grid);
+    for (std::size_t k = 0; k < in_cell.size(); ++k) {
+      const auto x = static_cast<std::uint32_t>(k % grid.size[0]), y = static_cast<std::uint32_t>(k / grid.size[0]);
+      const Cell made = divide(box_of(grid, x, y), in_cell[k], bounds, depth + 1);
+      cells_[grid.first_cell + k] = made;
+    }
+    return {number, detail::is_grid};
+  }
+  const auto first = static_cast<std::uint32_t>(items_.size());
+  items_.insert(items_.end(), triangles.begin(), triangles.end());
+  return {first, static_cast<std::uint32_t>(triangles.size())};
+}
+
+HALFLIGHT_INLINE std::optional<PlaneGrid::Found> PlaneGrid::find(const glm::dvec3& point) const {
+  const glm::dvec2 p = flattened(point);
+  Cell cell = root_;
+  while (cell.count == detail::is_grid) {
+    const Grid& grid = grids_[cell.first];
+    const auto [x, y] = grid.cell_of(p);
+    cell = cells_[grid.first_cell + std::size_t{y} * grid.size[0] + x];
+  }
+  for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k) {
+    const glm::dvec3 weight = weights_[items_[k]].at(p);
+    if (std::min({weight.x, weight.y, weight.z}) >= -detail::weight_slip) { return Found{items_[k], weight}; }
+  }
+  return std::nullopt;
+}
+
+}  // namespace radiosity
