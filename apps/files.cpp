@@ -256,9 +256,12 @@ std::optional<std::string> write_file(const std::string& path, std::string_view 
   return "cannot write " + path + ": " + std::strerror(errno);
 }
 
-NewFolder::NewFolder(std::string path) : path_(std::move(path)) {
-  std::error_code failed;
-  made_ = std::filesystem::create_directories(path_, failed);
+NewFolder::NewFolder(std::string path) : path_(std::move(path)) { made_ = std::filesystem::create_directories(path_, failed_); }
+
+std::optional<std::string> NewFolder::fault() const {
+  std::error_code ignored;
+  if (fs::is_directory(path_, ignored)) { return std::nullopt; }
+  return "cannot make the folder " + path_ + ": " + (failed_ ? failed_.message() : "there is a file of that name");
 }
 
 NewFolder::~NewFolder() {

@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace apps {
@@ -49,9 +50,12 @@ class NewFolder {
   ~NewFolder();
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;
+  // Why there is no such folder; nothing when there is one.
+  [[nodiscard]] std::optional<std::string> fault() const;
 
  private:
   std::string path_;
+  std::error_code failed_;
   bool made_ = false;
 };
 

@@ -10,6 +10,7 @@
 int main(int argc, char** argv) {
   apps::guard_process();
   try {
+    apps::claim_stack();
     const std::vector<apps::Command> commands = {apps::render_command(),   apps::info_command(),    apps::mesh_command(),
                                                  apps::check_command(),    apps::factors_command(), apps::stress_command(),
                                                  apps::euler_command(),    apps::study_command(),   apps::explain_command(),

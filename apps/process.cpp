@@ -2,6 +2,8 @@
 #include "apps/process.hpp"
 
 #include <csignal>
+#include <cstddef>
+#include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -17,6 +19,15 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touc
 
 std::atomic<long> first_signal{0};  // second at which it came
 static_assert(std::atomic<long>::is_always_lock_free);
+
+constexpr std::size_t stack_needed = 1 << 20;
+
+[[gnu::noinline]] void touch_stack() {
+  constexpr std::size_t page = 4096;
+  volatile char stack[stack_needed];
+  for (std::size_t i = stack_needed; i > 0; i -= page) { stack[i - 1] = 0; }  // downwards, as it grows
+  static_cast<void>(stack[0]);
+}
 
 // Signals within a second of the first are the same request: timeout(1) sends one to the program and another to its process group.
 extern "C" void on_signal(int number) {
@@ -36,6 +47,11 @@ extern "C" void on_signal(int number) {
 }
 
 }  // namespace
+
+void claim_stack() {
+  std::vector<char>().reserve(stack_needed);  // throws where there is not so much
+  touch_stack();
+}
 
 void guard_process() {
   // Standard streams that were closed are opened on /dev/null, so that no other file takes their numbers. Writing to them fails, as before.

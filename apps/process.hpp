@@ -29,6 +29,10 @@ enum class ExitCode : int {
   not_converged = 4,  // the error target or the residual was not reached, or interrupted; what was found is written all the same
 };
 
+// Takes the stack that the main thread may need, or throws bad_alloc. The system gives it out as it is used, and where the process may have
+// no more memory, that ends it by a signal in place of a refusal. Other threads have theirs from the start.
+void claim_stack();
+
 // --- signals
 //
 // Whatever ends the program - Ctrl-C, kill, a closed terminal, a limit of time - a file that is being written is removed first.

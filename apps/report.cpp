@@ -79,7 +79,7 @@ class Text {
       if (!audit_.estimate_doubt.empty()) { say("", "{estimate_doubt}"); }
     }
     if (audit_.target_missed) {
-      row("", "TARGET MISSED: the error is above " + percent(report_.options.error.value_or(audit_.target)) +
+      row("", "TARGET MISSED: the error is not known to be within " + percent(report_.options.error.value_or(audit_.target)) +
                   (audit_.rounds_ended_by.empty() ? "" : "; ended by " + audit_.rounds_ended_by));
     }
     say("path-traced points", "{error.points}, {error.rays} rays");

@@ -40,7 +40,7 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
   for (const std::string_view candidate : known) {
     if (candidate.size() > longest) { continue; }
     const std::size_t edits = distance(word, candidate);
-    if (edits < best_distance && 3 * edits <= std::max<std::size_t>(3, candidate.size())) {
+    if (edits < best_distance && edits < candidate.size() && 3 * edits <= std::max<std::size_t>(3, candidate.size())) {
       best = candidate;
       best_distance = edits;
     }

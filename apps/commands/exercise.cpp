@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // halflight exercise N FILE: says what is still wrong with a student's solution, in a sentence.
+#include <filesystem>
 #include <memory>
 
 #include "apps/commands/command.hpp"
@@ -31,6 +32,9 @@ ExitCode run(const ExerciseOptions& options) {
   if (options.file.empty()) {
     if (options.output.empty()) { return print(exercise::beginning(chosen)) ? ExitCode::ok : ExitCode::failure; }
     ExitCode code = check_outputs({options.output}, {});
+    if (code == ExitCode::ok && std::filesystem::is_regular_file(options.output)) {
+      return complain(options.output + " is there already, and may hold your solution; name another file, or remove it", ExitCode::failure);
+    }
     if (code == ExitCode::ok && !save(options.output, exercise::beginning(chosen))) { code = ExitCode::failure; }
     return code;
   }

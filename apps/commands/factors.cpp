@@ -241,7 +241,7 @@ ExitCode run(const FactorsOptions& options) {
 Command factors_command() {
   const auto options = std::make_shared<FactorsOptions>();
   return {
-      "factors", "the form factors between the surfaces of a scene, each with its error",
+      "factors", "the form factors between the surfaces of a scene, each with its error: 95 of 100 are within twice that",
       with_model_arguments(
           {scene_argument(options->scene),
            text("--csv", "FILE", options->csv, "write the matrix: one line a surface, its factors, then their errors"),

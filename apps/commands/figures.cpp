@@ -15,6 +15,7 @@ ExitCode run(const std::string& folder) {
   const auto path = [&](const std::string& file) { return (std::filesystem::path(folder) / file).string(); };
   {
     const NewFolder only_to_check(folder);
+    if (const auto fault = only_to_check.fault()) { return complain(*fault, ExitCode::failure); }
     if (const ExitCode code = check_outputs({path("index.html")}, {}); code != ExitCode::ok) { return code; }
   }
   const std::vector<figures::Figure> all = figures::make();

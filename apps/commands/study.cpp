@@ -225,7 +225,7 @@ ExitCode run(const StudyOptions& given) {
     options.dense = 300;
   }
   const NewFolder folder(options.folder);
-  if (!fs::is_directory(options.folder)) { return complain("cannot make the folder " + options.folder, ExitCode::failure); }
+  if (const auto fault = folder.fault()) { return complain(*fault, ExitCode::failure); }
   if (!options.merge.empty()) { return merge(options); }
   if (const ExitCode fault = check_names(options.scenes); fault != ExitCode::ok) { return fault; }
   if (const ExitCode fault = check_outputs(known_files(options), options.scenes); fault != ExitCode::ok) { return fault; }

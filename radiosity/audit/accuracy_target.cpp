@@ -148,10 +148,11 @@ HALFLIGHT_INLINE Outcome solve_to_error(const Options& options, bool of_picture,
     best.solution->audit.interrupted = best.solution->audit.interrupted || interrupted;
   }
   Audit& audit = best.solution->audit;
-  const bool ended_early = audit.interrupted || !audit.shortage.empty();
-  audit.target_missed = !ended_early && !(best_error && best_error->within(wanted));
-  if (audit.target_missed) { audit.rounds_ended_by = ended_by; }
-  audit.converged = audit.converged && !ended_early && !audit.target_missed;
+  audit.target_missed = !(best_error && best_error->within(wanted));
+  if (audit.target_missed) {
+    audit.rounds_ended_by = audit.interrupted ? "an interruption" : !audit.shortage.empty() ? "want of memory" : ended_by;
+  }
+  audit.converged = audit.converged && !audit.interrupted && audit.shortage.empty() && !audit.target_missed;
   audit.stages = std::move(stages);
   sum_times(audit);
   return best;

@@ -96,7 +96,8 @@ HALFLIGHT_INLINE Effort next_effort(const AuditGoal& goal, std::uint64_t least, 
   }
   // A pilot in which a few points outshine all others knows little of either mean.
   const bool uneven = seen->equal_points < std::min(16.0, met / 4.0);
-  const double left = std::max(0.0, static_cast<double>(rays) - used);
+  // Pilots that took more because they found the target met, until one did not, leave as much as that one took.
+  const double left = std::max(goal.wanted ? own * fewest / few : 0.0, static_cast<double>(rays) - used);
   return best_effort({seen->variance, seen->noise_share, own / few, pilot.paths}, off, met / few, fewest,
                      uneven ? left : static_cast<double>(goal.rays_anyhow), left);
 }

@@ -134,6 +134,7 @@ namespace detail {
 
 // Rays to bright spots come by sixteen, after every 64 even ones, at most four times: the more, the more the spots stand out.
 inline constexpr double most_aimed = 4.0;
+inline constexpr std::uint32_t enough_spots = 32;  // met by them: then their spread tells how sure they are
 
 // Light from near by is followed where it is at least this share of all. If there are at most this many paths, they are taken to differ by
 // their mean; if there are more, by so much more.
@@ -200,6 +201,7 @@ HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sob
     const Arriving light = arriving(sender, {targets[k].point, targets[k].object, targets[k].sheet});
     if (!(light.aimed > 0.0) || hits.hit[k].t * reach < light.coarse_within) { continue; }
     sum.add(k / 4, light.light / (1.0 + light.aimed), std::max(hit.t * reach, detail::least_distance));
+    ++sum.spots_met;
   }
 }
 
@@ -253,11 +255,18 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
     for (const double p : sum.part) { squares += (p - mean) * (p - mean) / 12.0; }
     return squares;
   };
-  // Where spots count, rays that met too few of them are not believed because they agree: the solution must not know of more light.
-  const auto exact_enough = [&] {
-    const bool all_found = sender.aimed == 0 || 4.0 * mean_of_parts() >= (1.0 - error) * rays * solved_light;
-    return all_found && variance_of_mean() <= error * error * mean_of_parts() * mean_of_parts();
+  // Where spots count, rays that met few of them are not believed because they agree: the solution must not know of more light.
+  std::optional<double> direct;  // light from lamps, sum of channels
+  const auto all_found = [&] {
+    const double wanted = (1.0 - error) * solved_light - 4.0 * mean_of_parts() / rays;
+    if (sender.aimed == 0 || sum.spots_met >= detail::enough_spots || wanted <= 0.0) { return true; }
+    if (!direct) {
+      const Color light = lit_region({&place, 1}).irradiance(place.point.position, place.point.normal);
+      direct = light.x + light.y + light.z;
+    }
+    return *direct >= wanted;
   };
+  const auto exact_enough = [&] { return variance_of_mean() <= error * error * mean_of_parts() * mean_of_parts() && all_found(); };
   for (; rays < least || (rays < most && (rays % 64 != 0 || !exact_enough())); rays += 16) {
     cast_evenly(sender, sequence, rays, sum);
     if (rays % 64 != 48) { continue; }

@@ -103,6 +103,7 @@ class FinalGather {
     Color light{0.0};
     std::array<double, 4> part{};           // of the rays, by fours of sixteen: their spread is the standard error
     double nearness = 0.0, of_light = 0.0;  // sums of 1 / distance: of the rays, and by the light that they bring
+    std::uint32_t spots_met = 0;            // by aimed rays
     std::vector<NearLight::Seen> near;      // what even rays found that is not so sure (near_light.hpp)
     void add(std::size_t p, const Color& more, double distance) {
       light += more;

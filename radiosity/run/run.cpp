@@ -13,6 +13,7 @@
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
+#include <radiosity/run/f_refinement.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -33,6 +34,9 @@ HALFLIGHT_INLINE Run::Run(const Scene& input, const Options& with, const Control
 }
 
 HALFLIGHT_INLINE std::optional<Failure> Run::prepare_scene() {
+  MemoryBudget::Counts least;  // each input surface has a node: where these are too many, nothing need be made to know it
+  for (const SceneObject& object : scene.input.objects) { least.nodes += object.shape ? object.shape->sheet_count() : 0; }
+  if (!scene.budget.allows(least)) { return Failure{Failure::Kind::out_of_memory, {too_large(*this, scene.budget.peak(least))}}; }
   PrepareResult preparation = prepare(scene.input, options.shortcuts);
   if (!preparation.prepared) { return Failure{Failure::Kind::invalid_scene, std::move(preparation.faults)}; }
   scene.take(std::move(*preparation.prepared));

@@ -47,9 +47,9 @@ std::vector<std::uint64_t> limits() {
   return result;
 }
 
-// What the scene itself takes, which is there before anything is counted: the peak of a run that may take nothing.
+// What the scene itself takes, which is there before anything is counted: the peak of a run that may take nodes for its surfaces, no more.
 std::uint64_t peak_of_scene(const radiosity::Scene& scene, Options options) {
-  options.memory = 1;
+  options.memory = radiosity::MemoryBudget{}.peak({radiosity::surfaces(scene).size()});
   const Measured none = measured([&] { return radiosity::solve(scene, options); });
   CHECK_FALSE(none.outcome.solution);
   return none.peak;
@@ -188,6 +188,19 @@ TEST_CASE("memory limit of a dense matrix: refused before it is made") {
   const Measured run = measured([&] { return radiosity::solve_uniform(apps::stress::room_with_box(), options); });
   CHECK(run.outcome.failure.kind == Failure::Kind::out_of_memory);
   CHECK(run.peak <= *options.memory);
+}
+
+TEST_CASE("memory limit that the input surfaces alone exceed: refused before the scene is compiled") {
+  radiosity::Scene scene = apps::stress::room_with_box();
+  while (scene.objects.size() < 5000) { scene.objects.push_back(scene.objects.back()); }
+  Options options;
+  for (const std::uint64_t limit : {std::uint64_t{1}, std::uint64_t{1'000'000}, std::uint64_t{10'000'000}}) {
+    options.memory = limit;
+    const Measured run = measured([&] { return radiosity::solve(scene, options); });
+    CAPTURE(limit, run.peak);
+    CHECK(run.outcome.failure.kind == Failure::Kind::out_of_memory);
+    CHECK(run.peak <= std::max(limit, std::uint64_t{100'000}));
+  }
 }
 
 TEST_CASE("the peak of each stage is told, and grows from stage to stage") {

@@ -45,6 +45,7 @@ struct Kind {
 // What an audit of such points took in all, and what came of it.
 struct Taken {
   std::uint64_t rays = 0, pilots = 0;
+  std::uint64_t last = 0, before = 0;  // rays of the last measurement, and of the one before it
   Points result;
 };
 
@@ -63,6 +64,7 @@ Taken audited(const Kind& kind, const AuditGoal& goal, std::uint64_t seed) {
     }
     taken.pilots += 1;
     taken.rays += to.rays;
+    taken.before = std::exchange(taken.last, to.rays);
     return true;
   };
   REQUIRE(radiosity::measure_to_goal<Points>(
@@ -137,6 +139,28 @@ TEST_CASE("an audit that goes on narrows what was wide and shows targets that we
   // bound is six of these off.
   CHECK(wide[1] <= 2 * wide[0] / 3);
   CHECK(shown[1] > shown[0]);
+}
+
+TEST_CASE("an audit of a target that leaves it open took as many rays as its last pilot") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0};
+  int open = 0;
+  for (int k = 0; k < 300; ++k) {
+    const double off = std::pow(10.0, -3.0 + 1.5 * random.uniform());
+    const Kind kind{1.0, off, off * std::pow(10.0, 1.0 + 1.5 * random.uniform()), 1, 8};
+    AuditGoal goal{1000 + static_cast<std::uint64_t>(3000.0 * random.uniform()), 400'000};
+    goal.wanted = off * (0.7 + 0.6 * random.uniform());
+    goal.rays_to_show = static_cast<std::uint64_t>(400'000 * (1.0 + 5.0 * random.uniform()));
+    const Taken taken = audited(kind, goal, seed + static_cast<std::uint64_t>(k));
+    const auto error = taken.result.sums.estimate();
+    REQUIRE(error);
+    if (error->within(*goal.wanted) || error->low > *goal.wanted) { continue; }
+    ++open;
+    CAPTURE(k, kind.off, kind.spread, goal.points, *goal.wanted, goal.rays_to_show, taken.before, taken.last);
+    CHECK(4 * taken.last >= 3 * taken.before);  // points and paths are steps of the fourth root of 2, and of 2
+  }
+  CHECK(open > 20);
 }
 
 TEST_CASE("an audit of what is black ends with its search for light, a quarter of its rays, and measures nothing") {
