@@ -67,6 +67,7 @@ class Scene {
   // From now on no ray meets these objects: each is the same surface at the same place as one that comes after it and is not left out.
   // Their own points count as covered.
   void leave_out(std::span<const std::uint32_t> copies);
+  [[nodiscard]] bool left_out(std::uint32_t i) const { return left_out_[i]; }
 
   [[nodiscard]] const PlacedObject& object(std::uint32_t i) const { return objects_[i]; }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(objects_.size()); }

@@ -13,7 +13,7 @@
 //                                comes out wider than the error itself, and would become narrow by that
 //   of a round to a target       as much as the solution of the round was worth
 //   that is to show the target   twice as much, or rays_that_show where that is more; only when its pilot finds the target met. A pilot
-//                                that finds it missed after all is followed by an audit of its own size at least
+//                                that finds it missed after all is followed by an audit of about its own size
 // What a point costs is known from the pilot alone: where few points see light, to a quarter. Beyond that goes only the least that gives an
 // interval: a quarter of the points, with four paths for each of two estimates.
 //

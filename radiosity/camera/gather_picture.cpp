@@ -181,6 +181,7 @@ HALFLIGHT_INLINE IndirectPoint GatherPainter::gather_at(const Fragment& fragment
 }
 
 HALFLIGHT_INLINE bool GatherPainter::gather() {
+  if (light_.direct_alone()) { return true; }
   std::vector<std::vector<std::uint32_t>> wanted(blocks_.size());  // fragments, by block
   std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
   std::vector<IndirectPoint> found;

@@ -274,10 +274,15 @@ HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfa
   constexpr std::size_t most_facets = 200'000, most_of_one = 4096;
   std::size_t facets = 0;
   std::vector<raycast::PlacedObject> objects, second_halves;
+  std::vector<std::uint32_t> copies;  // of what is seen; no ray meets them
   for (std::uint32_t o = 0; o < objects_->size(); ++o) {
     const raycast::PlacedObject& object = objects_->object(o);
     Body& body = bodies_[o];
     objects.push_back(object);
+    if (objects_->left_out(o)) {
+      copies.push_back(o);
+      continue;
+    }
     if (object.inside()) { rooms_.push_back(o); }
     if (facets > most_facets) { continue; }
     body.closed = object.solid();
@@ -307,7 +312,9 @@ HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfa
   }
   if (whole_.empty()) { return; }
   objects.insert(objects.end(), second_halves.begin(), second_halves.end());
-  with_stand_ins_ = std::make_shared<raycast::Scene>(std::move(objects));
+  const auto with_stand_ins = std::make_shared<raycast::Scene>(std::move(objects));
+  with_stand_ins->leave_out(copies);
+  with_stand_ins_ = with_stand_ins;
   objects_ = with_stand_ins_.get();
 }
 

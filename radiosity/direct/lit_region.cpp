@@ -72,7 +72,9 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
   if (reach.list.known()) {
     for (const std::uint32_t s : reach.list.shapes()) { candidates.push_back(light_->whole(objects.object_of(s))); }
   } else {  // few objects of many faces
-    for (std::uint32_t o = 0; o < light_->bodies_.size(); ++o) { candidates.push_back(o); }
+    for (std::uint32_t o = 0; o < light_->bodies_.size(); ++o) {
+      if (!objects.left_out(o)) { candidates.push_back(o); }
+    }
   }
   if (!reach.list.rooms_clear()) { candidates.insert(candidates.end(), light_->rooms_.begin(), light_->rooms_.end()); }
   std::sort(candidates.begin(), candidates.end());

@@ -116,4 +116,10 @@ HALFLIGHT_INLINE std::vector<std::array<std::uint32_t, 2>> twins(const std::vect
   return pairs;
 }
 
+HALFLIGHT_INLINE std::vector<std::uint32_t> copies(const std::vector<Surface>& surfaces) {
+  std::vector<std::uint32_t> earlier;
+  for (const auto& [a, b] : twins(surfaces)) { earlier.push_back(a); }
+  return earlier;
+}
+
 }  // namespace radiosity

@@ -17,6 +17,9 @@ namespace radiosity {
 // of the scene. Each object is the earlier one of one pair at most, and then the later one of none; the pairs are sorted by the earlier.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> twins(const std::vector<Surface>& surfaces);
 
+// The earlier object of each pair, for raycast::Scene::leave_out.
+[[nodiscard]] std::vector<std::uint32_t> copies(const std::vector<Surface>& surfaces);
+
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY

@@ -28,6 +28,7 @@
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/lit_region.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/hierarchy/twins.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/pass_through.hpp>
 #include <radiosity/result/mesh.hpp>
@@ -52,11 +53,17 @@ HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, 
     if (!made.surface) { return; }  // no solution of this scene
     boundaries.push_back(std::move(*made.surface));
   }
+  lookup_.leave_out(copies(boundaries));
   direct_ = DirectLight{objects(), boundaries, emission, {.bodies = true}};
   for (std::uint32_t s = 0; s < emission.size(); ++s) {
     if (!direct_.is_lamp(s) && !is_black(materials_[s].reflectance)) { emission[s] = Color{0.0}; }
   }
   spots_ = BrightSpots{lookup_, direct_, emission};
+  direct_alone_ = std::all_of(mesh.faces.begin(), mesh.faces.end(), [&](const MeshFace& face) {
+    const Color lamp = direct_.is_lamp(face.surface) ? materials_[face.surface].emission : Color{0.0};
+    const auto corners = std::span(mesh.corners).subspan(face.first_corner, face.corner_count);
+    return std::all_of(corners.begin(), corners.end(), [&](const MeshCorner& corner) { return corner.radiosity == lamp; });
+  });
 }
 
 HALFLIGHT_INLINE FinalGather::Eye FinalGather::eye(const glm::dvec3& in_scene) const {

@@ -75,6 +75,9 @@ class FinalGather {
   // Of points of one surface: their direct light. The gather must outlive it.
   [[nodiscard]] LitRegion lit_region(std::span<const Place> places) const;
 
+  // Does nothing shine but lamps, nor reflect? Then there is no indirect light.
+  [[nodiscard]] bool direct_alone() const { return direct_alone_; }
+
   struct Indirect {
     Color irradiance{0.0};           // W/m2
     double variance = 0.0;           // of the sum of its channels, by the spread of its rays
@@ -135,6 +138,7 @@ class FinalGather {
   DirectLight direct_;
   BrightSpots spots_;
   NearLight near_;
+  bool direct_alone_ = false;
 };
 
 }  // namespace radiosity

@@ -68,6 +68,8 @@ class Lookup {
   }
 
   [[nodiscard]] const raycast::Scene& objects() const { return objects_; }  // in the frame
+  // As raycast::Scene::leave_out.
+  void leave_out(std::span<const std::uint32_t> copies) { objects_.leave_out(copies); }
   [[nodiscard]] const Frame& frame() const { return frame_; }
   [[nodiscard]] std::uint32_t surface(std::uint32_t object, std::uint32_t sheet) const { return first_sheet_[object] + sheet; }
 

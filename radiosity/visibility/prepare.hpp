@@ -61,9 +61,7 @@ struct PrepareResult {
     }
   }
   if (!sentences.empty()) { return {std::nullopt, std::move(sentences)}; }
-  std::vector<std::uint32_t> copies;
-  for (const auto& [earlier, later] : twins(prepared.surfaces)) { copies.push_back(earlier); }
-  prepared.objects.leave_out(copies);
+  prepared.objects.leave_out(copies(prepared.surfaces));
   prepared.plan = make_plan(scene, prepared.surfaces, shortcuts);
   return {std::move(prepared), {}};
 }

@@ -141,7 +141,7 @@ TEST_CASE("an audit that goes on narrows what was wide and shows targets that we
   CHECK(shown[1] > shown[0]);
 }
 
-TEST_CASE("an audit of a target that leaves it open took as many rays as its last pilot") {
+TEST_CASE("an audit of a target that leaves it open took about as many rays as its last pilot") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
@@ -158,7 +158,7 @@ TEST_CASE("an audit of a target that leaves it open took as many rays as its las
     if (error->within(*goal.wanted) || error->low > *goal.wanted) { continue; }
     ++open;
     CAPTURE(k, kind.off, kind.spread, goal.points, *goal.wanted, goal.rays_to_show, taken.before, taken.last);
-    CHECK(4 * taken.last >= 3 * taken.before);  // points and paths are steps of the fourth root of 2, and of 2
+    CHECK(5 * taken.last >= 2 * taken.before);  // paths are powers of 2, points of its fourth root, each rounded down
   }
   CHECK(open > 20);
 }
