@@ -23,6 +23,7 @@
 #include <raycast/inline.hpp>
 #include <raycast/transform.hpp>
 
+#include <radiosity/direct/flat_parts.hpp>
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
@@ -125,18 +126,12 @@ HALFLIGHT_INLINE Facets facets_of(const raycast::PlacedObject& object, double to
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
     if (builder.sheet(f) == brep::no_sheet || (sheet != Facets::none && builder.sheet(f) != sheet)) { continue; }
     const std::span<const std::uint32_t> corners = builder.corners(f);
-    const auto add = [&](std::span<const std::uint32_t> numbers) {
+    std::vector<FaceCorners> parts;
+    append_flat_parts(builder, {corners.begin(), corners.end()}, parts);
+    for (const FaceCorners& part : parts) {
       Polygon contour;
-      for (const std::uint32_t v : numbers) { contour.push_back(builder.position(v)); }
-      collector.add(numbers, std::move(contour));
-    };
-    if (corners.size() != 4) {  // a cap of many corners is planar
-      add(corners);
-      continue;
-    }
-    for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
-      const std::uint32_t triangle[3] = {corners[0], corners[i], corners[i + 1]};
-      add(triangle);
+      for (const std::uint32_t v : part) { contour.push_back(builder.position(v)); }
+      collector.add(part, std::move(contour));
     }
   }
   return collector.take();

@@ -19,13 +19,15 @@
 #include <raycast/objects/mesh.hpp>
 #include <raycast/transform.hpp>
 
+#include <radiosity/direct/flat_parts.hpp>
+
 namespace radiosity {
 
 namespace detail {
 
-// Some triangles of a closed boundary as an open mesh. A vertex where several fans of them meet becomes one for each fan.
+// Some faces of a closed boundary as an open mesh. A vertex where several fans of them meet becomes one for each fan.
 [[nodiscard]] HALFLIGHT_INLINE std::shared_ptr<const raycast::Mesh> open_mesh(const brep::Builder& boundary,
-                                                                              std::span<const std::vector<std::uint32_t>> faces) {
+                                                                              std::span<const FaceCorners> faces) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, std::uint32_t>> corners_of_edge;  // by its vertices
   std::uint32_t count = 0;
   for (const auto& face : faces) {
@@ -44,7 +46,7 @@ namespace detail {
     fans.unite(corners.second, other->second.first);
   }
   std::vector<glm::dvec3> positions;
-  std::vector<std::vector<std::uint32_t>> parted;
+  std::vector<FaceCorners> parted;
   std::map<std::uint32_t, std::uint32_t> vertex_of_fan;
   std::uint32_t corner = 0;
   for (const auto& face : faces) {
@@ -63,12 +65,10 @@ namespace detail {
 HALFLIGHT_INLINE std::vector<std::shared_ptr<const raycast::Mesh>> open_meshes(const raycast::PlacedObject& object, double tolerance) {
   brep::Builder builder;
   object.approximate(tolerance, builder);
-  std::vector<std::vector<std::uint32_t>> faces;
+  std::vector<FaceCorners> faces;
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
     const std::span<const std::uint32_t> c = builder.corners(f);
-    if (builder.sheet(f) == brep::no_sheet) { continue; }
-    if (c.size() > 4) { faces.emplace_back(c.begin(), c.end()); }
-    for (std::size_t i = 1; i + 1 < c.size() && c.size() <= 4; ++i) { faces.push_back({c[0], c[i], c[i + 1]}); }
+    if (builder.sheet(f) != brep::no_sheet) { append_flat_parts(builder, {c.begin(), c.end()}, faces); }
   }
   const std::span all{faces};
   auto first = detail::open_mesh(builder, all.first(faces.size() / 2)), second = detail::open_mesh(builder, all.subspan(faces.size() / 2));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The form factor of bodies of many facets, by their outline.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -7,6 +8,9 @@
 
 #include <glm/geometric.hpp>
 
+#include <raycast/objects/csg.hpp>
+#include <raycast/objects/csg_tree.hpp>
+#include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/sphere.hpp>
 #include <raycast/objects/torus.hpp>
 #include <raycast/transform.hpp>
@@ -50,4 +54,45 @@ TEST_CASE("the form factor of a body by its outline is the sum over its facets, 
     across += !above && sum > 0.0 ? 1 : 0;
   }
   CHECK(across > 50);
+}
+
+// Along the curve in which two surfaces meet, faces have many corners that are in no plane.
+TEST_CASE("the facets of an intersection of round solids are planar, each edge has two of them, and no corner lies before one") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto number = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  const auto vector = [&] { return glm::dvec3(number(), number(), number()); };
+  int solids = 0;
+  for (int run = 0; run < 40; ++run) {
+    raycast::CsgNode node{{}, "solid", raycast::CsgOperation::intersect, {}, {}};
+    for (int k = 0; k < 2 + run % 2; ++k) {
+      const glm::dvec3 at = 0.3 * vector(), axis = glm::normalize(vector());
+      std::shared_ptr<const raycast::Object> part = raycast::Sphere::make(at, 0.8 + 0.3 * number()).object;
+      if ((run + k) % 2 == 1) { part = raycast::Cylinder::make(at - axis, 2.0 * axis, 0.5 + 0.2 * number()).object; }
+      node.parts.push_back({part, "part", {}, {}, {}});
+    }
+    const auto made = raycast::Csg::make(node);
+    if (!made.object) { continue; }
+    ++solids;
+    const raycast::PlacedObject object{made.object};
+    const double tolerance = 0.0004 * object.bounds().diameter();
+    const radiosity::Facets facets = radiosity::facets_of(object, tolerance);
+    CAPTURE(run);
+    double out_of_plane = 0.0, before = 0.0;
+    for (const radiosity::Facets::Facet& facet : facets.facets) {
+      double length = 0.0;
+      for (std::size_t i = 0; i < facet.contour.size(); ++i) {
+        out_of_plane = std::max(out_of_plane, std::abs(facet.height(facet.contour[i])));
+        length = std::max(length, glm::length(facet.contour[i] - facet.contour[(i + 1) % facet.contour.size()]));
+      }
+      // Corners may be off the surface by the tolerance, by which a narrow facet is turned.
+      const double off = tolerance * (1.0 + object.bounds().diameter() * length / facet.area);
+      for (const radiosity::Facets::Facet& other : facets.facets) { before = std::max(before, facet.height(other.contour[0]) / off); }
+    }
+    CHECK(out_of_plane < 1e-9);
+    CHECK(before < 2.0);
+    for (const radiosity::Facets::Edge& edge : facets.edges) { REQUIRE(edge.right != radiosity::Facets::none); }
+  }
+  CHECK(solids > 30);
 }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// The meshes that stand in for curved objects where rays are cast.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/objects/csg.hpp>
+#include <raycast/objects/csg_tree.hpp>
+#include <raycast/objects/cylinder.hpp>
+#include <raycast/objects/sphere.hpp>
+#include <raycast/objects/torus.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/direct/stand_in.hpp>
+#include <radiosity/support/random.hpp>
+
+#include "catch.hpp"
+#include "scenes.hpp"
+
+namespace {
+
+// Two or three solids that mostly cross each other, so that faces along the curves between them have many corners and are not convex.
+raycast::CsgNode crossing(radiosity::Random& random) {
+  const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
+  const auto point = [&](double reach) { return glm::dvec3{between(-reach, reach), between(-reach, reach), between(-reach, reach)}; };
+  raycast::CsgNode node{{}, "solid", static_cast<raycast::CsgOperation>(random.bits() % 3), {}, {}};
+  const auto count = 2 + random.bits() % 2;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const glm::dvec3 at = point(0.4);
+    const glm::dvec3 axis = radiosity::cosine_direction({0, 0, 1}, random.uniform(), random.uniform());
+    const auto kind = random.bits() % 4;
+    const auto solid = kind == 0   ? std::shared_ptr<const raycast::Object>(raycast::Sphere::make(at, between(0.3, 0.8)).object)
+                       : kind == 1 ? raycast::Cylinder::make(at - axis, 2.0 * axis, between(0.2, 0.5)).object
+                       : kind == 2 ? raycast::Torus::make(at, axis, between(0.5, 0.8), between(0.15, 0.3)).object
+                                   : scenes::box(at - 0.4, at + glm::dvec3{between(0.2, 0.6), between(0.2, 0.6), between(0.2, 0.6)});
+    node.parts.push_back({solid, "part", {}, {}, {}});
+  }
+  return node;
+}
+
+}  // namespace
+
+TEST_CASE("meshes stand in for any curved solid, and rays meet them where they meet the solid", "[lamps]") {
+  const auto seed = static_cast<std::uint64_t>(GENERATE(take(25, random(1, 1'000'000))));
+  radiosity::Random random{seed, 0};
+  CAPTURE(seed);
+  const auto made = raycast::Csg::make(crossing(random));
+  if (!made.object || made.object->flat()) { return; }
+  const raycast::PlacedObject object{made.object};
+  const double diameter = object.bounds().diameter(), tolerance = 0.0004 * diameter;
+  const auto halves = radiosity::open_meshes(object, tolerance);
+  REQUIRE(halves.size() == 2);
+  const raycast::Scene exact{{object}}, stand_in{{raycast::PlacedObject{halves[0]}, raycast::PlacedObject{halves[1]}}};
+  constexpr int rays = 2000;
+  int otherwise = 0;
+  std::vector<double> off;
+  for (int i = 0; i < rays; ++i) {
+    const glm::dvec3 d = radiosity::cosine_direction({0, 0, random.uniform() < 0.5 ? 1 : -1}, random.uniform(), random.uniform());
+    const glm::dvec3 to = object.bounds().lo + glm::dvec3{random.uniform(), random.uniform(), random.uniform()} * object.bounds().size();
+    const raycast::Segment ray{to - 2.0 * diameter * d, 4.0 * diameter * d};
+    const auto a = exact.closest(ray), b = stand_in.closest(ray);
+    if (!a && !b) { continue; }
+    // Beside an outline the other surface behind it is met, or none.
+    if (!a || !b || std::abs(a->t - b->t) * 4.0 * diameter > 0.02 * diameter) {
+      ++otherwise;
+      continue;
+    }
+    const double across = std::abs(glm::dot(object.project(a->sheet, ray.at(a->t)).normal, d));
+    off.push_back(across * std::abs(a->t - b->t) * 4.0 * diameter);
+  }
+  if (off.empty()) { return; }
+  std::sort(off.begin(), off.end());
+  CAPTURE(off.size(), otherwise, off.back() / tolerance);
+  CHECK(otherwise <= rays / 100);
+  CHECK(off[off.size() * 99 / 100] < 2.0 * tolerance);
+}
