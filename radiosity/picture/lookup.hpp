@@ -6,9 +6,10 @@
 // from its corners as the mesh itself is shaded (paper 4.5). So silhouettes, rims and the curves where objects meet are exact, while
 // the colours are those of the reconstruction: exact at its vertices, continuous over every sheet, and on plane sheets the same.
 //
-// On a plane sheet, a grid knows which triangle holds a point (plane_grid.hpp); elsewhere a tree over the triangles. A box of it holds the part of the true surface that its triangle stands for: it is
-// grown by twice the distance between the two, measured at the middle of the triangle and of its edges, where a paraboloid through
-// the corners is farthest away. A point in no prism (beyond the chord of a cap's rim) takes the nearest point of the mesh.
+// On a plane sheet, a grid knows which triangle holds a point (plane_grid.hpp); elsewhere a tree over the triangles does. A box of the tree
+// holds the part of the true surface that its triangle stands for: it is grown by twice the distance between the two, measured at the
+// middle of the triangle and of its edges, where a paraboloid through the corners is farthest away. A point in no prism (beyond the chord
+// of a cap's rim) takes the nearest point of the mesh.
 
 #include <array>
 #include <cstddef>
@@ -41,7 +42,7 @@ class Lookup {
   Lookup(const Scene& scene, const Mesh& mesh, const Frame& frame);
 
   // The radiosity at a point of a sheet of an object, in the coordinates of the frame. Nothing where the sheet has no mesh because it
-  // is buried. Cost: a walk down a tree.
+  // is buried. Cost: a walk down a tree, or a few steps of a grid.
   [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const glm::dvec3& point) const {
     return at(object, sheet, {point, objects_.object(object).project(sheet, point).normal});
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which of the triangles of a plane holds a point: a grid over the plane, and within its cells of many triangles further grids. So a point is
-// found in a few steps however many triangles there are, and however unequal in size.
+// Which of the triangles of a plane holds a point: a grid over the plane, and within its cells of many triangles further grids. So a point
+// is found in a few steps however many triangles there are, and however unequal in size.
 //
 // The coordinate along which the plane's normal is longest is left out: barycentric coordinates of the rest are the same.
 

@@ -35,8 +35,8 @@ namespace detail {
   return reverse_bits(x);
 }
 
-// Direction numbers of each bit of the index: dimension 0 is the radical inverse; the others belong to the polynomials x + 1, x^2 + x + 1 and
-// x^3 + x + 1.
+// Direction numbers of each bit of the index: dimension 0 is the radical inverse; the others belong to the polynomials x + 1, x^2 + x + 1
+// and x^3 + x + 1.
 [[nodiscard]] constexpr std::array<std::array<std::uint32_t, 4>, 32> sobol_directions() {
   constexpr std::uint32_t degree[4] = {0, 1, 2, 3};
   constexpr std::uint32_t inner[4] = {0, 0, 1, 1};  // coefficients between the first and the last
